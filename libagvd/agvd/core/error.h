@@ -1,0 +1,46 @@
+//! \file
+//! What the libraries throw. Every text says what is wrong, where (file, line or element), and what
+//! to do about it.
+#pragma once
+
+#include <stdexcept>
+
+namespace agvd {
+
+//! Base of all errors thrown on purpose.
+class Error : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+//! An option is out of its documented range.
+class InvalidOption : public Error {
+public:
+    using Error::Error;
+};
+
+//! The mesh (or site list) cannot be used: not finite, not orientable, no face left, ...
+class InvalidInput : public Error {
+public:
+    using Error::Error;
+};
+
+//! A file cannot be read or written.
+class IoError : public Error {
+public:
+    using Error::Error;
+};
+
+//! What was asked for cannot be met on this input; nothing was produced.
+class ConstraintUnmet : public Error {
+public:
+    using Error::Error;
+};
+
+//! The progress callback returned false; the call changed nothing.
+class Cancelled : public Error {
+public:
+    Cancelled() : Error("stopped by the progress callback") {}
+};
+
+}  // namespace agvd

@@ -1,0 +1,25 @@
+//! \file
+//! The one parallel loop. Chunks have a fixed size, so that whatever is written per chunk does not
+//! depend on the number of threads.
+#pragma once
+
+#include <functional>
+
+#include "agvd/core/types.h"
+
+namespace agvd {
+
+//! Calls body(chunk, begin, end) for each chunk of `grain` consecutive indices of [0, count).
+//!
+//! \param grain        chunk size, >= 1; chunk c is [c * grain, min((c + 1) * grain, count)).
+//! \param num_threads  >= 0; 0: all cores. With 1, chunks run in order on the calling thread.
+//! The body must not throw: record the failure and throw the lowest after the loop.
+void parallel_chunks(Index count, Index grain, int num_threads,
+                     const std::function<void(Index chunk, Index begin, Index end)>& body);
+
+//! Number of chunks that parallel_chunks makes of `count` indices.
+[[nodiscard]] constexpr Index num_chunks(Index count, Index grain) {
+    return count / grain + (count % grain != 0 ? 1 : 0);
+}
+
+}  // namespace agvd

@@ -1,0 +1,41 @@
+//! \file
+//! Indices, ids and vectors used by every stage.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <compare>
+#include <cstdint>
+#include <limits>
+
+namespace agvd {
+
+//! Plain index of a vertex, face, half-edge, edge or site inside one array.
+using Index = std::uint32_t;
+inline constexpr Index no_index = std::numeric_limits<Index>::max();
+
+using Vec2 = Eigen::Vector2d;
+using Vec3 = Eigen::Vector3d;
+//! Vertex indices of a triangle, counter-clockwise seen from outside.
+using Triangle = std::array<Index, 3>;
+
+//! An index that cannot be mixed up with one of another kind. Default: none.
+template <typename Tag>
+class Id {
+public:
+    constexpr Id() = default;
+    explicit constexpr Id(Index value) : value_(value) {}
+    [[nodiscard]] constexpr Index value() const { return value_; }
+    [[nodiscard]] constexpr bool is_valid() const { return value_ != no_index; }
+    constexpr auto operator<=>(const Id&) const = default;
+
+private:
+    Index value_ = no_index;
+};
+
+using VertexId = Id<struct VertexTag>;
+using FaceId = Id<struct FaceTag>;
+using SiteId = Id<struct SiteTag>;
+
+}  // namespace agvd

@@ -1,0 +1,62 @@
+//! \file
+//! The approximate geodesic Voronoi diagram as a cell complex on the surface.
+#pragma once
+
+#include <span>
+
+#include "agvd/core/progress.h"
+#include "agvd/propagation/relays.h"
+
+namespace agvd {
+
+//! A Voronoi edge, or an arc of the surface's boundary inside one cell (right: none).
+struct VoronoiEdge {
+    SiteId left;            //!< Cell on the left, walking from the first point to the last.
+    SiteId right;           //!< Cell on the right; invalid: outside the surface.
+    Index tail = no_index;  //!< Voronoi vertex at the first point; no_index: a closed curve.
+    Index head = no_index;  //!< Voronoi vertex at the last point; no_index: a closed curve.
+};
+
+//! One end of a Voronoi edge at a Voronoi vertex.
+struct EdgeEnd {
+    Index edge = no_index;
+    bool is_tail = false;  //!< True: the edge starts at this vertex.
+};
+
+//! The complex. Voronoi vertices are the points where three or more cells (or two cells and the
+//! outside) meet; around vertex v, counter-clockwise, edge end i is followed by the cell
+//! vertex_sites[i].
+struct Diagram {
+    Index num_sites = 0;
+
+    std::vector<SurfacePoint> points;    //!< Polyline points, edge after edge; a closed curve does
+                                         //!< not repeat its first point.
+    std::vector<double> point_distance;  //!< Distance of each point from the sites it is between.
+    std::vector<Index> edge_points;      //!< #edges + 1 offsets into points.
+    std::vector<VoronoiEdge> edges;
+
+    std::vector<Index> vertex_offsets;     //!< #vertices + 1 offsets into the next two.
+    std::vector<EdgeEnd> vertex_ends;      //!< Counter-clockwise edge ends.
+    std::vector<SiteId> vertex_sites;      //!< The cell after each end; invalid: outside.
+    std::vector<SurfacePoint> vertices;    //!< Where each Voronoi vertex lies.
+    std::vector<double> vertex_distance;   //!< Its distance from its sites.
+
+    std::vector<double> cell_area;  //!< #sites, square mesh units; 0 for a site that owns nothing.
+    std::vector<int> cell_euler;    //!< #sites: Euler characteristic of each cell (a disc has 1).
+};
+
+struct DiagramOptions {
+    double chord_tolerance = 0.01;  //!< Arcs are sampled to this share of their chord's length.
+    int num_threads = 0;            //!< >= 0; 0: all cores. Same bytes for any number.
+    Progress progress = {};
+};
+
+//! Builds local Apollonius diagrams in the mixed faces and joins them ([meng2023] Sec. 4.2, 5.3).
+//!
+//! Cost: O(k) per mixed face and label change, k = relays of the face. Re-entrant.
+//! \throw Cancelled  the progress callback returned false.
+[[nodiscard]] Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> sites,
+                                    const Propagation& propagation,
+                                    const DiagramOptions& options = {});
+
+}  // namespace agvd

@@ -1,0 +1,26 @@
+//! \file
+//! A triangle mesh as plain arrays: a view, and an owner.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "agvd/core/types.h"
+
+namespace agvd {
+
+//! #V x 3 positions and #F x 3 vertex indices that somebody else owns.
+struct MeshView {
+    std::span<const Vec3> positions;
+    std::span<const Triangle> triangles;
+};
+
+//! #V x 3 positions and #F x 3 vertex indices.
+struct TriangleMesh {
+    std::vector<Vec3> positions;
+    std::vector<Triangle> triangles;
+
+    [[nodiscard]] MeshView view() const { return {positions, triangles}; }
+};
+
+}  // namespace agvd

@@ -1,0 +1,160 @@
+#include "agvd/mesh/surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "agvd/core/error.h"
+
+namespace agvd {
+namespace {
+
+constexpr const char* remedy = "; repair the mesh first (remesh::clean_input)";
+
+void check_elements(const MeshView& mesh) {
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        if (!mesh.positions[v].allFinite()) {
+            throw InvalidInput("vertex " + std::to_string(v) + " has a coordinate that is not finite" +
+                               remedy);
+        }
+    }
+    if (mesh.triangles.size() > no_index / 3) {
+        throw InvalidInput("the mesh has more than 2^32 / 3 faces; split it into parts");
+    }
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        const Triangle& t = mesh.triangles[f];
+        for (const Index v : t) {
+            if (v >= mesh.positions.size()) {
+                throw InvalidInput("face " + std::to_string(f) + " names vertex " +
+                                   std::to_string(v) + ", but there are only " +
+                                   std::to_string(mesh.positions.size()) + remedy);
+            }
+        }
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
+            throw InvalidInput("face " + std::to_string(f) + " repeats a corner" + remedy);
+        }
+    }
+}
+
+// Pairs half-edges by sorting them under their undirected key.
+void connect(Surface& surface) {
+    struct Key {
+        std::uint64_t ends;
+        Index half_edge;
+    };
+    const auto num_half_edges = static_cast<Index>(3 * surface.mesh.triangles.size());
+    std::vector<Key> keys(num_half_edges);
+    for (Index h = 0; h < num_half_edges; ++h) {
+        const Index a = surface.tail(h);
+        const Index b = surface.head(h);
+        keys[h] = {std::uint64_t{std::min(a, b)} << 32 | std::max(a, b), h};
+    }
+    std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
+        return a.ends != b.ends ? a.ends < b.ends : a.half_edge < b.half_edge;
+    });
+    surface.twin.assign(num_half_edges, no_index);
+    for (std::size_t i = 0; i < keys.size();) {
+        std::size_t end = i + 1;
+        while (end < keys.size() && keys[end].ends == keys[i].ends) ++end;
+        const Index h = keys[i].half_edge;
+        if (end - i > 2) {
+            throw InvalidInput("the edge from vertex " + std::to_string(surface.tail(h)) + " to " +
+                               std::to_string(surface.head(h)) + " has " + std::to_string(end - i) +
+                               " faces" + remedy);
+        }
+        if (end - i == 2) {
+            const Index other = keys[i + 1].half_edge;
+            if (surface.tail(h) == surface.tail(other)) {
+                throw InvalidInput("faces " + std::to_string(h / 3) + " and " +
+                                   std::to_string(other / 3) + " are oriented differently" + remedy);
+            }
+            surface.twin[h] = other;
+            surface.twin[other] = h;
+        }
+        i = end;
+    }
+    // Edges are numbered in the order of their lower half-edge, so that neighbours stay close.
+    surface.edge.assign(num_half_edges, no_index);
+    for (Index h = 0; h < num_half_edges; ++h) {
+        if (surface.edge[h] != no_index) continue;
+        surface.edge[h] = surface.num_edges();
+        if (surface.twin[h] != no_index) surface.edge[surface.twin[h]] = surface.num_edges();
+        surface.edge_half.push_back(h);
+    }
+}
+
+void find_outgoing(Surface& surface) {
+    const Index num_vertices = surface.num_vertices();
+    std::vector<Index> degree(num_vertices, 0);
+    surface.outgoing.assign(num_vertices, no_index);
+    for (Index h = 0; h < surface.twin.size(); ++h) {
+        const Index v = surface.tail(h);
+        ++degree[v];
+        if (surface.outgoing[v] == no_index || surface.twin[h] == no_index) surface.outgoing[v] = h;
+    }
+    for (Index v = 0; v < num_vertices; ++v) {
+        if (surface.outgoing[v] == no_index) continue;
+        Index seen = 0;
+        Index h = surface.outgoing[v];
+        do {
+            ++seen;
+            h = surface.twin[Surface::previous(h)];
+        } while (h != no_index && h != surface.outgoing[v]);
+        if (seen != degree[v]) {
+            throw InvalidInput("the faces around vertex " + std::to_string(v) +
+                               " do not form one fan" + remedy);
+        }
+    }
+}
+
+void measure(Surface& surface) {
+    surface.length.resize(surface.num_edges());
+    for (Index e = 0; e < surface.num_edges(); ++e) {
+        const Index h = surface.edge_half[e];
+        surface.length[e] = (surface.mesh.positions[surface.head(h)] -
+                             surface.mesh.positions[surface.tail(h)]).norm();
+    }
+    surface.apex.resize(surface.twin.size());
+    for (Index h = 0; h < surface.apex.size(); ++h) {
+        const Vec3& origin = surface.mesh.positions[surface.tail(h)];
+        const Vec3 along = surface.mesh.positions[surface.head(h)] - origin;
+        const Vec3 up = surface.mesh.positions[surface.tail(Surface::previous(h))] - origin;
+        const double length = surface.length_of(h);
+        const double doubled_area = along.cross(up).norm();
+        if (!(doubled_area > 0) || !std::isfinite(doubled_area)) {
+            throw InvalidInput("face " + std::to_string(h / 3) + " has no area" + remedy);
+        }
+        surface.apex[h] = {along.dot(up) / length, doubled_area / length};
+    }
+}
+
+}  // namespace
+
+Surface build_surface(const MeshView& mesh) {
+    check_elements(mesh);
+    Surface surface;
+    surface.mesh.positions.assign(mesh.positions.begin(), mesh.positions.end());
+    surface.mesh.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
+    connect(surface);
+    find_outgoing(surface);
+    measure(surface);
+    return surface;
+}
+
+std::vector<std::vector<Index>> boundary_loops(const Surface& surface) {
+    std::vector<std::vector<Index>> loops;
+    std::vector<bool> seen(surface.twin.size(), false);
+    for (Index start = 0; start < surface.twin.size(); ++start) {
+        if (surface.twin[start] != no_index || seen[start]) continue;
+        std::vector<Index>& loop = loops.emplace_back();
+        Index h = start;
+        do {
+            seen[h] = true;
+            loop.push_back(h);
+            h = surface.outgoing[surface.head(h)];
+        } while (h != start);
+    }
+    return loops;
+}
+
+}  // namespace agvd

@@ -1,0 +1,58 @@
+//! \file
+//! Connectivity and intrinsic geometry of an oriented 2-manifold triangle mesh.
+//!
+//! Half-edge h = 3 f + k runs from corner k to corner k + 1 of face f, so next, previous and face
+//! are arithmetic. Everything else is one flat array per quantity.
+#pragma once
+
+#include "agvd/mesh/mesh_view.h"
+
+namespace agvd {
+
+//! The frame of half-edge h: its tail at (0, 0), its head at (length, 0), its face above (y > 0).
+struct Surface {
+    TriangleMesh mesh;
+    std::vector<Index> twin;      //!< #H: the half-edge across; no_index on the boundary.
+    std::vector<Index> edge;      //!< #H: its undirected edge.
+    std::vector<Index> edge_half; //!< #E: the edge's half-edge with the lower index.
+    std::vector<double> length;   //!< #E, mesh units.
+    std::vector<Vec2> apex;       //!< #H: the opposite corner in the half-edge's frame.
+    //! #V: a half-edge that leaves the vertex; on the boundary the one without twin, from which
+    //! `previous` and `twin` walk through the whole one-ring. no_index for an isolated vertex.
+    std::vector<Index> outgoing;
+
+    [[nodiscard]] Index num_vertices() const { return static_cast<Index>(mesh.positions.size()); }
+    [[nodiscard]] Index num_faces() const { return static_cast<Index>(mesh.triangles.size()); }
+    [[nodiscard]] Index num_edges() const { return static_cast<Index>(edge_half.size()); }
+
+    [[nodiscard]] static constexpr Index face(Index half_edge) { return half_edge / 3; }
+    [[nodiscard]] static constexpr Index next(Index half_edge) {
+        return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1;
+    }
+    [[nodiscard]] static constexpr Index previous(Index half_edge) {
+        return half_edge % 3 == 0 ? half_edge + 2 : half_edge - 1;
+    }
+    [[nodiscard]] Index tail(Index half_edge) const {
+        return mesh.triangles[half_edge / 3][half_edge % 3];
+    }
+    [[nodiscard]] Index head(Index half_edge) const { return tail(next(half_edge)); }
+    [[nodiscard]] double length_of(Index half_edge) const { return length[edge[half_edge]]; }
+    [[nodiscard]] bool is_boundary_vertex(Index vertex) const {
+        return outgoing[vertex] != no_index && twin[outgoing[vertex]] == no_index;
+    }
+};
+
+//! Builds connectivity and lengths; copies the mesh.
+//!
+//! \throw InvalidInput  an index is out of range, a coordinate is not finite, a face is degenerate
+//!        (repeated corner or zero area in double), two faces are inconsistently oriented, or an
+//!        edge or vertex is not manifold; the text names the element. remesh::clean_input repairs
+//!        all of these.
+//! Cost: O(n log n) time, O(n) space.
+[[nodiscard]] Surface build_surface(const MeshView& mesh);
+
+//! Boundary loops: each a cycle of half-edges without twin, head of one = tail of the next, in the
+//! direction that has the surface on the left; loops ordered by their lowest half-edge.
+[[nodiscard]] std::vector<std::vector<Index>> boundary_loops(const Surface& surface);
+
+}  // namespace agvd

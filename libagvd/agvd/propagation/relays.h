@@ -1,0 +1,39 @@
+//! \file
+//! What every propagation engine hands to the diagram: for each vertex its distance and nearest
+//! site, and, in the faces where labels meet, the relays through which distances reach them.
+#pragma once
+
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_point.h"
+
+namespace agvd {
+
+//! An additively weighted point seen from inside a face (paper Sec. 4.2): a point p of the face has
+//! distance weight + |image - p| from `site` through it. Given in the frame of `half_edge` of that
+//! face. With y < 0 the image lies across that edge: only chords through [begin, end] of the edge
+//! are straight, others bend at the nearer end of the interval. With y >= 0 the image lies in the
+//! (convex) face itself and sees all of it.
+struct Relay {
+    double x = 0, y = 0;
+    double weight = 0;           //!< Geodesic distance from the site to the image, >= 0.
+    double begin = 0, end = 0;   //!< Visible interval on the half-edge, 0 <= begin <= end <= length.
+    SiteId site;
+    Index half_edge = no_index;
+};
+
+//! Distances are of real paths: never below the exact geodesic distance beyond rounding.
+struct Propagation {
+    std::vector<SiteId> vertex_site;      //!< #V; invalid where no site reaches.
+    std::vector<double> vertex_distance;  //!< #V; infinity where no site reaches.
+
+    //! Faces that may hold more than one label, ascending. Contract: an edge between a listed and
+    //! an unlisted face, and a whole unlisted face, lie in the cell of their vertices' one site.
+    std::vector<Index> mixed_faces;
+    std::vector<Index> relay_offsets;  //!< #mixed + 1: relays of mixed face i are
+    std::vector<Relay> relays;         //!< relays[relay_offsets[i] .. relay_offsets[i + 1]).
+
+    std::size_t peak_bytes = 0;  //!< Most bytes held at once beyond the mesh, result included.
+    std::size_t num_nodes = 0;   //!< Graph nodes (vertices and Steiner points) reached.
+};
+
+}  // namespace agvd

@@ -1,0 +1,17 @@
+//! \file
+//! The dual of the diagram: a vertex per cell, a triangle per Voronoi vertex.
+#pragma once
+
+#include "agvd/diagram/diagram.h"
+
+namespace remesh {
+
+//! Triangles of site indices, oriented like the surface. A Voronoi vertex of degree k > 3 (or several
+//! joined by Voronoi edges of no length) gives a k-gon, triangulated with diagonals that repeat no
+//! edge where that is possible. Sites without a cell, and cells without a Voronoi vertex, occur in
+//! no triangle. The caller checks the topology (analyze_topology).
+//!
+//! Cost: O(size of the complex) and a sort.
+[[nodiscard]] std::vector<agvd::Triangle> build_dual(const agvd::Diagram& diagram);
+
+}  // namespace remesh

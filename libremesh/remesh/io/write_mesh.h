@@ -1,0 +1,21 @@
+//! \file
+//! Writes PLY, OBJ, OFF and STL.
+#pragma once
+
+#include <filesystem>
+
+#include "agvd/mesh/mesh_view.h"
+
+namespace remesh {
+
+//! Writes beside the target and renames, so that a failed or interrupted run leaves an old file
+//! untouched. Binary little-endian PLY with double coordinates, OBJ and OFF with shortest
+//! round-trip decimals, binary STL (float by the format's nature).
+//!
+//! \throw agvd::IoError  the extension is unknown or the file cannot be written; says which and why.
+void write_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh);
+
+//! The extensions read_mesh and write_mesh know: true for "ply", ".OBJ", ...
+[[nodiscard]] bool is_known_mesh_extension(const std::filesystem::path& path);
+
+}  // namespace remesh

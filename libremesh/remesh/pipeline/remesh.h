@@ -1,0 +1,62 @@
+//! \file
+//! The whole job: a mesh in, the dual of its geodesic Voronoi diagram out.
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include "agvd/propagation/propagate.h"
+#include "remesh/quality/topology.h"
+#include "remesh/repair/clean_input.h"
+#include "remesh/sampling/sample_sites.h"
+
+namespace remesh {
+
+enum class Stage { Clean, Sample, Propagate, Diagram, Dual };
+
+//! Lower-case name of a stage, for logs.
+[[nodiscard]] const char* stage_name(Stage stage);
+
+//! All lengths in mesh units. `{}` gives a good result.
+struct RemeshOptions {
+    agvd::Index num_samples = 2000;  //!< Sites to place, >= 1; repair may add some.
+    Init init = Init::BlueNoise;
+    std::uint64_t seed = 1;          //!< Same seed, same bytes, any num_threads.
+    //! Sites to use instead of sampling, on the caller's mesh; num_samples, init and seed are then
+    //! ignored. Faces are the caller's.
+    std::optional<std::vector<agvd::SurfacePoint>> sites = {};
+    int steiner_points = 8;          //!< m: Steiner points on each edge, in [0, 1000].
+    double lambda = 1;               //!< Triangles are retired every lambda * #F pops, > 0.
+    int repair_rounds = 50;          //!< Rounds of adding sites until the topology is kept, >= 0.
+    int num_threads = 0;             //!< >= 0; 0: all cores.
+    //! Gets the stage and a fraction in [0, 1] on the caller's thread; return false to stop.
+    std::function<bool(Stage, double)> progress = {};
+};
+
+//! Plain values owned by the caller; nothing points back into the input.
+struct RemeshResult {
+    agvd::TriangleMesh mesh;  //!< Oriented 2-manifold with the topology of the cleaned input.
+    std::vector<agvd::SurfacePoint> sites;  //!< One per output vertex: where it lies on the input
+                                            //!< (faces are the caller's).
+    CleanCounts cleaned;                    //!< What was repaired on the input before.
+    Topology input_topology;                //!< Of the cleaned input.
+    agvd::Index sites_added = 0;            //!< By topology repair.
+    agvd::Index sites_dropped = 0;          //!< Given sites that own nothing (e.g. duplicates).
+    int repair_rounds = 0;                  //!< Rounds that adding took.
+    std::size_t propagation_bytes = 0;      //!< Peak of the last propagation, beyond the mesh.
+    std::vector<std::pair<Stage, double>> seconds = {};  //!< Wall time spent in each stage.
+};
+
+//! Replaces a mesh by the dual of its geodesic Voronoi diagram ([meng2023] Sec. 7).
+//!
+//! \param mesh  #V x 3 positions, #F x 3 indices; read only during the call; may be dirty.
+//! \throw agvd::InvalidOption    an option is out of range.
+//! \throw agvd::InvalidInput     the mesh cannot be repaired (see clean_input), or a given site is
+//!        not on it.
+//! \throw agvd::ConstraintUnmet  num_samples is too small for the topology (the text gives a number
+//!        that may work), or the topology was not reached in repair_rounds (the cells are named).
+//! \throw agvd::Cancelled        the progress callback returned false.
+//! Cost: O(m n log n) a round, n = #F. Re-entrant: no global state.
+[[nodiscard]] RemeshResult remesh(const agvd::MeshView& mesh, const RemeshOptions& options = {});
+
+}  // namespace remesh

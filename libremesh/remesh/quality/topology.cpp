@@ -1,0 +1,173 @@
+#include "remesh/quality/topology.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+namespace remesh {
+namespace {
+
+using agvd::Index;
+using agvd::no_index;
+using agvd::Triangle;
+
+struct Side {
+    std::uint64_t ends;
+    Index face;
+    bool forward;  // Traverses the edge from its lower to its higher vertex.
+};
+
+std::vector<Side> sorted_sides(const agvd::MeshView& mesh) {
+    std::vector<Side> sides;
+    sides.reserve(3 * mesh.triangles.size());
+    for (Index f = 0; f < mesh.triangles.size(); ++f) {
+        for (int k = 0; k < 3; ++k) {
+            const Index a = mesh.triangles[f][k];
+            const Index b = mesh.triangles[f][(k + 1) % 3];
+            sides.push_back({std::uint64_t{std::min(a, b)} << 32 | std::max(a, b), f, a < b});
+        }
+    }
+    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+        return a.ends != b.ends ? a.ends < b.ends : a.face < b.face;
+    });
+    return sides;
+}
+
+Index find_root(std::vector<Index>& parent, Index i) {
+    while (parent[i] != i) {
+        parent[i] = parent[parent[i]];
+        i = parent[i];
+    }
+    return i;
+}
+
+void unite(std::vector<Index>& parent, Index a, Index b) {
+    a = find_root(parent, a);
+    b = find_root(parent, b);
+    parent[std::max(a, b)] = std::min(a, b);
+}
+
+bool has_bad_faces(const agvd::MeshView& mesh) {
+    std::vector<Triangle> sorted(mesh.triangles.begin(), mesh.triangles.end());
+    for (Triangle& t : sorted) {
+        std::sort(t.begin(), t.end());
+        if (t[0] == t[1] || t[1] == t[2]) return true;
+    }
+    std::sort(sorted.begin(), sorted.end());
+    return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+}
+
+// One umbrella per vertex: the corners at a vertex hang together through the edges at it.
+bool has_one_umbrella_each(const agvd::MeshView& mesh, const std::vector<Side>& sides) {
+    std::vector<Index> corner(3 * mesh.triangles.size());
+    std::iota(corner.begin(), corner.end(), Index{0});
+    const auto corner_of = [&](Index face, Index vertex) {
+        const Triangle& t = mesh.triangles[face];
+        return 3 * face + (t[0] == vertex ? 0u : t[1] == vertex ? 1u : 2u);
+    };
+    for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
+        if (sides[i].ends != sides[i + 1].ends) continue;
+        for (const auto v : {static_cast<Index>(sides[i].ends >> 32),
+                             static_cast<Index>(sides[i].ends & 0xffffffffu)}) {
+            unite(corner, corner_of(sides[i].face, v), corner_of(sides[i + 1].face, v));
+        }
+    }
+    std::vector<Index> umbrella(mesh.positions.size(), no_index);
+    for (Index c = 0; c < corner.size(); ++c) {
+        Index& seen = umbrella[mesh.triangles[c / 3][c % 3]];
+        const Index root = find_root(corner, c);
+        if (seen != no_index && seen != root) return false;
+        seen = root;
+    }
+    return true;
+}
+
+}  // namespace
+
+int Topology::genus() const {
+    return std::accumulate(components.begin(), components.end(), 0,
+                           [](int sum, const ComponentTopology& c) { return sum + c.genus; });
+}
+
+int Topology::boundary_loops() const {
+    return std::accumulate(components.begin(), components.end(), 0,
+                           [](int sum, const ComponentTopology& c) { return sum + c.boundary_loops; });
+}
+
+Topology analyze_topology(const agvd::MeshView& mesh) {
+    Topology result;
+    const std::vector<Side> sides = sorted_sides(mesh);
+    const auto num_faces = static_cast<Index>(mesh.triangles.size());
+
+    std::vector<Index> parent(num_faces);
+    std::iota(parent.begin(), parent.end(), Index{0});
+    result.is_manifold = !has_bad_faces(mesh);
+    result.is_oriented = true;
+    for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
+        for (end = i + 1; end < sides.size() && sides[end].ends == sides[i].ends; ++end) {
+            unite(parent, sides[i].face, sides[end].face);
+        }
+        if (end - i > 2) result.is_manifold = false;
+        if (end - i == 2 && sides[i].forward == sides[i + 1].forward) result.is_oriented = false;
+    }
+    if (result.is_manifold) result.is_manifold = has_one_umbrella_each(mesh, sides);
+
+    std::vector<Index> component_of_root(num_faces, no_index);
+    result.face_component.resize(num_faces);
+    for (Index f = 0; f < num_faces; ++f) {
+        Index& id = component_of_root[find_root(parent, f)];
+        if (id == no_index) {
+            id = static_cast<Index>(result.components.size());
+            result.components.emplace_back();
+        }
+        result.face_component[f] = id;
+        ComponentTopology& c = result.components[id];
+        ++c.faces;
+        ++c.euler;
+        const auto& [a, b, d] = mesh.triangles[f];
+        c.area += 0.5 * (mesh.positions[b] - mesh.positions[a])
+                            .cross(mesh.positions[d] - mesh.positions[a]).norm();
+    }
+
+    std::vector<std::pair<Index, Index>> vertex_of;  // (component, vertex), once each
+    vertex_of.reserve(3 * num_faces);
+    for (Index f = 0; f < num_faces; ++f) {
+        for (const Index v : mesh.triangles[f]) vertex_of.emplace_back(result.face_component[f], v);
+    }
+    std::sort(vertex_of.begin(), vertex_of.end());
+    vertex_of.erase(std::unique(vertex_of.begin(), vertex_of.end()), vertex_of.end());
+    for (const auto& [component, vertex] : vertex_of) ++result.components[component].euler;
+
+    // Boundary loops: the connected pieces of the graph of boundary edges.
+    std::vector<Index> boundary(mesh.positions.size());
+    std::iota(boundary.begin(), boundary.end(), Index{0});
+    std::vector<std::pair<Index, Index>> boundary_ends;  // (lower vertex, face)
+    for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
+        for (end = i + 1; end < sides.size() && sides[end].ends == sides[i].ends;) ++end;
+        --result.components[result.face_component[sides[i].face]].euler;
+        if (end - i != 1) continue;
+        const auto low = static_cast<Index>(sides[i].ends >> 32);
+        unite(boundary, low, static_cast<Index>(sides[i].ends & 0xffffffffu));
+        boundary_ends.emplace_back(low, sides[i].face);
+    }
+    std::vector<bool> counted(mesh.positions.size(), false);
+    for (const auto& [vertex, face] : boundary_ends) {
+        const Index root = find_root(boundary, vertex);
+        if (counted[root]) continue;
+        counted[root] = true;
+        ++result.components[result.face_component[face]].boundary_loops;
+    }
+    for (ComponentTopology& c : result.components) c.genus = (2 - c.euler - c.boundary_loops) / 2;
+    return result;
+}
+
+bool same_topology(const Topology& a, const Topology& b) {
+    const auto types = [](const Topology& t) {
+        std::map<std::pair<int, int>, int> count;
+        for (const ComponentTopology& c : t.components) ++count[{c.genus, c.boundary_loops}];
+        return count;
+    };
+    return types(a) == types(b);
+}
+
+}  // namespace remesh

@@ -1,0 +1,37 @@
+//! \file
+//! Is it a manifold, and of which topology?
+#pragma once
+
+#include "agvd/mesh/mesh_view.h"
+
+namespace remesh {
+
+struct ComponentTopology {
+    agvd::Index faces = 0;
+    int euler = 0;           //!< V - E + F.
+    int boundary_loops = 0;
+    int genus = 0;           //!< (2 - euler - boundary_loops) / 2; meaningful on an oriented manifold.
+    double area = 0;
+    [[nodiscard]] bool same_type(const ComponentTopology& other) const {
+        return genus == other.genus && boundary_loops == other.boundary_loops;
+    }
+};
+
+struct Topology {
+    bool is_manifold = false;  //!< Every edge has 1 or 2 faces, every vertex one umbrella, no
+                               //!< duplicate and no degenerate (repeated corner) face.
+    bool is_oriented = false;  //!< The two faces of every inner edge traverse it oppositely.
+    std::vector<ComponentTopology> components;  //!< Connected through edges; by lowest face.
+    std::vector<agvd::Index> face_component;    //!< #F: index into components.
+
+    [[nodiscard]] int genus() const;           //!< Sum over the components.
+    [[nodiscard]] int boundary_loops() const;  //!< Sum over the components.
+};
+
+//! Works on any indices in range, manifold or not. Cost: O(n log n).
+[[nodiscard]] Topology analyze_topology(const agvd::MeshView& mesh);
+
+//! Same number of components of each (genus, boundary loops) type.
+[[nodiscard]] bool same_topology(const Topology& a, const Topology& b);
+
+}  // namespace remesh

@@ -1,0 +1,28 @@
+//! \file
+//! Meshes by formula.
+#pragma once
+
+#include "agvd/mesh/mesh_view.h"
+
+namespace shapes {
+
+//! Unit square in the plane z = 0, n x n quads, each cut along the same diagonal.
+[[nodiscard]] agvd::TriangleMesh grid(agvd::Index n);
+//! Regular tetrahedron, cube (12 faces, edge 1) and icosahedron (radius 1).
+[[nodiscard]] agvd::TriangleMesh tetrahedron();
+[[nodiscard]] agvd::TriangleMesh cube();
+[[nodiscard]] agvd::TriangleMesh icosahedron();
+//! Unit sphere: the icosahedron with each face split in four `levels` times.
+[[nodiscard]] agvd::TriangleMesh sphere(int levels);
+//! Torus of radii 1 and `tube`, n x m quads.
+[[nodiscard]] agvd::TriangleMesh torus(agvd::Index n, agvd::Index m, double tube = 0.35);
+//! Open cylinder of radius 1 and height 2 around z, n x m quads.
+[[nodiscard]] agvd::TriangleMesh tube(agvd::Index n, agvd::Index m);
+//! Every face split in four at the edge midpoints; positions are not moved.
+[[nodiscard]] agvd::TriangleMesh subdivide(const agvd::TriangleMesh& mesh);
+//! Every vertex moved by at most `amount`, reproducibly.
+[[nodiscard]] agvd::TriangleMesh jitter(agvd::TriangleMesh mesh, double amount, std::uint64_t seed);
+//! Two meshes side by side in one.
+[[nodiscard]] agvd::TriangleMesh join(const agvd::TriangleMesh& a, const agvd::TriangleMesh& b);
+
+}  // namespace shapes

@@ -1,0 +1,42 @@
+#include "remesh/quality/topology.h"
+
+#include <gtest/gtest.h>
+
+#include "support/shapes.h"
+
+using remesh::analyze_topology;
+
+TEST(Topology, ClosedSurfaces) {
+    const auto sphere = analyze_topology(shapes::sphere(1).view());
+    EXPECT_TRUE(sphere.is_manifold && sphere.is_oriented);
+    ASSERT_EQ(sphere.components.size(), 1u);
+    EXPECT_EQ(sphere.genus(), 0);
+    const auto torus = analyze_topology(shapes::torus(9, 7).view());
+    EXPECT_EQ(torus.genus(), 1);
+    EXPECT_EQ(torus.boundary_loops(), 0);
+    EXPECT_FALSE(same_topology(sphere, torus));
+}
+
+TEST(Topology, OpenSurfacesAndComponents) {
+    const auto both = analyze_topology(shapes::join(shapes::tube(8, 3), shapes::grid(4)).view());
+    ASSERT_EQ(both.components.size(), 2u);
+    EXPECT_EQ(both.components[0].boundary_loops, 2);
+    EXPECT_EQ(both.components[1].boundary_loops, 1);
+    EXPECT_EQ(both.genus(), 0);
+    EXPECT_NEAR(both.components[1].area, 1, 1e-14);
+}
+
+TEST(Topology, DefectsAreSeen) {
+    agvd::TriangleMesh mesh = shapes::tetrahedron();
+    mesh.triangles.push_back(mesh.triangles[0]);
+    EXPECT_FALSE(analyze_topology(mesh.view()).is_manifold);
+    mesh = shapes::tetrahedron();
+    std::swap(mesh.triangles[0][0], mesh.triangles[0][1]);
+    EXPECT_TRUE(analyze_topology(mesh.view()).is_manifold);
+    EXPECT_FALSE(analyze_topology(mesh.view()).is_oriented);
+    mesh = shapes::join(shapes::tetrahedron(), shapes::tetrahedron());
+    for (auto& t : mesh.triangles) {
+        for (auto& v : t) v = v == 4 ? 0 : v;
+    }
+    EXPECT_FALSE(analyze_topology(mesh.view()).is_manifold) << "two umbrellas at vertex 0";
+}
