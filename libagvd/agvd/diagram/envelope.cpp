@@ -1,0 +1,194 @@
+#include "agvd/diagram/envelope.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace agvd {
+namespace {
+
+using Candidate = EnvelopeScratch::Candidate;
+
+// Sites whose distances differ by less, relative to the distance, are tied: a few hundred roundings
+// of a path's sum.
+constexpr double tie_tolerance = 1e-13;
+// Crossings are separated down to this share of the segment; below, the ends decide.
+constexpr double shortest_interval = 1e-9;
+constexpr int max_root_steps = 60;
+
+struct Sample {
+    double value, slope;
+};
+
+class Envelope {
+public:
+    Envelope(const Vec2& p, const Vec2& q, EnvelopeScratch& scratch, std::vector<LabelInterval>& out)
+        : p_(p), length_((q - p).norm()), along_((q - p) / length_), stack_(scratch.candidates),
+          out_(out) {}
+
+    void run(std::span<const PlanarRelay> relays) {
+        stack_.clear();
+        for (const PlanarRelay& relay : relays) {
+            const Sample lo = sample(relay, 0, 1);
+            const Sample hi = sample(relay, length_, -1);
+            stack_.push_back({&relay, lo.value, lo.slope, hi.value, hi.slope});
+        }
+        split(0, length_, 0);
+    }
+
+private:
+    // `side` chooses the one-sided slope where the segment passes through the relay itself.
+    [[nodiscard]] Sample sample(const PlanarRelay& relay, double x, double side) const {
+        const Vec2 at = p_ + x * along_;
+        const Reach r = reach(relay, at);
+        const Vec2 step = at - r.from;
+        const double norm = step.norm();
+        return {r.distance, norm > 0 ? step.dot(along_) / norm : side};
+    }
+
+    [[nodiscard]] double tolerance(double value) const { return tie_tolerance * (value + length_); }
+
+    // Best value at one end; among ties the lowest site.
+    template <typename ValueOf>
+    [[nodiscard]] const Candidate& best(std::size_t first, const ValueOf& value_of) const {
+        const auto by_value = [&](const Candidate& a, const Candidate& b) {
+            return value_of(a) < value_of(b);
+        };
+        const auto begin = stack_.begin() + static_cast<std::ptrdiff_t>(first);
+        const auto least = std::min_element(begin, stack_.end(), by_value);
+        const double limit = value_of(*least) + tolerance(value_of(*least));
+        auto result = least;
+        for (auto c = begin; c != stack_.end(); ++c) {
+            if (value_of(*c) <= limit && c->relay->site < result->relay->site) result = c;
+        }
+        return *result;
+    }
+
+    // True if c cannot be below b anywhere on [lo, hi] by more than a tie.
+    [[nodiscard]] bool is_above(const Candidate& c, const Candidate& b, double lo, double hi) const {
+        const double slack = tolerance(std::max(b.value_lo, b.value_hi));
+        if (c.value_lo < b.value_lo - slack || c.value_hi < b.value_hi - slack) return false;
+        const double width = hi - lo;
+        const double chord = (b.value_hi - b.value_lo) / width;
+        // The tangents at both ends meet at lo + t; above the chord there means above it everywhere.
+        const double bend = c.slope_hi - c.slope_lo;
+        double t = bend > 0 ? (c.value_lo - c.value_hi + c.slope_hi * width) / bend : 0;
+        t = std::clamp(t, 0.0, width);
+        const double tangent = std::max(c.value_lo + c.slope_lo * t,
+                                        c.value_hi - c.slope_hi * (width - t));
+        return tangent >= b.value_lo + chord * t - slack;
+    }
+
+    void emit(double end, Index site) {
+        if (!out_.empty() && out_.back().site == site) {
+            out_.back().end = end / length_;
+        } else {
+            out_.push_back({end / length_, site});
+        }
+    }
+
+    [[nodiscard]] double crossing(const PlanarRelay& a, const PlanarRelay& b, double lo,
+                                  double hi) const {
+        const auto gap = [&](double x) { return sample(a, x, 1).value - sample(b, x, 1).value; };
+        double gap_lo = gap(lo);
+        double gap_hi = gap(hi);
+        for (int i = 0; i < max_root_steps && hi - lo > shortest_interval * length_; ++i) {
+            // Secant inside the bracket, halving every third step so that it always shrinks.
+            double x = lo + (hi - lo) * gap_lo / (gap_lo - gap_hi);
+            if (i % 3 == 2 || !(x > lo && x < hi)) x = (lo + hi) / 2;
+            const double value = gap(x);
+            if (std::abs(value) <= tolerance(0)) return x;
+            if ((value < 0) == (gap_lo < 0)) {
+                lo = x;
+                gap_lo = value;
+            } else {
+                hi = x;
+                gap_hi = value;
+            }
+        }
+        return (lo + hi) / 2;
+    }
+
+    // Labels [lo, hi] by the candidates from `first` to the top of the stack, which it consumes.
+    void split(double lo, double hi, std::size_t first) {
+        const Candidate best_lo = best(first, [](const Candidate& c) { return c.value_lo; });
+        const Candidate best_hi = best(first, [](const Candidate& c) { return c.value_hi; });
+        const auto loses = [&](const Candidate& c) {
+            return (c.relay != best_lo.relay && c.relay != best_hi.relay &&
+                    (is_above(c, best_lo, lo, hi) || is_above(c, best_hi, lo, hi)));
+        };
+        stack_.erase(std::remove_if(stack_.begin() + static_cast<std::ptrdiff_t>(first),
+                                    stack_.end(), loses),
+                     stack_.end());
+        const Index site_lo = best_lo.relay->site;
+        const Index site_hi = best_hi.relay->site;
+        const bool one_site =
+            std::all_of(stack_.begin() + static_cast<std::ptrdiff_t>(first), stack_.end(),
+                        [&](const Candidate& c) { return c.relay->site == site_lo; });
+        const std::size_t count = stack_.size() - first;
+        if (one_site) {
+            emit(hi, site_lo);
+        } else if (hi - lo <= shortest_interval * length_) {
+            emit((lo + hi) / 2, site_lo);
+            emit(hi, site_hi);
+        } else if (count == 2 && site_lo != site_hi) {
+            emit(crossing(*best_lo.relay, *best_hi.relay, lo, hi), site_lo);
+            emit(hi, site_hi);
+        } else {
+            bisect(lo, hi, first);
+        }
+        stack_.resize(first);
+    }
+
+    void bisect(double lo, double hi, std::size_t first) {
+        const double mid = (lo + hi) / 2;
+        const std::size_t last = stack_.size();
+        for (std::size_t i = first; i < last; ++i) {
+            Candidate c = stack_[i];
+            const Sample below = sample(*c.relay, mid, -1);
+            const Sample above = sample(*c.relay, mid, 1);
+            stack_[i].value_lo = above.value;  // This entry goes on as the upper half.
+            stack_[i].slope_lo = above.slope;
+            c.value_hi = below.value;
+            c.slope_hi = below.slope;
+            stack_.push_back(c);
+        }
+        split(lo, mid, last);
+        split(mid, hi, first);
+    }
+
+    Vec2 p_;
+    double length_;
+    Vec2 along_;
+    std::vector<Candidate>& stack_;
+    std::vector<LabelInterval>& out_;
+};
+
+// Stretches too short to be told apart go to their neighbour.
+void drop_slivers(std::vector<LabelInterval>& intervals) {
+    std::size_t kept = 0;
+    double begin = 0;
+    for (const LabelInterval& interval : intervals) {
+        if (interval.end - begin <= shortest_interval && interval.end < 1) continue;
+        if (kept > 0 && intervals[kept - 1].site == interval.site) {
+            intervals[kept - 1].end = interval.end;
+        } else {
+            intervals[kept++] = interval;
+        }
+        begin = interval.end;
+    }
+    intervals.resize(kept);
+}
+
+}  // namespace
+
+void label_envelope(std::span<const PlanarRelay> relays, const Vec2& p, const Vec2& q,
+                    Index site_at_p, Index site_at_q, EnvelopeScratch& scratch,
+                    std::vector<LabelInterval>& out) {
+    out.clear();
+    Envelope(p, q, scratch, out).run(relays);
+    drop_slivers(out);
+    if (out.front().site != site_at_p) out.insert(out.begin(), {0, site_at_p});
+    if (out.back().site != site_at_q) out.push_back({1, site_at_q});
+}
+
+}  // namespace agvd

@@ -1,0 +1,67 @@
+#include "agvd/diagram/face_relays.h"
+
+#include <limits>
+
+namespace agvd {
+
+PlanarRelay point_relay(const Vec2& point, double weight, Index site) {
+    return {point, point, point, weight, weight, weight, site, true};
+}
+
+std::array<Vec2, 3> face_corners(const Surface& surface, Index face) {
+    return {Vec2(0, 0), Vec2(surface.length_of(3 * face), 0), surface.apex[3 * face]};
+}
+
+Motion to_face_frame(const Surface& surface, Index half_edge) {
+    const std::array<Vec2, 3> corners = face_corners(surface, Surface::face(half_edge));
+    const Vec2& tail = corners[half_edge % 3];
+    const Vec2& head = corners[(half_edge + 1) % 3];
+    return {(head - tail) / surface.length_of(half_edge), tail};
+}
+
+Motion from_face_frame(const Surface& surface, Index half_edge) {
+    const Motion to = to_face_frame(surface, half_edge);
+    const Motion back{{to.axis.x(), -to.axis.y()}, {0, 0}};
+    return {back.axis, -back(to.origin)};
+}
+
+void append_planar(const Surface& surface, std::span<const Relay> relays, const Motion& motion,
+                   std::vector<PlanarRelay>& out) {
+    Index half_edge = no_index;
+    Motion to;
+    for (const Relay& relay : relays) {
+        if (relay.half_edge != half_edge) {
+            half_edge = relay.half_edge;
+            to = to_face_frame(surface, half_edge);
+        }
+        const Vec2 image(relay.x, relay.y);
+        const Vec2 begin(relay.begin, 0);
+        const Vec2 end(relay.end, 0);
+        out.push_back({motion(to(image)), motion(to(begin)), motion(to(end)), relay.weight,
+                       relay.weight + (begin - image).norm(), relay.weight + (end - image).norm(),
+                       relay.site.value(), relay.y >= 0});
+    }
+}
+
+Reach reach_from(std::span<const PlanarRelay> relays, Index site, const Vec2& p) {
+    Reach best{std::numeric_limits<double>::infinity(), p};
+    for (const PlanarRelay& relay : relays) {
+        if (relay.site != site) continue;
+        const Reach r = reach(relay, p);
+        if (r.distance < best.distance) best = r;
+    }
+    return best;
+}
+
+Nearest nearest(std::span<const PlanarRelay> relays, const Vec2& p) {
+    Nearest best{no_index, std::numeric_limits<double>::infinity()};
+    for (const PlanarRelay& relay : relays) {
+        const double distance = reach(relay, p).distance;
+        if (distance < best.distance || (distance == best.distance && relay.site < best.site)) {
+            best = {relay.site, distance};
+        }
+    }
+    return best;
+}
+
+}  // namespace agvd

@@ -1,0 +1,84 @@
+//! \file
+//! The relays of one face in one plane, and distances through them.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "agvd/propagation/relays.h"
+
+namespace agvd {
+
+//! A relay in a planar frame shared with other relays.
+struct PlanarRelay {
+    Vec2 image;
+    Vec2 begin, end;   //!< Ends of the visible interval, seen from the image left and right.
+    double weight;     //!< Distance from the site to the image.
+    double at_begin;   //!< Distance from the site to `begin` through the image.
+    double at_end;     //!< Distance from the site to `end` through the image.
+    Index site;
+    bool sees_all;     //!< The image lies in the face: no interval.
+};
+
+//! Distance of a point through a relay, and where the last straight piece of the path begins.
+struct Reach {
+    double distance;
+    Vec2 from;
+};
+
+[[nodiscard]] inline double cross(const Vec2& a, const Vec2& b) {
+    return a.x() * b.y() - a.y() * b.x();
+}
+
+//! Straight where the interval lets the chord through, else bent at its nearer end.
+[[nodiscard]] inline Reach reach(const PlanarRelay& relay, const Vec2& p) {
+    if (!relay.sees_all) {
+        const Vec2 chord = p - relay.image;
+        if (cross(relay.begin - relay.image, chord) > 0) {
+            return {relay.at_begin + (p - relay.begin).norm(), relay.begin};
+        }
+        if (cross(relay.end - relay.image, chord) < 0) {
+            return {relay.at_end + (p - relay.end).norm(), relay.end};
+        }
+    }
+    return {relay.weight + (p - relay.image).norm(), relay.image};
+}
+
+//! The relay of a point that lies in the face itself.
+[[nodiscard]] PlanarRelay point_relay(const Vec2& point, double weight, Index site);
+
+//! The corners of a face in the frame of its first half-edge (half-edge 3 f), which is the face's
+//! own frame wherever a face stands alone.
+[[nodiscard]] std::array<Vec2, 3> face_corners(const Surface& surface, Index face);
+
+//! A rigid motion of the plane.
+struct Motion {
+    Vec2 axis{1, 0};    //!< Image of the x axis; unit length.
+    Vec2 origin{0, 0};  //!< Image of the origin.
+
+    [[nodiscard]] Vec2 operator()(const Vec2& p) const {
+        return {origin.x() + axis.x() * p.x() - axis.y() * p.y(),
+                origin.y() + axis.y() * p.x() + axis.x() * p.y()};
+    }
+};
+
+//! From the frame of a half-edge into the frame of its face's first half-edge, and back.
+[[nodiscard]] Motion to_face_frame(const Surface& surface, Index half_edge);
+[[nodiscard]] Motion from_face_frame(const Surface& surface, Index half_edge);
+
+//! Appends relays, moved from their half-edges' frames by to_face_frame and then by `motion`.
+void append_planar(const Surface& surface, std::span<const Relay> relays, const Motion& motion,
+                   std::vector<PlanarRelay>& out);
+
+//! Least distance over the relays of one site; infinity if it has none.
+[[nodiscard]] Reach reach_from(std::span<const PlanarRelay> relays, Index site, const Vec2& p);
+
+struct Nearest {
+    Index site;       //!< no_index without relays; of equally near sites the lowest.
+    double distance;
+};
+
+//! The nearest site of a point of the face.
+[[nodiscard]] Nearest nearest(std::span<const PlanarRelay> relays, const Vec2& p);
+
+}  // namespace agvd

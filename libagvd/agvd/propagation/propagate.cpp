@@ -1,0 +1,30 @@
+#include "agvd/propagation/propagate.h"
+
+#include <string>
+
+#include "agvd/propagation/steiner_engine.h"
+
+namespace agvd {
+
+Propagation propagate(const Surface& surface, std::span<const SurfacePoint> sites,
+                      const PropagationOptions& options) {
+    constexpr int max_points = 1000;
+    if (options.steiner_points < 0 || options.steiner_points > max_points) {
+        throw InvalidOption("the number of Steiner points per edge is " +
+                            std::to_string(options.steiner_points) + "; use 0 to " +
+                            std::to_string(max_points));
+    }
+    if (!(options.lambda > 0)) {
+        throw InvalidOption("lambda is " + std::to_string(options.lambda) +
+                            "; use a number above 0");
+    }
+    const double nodes = static_cast<double>(surface.num_vertices()) +
+                         static_cast<double>(surface.num_edges()) * options.steiner_points;
+    if (nodes >= static_cast<double>(no_index)) {
+        throw InvalidOption("this mesh with " + std::to_string(options.steiner_points) +
+                            " Steiner points per edge needs more than 2^32 nodes; use fewer");
+    }
+    return propagate_steiner(surface, sites, options);
+}
+
+}  // namespace agvd
