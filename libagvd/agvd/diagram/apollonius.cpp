@@ -18,15 +18,15 @@ constexpr int max_arc_depth = 4;  // At most 2^4 pieces an arc and face.
 constexpr double never = std::numeric_limits<double>::infinity();
 
 struct BranchPoint {
-    Vec2 position;
-    double distance;
-    double violation;  // How badly the distances contradict it, in length units; 0: not at all.
+    Vec2 position = Vec2::Zero();
+    double distance = 0;
+    double violation = never;  // How badly the distances contradict it, in length units; 0: not at all.
 };
 
 struct Ear {
     double violation = never;
     std::size_t index = 0;
-    BranchPoint branch{};
+    BranchPoint branch;
     bool is_lens = false;
 };
 
@@ -41,7 +41,7 @@ public:
 
     void run(std::vector<Joint>& joints, Index first_branch_node) {
         first_branch_node_ = first_branch_node;
-        out_.num_pieces += static_cast<Index>(joints.size());
+        for (const Joint& joint : joints) out_.pieces.emplace_back(joint.site_after, 1);
         while (joints.size() > 3) close_ear(joints, best_ear(joints));
         if (joints.size() == 3) {
             const BranchPoint branch = find_branch(joints[2], joints[0], joints[1]);
@@ -88,9 +88,10 @@ private:
         const Joint from = joints[ear.index];
         const Joint to = joints[next];
         add_arc(from, to.position, to.node, to.site_after);
-        --out_.num_pieces;
-        const auto [low, high] = std::minmax(ear.index, next);
-        // The interval before `ear` now reaches to the end of the one after it.
+        out_.pieces.emplace_back(to.site_after, -1);
+        // The interval before the ear now reaches to the end of the one after it.
+        const std::size_t low = std::min(ear.index, next);
+        const std::size_t high = std::max(ear.index, next);
         joints.erase(joints.begin() + static_cast<std::ptrdiff_t>(high));
         joints.erase(joints.begin() + static_cast<std::ptrdiff_t>(low));
     }

@@ -37,7 +37,8 @@ struct LocalDiagram {
     std::vector<double> point_distance;
     std::vector<LocalArc> arcs;
     std::vector<LocalBranch> branches;  //!< Branch b is node first_branch_node + b.
-    Index num_pieces = 0;               //!< Connected pieces that the triangle falls into.
+    //! (site, change): their sum over a site is the number of connected pieces of its cell.
+    std::vector<std::pair<Index, int>> pieces;
 };
 
 //! Appends to `out`. The result is a planar forest whatever the distances are: the boundary's

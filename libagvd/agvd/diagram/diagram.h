@@ -41,6 +41,9 @@ struct Diagram {
     std::vector<SurfacePoint> vertices;    //!< Where each Voronoi vertex lies.
     std::vector<double> vertex_distance;   //!< Its distance from its sites.
 
+    std::vector<SiteId> nearest_site;      //!< #V of the mesh: the cell that holds each vertex;
+    std::vector<double> nearest_distance;  //!< invalid and infinity where no site reaches.
+
     std::vector<double> cell_area;  //!< #sites, square mesh units; 0 for a site that owns nothing.
     std::vector<int> cell_euler;    //!< #sites: Euler characteristic of each cell (a disc has 1).
 };

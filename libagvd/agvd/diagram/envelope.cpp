@@ -8,9 +8,6 @@ namespace {
 
 using Candidate = EnvelopeScratch::Candidate;
 
-// Sites whose distances differ by less, relative to the distance, are tied: a few hundred roundings
-// of a path's sum.
-constexpr double tie_tolerance = 1e-13;
 // Crossings are separated down to this share of the segment; below, the ends decide.
 constexpr double shortest_interval = 1e-9;
 constexpr int max_root_steps = 60;

@@ -1,5 +1,6 @@
 #include "agvd/diagram/face_relays.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace agvd {
@@ -23,6 +24,14 @@ Motion from_face_frame(const Surface& surface, Index half_edge) {
     const Motion to = to_face_frame(surface, half_edge);
     const Motion back{{to.axis.x(), -to.axis.y()}, {0, 0}};
     return {back.axis, -back(to.origin)};
+}
+
+SurfacePoint to_surface(const Surface& surface, Index face, const Vec2& p) {
+    const Vec2& apex = surface.apex[3 * face];
+    const double at_apex = std::clamp(p.y() / apex.y(), 0.0, 1.0);
+    const double at_head =
+        std::clamp((p.x() - at_apex * apex.x()) / surface.length_of(3 * face), 0.0, 1.0 - at_apex);
+    return {FaceId(face), {1.0 - at_apex - at_head, at_head, at_apex}};
 }
 
 void append_planar(const Surface& surface, std::span<const Relay> relays, const Motion& motion,
@@ -57,9 +66,7 @@ Nearest nearest(std::span<const PlanarRelay> relays, const Vec2& p) {
     Nearest best{no_index, std::numeric_limits<double>::infinity()};
     for (const PlanarRelay& relay : relays) {
         const double distance = reach(relay, p).distance;
-        if (distance < best.distance || (distance == best.distance && relay.site < best.site)) {
-            best = {relay.site, distance};
-        }
+        if (is_nearer(distance, relay.site, best.distance, best.site)) best = {relay.site, distance};
     }
     return best;
 }

@@ -62,6 +62,15 @@ struct Motion {
     }
 };
 
+//! First `first`, then `second`.
+[[nodiscard]] inline Motion compose(const Motion& second, const Motion& first) {
+    return {second(first.axis) - second.origin, second(first.origin)};
+}
+
+//! The surface point at a position in the face's own frame; positions outside are moved to the
+//! nearest edge.
+[[nodiscard]] SurfacePoint to_surface(const Surface& surface, Index face, const Vec2& p);
+
 //! From the frame of a half-edge into the frame of its face's first half-edge, and back.
 [[nodiscard]] Motion to_face_frame(const Surface& surface, Index half_edge);
 [[nodiscard]] Motion from_face_frame(const Surface& surface, Index half_edge);
@@ -72,6 +81,18 @@ void append_planar(const Surface& surface, std::span<const Relay> relays, const 
 
 //! Least distance over the relays of one site; infinity if it has none.
 [[nodiscard]] Reach reach_from(std::span<const PlanarRelay> relays, Index site, const Vec2& p);
+
+//! Distances that differ by less, relative to their size, are tied: a few hundred roundings of a
+//! path's sum.
+inline constexpr double tie_tolerance = 1e-13;
+
+//! Nearer, or tied with a lower site.
+[[nodiscard]] inline bool is_nearer(double distance, Index site, double other_distance,
+                                    Index other_site) {
+    const double slack = tie_tolerance * distance;
+    if (distance < other_distance - slack) return true;
+    return distance <= other_distance + slack && site < other_site;
+}
 
 struct Nearest {
     Index site;       //!< no_index without relays; of equally near sites the lowest.

@@ -211,7 +211,7 @@ private:
             relax_vertex(previous, node.distance + (apex - here).norm(), node.site, step_ + j);
         }
         relax_points(previous, std::max(range.begin, step_ + 1) - step_,
-                     std::max(range.end, step_ + 1) - step_, apex, -apex, here, node.distance,
+                     std::clamp(range.end, step_ + 1, 2 * step_) - step_, apex, -apex, here, node.distance,
                      node.site, step_ + j);
     }
 

@@ -1,0 +1,136 @@
+// The diagram is a valid cell complex, and the same for any thread count and lambda.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "agvd/core/random.h"
+#include "agvd/diagram/cells.h"
+#include "agvd/propagation/propagate.h"
+#include "support/checks.h"
+#include "support/shapes.h"
+
+using namespace agvd;
+
+namespace {
+
+// Vertex, edge and face sites in turn; some share a face.
+std::vector<SurfacePoint> random_sites(const TriangleMesh& mesh, Index count, std::uint64_t seed) {
+    std::vector<SurfacePoint> sites;
+    for (Index i = 0; i < count; ++i) {
+        const auto face = static_cast<Index>(random_bits(seed, 0, i) % mesh.triangles.size());
+        const double u = 0.1 + 0.4 * random_unit(seed, 1, i);
+        const double v = 0.1 + 0.4 * random_unit(seed, 2, i);
+        SurfacePoint site{FaceId(face), {u, v, 1 - u - v}};
+        if (i % 3 == 0) site.barycentric = {0, 1, 0};
+        if (i % 3 == 1) site.barycentric = {u, 0, 1 - u};
+        sites.push_back(site);
+    }
+    return sites;
+}
+
+struct Case {
+    const char* name;
+    TriangleMesh mesh;
+};
+
+std::vector<Case> cases() {
+    std::vector<Case> result;
+    result.push_back({"sphere", shapes::sphere(3)});
+    result.push_back({"jittered sphere", shapes::jitter(shapes::sphere(3), 0.05, 3)});
+    result.push_back({"torus", shapes::torus(24, 12)});
+    result.push_back({"grid", shapes::grid(10)});
+    result.push_back({"jittered grid", shapes::jitter(shapes::grid(12), 0.02, 5)});
+    result.push_back({"tube", shapes::tube(16, 8)});
+    result.push_back({"cube", shapes::subdivide(shapes::subdivide(shapes::cube()))});
+    result.push_back({"tetrahedron", shapes::tetrahedron()});
+    result.push_back({"two", shapes::join(shapes::sphere(2), shapes::grid(5))});
+    return result;
+}
+
+template <typename T>
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() &&
+           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+}  // namespace
+
+TEST(Diagram, IsAValidComplexOnManyMeshesAndSiteSets) {
+    for (const Case& c : cases()) {
+        const Surface surface = build_surface(c.mesh.view());
+        for (const Index t : {1u, 2u, 3u, 7u, 40u, 400u}) {
+            for (const int m : {0, 1, 4, 8}) {
+                for (std::uint64_t seed = 0; seed < 3; ++seed) {
+                    SCOPED_TRACE(std::string(c.name) + " t=" + std::to_string(t) +
+                                 " m=" + std::to_string(m) + " seed=" + std::to_string(seed));
+                    const auto sites = random_sites(c.mesh, t, seed);
+                    const auto propagation = propagate(surface, sites, {.steiner_points = m});
+                    const auto diagram =
+                        build_diagram(surface, sites, propagation, {.num_threads = 1});
+                    checks::expect_valid_complex(surface, diagram);
+                    if (HasFailure()) return;
+                }
+            }
+        }
+    }
+}
+
+TEST(Diagram, SameBytesForAnyThreadCountAndLambda) {
+    const TriangleMesh mesh = shapes::jitter(shapes::sphere(4), 0.01, 3);
+    const Surface surface = build_surface(mesh.view());
+    const auto sites = random_sites(mesh, 50, 9);
+    const auto propagation = propagate(surface, sites);
+    const auto diagram = build_diagram(surface, sites, propagation, {.num_threads = 1});
+    for (const double lambda : {0.01, 0.3, 100.0}) {
+        const auto other = propagate(surface, sites, {.lambda = lambda});
+        EXPECT_TRUE(same_bytes(propagation.relays, other.relays));
+        EXPECT_TRUE(same_bytes(propagation.vertex_distance, other.vertex_distance));
+        EXPECT_TRUE(same_bytes(propagation.mixed_faces, other.mixed_faces));
+    }
+    for (const int threads : {2, 3, 8}) {
+        const auto other = build_diagram(surface, sites, propagation, {.num_threads = threads});
+        EXPECT_TRUE(same_bytes(diagram.points, other.points));
+        EXPECT_TRUE(same_bytes(diagram.cell_area, other.cell_area));
+        EXPECT_TRUE(same_bytes(diagram.vertex_sites, other.vertex_sites));
+    }
+}
+
+TEST(Diagram, SmallerLambdaHoldsFewerSteinerPoints) {
+    const TriangleMesh mesh = shapes::sphere(5);
+    const Surface surface = build_surface(mesh.view());
+    const auto sites = random_sites(mesh, 3, 2);
+    const auto all = propagate(surface, sites, {.lambda = 100});
+    const auto few = propagate(surface, sites, {.lambda = 0.1});
+    EXPECT_LT(few.peak_bytes, all.peak_bytes / 2);
+}
+
+TEST(Diagram, PlaneSitesGiveThePlanarVoronoiDiagram) {
+    const TriangleMesh mesh = shapes::grid(8);
+    const Surface surface = build_surface(mesh.view());
+    const auto sites = random_sites(mesh, 5, 4);
+    const auto diagram =
+        build_diagram(surface, sites, propagate(surface, sites, {.steiner_points = 12}));
+    const auto distance = [&](const Vec3& p, SiteId s) {
+        return (p - position(mesh.view(), sites[s.value()])).norm();
+    };
+    for (Index e = 0; e < diagram.edges.size(); ++e) {
+        const VoronoiEdge& edge = diagram.edges[e];
+        if (!edge.right.is_valid()) continue;
+        for (Index i = diagram.edge_points[e]; i < diagram.edge_points[e + 1]; ++i) {
+            const Vec3 p = position(mesh.view(), diagram.points[i]);
+            EXPECT_NEAR(distance(p, edge.left), distance(p, edge.right), 0.01);
+        }
+    }
+}
+
+TEST(Diagram, AComponentWithoutASiteIsUnreached) {
+    const TriangleMesh mesh = shapes::join(shapes::sphere(2), shapes::grid(5));
+    const Surface surface = build_surface(mesh.view());
+    const std::vector<SurfacePoint> sites{{FaceId(0), {1, 0, 0}}, {FaceId(9), {0.2, 0.3, 0.5}}};
+    const auto diagram = build_diagram(surface, sites, propagate(surface, sites));
+    const Index in_grid = mesh.triangles.back()[0];
+    EXPECT_FALSE(diagram.nearest_site[in_grid].is_valid());
+    EXPECT_TRUE(std::isinf(diagram.nearest_distance[in_grid]));
+    checks::expect_valid_complex(surface, diagram);
+}

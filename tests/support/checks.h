@@ -1,0 +1,14 @@
+//! \file
+//! Invariants that hold for every valid result.
+#pragma once
+
+#include "agvd/diagram/cells.h"
+
+namespace checks {
+
+//! Every edge has two distinct sides and two ends or none; ends, sites and loops around vertices fit
+//! together; areas sum to the surface's (of the components with a site); and the Euler
+//! characteristics of cells, edges and vertices sum to the surface's.
+void expect_valid_complex(const agvd::Surface& surface, const agvd::Diagram& diagram);
+
+}  // namespace checks
