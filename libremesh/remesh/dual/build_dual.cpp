@@ -1,0 +1,144 @@
+#include "remesh/dual/build_dual.h"
+
+#include <algorithm>
+#include <set>
+
+#include "remesh/dual/degenerate_edges.h"
+
+namespace remesh {
+namespace {
+
+using agvd::Diagram;
+using agvd::EdgeEnd;
+using agvd::Index;
+using agvd::no_index;
+using agvd::Triangle;
+
+using SitePair = std::pair<Index, Index>;
+
+SitePair make_pair(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
+
+class DualBuilder {
+public:
+    DualBuilder(const Diagram& diagram, std::vector<bool> is_contracted)
+        : diagram_(diagram), is_contracted_(std::move(is_contracted)) {
+        keep_forest();
+        locate_ends();
+        for (Index e = 0; e < diagram.edges.size(); ++e) {
+            const agvd::VoronoiEdge& edge = diagram.edges[e];
+            if (is_contracted_[e] || !edge.right.is_valid()) continue;
+            taken_.insert(make_pair(edge.left.value(), edge.right.value()));
+        }
+    }
+
+    std::vector<Triangle> run() {
+        std::vector<bool> is_done(diagram_.vertices.size(), false);
+        for (Index v = 0; v < diagram_.vertices.size(); ++v) {
+            if (is_done[v]) continue;
+            polygon_.clear();
+            collect_polygon(v, is_done);
+            if (std::find(polygon_.begin(), polygon_.end(), no_index) != polygon_.end()) continue;
+            triangulate();
+        }
+        return std::move(triangles_);
+    }
+
+private:
+    // Contracted edges must not close a circle, or the polygon would have a hole.
+    void keep_forest() {
+        std::vector<Index> parent(diagram_.vertices.size());
+        for (Index v = 0; v < parent.size(); ++v) parent[v] = v;
+        const auto root = [&](Index v) {
+            while (parent[v] != v) v = parent[v] = parent[parent[v]];
+            return v;
+        };
+        for (Index e = 0; e < diagram_.edges.size(); ++e) {
+            if (!is_contracted_[e]) continue;
+            const Index a = root(diagram_.edges[e].tail);
+            const Index b = root(diagram_.edges[e].head);
+            is_contracted_[e] = a != b;
+            parent[std::max(a, b)] = std::min(a, b);
+        }
+    }
+
+    void locate_ends() {
+        end_at_.assign(2 * diagram_.edges.size(), no_index);
+        vertex_of_end_.resize(diagram_.vertex_ends.size());
+        for (Index v = 0; v < diagram_.vertices.size(); ++v) {
+            for (Index i = diagram_.vertex_offsets[v]; i < diagram_.vertex_offsets[v + 1]; ++i) {
+                const EdgeEnd& end = diagram_.vertex_ends[i];
+                end_at_[2 * end.edge + (end.is_tail ? 0 : 1)] = i;
+                vertex_of_end_[i] = v;
+            }
+        }
+    }
+
+    [[nodiscard]] Index next_around(Index end) const {
+        const Index v = vertex_of_end_[end];
+        return end + 1 == diagram_.vertex_offsets[v + 1] ? diagram_.vertex_offsets[v] : end + 1;
+    }
+
+    // The cells around v and whatever is contracted with it, counter-clockwise.
+    void collect_polygon(Index v, std::vector<bool>& is_done) {
+        is_done[v] = true;
+        Index end = diagram_.vertex_offsets[v];
+        while (is_contracted_[diagram_.vertex_ends[end].edge]) {
+            end = across(end, is_done);
+            end = next_around(end);
+        }
+        const Index first = end;
+        do {
+            polygon_.push_back(diagram_.vertex_sites[end].value());
+            end = next_around(end);
+            while (is_contracted_[diagram_.vertex_ends[end].edge]) {
+                end = next_around(across(end, is_done));
+            }
+        } while (end != first);
+    }
+
+    [[nodiscard]] Index across(Index end, std::vector<bool>& is_done) const {
+        const EdgeEnd& here = diagram_.vertex_ends[end];
+        const Index there = end_at_[2 * here.edge + (here.is_tail ? 1 : 0)];
+        is_done[vertex_of_end_[there]] = true;
+        return there;
+    }
+
+    void triangulate() {
+        while (polygon_.size() > 3) {
+            std::size_t ear = 0;
+            while (ear < polygon_.size() && !is_free_ear(ear)) ++ear;
+            if (ear == polygon_.size()) ear = 0;  // Every diagonal is taken; the caller will see.
+            const Index a = at(ear + polygon_.size() - 1);
+            const Index b = at(ear);
+            const Index c = at(ear + 1);
+            triangles_.push_back({a, b, c});
+            taken_.insert(make_pair(a, c));
+            polygon_.erase(polygon_.begin() + static_cast<std::ptrdiff_t>(ear));
+        }
+        if (polygon_.size() == 3) triangles_.push_back({polygon_[0], polygon_[1], polygon_[2]});
+    }
+
+    [[nodiscard]] Index at(std::size_t i) const { return polygon_[i % polygon_.size()]; }
+
+    [[nodiscard]] bool is_free_ear(std::size_t i) const {
+        const Index a = at(i + polygon_.size() - 1);
+        const Index c = at(i + 1);
+        return a != c && !taken_.contains(make_pair(a, c));
+    }
+
+    const Diagram& diagram_;
+    std::vector<bool> is_contracted_;
+    std::vector<Index> end_at_;         // By 2 * edge + (0: tail, 1: head): index in vertex_ends.
+    std::vector<Index> vertex_of_end_;  // By index in vertex_ends.
+    std::set<SitePair> taken_;          // Edges of the dual so far.
+    std::vector<Index> polygon_;
+    std::vector<Triangle> triangles_;
+};
+
+}  // namespace
+
+std::vector<Triangle> build_dual(const agvd::Surface& surface, const Diagram& diagram) {
+    return DualBuilder(diagram, find_degenerate_edges(surface, diagram)).run();
+}
+
+}  // namespace remesh

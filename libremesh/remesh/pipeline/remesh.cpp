@@ -1,0 +1,239 @@
+#include "remesh/pipeline/remesh.h"
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+
+#include "agvd/diagram/diagram.h"
+#include "remesh/dual/build_dual.h"
+#include "remesh/repair/carry_sites.h"
+#include "remesh/repair/closed_ball.h"
+
+namespace remesh {
+namespace {
+
+using agvd::Index;
+using agvd::Surface;
+using agvd::SurfacePoint;
+
+void check_options(const RemeshOptions& options) {
+    if (options.num_samples < 1) {
+        throw agvd::InvalidOption("num_samples is 0; ask for at least 1");
+    }
+    if (options.repair_rounds < 0) {
+        throw agvd::InvalidOption("repair_rounds is " + std::to_string(options.repair_rounds) +
+                                  "; use 0 or more");
+    }
+    if (options.num_threads < 0) {
+        throw agvd::InvalidOption("num_threads is " + std::to_string(options.num_threads) +
+                                  "; use 0 (all cores) or more");
+    }
+}
+
+// Adds the time until it ends to its stage.
+class StageTimer {
+public:
+    StageTimer(Stage stage, RemeshResult& result)
+        : stage_(stage), result_(result), start_(std::chrono::steady_clock::now()) {}
+    StageTimer(const StageTimer&) = delete;
+    StageTimer& operator=(const StageTimer&) = delete;
+    ~StageTimer() {
+        const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
+        auto found = std::find_if(result_.seconds.begin(), result_.seconds.end(),
+                                  [&](const auto& entry) { return entry.first == stage_; });
+        if (found != result_.seconds.end()) found->second += spent.count();
+    }
+
+private:
+    Stage stage_;
+    RemeshResult& result_;
+    std::chrono::steady_clock::time_point start_;
+};
+
+class Pipeline {
+public:
+    Pipeline(const agvd::MeshView& mesh, const RemeshOptions& options)
+        : input_(mesh), options_(options) {
+        for (const Stage stage :
+             {Stage::Clean, Stage::Sample, Stage::Propagate, Stage::Diagram, Stage::Dual}) {
+            result_.seconds.emplace_back(stage, 0.0);
+        }
+    }
+
+    RemeshResult run() {
+        check_options(options_);
+        clean();
+        place_sites();
+        build_valid_diagram();
+        build_mesh();
+        return std::move(result_);
+    }
+
+private:
+    [[nodiscard]] agvd::Progress progress_of(Stage stage) const {
+        if (!options_.progress) return {};
+        return [this, stage](double fraction) { return options_.progress(stage, fraction); };
+    }
+
+    void clean() {
+        const StageTimer timer(Stage::Clean, result_);
+        agvd::poll(progress_of(Stage::Clean), 0);
+        clean_ = clean_input(input_);
+        surface_ = agvd::build_surface(clean_.mesh.view());
+        result_.cleaned = clean_.counts;
+        result_.input_topology = analyze_topology(clean_.mesh.view());
+        agvd::poll(progress_of(Stage::Clean), 1);
+    }
+
+    void place_sites() {
+        const StageTimer timer(Stage::Sample, result_);
+        if (options_.sites) {
+            sites_ = to_cleaned(*options_.sites, input_, clean_);
+        } else {
+            sites_ = sample_sites(surface_, {.num_samples = options_.num_samples,
+                                             .init = options_.init,
+                                             .seed = options_.seed,
+                                             .num_threads = options_.num_threads,
+                                             .progress = progress_of(Stage::Sample)});
+        }
+    }
+
+    // Propagates and checks the closed-ball property, adding sites until it holds.
+    void build_valid_diagram() {
+        while (true) {
+            build_diagram();
+            std::vector<ClosedBallViolation> violations = find_missing_sites();
+            if (violations.empty()) violations = find_closed_ball_violations(surface_, diagram_);
+            if (violations.empty()) return;
+            if (result_.repair_rounds == options_.repair_rounds) give_up(violations);
+            ++result_.repair_rounds;
+            add_sites(violations);
+        }
+    }
+
+    void build_diagram() {
+        agvd::Propagation propagation;
+        {
+            const StageTimer timer(Stage::Propagate, result_);
+            propagation = agvd::propagate(surface_, sites_,
+                                          {.steiner_points = options_.steiner_points,
+                                           .lambda = options_.lambda,
+                                           .progress = progress_of(Stage::Propagate)});
+            result_.propagation_bytes = propagation.peak_bytes;
+        }
+        const StageTimer timer(Stage::Diagram, result_);
+        diagram_ = agvd::build_diagram(surface_, sites_, propagation,
+                                       {.num_threads = options_.num_threads,
+                                        .progress = progress_of(Stage::Diagram)});
+    }
+
+    // Components that no given site reaches.
+    [[nodiscard]] std::vector<ClosedBallViolation> find_missing_sites() const {
+        std::vector<ClosedBallViolation> missing;
+        std::vector<bool> is_told(result_.input_topology.components.size(), false);
+        for (Index f = 0; f < surface_.num_faces(); ++f) {
+            const Index component = result_.input_topology.face_component[f];
+            const Index v = clean_.mesh.triangles[f][0];
+            if (diagram_.nearest_site[v].is_valid() || is_told[component]) continue;
+            is_told[component] = true;
+            missing.push_back({{}, {}, "a component has no site", {agvd::FaceId(f), {1, 0, 0}}});
+        }
+        return missing;
+    }
+
+    // One site for each violation whose cells no other new site of this round concerns.
+    void add_sites(const std::vector<ClosedBallViolation>& violations) {
+        std::vector<bool> is_concerned(sites_.size(), false);
+        for (const ClosedBallViolation& violation : violations) {
+            bool is_free = true;
+            for (const agvd::SiteId site : {violation.site, violation.other}) {
+                if (!site.is_valid()) continue;
+                is_free = is_free && !is_concerned[site.value()];
+                is_concerned[site.value()] = true;
+            }
+            if (!is_free) continue;
+            sites_.push_back(violation.remedy);
+            ++result_.sites_added;
+        }
+    }
+
+    [[noreturn]] void give_up(const std::vector<ClosedBallViolation>& violations) const {
+        constexpr std::size_t max_named = 5;
+        std::string text = "the topology was not reached in " +
+                           std::to_string(options_.repair_rounds) + " rounds of adding sites";
+        for (std::size_t i = 0; i < std::min(max_named, violations.size()); ++i) {
+            const ClosedBallViolation& v = violations[i];
+            text += i == 0 ? ": " : "; ";
+            if (v.site.is_valid()) text += "cell " + std::to_string(v.site.value()) + " ";
+            text += v.reason;
+            if (v.other.is_valid()) text += " cell " + std::to_string(v.other.value());
+        }
+        if (violations.size() > max_named) {
+            text += "; and " + std::to_string(violations.size() - max_named) + " more";
+        }
+        throw agvd::ConstraintUnmet(text + "; ask for more samples, for example " +
+                                    std::to_string(2 * sites_.size()));
+    }
+
+    void build_mesh() {
+        const StageTimer timer(Stage::Dual, result_);
+        agvd::poll(progress_of(Stage::Dual), 0);
+        result_.mesh.triangles = build_dual(surface_, diagram_);
+        std::vector<Index> new_index(sites_.size(), agvd::no_index);
+        for (const agvd::Triangle& t : result_.mesh.triangles) {
+            for (const Index s : t) new_index[s] = 0;
+        }
+        std::vector<SurfacePoint> kept;
+        for (Index s = 0; s < sites_.size(); ++s) {
+            if (new_index[s] == agvd::no_index) continue;
+            new_index[s] = static_cast<Index>(kept.size());
+            kept.push_back(sites_[s]);
+            result_.mesh.positions.push_back(position(clean_.mesh.view(), sites_[s]));
+        }
+        for (agvd::Triangle& t : result_.mesh.triangles) {
+            for (Index& s : t) s = new_index[s];
+        }
+        result_.sites_dropped = static_cast<Index>(sites_.size() - kept.size());
+        result_.sites = to_original(kept, input_, clean_);
+        check_mesh();
+        agvd::poll(progress_of(Stage::Dual), 1);
+    }
+
+    // The closed-ball property implies this; nothing leaves unchecked all the same.
+    void check_mesh() const {
+        const Topology topology = analyze_topology(result_.mesh.view());
+        if (!topology.is_manifold || !topology.is_oriented ||
+            !same_topology(topology, result_.input_topology)) {
+            throw agvd::ConstraintUnmet(
+                "the dual of these sites is no manifold of the input's topology; ask for more "
+                "samples, for example " + std::to_string(2 * sites_.size()));
+        }
+    }
+
+    agvd::MeshView input_;
+    const RemeshOptions& options_;
+    RemeshResult result_;
+    CleanResult clean_;
+    Surface surface_;
+    std::vector<SurfacePoint> sites_;
+    agvd::Diagram diagram_;
+};
+
+}  // namespace
+
+const char* stage_name(Stage stage) {
+    switch (stage) {
+        case Stage::Clean: return "clean";
+        case Stage::Sample: return "sample";
+        case Stage::Propagate: return "propagate";
+        case Stage::Diagram: return "diagram";
+        case Stage::Dual: return "dual";
+    }
+    return "unknown";
+}
+
+RemeshResult remesh(const agvd::MeshView& mesh, const RemeshOptions& options) {
+    return Pipeline(mesh, options).run();
+}
+
+}  // namespace remesh
