@@ -7,10 +7,23 @@
 
 namespace remesh {
 
-//! Writes `bytes` to a temporary file in the target's folder and renames it over the target. On
-//! failure, or when an exception or signal handler unwinds, the temporary is removed and an old
-//! target stays as it was.
-//! \throw agvd::IoError  naming the path and the system's reason.
+//! Writes `bytes` to a temporary file in the target's folder and renames it over the target, which
+//! until then stays as it was.
+//!
+//! A symbolic link is kept: what it points to is replaced. An existing file keeps its permission
+//! bits (and its owner, where the system lets us); its other hard links keep the old content. What
+//! is no regular file (/dev/null, a pipe) is written to directly. There is no fsync: after a power
+//! failure the file may be the old one.
+//!
+//! The temporary is removed on every failure. Signals: nothing is on disk but during this call, and
+//! a signal whose handler returns (such as one that sets a flag for the progress callbacks) does
+//! not disturb it. Only a signal that ends the process at once (SIGKILL; SIGINT or SIGTERM without
+//! a handler) can leave a `.remesh-PID-N.tmp` behind; the target is whole even then. \throw
+//! agvd::IoError  naming the path and the system's reason.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
+
+//! Finds out before a long computation whether write_file_atomically can begin: creates and removes
+//! the temporary file. \throw agvd::IoError  as above.
+void require_writable(const std::filesystem::path& path);
 
 }  // namespace remesh

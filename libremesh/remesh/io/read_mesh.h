@@ -9,22 +9,27 @@
 namespace remesh {
 
 struct MeshFile {
-    agvd::TriangleMesh mesh;            //!< As in the file: order kept, defects too.
-    agvd::Index polygons = 0;           //!< Faces of more than three corners, triangulated.
-    agvd::Index welded_vertices = 0;    //!< STL only: corners merged at equal positions.
+    agvd::TriangleMesh mesh;           //!< As in the file: order kept, defects too.
+    agvd::Index polygons = 0;          //!< Faces of more than three corners, triangulated.
+    agvd::Index dropped_polygons = 0;  //!< Faces of fewer than three corners (lines), left out.
+    agvd::Index welded_vertices = 0;   //!< STL only: corners merged at equal positions.
     //! #F: the polygon (face of the file, from 0) each triangle came from.
     std::vector<agvd::Index> face_polygon;
 };
 
 //! The format is chosen by the extension (any case): ply (ascii and both binaries), obj (v, v/vt,
 //! v//vn and v/vt/vn, negative indices; never split along texture seams), off (OFF, COFF, NOFF,
-//! STOFF), stl (ascii, binary; welded at equal positions). Coordinates are kept in double.
+//! STOFF), stl (ascii, binary; welded at equal positions). Coordinates are kept in double. A quad
+//! is cut along the shorter of its inner diagonals, a larger polygon by clipping ears.
 //!
-//! \throw agvd::IoError       the file is missing, empty, unreadable, truncated or malformed, or the
+//! \throw agvd::IoError       the file is missing, empty, unreadable, truncated or malformed, or
+//! the
 //!        extension is unknown; the text names the file, the line (or byte) and the remedy.
-//! \throw agvd::InvalidInput  the file reads well but is no usable mesh: no face (a point cloud), an
+//! \throw agvd::InvalidInput  the file reads well but is no usable mesh: no face (a point cloud),
+//! an
 //!        index out of range, a coordinate that is not finite; the text names file and element.
-//! Cost: O(file size).
+//! Cost: O(file size), and O(k^2) for each polygon of k corners. Memory follows the size of the
+//! file, never a count that it announces.
 [[nodiscard]] MeshFile read_mesh(const std::filesystem::path& path);
 
 }  // namespace remesh

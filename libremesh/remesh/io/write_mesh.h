@@ -9,13 +9,19 @@
 namespace remesh {
 
 //! Writes beside the target and renames, so that a failed or interrupted run leaves an old file
-//! untouched. Binary little-endian PLY with double coordinates, OBJ and OFF with shortest
-//! round-trip decimals, binary STL (float by the format's nature).
+//! untouched (see write_file_atomically). Binary little-endian PLY with double coordinates, OBJ and
+//! OFF with the shortest decimals that read back as the same double, binary STL (float by the
+//! format's nature).
 //!
-//! \throw agvd::IoError  the extension is unknown or the file cannot be written; says which and why.
+//! \throw agvd::IoError       the extension is unknown or the file cannot be written; says which
+//! and
+//!        why.
+//! \throw agvd::InvalidInput  read_mesh could not read it back: an index is out of range, a
+//!        coordinate is not finite (STL: beyond float).
+//! Cost: O(n) time; holds the whole file in memory.
 void write_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh);
 
-//! The extensions read_mesh and write_mesh know: true for "ply", ".OBJ", ...
+//! The extensions read_mesh and write_mesh know: true for "out.ply", "out.OBJ", ...
 [[nodiscard]] bool is_known_mesh_extension(const std::filesystem::path& path);
 
 }  // namespace remesh

@@ -1,0 +1,133 @@
+#include "remesh/io/atomic_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "agvd/core/error.h"
+
+namespace remesh {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const fs::path& path, int reason, const char* remedy) {
+    throw agvd::IoError(path.string() + ": cannot be written: " +
+                        std::generic_category().message(reason) + "; " + remedy);
+}
+
+constexpr const char* check_folder =
+    "check that its folder exists and is writable, or write elsewhere";
+
+// Where a chain of symbolic links ends, whether or not anything is there.
+fs::path follow_links(const fs::path& path) {
+    fs::path target = path;
+    std::error_code none;
+    for (int links = 0; fs::is_symlink(fs::symlink_status(target, none)); ++links) {
+        if (links == 40) fail(path, ELOOP, "correct the symbolic links");
+        target = target.parent_path() / fs::read_symlink(target, none);
+    }
+    return target;
+}
+
+void write_all(int fd, std::string_view bytes, const fs::path& path) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::write(fd, bytes.data(), bytes.size());
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) fail(path, errno, "free some room, or write elsewhere");
+        bytes.remove_prefix(static_cast<std::size_t>(written));
+    }
+}
+
+// The file that becomes the target. Its destructor closes and removes it unless it was renamed.
+class TemporaryFile {
+public:
+    explicit TemporaryFile(const fs::path& target) : target_(target) {
+        struct stat old {};
+        const bool exists = ::stat(target.c_str(), &old) == 0;
+        if (exists && S_ISDIR(old.st_mode)) fail(target, EISDIR, "name a file in it");
+        if (exists && ::access(target.c_str(), W_OK) != 0) {
+            fail(target, errno, "make the old file writable, or write elsewhere");
+        }
+        const std::string stem = ".remesh-" + std::to_string(::getpid()) + "-";
+        for (int n = 0; fd_ < 0; ++n) {
+            // A name of our own, not the target's with a suffix, which might be too long.
+            name_ = target.parent_path() / (stem + std::to_string(n) + ".tmp");
+            fd_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+            if (fd_ < 0 && errno != EEXIST) fail(target, errno, check_folder);
+        }
+        if (!exists) return;
+        // Owner first: changing it clears the set-user bit. Only root may, so a failure is no
+        // error.
+        if (::fchown(fd_, old.st_uid, old.st_gid) != 0) errno = 0;
+        if (::fchmod(fd_, old.st_mode & 07777) != 0) {
+            const int reason = errno;
+            discard();
+            fail(target, reason, "write elsewhere");
+        }
+    }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+    ~TemporaryFile() { discard(); }
+
+    void write(std::string_view bytes) const { write_all(fd_, bytes, target_); }
+
+    // Closes before renaming: some file systems tell only then that they are full.
+    void rename_to_target() {
+        const int fd = std::exchange(fd_, -1);
+        if (::close(fd) != 0 && errno != EINTR) fail(target_, errno, "free some room");
+        if (::rename(name_.c_str(), target_.c_str()) != 0) fail(target_, errno, check_folder);
+        name_.clear();
+    }
+
+private:
+    void discard() {
+        if (fd_ >= 0) ::close(fd_);
+        if (!name_.empty()) ::unlink(name_.c_str());
+    }
+
+    fs::path target_;
+    fs::path name_;  // Empty once renamed.
+    int fd_ = -1;
+};
+
+// True for what must not be replaced by a file of the same name: a device, a pipe.
+bool is_special(const fs::path& target) {
+    std::error_code none;
+    const fs::file_status status = fs::status(target, none);
+    return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+void write_directly(const fs::path& target, std::string_view bytes) {
+    const int fd = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
+    if (fd < 0) fail(target, errno, "check its permissions, or write elsewhere");
+    try {
+        write_all(fd, bytes, target);
+    } catch (const agvd::IoError&) {
+        ::close(fd);
+        throw;
+    }
+    ::close(fd);
+}
+
+}  // namespace
+
+void write_file_atomically(const fs::path& path, std::string_view bytes) {
+    const fs::path target = follow_links(path);
+    if (is_special(target)) return write_directly(target, bytes);
+    TemporaryFile file(target);
+    file.write(bytes);
+    file.rename_to_target();
+}
+
+void require_writable(const fs::path& path) {
+    const fs::path target = follow_links(path);
+    if (!is_special(target)) TemporaryFile file(target);
+}
+
+}  // namespace remesh

@@ -1,0 +1,38 @@
+#include "remesh/io/formats.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "agvd/core/error.h"
+
+namespace remesh {
+namespace {
+
+constexpr double any_double = std::numeric_limits<double>::max();
+constexpr double any_float = std::numeric_limits<float>::max();
+
+constexpr MeshFormat formats[] = {{".ply", read_ply, format_ply, any_double},
+                                  {".obj", read_obj, format_obj, any_double},
+                                  {".off", read_off, format_off, any_double},
+                                  {".stl", read_stl, format_stl, any_float}};
+
+}  // namespace
+
+const MeshFormat* find_format(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    // Not std::tolower, which depends on the locale.
+    for (char& c : extension) c = 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    const auto* const found =
+        std::find_if(std::begin(formats), std::end(formats),
+                     [&](const MeshFormat& format) { return extension == format.extension; });
+    return found == std::end(formats) ? nullptr : found;
+}
+
+const MeshFormat& require_format(const std::filesystem::path& path) {
+    if (const MeshFormat* const format = find_format(path)) return *format;
+    throw agvd::IoError(path.string() + ": unknown mesh format " +
+                        in_quotes(path.extension().string()) +
+                        "; use a name that ends in .ply, .obj, .off or .stl");
+}
+
+}  // namespace remesh

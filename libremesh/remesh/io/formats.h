@@ -1,0 +1,36 @@
+//! \file
+//! The four formats: what the dispatch of reading and writing shares. Private.
+#pragma once
+
+#include <string>
+
+#include "remesh/io/read_mesh.h"
+#include "remesh/io/source_file.h"
+
+namespace remesh {
+
+[[nodiscard]] MeshFile read_ply(SourceFile file);
+[[nodiscard]] MeshFile read_obj(SourceFile file);
+[[nodiscard]] MeshFile read_off(SourceFile file);
+[[nodiscard]] MeshFile read_stl(SourceFile file);
+
+//! The whole file's bytes.
+[[nodiscard]] std::string format_ply(const agvd::MeshView& mesh);
+[[nodiscard]] std::string format_obj(const agvd::MeshView& mesh);
+[[nodiscard]] std::string format_off(const agvd::MeshView& mesh);
+[[nodiscard]] std::string format_stl(const agvd::MeshView& mesh);
+
+struct MeshFormat {
+    const char* extension;  //!< Lower case, with its dot.
+    MeshFile (*read)(SourceFile);
+    std::string (*format)(const agvd::MeshView&);
+    double largest;  //!< Coordinate that it can hold.
+};
+
+//! The format of the path's extension (any case), or nullptr.
+[[nodiscard]] const MeshFormat* find_format(const std::filesystem::path& path);
+
+//! As find_format. \throw agvd::IoError  unknown; lists the extensions there are.
+[[nodiscard]] const MeshFormat& require_format(const std::filesystem::path& path);
+
+}  // namespace remesh

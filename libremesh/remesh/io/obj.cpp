@@ -1,0 +1,68 @@
+// Wavefront OBJ: vertices (v) and faces (f); every other statement is passed over. Texture
+// coordinates and normals of a corner are read past: vertices are never split along their seams
+// (format: Wavefront, Advanced Visualizer Manual, appendix B1).
+
+#include "remesh/io/formats.h"
+#include "remesh/io/polygon_soup.h"
+#include "remesh/io/text_format.h"
+#include "remesh/io/text_scanner.h"
+
+namespace remesh {
+namespace {
+
+// A corner's vertex, from 0: the file counts from 1, or with negative numbers back from the last
+// vertex so far. What follows it (/vt, //vn, /vt/vn) must look like that and is not used.
+std::int64_t read_corner(TextScanner& scan, const SourceFile& file, std::size_t num_vertices) {
+    const std::size_t start = scan.offset();
+    const std::int64_t number = scan.integer("a corner (v, v/vt, v//vn or v/vt/vn)", '/');
+    const std::size_t slash = scan.offset();
+    if (scan.take("/")) {
+        if (scan.rest_of_word().find_first_not_of("0123456789-/") != std::string_view::npos) {
+            file.fail_malformed(slash,
+                                "expected texture and normal numbers after a corner's '/'; "
+                                "correct the line, or export the mesh again");
+        }
+    }
+    const auto count = static_cast<std::int64_t>(num_vertices);
+    if (number == 0 || number < -count) {
+        file.fail_unusable(start, "a face has the corner " + std::to_string(number) +
+                                      (number == 0 ? ", but OBJ numbers its vertices from 1"
+                                                   : ", but only " + std::to_string(count) +
+                                                         " vertices come before it") +
+                                      "; correct it, or export the mesh again");
+    }
+    return number > 0 ? number - 1 : count + number;
+}
+
+}  // namespace
+
+MeshFile read_obj(SourceFile file) {
+    TextScanner scan(file, 0, {.comment = '#', .continues = true});
+    PolygonSoup soup(file, 1);
+    while (scan.find_word()) {
+        const std::string_view statement = scan.word();
+        if (statement == "v") {
+            soup.positions.push_back(scan.point());
+            while (scan.has_word()) scan.word();  // Weight or colour, over joined lines too.
+        } else if (statement == "f") {
+            while (scan.has_word()) {
+                const std::size_t start = scan.offset();
+                soup.add_corner(read_corner(scan, file, soup.positions.size()), start);
+            }
+            soup.end_polygon();
+        }
+        scan.skip_line();
+    }
+    return std::move(soup).finish();
+}
+
+std::string format_obj(const agvd::MeshView& mesh) {
+    std::string bytes;
+    for (const agvd::Vec3& p : mesh.positions) append_line(bytes, "v ", p);
+    for (const auto& [a, b, c] : mesh.triangles) {
+        append_line(bytes, "f ", std::array<std::uint64_t, 3>{a + 1ull, b + 1ull, c + 1ull});
+    }
+    return bytes;
+}
+
+}  // namespace remesh

@@ -1,0 +1,87 @@
+// OFF, and COFF, NOFF, STOFF, whose colours, normals and texture coordinates are passed over
+// (format: Geomview manual, "OFF Files").
+//
+// Line by line, one element on each, as every writer does it: what follows a vertex's coordinates
+// or a face's corners on its line is optional. A file laid out otherwise runs out of lines, and
+// says so.
+
+#include "remesh/io/formats.h"
+#include "remesh/io/polygon_soup.h"
+#include "remesh/io/text_format.h"
+#include "remesh/io/text_scanner.h"
+
+namespace remesh {
+namespace {
+
+void read_keyword(TextScanner& scan) {
+    if (!scan.find_word()) scan.fail_expecting("the keyword OFF");
+    scan.take("ST");
+    scan.take("C");
+    scan.take("N");
+    if (scan.take("4") || scan.take("n")) {
+        scan.fail_malformed(
+            "4OFF and nOFF hold points of other than three dimensions; export as OFF");
+    }
+    if (!scan.take("OFF")) {
+        scan.fail_expecting("the keyword OFF (or COFF, NOFF, STOFF)");
+    }
+    if (scan.has_word() && scan.take("BINARY")) {
+        scan.fail_malformed("binary OFF is not supported; export as ascii OFF or as PLY");
+    }
+}
+
+std::uint64_t read_count(TextScanner& scan, const char* what) {
+    if (!scan.find_word()) scan.fail_expecting(what);
+    const std::int64_t count = scan.integer(what);
+    if (count < 0) scan.fail_malformed(std::string(what) + " is negative; export the mesh again");
+    return static_cast<std::uint64_t>(count);
+}
+
+void find_element(TextScanner& scan, const char* kind, std::uint64_t index, std::uint64_t count) {
+    if (scan.find_word()) return;
+    scan.fail_malformed("the file ends before " + std::string(kind) + " " + std::to_string(index) +
+                        " of " + std::to_string(count) +
+                        "; it is truncated, or has several elements on a line: export it again");
+}
+
+}  // namespace
+
+MeshFile read_off(SourceFile file) {
+    TextScanner scan(file, 0, {.comment = '#'});
+    read_keyword(scan);
+    const std::uint64_t num_vertices = read_count(scan, "the number of vertices");
+    const std::uint64_t num_faces = read_count(scan, "the number of faces");
+    scan.skip_line();
+
+    PolygonSoup soup(file, 0);
+    soup.reserve(num_vertices, num_faces);
+    for (std::uint64_t v = 0; v < num_vertices; ++v) {
+        find_element(scan, "vertex", v, num_vertices);
+        soup.positions.push_back(scan.point());
+        scan.skip_line();
+    }
+    for (std::uint64_t f = 0; f < num_faces; ++f) {
+        find_element(scan, "face", f, num_faces);
+        const std::size_t start = scan.offset();
+        const std::int64_t corners = scan.integer("the number of corners");
+        if (corners < 0)
+            file.fail_malformed(start,
+                                "a face has a negative number of corners; export the mesh again");
+        for (std::int64_t k = 0; k < corners; ++k) {
+            soup.add_corner(scan.integer("a corner"), start);
+        }
+        soup.end_polygon();
+        scan.skip_line();
+    }
+    return std::move(soup).finish();
+}
+
+std::string format_off(const agvd::MeshView& mesh) {
+    std::string bytes = "OFF\n" + std::to_string(mesh.positions.size()) + ' ' +
+                        std::to_string(mesh.triangles.size()) + " 0\n";
+    for (const agvd::Vec3& p : mesh.positions) append_line(bytes, "", p);
+    for (const auto& [a, b, c] : mesh.triangles) append_line(bytes, "3 ", std::array{a, b, c});
+    return bytes;
+}
+
+}  // namespace remesh

@@ -1,0 +1,125 @@
+#include "remesh/io/ply_header.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "remesh/io/text_scanner.h"
+
+namespace remesh {
+namespace {
+
+constexpr struct {
+    const char* name;
+    PlyType type;
+} type_names[] = {
+    {"char", PlyType::Int8},      {"int8", PlyType::Int8},       {"uchar", PlyType::UInt8},
+    {"uint8", PlyType::UInt8},    {"short", PlyType::Int16},     {"int16", PlyType::Int16},
+    {"ushort", PlyType::UInt16},  {"uint16", PlyType::UInt16},   {"int", PlyType::Int32},
+    {"int32", PlyType::Int32},    {"uint", PlyType::UInt32},     {"uint32", PlyType::UInt32},
+    {"float", PlyType::Float32},  {"float32", PlyType::Float32}, {"double", PlyType::Float64},
+    {"float64", PlyType::Float64}};
+
+std::string read_name(TextScanner& scan, const char* what) {
+    if (!scan.has_word()) scan.fail_expecting(what);
+    return std::string(scan.word());
+}
+
+PlyType read_type(TextScanner& scan, const SourceFile& file) {
+    const std::size_t start = scan.offset();
+    const std::string name = read_name(scan, "a type");
+    const auto* const found = std::find_if(std::begin(type_names), std::end(type_names),
+                                           [&](const auto& known) { return name == known.name; });
+    if (found == std::end(type_names)) {
+        file.fail_malformed(start, "unknown property type " + in_quotes(name) +
+                                       "; PLY has char, uchar, short, ushort, int, uint, float and "
+                                       "double: export the mesh with these");
+    }
+    return found->type;
+}
+
+PlyProperty read_property(TextScanner& scan, const SourceFile& file) {
+    const bool is_list = scan.has_word() && scan.take("list");
+    const std::size_t start = scan.offset();
+    std::optional<PlyType> size_type;
+    if (is_list) {
+        size_type = read_type(scan, file);
+        if (*size_type == PlyType::Float32 || *size_type == PlyType::Float64) {
+            file.fail_malformed(start,
+                                "the length of a list must be of an integer type; export the "
+                                "mesh again");
+        }
+    }
+    const PlyType type = read_type(scan, file);
+    return {read_name(scan, "the property's name"), type, size_type};
+}
+
+std::optional<std::endian> read_byte_order(TextScanner& scan, const SourceFile& file) {
+    const std::size_t start = scan.offset();
+    const std::string name = read_name(scan, "the format");
+    if (name == "ascii") return {};
+    if (name == "binary_little_endian") return std::endian::little;
+    if (name == "binary_big_endian") return std::endian::big;
+    file.fail_malformed(start, "unknown PLY format " + in_quotes(name) +
+                                   "; export as ascii, binary_little_endian or binary_big_endian");
+}
+
+// Data begin after the line end of end_header. A binary file's first datum may look like a second
+// half of it: the file's first line tells whether its lines end in two bytes.
+std::size_t end_of_header(const SourceFile& file, std::size_t offset) {
+    const std::string& bytes = file.bytes;
+    if (offset == bytes.size()) return offset;
+    const std::size_t first_end = bytes.find_first_of("\r\n");
+    const bool is_crlf = bytes.compare(first_end, 2, "\r\n") == 0;
+    return offset + (is_crlf && bytes.compare(offset, 2, "\r\n") == 0 ? 2 : 1);
+}
+
+}  // namespace
+
+const PlyProperty* PlyElement::find(std::string_view property) const {
+    const auto found =
+        std::find_if(properties.begin(), properties.end(),
+                     [&](const PlyProperty& known) { return known.name == property; });
+    return found == properties.end() ? nullptr : &*found;
+}
+
+PlyHeader read_ply_header(const SourceFile& file) {
+    TextScanner scan(file, 0, {});
+    PlyHeader header;
+    if (scan.word() != "ply") {
+        file.fail_malformed(0,
+                            "not a PLY file (it does not begin with 'ply'); check its extension");
+    }
+    bool has_format = false;
+    while (true) {
+        scan.skip_line();
+        if (!scan.find_word()) {
+            scan.fail_malformed(
+                "the header has no 'end_header'; the file is truncated: export again");
+        }
+        const std::size_t start = scan.offset();
+        const std::string_view keyword = scan.word();
+        if (keyword == "end_header") break;
+        if (keyword == "comment" || keyword == "obj_info") continue;
+        if (keyword == "format") {
+            header.byte_order = read_byte_order(scan, file);
+            has_format = true;
+        } else if (keyword == "element") {
+            PlyElement element{.name = read_name(scan, "the element's name"), .properties = {}};
+            const std::int64_t count = scan.integer("the number of elements");
+            if (count < 0) file.fail_malformed(start, "a negative count; export the mesh again");
+            element.count = static_cast<std::uint64_t>(count);
+            header.elements.push_back(std::move(element));
+        } else if (keyword == "property" && !header.elements.empty()) {
+            header.elements.back().properties.push_back(read_property(scan, file));
+        } else {
+            file.fail_malformed(start, "unexpected " + in_quotes(keyword) +
+                                           " in the header; export the mesh again");
+        }
+    }
+    if (!has_format) file.fail_malformed(0, "the header has no 'format'; export the mesh again");
+    if (scan.has_word()) scan.fail_malformed("data on the line of 'end_header'; export again");
+    header.size = end_of_header(file, scan.offset());
+    return header;
+}
+
+}  // namespace remesh

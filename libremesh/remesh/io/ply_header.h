@@ -1,0 +1,39 @@
+//! \file
+//! The head of a PLY file: which elements follow, and how they are stored. Private to the reader.
+#pragma once
+
+#include <bit>
+#include <optional>
+#include <vector>
+
+#include "remesh/io/source_file.h"
+
+namespace remesh {
+
+enum class PlyType { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float32, Float64 };
+
+struct PlyProperty {
+    std::string name;
+    PlyType type;
+    std::optional<PlyType> size_type = {};  //!< Of a list: the type of its length, an integer one.
+};
+
+struct PlyElement {
+    std::string name;
+    std::uint64_t count = 0;  //!< As announced; not to be trusted before the bytes are there.
+    std::vector<PlyProperty> properties;
+
+    //! The property of that name, or nullptr.
+    [[nodiscard]] const PlyProperty* find(std::string_view property) const;
+};
+
+struct PlyHeader {
+    std::optional<std::endian> byte_order;  //!< None: ascii.
+    std::vector<PlyElement> elements;       //!< In the order of the data.
+    std::size_t size = 0;                   //!< Bytes up to the first datum.
+};
+
+//! \throw agvd::IoError  by line: no PLY, an unknown type or format, an element without a name, ...
+[[nodiscard]] PlyHeader read_ply_header(const SourceFile& file);
+
+}  // namespace remesh

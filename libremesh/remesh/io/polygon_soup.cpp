@@ -1,0 +1,82 @@
+#include "remesh/io/polygon_soup.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "agvd/core/error.h"
+#include "remesh/io/triangulate.h"
+
+namespace remesh {
+
+using agvd::Index;
+
+namespace {
+constexpr const char* export_again = "; correct it, or export the mesh again";
+}
+
+void PolygonSoup::reserve(std::uint64_t vertices, std::uint64_t polygons) {
+    // No vertex takes less than three bytes, no corner less than one.
+    const std::uint64_t size = file_.bytes.size();
+    positions.reserve(std::min(vertices, size / 3));
+    corners_.reserve(std::min(polygons, size / 3) * 3);
+    polygon_end_.reserve(std::min(polygons, size / 3));
+}
+
+void PolygonSoup::add_corner(std::int64_t vertex, std::size_t offset) {
+    if (vertex < 0 || vertex >= agvd::no_index) {
+        file_.fail_unusable(offset, "face " + std::to_string(num_polygons()) + " has the corner " +
+                                        std::to_string(vertex) + ", which is " +
+                                        (vertex < 0 ? "negative" : "absurdly large") +
+                                        export_again);
+    }
+    const auto index = static_cast<Index>(vertex);
+    if (index > highest_) {
+        highest_ = index;
+        highest_offset_ = offset;
+        highest_polygon_ = num_polygons();
+    }
+    corners_.push_back(index);
+}
+
+MeshFile PolygonSoup::finish() && {
+    if (polygon_end_.empty()) {
+        throw agvd::InvalidInput(
+            file_.path.string() + ": " + std::to_string(positions.size()) +
+            " vertices but no face; a point cloud must be made a surface first");
+    }
+    if (positions.size() >= agvd::no_index || corners_.size() >= agvd::no_index) {
+        throw agvd::InvalidInput(file_.path.string() +
+                                 ": more than 2^32 - 2 vertices or corners; split the mesh");
+    }
+    if (highest_ >= positions.size()) {
+        file_.fail_unusable(highest_offset_,
+                            "face " + std::to_string(highest_polygon_) + " has the corner " +
+                                std::to_string(std::int64_t{highest_} + first_index_) +
+                                ", but the file has " + std::to_string(positions.size()) +
+                                " vertices, numbered from " + std::to_string(first_index_) +
+                                export_again);
+    }
+
+    MeshFile result;
+    result.mesh.positions = std::move(positions);
+    result.mesh.triangles.reserve(polygon_end_.size());
+    result.face_polygon.reserve(polygon_end_.size());
+    std::size_t begin = 0;
+    for (Index p = 0; p < polygon_end_.size(); begin = polygon_end_[p++]) {
+        const auto polygon = std::span(corners_).subspan(begin, polygon_end_[p] - begin);
+        if (polygon.size() < 3) {
+            ++result.dropped_polygons;
+            continue;
+        }
+        if (polygon.size() > 3) ++result.polygons;
+        append_triangles(polygon, result.mesh.positions, result.mesh.triangles);
+        result.face_polygon.resize(result.mesh.triangles.size(), p);
+    }
+    if (result.mesh.triangles.empty()) {
+        throw agvd::InvalidInput(file_.path.string() +
+                                 ": no face has three corners; export surfaces, not lines");
+    }
+    return result;
+}
+
+}  // namespace remesh

@@ -1,0 +1,84 @@
+#include "remesh/io/source_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <system_error>
+
+#include "agvd/core/error.h"
+
+namespace remesh {
+namespace {
+
+[[noreturn]] void fail_to_read(const std::filesystem::path& path, int reason) {
+    throw agvd::IoError(path.string() +
+                        ": cannot be read: " + std::generic_category().message(reason) +
+                        "; check the name and its permissions");
+}
+
+struct Descriptor {
+    int fd;
+    ~Descriptor() {
+        if (fd >= 0) ::close(fd);
+    }
+};
+
+}  // namespace
+
+std::string SourceFile::place(std::size_t offset) const {
+    const std::string_view before = std::string_view(bytes).substr(0, offset);
+    if (is_binary) return path.string() + ": byte " + std::to_string(before.size()) + ": ";
+    std::size_t line = 1;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        const bool is_crlf = before[i] == '\r' && i + 1 < bytes.size() && bytes[i + 1] == '\n';
+        if (before[i] == '\n' || (before[i] == '\r' && !is_crlf)) ++line;
+    }
+    return path.string() + ": line " + std::to_string(line) + ": ";
+}
+
+void SourceFile::fail_malformed(std::size_t offset, const std::string& text) const {
+    throw agvd::IoError(place(offset) + text);
+}
+
+void SourceFile::fail_unusable(std::size_t offset, const std::string& text) const {
+    throw agvd::InvalidInput(place(offset) + text);
+}
+
+SourceFile load_file(const std::filesystem::path& path) {
+    SourceFile file{.path = path, .bytes = {}};
+    const Descriptor in{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+    if (in.fd < 0) fail_to_read(path, errno);
+    struct stat status {};
+    if (::fstat(in.fd, &status) != 0) fail_to_read(path, errno);
+    if (S_ISDIR(status.st_mode)) fail_to_read(path, EISDIR);
+
+    // One byte more than the size, so that the end shows without a second growth; what cannot
+    // tell its size (a pipe) grows as it comes.
+    file.bytes.resize(static_cast<std::size_t>(std::max<off_t>(status.st_size, 1 << 16)) + 1);
+    std::size_t length = 0;
+    while (true) {
+        const ssize_t got = ::read(in.fd, file.bytes.data() + length, file.bytes.size() - length);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) fail_to_read(path, errno);
+        if (got == 0) break;
+        length += static_cast<std::size_t>(got);
+        if (length == file.bytes.size()) file.bytes.resize(2 * length);
+    }
+    file.bytes.resize(length);
+    if (length == 0) {
+        throw agvd::IoError(path.string() + ": the file is empty; write or download it again");
+    }
+    return file;
+}
+
+std::string in_quotes(std::string_view text) {
+    constexpr std::size_t longest = 40;
+    std::string shown = "'";
+    for (const char c : text.substr(0, longest)) shown += c >= ' ' && c <= '~' ? c : '?';
+    return shown + (text.size() > longest ? "...'" : "'");
+}
+
+}  // namespace remesh

@@ -1,0 +1,31 @@
+//! \file
+//! A file's bytes, and errors that name the place in it. Private to the readers.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace remesh {
+
+struct SourceFile {
+    std::filesystem::path path;
+    std::string bytes;
+    bool is_binary = false;  //!< Errors name bytes instead of lines.
+
+    //! "mesh.off: line 12: ", counted here and not while reading, which costs good files nothing.
+    [[nodiscard]] std::string place(std::size_t offset) const;
+    //! Throws agvd::IoError: the bytes are no file of this format.
+    [[noreturn]] void fail_malformed(std::size_t offset, const std::string& text) const;
+    //! Throws agvd::InvalidInput: the format is right, the mesh is not.
+    [[noreturn]] void fail_unusable(std::size_t offset, const std::string& text) const;
+};
+
+//! \throw agvd::IoError  cannot be read, or is empty; names the system's reason.
+[[nodiscard]] SourceFile load_file(const std::filesystem::path& path);
+
+//! The text in quotes, cut to a readable length, with unprintable bytes shown as '?'.
+[[nodiscard]] std::string in_quotes(std::string_view text);
+
+}  // namespace remesh

@@ -1,0 +1,22 @@
+//! \file
+//! Cuts polygons into triangles. Private to the readers.
+#pragma once
+
+#include <span>
+
+#include "agvd/core/types.h"
+
+namespace remesh {
+
+//! Appends the corners.size() - 2 triangles of one polygon, oriented like it.
+//!
+//! A quad is cut along the shorter of the diagonals that lie inside; a larger polygon by clipping
+//! ears (Meisters 1975) in the projection along its normal. A polygon that has no ear left (it
+//! crosses itself, or has no area) is finished as a fan: there is no right answer.
+//!
+//! \param polygon    at least three indices into positions, which may repeat.
+//! Cost: O(k^2) for k corners, typically; O(1) for k <= 4.
+void append_triangles(std::span<const agvd::Index> polygon, std::span<const agvd::Vec3> positions,
+                      std::vector<agvd::Triangle>& triangles);
+
+}  // namespace remesh

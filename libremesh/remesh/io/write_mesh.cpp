@@ -1,0 +1,46 @@
+#include "remesh/io/write_mesh.h"
+
+#include <algorithm>
+
+#include "agvd/core/error.h"
+#include "remesh/io/atomic_file.h"
+#include "remesh/io/formats.h"
+
+namespace remesh {
+namespace {
+
+void check(const std::filesystem::path& path, const MeshFormat& format,
+           const agvd::MeshView& mesh) {
+    const auto fail = [&](const char* kind, std::size_t index, const char* text) {
+        throw agvd::InvalidInput(path.string() + " is not written: " + kind + " " +
+                                 std::to_string(index) + " " + text);
+    };
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        if (!mesh.positions[v].allFinite()) {
+            fail("vertex", v, "has a coordinate that is not finite; repair the mesh");
+        }
+        if ((mesh.positions[v].array().abs() > format.largest).any()) {
+            fail("vertex", v,
+                 "is beyond single precision, all that STL has; write PLY, OBJ or OFF");
+        }
+    }
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        if (std::ranges::max(mesh.triangles[f]) >= mesh.positions.size()) {
+            fail("face", f, "has a corner that is no vertex; repair the mesh");
+        }
+    }
+}
+
+}  // namespace
+
+void write_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh) {
+    const MeshFormat& format = require_format(path);
+    check(path, format, mesh);
+    write_file_atomically(path, format.format(mesh));
+}
+
+bool is_known_mesh_extension(const std::filesystem::path& path) {
+    return find_format(path) != nullptr;
+}
+
+}  // namespace remesh
