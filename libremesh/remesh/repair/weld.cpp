@@ -1,9 +1,8 @@
 // Vertices at one position that should be one: cracks and zero-length edges.
 #include <algorithm>
-#include <bit>
 #include <numeric>
 
-#include "agvd/core/random.h"
+#include "agvd/core/position_hash.h"
 #include "remesh/repair/soup.h"
 
 namespace remesh::detail {
@@ -12,14 +11,6 @@ namespace {
 using agvd::Index;
 using agvd::no_index;
 using agvd::Vec3;
-
-std::uint64_t hash(const Vec3& p) {
-    std::uint64_t bits = 0;
-    for (int k = 0; k < 3; ++k) {
-        bits = agvd::mix_bits(bits ^ std::bit_cast<std::uint64_t>(p[k] + 0.0));  // -0 is 0.
-    }
-    return bits;
-}
 
 // For each vertex that `is_wanted`, the first such vertex at its position.
 std::vector<Index> first_at_position(const std::vector<Vec3>& positions,
@@ -30,7 +21,7 @@ std::vector<Index> first_at_position(const std::vector<Vec3>& positions,
     std::vector<Index> first(positions.size(), no_index);
     for (Index v = 0; v < positions.size(); ++v) {
         if (!is_wanted[v]) continue;
-        std::size_t slot = hash(positions[v]) & (table.size() - 1);
+        std::size_t slot = agvd::PositionHash{}(positions[v]) & (table.size() - 1);
         while (table[slot] != no_index && positions[table[slot]] != positions[v]) {
             slot = (slot + 1) & (table.size() - 1);
         }
