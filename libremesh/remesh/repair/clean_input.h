@@ -2,39 +2,54 @@
 //! Turns any triangle soup into oriented 2-manifold pieces, and tells what it did.
 #pragma once
 
-#include <string>
-
 #include "agvd/mesh/mesh_view.h"
 
 namespace remesh {
 
 //! How many elements each step of the repair touched.
 struct CleanCounts {
-    agvd::Index welded_vertices = 0;        //!< Merged into another vertex at the same position.
-    agvd::Index degenerate_faces = 0;       //!< Dropped: repeated corner, or no area.
-    agvd::Index duplicate_faces = 0;        //!< Dropped: same three corners as an earlier face.
-    agvd::Index flipped_faces = 0;          //!< Turned over for a consistent orientation.
-    agvd::Index split_edges = 0;            //!< Non-manifold edges cut apart.
-    agvd::Index split_vertices = 0;         //!< Non-manifold vertices cut apart.
-    agvd::Index isolated_vertices = 0;      //!< Dropped: in no face.
+    agvd::Index welded_vertices = 0;    //!< Merged into another vertex at the same position.
+    agvd::Index degenerate_faces = 0;   //!< Dropped: repeated corner, or no area.
+    agvd::Index absorbed_faces = 0;     //!< Without area, removed by an edge flip: no hole is left.
+    agvd::Index duplicate_faces = 0;    //!< Dropped: same three corners as an earlier face.
+    agvd::Index flipped_faces = 0;      //!< Turned over for a consistent orientation.
+    agvd::Index split_edges = 0;        //!< Edges of more than two faces, cut apart.
+    agvd::Index split_vertices = 0;     //!< Copies made where faces around a vertex are no fan.
+    agvd::Index isolated_vertices = 0;  //!< Dropped: in no face, or only in dropped ones.
 
     [[nodiscard]] bool operator==(const CleanCounts&) const = default;
 };
 
 struct CleanResult {
-    agvd::TriangleMesh mesh;                //!< Every edge and vertex manifold, oriented.
-    std::vector<agvd::Index> vertex_origin; //!< #V: the input vertex each vertex came from.
-    std::vector<agvd::Index> face_origin;   //!< #F: the input face each face came from.
+    agvd::TriangleMesh mesh;                 //!< What agvd::build_surface accepts.
+    std::vector<agvd::Index> vertex_origin;  //!< #V: the input vertex each vertex came from.
+    //! #F: the input face in which each face lies (it may be part of it, or have its corners in
+    //! another order).
+    std::vector<agvd::Index> face_origin;
     CleanCounts counts;
 };
 
-//! Repairs in this order: exact duplicate positions are welded where that closes cracks (all of
-//! them when the mesh is a soup), degenerate and duplicate faces dropped, faces oriented alike,
-//! non-manifold edges and vertices split, isolated vertices dropped. An input without defects comes
-//! back unchanged, bit for bit and in the same order.
+//! Repairs in this order, without moving anything:
+//! 1. Boundary edges between the same two positions are welded: cracks and soups close, while parts
+//!    that touch at a point, and closed parts that touch anywhere, stay apart. Zero-length edges
+//!    collapse.
+//! 2. Faces with a repeated corner and duplicate faces (the first stays) are dropped.
+//! 3. Faces that hang together through edges of two faces are oriented alike. What was consistent
+//! is
+//!    not turned; else the side of a clear majority (3/4) wins, then for closed pieces the outside,
+//!    for open ones the larger part.
+//! 4. At an edge of more than two faces those pairs stay together that make the flattest sheet (a
+//!    convex one among equals); the others are cut off.
+//! 5. A face without area in double (its corners on one line) is absorbed: its longest edge is
+//!    flipped, so that the neighbour is split at the third corner. Where no neighbour can take it,
+//!    it is dropped.
+//! 6. Vertices whose faces are more than one fan are copied for each fan; isolated ones dropped.
 //!
-//! \throw agvd::InvalidInput  an index is out of range, a coordinate is not finite (both name the
-//!        element), no face is left, or a component is not orientable.
+//! An input without these defects comes back unchanged, bit for bit and in the same order. Kept
+//! vertices and faces keep their order; copies of vertices come last.
+//!
+//! \throw agvd::InvalidInput  an index is out of range, a coordinate is not finite, an area
+//!        overflows, a piece is not orientable (each names the element), or no face is left.
 //! Cost: O(n log n).
 [[nodiscard]] CleanResult clean_input(const agvd::MeshView& mesh);
 

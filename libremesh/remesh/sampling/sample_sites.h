@@ -21,18 +21,28 @@ struct SamplingOptions {
     agvd::Progress progress = {};
 };
 
-//! Exactly num_samples points in face interiors, no two at one position. Every connected component
-//! first gets what its topology needs (minimum_samples), the rest goes by area.
+//! Exactly num_samples points strictly inside faces, no two at one position, component by component
+//! (by lowest face). Every connected component first gets what its topology needs
+//! (minimum_samples), the rest goes by area. Blue noise is taken from five times as many
+//! area-uniform points by weighted sample elimination ([yuksel2015]); points on opposite walls of a
+//! thin part do not repel each other.
 //!
-//! \throw agvd::InvalidOption    num_samples < 1.
-//! \throw agvd::ConstraintUnmet  num_samples is below the sum of minimum_samples over the components;
-//!        the text gives that sum.
-//! Cost: O(N log N).
+//! \throw agvd::InvalidOption    num_samples < 1 or > 8e8, or num_threads < 0.
+//! \throw agvd::InvalidInput     the surface has no face.
+//! \throw agvd::ConstraintUnmet  num_samples is below the sum of minimum_samples over the
+//! components
+//!        (the text gives that sum), or a component is too small, compared with its coordinates, to
+//!        hold its share of different points.
+//! \throw agvd::Cancelled        the progress callback returned false.
+//! Cost: O(#F + N log N).
 [[nodiscard]] std::vector<agvd::SurfacePoint> sample_sites(const agvd::Surface& surface,
                                                            const SamplingOptions& options = {});
 
-//! Fewest vertices that any simplicial surface of this genus and number of boundary loops has
-//! (Heawood's bound; [jungerman1980]): 4 for the sphere, 7 for the torus, 3 for the disc.
+//! No simplicial surface of this genus and number of boundary loops has fewer vertices: 4 for the
+//! sphere, 7 for the torus, 3 for the disc, 6 for the open tube. Reached by every closed surface
+//! ([jungerman1980]); a bound by counting edges for those with boundary.
+//!
+//! \param genus, boundary_loops  >= 0, of one connected component.
 [[nodiscard]] agvd::Index minimum_samples(int genus, int boundary_loops);
 
 }  // namespace remesh

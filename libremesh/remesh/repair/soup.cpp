@@ -1,0 +1,60 @@
+#include "remesh/repair/soup.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace remesh::detail {
+
+using agvd::Index;
+using agvd::no_index;
+
+std::vector<EdgeUse> sort_edge_uses(std::vector<EdgeUse> uses, Index num_vertices) {
+    std::vector<Index> end(num_vertices + 1, 0);
+    for (const EdgeUse& use : uses) ++end[use.low + 1];
+    for (Index v = 0; v < num_vertices; ++v) end[v + 1] += end[v];
+    std::vector<EdgeUse> sorted(uses.size());
+    for (const EdgeUse& use : uses) sorted[end[use.low]++] = use;
+    Index begin = 0;
+    for (Index v = 0; v < num_vertices; begin = end[v++]) {  // end[v] has moved to v's last + 1.
+        std::sort(sorted.begin() + begin, sorted.begin() + end[v],
+                  [](const EdgeUse& a, const EdgeUse& b) {
+                      return std::tie(a.high, a.half_edge) < std::tie(b.high, b.half_edge);
+                  });
+    }
+    return sorted;
+}
+
+std::vector<EdgeUse> edge_uses(const Soup& soup) {
+    std::vector<EdgeUse> uses(soup.num_half_edges());
+    for (Index h = 0; h < uses.size(); ++h) {
+        const auto [low, high] = std::minmax({soup.tail(h), soup.head(h)});
+        uses[h] = {low, high, h};
+    }
+    return sort_edge_uses(std::move(uses), static_cast<Index>(soup.positions.size()));
+}
+
+void erase_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<Index>& twin) {
+    std::vector<Index> new_face(soup.triangles.size(), no_index);
+    Index count = 0;
+    for (Index f = 0; f < new_face.size(); ++f) {
+        if (is_dead[f]) continue;
+        new_face[f] = count;
+        soup.triangles[count] = soup.triangles[f];
+        soup.face_origin[count] = soup.face_origin[f];
+        ++count;
+    }
+    soup.triangles.resize(count);
+    soup.face_origin.resize(count);
+    if (twin.empty()) return;
+    for (Index f = 0; f < new_face.size(); ++f) {
+        if (new_face[f] == no_index) continue;
+        for (Index k = 0; k < 3; ++k) {
+            const Index across = twin[3 * f + k];
+            const bool is_open = across == no_index || new_face[across / 3] == no_index;
+            twin[3 * new_face[f] + k] = is_open ? no_index : 3 * new_face[across / 3] + across % 3;
+        }
+    }
+    twin.resize(3 * std::size_t{count});
+}
+
+}  // namespace remesh::detail

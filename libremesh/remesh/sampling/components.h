@@ -1,0 +1,23 @@
+//! \file
+//! The connected components of a surface, with what sampling needs to know of each.
+#pragma once
+
+#include "agvd/mesh/surface.h"
+
+namespace remesh::detail {
+
+struct Component {
+    std::vector<agvd::Index> faces;  //!< Ascending.
+    std::vector<double> area_up_to;  //!< Per face of `faces`: total area up to and with it.
+    int euler = 0;                   //!< V - E + F.
+    int boundary_loops = 0;
+
+    [[nodiscard]] double area() const { return area_up_to.back(); }
+    [[nodiscard]] int genus() const { return (2 - euler - boundary_loops) / 2; }
+};
+
+//! By lowest face. Linear time, as connectivity is given (analyze_topology sorts it out of
+//! indices).
+[[nodiscard]] std::vector<Component> find_components(const agvd::Surface& surface);
+
+}  // namespace remesh::detail

@@ -1,0 +1,220 @@
+// [yuksel2015] Sample elimination for generating Poisson disk sample sets: its r_max, r_min, alpha,
+// beta and gamma have their names here.
+#include "remesh/sampling/eliminate.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "agvd/core/parallel.h"
+
+namespace remesh::detail {
+namespace {
+
+using agvd::Index;
+using agvd::Vec3;
+
+// Faces whose normals are further apart than 120 degrees do not crowd each other: the walls of a
+// thin plate stay independent, while points on both sides of a right-angled edge still keep apart.
+constexpr double least_normal_cosine = -0.5;
+
+// alpha = 8, beta = 0.65, gamma = 1.5.
+struct Weight {
+    double reach;  // 2 r_max: the spacing of `keep` points packed as densely as can be.
+    double floor;  // 2 r_min: closer than this is not worse; keeps dense clumps from dominating.
+
+    Weight(double area, double keep, double total)
+        : reach(2 * std::sqrt(area / (2 * std::numbers::sqrt3 * keep))),
+          floor(reach * (1 - std::pow(keep / total, 1.5)) * 0.65) {}
+
+    [[nodiscard]] double operator()(double distance) const {
+        const double x = 1 - std::min(1.0, std::max(distance, floor) / reach);
+        const double x2 = x * x, x4 = x2 * x2;
+        return x4 * x4;
+    }
+};
+
+// The points in the order of a uniform grid's cells, so that neighbours are near in memory too.
+struct Grid {
+    std::vector<Index> order;            // Sorted place -> point.
+    std::vector<std::uint64_t> cell;     // Per place, ascending; x runs fastest.
+    std::vector<Vec3> position, normal;  // Per place.
+};
+
+constexpr int bits_per_axis = 21;
+constexpr std::uint64_t row = std::uint64_t{1} << bits_per_axis;
+
+Grid build_grid(const agvd::Surface& surface, std::span<const ScatteredPoint> points,
+                double cell_size) {
+    Vec3 low = points[0].position, high = low;
+    for (const ScatteredPoint& p : points) {
+        low = low.cwiseMin(p.position);
+        high = high.cwiseMax(p.position);
+    }
+    // Cells are at least the reach wide; wider where the axes would run out of bits.
+    cell_size = std::max(cell_size, (high - low).maxCoeff() / static_cast<double>(row / 2));
+    std::vector<std::pair<std::uint64_t, Index>> keys(points.size());
+    for (Index i = 0; i < keys.size(); ++i) {
+        const Vec3 at = (points[i].position - low) / cell_size;
+        const auto along = [&](int axis) { return static_cast<std::uint64_t>(at[axis]) + 1; };
+        keys[i] = {(along(2) * row + along(1)) * row + along(0), i};
+    }
+    std::sort(keys.begin(), keys.end());
+
+    Grid grid;
+    for (const auto& [cell, i] : keys) {
+        const agvd::Triangle& t = surface.mesh.triangles[points[i].point.face.value()];
+        const auto& p = surface.mesh.positions;
+        grid.order.push_back(i);
+        grid.cell.push_back(cell);
+        grid.position.push_back(points[i].position);
+        grid.normal.push_back((p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).normalized());
+    }
+    return grid;
+}
+
+// Offsets and data: place i crowds, and is crowded by, data[begin[i]] ... data[begin[i + 1] - 1].
+struct Neighbours {
+    std::vector<std::size_t> begin;
+    std::vector<Index> data;
+};
+
+// The places in the 3 x 3 x 3 cells around a cell: nine runs, as x runs fastest.
+std::array<std::pair<Index, Index>, 9> runs_around(const Grid& grid, std::uint64_t cell) {
+    std::array<std::pair<Index, Index>, 9> runs;
+    auto run = runs.begin();
+    for (const std::uint64_t z : {std::uint64_t{0}, row * row, 2 * row * row}) {
+        for (const std::uint64_t y : {std::uint64_t{0}, row, 2 * row}) {
+            const std::uint64_t first = cell - row * row - row - 1 + y + z;
+            const auto begin = std::lower_bound(grid.cell.begin(), grid.cell.end(), first);
+            auto end = begin;
+            while (end != grid.cell.end() && *end <= first + 2) ++end;
+            *run++ = {static_cast<Index>(begin - grid.cell.begin()),
+                      static_cast<Index>(end - grid.cell.begin())};
+        }
+    }
+    return runs;
+}
+
+Neighbours find_neighbours(const Grid& grid, double reach, int num_threads) {
+    constexpr Index grain = 4096;
+    const auto count = static_cast<Index>(grid.order.size());
+    Neighbours result{std::vector<std::size_t>(count + 1, 0), {}};
+    std::vector<std::vector<Index>> found(agvd::num_chunks(count, grain));
+    agvd::parallel_chunks(count, grain, num_threads, [&](Index chunk, Index begin, Index end) {
+        std::array<std::pair<Index, Index>, 9> runs;
+        for (Index place = begin; place < end; ++place) {
+            if (place == begin || grid.cell[place] != grid.cell[place - 1]) {
+                runs = runs_around(grid, grid.cell[place]);
+            }
+            const std::size_t before = found[chunk].size();
+            for (const auto& [first, last] : runs) {
+                for (Index other = first; other < last; ++other) {
+                    const Vec3 apart = grid.position[place] - grid.position[other];
+                    if (other != place && apart.squaredNorm() < reach * reach &&
+                        grid.normal[place].dot(grid.normal[other]) > least_normal_cosine) {
+                        found[chunk].push_back(other);
+                    }
+                }
+            }
+            result.begin[place + 1] = found[chunk].size() - before;
+        }
+    });
+    std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
+    result.data.reserve(result.begin.back());
+    for (const std::vector<Index>& part : found) {
+        result.data.insert(result.data.end(), part.begin(), part.end());
+    }
+    return result;
+}
+
+// Binary heap of places, the most crowded on top, in which any place can sink.
+class CrowdedFirst {
+public:
+    CrowdedFirst(std::vector<double> crowding, const std::vector<Index>& order)
+        : crowding_(std::move(crowding)), order_(order), heap_(order.size()), slot_(order.size()) {
+        std::iota(heap_.begin(), heap_.end(), Index{0});
+        std::iota(slot_.begin(), slot_.end(), Index{0});
+        for (auto i = static_cast<Index>(heap_.size() / 2); i-- > 0;) sink(i);
+    }
+    [[nodiscard]] bool contains(Index place) const { return slot_[place] != agvd::no_index; }
+    [[nodiscard]] std::size_t size() const { return heap_.size(); }
+
+    Index pop() {
+        const Index top = heap_.front();
+        slot_[top] = agvd::no_index;
+        const Index last = heap_.back();
+        heap_.pop_back();
+        if (!heap_.empty()) {
+            heap_[0] = last;
+            slot_[last] = 0;
+            sink(0);
+        }
+        return top;
+    }
+    void relieve(Index place, double weight) {
+        crowding_[place] -= weight;
+        sink(slot_[place]);
+    }
+
+private:
+    [[nodiscard]] bool goes_before(Index a, Index b) const {
+        return crowding_[a] != crowding_[b] ? crowding_[a] > crowding_[b] : order_[a] > order_[b];
+    }
+    void sink(Index i) {
+        const Index place = heap_[i];
+        for (Index child = 2 * i + 1; child < heap_.size(); child = 2 * i + 1) {
+            if (child + 1 < heap_.size() && goes_before(heap_[child + 1], heap_[child])) ++child;
+            if (!goes_before(heap_[child], place)) break;
+            heap_[i] = heap_[child];
+            slot_[heap_[i]] = i;
+            i = child;
+        }
+        heap_[i] = place;
+        slot_[place] = i;
+    }
+
+    std::vector<double> crowding_;  // Per place: sum of the weights of its neighbours.
+    const std::vector<Index>& order_;
+    std::vector<Index> heap_, slot_;  // Places by rank; rank of each place, no_index if gone.
+};
+
+}  // namespace
+
+std::vector<agvd::SurfacePoint> eliminate(const agvd::Surface& surface,
+                                          std::span<const ScatteredPoint> points, Index keep,
+                                          double area, int num_threads) {
+    const Weight weight(area, keep, static_cast<double>(points.size()));
+    const Grid grid = build_grid(surface, points, weight.reach);
+    const Neighbours neighbours = find_neighbours(grid, weight.reach, num_threads);
+    const auto for_each_neighbour = [&](Index place, const auto& body) {
+        for (std::size_t i = neighbours.begin[place]; i < neighbours.begin[place + 1]; ++i) {
+            const Index other = neighbours.data[i];
+            body(other, weight((grid.position[place] - grid.position[other]).norm()));
+        }
+    };
+
+    std::vector<double> crowding(points.size(), 0);
+    for (Index place = 0; place < crowding.size(); ++place) {
+        for_each_neighbour(place, [&](Index, double w) { crowding[place] += w; });
+    }
+    CrowdedFirst queue(std::move(crowding), grid.order);
+    while (queue.size() > keep) {
+        for_each_neighbour(queue.pop(), [&](Index other, double w) {
+            if (queue.contains(other)) queue.relieve(other, w);
+        });
+    }
+
+    std::vector<Index> kept;
+    for (Index place = 0; place < points.size(); ++place) {
+        if (queue.contains(place)) kept.push_back(grid.order[place]);
+    }
+    std::sort(kept.begin(), kept.end());
+    std::vector<agvd::SurfacePoint> result;
+    for (const Index i : kept) result.push_back(points[i].point);
+    return result;
+}
+
+}  // namespace remesh::detail

@@ -1,0 +1,49 @@
+#include "remesh/sampling/scatter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_set>
+
+#include "agvd/core/position_hash.h"
+
+namespace remesh::detail {
+namespace {
+
+using agvd::Index;
+
+// Least barycentric coordinate: keeps points off edges by more than rounding of any position, and
+// biases the density by no more than it.
+constexpr double interior_margin = 1e-6;
+
+agvd::SurfacePoint draw(const Component& component, double pick, double u, double v) {
+    const auto& sums = component.area_up_to;
+    const auto found = std::upper_bound(sums.begin(), sums.end(), pick * component.area());
+    const auto slot = std::min<std::ptrdiff_t>(found - sums.begin(),
+                                               static_cast<std::ptrdiff_t>(sums.size()) - 1);
+    const double root = std::sqrt(u);  // Uniform in the triangle: u is the share of area cut off.
+    const auto inner = [](double b) { return interior_margin + (1 - 3 * interior_margin) * b; };
+    const double b1 = inner(root * (1 - v)), b2 = inner(root * v);
+    return {agvd::FaceId(component.faces[static_cast<std::size_t>(slot)]), {1 - b1 - b2, b1, b2}};
+}
+
+}  // namespace
+
+std::vector<ScatteredPoint> scatter(const agvd::Surface& surface, const Component& component,
+                                    Index count, std::uint64_t seed, std::uint64_t stream) {
+    std::vector<ScatteredPoint> points;
+    points.reserve(count);
+    std::unordered_set<agvd::Vec3, agvd::PositionHash> taken;
+    taken.reserve(count);
+    const std::uint64_t most_draws = 4 * std::uint64_t{count} + 64;  // One each is the rule.
+    for (std::uint64_t i = 0; points.size() < count && i < most_draws; ++i) {
+        const auto unit = [&](std::uint64_t k) {
+            return agvd::random_unit(seed, stream, 3 * i + k);
+        };
+        const agvd::SurfacePoint point = draw(component, unit(0), unit(1), unit(2));
+        const agvd::Vec3 where = agvd::position(surface.mesh.view(), point);
+        if (taken.insert(where).second) points.push_back({point, where});
+    }
+    return points;
+}
+
+}  // namespace remesh::detail

@@ -1,0 +1,148 @@
+#include "support/dirty_shapes.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "agvd/core/random.h"
+#include "support/shapes.h"
+
+namespace shapes {
+
+using agvd::Index;
+using agvd::TriangleMesh;
+using agvd::Vec3;
+
+TriangleMesh unweld(const TriangleMesh& mesh) {
+    TriangleMesh soup;
+    for (const agvd::Triangle& t : mesh.triangles) {
+        const auto first = static_cast<Index>(soup.positions.size());
+        for (const Index v : t) soup.positions.push_back(mesh.positions[v]);
+        soup.triangles.push_back({first, first + 1, first + 2});
+    }
+    return soup;
+}
+
+TriangleMesh moebius(Index n) {
+    TriangleMesh mesh;
+    for (Index i = 0; i < n; ++i) {
+        const double u = 2 * std::numbers::pi * i / n;
+        for (const double s : {-0.3, 0.3}) {
+            const double r = 1 + s * std::cos(u / 2);
+            mesh.positions.emplace_back(r * std::cos(u), r * std::sin(u), s * std::sin(u / 2));
+        }
+    }
+    for (Index i = 0; i < n; ++i) {
+        const bool is_last = i + 1 == n;  // Where the strip meets its own start upside down.
+        const Index a = 2 * i, b = a + 1, c = is_last ? 1 : a + 2, d = is_last ? 0 : a + 3;
+        mesh.triangles.push_back({a, c, b});
+        mesh.triangles.push_back({b, c, d});
+    }
+    return mesh;
+}
+
+TriangleMesh book(Index pages) {
+    TriangleMesh mesh{{{0, 0, 0}, {0, 0, 1}}, {}};
+    for (Index i = 0; i < pages; ++i) {
+        const double u = 2 * std::numbers::pi * i / pages;
+        const Index c = 2 + 2 * i, d = c + 1;
+        mesh.positions.emplace_back(std::cos(u), std::sin(u), 0);
+        mesh.positions.emplace_back(std::cos(u), std::sin(u), 1);
+        mesh.triangles.push_back({0, c, d});
+        mesh.triangles.push_back({0, d, 1});
+    }
+    return mesh;
+}
+
+TriangleMesh hourglass() {
+    TriangleMesh mesh = join(tetrahedron(), tetrahedron());
+    for (Index v = 4; v < 8; ++v) mesh.positions[v] = 2 * mesh.positions[0] - mesh.positions[v];
+    for (Index f = 4; f < 8; ++f) {
+        agvd::Triangle& t = mesh.triangles[f];
+        std::swap(t[1], t[2]);  // Mirrored positions: turn the faces outward again.
+        for (Index& v : t) v = v == 4 ? 0 : v;
+    }
+    mesh.positions.erase(mesh.positions.begin() + 4);
+    for (Index f = 4; f < 8; ++f) {
+        for (Index& v : mesh.triangles[f]) v = v > 4 ? v - 1 : v;
+    }
+    return mesh;
+}
+
+TriangleMesh cubes_on_an_edge() {
+    TriangleMesh mesh = join(cube(), cube());
+    for (Index v = 8; v < 16; ++v) mesh.positions[v] += Vec3(1, 1, 0);
+    for (agvd::Triangle& t : mesh.triangles) {
+        for (Index& v : t) v = v == 8 ? 3 : v == 12 ? 7 : v;
+    }
+    return mesh;
+}
+
+TriangleMesh filled_slit(Index n) {
+    TriangleMesh mesh{{{0, -1, 0}, {static_cast<double>(n), -1, 0}, {0, 1, 0}}, {}};
+    const auto on_line = [](Index i) { return 3 + i; };
+    for (Index i = 0; i <= n; ++i) mesh.positions.emplace_back(i, 0, 0);
+    mesh.triangles = {{0, 1, on_line(n)}, {0, on_line(n), on_line(0)}};
+    for (Index i = 0; i < n; ++i) mesh.triangles.push_back({on_line(i), on_line(i + 1), 2});
+    for (Index i = 0; i + 1 < n; ++i) {
+        mesh.triangles.push_back({on_line(i), on_line(n), on_line(i + 1)});
+    }
+    return mesh;
+}
+
+TriangleMesh damage(TriangleMesh mesh, Index times, std::uint64_t seed) {
+    for (Index i = 0; i < times && !mesh.triangles.empty(); ++i) {
+        const auto pick = [&](std::uint64_t stream, std::size_t count) {
+            return static_cast<Index>(agvd::random_bits(seed, stream, i) % count);
+        };
+        const Index face = pick(1, mesh.triangles.size());
+        const Index vertex = pick(2, mesh.positions.size());
+        agvd::Triangle& t = mesh.triangles[face];
+        switch (pick(0, 8)) {
+            case 0:
+                std::swap(t[0], t[1]);
+                break;
+            case 1:
+                mesh.triangles.push_back(agvd::Triangle(t));
+                break;
+            case 2:
+                mesh.triangles.push_back({t[1], t[0], t[2]});
+                break;
+            case 3:
+                mesh.triangles.erase(mesh.triangles.begin() + face);
+                break;
+            case 4:
+                t[pick(3, 3)] = vertex;
+                break;
+            case 5:
+                mesh.positions.push_back(Vec3(mesh.positions[t[0]]));
+                t[0] = static_cast<Index>(mesh.positions.size() - 1);
+                break;
+            case 6:
+                mesh.positions.push_back(Vec3(mesh.positions[vertex]));
+                break;
+            default:
+                mesh.positions[vertex] = Vec3(mesh.positions[t[0]]);
+                break;
+        }
+    }
+    return mesh;
+}
+
+TriangleMesh random_soup(Index vertices, Index faces, std::uint64_t seed) {
+    TriangleMesh mesh;
+    for (Index v = 0; v < vertices; ++v) {
+        const auto on_lattice = [&](std::uint64_t axis) {
+            return static_cast<double>(agvd::random_bits(seed, axis, v) % 4);
+        };
+        mesh.positions.emplace_back(on_lattice(0), on_lattice(1), on_lattice(2));
+    }
+    for (Index f = 0; f < faces; ++f) {
+        const auto corner = [&](std::uint64_t stream) {
+            return static_cast<Index>(agvd::random_bits(seed, stream, f) % vertices);
+        };
+        mesh.triangles.push_back({corner(3), corner(4), corner(5)});
+    }
+    return mesh;
+}
+
+}  // namespace shapes

@@ -1,0 +1,30 @@
+//! \file
+//! Meshes with defects, by formula.
+#pragma once
+
+#include "agvd/mesh/mesh_view.h"
+
+namespace shapes {
+
+//! Every face with three vertices of its own, as in an STL file.
+[[nodiscard]] agvd::TriangleMesh unweld(const agvd::TriangleMesh& mesh);
+//! One-sided strip of 2 n faces, n >= 3.
+[[nodiscard]] agvd::TriangleMesh moebius(agvd::Index n);
+//! `pages` rectangles of two faces that share the edge 0-1 on the z axis, evenly around it.
+[[nodiscard]] agvd::TriangleMesh book(agvd::Index pages);
+//! Two tetrahedra with one vertex in common.
+[[nodiscard]] agvd::TriangleMesh hourglass();
+//! Two unit cubes that share one edge (both its vertices, four faces).
+[[nodiscard]] agvd::TriangleMesh cubes_on_an_edge();
+//! Unit square whose lower half has the middle edge whole, its upper half in `n` pieces; n - 1
+//! faces without area fill the slit.
+[[nodiscard]] agvd::TriangleMesh filled_slit(agvd::Index n);
+//! Reproducible damage to any mesh: faces turned, repeated and deleted, corners exchanged, vertices
+//! doubled, isolated and moved onto others.
+[[nodiscard]] agvd::TriangleMesh damage(agvd::TriangleMesh mesh, agvd::Index times,
+                                        std::uint64_t seed);
+//! Random triangles (repeated corners too) on few vertices of a small lattice.
+[[nodiscard]] agvd::TriangleMesh random_soup(agvd::Index vertices, agvd::Index faces,
+                                             std::uint64_t seed);
+
+}  // namespace shapes

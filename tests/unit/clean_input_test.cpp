@@ -1,0 +1,251 @@
+#include "remesh/repair/clean_input.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <numeric>
+
+#include "agvd/core/error.h"
+#include "agvd/mesh/surface.h"
+#include "remesh/quality/topology.h"
+#include "support/dirty_shapes.h"
+#include "support/shapes.h"
+
+using agvd::Index;
+using agvd::TriangleMesh;
+using agvd::Vec3;
+using remesh::analyze_topology;
+using remesh::clean_input;
+using remesh::CleanCounts;
+using remesh::CleanResult;
+
+namespace {
+
+void expect_unchanged(const TriangleMesh& mesh) {
+    const CleanResult clean = clean_input(mesh.view());
+    EXPECT_EQ(clean.mesh.positions, mesh.positions);
+    EXPECT_EQ(clean.mesh.triangles, mesh.triangles);
+    std::vector<Index> same(mesh.positions.size());
+    std::iota(same.begin(), same.end(), Index{0});
+    EXPECT_EQ(clean.vertex_origin, same);
+    same.resize(mesh.triangles.size());
+    std::iota(same.begin(), same.end(), Index{0});
+    EXPECT_EQ(clean.face_origin, same);
+    EXPECT_EQ(clean.counts, CleanCounts{});
+}
+
+// What build_surface accepts, with the topology of `model`.
+CleanResult clean_to(const TriangleMesh& mesh, const TriangleMesh& model) {
+    CleanResult clean = clean_input(mesh.view());
+    EXPECT_NO_THROW((void)agvd::build_surface(clean.mesh.view()));
+    EXPECT_TRUE(same_topology(analyze_topology(clean.mesh.view()), analyze_topology(model.view())));
+    return clean;
+}
+
+std::string error_of(const TriangleMesh& mesh) {
+    try {
+        (void)clean_input(mesh.view());
+    } catch (const agvd::InvalidInput& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+double signed_volume(const TriangleMesh& mesh) {
+    double volume = 0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        volume += mesh.positions[a].dot(mesh.positions[b].cross(mesh.positions[c])) / 6;
+    }
+    return volume;
+}
+
+TriangleMesh turned(TriangleMesh mesh) {
+    for (agvd::Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
+    return mesh;
+}
+
+}  // namespace
+
+TEST(CleanInput, LeavesCleanMeshesAsTheyAre) {
+    expect_unchanged(shapes::sphere(2));
+    expect_unchanged(shapes::grid(5));
+    expect_unchanged(shapes::torus(8, 6));
+    expect_unchanged(shapes::join(shapes::tube(7, 3), shapes::cube()));
+    expect_unchanged(turned(shapes::cube()));
+}
+
+TEST(CleanInput, LeavesClosedPartsThatTouchAsTheyAre) {
+    TriangleMesh shifted = shapes::cube();
+    for (Vec3& p : shifted.positions) p += Vec3(1, 1, 0);
+    expect_unchanged(shapes::join(shapes::cube(), shifted));         // Along an edge.
+    expect_unchanged(shapes::join(shapes::cube(), shapes::cube()));  // Everywhere.
+    TriangleMesh grid = shapes::grid(2);
+    for (Vec3& p : grid.positions) p += Vec3(1, 1, 0);
+    expect_unchanged(shapes::join(shapes::grid(2), grid));  // Open ones, at a point.
+}
+
+TEST(CleanInput, WeldsASoupIntoTheSurface) {
+    const TriangleMesh model = shapes::torus(9, 7);
+    const CleanResult clean = clean_to(shapes::unweld(model), model);
+    EXPECT_EQ(clean.mesh.positions.size(), model.positions.size());
+    EXPECT_EQ(clean.counts.welded_vertices, 3 * model.triangles.size() - model.positions.size());
+    EXPECT_EQ(clean.counts.isolated_vertices, 0u);
+    clean_to(shapes::unweld(shapes::grid(4)), shapes::grid(4));
+}
+
+TEST(CleanInput, WeldsNegativeZeroToZero) {
+    TriangleMesh soup = shapes::unweld(shapes::grid(2));
+    for (Index v = 0; v < soup.positions.size(); v += 2) soup.positions[v].z() = -0.0;
+    clean_to(soup, shapes::grid(2));
+}
+
+TEST(CleanInput, ClosesATextureSeam) {
+    // A tube cut along one line, as a texture unwrapping stores it.
+    TriangleMesh cut = shapes::tube(8, 3);
+    const auto first = static_cast<Index>(cut.positions.size());
+    for (Index j = 0; j <= 3; ++j) cut.positions.push_back(Vec3(cut.positions[j]));
+    for (std::size_t f = cut.triangles.size() - 6; f < cut.triangles.size(); ++f) {
+        for (Index& v : cut.triangles[f]) v = v < 4 ? first + v : v;
+    }
+    ASSERT_EQ(analyze_topology(cut.view()).boundary_loops(), 1);
+    const CleanResult clean = clean_to(cut, shapes::tube(8, 3));
+    EXPECT_EQ(clean.counts.welded_vertices, 4u);
+}
+
+TEST(CleanInput, DropsDuplicateAndRepeatedCornerFaces) {
+    TriangleMesh mesh = shapes::sphere(1);
+    const agvd::Triangle first = mesh.triangles[3];
+    mesh.triangles.push_back(first);
+    mesh.triangles.push_back({first[1], first[0], first[2]});
+    mesh.triangles.push_back({first[1], first[0], first[0]});
+    const CleanResult clean = clean_input(mesh.view());
+    EXPECT_EQ(clean.mesh.triangles, shapes::sphere(1).triangles);
+    EXPECT_EQ(clean.counts, (CleanCounts{.degenerate_faces = 1, .duplicate_faces = 2}));
+}
+
+TEST(CleanInput, CollapsesZeroLengthEdges) {
+    TriangleMesh mesh = shapes::sphere(1);
+    mesh.positions[mesh.triangles[0][1]] = Vec3(mesh.positions[mesh.triangles[0][0]]);
+    const CleanResult clean = clean_to(mesh, shapes::sphere(1));
+    EXPECT_EQ(clean.counts, (CleanCounts{.welded_vertices = 1, .degenerate_faces = 2}));
+}
+
+TEST(CleanInput, AbsorbsFacesWithoutAreaAndLeavesNoSlit) {
+    for (const Index n : {2u, 3u, 40u}) {
+        const CleanResult clean = clean_to(shapes::filled_slit(n), shapes::grid(1));
+        EXPECT_EQ(clean.counts, (CleanCounts{.absorbed_faces = n - 1})) << n;
+        EXPECT_EQ(clean.mesh.triangles.size(), 2 * n + 1) << n;
+        for (std::size_t f = 0; f < clean.face_origin.size(); ++f) {
+            EXPECT_LT(clean.face_origin[f], n + 2) << "lies in a face that has an area";
+        }
+    }
+}
+
+TEST(CleanInput, DropsFlatFacesOnTheBoundary) {
+    TriangleMesh mesh = shapes::grid(2);
+    mesh.triangles.push_back({0, 6, 3});  // 0, 3 and 6 lie on the side y = 0.
+    const CleanResult clean = clean_input(mesh.view());
+    EXPECT_EQ(clean.mesh.triangles, shapes::grid(2).triangles);
+    EXPECT_EQ(clean.counts, CleanCounts{.degenerate_faces = 1});
+}
+
+TEST(CleanInput, TurnsTheMinority) {
+    for (const TriangleMesh& model : {shapes::grid(4), shapes::sphere(1), turned(shapes::cube())}) {
+        TriangleMesh mesh = model;
+        std::swap(mesh.triangles[0][1], mesh.triangles[0][2]);
+        std::swap(mesh.triangles[5][1], mesh.triangles[5][2]);
+        const CleanResult clean = clean_input(mesh.view());
+        EXPECT_EQ(clean.mesh.triangles, model.triangles);
+        EXPECT_EQ(clean.counts, CleanCounts{.flipped_faces = 2});
+    }
+}
+
+TEST(CleanInput, TurnsClosedPiecesOutwardWhereThereIsNoMajority) {
+    for (const Index first : {0u, 1u}) {
+        TriangleMesh mesh = shapes::sphere(2);
+        for (Index f = first; f < mesh.triangles.size(); f += 2) {
+            std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
+        }
+        EXPECT_GT(signed_volume(clean_input(mesh.view()).mesh), 4);
+    }
+}
+
+TEST(CleanInput, RefusesAOneSidedSurfaceAndNamesAFace) {
+    const std::string text = error_of(shapes::moebius(9));
+    EXPECT_NE(text.find("not orientable"), std::string::npos) << text;
+    EXPECT_NE(text.find("face "), std::string::npos) << text;
+    EXPECT_NE(error_of(shapes::unweld(shapes::moebius(9))).find("not orientable"),
+              std::string::npos);
+}
+
+TEST(CleanInput, CutsAnHourglassAtItsWaist) {
+    const CleanResult clean =
+        clean_to(shapes::hourglass(), shapes::join(shapes::tetrahedron(), shapes::tetrahedron()));
+    EXPECT_EQ(clean.counts, CleanCounts{.split_vertices = 1});
+    ASSERT_EQ(clean.mesh.positions.size(), 8u);
+    EXPECT_EQ(clean.vertex_origin.back(), 0u);
+    EXPECT_EQ(clean.mesh.positions.back(), clean.mesh.positions.front());
+}
+
+TEST(CleanInput, CutsThreePagesOnAnEdge) {
+    const CleanResult clean = clean_input(shapes::book(3).view());
+    EXPECT_NO_THROW((void)agvd::build_surface(clean.mesh.view()));
+    EXPECT_EQ(clean.counts.split_edges, 1u);
+    EXPECT_EQ(clean.mesh.triangles.size(), 6u);
+}
+
+TEST(CleanInput, KeepsTheFlatSheetWholeWhereAWallStandsOnIt) {
+    TriangleMesh mesh = shapes::grid(2);  // A wall over the middle line x = 1/2: vertices 3, 4, 5.
+    mesh.positions.emplace_back(0.5, 0, 1);
+    mesh.positions.emplace_back(0.5, 0.5, 1);
+    mesh.positions.emplace_back(0.5, 1, 1);
+    for (const bool is_turned : {false, true}) {
+        TriangleMesh with_wall = mesh;
+        for (agvd::Triangle t : {agvd::Triangle{3, 4, 9}, {9, 4, 10}, {4, 5, 10}, {10, 5, 11}}) {
+            if (is_turned) std::swap(t[1], t[2]);
+            with_wall.triangles.push_back(t);
+        }
+        const CleanResult clean =
+            clean_to(with_wall, shapes::join(shapes::grid(1), shapes::grid(1)));
+        EXPECT_EQ(clean.counts, (CleanCounts{.split_edges = 2, .split_vertices = 3}));
+    }
+}
+
+TEST(CleanInput, SeparatesCubesThatShareAnEdge) {
+    const TriangleMesh two = shapes::join(shapes::cube(), shapes::cube());
+    const CleanResult clean = clean_to(shapes::cubes_on_an_edge(), two);
+    EXPECT_EQ(clean.counts,
+              (CleanCounts{.split_edges = 1, .split_vertices = 2, .isolated_vertices = 2}));
+    clean_to(shapes::unweld(shapes::cubes_on_an_edge()), two);
+}
+
+TEST(CleanInput, DropsIsolatedVertices) {
+    TriangleMesh mesh = shapes::cube();
+    mesh.positions.insert(mesh.positions.begin(), Vec3(7, 7, 7));
+    for (agvd::Triangle& t : mesh.triangles) {
+        for (Index& v : t) ++v;
+    }
+    const CleanResult clean = clean_input(mesh.view());
+    EXPECT_EQ(clean.mesh.triangles, shapes::cube().triangles);
+    EXPECT_EQ(clean.counts, CleanCounts{.isolated_vertices = 1});
+    EXPECT_EQ(clean.vertex_origin.front(), 1u);
+}
+
+TEST(CleanInput, NamesTheElementThatCannotBeUsed) {
+    TriangleMesh mesh = shapes::cube();
+    mesh.positions[5].y() = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_NE(error_of(mesh).find("vertex 5"), std::string::npos);
+    mesh = shapes::cube();
+    mesh.triangles[4][1] = 8;
+    EXPECT_NE(error_of(mesh).find("face 4 names vertex 8"), std::string::npos);
+    mesh = shapes::cube();
+    for (Vec3& p : mesh.positions) p *= 1e200;
+    EXPECT_NE(error_of(mesh).find("face 0 is too large"), std::string::npos);
+}
+
+TEST(CleanInput, RefusesMeshesWithoutArea) {
+    EXPECT_NE(error_of({}).find("no face"), std::string::npos);
+    EXPECT_NE(error_of({{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {{0, 1, 2}}}).find("no face"),
+              std::string::npos);
+    EXPECT_NE(error_of({{{0, 0, 0}, {1, 0, 0}}, {{0, 1, 1}}}).find("no face"), std::string::npos);
+}

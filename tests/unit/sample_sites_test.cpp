@@ -1,0 +1,207 @@
+#include "remesh/sampling/sample_sites.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <set>
+
+#include "support/shapes.h"
+
+using agvd::Index;
+using agvd::Surface;
+using agvd::SurfacePoint;
+using agvd::Vec3;
+using remesh::Init;
+using remesh::sample_sites;
+
+namespace {
+
+constexpr std::array both_inits{Init::Random, Init::BlueNoise};
+
+Surface make(const agvd::TriangleMesh& mesh) { return agvd::build_surface(mesh.view()); }
+
+std::vector<Vec3> positions(const Surface& surface, const std::vector<SurfacePoint>& sites) {
+    std::vector<Vec3> result;
+    for (const SurfacePoint& s : sites) result.push_back(agvd::position(surface.mesh.view(), s));
+    return result;
+}
+
+double least_distance(const std::vector<Vec3>& points) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+            least = std::min(least, (points[i] - points[j]).norm());
+        }
+    }
+    return least;
+}
+
+// Spacing of `count` points packed as densely as can be.
+double best_spacing(double area, Index count) {
+    return 2 * std::sqrt(area / (2 * std::numbers::sqrt3 * count));
+}
+
+bool same_sites(const std::vector<SurfacePoint>& a, const std::vector<SurfacePoint>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& p, const auto& q) {
+        return p.face == q.face && p.barycentric == q.barycentric;
+    });
+}
+
+Index count_below(const std::vector<SurfacePoint>& sites, Index face) {
+    return static_cast<Index>(std::count_if(
+        sites.begin(), sites.end(), [face](const auto& s) { return s.face.value() < face; }));
+}
+
+}  // namespace
+
+TEST(SampleSites, GivesTheExactCountOfDifferentPointsInsideFaces) {
+    const Surface surface = make(shapes::sphere(1));  // 80 faces.
+    for (const Init init : both_inits) {
+        for (const Index n : {4u, 5u, 63u, 80u, 3000u}) {
+            const auto sites = sample_sites(surface, {.num_samples = n, .init = init});
+            ASSERT_EQ(sites.size(), n);
+            std::set<std::array<double, 3>> seen;
+            for (const SurfacePoint& s : sites) {
+                ASSERT_LT(s.face.value(), 80u);
+                const auto& [x, y, z] = s.barycentric;
+                EXPECT_GT(std::min({x, y, z}), 1e-7);
+                EXPECT_NEAR(x + y + z, 1, 1e-15);
+                const Vec3 p = agvd::position(surface.mesh.view(), s);
+                EXPECT_TRUE(seen.insert({p.x(), p.y(), p.z()}).second);
+            }
+        }
+    }
+}
+
+TEST(SampleSites, NeverPutsTwoSitesAtOnePositionEvenWhereThereAreFew) {
+    // So far from the origin that the triangle holds a few dozen positions only.
+    agvd::TriangleMesh mesh = shapes::grid(1);
+    const double far = 0x1p50;
+    for (Vec3& p : mesh.positions) p = p + Vec3(far, far, 0);
+    const Surface surface = make(mesh);
+    for (const Init init : both_inits) {
+        EXPECT_THROW((void)sample_sites(surface, {.num_samples = 2000, .init = init}),
+                     agvd::ConstraintUnmet);
+        const auto sites = sample_sites(surface, {.num_samples = 8, .init = init});
+        EXPECT_EQ(sites.size(), 8u);
+        EXPECT_GT(least_distance(positions(surface, sites)), 0);
+    }
+}
+
+TEST(SampleSites, MinimumFollowsTheTopology) {
+    EXPECT_EQ(remesh::minimum_samples(0, 0), 4u);
+    EXPECT_EQ(remesh::minimum_samples(1, 0), 7u);
+    EXPECT_EQ(remesh::minimum_samples(2, 0), 10u);
+    EXPECT_EQ(remesh::minimum_samples(3, 0), 10u);
+    EXPECT_EQ(remesh::minimum_samples(6, 0), 12u);
+    EXPECT_EQ(remesh::minimum_samples(0, 1), 3u);
+    EXPECT_EQ(remesh::minimum_samples(0, 2), 6u);
+    EXPECT_EQ(remesh::minimum_samples(0, 11), 33u);
+    EXPECT_EQ(remesh::minimum_samples(1, 1), 6u);
+}
+
+TEST(SampleSites, EveryComponentGetsWhatItsTopologyNeedsAndTheRestGoesByArea) {
+    agvd::TriangleMesh small = shapes::torus(8, 6);
+    for (Vec3& p : small.positions) p *= 1e-4;
+    const agvd::TriangleMesh grid = shapes::grid(3);  // 18 faces, area 1.
+    agvd::TriangleMesh large = grid;
+    for (Vec3& p : large.positions) p = 2 * p + Vec3(5, 0, 0);  // Area 4.
+    const Surface surface = make(shapes::join(shapes::join(small, grid), large));
+    for (const Init init : both_inits) {
+        const auto sites = sample_sites(surface, {.num_samples = 13 + 101, .init = init});
+        ASSERT_EQ(sites.size(), 114u);
+        EXPECT_EQ(count_below(sites, 96), 7u);
+        EXPECT_EQ(count_below(sites, 96 + 18), 7u + 3u + 20u);
+        EXPECT_EQ(sample_sites(surface, {.num_samples = 13, .init = init}).size(), 13u);
+    }
+}
+
+TEST(SampleSites, RefusesTooFewAndNamesHowManyAreNeeded) {
+    const Surface surface = make(shapes::join(shapes::sphere(0), shapes::torus(8, 6)));
+    try {
+        (void)sample_sites(surface, {.num_samples = 10});
+        FAIL() << "no error";
+    } catch (const agvd::ConstraintUnmet& error) {
+        EXPECT_NE(std::string(error.what()).find("at least 11"), std::string::npos) << error.what();
+    }
+    EXPECT_THROW((void)sample_sites(surface, {.num_samples = 0}), agvd::InvalidOption);
+    EXPECT_THROW((void)sample_sites(surface, {.num_threads = -1}), agvd::InvalidOption);
+    EXPECT_THROW((void)sample_sites(Surface{}), agvd::InvalidInput);
+}
+
+TEST(SampleSites, SpreadsByAreaOverFacesAndWithinThem) {
+    agvd::TriangleMesh mesh = shapes::grid(2);
+    for (Vec3& p : mesh.positions) p = Vec3(p.x() * p.x(), p.y(), 0);  // Faces of unequal area.
+    const Surface surface = make(mesh);
+    for (const Init init : both_inits) {
+        const Index n = 10000;
+        std::array<double, 64> hits{};
+        const auto sites = sample_sites(surface, {.num_samples = n, .init = init});
+        for (const Vec3& p : positions(surface, sites)) {
+            ++hits[static_cast<std::size_t>(p.x() * 8) * 8 + static_cast<std::size_t>(p.y() * 8)];
+        }
+        double chi_square = 0;
+        for (const double h : hits) chi_square += (h - n / 64.0) * (h - n / 64.0) / (n / 64.0);
+        EXPECT_LT(chi_square, 63 + 5 * std::sqrt(2 * 63.0));
+        if (init == Init::BlueNoise) {
+            EXPECT_LT(chi_square, 20) << "more even than chance";
+        }
+    }
+}
+
+TEST(SampleSites, BlueNoiseKeepsItsDistance) {
+    const Surface surface = make(shapes::sphere(3));
+    const Index n = 500;
+    const double spacing = best_spacing(4 * std::numbers::pi, n);
+    EXPECT_LT(least_distance(positions(
+                  surface, sample_sites(surface, {.num_samples = n, .init = Init::Random}))),
+              0.2 * spacing);
+    EXPECT_GT(least_distance(positions(surface, sample_sites(surface, {.num_samples = n}))),
+              0.6 * spacing);
+}
+
+TEST(SampleSites, BlueNoiseKeepsItsDistanceAcrossRightAngles) {
+    const Surface surface = make(shapes::subdivide(shapes::cube()));
+    const auto points = positions(surface, sample_sites(surface, {.num_samples = 600}));
+    EXPECT_GT(least_distance(points), 0.5 * best_spacing(6, 600));
+}
+
+TEST(SampleSites, BothWallsOfAThinPlateGetTheirShareOnTheirOwn) {
+    agvd::TriangleMesh mesh = shapes::subdivide(shapes::subdivide(shapes::cube()));
+    for (Vec3& p : mesh.positions) p.z() *= 1e-3;
+    const Surface surface = make(mesh);
+    const auto points = positions(surface, sample_sites(surface, {.num_samples = 1000}));
+    std::vector<Vec3> top, bottom;
+    for (const Vec3& p : points) {
+        if (p.z() > 0.9e-3) top.push_back(p);
+        if (p.z() < 0.1e-3) bottom.push_back(p);
+    }
+    EXPECT_NEAR(static_cast<double>(top.size()), 500, 30);
+    EXPECT_NEAR(static_cast<double>(bottom.size()), 500, 30);
+    const double spacing = best_spacing(2, 1000);
+    EXPECT_GT(least_distance(top), 0.5 * spacing);
+    EXPECT_LT(least_distance(points), 0.2 * spacing) << "the walls do not see each other";
+}
+
+TEST(SampleSites, SameBytesForAnyThreadCountAndOtherOnesForAnotherSeed) {
+    const Surface surface = make(shapes::torus(20, 12));
+    for (const Init init : both_inits) {
+        const auto sites = [&](std::uint64_t seed, int threads) {
+            return sample_sites(
+                surface, {.num_samples = 3000, .init = init, .seed = seed, .num_threads = threads});
+        };
+        const auto first = sites(1, 1);
+        EXPECT_TRUE(same_sites(first, sites(1, 1)));
+        EXPECT_TRUE(same_sites(first, sites(1, 2)));
+        EXPECT_TRUE(same_sites(first, sites(1, 8)));
+        EXPECT_FALSE(same_sites(first, sites(2, 1)));
+    }
+}
+
+TEST(SampleSites, CanBeStopped) {
+    const Surface surface = make(shapes::sphere(0));
+    EXPECT_THROW((void)sample_sites(surface, {.progress = [](double) { return false; }}),
+                 agvd::Cancelled);
+}
