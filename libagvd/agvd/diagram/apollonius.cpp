@@ -89,6 +89,7 @@ private:
         const Joint to = joints[next];
         add_arc(from, to.position, to.node, to.site_after);
         out_.pieces.emplace_back(to.site_after, -1);
+        out_.connected.emplace_back(joints[before(ear.index, joints.size())].interval, to.interval);
         // The interval before the ear now reaches to the end of the one after it.
         const std::size_t low = std::min(ear.index, next);
         const std::size_t high = std::max(ear.index, next);
@@ -117,7 +118,7 @@ private:
             return;
         }
         open_branches_.push_back(static_cast<Index>(out_.branches.size()) - 1);
-        joints[i] = {branch.position, node, site_after};
+        joints[i] = {branch.position, node, site_after, joints[next].interval};
         joints.erase(joints.begin() + static_cast<std::ptrdiff_t>(next));
     }
 

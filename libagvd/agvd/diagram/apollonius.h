@@ -13,6 +13,7 @@ struct Joint {
     Vec2 position;
     Index node;        //!< Caller's name of the point.
     Index site_after;
+    Index interval;    //!< Caller's name of the interval after it.
 };
 
 //! A piece of bisector between two nodes.
@@ -39,6 +40,8 @@ struct LocalDiagram {
     std::vector<LocalBranch> branches;  //!< Branch b is node first_branch_node + b.
     //! (site, change): their sum over a site is the number of connected pieces of its cell.
     std::vector<std::pair<Index, int>> pieces;
+    //! Boundary intervals that hang together inside.
+    std::vector<std::pair<Index, Index>> connected;
 };
 
 //! Appends to `out`. The result is a planar forest whatever the distances are: the boundary's

@@ -1,12 +1,18 @@
 #include "agvd/diagram/diagram.h"
 
+#include <algorithm>
+#include <functional>
+
 #include "agvd/core/parallel.h"
+#include "agvd/diagram/islands.h"
 #include "agvd/diagram/join.h"
 
 namespace agvd {
 namespace {
 
-constexpr Index grain = 128;
+constexpr Index grain = 64;
+// Each round leaves fewer islands; new ones can only come from faces that are traced again.
+constexpr int max_island_rounds = 16;
 
 double face_area(const Surface& surface, Index face) {
     return surface.length_of(3 * face) * surface.apex[3 * face].y() / 2;
@@ -52,16 +58,24 @@ Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> site
                       const Propagation& propagation, const DiagramOptions& options) {
     poll(options.progress, 0);
     const SitePlacement placement(surface, sites);
-    const EdgeLabels labels = label_edges(surface, propagation, options.num_threads);
+    EdgeLabels labels = label_edges(surface, propagation, options.num_threads);
     poll(options.progress, 0.5);
 
     const auto num_mixed = static_cast<Index>(propagation.mixed_faces.size());
     std::vector<FaceArcs> chunks(num_chunks(num_mixed, grain));
-    parallel_chunks(num_mixed, grain, options.num_threads,
-                    [&](Index chunk, Index begin, Index end) {
-                        chunks[chunk] = trace_faces(surface, propagation, placement, labels,
-                                                    options.chord_tolerance, begin, end);
-                    });
+    std::vector<BarredSite> barred;
+    std::vector<bool> is_stale(num_mixed, true);
+    for (int round = 0; round <= max_island_rounds; ++round) {
+        parallel_chunks(num_mixed, grain, options.num_threads,
+                        [&](Index chunk, Index begin, Index end) {
+                            const auto first = is_stale.begin() + begin;
+                            if (std::none_of(first, is_stale.begin() + end, std::identity{})) return;
+                            chunks[chunk] = trace_faces(surface, propagation, placement, labels,
+                                                        barred, options.chord_tolerance, begin, end);
+                        });
+        is_stale.assign(num_mixed, false);
+        if (absorb_islands(surface, sites, chunks, labels, barred, is_stale) == 0) break;
+    }
     poll(options.progress, 0.9);
 
     Diagram diagram;

@@ -97,7 +97,7 @@ EdgeLabels label_edges(const Surface& surface, const Propagation& propagation, i
 
     const auto num_edges = static_cast<Index>(labels.edges.size());
     std::vector<std::vector<Crossing>> found(num_chunks(num_edges, grain));
-    std::vector<Index> count(num_edges);
+    labels.crossing_counts.resize(num_edges);
     parallel_chunks(num_edges, grain, num_threads, [&](Index chunk, Index begin, Index end) {
         EnvelopeScratch scratch;
         std::vector<PlanarRelay> relays;
@@ -109,7 +109,7 @@ EdgeLabels label_edges(const Surface& surface, const Propagation& propagation, i
             const Vec2 head(surface.length[e], 0);
             label_envelope(relays, {0, 0}, head, labels.vertex_site[surface.tail(h)],
                            labels.vertex_site[surface.head(h)], scratch, intervals);
-            count[i] = static_cast<Index>(intervals.size()) - 1;
+            labels.crossing_counts[i] = static_cast<Index>(intervals.size()) - 1;
             for (std::size_t k = 0; k + 1 < intervals.size(); ++k) {
                 const Vec2 p = intervals[k].end * head;
                 const double distance =
@@ -120,9 +120,10 @@ EdgeLabels label_edges(const Surface& surface, const Propagation& propagation, i
             }
         }
     });
-    labels.crossing_offsets.push_back(0);
-    for (const Index n : count) {
-        labels.crossing_offsets.push_back(labels.crossing_offsets.back() + n);
+    Index offset = 0;
+    for (const Index count : labels.crossing_counts) {
+        labels.crossing_offsets.push_back(offset);
+        offset += count;
     }
     for (const auto& part : found) {
         labels.crossings.insert(labels.crossings.end(), part.begin(), part.end());

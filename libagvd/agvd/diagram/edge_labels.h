@@ -23,14 +23,14 @@ struct EdgeLabels {
 
     std::vector<Index> edges;             //!< Edges whose faces are all listed, ascending.
     std::vector<Index> edge_index;        //!< #E: position in `edges`; no_index: one label.
-    std::vector<Index> crossing_offsets;  //!< #edges + 1 offsets into crossings.
-    std::vector<Crossing> crossings;      //!< Edge after edge, along each edge_half.
+    std::vector<Index> crossing_offsets;  //!< #edges: where the edge's crossings begin.
+    std::vector<Index> crossing_counts;   //!< #edges.
+    std::vector<Crossing> crossings;      //!< Edge after edge, along each edge_half; may have gaps.
 
     [[nodiscard]] std::span<const Crossing> on_edge(Index edge) const {
         const Index i = edge_index[edge];
         if (i == no_index) return {};
-        return std::span(crossings).subspan(crossing_offsets[i],
-                                            crossing_offsets[i + 1] - crossing_offsets[i]);
+        return std::span(crossings).subspan(crossing_offsets[i], crossing_counts[i]);
     }
 };
 

@@ -12,8 +12,15 @@ using Candidate = EnvelopeScratch::Candidate;
 constexpr double shortest_interval = 1e-9;
 constexpr int max_root_steps = 60;
 
+// Images closer than this share of the segment are one.
+constexpr double same_image = 1e-12;
+// Ties over a whole stretch that escape the tests would bisect for ever: past this many pieces the
+// ends of a piece decide.
+constexpr int max_splits = 2000;
+
 struct Sample {
     double value, slope;
+    Vec2 from;
 };
 
 class Envelope {
@@ -27,7 +34,7 @@ public:
         for (const PlanarRelay& relay : relays) {
             const Sample lo = sample(relay, 0, 1);
             const Sample hi = sample(relay, length_, -1);
-            stack_.push_back({&relay, lo.value, lo.slope, hi.value, hi.slope});
+            stack_.push_back({&relay, lo.value, lo.slope, hi.value, hi.slope, lo.from, hi.from});
         }
         split(0, length_, 0);
     }
@@ -39,7 +46,7 @@ private:
         const Reach r = reach(relay, at);
         const Vec2 step = at - r.from;
         const double norm = step.norm();
-        return {r.distance, norm > 0 ? step.dot(along_) / norm : side};
+        return {r.distance, norm > 0 ? step.dot(along_) / norm : side, r.from};
     }
 
     [[nodiscard]] double tolerance(double value) const { return tie_tolerance * (value + length_); }
@@ -60,11 +67,23 @@ private:
         return *result;
     }
 
+    [[nodiscard]] bool are_one(const Vec2& a, const Vec2& b) const {
+        return (a - b).squaredNorm() <= same_image * same_image * length_ * length_;
+    }
+
     // True if c cannot be below b anywhere on [lo, hi] by more than a tie.
     [[nodiscard]] bool is_above(const Candidate& c, const Candidate& b, double lo, double hi) const {
         const double slack = tolerance(std::max(b.value_lo, b.value_hi));
         if (c.value_lo < b.value_lo - slack || c.value_hi < b.value_hi - slack) return false;
         const double width = hi - lo;
+        if (are_one(c.from_lo, c.from_hi) && are_one(b.from_lo, b.from_hi)) {
+            // Seen from x, two images differ in direction by at most their distance over either's
+            // distance, so near images have nearly parallel distances: told apart without bisecting.
+            const double apart = (c.from_lo - b.from_lo).norm();
+            const double range = (p_ + lo * along_ - b.from_lo).norm() - width;
+            const double gap = std::min(c.value_lo - b.value_lo, c.value_hi - b.value_hi);
+            if (apart == 0 || (range > 0 && gap + slack >= width * apart / range)) return true;
+        }
         const double chord = (b.value_hi - b.value_lo) / width;
         // The tangents at both ends meet at lo + t; above the chord there means above it everywhere.
         const double bend = c.slope_hi - c.slope_lo;
@@ -124,7 +143,7 @@ private:
         const std::size_t count = stack_.size() - first;
         if (one_site) {
             emit(hi, site_lo);
-        } else if (hi - lo <= shortest_interval * length_) {
+        } else if (hi - lo <= shortest_interval * length_ || ++splits_ > max_splits) {
             emit((lo + hi) / 2, site_lo);
             emit(hi, site_hi);
         } else if (count == 2 && site_lo != site_hi) {
@@ -145,8 +164,10 @@ private:
             const Sample above = sample(*c.relay, mid, 1);
             stack_[i].value_lo = above.value;  // This entry goes on as the upper half.
             stack_[i].slope_lo = above.slope;
+            stack_[i].from_lo = above.from;
             c.value_hi = below.value;
             c.slope_hi = below.slope;
+            c.from_hi = below.from;
             stack_.push_back(c);
         }
         split(lo, mid, last);
@@ -158,6 +179,7 @@ private:
     Vec2 along_;
     std::vector<Candidate>& stack_;
     std::vector<LabelInterval>& out_;
+    int splits_ = 0;
 };
 
 // Stretches too short to be told apart go to their neighbour.

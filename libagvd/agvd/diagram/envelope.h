@@ -18,6 +18,7 @@ struct EnvelopeScratch {
         const PlanarRelay* relay;
         double value_lo, slope_lo;
         double value_hi, slope_hi;
+        Vec2 from_lo, from_hi;  // Where the last straight piece begins, at both ends.
     };
     std::vector<Candidate> candidates;
 };

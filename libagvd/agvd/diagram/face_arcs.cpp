@@ -11,6 +11,7 @@ struct SideCrossing {
     double distance;
     Index node;
     Index site_before, site_after;
+    Index interval_before, interval_after;
 };
 
 struct Side {
@@ -21,12 +22,13 @@ struct Side {
 class FaceTracer {
 public:
     FaceTracer(const Surface& surface, const Propagation& propagation,
-               const SitePlacement& placement, const EdgeLabels& labels, double chord_tolerance,
-               FaceArcs& out)
+               const SitePlacement& placement, const EdgeLabels& labels,
+               std::span<const BarredSite> barred, double chord_tolerance, FaceArcs& out)
         : surface_(surface),
           propagation_(propagation),
           placement_(placement),
           labels_(labels),
+          barred_(barred),
           chord_tolerance_(chord_tolerance),
           out_(out) {}
 
@@ -38,7 +40,7 @@ public:
         const std::size_t first_part = out_.parts.size();
         const std::size_t first_piece = out_.local.pieces.size();
         const std::size_t first_arc = out_.local.arcs.size();
-        if (triangles_.size() > 1) cut_inside();
+        if (triangles_.size() > 1) cut_inside(mixed_index);
         for (const Triangle& triangle : triangles_) solve(triangle);
         for (std::size_t i = first_piece; i < out_.local.pieces.size(); ++i) {
             const auto& [site, change] = out_.local.pieces[i];
@@ -56,8 +58,10 @@ private:
         const auto corners = face_corners(surface_, face_);
         points_.assign(corners.begin(), corners.end());
         point_site_.clear();
+        point_name_.clear();
         for (const Index v : surface_.mesh.triangles[face_]) {
             point_site_.push_back(labels_.vertex_site[v]);
+            point_name_.push_back(vertex_name(v));
         }
         sides_.clear();
         for (Index k = 0; k < 3; ++k) {
@@ -72,12 +76,22 @@ private:
             const auto crossings = labels_.on_edge(edge);
             const Index first =
                 crossings.empty() ? 0 : static_cast<Index>(&crossings[0] - labels_.crossings.data());
+            Index interval = vertex_name(surface_.tail(surface_.edge_half[edge]));
             for (Index i = 0; i < crossings.size(); ++i) {
                 const Crossing& c = crossings[i];
-                side.crossings.push_back({c.at, c.distance, first + i, c.site_before, c.site_after});
+                const Index before = interval;
+                interval = i + 1 < crossings.size()
+                               ? IntervalName::make(IntervalName::Crossing, first + i)
+                               : vertex_name(surface_.head(surface_.edge_half[edge]));
+                side.crossings.push_back({c.at, c.distance, first + i, c.site_before, c.site_after,
+                                          before, interval});
             }
             if (!along) turn(side);
         }
+    }
+
+    static Index vertex_name(Index vertex) {
+        return IntervalName::make(IntervalName::Vertex, vertex);
     }
 
     static void turn(Side& side) {
@@ -85,6 +99,7 @@ private:
         for (SideCrossing& c : side.crossings) {
             c.at = 1 - c.at;
             std::swap(c.site_before, c.site_after);
+            std::swap(c.interval_before, c.interval_after);
         }
     }
 
@@ -126,6 +141,7 @@ private:
             const auto n = static_cast<Index>(points_.size());
             points_.push_back(p);
             point_site_.push_back(placed.site);
+            point_name_.push_back(IntervalName::make(IntervalName::Site, placed.site));
             triangles_[holder] = {old[0], old[1], n};
             triangles_.push_back({old[1], old[2], n});
             triangles_.push_back({old[2], old[0], n});
@@ -151,7 +167,12 @@ private:
     }
 
     // Labels the cuts between the triangles.
-    void cut_inside() {
+    void cut_inside(Index mixed_index) {
+        cut_relays_.clear();
+        for (const PlanarRelay& relay : relays_) {
+            const BarredSite key{mixed_index, relay.site};
+            if (!std::binary_search(barred_.begin(), barred_.end(), key)) cut_relays_.push_back(relay);
+        }
         for (const Triangle& t : triangles_) {
             for (std::size_t k = 0; k < 3; ++k) {
                 const Index from = std::min(t[k], t[(k + 1) % 3]);
@@ -163,18 +184,26 @@ private:
     }
 
     void add_cut(Index from, Index to) {
-        label_envelope(relays_, points_[from], points_[to], point_site_[from], point_site_[to],
+        label_envelope(cut_relays_, points_[from], points_[to], point_site_[from], point_site_[to],
                        scratch_, intervals_);
         Side side{from, to, {}};
+        Index interval = point_name_[from];
+        if (intervals_.size() == 1) out_.local.connected.emplace_back(interval, point_name_[to]);
         for (std::size_t i = 0; i < intervals_.size(); ++i) {
             out_.parts.push_back({intervals_[i].site, -1, 0});
             if (i + 1 == intervals_.size()) break;
-            const auto node = FaceArcs::inner_base + static_cast<Index>(out_.inner.size());
-            SideCrossing c{intervals_[i].end, 0, node, intervals_[i].site, intervals_[i + 1].site};
+            const auto inner = static_cast<Index>(out_.inner.size());
+            const Index before = interval;
+            interval = i + 2 < intervals_.size() ? IntervalName::make(IntervalName::Inner, inner)
+                                                 : point_name_[to];
+            SideCrossing c{intervals_[i].end,  0,      FaceArcs::inner_base + inner,
+                           intervals_[i].site, intervals_[i + 1].site,
+                           before,             interval};
             const Vec2 p = points_[from] + c.at * (points_[to] - points_[from]);
             c.distance = std::max(reach_from(relays_, c.site_before, p).distance,
                                   reach_from(relays_, c.site_after, p).distance);
-            out_.inner.push_back({p, c.distance});
+            out_.inner.push_back({p, c.distance,
+                                  i + 2 < intervals_.size() ? c.site_after : no_index});
             side.crossings.push_back(c);
         }
         sides_.push_back(std::move(side));
@@ -195,11 +224,12 @@ private:
             const Side& side = *find_side(std::min(a, b), std::max(a, b));
             if (a < b) {
                 for (const SideCrossing& c : side.crossings) {
-                    joints_.push_back({position_on(side, c), c.node, c.site_after});
+                    joints_.push_back({position_on(side, c), c.node, c.site_after, c.interval_after});
                 }
             } else {
                 for (auto c = side.crossings.rbegin(); c != side.crossings.rend(); ++c) {
-                    joints_.push_back({position_on(side, *c), c->node, c->site_before});
+                    joints_.push_back(
+                        {position_on(side, *c), c->node, c->site_before, c->interval_before});
                 }
             }
         }
@@ -277,6 +307,7 @@ private:
     const Propagation& propagation_;
     const SitePlacement& placement_;
     const EdgeLabels& labels_;
+    std::span<const BarredSite> barred_;
     double chord_tolerance_;
     FaceArcs& out_;
 
@@ -284,9 +315,11 @@ private:
     Index face_ = 0;
     std::vector<Vec2> points_;       // Corners, then inner sites.
     std::vector<Index> point_site_;
+    std::vector<Index> point_name_;  // As an interval.
     std::vector<Triangle> triangles_;
     std::vector<Side> sides_;        // The face's three, then the cuts.
     std::vector<PlanarRelay> relays_;
+    std::vector<PlanarRelay> cut_relays_;  // Without those of barred sites.
     std::vector<Joint> joints_;
     std::vector<LabelInterval> intervals_;
     EnvelopeScratch scratch_;
@@ -296,9 +329,10 @@ private:
 
 FaceArcs trace_faces(const Surface& surface, const Propagation& propagation,
                      const SitePlacement& placement, const EdgeLabels& labels,
-                     double chord_tolerance, Index begin, Index end) {
+                     std::span<const BarredSite> barred, double chord_tolerance, Index begin,
+                     Index end) {
     FaceArcs result;
-    FaceTracer tracer(surface, propagation, placement, labels, chord_tolerance, result);
+    FaceTracer tracer(surface, propagation, placement, labels, barred, chord_tolerance, result);
     for (Index i = begin; i < end; ++i) tracer.trace(i);
     return result;
 }

@@ -13,6 +13,25 @@ namespace agvd {
 struct InnerCrossing {
     Vec2 position;
     double distance;
+    Index site_after;  //!< Of the interval named after it; no_index when that is named after a point.
+};
+
+//! A site kept off the cuts inside a face (by position in mixed_faces), since its interval there
+//! would not hang together with the rest of its cell.
+struct BarredSite {
+    Index mixed_index;
+    Index site;
+    [[nodiscard]] auto operator<=>(const BarredSite&) const = default;
+};
+
+//! Names of boundary intervals, for telling what hangs together: an interval that ends at a mesh vertex
+//! or site is named after it, another after the crossing that it follows (along the edge_half, or
+//! along the cut).
+struct IntervalName {
+    enum Kind : Index { Vertex, Crossing, Inner, Site };
+    static constexpr Index make(Kind kind, Index index) { return Index{kind} << 30 | index; }
+    static constexpr Kind kind(Index name) { return static_cast<Kind>(name >> 30); }
+    static constexpr Index index(Index name) { return name & ((Index{1} << 30) - 1); }
 };
 
 //! What the faces of one chunk contribute. Nodes are numbered: crossings on mesh edges first (their
@@ -40,8 +59,10 @@ struct FaceArcs {
 
 //! The faces [begin, end) of propagation.mixed_faces. A face with sites inside is cut into
 //! triangles at them, so that every cell reaches the boundary of some triangle.
+//! \param barred  ascending.
 [[nodiscard]] FaceArcs trace_faces(const Surface& surface, const Propagation& propagation,
                                    const SitePlacement& placement, const EdgeLabels& labels,
-                                   double chord_tolerance, Index begin, Index end);
+                                   std::span<const BarredSite> barred, double chord_tolerance,
+                                   Index begin, Index end);
 
 }  // namespace agvd

@@ -48,14 +48,18 @@ public:
 
 private:
     void number_nodes() {
+        nodes_.resize(labels_.crossings.size());
+        is_boundary_.resize(labels_.crossings.size());
         for (const Index edge : labels_.edges) {
             const Index h = surface_.edge_half[edge];
             for (const Crossing& c : labels_.on_edge(edge)) {
                 SurfacePoint point{FaceId(Surface::face(h)), {0, 0, 0}};
                 point.barycentric[h % 3] = 1 - c.at;
                 point.barycentric[(h + 1) % 3] = c.at;
-                nodes_.push_back({point, c.distance});
-                is_boundary_.push_back(surface_.twin[h] == no_index);
+                const auto node = static_cast<std::size_t>(&c - labels_.crossings.data());
+                nodes_[node].point = point;
+                nodes_[node].distance = c.distance;
+                is_boundary_[node] = surface_.twin[h] == no_index;
             }
         }
         for (const FaceArcs& chunk : chunks_) {

@@ -15,6 +15,7 @@ namespace {
 using agvd::Index;
 using agvd::Surface;
 using agvd::SurfacePoint;
+using agvd::Vec3;
 
 void check_options(const RemeshOptions& options) {
     if (options.num_samples < 1) {
@@ -141,11 +142,15 @@ private:
         return missing;
     }
 
-    // One site for each violation whose cells no other new site of this round concerns.
+    // One site for each violation whose cells and place no other new site of this round concerns.
     void add_sites(const std::vector<ClosedBallViolation>& violations) {
         std::vector<bool> is_concerned(sites_.size(), false);
+        const std::size_t first_new = sites_.size();
         for (const ClosedBallViolation& violation : violations) {
-            bool is_free = true;
+            const Vec3 place = position(clean_.mesh.view(), violation.remedy);
+            bool is_free = std::none_of(
+                sites_.begin() + static_cast<std::ptrdiff_t>(first_new), sites_.end(),
+                [&](const SurfacePoint& s) { return position(clean_.mesh.view(), s) == place; });
             for (const agvd::SiteId site : {violation.site, violation.other}) {
                 if (!site.is_valid()) continue;
                 is_free = is_free && !is_concerned[site.value()];

@@ -1,0 +1,19 @@
+//! \file
+//! Cells are connected: a geodesic to the nearest site stays in its cell. Approximate distances may
+//! break that where two sites nearly tie; here it is mended.
+#pragma once
+
+#include "agvd/diagram/face_arcs.h"
+
+namespace agvd {
+
+//! Finds the parts of cells that do not hang together with their site and gives each to a cell that
+//! it borders on. The labels then say so; `is_stale` (by position in mixed_faces) is set for the
+//! faces around changed edges, which are to be traced again; a part that lies inside a face is
+//! barred there. Returns the number of parts.
+//! Cost: O(#V + #E) and nearly linear in the crossings.
+[[nodiscard]] Index absorb_islands(const Surface& surface, std::span<const SurfacePoint> sites,
+                                   std::span<const FaceArcs> chunks, EdgeLabels& labels,
+                                   std::vector<BarredSite>& barred, std::vector<bool>& is_stale);
+
+}  // namespace agvd
