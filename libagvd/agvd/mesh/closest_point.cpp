@@ -10,7 +10,7 @@
 namespace agvd {
 namespace {
 
-constexpr Index leaf_size = 4;
+constexpr Index leaf_size = 2;
 
 // Boxes are wider than their triangles by this share of the largest coordinate, so that points on
 // edges, which carry rounding errors, are inside and ties are found.
