@@ -67,26 +67,27 @@ TEST_F(ReadSites, ScalesBarycentricCoordinatesThatAlmostSumToOne) {
 }
 
 TEST_F(ReadSites, NamesFileAndLineOfASyntaxError) {
-    expect_error<agvd::IoError>("v 1\nw 2\n", ":2: ");
-    expect_error<agvd::IoError>("v 1 2\n", "no site");
-    expect_error<agvd::IoError>("v\n", "no site");
-    expect_error<agvd::IoError>("f 1 0.5 0.5\n", "no site");
-    expect_error<agvd::IoError>("p 1 2\n", "no site");
-    expect_error<agvd::IoError>("v -1\n", "no vertex index");
-    expect_error<agvd::IoError>("v 1.5\n", "no vertex index");
-    expect_error<agvd::IoError>("p 1 2 3x\n", "no finite number");
-    expect_error<agvd::IoError>("p 1 2 nan\n", "no finite number");
-    expect_error<agvd::IoError>("p 1 2 +-3\n", "no finite number");
+    expect_error<agvd::IoError>("v 1\nw 2\n", "line 2: a site begins with v, f or p");
+    expect_error<agvd::IoError>("\n\nvertex 2\n", "line 3: a site begins with v, f or p");
+    expect_error<agvd::IoError>("v 1 2\n", "expected the end of the line");
+    expect_error<agvd::IoError>("v\nv 1\n", "line 1: expected a vertex index");
+    expect_error<agvd::IoError>("f 1 0.5 0.5\n", "expected a barycentric coordinate");
+    expect_error<agvd::IoError>("p 1 2\n", "expected a coordinate");
+    expect_error<agvd::IoError>("v 1.5\n", "expected a vertex index");
+    expect_error<agvd::IoError>("p 1 2 3x\n", "expected a coordinate");
     expect_error<agvd::IoError>("# nothing\n\n", "no site");
     expect_error<agvd::IoError>("", "empty");
 }
 
 TEST_F(ReadSites, NamesLineAndElementThatDoNotFitTheMesh) {
-    expect_error<agvd::InvalidInput>("\nv 9\n", ":2: vertex 9");
-    expect_error<agvd::InvalidInput>("v 99999999999999999999999\n", "does not exist");
+    expect_error<agvd::InvalidInput>("\nv 9\n", "line 2: vertex 9");
+    expect_error<agvd::InvalidInput>("v -1\n", "vertex -1");
+    expect_error<agvd::InvalidInput>("v 99999999999999999999999\n", "absurdly large");
     expect_error<agvd::InvalidInput>("f 8 1 0 0\n", "face 8");
     expect_error<agvd::InvalidInput>("f 0 1.5 -0.5 0\n", "negative");
     expect_error<agvd::InvalidInput>("f 0 0.3 0.3 0.3\n", "sum to 1");
+    expect_error<agvd::InvalidInput>("f 0 nan 0 1\n", "sum to 1");
+    expect_error<agvd::InvalidInput>("p 1 2 nan\n", "not finite");
     mesh_.positions.emplace_back(7, 7, 7);
     expect_error<agvd::InvalidInput>("v 9\n", "is in no face");
 }

@@ -1,16 +1,10 @@
 #include "remesh/io/read_sites.h"
 
-#include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <optional>
-#include <string>
-#include <string_view>
 
-#include "agvd/core/error.h"
 #include "agvd/mesh/closest_point.h"
+#include "remesh/io/text_scanner.h"
 
 namespace remesh {
 namespace {
@@ -18,75 +12,55 @@ namespace {
 using agvd::Index;
 using agvd::SurfacePoint;
 
-constexpr double sum_tolerance = 1e-6;  // Seven decimals survive, as a careful text file has them.
-
-std::string read_text(const std::filesystem::path& path) {
-    std::ifstream in(path, std::ios::binary);
-    std::string text;
-    if (!std::filesystem::is_directory(path) && in) {
-        text.assign(std::istreambuf_iterator<char>(in), {});
-    }
-    if (text.empty()) {
-        throw agvd::IoError(path.string() +
-                            ": the file of sites cannot be read or is empty; check " +
-                            "the path and its permissions");
-    }
-    return text;
-}
+constexpr double sum_tolerance = 1e-6;  // Seven decimals in a text file are enough.
 
 class SiteReader {
 public:
-    SiteReader(const std::filesystem::path& path, const agvd::MeshView& mesh)
-        : path_(path), mesh_(mesh) {}
+    SiteReader(const SourceFile& file, const agvd::MeshView& mesh)
+        : file_(file), mesh_(mesh), scan_(file, 0, {.comment = '#'}) {}
 
-    std::vector<SurfacePoint> read(std::string_view text) {
+    std::vector<SurfacePoint> read() {
         std::vector<SurfacePoint> sites;
-        while (!text.empty()) {
-            ++line_;
-            const std::size_t end = std::min(text.find('\n'), text.size());
-            split(text.substr(0, end));
-            text.remove_prefix(std::min(end + 1, text.size()));
-            if (!words_.empty()) sites.push_back(read_site());
+        while (scan_.find_word()) {
+            start_ = scan_.offset();
+            sites.push_back(read_site());
+            if (scan_.has_word()) scan_.fail_expecting("the end of the line");
         }
         if (sites.empty()) {
-            throw agvd::IoError(path_.string() + ": the file holds no site; write lines like " +
-                                "\"v INDEX\", \"f FACE B0 B1 B2\" or \"p X Y Z\"");
+            scan_.fail_malformed(
+                "the file holds no site; write lines \"v INDEX\", \"f FACE B0 B1 B2\" or "
+                "\"p X Y Z\"");
         }
         return sites;
     }
 
 private:
-    void split(std::string_view line) {
-        words_.clear();
-        line = line.substr(0, line.find('#'));
-        for (;;) {
-            const std::size_t begin = line.find_first_not_of(" \t\r");
-            if (begin == std::string_view::npos) return;
-            const std::size_t end = std::min(line.find_first_of(" \t\r", begin), line.size());
-            words_.push_back(line.substr(begin, end - begin));
-            line.remove_prefix(end);
-        }
-    }
-
     SurfacePoint read_site() {
-        const std::string_view kind = words_[0];
-        if (kind == "v" && words_.size() == 2) {
-            return at_vertex(index(words_[1], mesh_.positions.size(), "vertex"));
-        }
-        if (kind == "f" && words_.size() == 5) {
-            const Index face = index(words_[1], mesh_.triangles.size(), "face");
-            return {agvd::FaceId(face), barycentric()};
-        }
-        if (kind == "p" && words_.size() == 4) {
+        const std::string_view kind = scan_.word();
+        if (kind == "v") return vertex_site();
+        if (kind == "f") return face_site();
+        if (kind == "p") {
+            const agvd::Vec3 point = scan_.point();
             if (!tree_) tree_.emplace(mesh_);
-            return tree_->query({number(words_[1]), number(words_[2]), number(words_[3])}).point;
+            return tree_->query(point).point;
         }
-        throw agvd::IoError(where() +
-                            "this is no site; write \"v INDEX\", \"f FACE B0 B1 B2\" or " +
-                            "\"p X Y Z\"");
+        file_.fail_malformed(start_, "a site begins with v, f or p, not with " + in_quotes(kind) +
+                                         "; correct the line or begin it with #");
     }
 
-    SurfacePoint at_vertex(Index vertex) {
+    Index index(const char* what, std::size_t count) {
+        const std::int64_t value = scan_.integer(("a " + std::string(what) + " index").c_str());
+        if (value < 0 || static_cast<std::uint64_t>(value) >= count) {
+            file_.fail_unusable(start_, std::string(what) + " " + std::to_string(value) +
+                                            " does not exist: the mesh has " +
+                                            std::to_string(count) +
+                                            ", counted from 0; correct the index");
+        }
+        return static_cast<Index>(value);
+    }
+
+    SurfacePoint vertex_site() {
+        const Index vertex = index("vertex", mesh_.positions.size());
         if (lowest_corner_.empty()) {
             lowest_corner_.assign(mesh_.positions.size(), agvd::no_index);
             for (auto corner = static_cast<Index>(3 * mesh_.triangles.size()); corner-- > 0;) {
@@ -95,67 +69,43 @@ private:
         }
         const Index corner = lowest_corner_[vertex];
         if (corner == agvd::no_index) {
-            throw agvd::InvalidInput(where() + "vertex " + std::to_string(vertex) +
-                                     " is in no face; name a vertex of the surface");
+            file_.fail_unusable(start_, "vertex " + std::to_string(vertex) +
+                                            " is in no face; name a vertex of the surface");
         }
         SurfacePoint site{agvd::FaceId(corner / 3), {0, 0, 0}};
         site.barycentric[corner % 3] = 1;
         return site;
     }
 
-    std::array<double, 3> barycentric() const {
-        std::array<double, 3> b{number(words_[2]), number(words_[3]), number(words_[4])};
+    SurfacePoint face_site() {
+        SurfacePoint site{agvd::FaceId(index("face", mesh_.triangles.size())), {}};
+        auto& b = site.barycentric;
+        for (double& x : b) x = scan_.number("a barycentric coordinate");
         const double sum = b[0] + b[1] + b[2];
-        if (*std::min_element(b.begin(), b.end()) < 0 || !(std::abs(sum - 1) <= sum_tolerance)) {
-            throw agvd::InvalidInput(where() + "barycentric coordinates must not be negative and " +
-                                     "must sum to 1 within 1e-6; correct them");
+        const bool is_inside = b[0] >= 0 && b[1] >= 0 && b[2] >= 0;
+        if (!is_inside || !(std::abs(sum - 1) <= sum_tolerance)) {
+            file_.fail_unusable(start_,
+                                "the barycentric coordinates are negative or do not sum to 1 "
+                                "within 1e-6; correct them, or write the point as \"p X Y Z\"");
         }
         for (double& x : b) x /= sum;
-        return b;
+        return site;
     }
 
-    Index index(std::string_view word, std::size_t count, const char* what) const {
-        std::uint64_t value = 0;
-        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-        const bool is_too_long = error == std::errc::result_out_of_range;
-        if (end != word.data() + word.size() || (error != std::errc{} && !is_too_long)) {
-            throw agvd::IoError(where() + "\"" + std::string(word) + "\" is no " + what +
-                                " index; write a whole number, counted from 0");
-        }
-        if (is_too_long || value >= count) {
-            throw agvd::InvalidInput(where() + what + " " + std::string(word) +
-                                     " does not exist, the mesh has " + std::to_string(count) +
-                                     " (counted from 0); correct the index");
-        }
-        return static_cast<Index>(value);
-    }
-
-    double number(std::string_view word) const {
-        if (word.size() > 1 && word[0] == '+' && word[1] != '-') word.remove_prefix(1);
-        double value = 0;
-        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-        if (error != std::errc{} || end != word.data() + word.size() || !std::isfinite(value)) {
-            throw agvd::IoError(where() + "\"" + std::string(word) +
-                                "\" is no finite number; correct it");
-        }
-        return value;
-    }
-
-    std::string where() const { return path_.string() + ":" + std::to_string(line_) + ": "; }
-
-    const std::filesystem::path& path_;
+    const SourceFile& file_;
     const agvd::MeshView& mesh_;
-    std::size_t line_ = 0;
-    std::vector<std::string_view> words_;  // Of the current line.
-    std::vector<Index> lowest_corner_;     // #V, made for the first `v`.
-    std::optional<agvd::ClosestPointTree> tree_;
+    TextScanner scan_;
+    std::size_t start_ = 0;                       // Of the current line's first word.
+    std::vector<Index> lowest_corner_;            // #V, made for the first `v`.
+    std::optional<agvd::ClosestPointTree> tree_;  // Made for the first `p`.
 };
 
 }  // namespace
 
 std::vector<SurfacePoint> read_sites(const std::filesystem::path& path,
                                      const agvd::MeshView& mesh) {
-    return SiteReader(path, mesh).read(read_text(path));
+    const SourceFile file = load_file(path);
+    return SiteReader(file, mesh).read();
 }
 
 }  // namespace remesh
