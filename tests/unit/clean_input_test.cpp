@@ -217,6 +217,7 @@ TEST(CleanInput, SeparatesCubesThatShareAnEdge) {
     EXPECT_EQ(clean.counts,
               (CleanCounts{.split_edges = 1, .split_vertices = 2, .isolated_vertices = 2}));
     clean_to(shapes::unweld(shapes::cubes_on_an_edge()), two);
+    clean_to(shapes::subdivide(shapes::cubes_on_an_edge()), two);  // An edge in two pieces.
 }
 
 TEST(CleanInput, DropsIsolatedVertices) {

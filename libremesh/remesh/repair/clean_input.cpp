@@ -77,6 +77,9 @@ bool drop_duplicates(Soup& soup, std::span<const EdgeUse> uses) {
     std::vector<std::pair<Index, Index>> sheets;  // (third corner, face)
     for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
         if (edge.size() < 2) return;
+        if (edge.size() == 2 && soup.apex(edge[0].half_edge) != soup.apex(edge[1].half_edge)) {
+            return;  // By far the most frequent case.
+        }
         sheets.clear();
         for (const EdgeUse& use : edge) {
             sheets.emplace_back(soup.apex(use.half_edge), use.half_edge / 3);

@@ -1,0 +1,175 @@
+#include "agvd/mesh/closest_point.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+#include "agvd/core/error.h"
+
+namespace agvd {
+namespace {
+
+constexpr Index leaf_size = 2;
+
+// Boxes are wider than their triangles by this share of the largest coordinate, so that points on
+// edges, which carry rounding errors, are inside and ties are found.
+constexpr double padding_share = 1e-15;
+
+bool comes_before(const Vec3& a, const Vec3& b) {
+    return std::tie(a.x(), a.y(), a.z()) < std::tie(b.x(), b.y(), b.z());
+}
+
+void take_nearer(ClosestPoint& best, const ClosestPoint& other) {
+    if (std::tie(other.distance_sq, other.point.face) <
+        std::tie(best.distance_sq, best.point.face)) {
+        best = other;
+    }
+}
+
+// The ends are taken in an order of their own, so that all faces of an edge compute the same.
+ClosestPoint closest_point_on_side(const std::array<Vec3, 3>& corners, FaceId face, std::size_t k,
+                                   const Vec3& query) {
+    std::size_t from = k, to = (k + 1) % 3;
+    if (comes_before(corners[to], corners[from])) std::swap(from, to);
+    const Vec3& start = corners[from];
+    const Vec3 along = corners[to] - start;
+    const double length_sq = along.squaredNorm();
+    const double t =
+        length_sq > 0 ? std::clamp(along.dot(query - start) / length_sq, 0.0, 1.0) : 0.0;
+    ClosestPoint result{{face, {0, 0, 0}}, t == 1 ? corners[to] : Vec3(start + t * along), 0};
+    result.point.barycentric[from] = 1 - t;
+    result.point.barycentric[to] = t;
+    result.distance_sq = (query - result.position).squaredNorm();
+    return result;
+}
+
+double box_distance_sq(const Vec3& low, const Vec3& high, const Vec3& query) {
+    return (low - query).cwiseMax(query - high).cwiseMax(0.0).squaredNorm();
+}
+
+}  // namespace
+
+// The sides are always asked: in a needle the foot of the perpendicular is inaccurate.
+ClosestPoint closest_point_on_triangle(const std::array<Vec3, 3>& corners, FaceId face,
+                                       const Vec3& query) {
+    ClosestPoint best = closest_point_on_side(corners, face, 0, query);
+    take_nearer(best, closest_point_on_side(corners, face, 1, query));
+    take_nearer(best, closest_point_on_side(corners, face, 2, query));
+    const Vec3 u = corners[1] - corners[0], v = corners[2] - corners[0], w = query - corners[0];
+    const Vec3 normal = u.cross(v);
+    const double b1 = w.cross(v).dot(normal) / normal.squaredNorm();
+    const double b2 = u.cross(w).dot(normal) / normal.squaredNorm();
+    const double b0 = 1 - b1 - b2;
+    if (b0 > 0 && b1 > 0 && b2 > 0) {  // False for NaN, when there is no area.
+        const Vec3 foot = b0 * corners[0] + b1 * corners[1] + b2 * corners[2];
+        take_nearer(best, {{face, {b0, b1, b2}}, foot, (query - foot).squaredNorm()});
+    }
+    return best;
+}
+
+ClosestPointTree::ClosestPointTree(const MeshView& mesh) {
+    const auto num_faces = static_cast<Index>(mesh.triangles.size());
+    if (num_faces == 0) {
+        throw InvalidInput("the mesh has no face, so no point is nearest; check the input");
+    }
+    const auto corners_of = [&](Index face) {
+        const Triangle& t = mesh.triangles[face];
+        return std::array<Vec3, 3>{mesh.positions[t[0]], mesh.positions[t[1]],
+                                   mesh.positions[t[2]]};
+    };
+    std::vector<Vec3> centers(num_faces);
+    corners_.resize(num_faces);
+    for (Index f = 0; f < num_faces; ++f) {
+        corners_[f] = corners_of(f);
+        centers[f] = (corners_[f][0] + corners_[f][1] + corners_[f][2]) / 3;
+    }
+    std::vector<Index> faces(num_faces);
+    std::iota(faces.begin(), faces.end(), Index{0});
+    nodes_.reserve(num_faces);
+    build(centers, faces, 0, num_faces);
+
+    for (Index slot = 0; slot < num_faces; ++slot) {
+        corners_[slot] = corners_of(faces[slot]);
+        face_.emplace_back(faces[slot]);
+    }
+    // The children of a node follow it, so that backwards they are ready.
+    const Node& root = nodes_.front();
+    for (auto node = nodes_.rbegin(); node != nodes_.rend(); ++node) {
+        if (node->right != 0) {
+            const Node& first = *(&*node + 1);
+            node->low = first.low.cwiseMin(nodes_[node->right].low);
+            node->high = first.high.cwiseMax(nodes_[node->right].high);
+            continue;
+        }
+        node->low = node->high = corners_[node->begin][0];
+        for (Index slot = node->begin; slot < node->end; ++slot) {
+            for (const Vec3& corner : corners_[slot]) {
+                node->low = node->low.cwiseMin(corner);
+                node->high = node->high.cwiseMax(corner);
+            }
+        }
+    }
+    const double padding =
+        padding_share * root.low.cwiseAbs().cwiseMax(root.high.cwiseAbs()).maxCoeff();
+    for (Node& node : nodes_) {
+        node.low.array() -= padding;
+        node.high.array() += padding;
+    }
+}
+
+void ClosestPointTree::build(const std::vector<Vec3>& centers, std::vector<Index>& faces,
+                             Index begin, Index end) {
+    const auto self = static_cast<Index>(nodes_.size());
+    nodes_.push_back({.begin = begin, .end = end});
+    if (end - begin <= leaf_size) return;
+    Vec3 low = centers[faces[begin]], high = low;
+    for (Index i = begin; i < end; ++i) {
+        low = low.cwiseMin(centers[faces[i]]);
+        high = high.cwiseMax(centers[faces[i]]);
+    }
+    int axis = 0;
+    (high - low).maxCoeff(&axis);
+    const Index middle = begin + (end - begin) / 2;
+    std::nth_element(faces.begin() + begin, faces.begin() + middle, faces.begin() + end,
+                     [&](Index a, Index b) {
+                         return std::tie(centers[a][axis], a) < std::tie(centers[b][axis], b);
+                     });
+    build(centers, faces, begin, middle);
+    nodes_[self].right = static_cast<Index>(nodes_.size());
+    build(centers, faces, middle, end);
+}
+
+ClosestPoint ClosestPointTree::query(const Vec3& point) const {
+    ClosestPoint best;
+    best.distance_sq = std::numeric_limits<double>::infinity();
+    const auto distance_sq = [&](Index node) {
+        return box_distance_sq(nodes_[node].low, nodes_[node].high, point);
+    };
+    struct Waiting {
+        double distance_sq;
+        Index node;
+    };
+    std::array<Waiting, 64> stack;  // One per level; halving keeps it below 32.
+    std::size_t waiting = 0;
+    stack[waiting++] = {distance_sq(0), 0};
+    while (waiting > 0) {
+        const auto [distance, self] = stack[--waiting];
+        if (distance > best.distance_sq) continue;  // Equally near ones may hold a lower face.
+        const Node& node = nodes_[self];
+        if (node.right == 0) {
+            for (Index slot = node.begin; slot < node.end; ++slot) {
+                take_nearer(best, closest_point_on_triangle(corners_[slot], face_[slot], point));
+            }
+            continue;
+        }
+        Waiting near{distance_sq(self + 1), self + 1};
+        Waiting far{distance_sq(node.right), node.right};
+        if (far.distance_sq < near.distance_sq) std::swap(near, far);
+        stack[waiting++] = far;
+        stack[waiting++] = near;
+    }
+    return best;
+}
+
+}  // namespace agvd

@@ -1,0 +1,46 @@
+//! \file
+//! Nearest point of a mesh, by a tree of bounding boxes.
+#pragma once
+
+#include "agvd/mesh/surface_point.h"
+
+namespace agvd {
+
+struct ClosestPoint {
+    SurfacePoint point;  //!< A barycentric coordinate of exactly 0 means on the edge, two a vertex.
+    Vec3 position;
+    double distance_sq = 0;  //!< From the query to `position`.
+};
+
+//! Nearest point of one triangle, which may be degenerate; `face` is only passed on. Two triangles
+//! give the same bits for a point on a common edge or vertex.
+[[nodiscard]] ClosestPoint closest_point_on_triangle(const std::array<Vec3, 3>& corners,
+                                                     FaceId face, const Vec3& query);
+
+//! Answers many queries on one mesh. Keeps a copy of the corners, no reference to the mesh.
+//! 130 bytes per face.
+class ClosestPointTree {
+public:
+    //! \param mesh  any triangles, degenerate and non-manifold ones too; finite, indices in range.
+    //! \throw InvalidInput  there is no face.
+    //! Cost: O(n log n).
+    explicit ClosestPointTree(const MeshView& mesh);
+
+    //! The nearest point; of equally near ones that in the lowest face. Any thread may ask.
+    //! Cost: O(log n) near the surface.
+    [[nodiscard]] ClosestPoint query(const Vec3& point) const;
+
+private:
+    struct Node {
+        Index begin, end;  // Slots of the triangles below.
+        Index right = 0;   // Second child (the first follows its parent); 0 for a leaf.
+        Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // Box.
+    };
+    void build(const std::vector<Vec3>& centers, std::vector<Index>& faces, Index begin, Index end);
+
+    std::vector<std::array<Vec3, 3>> corners_;  // Per slot, in leaf order.
+    std::vector<FaceId> face_;                  // Per slot.
+    std::vector<Node> nodes_;                   // Depth first.
+};
+
+}  // namespace agvd

@@ -1,0 +1,104 @@
+#include "agvd/mesh/closest_point.h"
+
+#include <gtest/gtest.h>
+
+#include "agvd/core/error.h"
+#include "agvd/core/random.h"
+#include "support/dirty_shapes.h"
+#include "support/shapes.h"
+
+using agvd::ClosestPoint;
+using agvd::ClosestPointTree;
+using agvd::FaceId;
+using agvd::Index;
+using agvd::Vec3;
+
+namespace {
+
+const std::array<Vec3, 3> right_triangle{Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(0, 2, 0)};
+
+Vec3 random_point(std::uint64_t i, double size) {
+    return size * Vec3(2 * agvd::random_unit(5, 0, i) - 1, 2 * agvd::random_unit(5, 1, i) - 1,
+                       2 * agvd::random_unit(5, 2, i) - 1);
+}
+
+ClosestPoint try_all_faces(const agvd::TriangleMesh& mesh, const Vec3& query) {
+    ClosestPoint best;
+    best.distance_sq = std::numeric_limits<double>::infinity();
+    for (Index f = 0; f < mesh.triangles.size(); ++f) {
+        const auto& [a, b, c] = mesh.triangles[f];
+        const auto found = agvd::closest_point_on_triangle(
+            {mesh.positions[a], mesh.positions[b], mesh.positions[c]}, FaceId(f), query);
+        if (found.distance_sq < best.distance_sq) best = found;
+    }
+    return best;
+}
+
+}  // namespace
+
+TEST(ClosestPoint, IsInsideOnASideOrAtACorner) {
+    const auto closest = [](const Vec3& query) {
+        return agvd::closest_point_on_triangle(right_triangle, FaceId(7), query);
+    };
+    const ClosestPoint inside = closest({0.5, 0.5, 3});
+    EXPECT_EQ(inside.point.barycentric, (std::array{0.5, 0.25, 0.25}));
+    EXPECT_EQ(inside.distance_sq, 9);
+    EXPECT_EQ(inside.point.face, FaceId(7));
+    EXPECT_EQ(closest({1, -1, 0}).point.barycentric, (std::array{0.5, 0.5, 0.0}));
+    EXPECT_EQ(closest({2, 2, 1}).point.barycentric, (std::array{0.0, 0.5, 0.5}));
+    EXPECT_EQ(closest({2, 2, 1}).distance_sq, 3);
+    EXPECT_EQ(closest({-1, -1, 0}).point.barycentric, (std::array{1.0, 0.0, 0.0}));
+    EXPECT_EQ(closest({9, -2, 0}).position, Vec3(2, 0, 0));
+}
+
+TEST(ClosestPoint, WorksOnTrianglesWithoutArea) {
+    const auto closest = [](const std::array<Vec3, 3>& corners) {
+        return agvd::closest_point_on_triangle(corners, FaceId(0), {1, 2, 0});
+    };
+    EXPECT_EQ(closest({Vec3(0, 0, 0), Vec3(3, 0, 0), Vec3(1.5, 0, 0)}).distance_sq, 4);
+    EXPECT_EQ(closest({Vec3(1, 0, 0), Vec3(1, 0, 0), Vec3(1, 0, 0)}).distance_sq, 4);
+}
+
+TEST(ClosestPointTree, AgreesWithTryingAllFaces) {
+    const auto meshes = {shapes::jitter(shapes::torus(24, 12), 0.02, 3), shapes::sphere(2),
+                         shapes::random_soup(30, 300, 4), shapes::grid(1)};
+    for (const agvd::TriangleMesh& mesh : meshes) {
+        const ClosestPointTree tree(mesh.view());
+        for (std::uint64_t i = 0; i < 500; ++i) {
+            const Vec3 query = random_point(i, i % 2 == 0 ? 1.5 : 30);
+            const ClosestPoint found = tree.query(query), expected = try_all_faces(mesh, query);
+            EXPECT_EQ(found.distance_sq, expected.distance_sq);
+            EXPECT_EQ(found.point.face, expected.point.face);
+            EXPECT_EQ(found.point.barycentric, expected.point.barycentric);
+            EXPECT_NEAR((agvd::position(mesh.view(), found.point) - found.position).norm(), 0,
+                        1e-14);
+        }
+    }
+}
+
+TEST(ClosestPointTree, GivesTiesOnEdgesAndVerticesToTheLowestFace) {
+    const agvd::TriangleMesh mesh = shapes::jitter(shapes::sphere(2), 0.03, 1);
+    const ClosestPointTree tree(mesh.view());
+    std::vector<Index> lowest(mesh.positions.size(), agvd::no_index);
+    for (auto f = static_cast<Index>(mesh.triangles.size()); f-- > 0;) {
+        for (const Index v : mesh.triangles[f]) lowest[v] = f;
+    }
+    for (Index v = 0; v < mesh.positions.size(); ++v) {
+        EXPECT_EQ(tree.query(mesh.positions[v]).point.face, FaceId(lowest[v]));
+        EXPECT_EQ(tree.query(mesh.positions[v]).distance_sq, 0);
+    }
+    // The same triangle many times over, its corners in another order each time.
+    agvd::TriangleMesh pile{{{0, 0, 0}, {1, 0.3, 0.1}, {0.2, 1, 0.7}}, {}};
+    for (Index i = 0; i < 30; ++i) pile.triangles.push_back({i % 3, (i + 1) % 3, (i + 2) % 3});
+    for (std::uint64_t i = 0; i < 100; ++i) {
+        const ClosestPoint found = ClosestPointTree(pile.view()).query(random_point(i, 3));
+        const auto& b = found.point.barycentric;
+        if (*std::min_element(b.begin(), b.end()) == 0) {
+            EXPECT_EQ(found.point.face, FaceId(0));
+        }
+    }
+}
+
+TEST(ClosestPointTree, NeedsAFace) {
+    EXPECT_THROW(ClosestPointTree{agvd::MeshView{}}, agvd::InvalidInput);
+}
