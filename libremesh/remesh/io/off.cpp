@@ -31,7 +31,6 @@ void read_keyword(TextScanner& scan) {
 }
 
 std::uint64_t read_count(TextScanner& scan, const char* what) {
-    if (!scan.find_word()) scan.fail_expecting(what);
     const std::int64_t count = scan.integer(what);
     if (count < 0) scan.fail_malformed(std::string(what) + " is negative; export the mesh again");
     return static_cast<std::uint64_t>(count);
@@ -49,6 +48,7 @@ void find_element(TextScanner& scan, const char* kind, std::uint64_t index, std:
 MeshFile read_off(SourceFile file) {
     TextScanner scan(file, 0, {.comment = '#'});
     read_keyword(scan);
+    if (!scan.find_word()) scan.fail_expecting("the number of vertices");
     const std::uint64_t num_vertices = read_count(scan, "the number of vertices");
     const std::uint64_t num_faces = read_count(scan, "the number of faces");
     scan.skip_line();

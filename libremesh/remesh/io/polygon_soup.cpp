@@ -41,8 +41,12 @@ void PolygonSoup::add_corner(std::int64_t vertex, std::size_t offset) {
 MeshFile PolygonSoup::finish() && {
     if (polygon_end_.empty()) {
         throw agvd::InvalidInput(
-            file_.path.string() + ": " + std::to_string(positions.size()) +
-            " vertices but no face; a point cloud must be made a surface first");
+            file_.path.string() +
+            (positions.empty()
+                 ? ": neither a vertex nor a face; check that it is a mesh of the kind its name "
+                   "says"
+                 : ": " + std::to_string(positions.size()) +
+                       " vertices but no face; a point cloud must be made a surface first"));
     }
     if (positions.size() >= agvd::no_index || corners_.size() >= agvd::no_index) {
         throw agvd::InvalidInput(file_.path.string() +

@@ -60,7 +60,7 @@ public:
     //! What comes before the next blank, comment or line end.
     std::string_view rest_of_word() {
         const char* const first = at_;
-        while (at_ != end_ && !is_separator(*at_)) ++at_;
+        while (!is_separator(at_)) ++at_;
         return {first, static_cast<std::size_t>(at_ - first)};
     }
 
@@ -80,7 +80,7 @@ public:
         if (end_ - first > 1 && *first == '+' && first[1] != '-') ++first;
         double value = 0;
         const auto [last, error] = fast_float::from_chars(first, end_, value);
-        if (error != std::errc{} || (last != end_ && !is_separator(*last))) fail_expecting(what);
+        if (error != std::errc{} || !is_separator(last)) fail_expecting(what);
         at_ = last;
         return value;
     }
@@ -94,7 +94,7 @@ public:
             file_.fail_unusable(offset(), std::string(what) + " is absurdly large; it may be " +
                                               "damaged: export the mesh again");
         }
-        if (error != std::errc{} || (last != end_ && !is_separator(*last) && *last != stop)) {
+        if (error != std::errc{} || (!is_separator(last) && *last != stop)) {
             fail_expecting(what);
         }
         at_ = last;
@@ -132,19 +132,22 @@ private:
     [[nodiscard]] static bool is_blank(char c) {
         return c == ' ' || c == '\t' || c == '\v' || c == '\f';
     }
-    [[nodiscard]] bool is_separator(char c) const {
-        return is_blank(c) || is_line_end(c) || c == rules_.comment;
+    [[nodiscard]] bool is_separator(const char* p) const {
+        return p == end_ || is_blank(*p) || is_line_end(*p) || *p == rules_.comment || is_joint(p);
+    }
+    [[nodiscard]] bool is_joint(const char* p) const {
+        return *p == '\\' && rules_.continues && p + 1 != end_ && is_line_end(p[1]);
     }
 
     void skip_blanks() {
-        while (at_ != end_ && (is_blank(*at_) || (*at_ == '\\' && skip_joint()))) ++at_;
-    }
-
-    // From a backslash that joins two lines, goes to the last byte of the line end after it.
-    bool skip_joint() {
-        if (!rules_.continues || at_ + 1 == end_ || !is_line_end(at_[1])) return false;
-        at_ += at_ + 2 != end_ && at_[1] == '\r' && at_[2] == '\n' ? 2 : 1;
-        return true;
+        for (; at_ != end_; ++at_) {
+            if (is_joint(at_)) {
+                const bool is_crlf = at_ + 2 != end_ && at_[1] == '\r' && at_[2] == '\n';
+                at_ += is_crlf ? 2 : 1;
+            } else if (!is_blank(*at_)) {
+                return;
+            }
+        }
     }
 
     const SourceFile& file_;

@@ -25,7 +25,7 @@ Vec3 normal_of(std::span<const Index> polygon, std::span<const Vec3> positions) 
 void append_quad(std::span<const Index> q, std::span<const Vec3> positions,
                  std::vector<Triangle>& triangles) {
     const Vec3 normal = normal_of(q, positions);
-    const auto faces_up = [&](int i, int j, int k) {
+    const auto faces_up = [&](std::size_t i, std::size_t j, std::size_t k) {
         const Vec3& a = positions[q[i]];
         return normal.dot((positions[q[j]] - a).cross(positions[q[k]] - a)) > 0;
     };

@@ -1,0 +1,222 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "support/read_text.h"
+
+using agvd::InvalidInput;
+using agvd::IoError;
+using agvd::Triangle;
+using agvd::Vec3;
+using texts::expect_error;
+using texts::read_bytes;
+
+namespace {
+
+const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
+const std::string faces = "property list uchar int vertex_indices\n";
+
+std::string header(const std::string& format, const std::string& elements) {
+    return "ply\nformat " + format + " 1.0\n" + elements + "end_header\n";
+}
+
+std::string triangle_header(const std::string& format) {
+    return header(format, "element vertex 3\n" + xyz + "element face 1\n" + faces);
+}
+
+template <typename T>
+std::string bytes_of(T value, bool is_big) {
+    std::string bytes(sizeof(T), '\0');
+    std::memcpy(bytes.data(), &value, sizeof(T));
+    if (is_big) std::reverse(bytes.begin(), bytes.end());
+    return bytes;
+}
+
+const std::string three = "0 0 0\n1 0 0\n0 1 0\n";
+
+void expect_one_triangle(const std::string& bytes) {
+    const auto file = read_bytes("a.ply", bytes);
+    ASSERT_EQ(file.mesh.positions.size(), 3u) << bytes;
+    EXPECT_EQ(file.mesh.positions[1], Vec3(1, 0, 0)) << bytes;
+    EXPECT_EQ(file.mesh.positions[2], Vec3(0, 1, 0)) << bytes;
+    EXPECT_EQ(file.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}})) << bytes;
+}
+
+template <typename Real, typename Size, typename Corner>
+void expect_binary_read(const std::string& real, const std::string& size,
+                        const std::string& corner) {
+    for (const bool is_big : {false, true}) {
+        const std::string p = "property " + real + " ";
+        std::string bytes = header(is_big ? "binary_big_endian" : "binary_little_endian",
+                                   "element vertex 3\n" + p + "x\n" + p + "y\n" + p +
+                                       "z\nelement face 1\nproperty list " + size + " " + corner +
+                                       " vertex_index\n");
+        for (const int x : {0, 0, 0, 1, 0, 0, 0, 1, 0})
+            bytes += bytes_of(static_cast<Real>(x), is_big);
+        bytes += bytes_of(Size{3}, is_big);
+        for (const int v : {0, 1, 2}) bytes += bytes_of(static_cast<Corner>(v), is_big);
+        expect_one_triangle(bytes);
+    }
+}
+
+}  // namespace
+
+TEST(Ply, AsciiIsRead) {
+    expect_one_triangle(triangle_header("ascii") + three + "3 0 1 2\n");
+    std::string crlf = triangle_header("ascii") + three + "3 0 1 2\n";
+    for (std::size_t at = 0; (at = crlf.find('\n', at)) != std::string::npos; at += 2) {
+        crlf.replace(at, 1, "\r\n");
+    }
+    expect_one_triangle(crlf);
+}
+
+TEST(Ply, BinariesOfAllTypesAreRead) {
+    expect_binary_read<float, std::uint8_t, std::int32_t>("float", "uchar", "int");
+    expect_binary_read<double, std::int8_t, std::uint32_t>("double", "int8", "uint32");
+    expect_binary_read<double, std::uint32_t, std::uint8_t>("float64", "uint", "uint8");
+    expect_binary_read<std::int16_t, std::int16_t, std::int16_t>("short", "int16", "short");
+    expect_binary_read<std::uint16_t, std::int32_t, std::uint16_t>("uint16", "int32", "ushort");
+    expect_binary_read<float, std::uint16_t, std::int8_t>("float32", "ushort", "char");
+}
+
+TEST(Ply, DoublesKeepEveryDigit) {
+    std::string bytes = header("binary_big_endian",
+                               "element vertex 3\nproperty double x\nproperty "
+                               "double y\nproperty double z\nelement face 1\n" +
+                                   faces);
+    for (int k = 0; k < 9; ++k) bytes += bytes_of(0.1 + k, true);
+    bytes += bytes_of(std::uint8_t{3}, true);
+    for (int v = 0; v < 3; ++v) bytes += bytes_of(v, true);
+    EXPECT_EQ(read_bytes("a.ply", bytes).mesh.positions[2], Vec3(0.1 + 6, 0.1 + 7, 0.1 + 8));
+}
+
+TEST(Ply, OtherPropertiesAndElementsArePassedOver) {
+    const std::string elements =
+        "comment made by hand\nobj_info x\nelement camera 1\nproperty double fov\nproperty list "
+        "short "
+        "double parameters\nelement vertex 3\nproperty uchar red\n" +
+        xyz +
+        "property list uint char name\nproperty double quality\nelement nothing 99999999999\n"
+        "element face 1\nproperty ushort flags\n" +
+        faces + "property list uchar float texcoord\nelement edge 1\nproperty int a\n";
+    expect_one_triangle(header("ascii", elements) +
+                        "0.5 2 1 2\n255 0 0 0 0 1\n255 1 0 0 3 1 2 3 1\n0 0 1 0 0 1\n"
+                        "7 3 0 1 2 2 0.5 0.5\n5\n");
+    std::string bytes = header("binary_little_endian", elements) + bytes_of(0.5, false) +
+                        bytes_of(std::int16_t{2}, false) + bytes_of(1.0, false) +
+                        bytes_of(2.0, false);
+    for (const Vec3& p : {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)}) {
+        bytes += '\xff';
+        for (const double x : p) bytes += bytes_of(static_cast<float>(x), false);
+        bytes += bytes_of(std::uint32_t{2}, false) + "ab" + bytes_of(1.0, false);
+    }
+    bytes += bytes_of(std::uint16_t{7}, false) + '\3' + bytes_of(0, false) + bytes_of(1, false) +
+             bytes_of(2, false) + '\1' + bytes_of(0.5f, false) + bytes_of(5, false);
+    expect_one_triangle(bytes);
+}
+
+TEST(Ply, FacesMayPrecedeVertices) {
+    expect_one_triangle(header("ascii", "element face 1\n" + faces + "element vertex 3\n" + xyz) +
+                        "3 0 1 2\n" + three);
+}
+
+TEST(Ply, BinaryDataMayBeginLikeALineEnd) {
+    for (const std::string end : {"\n", "\r\n", "\r"}) {
+        std::string bytes =
+            header("binary_little_endian",
+                   "element vertex 3\nproperty char x\nproperty char y\nproperty char "
+                   "z\nelement face 1\nproperty list char char vertex_indices\n");
+        for (std::size_t at = 0; (at = bytes.find('\n', at)) != std::string::npos;
+             at += end.size()) {
+            bytes.replace(at, 1, end);
+        }
+        const auto file =
+            read_bytes("a.ply", bytes + "\n\r\n" + "abcdef" + std::string("\3\0\1\2", 4));
+        EXPECT_EQ(file.mesh.positions[0], Vec3(10, 13, 10));
+    }
+}
+
+TEST(Ply, WrongHeadersAreRefused) {
+    expect_error<IoError>("a.ply", "solid\n", {"line 1", "not a PLY"});
+    expect_error<IoError>("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\n", {"end_header"});
+    expect_error<IoError>("a.ply", "ply\nend_header\n", {"no 'format'"});
+    expect_error<IoError>("a.ply", header("binary", ""), {"line 2", "'binary'"});
+    expect_error<IoError>("a.ply", header("ascii", "element vertex\n"),
+                          {"line 3", "end of the line"});
+    expect_error<IoError>("a.ply", header("ascii", "element vertex -1\n"), {"line 3", "negative"});
+    expect_error<IoError>("a.ply", header("ascii", "property int x\n"), {"line 3", "unexpected"});
+    expect_error<IoError>("a.ply", header("ascii", "element vertex 1\nproperty half x\n"),
+                          {"line 4", "'half'"});
+    expect_error<IoError>("a.ply", header("ascii", "element face 1\nproperty list float int v\n"),
+                          {"line 4", "integer"});
+    expect_error<IoError>("a.ply", header("ascii", "element vertex 1\nproperty float x\n") + "1\n",
+                          {"x, y and z"});
+    expect_error<IoError>("a.ply", header("ascii", "element face 1\nproperty int a\n") + "1\n",
+                          {"vertex_indices"});
+    expect_error<IoError>("a.ply",
+                          header("ascii",
+                                 "element tristrips 1\nproperty list int int "
+                                 "vertex_indices\n") +
+                              "3 0 1 2\n",
+                          {"strips", "list of faces"});
+}
+
+TEST(Ply, TruncatedFilesAreRefused) {
+    const std::string ascii = triangle_header("ascii") + three + "3 0 1 2";
+    std::string binary = triangle_header("binary_little_endian");
+    for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f})
+        binary += bytes_of(x, false);
+    binary += '\3' + bytes_of(0, false) + bytes_of(1, false) + bytes_of(2, false);
+    expect_one_triangle(binary);
+    for (std::size_t size = 1; size < ascii.size(); ++size) {
+        expect_error<IoError>("a.ply", ascii.substr(0, size), {"line"});
+    }
+    for (std::size_t size = binary.size() - 49; size < binary.size(); ++size) {
+        expect_error<IoError>("a.ply", binary.substr(0, size), {"byte", "truncated"});
+    }
+    expect_error<IoError>("a.ply", binary.substr(0, binary.size() - 20),
+                          {"byte " + std::to_string(binary.size() - 20), "vertex 2 of 3"});
+}
+
+TEST(Ply, WrongValuesAreRefused) {
+    const std::string head = triangle_header("ascii");
+    expect_error<InvalidInput>("a.ply", head + "0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n",
+                               {"line 11", "vertex 1", "not finite"});
+    expect_error<InvalidInput>("a.ply", head + three + "3 0 1 3\n", {"line 13", "corner 3"});
+    expect_error<InvalidInput>("a.ply", head + three + "3 0 1 -1\n", {"line 13", "negative"});
+    expect_error<IoError>("a.ply", head + three + "-3 0 1 2\n", {"line 13", "negative length"});
+    expect_error<IoError>("a.ply", head + "0 0 0 9\n1 0 0 9\n0 1 0 9\n3 0 1 2\n",
+                          {"line 10", "more values"});
+    std::string binary = triangle_header("binary_big_endian");
+    for (const float x : {0.f, 0.f, 0.f, 1.f, INFINITY, 0.f}) binary += bytes_of(x, true);
+    expect_error<InvalidInput>("a.ply", binary + std::string(99, '\0'),
+                               {"byte", "vertex 1", "not finite"});
+}
+
+TEST(Ply, CountsAndLengthsAreNotBelieved) {
+    const std::string huge = "9223372036854775807";
+    expect_error<IoError>("a.ply", header("ascii", "element vertex " + huge + "\n" + xyz) + three,
+                          {"vertex 3 of " + huge});
+    expect_error<IoError>(
+        "a.ply", header("binary_little_endian", "element vertex " + huge + "\n" + xyz) + three,
+        {"vertex 1 of " + huge});
+    expect_error<IoError>("a.ply",
+                          header("binary_little_endian", "element vertex 0\n" + xyz +
+                                                             "element face 1\nproperty list "
+                                                             "uint int vertex_indices\n") +
+                              "\xff\xff\xff\xff",
+                          {"face 0"});
+    expect_error<IoError>(
+        "a.ply",
+        header("binary_little_endian", "element x " + huge + "\nproperty list uint double y\n") +
+            "\xff\xff\xff\xff",
+        {"x 0 of"});
+}
+
+TEST(Ply, PointCloudsAreRefused) {
+    expect_error<InvalidInput>("a.ply", header("ascii", "element vertex 3\n" + xyz) + three,
+                               {"3 vertices but no face"});
+    expect_error<InvalidInput>("a.ply", header("ascii", ""), {"nor a face"});
+}
