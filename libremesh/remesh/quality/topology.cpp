@@ -4,34 +4,14 @@
 #include <map>
 #include <numeric>
 
+#include "remesh/quality/edge_sides.h"
+
 namespace remesh {
 namespace {
 
 using agvd::Index;
 using agvd::no_index;
 using agvd::Triangle;
-
-struct Side {
-    std::uint64_t ends;
-    Index face;
-    bool forward;  // Traverses the edge from its lower to its higher vertex.
-};
-
-std::vector<Side> sorted_sides(const agvd::MeshView& mesh) {
-    std::vector<Side> sides;
-    sides.reserve(3 * mesh.triangles.size());
-    for (Index f = 0; f < mesh.triangles.size(); ++f) {
-        for (int k = 0; k < 3; ++k) {
-            const Index a = mesh.triangles[f][k];
-            const Index b = mesh.triangles[f][(k + 1) % 3];
-            sides.push_back({std::uint64_t{std::min(a, b)} << 32 | std::max(a, b), f, a < b});
-        }
-    }
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-        return a.ends != b.ends ? a.ends < b.ends : a.face < b.face;
-    });
-    return sides;
-}
 
 Index find_root(std::vector<Index>& parent, Index i) {
     while (parent[i] != i) {
@@ -58,7 +38,7 @@ bool has_bad_faces(const agvd::MeshView& mesh) {
 }
 
 // One umbrella per vertex: the corners at a vertex hang together through the edges at it.
-bool has_one_umbrella_each(const agvd::MeshView& mesh, const std::vector<Side>& sides) {
+bool has_one_umbrella_each(const agvd::MeshView& mesh, const std::vector<EdgeSide>& sides) {
     std::vector<Index> corner(3 * mesh.triangles.size());
     std::iota(corner.begin(), corner.end(), Index{0});
     const auto corner_of = [&](Index face, Index vertex) {
@@ -67,9 +47,8 @@ bool has_one_umbrella_each(const agvd::MeshView& mesh, const std::vector<Side>& 
     };
     for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
         if (sides[i].ends != sides[i + 1].ends) continue;
-        for (const auto v : {static_cast<Index>(sides[i].ends >> 32),
-                             static_cast<Index>(sides[i].ends & 0xffffffffu)}) {
-            unite(corner, corner_of(sides[i].face, v), corner_of(sides[i + 1].face, v));
+        for (const Index v : {sides[i].low(), sides[i].high()}) {
+            unite(corner, corner_of(sides[i].face(), v), corner_of(sides[i + 1].face(), v));
         }
     }
     std::vector<Index> umbrella(mesh.positions.size(), no_index);
@@ -90,26 +69,27 @@ int Topology::genus() const {
 }
 
 int Topology::boundary_loops() const {
-    return std::accumulate(components.begin(), components.end(), 0,
-                           [](int sum, const ComponentTopology& c) { return sum + c.boundary_loops; });
+    return std::accumulate(
+        components.begin(), components.end(), 0,
+        [](int sum, const ComponentTopology& c) { return sum + c.boundary_loops; });
 }
 
 Topology analyze_topology(const agvd::MeshView& mesh) {
     Topology result;
-    const std::vector<Side> sides = sorted_sides(mesh);
+    const std::vector<EdgeSide> sides = sorted_edge_sides(mesh);
     const auto num_faces = static_cast<Index>(mesh.triangles.size());
 
     std::vector<Index> parent(num_faces);
     std::iota(parent.begin(), parent.end(), Index{0});
     result.is_manifold = !has_bad_faces(mesh);
     result.is_oriented = true;
-    for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
-        for (end = i + 1; end < sides.size() && sides[end].ends == sides[i].ends; ++end) {
-            unite(parent, sides[i].face, sides[end].face);
+    for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
+        for (const EdgeSide* side = begin; side != end; ++side) {
+            unite(parent, begin->face(), side->face());
         }
-        if (end - i > 2) result.is_manifold = false;
-        if (end - i == 2 && sides[i].forward == sides[i + 1].forward) result.is_oriented = false;
-    }
+        if (end - begin > 2) result.is_manifold = false;
+        if (end - begin == 2 && begin[0].forward == begin[1].forward) result.is_oriented = false;
+    });
     if (result.is_manifold) result.is_manifold = has_one_umbrella_each(mesh, sides);
 
     std::vector<Index> component_of_root(num_faces, no_index);
@@ -126,7 +106,8 @@ Topology analyze_topology(const agvd::MeshView& mesh) {
         ++c.euler;
         const auto& [a, b, d] = mesh.triangles[f];
         c.area += 0.5 * (mesh.positions[b] - mesh.positions[a])
-                            .cross(mesh.positions[d] - mesh.positions[a]).norm();
+                            .cross(mesh.positions[d] - mesh.positions[a])
+                            .norm();
     }
 
     std::vector<std::pair<Index, Index>> vertex_of;  // (component, vertex), once each
@@ -142,14 +123,12 @@ Topology analyze_topology(const agvd::MeshView& mesh) {
     std::vector<Index> boundary(mesh.positions.size());
     std::iota(boundary.begin(), boundary.end(), Index{0});
     std::vector<std::pair<Index, Index>> boundary_ends;  // (lower vertex, face)
-    for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
-        for (end = i + 1; end < sides.size() && sides[end].ends == sides[i].ends;) ++end;
-        --result.components[result.face_component[sides[i].face]].euler;
-        if (end - i != 1) continue;
-        const auto low = static_cast<Index>(sides[i].ends >> 32);
-        unite(boundary, low, static_cast<Index>(sides[i].ends & 0xffffffffu));
-        boundary_ends.emplace_back(low, sides[i].face);
-    }
+    for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
+        --result.components[result.face_component[begin->face()]].euler;
+        if (end - begin != 1) return;
+        unite(boundary, begin->low(), begin->high());
+        boundary_ends.emplace_back(begin->low(), begin->face());
+    });
     std::vector<bool> counted(mesh.positions.size(), false);
     for (const auto& [vertex, face] : boundary_ends) {
         const Index root = find_root(boundary, vertex);

@@ -1,0 +1,41 @@
+//! \file
+//! Results as JSON for programs and as text for people.
+#pragma once
+
+#include <string>
+
+#include "remesh/pipeline/remesh.h"
+#include "remesh/quality/evaluate.h"
+
+namespace remesh {
+
+//! What the caller of remesh() knows about a run.
+struct RunInfo {
+    std::string version = {};      //!< Of the program.
+    std::string input_path = {};   //!< Empty: not a file.
+    std::string output_path = {};  //!< Likewise.
+    RemeshOptions options = {};    //!< As passed to remesh().
+};
+
+//! What the caller of evaluate() knows about its meshes.
+struct EvaluationInfo {
+    std::string version = {};        //!< Of the program.
+    std::string original_path = {};  //!< Empty: not a file.
+    std::string result_path = {};    //!< Likewise.
+};
+
+//! A JSON object over several lines. Keys are snake_case and always present; units are in the key
+//! (_s, _bytes, _deg, _percent, _percent_of_diagonal). A number that is not finite and a value that
+//! was not measured (e.g. without CGAL) are null; the self-intersecting pairs and the components
+//! are listed in full.
+[[nodiscard]] std::string to_json(const RemeshResult& result, const RunInfo& info = {});
+[[nodiscard]] std::string to_json(const Evaluation& evaluation, const EvaluationInfo& info = {});
+
+//! The same for people, several lines without a last line end; details left to the JSON.
+[[nodiscard]] std::string to_text(const RemeshResult& result, const RunInfo& info = {});
+[[nodiscard]] std::string to_text(const Evaluation& evaluation, const EvaluationInfo& info = {});
+
+//! One line, e.g. "repaired: 3 welded vertices, 1 duplicate face"; or that nothing was to repair.
+[[nodiscard]] std::string to_text(const CleanCounts& counts);
+
+}  // namespace remesh

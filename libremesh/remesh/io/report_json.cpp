@@ -1,0 +1,149 @@
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "remesh/io/report.h"
+#include "remesh/io/report_common.h"
+
+namespace remesh {
+namespace {
+
+// Keeps the keys in the order in which they were set.
+using Json = nlohmann::ordered_json;
+
+using detail::degrees;
+
+Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
+
+// Over several lines; bytes that are not UTF-8 (in paths) are replaced, NaN and infinity are null.
+std::string dump(const Json& object) {
+    return object.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+Json to_json(const CleanCounts& counts) {
+    Json object;
+    for (const detail::RepairRow& row : detail::repair_rows) object[row.key] = counts.*row.count;
+    return object;
+}
+
+void add_topology(Json& object, const Topology& topology) {
+    object["manifold"] = topology.is_manifold;
+    object["oriented"] = topology.is_oriented;
+    object["genus"] = topology.genus();
+    object["boundary_loops"] = topology.boundary_loops();
+    object["component_count"] = topology.components.size();
+    Json& components = object["components"] = Json::array();
+    for (const ComponentTopology& c : topology.components) {
+        components.push_back({{"faces", c.faces},
+                              {"euler_characteristic", c.euler},
+                              {"genus", c.genus},
+                              {"boundary_loops", c.boundary_loops},
+                              {"area_square_mesh_units", c.area}});
+    }
+}
+
+Json to_json(const MeshFigures& mesh) {
+    const TriangleQuality& quality = mesh.triangles;
+    Json object;
+    object["vertices"] = mesh.vertices;
+    object["edges"] = quality.edges;
+    object["faces"] = mesh.faces;
+    add_topology(object, mesh.topology);
+    object["mean_quality"] = quality.mean_quality;
+    object["min_quality"] = quality.min_quality;
+    object["mean_min_angle_deg"] = quality.mean_min_angle * degrees;
+    object["min_angle_deg"] = quality.min_angle * degrees;
+    object["max_angle_deg"] = quality.max_angle * degrees;
+    object["faces_below_30_deg_percent"] = 100 * quality.small_angle_share;
+    object["valence_6_percent"] = 100 * quality.regular_share;
+    object["edge_length_variation"] = quality.edge_length_variation;
+    object["non_delaunay_edges"] = quality.non_delaunay_edges;
+    object["faces_without_area"] = quality.faces_without_area;
+    object["self_intersecting_pairs"] = Json();
+    object["self_intersecting_faces"] = Json();
+    if (mesh.self_intersections) {
+        object["self_intersecting_pairs"] = mesh.self_intersections->size();
+        object["self_intersecting_faces"] = *mesh.self_intersections;
+    }
+    return object;
+}
+
+Json to_json(const OneSidedDistance& percent) {
+    return {{"mean_percent_of_diagonal", percent.mean},
+            {"rms_percent_of_diagonal", percent.rms},
+            {"max_percent_of_diagonal", percent.max}};
+}
+
+// A distance that was not measured is NaN, which JSON shows as null.
+Json to_json(const std::optional<SurfaceDistance>& measured) {
+    SurfaceDistance distance = measured.value_or(SurfaceDistance{});
+    if (!measured) distance.diagonal = std::numeric_limits<double>::quiet_NaN();
+    const auto percent = [&](const OneSidedDistance& d) {
+        return to_json(distance.percent_of_diagonal(d));
+    };
+    Json object;
+    object["samples_per_surface"] = measured ? Json(distance.samples) : Json();
+    object["original_diagonal_mesh_units"] = distance.diagonal;
+    object["original_to_result"] = percent(distance.from_original);
+    object["result_to_original"] = percent(distance.from_result);
+    object["two_sided"] = percent(distance.two_sided());
+    return object;
+}
+
+Json to_json(const RemeshOptions& options) {
+    Json object;
+    object["samples"] = options.num_samples;
+    object["init"] = options.init == Init::Random ? "random" : "blue-noise";
+    object["seed"] = options.seed;
+    object["given_sites"] = options.sites ? Json(options.sites->size()) : Json();
+    object["steiner_points_per_edge"] = options.steiner_points;
+    object["lambda"] = options.lambda;
+    object["max_repair_rounds"] = options.repair_rounds;
+    object["threads"] = options.num_threads;
+    return object;
+}
+
+}  // namespace
+
+std::string to_json(const RemeshResult& result, const RunInfo& info) {
+    Json object;
+    object["program"] = "remesh";
+    object["version"] = text_or_null(info.version);
+    object["input_path"] = text_or_null(info.input_path);
+    object["output_path"] = text_or_null(info.output_path);
+    object["options"] = to_json(info.options);
+    object["input_repair"] = to_json(result.cleaned);
+    object["input_faces"] = result.input_topology.face_component.size();
+    add_topology(object["input_topology"], result.input_topology);
+    object["output_vertices"] = result.mesh.positions.size();
+    object["output_faces"] = result.mesh.triangles.size();
+    object["sites_added"] = result.sites_added;
+    object["sites_dropped"] = result.sites_dropped;
+    object["repair_rounds"] = result.repair_rounds;
+    object["propagation_bytes"] = result.propagation_bytes;
+    Json& stages = object["stage_seconds"] = Json::object();
+    for (const auto& [stage, seconds] : result.seconds) {
+        stages[std::string(stage_name(stage)) + "_s"] = seconds;
+    }
+    object["total_s"] = detail::total_seconds(result);
+    return dump(object);
+}
+
+std::string to_json(const Evaluation& evaluation, const EvaluationInfo& info) {
+    const std::optional<SurfaceDistance>& distance = evaluation.distance;
+    Json object;
+    object["program"] = "remesh-eval";
+    object["version"] = text_or_null(info.version);
+    object["original_path"] = text_or_null(info.original_path);
+    object["result_path"] = text_or_null(info.result_path);
+    object["original_repair"] = to_json(evaluation.cleaned);
+    object["original"] = to_json(evaluation.original);
+    object["result"] = to_json(evaluation.result);
+    object["topology_kept"] = evaluation.topology_kept;
+    object["distance"] = to_json(distance);
+    object["flipped_normals"] = distance ? Json(distance->flipped_faces) : Json();
+    object["flipped_normals_percent"] =
+        distance ? Json(100.0 * distance->flipped_faces / evaluation.result.faces) : Json();
+    return dump(object);
+}
+
+}  // namespace remesh

@@ -1,0 +1,150 @@
+#include <iomanip>
+#include <locale>
+#include <sstream>
+
+#include "remesh/io/report.h"
+#include "remesh/io/report_common.h"
+
+namespace remesh {
+namespace {
+
+using detail::degrees;
+constexpr const char* not_measured = "needs CGAL";
+
+// "1 face", "2 faces", "2 vertices".
+std::string counted(std::size_t count, const std::string& noun) {
+    std::string plural = noun + 's';
+    if (noun.ends_with("vertex")) plural.replace(plural.size() - 3, 3, "ices");
+    return std::to_string(count) + ' ' + (count == 1 ? noun : plural);
+}
+
+// printf's %.*f, without a locale's comma.
+std::string fixed(double value, int digits) {
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out << std::fixed << std::setprecision(digits) << value;
+    return out.str();
+}
+
+std::string describe(const Topology& topology) {
+    return counted(topology.components.size(), "component") + ", genus " +
+           std::to_string(topology.genus()) + ", " +
+           counted(static_cast<std::size_t>(topology.boundary_loops()), "boundary loop");
+}
+
+class Table {
+public:
+    explicit Table(std::ostringstream& out) : out_(out) {}
+
+    template <typename... Cells>
+    void row(const std::string& name, const Cells&... cells) {
+        out_ << std::left << std::setw(28) << name << std::right;
+        ((out_ << std::setw(14) << cells), ...);
+        out_ << '\n';
+    }
+
+private:
+    std::ostringstream& out_;
+};
+
+void add_meshes(Table& table, const MeshFigures& a, const MeshFigures& b) {
+    const auto both = [&](const char* name, const auto& text_of) {
+        table.row(name, text_of(a), text_of(b));
+    };
+    const auto number = [&](const char* name, int digits, const auto& value_of) {
+        both(name, [&](const MeshFigures& m) { return fixed(value_of(m.triangles), digits); });
+    };
+    using Mesh = const MeshFigures&;
+    using Quality = const TriangleQuality&;
+    const auto yes_no = [](bool value) { return value ? "yes" : "no"; };
+    table.row("", "original", "result");
+    both("vertices", [](Mesh m) { return m.vertices; });
+    both("faces", [](Mesh m) { return m.faces; });
+    both("manifold", [&](Mesh m) { return yes_no(m.topology.is_manifold); });
+    both("oriented", [&](Mesh m) { return yes_no(m.topology.is_oriented); });
+    both("components", [](Mesh m) { return m.topology.components.size(); });
+    both("genus", [](Mesh m) { return m.topology.genus(); });
+    both("boundary loops", [](Mesh m) { return m.topology.boundary_loops(); });
+    number("mean Q", 4, [](Quality q) { return q.mean_quality; });
+    number("min Q", 4, [](Quality q) { return q.min_quality; });
+    number("mean smallest angle (deg)", 2, [](Quality q) { return q.mean_min_angle * degrees; });
+    number("smallest angle (deg)", 2, [](Quality q) { return q.min_angle * degrees; });
+    number("largest angle (deg)", 2, [](Quality q) { return q.max_angle * degrees; });
+    number("faces below 30 deg (%)", 2, [](Quality q) { return 100 * q.small_angle_share; });
+    number("valence 6 (%)", 2, [](Quality q) { return 100 * q.regular_share; });
+    number("edge length variation", 4, [](Quality q) { return q.edge_length_variation; });
+    both("non-Delaunay edges", [](Mesh m) { return m.triangles.non_delaunay_edges; });
+    both("faces without area", [](Mesh m) { return m.triangles.faces_without_area; });
+    both("self-intersecting pairs", [](Mesh m) {
+        return m.self_intersections ? std::to_string(m.self_intersections->size()) : not_measured;
+    });
+}
+
+void add_distance(Table& table, const SurfaceDistance& distance) {
+    const auto row = [&](const char* name, const OneSidedDistance& d) {
+        const OneSidedDistance percent = distance.percent_of_diagonal(d);
+        table.row(name, fixed(percent.mean, 5), fixed(percent.rms, 5), fixed(percent.max, 5));
+    };
+    table.row("distance (% of diagonal)", "mean", "RMS", "max");
+    row("original to result", distance.from_original);
+    row("result to original", distance.from_result);
+    row("two-sided (the larger)", distance.two_sided());
+}
+
+}  // namespace
+
+std::string to_text(const CleanCounts& counts) {
+    std::string text;
+    for (const detail::RepairRow& row : detail::repair_rows) {
+        if (counts.*row.count == 0) continue;
+        text += (text.empty() ? "repaired: " : ", ") + counted(counts.*row.count, row.what);
+    }
+    return text.empty() ? "repaired: nothing" : text;
+}
+
+std::string to_text(const RemeshResult& result, const RunInfo& info) {
+    std::string text;
+    if (!info.input_path.empty()) text += "input: " + info.input_path + '\n';
+    text += to_text(result.cleaned) + '\n';
+    text += "surface: " + counted(result.input_topology.face_component.size(), "face") + ", " +
+            describe(result.input_topology) + '\n';
+    text += "result: " + counted(result.mesh.positions.size(), "vertex") + ", " +
+            counted(result.mesh.triangles.size(), "face") + "; same topology, " +
+            counted(result.sites_added, "site") + " added in " +
+            counted(static_cast<std::size_t>(result.repair_rounds), "round") + " for it";
+    if (result.sites_dropped > 0) {
+        text += ", " + counted(result.sites_dropped, "site") + " that owned nothing dropped";
+    }
+    text += "\ntime:";
+    for (const auto& [stage, seconds] : result.seconds) {
+        text += std::string(" ") + stage_name(stage) + ' ' + fixed(seconds, 2) + " s,";
+    }
+    text += " total " + fixed(detail::total_seconds(result), 2) + " s; propagation memory " +
+            fixed(static_cast<double>(result.propagation_bytes) * 1e-6, 1) + " MB";
+    if (!info.output_path.empty()) text += "\nwritten: " + info.output_path;
+    return text;
+}
+
+std::string to_text(const Evaluation& evaluation, const EvaluationInfo& info) {
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    Table table(out);
+    if (!info.original_path.empty()) out << "original: " << info.original_path << '\n';
+    if (!info.result_path.empty()) out << "result: " << info.result_path << '\n';
+    out << "original " << to_text(evaluation.cleaned) << "\n\n";
+    add_meshes(table, evaluation.original, evaluation.result);
+    table.row("topology kept", "", evaluation.topology_kept ? "yes" : "no");
+    if (!evaluation.distance) {
+        table.row("flipped normals", "", not_measured);
+        out << "\ndistance: " << not_measured;
+        return out.str();
+    }
+    table.row("flipped normals", "", evaluation.distance->flipped_faces);
+    out << '\n';
+    add_distance(table, *evaluation.distance);
+    out << "the original's diagonal: " << evaluation.distance->diagonal << " mesh units; "
+        << counted(evaluation.distance->samples, "sample") << " on each surface and all vertices";
+    return out.str();
+}
+
+}  // namespace remesh

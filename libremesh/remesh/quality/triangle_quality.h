@@ -1,0 +1,34 @@
+//! \file
+//! How good the triangles of a mesh are.
+#pragma once
+
+#include "agvd/mesh/mesh_view.h"
+
+namespace remesh {
+
+//! Angles in radians, shares in [0, 1]. A face without area has quality 0; its angles are 0 or pi.
+struct TriangleQuality {
+    //! Of Q = 6 / sqrt(3) * S / (p h): S area, p half the perimeter, h the longest edge. 1 for an
+    //! equilateral triangle, 0 for a flat one ([frey1999]).
+    double mean_quality = 0;
+    double min_quality = 0;
+    double mean_min_angle = 0;  //!< Mean of the faces' smallest angles.
+    double min_angle = 0;
+    double max_angle = 0;
+    double small_angle_share = 0;      //!< Faces whose smallest angle is below pi / 6.
+    double regular_share = 0;          //!< Vertices of 6 edges, on the boundary of 4.
+    double edge_length_variation = 0;  //!< Standard deviation over mean of the edge lengths.
+    agvd::Index edges = 0;
+    //! Inner edges whose two opposite angles (measured in space) sum to more than pi.
+    agvd::Index non_delaunay_edges = 0;
+    agvd::Index faces_without_area = 0;
+};
+
+//! Measures any mesh, manifold or not; of an edge with one face or with more than two the Delaunay
+//! condition is not asked, and vertices in no face count nowhere.
+//!
+//! \param mesh  #V x 3 finite positions, #F x 3 indices in range; without faces all is 0.
+//! Cost: O(n log n).
+[[nodiscard]] TriangleQuality measure_triangles(const agvd::MeshView& mesh);
+
+}  // namespace remesh

@@ -1,0 +1,17 @@
+// The answers of a build without CGAL to what only CGAL can measure.
+#include "remesh/quality/self_intersections.h"
+#include "remesh/quality/surface_distance.h"
+
+namespace remesh {
+
+std::optional<SurfaceDistance> surface_distance(const agvd::MeshView&, const agvd::MeshView&,
+                                                const DistanceOptions&) {
+    return std::nullopt;
+}
+
+std::optional<std::vector<std::pair<agvd::Index, agvd::Index>>> find_self_intersections(
+    const agvd::MeshView&, int) {
+    return std::nullopt;
+}
+
+}  // namespace remesh

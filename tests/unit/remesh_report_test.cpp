@@ -1,0 +1,68 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "remesh/io/report.h"
+
+using nlohmann::json;
+
+namespace {
+
+remesh::RemeshResult example() {
+    remesh::RemeshResult result;
+    result.mesh.positions.resize(3);
+    result.mesh.triangles.resize(1);
+    result.cleaned.split_edges = 4;
+    result.input_topology.components = {{.faces = 8, .euler = 0, .genus = 1, .area = 1.5}};
+    result.input_topology.face_component.assign(8, 0);
+    result.sites_added = 5;
+    result.sites_dropped = 6;
+    result.repair_rounds = 2;
+    result.propagation_bytes = 12'300'000;
+    result.seconds = {{remesh::Stage::Clean, 0.25}, {remesh::Stage::Dual, 0.5}};
+    return result;
+}
+
+}  // namespace
+
+TEST(RemeshReport, GivesEveryFieldOfTheResult) {
+    const json report = json::parse(remesh::to_json(
+        example(), {.version = "1.2",
+                    .input_path = "in.ply",
+                    .output_path = "out.obj",
+                    .options = {.num_samples = 77, .init = remesh::Init::Random, .seed = 9}}));
+    EXPECT_EQ(report["program"], "remesh");
+    EXPECT_EQ(report["version"], "1.2");
+    EXPECT_EQ(report["input_path"], "in.ply");
+    EXPECT_EQ(report["output_path"], "out.obj");
+    EXPECT_EQ(report["options"]["samples"], 77);
+    EXPECT_EQ(report["options"]["init"], "random");
+    EXPECT_EQ(report["options"]["seed"], 9);
+    EXPECT_EQ(report["options"]["given_sites"], nullptr);
+    EXPECT_EQ(report["options"]["steiner_points_per_edge"], 8);
+    EXPECT_EQ(report["options"]["lambda"], 1);
+    EXPECT_EQ(report["options"]["max_repair_rounds"], 50);
+    EXPECT_EQ(report["options"]["threads"], 0);
+    EXPECT_EQ(report["input_repair"]["split_edges"], 4);
+    EXPECT_EQ(report["input_faces"], 8);
+    EXPECT_EQ(report["input_topology"]["genus"], 1);
+    EXPECT_EQ(report["input_topology"]["components"][0]["euler_characteristic"], 0);
+    EXPECT_EQ(report["output_vertices"], 3);
+    EXPECT_EQ(report["output_faces"], 1);
+    EXPECT_EQ(report["sites_added"], 5);
+    EXPECT_EQ(report["sites_dropped"], 6);
+    EXPECT_EQ(report["repair_rounds"], 2);
+    EXPECT_EQ(report["propagation_bytes"], 12'300'000);
+    EXPECT_EQ(report["stage_seconds"]["clean_s"], 0.25);
+    EXPECT_EQ(report["stage_seconds"]["dual_s"], 0.5);
+    EXPECT_EQ(report["total_s"], 0.75);
+}
+
+TEST(RemeshReport, TextTellsRepairTopologyTimeAndMemory) {
+    const std::string text = remesh::to_text(example(), {.input_path = "in.ply"});
+    for (const char* part : {"in.ply", "4 split edges", "1 component, genus 1, 0 boundary loops",
+                             "3 vertices, 1 face", "5 sites added in 2 rounds", "6 sites",
+                             "clean 0.25 s, dual 0.50 s", "total 0.75 s", "12.3 MB"}) {
+        EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
+    }
+}

@@ -1,0 +1,116 @@
+#include "remesh/io/report.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+using nlohmann::json;
+
+namespace {
+
+remesh::Evaluation example() {
+    remesh::Evaluation e;
+    e.original.vertices = 10;
+    e.original.topology.components = {{.faces = 16, .euler = 2, .area = 2.5}};
+    e.original.self_intersections = {{3, 7}};
+    e.cleaned.welded_vertices = 1;
+    e.cleaned.flipped_faces = 2;
+    e.result.faces = 8;
+    e.result.triangles.min_angle = std::numbers::pi / 6;
+    e.result.triangles.regular_share = 0.75;
+    e.topology_kept = true;
+    e.distance = {.from_original = {.mean = 1, .rms = 2, .max = 3},
+                  .from_result = {.mean = 0, .rms = 1, .max = 4},
+                  .diagonal = 50,
+                  .samples = 1000,
+                  .flipped_faces = 2};
+    return e;
+}
+
+// The keys of an object and of those inside it, as paths.
+void add_keys(const json& object, const std::string& path, std::vector<std::string>& keys) {
+    for (const auto& [key, value] : object.items()) {
+        keys.push_back(path + key);
+        if (value.is_object()) add_keys(value, path + key + '/', keys);
+    }
+}
+
+std::vector<std::string> keys_of(const std::string& text) {
+    std::vector<std::string> keys;
+    add_keys(json::parse(text), "", keys);
+    return keys;
+}
+
+}  // namespace
+
+TEST(EvaluationReport, GivesEveryFigureInTheUnitOfItsKey) {
+    const json report = json::parse(remesh::to_json(
+        example(), {.version = "1.2", .original_path = "a.ply", .result_path = "b.ply"}));
+    EXPECT_EQ(report["program"], "remesh-eval");
+    EXPECT_EQ(report["version"], "1.2");
+    EXPECT_EQ(report["original_path"], "a.ply");
+    EXPECT_EQ(report["result_path"], "b.ply");
+    EXPECT_EQ(report["original_repair"]["welded_vertices"], 1);
+    EXPECT_EQ(report["original"]["vertices"], 10);
+    EXPECT_EQ(report["original"]["components"][0]["area_square_mesh_units"], 2.5);
+    EXPECT_EQ(report["original"]["self_intersecting_pairs"], 1);
+    EXPECT_EQ(report["original"]["self_intersecting_faces"][0], (json{3, 7}));
+    EXPECT_NEAR(report["result"]["min_angle_deg"], 30, 1e-12);
+    EXPECT_EQ(report["result"]["valence_6_percent"], 75);
+    EXPECT_EQ(report["result"]["self_intersecting_pairs"], nullptr) << "not measured";
+    EXPECT_EQ(report["topology_kept"], true);
+    EXPECT_EQ(report["distance"]["original_to_result"]["max_percent_of_diagonal"], 6);
+    EXPECT_EQ(report["distance"]["result_to_original"]["rms_percent_of_diagonal"], 2);
+    EXPECT_EQ(report["distance"]["two_sided"]["mean_percent_of_diagonal"], 2);
+    EXPECT_EQ(report["distance"]["two_sided"]["max_percent_of_diagonal"], 8);
+    EXPECT_EQ(report["distance"]["original_diagonal_mesh_units"], 50);
+    EXPECT_EQ(report["flipped_normals"], 2);
+    EXPECT_EQ(report["flipped_normals_percent"], 25);
+}
+
+TEST(EvaluationReport, HasTheSameKeysWhateverWasMeasured) {
+    const std::string all = remesh::to_json(example());
+    remesh::Evaluation bare = example();
+    bare.distance.reset();
+    bare.original.self_intersections.reset();
+    const std::string some = remesh::to_json(bare);
+    EXPECT_EQ(keys_of(all), keys_of(some));
+    const json report = json::parse(some);
+    EXPECT_EQ(report["distance"]["two_sided"]["max_percent_of_diagonal"], nullptr);
+    EXPECT_EQ(report["flipped_normals"], nullptr);
+    EXPECT_EQ(report["original_path"], nullptr);
+}
+
+TEST(EvaluationReport, NumbersThatAreNotFiniteAreNull) {
+    remesh::Evaluation e = example();
+    e.result.triangles.mean_quality = std::numeric_limits<double>::infinity();
+    e.distance->from_result.max = std::nan("");
+    const json report = json::parse(remesh::to_json(e));
+    EXPECT_EQ(report["result"]["mean_quality"], nullptr);
+    EXPECT_EQ(report["distance"]["result_to_original"]["max_percent_of_diagonal"], nullptr);
+}
+
+TEST(EvaluationReport, PathsNeedNotBeUtf8) {
+    const std::string text = remesh::to_json(example(), {.original_path = "caf\xe9.ply"});
+    EXPECT_EQ(json::parse(text)["original_path"], "caf\xef\xbf\xbd.ply");
+}
+
+TEST(EvaluationReport, TextNamesWhatNeedsCgal) {
+    const std::string all = remesh::to_text(example());
+    EXPECT_NE(all.find("repaired: 1 welded vertex, 2 flipped faces"), std::string::npos) << all;
+    EXPECT_NE(all.find("topology kept" + std::string(40, ' ') + "yes"), std::string::npos) << all;
+    EXPECT_NE(all.find("two-sided (the larger)             2.00000       4.00000       8.00000"),
+              std::string::npos)
+        << all;
+    remesh::Evaluation bare = example();
+    bare.distance.reset();
+    EXPECT_NE(remesh::to_text(bare).find("distance: needs CGAL"), std::string::npos);
+}
+
+TEST(RepairText, SaysWhenThereWasNothingToDo) {
+    EXPECT_EQ(remesh::to_text(remesh::CleanCounts{}), "repaired: nothing");
+    EXPECT_EQ(remesh::to_text(remesh::CleanCounts{.duplicate_faces = 1, .split_vertices = 2}),
+              "repaired: 1 duplicate face, 2 split vertices");
+}

@@ -1,0 +1,11 @@
+#include <gtest/gtest.h>
+
+#include "remesh/quality/self_intersections.h"
+#include "remesh/quality/surface_distance.h"
+#include "support/shapes.h"
+
+TEST(WithoutCgal, WhatItMeasuresIsAbsent) {
+    const agvd::TriangleMesh mesh = shapes::tetrahedron();
+    EXPECT_EQ(remesh::find_self_intersections(mesh.view()), std::nullopt);
+    EXPECT_FALSE(remesh::surface_distance(mesh.view(), mesh.view()).has_value());
+}
