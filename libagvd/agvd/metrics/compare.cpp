@@ -215,7 +215,7 @@ std::vector<DiagramError> compare_with_exact(const Surface& surface,
         targets.push_back({FaceId(Surface::face(h)), {0, 0, 0}});
         targets.back().barycentric[h % 3] = 1;
     }
-    const NearestSites exact = exact_nearest_sites(surface, sites, targets);
+    const NearestSites exact = exact_nearest_sites(surface, sites, targets, options.num_threads);
 
     Questions questions(sites.size());
     std::vector<Open> open(approximations.size());

@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <functional>
 #include <limits>
 #include <string>
-#include <unordered_map>
 
 #include "agvd/core/error.h"
 #include "agvd/core/parallel.h"
@@ -24,6 +24,9 @@ using WindowTree = CGAL::Surface_mesh_shortest_path<Traits>;
 using Location = WindowTree::Face_location;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Keeps a bound above the distances it was made from.
+constexpr double rounding = 1 + 1e-9;
 
 // Barycentric coordinates below this are rounding: CGAL tells a point on an edge or vertex from one
 // inside a face by exact zeros, and a source a rounding error off an edge has degenerate windows.
@@ -127,7 +130,27 @@ WindowTree::Source_point_iterator add_source(WindowTree& tree, const Part& part,
     return tree.add_source_point(at);
 }
 
-double finite_or_infinity(double distance) { return distance < 0 ? infinity : distance; }
+double ask(WindowTree& tree, const Part& part, const SurfacePoint& target) {
+    const Location at = locate(part, target);
+    const double distance = tree.shortest_distance_to_source_points(at.first, at.second).first;
+    return distance < 0 ? infinity : distance;
+}
+
+// Exactly between two of CGAL's windows, such as straight behind a vertex, rounding may let a point
+// fall into neither. The path over a place close by, off all such lines, has the same length then.
+double distance_to(WindowTree& tree, const Surface& surface, const Part& part,
+                   const SurfacePoint& target) {
+    constexpr double step = 1e-12;
+    constexpr std::array<double, 3> towards{0.2, 0.3, 0.5};
+    SurfacePoint close = target;
+    for (std::size_t k = 0; k < 3; ++k) {
+        close.barycentric[k] += step * (towards[k] - close.barycentric[k]);
+    }
+    const MeshView mesh = surface.mesh.view();
+    return std::min(
+        ask(tree, part, target),
+        ask(tree, part, close) + (position(mesh, close) - position(mesh, target)).norm());
+}
 
 // At least every face that comes within `reach` of a place in space, hence along the surface too.
 std::vector<char> faces_within(const Surface& surface, const Vec3& place, double reach) {
@@ -144,70 +167,62 @@ std::vector<char> faces_within(const Surface& surface, const Vec3& place, double
     return is_inside;
 }
 
-std::vector<double> distances_in_part(const Part& part, const SurfacePoint& site,
-                                      std::span<const SurfacePoint> targets) {
+// The part of the surface within `reach` of the site holds every shortest path no longer than that,
+// and no path in it is shorter than the shortest on the surface: distances up to `reach` are exact,
+// longer ones upper bounds.
+std::vector<double> distances_within(const Surface& surface, const SurfacePoint& site,
+                                     std::span<const SurfacePoint> targets, double reach) {
+    if (targets.empty()) return {};
+    std::vector<char> is_inside = faces_within(surface, position(surface.mesh.view(), site), reach);
+    is_inside[site.face.value()] = 1;  // Also when rounding says otherwise.
+    for (const SurfacePoint& target : targets) is_inside[target.face.value()] = 1;
+    const auto num_inside = static_cast<Index>(std::count(is_inside.begin(), is_inside.end(), 1));
+    const Part part = make_part(surface, is_inside, num_inside);
     WindowTree tree(part.mesh);
     add_source(tree, part, site);
     std::vector<double> distances;
     distances.reserve(targets.size());
     for (const SurfacePoint& target : targets) {
-        const Location at = locate(part, target);
-        distances.push_back(
-            finite_or_infinity(tree.shortest_distance_to_source_points(at.first, at.second).first));
+        distances.push_back(distance_to(tree, surface, part, target));
     }
     return distances;
 }
 
-}  // namespace
-
-NearestSites exact_nearest_sites(const Surface& surface, std::span<const SurfacePoint> sites,
-                                 std::span<const SurfacePoint> targets) {
-    const Part part = whole(surface);
-    WindowTree tree(part.mesh);
-    std::unordered_map<const Location*, Index> site_of;
-    for (Index s = 0; s < sites.size(); ++s) {
-        site_of[&*add_source(tree, part, sites[s])] = s;
+// Calls answer(s) for each site in parallel; of several failures the one of the lowest site is
+// thrown, so that every run fails alike.
+void for_each_site(std::size_t num_sites, int num_threads,
+                   const std::function<void(Index)>& answer) {
+    std::vector<std::exception_ptr> failures(num_sites);
+    parallel_chunks(static_cast<Index>(num_sites), 1, num_threads, [&](Index s, Index, Index) {
+        try {
+            answer(s);
+        } catch (...) {
+            failures[s] = std::current_exception();
+        }
+    });
+    for (const std::exception_ptr& failure : failures) {
+        if (failure) std::rethrow_exception(failure);
     }
-    NearestSites nearest;
-    for (const SurfacePoint& target : targets) {
-        const Location at = locate(part, target);
-        const auto [distance, source] =
-            tree.shortest_distance_to_source_points(at.first, at.second);
-        nearest.distance.push_back(finite_or_infinity(distance));
-        nearest.site.push_back(distance < 0 ? SiteId() : SiteId(site_of.at(&*source)));
-    }
-    return nearest;
 }
 
-// A part holds every shortest path no longer than its reach, and no path in it is shorter than the
-// shortest on the surface: distances within the reach are exact.
+}  // namespace
+
 std::vector<double> exact_distances(const Surface& surface, const SurfacePoint& site,
                                     std::span<const SurfacePoint> targets) {
-    constexpr double first_reach = 1.2;    // Times the farthest target's distance in space.
-    constexpr double rounding = 1 + 1e-9;  // Keeps the second reach above what it was set to.
-    constexpr int num_parts = 2;           // Then the whole surface.
-    if (targets.empty()) return {};
+    constexpr double first_reach = 1.2;  // Times the farthest target's distance in space.
     const Vec3 centre = position(surface.mesh.view(), site);
-    double farthest = 0;
+    double reach = 0;
     for (const SurfacePoint& target : targets) {
-        farthest = std::max(farthest, (position(surface.mesh.view(), target) - centre).norm());
+        reach =
+            std::max(reach, first_reach * (position(surface.mesh.view(), target) - centre).norm());
     }
-    double reach = first_reach * farthest;
-    for (int i = 0; i < num_parts; ++i) {
-        std::vector<char> is_inside = faces_within(surface, centre, reach);
-        is_inside[site.face.value()] = 1;  // Also when rounding says otherwise.
-        for (const SurfacePoint& target : targets) is_inside[target.face.value()] = 1;
-        const auto num_inside =
-            static_cast<Index>(std::count(is_inside.begin(), is_inside.end(), 1));
-        if (num_inside == surface.num_faces()) break;
-        const std::vector<double> distances =
-            distances_in_part(make_part(surface, is_inside, num_inside), site, targets);
-        const double longest = *std::max_element(distances.begin(), distances.end());
-        if (longest <= reach) return distances;
-        if (longest == infinity) break;
-        reach = rounding * longest;
+    for (;;) {
+        std::vector<double> distances = distances_within(surface, site, targets, reach);
+        double longest = 0;
+        for (const double distance : distances) longest = std::max(longest, distance);
+        if (longest <= reach || reach == infinity) return distances;
+        reach = rounding * longest;  // What is found now is no longer; or all of the surface.
     }
-    return distances_in_part(whole(surface), site, targets);
 }
 
 std::vector<std::vector<double>> exact_distances(const Surface& surface,
@@ -219,22 +234,51 @@ std::vector<std::vector<double>> exact_distances(const Surface& surface,
                            std::to_string(targets.size()) + " lists of targets; give one for each");
     }
     std::vector<std::vector<double>> distances(sites.size());
-    std::vector<std::exception_ptr> failures(sites.size());
-    const auto answer = [&](Index s) {
-        try {
-            distances[s] = exact_distances(surface, sites[s], targets[s]);
-        } catch (...) {
-            failures[s] = std::current_exception();
-        }
-    };
-    parallel_chunks(static_cast<Index>(sites.size()), 1, num_threads,
-                    [&](Index, Index begin, Index end) {
-                        for (Index s = begin; s < end; ++s) answer(s);
-                    });
-    for (const std::exception_ptr& failure : failures) {
-        if (failure) std::rethrow_exception(failure);
-    }
+    for_each_site(sites.size(), num_threads,
+                  [&](Index s) { distances[s] = exact_distances(surface, sites[s], targets[s]); });
     return distances;
+}
+
+// CGAL up to at least 5.5 loses windows where several sources meet one on an edge, so its search
+// from all sites serves as an upper bound only: what decides are the distances from each site
+// alone, of all sites that are near enough in space.
+NearestSites exact_nearest_sites(const Surface& surface, std::span<const SurfacePoint> sites,
+                                 std::span<const SurfacePoint> targets, int num_threads) {
+    const Part part = whole(surface);
+    WindowTree tree(part.mesh);
+    std::vector<Vec3> site_positions;
+    for (const SurfacePoint& site : sites) {
+        add_source(tree, part, site);
+        site_positions.push_back(position(surface.mesh.view(), site));
+    }
+    std::vector<std::vector<SurfacePoint>> asked(sites.size());
+    std::vector<std::vector<Index>> asked_for(sites.size());
+    std::vector<double> reach(sites.size(), 0);
+    for (Index i = 0; i < targets.size(); ++i) {
+        const double bound = rounding * distance_to(tree, surface, part, targets[i]);
+        const Vec3 place = position(surface.mesh.view(), targets[i]);
+        for (std::size_t s = 0; s < sites.size(); ++s) {
+            if (!((place - site_positions[s]).norm() <= bound)) continue;
+            asked[s].push_back(targets[i]);
+            asked_for[s].push_back(i);
+            reach[s] = std::max(reach[s], bound);
+        }
+    }
+    std::vector<std::vector<double>> distances(sites.size());
+    for_each_site(sites.size(), num_threads, [&](Index s) {
+        distances[s] = distances_within(surface, sites[s], asked[s], reach[s]);
+    });
+    NearestSites nearest{std::vector<double>(targets.size(), infinity),
+                         std::vector<SiteId>(targets.size())};
+    for (Index s = 0; s < sites.size(); ++s) {
+        for (std::size_t k = 0; k < distances[s].size(); ++k) {
+            const Index i = asked_for[s][k];
+            if (!(distances[s][k] < nearest.distance[i])) continue;
+            nearest.distance[i] = distances[s][k];
+            nearest.site[i] = SiteId(s);
+        }
+    }
+    return nearest;
 }
 
 }  // namespace agvd

@@ -15,12 +15,6 @@ struct NearestSites {
     std::vector<SiteId> site;      //!< #targets; invalid where no site reaches.
 };
 
-//! Exact distance (in double) and nearest site of each target, all sites at once. Where sites tie,
-//! any of them. Memory and time of one window tree over the whole surface.
-[[nodiscard]] NearestSites exact_nearest_sites(const Surface& surface,
-                                               std::span<const SurfacePoint> sites,
-                                               std::span<const SurfacePoint> targets);
-
 //! Exact distance of each target from one site; infinity where it does not reach. Only the part of
 //! the surface that a shortest path to some target can touch is searched, so near targets are
 //! cheap.
@@ -35,5 +29,14 @@ struct NearestSites {
 [[nodiscard]] std::vector<std::vector<double>> exact_distances(
     const Surface& surface, std::span<const SurfacePoint> sites,
     std::span<const std::vector<SurfacePoint>> targets, int num_threads = 0);
+
+//! Exact distance (in double) and nearest site of each target; of equally near sites the lowest.
+//!
+//! Cost: one window tree from all sites over the whole surface, then one from each site as far as
+//! the targets that it may be nearest to.
+[[nodiscard]] NearestSites exact_nearest_sites(const Surface& surface,
+                                               std::span<const SurfacePoint> sites,
+                                               std::span<const SurfacePoint> targets,
+                                               int num_threads = 0);
 
 }  // namespace agvd
