@@ -1,5 +1,5 @@
 //! \file
-//! Exact geodesic distances by CGAL (Surface_mesh_shortest_path, Xin-Wang); the yardstick of tests
+//! Exact geodesic distances by CGAL (Surface_mesh_shortest_path, [xin2009]); the yardstick of tests
 //! and comparisons. In target agvd::oracle, since these CGAL headers are GPL.
 #pragma once
 
@@ -15,13 +15,28 @@ struct NearestSites {
     std::vector<SiteId> site;      //!< #targets; invalid where no site reaches.
 };
 
-//! Exact distance (in double) and nearest site of each target, all sites at once.
-[[nodiscard]] NearestSites exact_nearest_sites(const Surface& surface,
-                                               std::span<const SurfacePoint> sites,
-                                               std::span<const SurfacePoint> targets);
-
-//! Exact distance of each target from one site.
+//! Exact distance of each target from one site; infinity where it does not reach. Only the part of
+//! the surface that a shortest path to some target can touch is searched, so near targets are
+//! cheap.
 [[nodiscard]] std::vector<double> exact_distances(const Surface& surface, const SurfacePoint& site,
                                                   std::span<const SurfacePoint> targets);
+
+//! exact_distances for many sites: the distances of targets[s] from sites[s].
+//!
+//! \param targets      as many lists as sites.
+//! \param num_threads  >= 0; 0: all cores. Each site has a window tree of its own, alive only while
+//!                     its targets are answered. Same result for any number.
+[[nodiscard]] std::vector<std::vector<double>> exact_distances(
+    const Surface& surface, std::span<const SurfacePoint> sites,
+    std::span<const std::vector<SurfacePoint>> targets, int num_threads = 0);
+
+//! Exact distance (in double) and nearest site of each target; of equally near sites the lowest.
+//!
+//! Cost: one window tree from all sites over the whole surface, then one from each site as far as
+//! the targets that it may be nearest to.
+[[nodiscard]] NearestSites exact_nearest_sites(const Surface& surface,
+                                               std::span<const SurfacePoint> sites,
+                                               std::span<const SurfacePoint> targets,
+                                               int num_threads = 0);
 
 }  // namespace agvd

@@ -244,15 +244,11 @@ private:
     // wide to either side.
     [[nodiscard]] TargetRange visible_targets(Index out, const Vec2& here, const Vec2& parent,
                                               const Vec2& spacing) const {
-        const double length = surface_.length_of(out);
         const Vec2 ahead = here - parent;
-        const double distance_sq = ahead.squaredNorm();
-        // Both windows seen across the direction of travel, over the distance between them.
-        const double own = ahead.y() * length / step_;
-        const double other = std::abs(ahead.x() * spacing.y() - ahead.y() * spacing.x());
-        const double spread = (own + other) / distance_sq;
-        const Vec2 right(ahead.x() + spread * ahead.y(), ahead.y() - spread * ahead.x());
-        const Vec2 left(ahead.x() - spread * ahead.y(), ahead.y() + spread * ahead.x());
+        const bool is_left = ahead.x() * spacing.y() - ahead.y() * spacing.x() > 0;
+        const Vec2 turn = Vec2(surface_.length_of(out) / step_, 0) + (is_left ? -spacing : spacing);
+        const Vec2 right = ahead + turn;
+        const Vec2 left = ahead - turn;
         const double first = right.y() > 0 ? target_at(out, here, right) : 0;
         const double last = left.y() > 0 ? target_at(out, here, left) : 2 * step_;
         return {static_cast<Index>(std::max(0.0, std::floor(first))),

@@ -1,0 +1,31 @@
+#include "agvd/mesh/uniform_points.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "agvd/core/random.h"
+
+namespace agvd {
+
+std::vector<SurfacePoint> uniform_points(const Surface& surface, Index count, std::uint64_t seed) {
+    std::vector<double> area_up_to(surface.num_faces());
+    double area = 0;
+    for (Index f = 0; f < surface.num_faces(); ++f) {
+        area += surface.length_of(3 * f) * surface.apex[3 * f].y() / 2;
+        area_up_to[f] = area;
+    }
+    std::vector<SurfacePoint> points(area_up_to.empty() ? 0 : count);
+    for (Index i = 0; i < points.size(); ++i) {
+        const double share = random_unit(seed, 0, i) * area;
+        const auto found = std::upper_bound(area_up_to.begin(), area_up_to.end(), share);
+        const auto face = std::min(found - area_up_to.begin(), std::ssize(area_up_to) - 1);
+        // The square root makes up for the triangle's width growing away from corner 0.
+        const double away = std::sqrt(1 - random_unit(seed, 1, i));
+        const double across = random_unit(seed, 2, i);
+        points[i] = {FaceId(static_cast<Index>(face)),
+                     {1 - away, away * (1 - across), away * across}};
+    }
+    return points;
+}
+
+}  // namespace agvd

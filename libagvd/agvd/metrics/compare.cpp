@@ -1,0 +1,245 @@
+#include "agvd/metrics/compare.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "agvd/diagram/face_relays.h"
+#include "agvd/mesh/uniform_points.h"
+#include "agvd/metrics/oracle.h"
+#include "agvd/propagation/site_placement.h"
+
+namespace agvd {
+namespace {
+
+// Sites tie where their exact distances differ by less than this share of them.
+constexpr double tie = 1e-9;
+
+// Collects questions to the oracle, so that each site is asked once for everybody.
+class Questions {
+public:
+    explicit Questions(std::size_t num_sites) : targets_(num_sites) {}
+
+    struct Ticket {
+        Index site;
+        Index place;
+    };
+    Ticket ask(SiteId site, const SurfacePoint& target) {
+        std::vector<SurfacePoint>& targets = targets_[site.value()];
+        targets.push_back(target);
+        return {site.value(), static_cast<Index>(targets.size() - 1)};
+    }
+    void answer(const Surface& surface, std::span<const SurfacePoint> sites, int num_threads) {
+        answers_ = exact_distances(surface, sites, targets_, num_threads);
+    }
+    [[nodiscard]] double operator[](Ticket ticket) const {
+        return answers_[ticket.site][ticket.place];
+    }
+
+private:
+    std::vector<std::vector<SurfacePoint>> targets_;
+    std::vector<std::vector<double>> answers_;
+};
+
+// What one approximation waits for.
+struct Open {
+    struct Bisector {
+        Questions::Ticket left, right;
+    };
+    struct Label {
+        Questions::Ticket ours;
+        double nearest;
+    };
+    std::vector<Bisector> bisectors;
+    std::vector<Label> doubtful_labels;
+    Index wrong_labels = 0;
+};
+
+std::optional<SurfacePoint> seen_from(const Surface& surface, const SurfacePoint& point,
+                                      Index face) {
+    SurfacePoint seen{FaceId(face), {0, 0, 0}};
+    const Triangle& from = surface.mesh.triangles[point.face.value()];
+    const Triangle& to = surface.mesh.triangles[face];
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (point.barycentric[k] == 0) continue;
+        const auto corner = std::find(to.begin(), to.end(), from[k]) - to.begin();
+        if (corner == 3) return std::nullopt;
+        seen.barycentric[static_cast<std::size_t>(corner)] = point.barycentric[k];
+    }
+    return seen;
+}
+
+// In the face that both points see; none if they name faces without a common edge.
+std::optional<SurfacePoint> middle(const Surface& surface, const SurfacePoint& a,
+                                   const SurfacePoint& b) {
+    const auto middle_in = [&](Index face) -> std::optional<SurfacePoint> {
+        auto p = seen_from(surface, a, face);
+        const auto q = seen_from(surface, b, face);
+        if (!p || !q) return std::nullopt;
+        for (std::size_t k = 0; k < 3; ++k) {
+            p->barycentric[k] = (p->barycentric[k] + q->barycentric[k]) / 2;
+        }
+        return p;
+    };
+    for (const Index face : {a.face.value(), b.face.value()}) {
+        if (const auto found = middle_in(face)) return found;
+        for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+            if (surface.twin[h] == no_index) continue;
+            if (const auto found = middle_in(Surface::face(surface.twin[h]))) return found;
+        }
+    }
+    return std::nullopt;
+}
+
+void ask_bisectors(const Surface& surface, const Diagram& diagram, Questions& questions,
+                   Open& open) {
+    for (Index e = 0; e < diagram.edges.size(); ++e) {
+        const auto& [left, right, tail, head] = diagram.edges[e];
+        if (!left.is_valid() || !right.is_valid()) continue;
+        const auto ask = [&](const SurfacePoint& point) {
+            open.bisectors.push_back({questions.ask(left, point), questions.ask(right, point)});
+        };
+        const Index begin = diagram.edge_points[e];
+        const Index end = diagram.edge_points[e + 1];
+        for (Index i = begin; i < end; ++i) {
+            ask(diagram.points[i]);
+            const bool is_last = i + 1 == end;
+            if (is_last && tail != no_index) break;
+            const SurfacePoint& next = diagram.points[is_last ? begin : i + 1];
+            if (const auto between = middle(surface, diagram.points[i], next)) ask(*between);
+        }
+    }
+}
+
+// The label of a point of the surface, by the relays of its face where labels meet.
+class Labels {
+public:
+    Labels(const Surface& surface, const Propagation& propagation)
+        : surface_(surface), propagation_(propagation) {}
+
+    SiteId operator()(const SurfacePoint& point) {
+        const Index face = point.face.value();
+        const auto& mixed = propagation_.mixed_faces;
+        const auto found = std::lower_bound(mixed.begin(), mixed.end(), face);
+        if (found == mixed.end() || *found != face) {
+            return propagation_.vertex_site[surface_.mesh.triangles[face][0]];
+        }
+        const auto i = static_cast<std::size_t>(found - mixed.begin());
+        const std::span relays(propagation_.relays);
+        const Index begin = propagation_.relay_offsets[i];
+        planar_.clear();
+        append_planar(surface_, relays.subspan(begin, propagation_.relay_offsets[i + 1] - begin),
+                      Motion{}, planar_);
+        return SiteId(nearest(planar_, position_in_frame(surface_, point, 3 * face)).site);
+    }
+
+private:
+    const Surface& surface_;
+    const Propagation& propagation_;
+    std::vector<PlanarRelay> planar_;
+};
+
+void ask_labels(const Surface& surface, const Propagation& propagation,
+                std::span<const SurfacePoint> samples, const NearestSites& exact,
+                Questions& questions, Open& open) {
+    Labels label(surface, propagation);
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+        const SiteId ours = label(samples[i]);
+        if (ours == exact.site[i]) continue;
+        if (ours.is_valid() && exact.site[i].is_valid()) {
+            open.doubtful_labels.push_back({questions.ask(ours, samples[i]), exact.distance[i]});
+        } else {
+            ++open.wrong_labels;
+        }
+    }
+}
+
+void measure_bisectors(const Questions& exact, const Open& open, double cell_radius,
+                       DiagramError& error) {
+    std::vector<double> errors;
+    for (const auto& [left, right] : open.bisectors) {
+        errors.push_back(std::abs(exact[left] - exact[right]) / cell_radius);
+    }
+    error.bisector_points = static_cast<Index>(errors.size());
+    if (errors.empty()) return;
+    std::sort(errors.begin(), errors.end());
+    double sum = 0;
+    for (const double e : errors) sum += e;
+    error.mean_bisector_error = sum / static_cast<double>(errors.size());
+    error.p95_bisector_error = errors[(errors.size() - 1) * 95 / 100];
+    error.max_bisector_error = errors.back();
+}
+
+double relative_excess(double ours, double exact) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    if (ours == exact) return 0;
+    if (std::isinf(ours) || exact == 0) return infinity;
+    return std::isinf(exact) ? -infinity : (ours - exact) / exact;
+}
+
+void measure_distances(std::span<const Index> vertices, std::span<const double> exact,
+                       const Propagation& propagation, DiagramError& error) {
+    if (vertices.empty()) return;
+    error.min_relative_distance = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        const double excess = relative_excess(propagation.vertex_distance[vertices[i]], exact[i]);
+        error.min_relative_distance = std::min(error.min_relative_distance, excess);
+        error.mean_relative_distance += excess / static_cast<double>(vertices.size());
+    }
+}
+
+double area_of(const Surface& surface) {
+    double area = 0;
+    for (Index h = 0; h < surface.twin.size(); h += 3) {
+        area += surface.length_of(h) * surface.apex[h].y() / 2;
+    }
+    return area;
+}
+
+}  // namespace
+
+std::vector<DiagramError> compare_with_exact(const Surface& surface,
+                                             std::span<const SurfacePoint> sites,
+                                             std::span<const Approximation> approximations,
+                                             const CompareOptions& options) {
+    // Samples first, then the vertices, so that one search answers both.
+    std::vector<SurfacePoint> targets = uniform_points(surface, options.area_samples, options.seed);
+    const std::size_t num_samples = targets.size();
+    std::vector<Index> vertices;
+    for (Index v = 0; v < surface.num_vertices(); ++v) {
+        const Index h = surface.outgoing[v];
+        if (h == no_index) continue;
+        vertices.push_back(v);
+        targets.push_back({FaceId(Surface::face(h)), {0, 0, 0}});
+        targets.back().barycentric[h % 3] = 1;
+    }
+    const NearestSites exact = exact_nearest_sites(surface, sites, targets, options.num_threads);
+
+    Questions questions(sites.size());
+    std::vector<Open> open(approximations.size());
+    for (std::size_t i = 0; i < approximations.size(); ++i) {
+        const auto& [propagation, diagram] = approximations[i];
+        ask_bisectors(surface, diagram, questions, open[i]);
+        ask_labels(surface, propagation, std::span(targets).first(num_samples), exact, questions,
+                   open[i]);
+    }
+    questions.answer(surface, sites, options.num_threads);
+
+    const double cell_radius =
+        std::sqrt(area_of(surface) / (std::numbers::pi * static_cast<double>(sites.size())));
+    std::vector<DiagramError> errors(approximations.size());
+    for (std::size_t i = 0; i < approximations.size(); ++i) {
+        measure_bisectors(questions, open[i], cell_radius, errors[i]);
+        for (const auto& [ours, nearest] : open[i].doubtful_labels) {
+            open[i].wrong_labels += questions[ours] > nearest * (1 + tie);
+        }
+        errors[i].wrong_label_area = open[i].wrong_labels / static_cast<double>(num_samples);
+        measure_distances(vertices, std::span(exact.distance).subspan(num_samples),
+                          approximations[i].propagation, errors[i]);
+    }
+    return errors;
+}
+
+}  // namespace agvd

@@ -1,0 +1,125 @@
+// Distances and diagrams of the engine against exact geodesics.
+
+#include "agvd/diagram/diagram.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "agvd/metrics/compare.h"
+#include "agvd/propagation/propagate.h"
+#include "remesh/io/read_mesh.h"
+#include "support/points.h"
+#include "support/shapes.h"
+
+using namespace agvd;
+
+namespace {
+
+// One error for each number of Steiner points.
+std::vector<DiagramError> errors_of(const Surface& surface, const std::vector<SurfacePoint>& sites,
+                                    const std::vector<int>& steiner_points) {
+    std::vector<Propagation> propagations;
+    std::vector<Diagram> diagrams;
+    for (const int m : steiner_points) {
+        propagations.push_back(propagate(surface, sites, {.steiner_points = m}));
+        diagrams.push_back(build_diagram(surface, sites, propagations.back()));
+    }
+    std::vector<Approximation> approximations;
+    for (std::size_t i = 0; i < diagrams.size(); ++i) {
+        approximations.push_back({propagations[i], diagrams[i]});
+    }
+    return compare_with_exact(surface, sites, approximations, {.area_samples = 2000});
+}
+
+// Distances of real paths, in double.
+constexpr double rounding = 1e-12;
+
+struct Shape {
+    const char* name;
+    TriangleMesh (*make)();
+};
+
+class SmallMeshes : public testing::TestWithParam<Shape> {
+protected:
+    Surface surface = build_surface(GetParam().make().view());
+};
+
+const Shape small_meshes[] = {
+    {"sphere", [] { return shapes::sphere(3); }},
+    {"jittered_sphere", [] { return shapes::jitter(shapes::sphere(3), 0.02, 1); }},
+    {"torus", [] { return shapes::torus(36, 16); }},
+    {"jittered_torus", [] { return shapes::jitter(shapes::torus(36, 16), 0.02, 2); }},
+    {"open_grid", [] { return shapes::grid(16); }},
+    {"jittered_grid", [] { return shapes::jitter(shapes::grid(16), 0.02, 3); }},
+    {"open_tube", [] { return shapes::tube(30, 12); }},
+    {"cube",
+     [] { return shapes::subdivide(shapes::subdivide(shapes::subdivide(shapes::cube()))); }},
+};
+
+}  // namespace
+
+INSTANTIATE_TEST_SUITE_P(Oracle, SmallMeshes, testing::ValuesIn(small_meshes),
+                         [](const auto& test) { return test.param.name; });
+
+TEST_P(SmallMeshes, DistancesAreNeverBelowTheExactOnes) {
+    for (const std::uint64_t seed : {1, 2, 3}) {
+        const auto sites = points::scattered(surface, 3 + 9 * static_cast<Index>(seed), seed);
+        for (const DiagramError& error : errors_of(surface, sites, {0, 1, 2, 5, 8})) {
+            EXPECT_GE(error.min_relative_distance, -rounding) << "seed " << seed;
+        }
+    }
+}
+
+TEST_P(SmallMeshes, ErrorsFallWithMoreSteinerPoints) {
+    const auto errors = errors_of(surface, points::scattered(surface, 15, 7), {2, 6, 18});
+    for (std::size_t i = 1; i < errors.size(); ++i) {
+        EXPECT_LT(errors[i].mean_bisector_error, errors[i - 1].mean_bisector_error);
+        EXPECT_LT(errors[i].mean_relative_distance, errors[i - 1].mean_relative_distance);
+        EXPECT_LE(errors[i].wrong_label_area, errors[i - 1].wrong_label_area);
+    }
+}
+
+TEST_P(SmallMeshes, EightSteinerPointsKeepTheBisectorErrorBelowFourThousandths) {
+    surface = build_surface(shapes::subdivide(surface.mesh).view());
+    const DiagramError error = errors_of(surface, points::scattered(surface, 12, 4), {8})[0];
+    EXPECT_GT(error.bisector_points, 50u);
+    EXPECT_LT(error.mean_bisector_error, 4e-3);
+    EXPECT_LT(error.wrong_label_area, 1e-2);
+}
+
+namespace {
+
+class RealMeshes : public testing::TestWithParam<const char*> {};
+
+}  // namespace
+
+INSTANTIATE_TEST_SUITE_P(Oracle, RealMeshes,
+                         testing::Values("rocker-arm.obj", "fandisk.off", "fertility.off"),
+                         [](const auto& test) {
+                             std::string name = test.param;
+                             name.resize(name.find('.'));
+                             std::erase(name, '-');
+                             return name;
+                         });
+
+TEST_P(RealMeshes, DiagramsAreCloseToTheExactOne) {
+    const char* const folder = std::getenv("AGVD_MESHES");
+    const std::filesystem::path path =
+        std::filesystem::path(folder != nullptr ? folder : AGVD_MESHES_DEFAULT) / GetParam();
+    if (!std::filesystem::exists(path)) {
+        GTEST_SKIP() << path << " is absent; set AGVD_MESHES to the folder that has it";
+    }
+    const Surface surface = build_surface(remesh::read_mesh(path).mesh.view());
+    std::vector<SurfacePoint> sites;
+    for (Index i = 0; i < 30; ++i) {
+        sites.push_back(points::at_vertex(surface, i * (surface.num_vertices() / 30)));
+    }
+    const auto errors = errors_of(surface, sites, {2, 8});
+    for (const DiagramError& error : errors) EXPECT_GE(error.min_relative_distance, -rounding);
+    EXPECT_LT(errors[1].mean_bisector_error, errors[0].mean_bisector_error);
+    EXPECT_LT(errors[1].p95_bisector_error, errors[0].p95_bisector_error);
+    EXPECT_LT(errors[1].wrong_label_area, errors[0].wrong_label_area);
+    EXPECT_LT(errors[1].mean_bisector_error, 4e-3);
+}

@@ -1,0 +1,90 @@
+// Error of the diagram against the exact one.
+
+#include "agvd/metrics/compare.h"
+#include "agvd/propagation/propagate.h"
+#include "bench/report.h"
+#include "cli.h"
+
+namespace {
+
+using namespace agvd;
+
+const std::vector<bench::Column> columns{
+    {"mesh", "mesh", 0},
+    {"faces", "faces", 0},
+    {"sites", "sites", 0},
+    {"steiner_points", "m", 0},
+    {"wrong_label_percent", "wrong %", 3},
+    {"mean_bisector_error", "|dA-dB|", -2},
+    {"p95_bisector_error", "95 %", -2},
+    {"max_bisector_error", "largest", -2},
+    {"mean_relative_distance", "distance", -2},
+    {"min_relative_distance", "lowest", -1},
+    {"bisector_points", "points", 0},
+};
+
+// One row for each number of Steiner points; all share the exact distances.
+nlohmann::ordered_json measure(const std::string& mesh, const Surface& surface,
+                               const std::vector<SurfacePoint>& sites,
+                               const bench::Options& options, const CompareOptions& compare) {
+    std::vector<Propagation> propagations;
+    std::vector<Diagram> diagrams;
+    for (const int m : options.steiner_points) {
+        propagations.push_back(propagate(surface, sites, {.steiner_points = m}));
+        diagrams.push_back(build_diagram(surface, sites, propagations.back(),
+                                         {.num_threads = compare.num_threads}));
+    }
+    std::vector<Approximation> approximations;
+    for (std::size_t i = 0; i < diagrams.size(); ++i) {
+        approximations.push_back({propagations[i], diagrams[i]});
+    }
+    const auto errors = compare_with_exact(surface, sites, approximations, compare);
+    nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < errors.size(); ++i) {
+        rows.push_back({{"mesh", mesh},
+                        {"faces", surface.num_faces()},
+                        {"sites", sites.size()},
+                        {"seed", options.seed},
+                        {"steiner_points", options.steiner_points[i]},
+                        {"wrong_label_percent", 100 * errors[i].wrong_label_area},
+                        {"mean_bisector_error", errors[i].mean_bisector_error},
+                        {"p95_bisector_error", errors[i].p95_bisector_error},
+                        {"max_bisector_error", errors[i].max_bisector_error},
+                        {"mean_relative_distance", errors[i].mean_relative_distance},
+                        {"min_relative_distance", errors[i].min_relative_distance},
+                        {"bisector_points", errors[i].bisector_points}});
+    }
+    return rows;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Error of the diagram against exact geodesics; |dA-dB| over the mean cell radius",
+                 "bench-accuracy");
+    bench::Options options;
+    options.sites = {30, 100};
+    options.steiner_points = {2, 5, 8, 12};
+    bench::add_options(app, options);
+    CompareOptions compare;
+    app.add_option("--samples", compare.area_samples, "Points whose labels are compared")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    return cli::run(app, argc, argv, [&] {
+        compare.num_threads = options.threads;
+        nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+        bench::print_heading(columns);
+        for (const auto& path : options.meshes) {
+            const Surface surface = bench::load(path, 0);
+            for (const Index count : options.sites) {
+                cli::stop_if_interrupted();
+                const auto sites = bench::random_sites(surface, count, options.place, options.seed);
+                for (const auto& row : measure(path.stem(), surface, sites, options, compare)) {
+                    bench::print_row(columns, row);
+                    rows.push_back(row);
+                }
+            }
+        }
+        bench::write_json(options, "accuracy", rows);
+    });
+}

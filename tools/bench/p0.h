@@ -1,0 +1,37 @@
+//! \file
+//! P0: one multi-source Dijkstra sweep over the mesh edges, the floor every cost is divided by.
+#pragma once
+
+#include <span>
+
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_point.h"
+
+namespace bench {
+
+//! The vertices and edges of a surface; lengths in float, for half the bandwidth.
+struct EdgeGraph {
+    struct Arc {
+        agvd::Index head;
+        float length;
+    };
+    std::vector<agvd::Index> offsets;  //!< #V + 1 offsets into arcs.
+    std::vector<Arc> arcs;             //!< 2 #E.
+};
+
+[[nodiscard]] EdgeGraph edge_graph(const agvd::Surface& surface);
+
+//! Distance along edges and nearest source of each vertex.
+struct Sweep {
+    std::vector<double> distance;    //!< #V; infinity where no source reaches.
+    std::vector<agvd::Index> label;  //!< #V: index into the sources; no_index where none reaches.
+};
+
+//! Dijkstra's algorithm with an indexed 4-ary heap. Reuses the memory of `result`.
+void sweep(const EdgeGraph& graph, std::span<const agvd::Index> sources, Sweep& result);
+
+//! Seconds of the quickest of several sweeps, on one core; a site starts at its nearest corner.
+[[nodiscard]] double p0_seconds(const agvd::Surface& surface,
+                                std::span<const agvd::SurfacePoint> sites, int repetitions);
+
+}  // namespace bench

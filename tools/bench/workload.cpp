@@ -1,0 +1,73 @@
+#include "bench/workload.h"
+
+#include "agvd/core/error.h"
+#include "agvd/core/random.h"
+#include "remesh/io/read_mesh.h"
+#include "remesh/sampling/sample_sites.h"
+
+namespace bench {
+namespace {
+
+using namespace agvd;
+
+Surface subdivided_once(const Surface& surface) {
+    constexpr double jitter = 0.1;
+    TriangleMesh fine{surface.mesh.positions, {}};
+    const Index first = surface.num_vertices();  // The vertex on edge e is first + e.
+    for (Index e = 0; e < surface.num_edges(); ++e) {
+        const Index h = surface.edge_half[e];
+        const double at = 0.5 + jitter * (2 * random_unit(first, 0, e) - 1);
+        fine.positions.push_back((1 - at) * fine.positions[surface.tail(h)] +
+                                 at * fine.positions[surface.head(h)]);
+    }
+    for (Index f = 0; f < surface.num_faces(); ++f) {
+        const auto& [a, b, c] = surface.mesh.triangles[f];
+        const Index ab = first + surface.edge[3 * f];
+        const Index bc = first + surface.edge[3 * f + 1];
+        const Index ca = first + surface.edge[3 * f + 2];
+        fine.triangles.insert(fine.triangles.end(),
+                              {{a, ab, ca}, {ab, b, bc}, {ca, bc, c}, {ab, bc, ca}});
+    }
+    return build_surface(fine.view());
+}
+
+std::vector<SurfacePoint> random_vertices(const Surface& surface, Index count, std::uint64_t seed) {
+    std::vector<Index> vertices;
+    for (Index v = 0; v < surface.num_vertices(); ++v) {
+        if (surface.outgoing[v] != no_index) vertices.push_back(v);
+    }
+    if (count > vertices.size()) {
+        throw ConstraintUnmet(std::to_string(count) + " sites do not fit on " +
+                              std::to_string(vertices.size()) +
+                              " vertices; ask for fewer, or for sites in faces");
+    }
+    std::vector<SurfacePoint> sites(count);
+    for (Index i = 0; i < count; ++i) {  // The first steps of a shuffle.
+        const auto rest = static_cast<double>(vertices.size() - i);
+        std::swap(vertices[i], vertices[i + static_cast<Index>(random_unit(seed, 0, i) * rest)]);
+        const Index h = surface.outgoing[vertices[i]];
+        sites[i] = {FaceId(Surface::face(h)), {0, 0, 0}};
+        sites[i].barycentric[h % 3] = 1;
+    }
+    return sites;
+}
+
+}  // namespace
+
+Surface subdivided(Surface surface, Index min_faces) {
+    while (surface.num_faces() < min_faces) surface = subdivided_once(surface);
+    return surface;
+}
+
+Surface load(const std::filesystem::path& path, Index min_faces) {
+    return subdivided(build_surface(remesh::read_mesh(path).mesh.view()), min_faces);
+}
+
+std::vector<SurfacePoint> random_sites(const Surface& surface, Index count, Place place,
+                                       std::uint64_t seed) {
+    if (place == Place::Vertices) return random_vertices(surface, count, seed);
+    return remesh::sample_sites(surface,
+                                {.num_samples = count, .init = remesh::Init::Random, .seed = seed});
+}
+
+}  // namespace bench

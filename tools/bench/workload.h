@@ -1,0 +1,30 @@
+//! \file
+//! Meshes and sites to measure on.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_point.h"
+
+namespace bench {
+
+//! Every face split in four until there are at least `min_faces`. The new vertices lie on the old
+//! edges, off their middles by up to a tenth of the length: the same surface, but no regular grid.
+[[nodiscard]] agvd::Surface subdivided(agvd::Surface surface, agvd::Index min_faces);
+
+//! Reads a mesh and subdivides it. \throw agvd::IoError, agvd::InvalidInput
+[[nodiscard]] agvd::Surface load(const std::filesystem::path& path, agvd::Index min_faces);
+
+enum class Place { Vertices, Faces };
+
+//! Distinct random vertices, or points uniform by area in face interiors.
+//! \throw agvd::ConstraintUnmet  there are fewer vertices than `count`, or `count` is too small to
+//!        give each component its sites (remesh::sample_sites).
+[[nodiscard]] std::vector<agvd::SurfacePoint> random_sites(const agvd::Surface& surface,
+                                                           agvd::Index count, Place place,
+                                                           std::uint64_t seed);
+
+}  // namespace bench
