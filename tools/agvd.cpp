@@ -42,7 +42,9 @@ void run_diagram(const Arguments& arguments) {
     check_outputs(arguments);
     const remesh::MeshFile input = remesh::read_mesh(arguments.input);
     const agvd::MeshView mesh = input.mesh.view();
-    const remesh::CleanResult clean = remesh::clean_input(mesh);
+    console.info(cli::describe(arguments.input, mesh));
+    const remesh::CleanResult clean =
+        cli::naming_file(arguments.input, [&] { return remesh::clean_input(mesh); });
     console.info(remesh::to_text(clean.counts));
     const agvd::Surface surface = agvd::build_surface(clean.mesh.view());
 
@@ -91,7 +93,7 @@ int main(int argc, char** argv) {
     diagram->add_option("-o,--output", arguments.outputs, "File to write; may be repeated")
         ->required()
         ->type_name("FILE")
-        ->expected(1, -1);
+        ->allow_extra_args(false);
     diagram->footer(std::string(footer) + cli::exit_code_help);
     return cli::run(app, argc, argv, [&] { run_diagram(arguments); });
 }

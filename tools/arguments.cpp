@@ -46,4 +46,9 @@ void add_diagram_options(CLI::App& app, DiagramArguments& arguments) {
     add_common_options(app, arguments.common);
 }
 
+std::string describe(const std::filesystem::path& path, const agvd::MeshView& mesh) {
+    return path.string() + ": " + std::to_string(mesh.positions.size()) + " vertices, " +
+           std::to_string(mesh.triangles.size()) + " faces";
+}
+
 }  // namespace cli

@@ -24,4 +24,7 @@ struct DiagramArguments {
 //! options.
 void add_diagram_options(CLI::App& app, DiagramArguments& arguments);
 
+//! "FILE: N vertices, M faces", for the log.
+[[nodiscard]] std::string describe(const std::filesystem::path& path, const agvd::MeshView& mesh);
+
 }  // namespace cli

@@ -11,7 +11,6 @@
 #include <sstream>
 #include <system_error>
 
-#include "agvd/core/error.h"
 #include "remesh/io/atomic_file.h"
 
 namespace cli {

@@ -8,6 +8,8 @@
 #include <string>
 #include <string_view>
 
+#include "agvd/core/error.h"
+
 namespace CLI {
 class App;
 }
@@ -54,6 +56,16 @@ void stop_if_interrupted();
 //! \throw agvd::IoError        its folder is missing or not writable, or it is no regular file.
 void check_output(const std::filesystem::path& path,
                   std::initializer_list<std::filesystem::path> inputs, bool force);
+
+//! Returns what `work` returns; an agvd::InvalidInput that it throws gets the file's name in front.
+template <typename Work>
+auto naming_file(const std::filesystem::path& path, const Work& work) {
+    try {
+        return work();
+    } catch (const agvd::InvalidInput& error) {
+        throw agvd::InvalidInput(path.string() + ": " + error.what());
+    }
+}
 
 //! Writes to stdout and flushes. \throw agvd::IoError if that fails.
 void print(std::string_view text);

@@ -40,6 +40,7 @@ void run_job(const Arguments& arguments) {
     cli::Console console(arguments.common);
     check_outputs(arguments);
     const remesh::MeshFile input = remesh::read_mesh(arguments.input);
+    console.info(cli::describe(arguments.input, input.mesh.view()));
     remesh::RemeshOptions options{.num_samples = arguments.sampling.num_samples,
                                   .init = arguments.sampling.init,
                                   .seed = arguments.sampling.seed,
@@ -52,7 +53,8 @@ void run_job(const Arguments& arguments) {
     if (!arguments.sites.empty()) {
         options.sites = remesh::read_sites(arguments.sites, input.mesh.view());
     }
-    const remesh::RemeshResult result = remesh::remesh(input.mesh.view(), options);
+    const remesh::RemeshResult result = cli::naming_file(
+        arguments.input, [&] { return remesh::remesh(input.mesh.view(), options); });
     cli::stop_if_interrupted();
     remesh::write_mesh(arguments.output, result.mesh.view());
     const remesh::RunInfo info{};
