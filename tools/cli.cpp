@@ -27,6 +27,7 @@ const char* const exit_code_help =
 namespace {
 
 // A signal handler can reach nothing but a global; lock-free, so that it may write it.
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
 std::atomic<int> caught_signal{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 
@@ -49,8 +50,8 @@ void catch_signals() {
 }
 
 // Parses, and runs the job; help and version end here. Returns the exit code.
-int parse_and_run(CLI::App& app, int argc, const char* const* argv,
-                  const std::function<void()>& job) {
+ExitCode parse_and_run(CLI::App& app, int argc, const char* const* argv,
+                       const std::function<void()>& job) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -58,11 +59,11 @@ int parse_and_run(CLI::App& app, int argc, const char* const* argv,
         const int code = app.exit(error, out, err);
         print(out.str());
         std::fputs(err.str().c_str(), stderr);
-        return code == 0 ? exit_done : exit_usage;
+        return code == 0 ? ExitCode::Done : ExitCode::Usage;
     }
     catch_signals();
     job();
-    return exit_done;
+    return ExitCode::Done;
 }
 
 }  // namespace
@@ -86,27 +87,28 @@ int run(CLI::App& app, int argc, const char* const* argv, const std::function<vo
         return static_cast<int>(code);
     };
     try {
-        return parse_and_run(app, argc, argv, job);
+        return static_cast<int>(parse_and_run(app, argc, argv, job));
     } catch (const agvd::InvalidOption& error) {
-        return fail(exit_usage, error.what());
+        return fail(ExitCode::Usage, error.what());
     } catch (const agvd::IoError& error) {
-        return fail(exit_file, error.what());
+        return fail(ExitCode::File, error.what());
     } catch (const fs::filesystem_error& error) {
-        return fail(exit_file, error.what());
+        return fail(ExitCode::File, error.what());
     } catch (const agvd::InvalidInput& error) {
-        return fail(exit_mesh, error.what());
+        return fail(ExitCode::Mesh, error.what());
     } catch (const agvd::ConstraintUnmet& error) {
-        return fail(exit_constraint, error.what());
+        return fail(ExitCode::Constraint, error.what());
     } catch (const agvd::Cancelled&) {
         std::fprintf(stderr, "%s: interrupted, nothing was written\n", name.c_str());
-        return exit_signal_offset + caught_signal;
+        return 128 + caught_signal;
     } catch (const std::bad_alloc&) {
         return fail(
-            exit_internal,
+            ExitCode::Internal,
             "not enough memory; try fewer Steiner points, a coarser input or a larger machine");
     } catch (const std::exception& error) {
-        return fail(exit_internal, std::string("internal error: ") + error.what() +
-                                       "; please report it with the input and the command line");
+        return fail(ExitCode::Internal,
+                    std::string("internal error: ") + error.what() +
+                        "; please report it with the input and the command line");
     }
 }
 
@@ -117,26 +119,14 @@ void stop_if_interrupted() {
 }
 
 void check_output(const fs::path& path, std::initializer_list<fs::path> inputs, bool force) {
-    std::error_code ignored;
-    const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
-    if (!fs::is_directory(folder, ignored)) {
-        throw agvd::IoError(path.string() + ": there is no folder " + folder.string() +
-                            "; create it first");
-    }
-    if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
-        throw agvd::IoError(path.string() + " is not a regular file; choose another output");
-    }
-    if (::access(folder.c_str(), W_OK) != 0) {
-        throw agvd::IoError(path.string() + ": the folder " + folder.string() +
-                            " is not writable; choose another one");
-    }
-    if (force) return;
+    std::error_code ignored;  // Such as that there is no old file.
     for (const fs::path& input : inputs) {
-        if (!input.empty() && fs::equivalent(path, input, ignored)) {
+        if (!force && fs::equivalent(path, input, ignored)) {
             throw agvd::InvalidOption(path.string() +
                                       " would overwrite an input; use --force if you mean it");
         }
     }
+    remesh::require_writable(path);
 }
 
 void print(std::string_view text) {
@@ -171,9 +161,9 @@ void Console::warn(std::string_view text) {
 }
 
 bool Console::progress(std::string_view stage, double fraction) {
-    static constexpr int width = 30;
+    static constexpr std::size_t width = 30;
     if (!options_.quiet && ::isatty(STDERR_FILENO) == 1) {
-        const int filled = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * width);
+        const auto filled = static_cast<std::size_t>(std::clamp(fraction, 0.0, 1.0) * width);
         std::ostringstream bar;
         bar << '[' << std::string(filled, '#') << std::string(width - filled, ' ') << "] " << stage;
         if (bar.str() != bar_) {

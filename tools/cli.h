@@ -16,14 +16,14 @@ class App;
 
 namespace cli {
 
-enum ExitCode {
-    exit_done = 0,
-    exit_internal = 1,         //!< Our bug, or no memory.
-    exit_usage = 2,            //!< Command line, agvd::InvalidOption.
-    exit_file = 3,             //!< agvd::IoError.
-    exit_mesh = 4,             //!< agvd::InvalidInput.
-    exit_constraint = 5,       //!< agvd::ConstraintUnmet; nothing written.
-    exit_signal_offset = 128,  //!< 130 after SIGINT, 143 after SIGTERM; nothing written.
+//! Also 130 after SIGINT and 143 after SIGTERM; then nothing was written.
+enum class ExitCode {
+    Done = 0,
+    Internal = 1,    //!< Our bug, or no memory.
+    Usage = 2,       //!< Command line, agvd::InvalidOption.
+    File = 3,        //!< agvd::IoError.
+    Mesh = 4,        //!< agvd::InvalidInput.
+    Constraint = 5,  //!< agvd::ConstraintUnmet; nothing written.
 };
 
 //! The exit codes as text for the end of --help.
@@ -51,9 +51,9 @@ void add_common_options(CLI::App& app, CommonOptions& options);
 void stop_if_interrupted();
 
 //! Checks an output path before the long work.
-//! \param inputs  files that must not be overwritten without `force`; empty paths are skipped.
+//! \param inputs  files that must not be overwritten without `force`; may be empty paths.
 //! \throw agvd::InvalidOption  the path is one of the inputs (also through links).
-//! \throw agvd::IoError        its folder is missing or not writable, or it is no regular file.
+//! \throw agvd::IoError        it cannot be written (remesh::require_writable).
 void check_output(const std::filesystem::path& path,
                   std::initializer_list<std::filesystem::path> inputs, bool force);
 

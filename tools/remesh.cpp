@@ -57,7 +57,10 @@ void run_job(const Arguments& arguments) {
         arguments.input, [&] { return remesh::remesh(input.mesh.view(), options); });
     cli::stop_if_interrupted();
     remesh::write_mesh(arguments.output, result.mesh.view());
-    const remesh::RunInfo info{};
+    const remesh::RunInfo info{.version = REMESH_VERSION,
+                               .input_path = arguments.input.string(),
+                               .output_path = arguments.output.string(),
+                               .options = options};
     if (!arguments.report.empty()) {
         cli::write_text(arguments.report, remesh::to_json(result, info));
     }

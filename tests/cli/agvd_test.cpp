@@ -1,6 +1,6 @@
 // The program `agvd` as a process.
-#include "support/scratch.h"
 #include "remesh/io/read_mesh.h"
+#include "support/scratch.h"
 #include "support/shapes.h"
 
 namespace {

@@ -3,9 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "support/scratch.h"
 #include "remesh/io/read_mesh.h"
 #include "remesh/quality/topology.h"
+#include "support/scratch.h"
 #include "support/shapes.h"
 
 namespace fs = std::filesystem;
@@ -143,7 +143,7 @@ INSTANTIATE_TEST_SUITE_P(
     Kinds, RemeshBadInput,
     testing::Values(
         BadInput{"missing.off", nullptr, 3, ""}, BadInput{"empty.off", "", 3, "empty"},
-        BadInput{"mesh.xyz", "OFF\n", 3, "extension"}, BadInput{"mesh", "OFF\n", 3, "extension"},
+        BadInput{"mesh.xyz", "OFF\n", 3, "unknown"}, BadInput{"mesh", "OFF\n", 3, "unknown"},
         BadInput{"truncated.ply", truncated_ply, 3, ""},
         BadInput{"truncated.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n", 3, ""},
         BadInput{"nan.off", "OFF\n3 1 0\n0 0 0\nnan 0 0\n0 1 0\n3 0 1 2\n", 4, "finite"},

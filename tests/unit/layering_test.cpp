@@ -36,7 +36,7 @@ constexpr Package packages[] = {
     {"CGAL/", R"(agvd/metrics/oracle\.cpp|remesh/(repair|quality)/.*\.cpp)"},
     {"OpenMesh/", R"(remesh/io/.*\.cpp)"},
     {"nlohmann/", R"(remesh/io/.*\.cpp)"},
-    {"fast_float/", R"(remesh/io/.*\.cpp)"},
+    {"fast_float/", R"(remesh/io/(.*\.cpp|text_scanner\.h))"},
     {"sys/", R"(remesh/io/.*\.cpp)"},
 };
 

@@ -51,7 +51,7 @@ TEST_F(WriteDiagram, VtpHasALineForEachEdgeWithItsSites) {
     for (const char* part :
          {"NumberOfPoints=\"7\"", "NumberOfLines=\"3\"", "Name=\"site_left\">\n0\n1\n0\n",
           "Name=\"site_right\">\n1\n2\n-1\n", "Name=\"distance\">\n0\n0.25\n2\n",
-          "Name=\"connectivity\">\n0 1 \n2 3 4 2 \n5 6 \n", "Name=\"offsets\">\n2\n6\n8\n"}) {
+          "Name=\"connectivity\">\n0 1\n2 3 4 2\n5 6\n", "Name=\"offsets\">\n2\n6\n8\n"}) {
         EXPECT_NE(text.find(part), std::string::npos) << part << "\nis not in\n" << text;
     }
 }
