@@ -18,10 +18,15 @@ constexpr MeshFormat formats[] = {{".ply", read_ply, format_ply, any_double},
 
 }  // namespace
 
-const MeshFormat* find_format(const std::filesystem::path& path) {
+std::string lower_extension(const std::filesystem::path& path) {
     std::string extension = path.extension().string();
     // Not std::tolower, which depends on the locale.
     for (char& c : extension) c = 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return extension;
+}
+
+const MeshFormat* find_format(const std::filesystem::path& path) {
+    const std::string extension = lower_extension(path);
     const auto* const found =
         std::find_if(std::begin(formats), std::end(formats),
                      [&](const MeshFormat& format) { return extension == format.extension; });

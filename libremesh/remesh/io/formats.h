@@ -27,6 +27,9 @@ struct MeshFormat {
     double largest;  //!< Coordinate that it can hold.
 };
 
+//! With its dot, in lower case; empty if there is none.
+[[nodiscard]] std::string lower_extension(const std::filesystem::path& path);
+
 //! The format of the path's extension (any case), or nullptr.
 [[nodiscard]] const MeshFormat* find_format(const std::filesystem::path& path);
 

@@ -1,0 +1,252 @@
+// The program `remesh` as a process: exit codes, what it leaves on disk, what it says where.
+#include <signal.h>
+
+#include <nlohmann/json.hpp>
+
+#include "remesh/io/read_mesh.h"
+#include "remesh/quality/topology.h"
+#include "support/scratch.h"
+#include "support/shapes.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+class Remesh : public Scratch {
+protected:
+    [[nodiscard]] static process::Outcome remesh(std::vector<std::string> arguments,
+                                                 const process::Options& options = {}) {
+        return run(REMESH_PROGRAM, std::move(arguments), options);
+    }
+};
+
+TEST_F(Remesh, WritesAMeshOfTheSameTopologyAndNothingOnStdout) {
+    const std::string in = put("in.ply", shapes::torus(40, 20));
+    for (const char* name : {"out.ply", "out.obj", "out.off", "out.stl"}) {
+        const auto outcome = remesh({in, "-n", "150", at(name)});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_EQ(outcome.out, "");
+        EXPECT_NE(outcome.err, "");
+        const auto topology = remesh::analyze_topology(remesh::read_mesh(at(name)).mesh.view());
+        EXPECT_TRUE(topology.is_manifold && topology.is_oriented);
+        EXPECT_EQ(topology.genus(), 1);
+    }
+}
+
+TEST_F(Remesh, TakesTheOutputAsOptionAndSamplesByEitherName) {
+    const std::string in = put("in.off", shapes::sphere(3));
+    EXPECT_EQ(remesh({in, "--samples", "80", at("a.off")}).exit_code, 0);
+    EXPECT_EQ(remesh({"-o", at("b.off"), "--vertices", "80", in}).exit_code, 0);
+    EXPECT_EQ(remesh({in, "-n80", "--output", at("c.off")}).exit_code, 0);
+    EXPECT_EQ(bytes("a.off"), bytes("b.off"));
+    EXPECT_EQ(bytes("a.off"), bytes("c.off"));
+}
+
+TEST_F(Remesh, SameBytesForAnyThreadsAndLambdaButNotForAnySeed) {
+    const std::string in = put("in.ply", shapes::torus(60, 30));
+    const auto with = [&](std::vector<std::string> extra) {
+        extra.insert(extra.begin(), {in, at("out.ply"), "-n", "200", "-q"});
+        EXPECT_EQ(remesh(extra).exit_code, 0);
+        return bytes("out.ply");
+    };
+    const std::string reference = with({"-t", "1"});
+    EXPECT_EQ(with({"-t", "2"}), reference);
+    EXPECT_EQ(with({"-t", "8"}), reference);
+    EXPECT_EQ(with({"--lambda", "0.1"}), reference);
+    EXPECT_NE(with({"--seed", "7"}), reference);
+    EXPECT_NE(with({"--init", "random"}), reference);
+}
+
+TEST_F(Remesh, MoreSamplesThanVerticesWork) {
+    const std::string in = put("in.off", shapes::icosahedron());
+    EXPECT_EQ(remesh({in, at("out.off"), "-n", "300"}).exit_code, 0);
+    EXPECT_GE(remesh::read_mesh(at("out.off")).mesh.positions.size(), 300u);
+}
+
+TEST_F(Remesh, GivenSitesBecomeTheVertices) {
+    const std::string in = put("in.off", shapes::icosahedron());
+    std::string sites = "p 0 0 1\n";
+    for (int v = 0; v < 12; ++v) sites += "v " + std::to_string(v) + "\n";
+    for (int f = 0; f < 20; ++f) sites += "f " + std::to_string(f) + " 0.25 0.25 0.5\n";
+    const auto outcome = remesh({in, at("out.off"), "--sites", put("sites.txt", sites)});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto mesh = remesh::read_mesh(at("out.off")).mesh;
+    ASSERT_GE(mesh.positions.size(), 33u);
+    EXPECT_NEAR((mesh.positions[1] - shapes::icosahedron().positions[0]).norm(), 0, 1e-12);
+}
+
+TEST_F(Remesh, WrongUsageIsTwo) {
+    const std::string in = put("in.off", shapes::sphere(1));
+    const std::string out = at("out.off");
+    for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+             {},
+             {in},
+             {in, out, "-n", "0"},
+             {in, out, "-n", "-5"},
+             {in, out, "-n", "many"},
+             {in, out, "--no-such-option"},
+             {in, out, "third"},
+             {in, out, "--init", "magic"},
+             {in, out, "--steiner-points", "-1"},
+             {in, out, "--lambda", "0"},
+             {in, out, "--lambda", "nan"},
+             {in, out, "-q", "--verbose"},
+             {in, out, "--sites", at("sites"), "-n", "20"},
+             {in, out, "--report", out},
+         }) {
+        const auto outcome = remesh(arguments);
+        EXPECT_EQ(outcome.exit_code, 2) << testing::PrintToString(arguments) << outcome.err;
+        EXPECT_NE(outcome.err, "");
+        EXPECT_EQ(outcome.out, "");
+    }
+    EXPECT_FALSE(fs::exists(out));
+}
+
+struct BadInput {
+    const char* file;
+    const char* bytes;  // Null: there is no such file.
+    int exit_code;
+    const char* told;  // In the text on stderr, besides the file's name.
+};
+
+void PrintTo(const BadInput& input, std::ostream* out) { *out << input.file; }
+
+class RemeshBadInput : public Remesh, public testing::WithParamInterface<BadInput> {};
+
+TEST_P(RemeshBadInput, EndsWithItsCodeAndNamesFileAndDefect) {
+    const BadInput& input = GetParam();
+    if (input.bytes != nullptr) put(input.file, input.bytes);
+    put("out.obj", "old");
+    const std::size_t files = num_files();
+    const auto outcome = remesh({at(input.file), at("out.obj"), "-n", "20"});
+    EXPECT_EQ(outcome.exit_code, input.exit_code) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_NE(outcome.err.find(input.file), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find(input.told), std::string::npos) << outcome.err;
+    EXPECT_EQ(bytes("out.obj"), "old");
+    EXPECT_EQ(num_files(), files) << "a temporary file was left";
+}
+
+constexpr const char* truncated_ply =
+    "ply\nformat binary_little_endian 1.0\nelement vertex 100\nproperty float x\n"
+    "property float y\nproperty float z\nelement face 9\n"
+    "property list uchar int vertex_indices\nend_header\nabcdefgh";
+constexpr const char* point_cloud_ply =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+    "property float z\nend_header\n0 0 0\n1 0 0\n0 1 0\n";
+// A band of five triangles closed with a twist, which is what five vertices on a Moebius band need.
+constexpr const char* moebius_off =
+    "OFF\n5 5 0\n1 0 0\n0.3 0.95 0.4\n-0.8 0.6 0\n-0.8 -0.6 -0.4\n0.3 -0.95 0.2\n"
+    "3 0 1 2\n3 1 2 3\n3 2 3 4\n3 3 4 0\n3 4 0 1\n";
+
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, RemeshBadInput,
+    testing::Values(
+        BadInput{"missing.off", nullptr, 3, ""}, BadInput{"empty.off", "", 3, "empty"},
+        BadInput{"mesh.xyz", "OFF\n", 3, "unknown"}, BadInput{"mesh", "OFF\n", 3, "unknown"},
+        BadInput{"truncated.ply", truncated_ply, 3, ""},
+        BadInput{"truncated.off", "OFF\n4 4 0\n0 0 0\n1 0 0\n", 3, ""},
+        BadInput{"nan.off", "OFF\n3 1 0\n0 0 0\nnan 0 0\n0 1 0\n3 0 1 2\n", 4, "finite"},
+        BadInput{"inf.off", "OFF\n3 1 0\n0 0 0\ninf 0 0\n0 1 0\n3 0 1 2\n", 4, "finite"},
+        BadInput{"huge.off", "OFF\n3 1 0\n0 0 0\n1e999 0 0\n0 1 0\n3 0 1 2\n", 4, ""},
+        BadInput{"range.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n", 4, "7"},
+        BadInput{"range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", 4, ""},
+        BadInput{"faceless.off", "OFF\n3 0 0\n0 0 0\n1 0 0\n0 1 0\n", 4, "face"},
+        BadInput{"cloud.ply", point_cloud_ply, 4, "face"},
+        BadInput{"flat.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n", 4, "face"},
+        BadInput{"moebius.off", moebius_off, 4, "orient"}),
+    [](const auto& test) {
+        std::string name = test.param.file;
+        for (char& c : name) c = c == '.' ? '_' : c;
+        return name;
+    });
+
+TEST_F(Remesh, TooFewSamplesForTheTopologyAreFiveAndTheOldFileStays) {
+    const std::string in = put("in.off", shapes::torus(20, 10));
+    put("out.off", "old");
+    const auto outcome = remesh({in, at("out.off"), "-n", "3"});
+    EXPECT_EQ(outcome.exit_code, 5) << outcome.err;
+    EXPECT_EQ(bytes("out.off"), "old");
+    EXPECT_EQ(num_files(), 2u);
+}
+
+TEST_F(Remesh, AnOutputThatCannotBeWrittenIsThreeAndSaidBeforeTheWork) {
+    // The input is missing too: the output is looked at first.
+    const std::string in = at("missing.off");
+    put("file", "");
+    for (const std::string& out :
+         {at("file") + "/out.off", at("no/folder/out.off"), at("out.xyz"), at("out")}) {
+        const auto outcome = remesh({in, out});
+        EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+        EXPECT_NE(outcome.err.find(out), std::string::npos) << outcome.err;
+    }
+    fs::create_directory(at("folder.off"));
+    EXPECT_EQ(remesh({in, at("folder.off")}).exit_code, 3);
+    EXPECT_EQ(remesh({in, at("out.off"), "--report", at("file") + "/r.json"}).exit_code, 3);
+    EXPECT_EQ(remesh({in, at("out.off"), "--report", "/dev/full"}).exit_code, 3);
+    EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+TEST_F(Remesh, AFullStandardOutputIsThree) {
+    const std::string in = put("in.off", shapes::sphere(2));
+    EXPECT_EQ(remesh({in, at("o.off"), "-n20", "--report", "-"}, {.out = "/dev/full"}).exit_code,
+              3);
+    EXPECT_EQ(remesh({"--help"}, {.out = "/dev/full"}).exit_code, 3);
+}
+
+TEST_F(Remesh, OverwritesAnInputOnlyWithForce) {
+    const std::string in = put("in.off", shapes::sphere(3));
+    const std::string sites = put("sites.off", "v 0\n");
+    const std::string old = bytes("in.off");
+    fs::create_symlink(in, at("link.off"));
+    fs::create_hard_link(in, at("hard.off"));
+    for (const std::string& out : {in, at("link.off"), at("hard.off"), at("./in.off")}) {
+        EXPECT_EQ(remesh({in, out, "-n", "30"}).exit_code, 2) << out;
+    }
+    EXPECT_EQ(remesh({in, at("o.off"), "--report", in}).exit_code, 2);
+    EXPECT_EQ(remesh({in, sites, "--sites", sites}).exit_code, 2);
+    EXPECT_EQ(bytes("in.off"), old);
+    EXPECT_EQ(remesh({in, in, "-n", "30", "--force"}).exit_code, 0);
+    EXPECT_NE(bytes("in.off"), old);
+}
+
+TEST_F(Remesh, ASignalEndsItWithTheOldFileUntouched) {
+    // Work for minutes, so that the signal always finds it at work.
+    const std::string in = put("in.ply", shapes::sphere(6));
+    put("out.ply", "old");
+    for (const int number : {SIGINT, SIGTERM}) {
+        const auto outcome = remesh({in, at("out.ply"), "--steiner-points", "40", "--verbose"},
+                                    {.signal = number, .after = "in.ply"});
+        EXPECT_FALSE(outcome.killed);
+        EXPECT_EQ(outcome.exit_code, 128 + number) << outcome.err;
+        EXPECT_EQ(bytes("out.ply"), "old");
+        EXPECT_EQ(num_files(), 2u);
+    }
+}
+
+TEST_F(Remesh, ReportsAsJsonToAFileOrStdout) {
+    const std::string in = put("in.off", shapes::sphere(3));
+    const auto outcome = remesh({in, at("out.off"), "-n", "50", "--report", "-"});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_TRUE(nlohmann::json::parse(outcome.out).is_object());
+    EXPECT_EQ(remesh({in, at("out.off"), "-n", "50", "--report", at("r.json")}).out, "");
+    EXPECT_TRUE(nlohmann::json::parse(bytes("r.json")).is_object());
+}
+
+TEST_F(Remesh, QuietSaysNothing) {
+    const std::string in = put("in.off", shapes::sphere(3));
+    const auto outcome = remesh({in, at("out.off"), "-n", "50", "-q"});
+    EXPECT_EQ(outcome.exit_code, 0);
+    EXPECT_EQ(outcome.out + outcome.err, "");
+}
+
+TEST_F(Remesh, HelpAndVersionGoToStdout) {
+    const auto help = remesh({"--help"});
+    EXPECT_EQ(help.exit_code, 0);
+    for (const char* text : {"Examples", "Exit codes", "--samples", "--report"}) {
+        EXPECT_NE(help.out.find(text), std::string::npos) << text;
+    }
+    EXPECT_EQ(remesh({"--version"}).out.rfind("remesh ", 0), 0u);
+}
+
+}  // namespace

@@ -1,0 +1,35 @@
+# cmake -D BUILD_DIR=... -D SOURCE_DIR=... -D WORK_DIR=... [-D CXX=...] -P run.cmake
+# Installs the build to a fresh prefix, builds the README's library example against it, runs it.
+function(run)
+    execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY OUTPUT_VARIABLE output)
+    set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE ${WORK_DIR})
+run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/prefix)
+
+# Every installed header must compile with nothing but what is installed.
+file(GLOB_RECURSE headers RELATIVE ${WORK_DIR}/prefix/include ${WORK_DIR}/prefix/include/*.h)
+list(TRANSFORM headers REPLACE "(.+)" "#include <\\1>")
+list(JOIN headers "\n" includes)
+file(WRITE ${WORK_DIR}/headers.cpp "${includes}\n")
+
+run(${CMAKE_COMMAND} -G Ninja -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK_DIR}/build
+    -D CMAKE_PREFIX_PATH=${WORK_DIR}/prefix -D CMAKE_CXX_COMPILER=${CXX}
+    -D EXTRA_SOURCES=${WORK_DIR}/headers.cpp)
+run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
+run(${WORK_DIR}/build/consumer)
+if(NOT output MATCHES "v [^\n]+\nf [0-9]+ [0-9]+ [0-9]+\n")
+    message(FATAL_ERROR "no mesh came out:\n${output}")
+endif()
+
+file(READ ${CMAKE_CURRENT_LIST_DIR}/main.cpp example)
+file(READ ${SOURCE_DIR}/README.md readme)
+string(FIND "${readme}" "```cpp\n${example}```" position)
+if(position EQUAL -1)
+    message(FATAL_ERROR "README.md does not show tests/consumer/main.cpp as it is")
+endif()
+
+# The same project with the sources inside it; that it configures is enough.
+run(${CMAKE_COMMAND} -G Ninja -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK_DIR}/embedded
+    -D CMAKE_CXX_COMPILER=${CXX} -D REMESH_SOURCE_DIR=${SOURCE_DIR})

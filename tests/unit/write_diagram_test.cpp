@@ -1,0 +1,82 @@
+#include "remesh/io/write_diagram.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "agvd/core/error.h"
+#include "support/scratch.h"
+#include "remesh/io/read_mesh.h"
+#include "support/shapes.h"
+
+using namespace agvd;
+
+namespace {
+
+class WriteDiagram : public Scratch {
+protected:
+    // On the unit square: an open edge between sites 0 and 1, a closed curve around site 2, and a
+    // boundary arc of site 0.
+    WriteDiagram() {
+        diagram_.num_sites = 3;
+        diagram_.points.assign(7, {FaceId(0), {1, 0, 0}});
+        diagram_.points[1] = {FaceId(0), {0, 0.5, 0.5}};
+        diagram_.point_distance = {0, 0.25, 2, 3, 4, 5, 6};
+        diagram_.edge_points = {0, 2, 5, 7};
+        diagram_.edges = {
+            {SiteId(0), SiteId(1), 0, 1}, {SiteId(1), SiteId(2)}, {SiteId(0), SiteId(), 1, 0}};
+        propagation_.vertex_site = {SiteId(2), SiteId(0), SiteId(1), SiteId()};
+        propagation_.vertex_distance = {0.5, 1, 2, INFINITY};
+    }
+    [[nodiscard]] std::string written(const std::string& name) const {
+        remesh::write_diagram(at(name), surface_, propagation_, diagram_);
+        return bytes(name);
+    }
+
+    Surface surface_ = build_surface(shapes::grid(1).view());
+    Propagation propagation_;
+    Diagram diagram_;
+};
+
+TEST_F(WriteDiagram, ObjLinesCloseClosedCurvesAndNameTheSites) {
+    const std::string text = written("d.OBJ");
+    EXPECT_NE(text.find("v 0 0 0\nv 1 0.5 0\n"), std::string::npos) << text;
+    EXPECT_NE(text.find("# sites 0 1\nl 1 2\n# sites 1 2\nl 3 4 5 3\n# sites 0 -1\nl 6 7\n"),
+              std::string::npos)
+        << text;
+}
+
+TEST_F(WriteDiagram, VtpHasALineForEachEdgeWithItsSites) {
+    const std::string text = written("d.vtp");
+    for (const char* part :
+         {"NumberOfPoints=\"7\"", "NumberOfLines=\"3\"", "Name=\"site_left\">\n0\n1\n0\n",
+          "Name=\"site_right\">\n1\n2\n-1\n", "Name=\"distance\">\n0\n0.25\n2\n",
+          "Name=\"connectivity\">\n0 1\n2 3 4 2\n5 6\n", "Name=\"offsets\">\n2\n6\n8\n"}) {
+        EXPECT_NE(text.find(part), std::string::npos) << part << "\nis not in\n" << text;
+    }
+}
+
+TEST_F(WriteDiagram, PlyReadsBackAsTheMeshAndHoldsLabelsAndDistances) {
+    const std::string text = written("d.ply");
+    EXPECT_EQ(remesh::read_mesh(at("d.ply")).mesh.positions, surface_.mesh.positions);
+    EXPECT_EQ(remesh::read_mesh(at("d.ply")).mesh.triangles, surface_.mesh.triangles);
+    const std::size_t body = text.find("end_header\n") + 11;
+    constexpr std::size_t stride = 3 * sizeof(double) + sizeof(std::int32_t) + sizeof(double);
+    for (Index v = 0; v < 4; ++v) {
+        std::int32_t site = 0;
+        double distance = 0;
+        text.copy(reinterpret_cast<char*>(&site), sizeof site, body + v * stride + 24);
+        text.copy(reinterpret_cast<char*>(&distance), sizeof distance, body + v * stride + 28);
+        EXPECT_EQ(site, v == 3 ? -1 : static_cast<int>(propagation_.vertex_site[v].value()));
+        EXPECT_EQ(distance, propagation_.vertex_distance[v]);
+    }
+}
+
+TEST_F(WriteDiagram, OtherExtensionsAreRefused) {
+    EXPECT_THROW(written("d.stl"), IoError);
+    EXPECT_THROW(written("d"), IoError);
+    EXPECT_TRUE(remesh::is_known_diagram_extension("a.VTP"));
+    EXPECT_FALSE(remesh::is_known_diagram_extension("vtp"));
+}
+
+}  // namespace

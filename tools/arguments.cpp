@@ -1,0 +1,54 @@
+#include "arguments.h"
+
+#include <CLI/CLI.hpp>
+#include <limits>
+#include <string>
+
+namespace cli {
+
+void add_diagram_options(CLI::App& app, DiagramArguments& arguments) {
+    remesh::SamplingOptions& sampling = arguments.sampling;
+    agvd::PropagationOptions& propagation = arguments.propagation;
+    app.add_option("IN", arguments.input, "Mesh to read: .ply, .obj, .off or .stl")->required();
+    auto* samples = app.add_option("-n,--samples,--vertices", sampling.num_samples,
+                                   "Sites to place, one output vertex each")
+                        ->check(CLI::Range(agvd::Index{1}, agvd::no_index - 1).description(""))
+                        ->type_name("N")
+                        ->capture_default_str();
+    app.add_option_function<std::string>(
+           "--init",
+           [&sampling](const std::string& name) {
+               sampling.init = name == "random" ? remesh::Init::Random : remesh::Init::BlueNoise;
+           },
+           "How to place them: random (by area) or blue-noise")
+        ->check(CLI::IsMember({"random", "blue-noise"}).description(""))
+        ->type_name("NAME")
+        ->default_str("blue-noise");
+    app.add_option("--seed", sampling.seed, "Same seed, same bytes, whatever the threads")
+        ->type_name("S")
+        ->capture_default_str();
+    app.add_option("--sites", arguments.sites,
+                   "Sites to use instead; lines `v VERTEX`, `f FACE B0 B1 B2` or `p X Y Z`")
+        ->excludes(samples)
+        ->type_name("FILE");
+    app.add_option("--steiner-points", propagation.steiner_points,
+                   "Steiner points on each edge; more is closer to exact, and slower")
+        ->check(CLI::Range(0, 1000).description(""))
+        ->type_name("M")
+        ->capture_default_str();
+    app.add_option("--lambda", propagation.lambda,
+                   "Triangles are retired every L * #faces pops; costs memory only")
+        ->check(CLI::Range(std::numeric_limits<double>::min(), std::numeric_limits<double>::max())
+                    .description(""))
+        ->type_name("L")
+        ->capture_default_str();
+    app.add_flag("--force", arguments.force, "Allow an output to overwrite an input");
+    add_common_options(app, arguments.common);
+}
+
+std::string describe(const std::filesystem::path& path, const agvd::MeshView& mesh) {
+    return path.string() + ": " + std::to_string(mesh.positions.size()) + " vertices, " +
+           std::to_string(mesh.triangles.size()) + " faces";
+}
+
+}  // namespace cli

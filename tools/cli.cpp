@@ -1,0 +1,183 @@
+#include "cli.h"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <atomic>
+#include <cstdio>
+#include <new>
+#include <sstream>
+#include <system_error>
+
+#include "remesh/io/atomic_file.h"
+
+namespace cli {
+
+namespace fs = std::filesystem;
+
+const char* const exit_code_help =
+    "Exit codes:\n"
+    "  0  done (warnings on stderr)          4  the mesh cannot be used\n"
+    "  1  internal error                     5  a constraint cannot be met, nothing written\n"
+    "  2  wrong usage                        130, 143  interrupted, nothing written\n"
+    "  3  a file cannot be read or written";
+
+namespace {
+
+// A signal handler can reach nothing but a global; lock-free, so that it may write it.
+// NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
+std::atomic<int> caught_signal{0};
+static_assert(std::atomic<int>::is_always_lock_free);
+
+extern "C" void on_signal(int number) {
+    caught_signal = number;
+    ::signal(SIGINT, SIG_DFL);
+    ::signal(SIGTERM, SIG_DFL);
+}
+
+void catch_signals() {
+    for (const int number : {SIGINT, SIGTERM}) {
+        // What the caller ignores (a shell does so for background jobs) stays ignored.
+        struct sigaction action {};
+        ::sigaction(number, nullptr, &action);
+        if (action.sa_handler == SIG_IGN) continue;
+        action.sa_handler = on_signal;
+        action.sa_flags = SA_RESTART;
+        ::sigaction(number, &action, nullptr);
+    }
+}
+
+// Parses, and runs the job; help and version end here. Returns the exit code.
+ExitCode parse_and_run(CLI::App& app, int argc, const char* const* argv,
+                       const std::function<void()>& job) {
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        std::ostringstream out, err;
+        const int code = app.exit(error, out, err);
+        print(out.str());
+        std::fputs(err.str().c_str(), stderr);
+        return code == 0 ? ExitCode::Done : ExitCode::Usage;
+    }
+    catch_signals();
+    job();
+    return ExitCode::Done;
+}
+
+}  // namespace
+
+void add_common_options(CLI::App& app, CommonOptions& options) {
+    app.add_option("-t,--threads", options.threads, "Threads to use; 0: all cores")
+        ->check(CLI::Range(0, 4096))
+        ->capture_default_str();
+    auto* quiet = app.add_flag("-q,--quiet", options.quiet, "Only warnings and errors on stderr");
+    app.add_flag("--verbose", options.verbose, "More on stderr")->excludes(quiet);
+}
+
+int run(CLI::App& app, int argc, const char* const* argv, const std::function<void()>& job) {
+    const std::string name = app.get_name();
+    app.set_version_flag("--version", name + " " REMESH_VERSION, "Print the version and exit");
+    app.failure_message([&](const CLI::App*, const CLI::Error& error) {
+        return name + ": error: " + error.what() + "; see " + name + " --help\n";
+    });
+    const auto fail = [&](ExitCode code, const std::string& text) {
+        std::fprintf(stderr, "%s: error: %s\n", name.c_str(), text.c_str());
+        return static_cast<int>(code);
+    };
+    try {
+        return static_cast<int>(parse_and_run(app, argc, argv, job));
+    } catch (const agvd::InvalidOption& error) {
+        return fail(ExitCode::Usage, error.what());
+    } catch (const agvd::IoError& error) {
+        return fail(ExitCode::File, error.what());
+    } catch (const fs::filesystem_error& error) {
+        return fail(ExitCode::File, error.what());
+    } catch (const agvd::InvalidInput& error) {
+        return fail(ExitCode::Mesh, error.what());
+    } catch (const agvd::ConstraintUnmet& error) {
+        return fail(ExitCode::Constraint, error.what());
+    } catch (const agvd::Cancelled&) {
+        std::fprintf(stderr, "%s: interrupted, nothing was written\n", name.c_str());
+        return 128 + caught_signal;
+    } catch (const std::bad_alloc&) {
+        return fail(
+            ExitCode::Internal,
+            "not enough memory; try fewer Steiner points, a coarser input or a larger machine");
+    } catch (const std::exception& error) {
+        return fail(ExitCode::Internal,
+                    std::string("internal error: ") + error.what() +
+                        "; please report it with the input and the command line");
+    }
+}
+
+bool interrupted() { return caught_signal != 0; }
+
+void stop_if_interrupted() {
+    if (interrupted()) throw agvd::Cancelled();
+}
+
+void check_output(const fs::path& path, std::initializer_list<fs::path> inputs, bool force) {
+    std::error_code ignored;  // Such as that there is no old file.
+    for (const fs::path& input : inputs) {
+        if (!force && fs::equivalent(path, input, ignored)) {
+            throw agvd::InvalidOption(path.string() +
+                                      " would overwrite an input; use --force if you mean it");
+        }
+    }
+    remesh::require_writable(path);
+}
+
+void print(std::string_view text) {
+    if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() ||
+        std::fflush(stdout) != 0) {
+        throw agvd::IoError("cannot write to standard output: " +
+                            std::generic_category().message(errno));
+    }
+}
+
+void write_text(const fs::path& path, std::string_view text) {
+    if (path == "-") {
+        print(text);
+    } else {
+        remesh::write_file_atomically(path, text);
+    }
+}
+
+void Console::detail(std::string_view text) {
+    if (options_.verbose) info(text);
+}
+
+void Console::info(std::string_view text) {
+    if (options_.quiet) return;
+    clear_bar();
+    std::fprintf(stderr, "%.*s\n", static_cast<int>(text.size()), text.data());
+}
+
+void Console::warn(std::string_view text) {
+    clear_bar();
+    std::fprintf(stderr, "warning: %.*s\n", static_cast<int>(text.size()), text.data());
+}
+
+bool Console::progress(std::string_view stage, double fraction) {
+    static constexpr std::size_t width = 30;
+    if (!options_.quiet && ::isatty(STDERR_FILENO) == 1) {
+        const auto filled = static_cast<std::size_t>(std::clamp(fraction, 0.0, 1.0) * width);
+        std::ostringstream bar;
+        bar << '[' << std::string(filled, '#') << std::string(width - filled, ' ') << "] " << stage;
+        if (bar.str() != bar_) {
+            clear_bar();
+            bar_ = bar.str();
+            std::fputs(bar_.c_str(), stderr);
+        }
+    }
+    return !interrupted();
+}
+
+void Console::clear_bar() {
+    if (!bar_.empty()) std::fputs("\r\x1b[K", stderr);
+    bar_.clear();
+}
+
+}  // namespace cli

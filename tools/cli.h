@@ -1,0 +1,98 @@
+//! \file
+//! What all programs share: exit codes, log and progress bar, interruption, checks of output paths.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+#include "agvd/core/error.h"
+
+namespace CLI {
+class App;
+}
+
+namespace cli {
+
+//! Also 130 after SIGINT and 143 after SIGTERM; then nothing was written.
+enum class ExitCode {
+    Done = 0,
+    Internal = 1,    //!< Our bug, or no memory.
+    Usage = 2,       //!< Command line, agvd::InvalidOption.
+    File = 3,        //!< agvd::IoError.
+    Mesh = 4,        //!< agvd::InvalidInput.
+    Constraint = 5,  //!< agvd::ConstraintUnmet; nothing written.
+};
+
+//! The exit codes as text for the end of --help.
+extern const char* const exit_code_help;
+
+struct CommonOptions {
+    int threads = 0;  //!< 0: all cores.
+    bool quiet = false;
+    bool verbose = false;
+};
+
+//! Adds -t/--threads, -q/--quiet and --verbose; they are valid once run() calls the job.
+void add_common_options(CLI::App& app, CommonOptions& options);
+
+//! main() of every program: parses the command line (adding --version), runs the job, and turns
+//! what either throws into a text on stderr and an exit code. While the job runs, the first SIGINT
+//! or SIGTERM makes interrupted() true; a second one kills the program at once.
+[[nodiscard]] int run(CLI::App& app, int argc, const char* const* argv,
+                      const std::function<void()>& job);
+
+//! True once SIGINT or SIGTERM has come.
+[[nodiscard]] bool interrupted();
+
+//! Call before writing. \throw agvd::Cancelled if interrupted().
+void stop_if_interrupted();
+
+//! Checks an output path before the long work.
+//! \param inputs  files that must not be overwritten without `force`; may be empty paths.
+//! \throw agvd::InvalidOption  the path is one of the inputs (also through links).
+//! \throw agvd::IoError        it cannot be written (remesh::require_writable).
+void check_output(const std::filesystem::path& path,
+                  std::initializer_list<std::filesystem::path> inputs, bool force);
+
+//! Returns what `work` returns; an agvd::InvalidInput that it throws gets the file's name in front.
+template <typename Work>
+auto naming_file(const std::filesystem::path& path, const Work& work) {
+    try {
+        return work();
+    } catch (const agvd::InvalidInput& error) {
+        throw agvd::InvalidInput(path.string() + ": " + error.what());
+    }
+}
+
+//! Writes to stdout and flushes. \throw agvd::IoError if that fails.
+void print(std::string_view text);
+
+//! Writes a text to `path`, all or nothing, or to stdout if the path is "-".
+void write_text(const std::filesystem::path& path, std::string_view text);
+
+//! What a program tells on stderr: texts a line each, and a progress bar on a terminal only.
+class Console {
+public:
+    explicit Console(const CommonOptions& options) : options_(options) {}
+    Console(const Console&) = delete;
+    Console& operator=(const Console&) = delete;
+    ~Console() { clear_bar(); }
+
+    void detail(std::string_view text);  //!< With --verbose only.
+    void info(std::string_view text);    //!< Unless --quiet.
+    void warn(std::string_view text);    //!< Always.
+
+    //! A progress callback: draws the bar, and returns false once interrupted().
+    [[nodiscard]] bool progress(std::string_view stage, double fraction);
+
+private:
+    void clear_bar();
+
+    const CommonOptions& options_;
+    std::string bar_;  // As on the screen now; empty: none.
+};
+
+}  // namespace cli

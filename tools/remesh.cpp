@@ -1,0 +1,83 @@
+// The main program: a mesh in, the dual of its geodesic Voronoi diagram out.
+#include <CLI/CLI.hpp>
+
+#include "arguments.h"
+#include "remesh/io/read_mesh.h"
+#include "remesh/io/read_sites.h"
+#include "remesh/io/report.h"
+#include "remesh/io/write_mesh.h"
+#include "remesh/pipeline/remesh.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* footer =
+    "Examples:\n"
+    "  remesh bunny.ply --samples 2000 out.obj\n"
+    "  remesh scan.stl -n 5000 -o scan.ply --report scan.json\n"
+    "  remesh part.off --sites sites.txt part.obj --report - | jq .\n\n";
+
+struct Arguments : cli::DiagramArguments {
+    fs::path output;
+    fs::path report;  // Empty: none; "-": stdout.
+};
+
+void check_outputs(const Arguments& arguments) {
+    if (!remesh::is_known_mesh_extension(arguments.output)) {
+        throw agvd::IoError(arguments.output.string() +
+                            ": unknown extension; use .ply, .obj, .off or .stl");
+    }
+    cli::check_output(arguments.output, {arguments.input, arguments.sites}, arguments.force);
+    if (arguments.report.empty() || arguments.report == "-") return;
+    cli::check_output(arguments.report, {arguments.input, arguments.sites}, arguments.force);
+    if (fs::weakly_canonical(arguments.report) == fs::weakly_canonical(arguments.output)) {
+        throw agvd::InvalidOption("--report and the output name the same file; choose another one");
+    }
+}
+
+void run_job(const Arguments& arguments) {
+    cli::Console console(arguments.common);
+    check_outputs(arguments);
+    const remesh::MeshFile input = remesh::read_mesh(arguments.input);
+    console.info(cli::describe(arguments.input, input.mesh.view()));
+    remesh::RemeshOptions options{.num_samples = arguments.sampling.num_samples,
+                                  .init = arguments.sampling.init,
+                                  .seed = arguments.sampling.seed,
+                                  .steiner_points = arguments.propagation.steiner_points,
+                                  .lambda = arguments.propagation.lambda,
+                                  .num_threads = arguments.common.threads,
+                                  .progress = [&](remesh::Stage stage, double fraction) {
+                                      return console.progress(remesh::stage_name(stage), fraction);
+                                  }};
+    if (!arguments.sites.empty()) {
+        options.sites = remesh::read_sites(arguments.sites, input.mesh.view());
+    }
+    const remesh::RemeshResult result = cli::naming_file(
+        arguments.input, [&] { return remesh::remesh(input.mesh.view(), options); });
+    cli::stop_if_interrupted();
+    remesh::write_mesh(arguments.output, result.mesh.view());
+    const remesh::RunInfo info{.version = REMESH_VERSION,
+                               .input_path = arguments.input.string(),
+                               .output_path = arguments.output.string(),
+                               .options = options};
+    if (!arguments.report.empty()) {
+        cli::write_text(arguments.report, remesh::to_json(result, info));
+    }
+    console.info(remesh::to_text(result, info));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Replaces a mesh by the dual of its geodesic Voronoi diagram.", "remesh");
+    Arguments arguments;
+    cli::add_diagram_options(app, arguments);
+    app.add_option("OUT,-o,--output", arguments.output,
+                   "Mesh to write: .ply, .obj, .off or .stl; an existing file is replaced")
+        ->required();
+    app.add_option("--report", arguments.report, "Write a JSON report; - writes it to stdout")
+        ->type_name("FILE|-");
+    app.footer(std::string(footer) + cli::exit_code_help);
+    return cli::run(app, argc, argv, [&] { run_job(arguments); });
+}
