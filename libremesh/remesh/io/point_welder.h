@@ -11,7 +11,7 @@ namespace remesh {
 class PointWelder {
 public:
     //! The index of the first point with exactly these coordinates; a new one if there is none.
-    //! \param p  finite; -0 is taken for 0. Cost: O(1) expected.
+    //! \param p  finite; -0 equals 0. Cost: O(1) expected.
     agvd::Index index_of(const agvd::Vec3& p);
 
     //! Indexed by index_of, in the order of first arrival.
