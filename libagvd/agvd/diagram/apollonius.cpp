@@ -14,6 +14,9 @@ constexpr int max_newton_steps = 25;
 constexpr double convergence = 1e-12;
 // A branch point this far outside (share of the size) still counts as inside.
 constexpr double inside_tolerance = 1e-9;
+// A step that the distances contradict by more (share of the size) is drawn straight, so that arcs
+// do not cross.
+constexpr double largest_violation = 1e-3;
 constexpr int max_arc_depth = 4;  // At most 2^4 pieces an arc and face.
 constexpr double never = std::numeric_limits<double>::infinity();
 
@@ -44,11 +47,16 @@ public:
         for (const Joint& joint : joints) out_.pieces.emplace_back(joint.site_after, 1);
         while (joints.size() > 3) close_ear(joints, best_ear(joints));
         if (joints.size() == 3) {
-            const BranchPoint branch = find_branch(joints[2], joints[0], joints[1]);
-            close_with_branch(joints, 0, branch);
+            BranchPoint branch = find_branch(joints[2], joints[0], joints[1]);
+            const bool is_sound = is_accepted(branch.violation);
+            if (!is_sound) {
+                branch.position =
+                    (joints[0].position + joints[1].position + joints[2].position) / 3;
+            }
+            close_with_branch(joints, 0, branch, is_sound);
         } else {
             assert(joints.size() == 2);
-            add_arc(joints[0], joints[1].position, joints[1].node, joints[1].site_after);
+            add_arc(joints[0], joints[1].position, joints[1].node, joints[1].site_after, true);
         }
     }
 
@@ -78,16 +86,27 @@ private:
         return best;
     }
 
+    [[nodiscard]] bool is_accepted(double violation) const {
+        return violation <= largest_violation * size_;
+    }
+
     void close_ear(std::vector<Joint>& joints, const Ear& ear) {
+        const bool is_sound = is_accepted(ear.violation);
         if (!ear.is_lens) {
-            close_with_branch(joints, ear.index, ear.branch);
+            BranchPoint branch = ear.branch;
+            if (!is_sound) {
+                // On the chord that cuts the ear off what is left stays convex.
+                branch.position = (joints[ear.index].position +
+                                   joints[after(ear.index, joints.size())].position) / 2;
+            }
+            close_with_branch(joints, ear.index, branch, is_sound);
             return;
         }
         // The interval is cut off by one arc; its two neighbours are one piece.
         const std::size_t next = after(ear.index, joints.size());
         const Joint from = joints[ear.index];
         const Joint to = joints[next];
-        add_arc(from, to.position, to.node, to.site_after);
+        add_arc(from, to.position, to.node, to.site_after, is_sound);
         out_.pieces.emplace_back(to.site_after, -1);
         out_.connected.emplace_back(joints[before(ear.index, joints.size())].interval, to.interval);
         // The interval before the ear now reaches to the end of the one after it.
@@ -98,7 +117,8 @@ private:
     }
 
     // Two arcs run from the interval's joints to the branch; with three joints left, all three do.
-    void close_with_branch(std::vector<Joint>& joints, std::size_t i, const BranchPoint& branch) {
+    void close_with_branch(std::vector<Joint>& joints, std::size_t i, const BranchPoint& branch,
+                           bool is_sound) {
         const std::size_t n = joints.size();
         const std::size_t next = after(i, n);
         const Index site_before = joints[before(i, n)].site_after;
@@ -111,10 +131,10 @@ private:
                                  {first_arc, first_arc + 1, first_arc + 2},
                                  {false, false, false},
                                  {site, site_after, site_before}});
-        add_arc(joints[i], branch.position, node, site_before);
-        add_arc(joints[next], branch.position, node, site);
+        add_arc(joints[i], branch.position, node, site_before, is_sound);
+        add_arc(joints[next], branch.position, node, site, is_sound);
         if (n == 3) {
-            add_arc(joints[before(i, n)], branch.position, node, site_after);
+            add_arc(joints[before(i, n)], branch.position, node, site_after, is_sound);
             return;
         }
         open_branches_.push_back(static_cast<Index>(out_.branches.size()) - 1);
@@ -123,10 +143,10 @@ private:
     }
 
     // An arc inwards from a joint; `left` is the site before the joint.
-    void add_arc(const Joint& from, const Vec2& to, Index head, Index left) {
+    void add_arc(const Joint& from, const Vec2& to, Index head, Index left, bool is_curved) {
         const auto arc = static_cast<Index>(out_.arcs.size());
         const auto first_point = static_cast<Index>(out_.points.size());
-        sample_arc(left, from.site_after, from.position, to, 0);
+        if (is_curved) sample_arc(left, from.site_after, from.position, to, 0);
         out_.arcs.push_back({from.node, head, left, from.site_after, first_point,
                              static_cast<Index>(out_.points.size()) - first_point});
         connect_open_branch(from.node, arc, true);
@@ -211,9 +231,8 @@ private:
         }
         const double gap = outside(p);
         if (!converged || gap > inside_tolerance * size_) {
-            // Not a vertex of the diagram in here. If it must be one all the same, it stays near.
-            const Vec2 fallback = inside(converged ? p : start);
-            return {fallback, reach_from(relays_, b, fallback).distance,
+            // Not a vertex of the diagram in here.
+            return {start, reach_from(relays_, b, start).distance,
                     converged ? size_ + gap : 2 * size_};
         }
         return {gap > 0 ? inside(p) : p, distance, undercut(p, distance, a, b, c)};
@@ -261,7 +280,7 @@ private:
             }
             const double slope = (direction(p, ra) - direction(p, rb)).dot(normal);
             if (!(std::abs(slope) > convergence)) return false;
-            s = std::clamp(s - gap / slope, -length, length);
+            s = std::clamp(s - gap / slope, -length / 2, length / 2);
         }
         return false;
     }
