@@ -1,9 +1,9 @@
 //! \file
-//! The wavefront: a min-queue without ties.
+//! The wavefront: a monotone min-queue without ties.
 #pragma once
 
 #include <algorithm>
-#include <tuple>
+#include <cstdint>
 #include <vector>
 
 #include "agvd/core/types.h"
@@ -21,15 +21,80 @@ struct FrontEntry {
     }
 };
 
-//! 4-ary heap ordered by (distance, site, node): four children of 16 bytes share a cache line.
-//! Improved nodes are pushed again; the caller skips the stale entries on pop.
+//! Pops in the order (distance, site, node). Entries wait unsorted in buckets of equal distance range;
+//! only the bucket being served is a heap, small enough for the first cache level: one heap over
+//! the whole front took 70 % of the propagation's time on 70k faces. Improved nodes are pushed
+//! again; the caller skips the stale entries on pop. Nothing may be pushed below the last pop.
 class FrontQueue {
 public:
-    [[nodiscard]] bool empty() const { return heap_.empty(); }
-    [[nodiscard]] const FrontEntry& top() const { return heap_.front(); }
-    [[nodiscard]] std::size_t peak_bytes() const { return heap_.capacity() * sizeof(FrontEntry); }
+    //! \param bucket_width > 0, in mesh units; a matter of speed only.
+    explicit FrontQueue(double bucket_width) : per_width_(1 / bucket_width), ring_(ring_size) {}
+
+    [[nodiscard]] bool empty() const { return heap_.empty() && waiting_ == 0; }
+
+    [[nodiscard]] const FrontEntry& top() {
+        refill();
+        return heap_.front();
+    }
 
     void push(const FrontEntry& entry) {
+        const auto bucket = static_cast<std::int64_t>(
+            std::min(entry.distance * per_width_, static_cast<double>(last_bucket)));
+        if (bucket <= current_) {
+            sift_up(entry);
+            return;
+        }
+        ++waiting_;
+        if (bucket - current_ < ring_size) {
+            ring_[static_cast<std::size_t>(bucket % ring_size)].push_back(entry);
+        } else {
+            far_.push_back(entry);
+            nearest_far_ = std::min(nearest_far_, bucket);
+        }
+    }
+
+    FrontEntry pop() {
+        refill();
+        const FrontEntry result = heap_.front();
+        const FrontEntry last = heap_.back();
+        heap_.pop_back();
+        if (!heap_.empty()) sift_down(last);
+        return result;
+    }
+
+    //! Most bytes held.
+    [[nodiscard]] std::size_t peak_bytes() const {
+        std::size_t entries = heap_.capacity() + far_.capacity();
+        for (const auto& bucket : ring_) entries += bucket.capacity();
+        return entries * sizeof(FrontEntry) + ring_.capacity() * sizeof(ring_[0]);
+    }
+
+private:
+    static constexpr std::int64_t ring_size = 1024;
+    static constexpr std::int64_t last_bucket = std::int64_t{1} << 62;
+
+    void refill() {
+        while (heap_.empty()) {
+            if (waiting_ == far_.size()) current_ = nearest_far_ - 1;
+            ++current_;
+            if (nearest_far_ - current_ < ring_size) bring_far_in();
+            auto& bucket = ring_[static_cast<std::size_t>(current_ % ring_size)];
+            waiting_ -= bucket.size();
+            for (const FrontEntry& entry : bucket) sift_up(entry);
+            bucket.clear();
+        }
+    }
+
+    void bring_far_in() {
+        std::vector<FrontEntry> far;
+        far.swap(far_);
+        nearest_far_ = last_bucket;
+        waiting_ -= far.size();
+        for (const FrontEntry& entry : far) push(entry);
+    }
+
+    // 4-ary: four children of 16 bytes share a cache line.
+    void sift_up(const FrontEntry& entry) {
         std::size_t i = heap_.size();
         heap_.push_back(entry);
         while (i > 0) {
@@ -41,12 +106,8 @@ public:
         heap_[i] = entry;
     }
 
-    FrontEntry pop() {
-        const FrontEntry result = heap_.front();
-        const FrontEntry last = heap_.back();
-        heap_.pop_back();
+    void sift_down(const FrontEntry& entry) {
         const std::size_t size = heap_.size();
-        if (size == 0) return result;
         std::size_t i = 0;
         while (4 * i + 1 < size) {
             const std::size_t first = 4 * i + 1;
@@ -55,16 +116,20 @@ public:
             for (std::size_t child = first + 1; child < end; ++child) {
                 if (heap_[child] < heap_[least]) least = child;
             }
-            if (!(heap_[least] < last)) break;
+            if (!(heap_[least] < entry)) break;
             heap_[i] = heap_[least];
             i = least;
         }
-        heap_[i] = last;
-        return result;
+        heap_[i] = entry;
     }
 
-private:
+    double per_width_;
+    std::int64_t current_ = -1;  // The bucket in the heap.
     std::vector<FrontEntry> heap_;
+    std::vector<std::vector<FrontEntry>> ring_;  // Buckets current_ + 1 .. current_ + ring_size - 1.
+    std::vector<FrontEntry> far_;                // Beyond.
+    std::int64_t nearest_far_ = last_bucket;
+    std::size_t waiting_ = 0;                    // In ring_ and far_.
 };
 
 }  // namespace agvd

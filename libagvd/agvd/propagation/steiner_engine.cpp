@@ -49,6 +49,7 @@ public:
           step_(m_ + 1),
           vertices_(surface.num_vertices()),
           pool_(surface.num_edges(), m_),
+          queue_(bucket_width(surface, m_)),
           face_state_(surface.num_faces(), FaceState::Untouched) {}
 
     Propagation run() {
@@ -87,6 +88,15 @@ public:
 
 private:
     static constexpr std::size_t poll_interval = 1 << 16;
+
+    // A small part of the mean spacing of the nodes: a bucket then holds some hundred of them.
+    static double bucket_width(const Surface& surface, Index points_per_edge) {
+        double sum = 0;
+        for (const double length : surface.length) sum += length;
+        const double mean = sum / std::max<Index>(surface.num_edges(), 1);
+        constexpr double share = 0.05;
+        return mean > 0 ? share * mean / (points_per_edge + 1) : 1;
+    }
 
     // --- Propagation ---------------------------------------------------------------------------
 
