@@ -1,8 +1,10 @@
 #include "agvd/propagation/propagate.h"
 
+#include <cmath>
 #include <string>
 
 #include "agvd/propagation/steiner_engine.h"
+#include "agvd/propagation/steiner_points.h"
 
 namespace agvd {
 
@@ -18,8 +20,9 @@ Propagation propagate(const Surface& surface, std::span<const SurfacePoint> site
         throw InvalidOption("lambda is " + std::to_string(options.lambda) +
                             "; use a number above 0");
     }
+    const auto points = static_cast<Index>(options.steiner_points);
     const double nodes = static_cast<double>(surface.num_vertices()) +
-                         static_cast<double>(surface.num_edges()) * options.steiner_points;
+                         std::ldexp(static_cast<double>(surface.num_edges()), edge_shift(points));
     if (nodes >= static_cast<double>(no_index)) {
         throw InvalidOption("this mesh with " + std::to_string(options.steiner_points) +
                             " Steiner points per edge needs more than 2^32 nodes; use fewer");

@@ -47,6 +47,8 @@ public:
           placement_(surface, sites),
           m_(static_cast<Index>(options.steiner_points)),
           step_(m_ + 1),
+          inverse_step_(1.0 / step_),
+          edge_shift_(edge_shift(m_)),
           vertices_(surface.num_vertices()),
           pool_(surface.num_edges(), m_),
           queue_(bucket_width(surface, m_)),
@@ -60,22 +62,22 @@ public:
         const double all_nodes = static_cast<double>(surface_.num_vertices()) +
                                  static_cast<double>(surface_.num_edges()) * m_;
         std::size_t pops = 0;
-        while (!queue_.empty()) {
+        while (refill()) {
             const FrontEntry entry = queue_.pop();
             if (entry.node < vertices_.size()) {
                 if (!settle(vertices_[entry.node], entry)) continue;
                 serve_one_ring(entry.node);
             } else {
-                const Index edge = (entry.node - surface_.num_vertices()) / m_;
+                const Index edge = edge_of_node(entry.node);
                 if (pool_.is_retired(edge)) continue;
-                const Index point = (entry.node - surface_.num_vertices()) % m_;
+                const Index point = point_of_node(entry.node);
                 if (!settle(pool_.nodes(edge)[point], entry)) continue;
                 serve_onward(edge, point);
             }
             if (++pops % poll_interval == 0) {
                 poll(options_.progress, static_cast<double>(pops) / all_nodes);
             }
-            if (static_cast<double>(pops) >= next_retirement && !queue_.empty()) {
+            if (static_cast<double>(pops) >= next_retirement && refill()) {
                 next_retirement += interval;
                 retire_behind(queue_.top().distance);
             }
@@ -89,31 +91,59 @@ public:
 private:
     static constexpr std::size_t poll_interval = 1 << 16;
 
-    // A small part of the mean spacing of the nodes: a bucket then holds some hundred of them.
+    // A share of the mean spacing of the nodes, so that most improvements stay within a bucket; and
+    // no path is longer than all edges together.
     static double bucket_width(const Surface& surface, Index points_per_edge) {
+        constexpr double share = 0.15;
         double sum = 0;
         for (const double length : surface.length) sum += length;
-        const double mean = sum / std::max<Index>(surface.num_edges(), 1);
-        constexpr double share = 0.05;
-        return mean > 0 ? share * mean / (points_per_edge + 1) : 1;
+        const double nodes = static_cast<double>(surface.num_edges()) * (points_per_edge + 1);
+        return std::max({share * sum / nodes, sum * 0x1p-30, std::numeric_limits<double>::min()});
     }
 
     // --- Propagation ---------------------------------------------------------------------------
 
+    [[nodiscard]] Index node_id(Index edge, Index point) const {
+        return surface_.num_vertices() + (edge << edge_shift_) + point;
+    }
+    [[nodiscard]] Index edge_of_node(Index node) const {
+        return (node - surface_.num_vertices()) >> edge_shift_;
+    }
+    [[nodiscard]] Index point_of_node(Index node) const {
+        return (node - surface_.num_vertices()) & ((Index{1} << edge_shift_) - 1);
+    }
+
+    [[nodiscard]] bool refill() {
+        return queue_.refill([this](Index id, Index bucket) -> std::optional<FrontEntry> {
+            const SteinerNode* node = nullptr;
+            if (id < vertices_.size()) {
+                node = &vertices_[id];
+            } else {
+                const Index edge = edge_of_node(id);
+                if (pool_.is_retired(edge)) return std::nullopt;
+                node = pool_.nodes(edge) + point_of_node(id);
+            }
+            if (node->queued_in != bucket) return std::nullopt;
+            return FrontEntry{node->distance, node->site, id};
+        });
+    }
+
     static bool settle(SteinerNode& node, const FrontEntry& entry) {
-        if (node.settled || node.distance != entry.distance || node.site != entry.site) return false;
-        node.settled = true;
+        if (node.is_settled() || node.distance != entry.distance || node.site != entry.site) {
+            return false;
+        }
+        node.queued_in = SteinerNode::settled;
         return true;
     }
 
     void relax(SteinerNode& node, Index id, double distance, Index site, Index from, Index slot) {
-        if (distance > node.distance || node.settled) return;
+        if (distance > node.distance || node.is_settled()) return;
         if (distance == node.distance && site >= node.site) return;
         node.distance = distance;
         node.site = site;
         node.from = from;
         node.parent_slot = static_cast<std::uint16_t>(slot);
-        queue_.push({distance, site, id});
+        queue_.push({distance, site, id}, node.queued_in);
     }
 
     void relax_vertex(Index from, double distance, Index site, Index slot) {
@@ -131,10 +161,10 @@ private:
         if (pool_.is_retired(edge)) return;
         SteinerNode* const nodes = pool_.nodes(edge);
         const bool forward = surface_.edge_half[edge] == from;
-        const Index first_id = surface_.num_vertices() + edge * m_;
+        const Index first_id = node_id(edge, 0);
         const Vec2 offset = tail - source;
         for (Index j = begin; j < end; ++j) {
-            const double t = static_cast<double>(j) / step_;
+            const double t = j * inverse_step_;
             const double distance = base + (offset + t * along).norm();
             const Index k = forward ? j - 1 : m_ - j;
             relax(nodes[k], first_id + k, distance, site, from, slot);
@@ -181,8 +211,9 @@ private:
             const double length = surface_.length_of(h);
             const Index opposite = Surface::next(h);
             const Vec2& apex = surface_.apex[opposite];  // This vertex, seen from the opposite edge.
-            const Index slot = 2 * step_;
-            relax_points(h, 1, step_, {0, 0}, {length, 0}, {0, 0}, node.distance, node.site, 0);
+            const Index slot = FaceRing::slot(2, 0);
+            relax_points(h, 1, step_, {0, 0}, {length, 0}, {0, 0}, node.distance, node.site,
+                         FaceRing::slot(0, 0));
             relax_vertex(opposite, node.distance + length, node.site, slot);
             relax_points(opposite, 1, step_, {0, 0}, {surface_.length_of(opposite), 0}, apex,
                          node.distance, node.site, slot);
@@ -191,9 +222,9 @@ private:
             h = surface_.twin[previous];
             if (h == no_index) {
                 const double last = surface_.length_of(previous);
-                relax_vertex(previous, node.distance + last, node.site, step_);
+                relax_vertex(previous, node.distance + last, node.site, FaceRing::slot(1, 0));
                 relax_points(previous, 1, step_, {0, 0}, {last, 0}, {last, 0}, node.distance,
-                             node.site, step_);
+                             node.site, FaceRing::slot(1, 0));
             }
         } while (h != no_index && h != surface_.outgoing[vertex]);
     }
@@ -205,7 +236,7 @@ private:
         const double length = surface_.length[edge];
         const bool forward = surface_.edge_half[edge] == out;
         const Index j = forward ? point + 1 : m_ - point;  // Counted from the tail of `out`.
-        const Vec2 here(length * j / step_, 0);
+        const Vec2 here(length * j * inverse_step_, 0);
 
         const auto [parent, spacing] = parent_in_frame(node, length);
         if (!(parent.y() < 0)) return;  // Came along its own edge: the parent serves both sides.
@@ -216,13 +247,14 @@ private:
         const Index previous = Surface::previous(out);
         const Vec2 head(length, 0);
         relax_points(next, std::max<Index>(range.begin, 1), std::min(range.end, step_), head,
-                     apex - head, here, node.distance, node.site, 2 * step_ + j);
+                     apex - head, here, node.distance, node.site, FaceRing::slot(2, j));
         if (range.begin <= step_ && step_ < range.end) {
-            relax_vertex(previous, node.distance + (apex - here).norm(), node.site, step_ + j);
+            relax_vertex(previous, node.distance + (apex - here).norm(), node.site,
+                         FaceRing::slot(1, j));
         }
         relax_points(previous, std::max(range.begin, step_ + 1) - step_,
                      std::clamp(range.end, step_ + 1, 2 * step_) - step_, apex, -apex, here, node.distance,
-                     node.site, step_ + j);
+                     node.site, FaceRing::slot(1, j));
     }
 
     struct Parent {
@@ -236,16 +268,16 @@ private:
                 placement_.seen_from(Surface::face(node.from), node.site);
             return position_in_frame(surface_, site, node.from);
         }
-        return FaceRing(surface_, node.from, m_).position(node.parent_slot);
+        return FaceRing(surface_, node.from, inverse_step_).position(node.parent_slot);
     }
 
     [[nodiscard]] Parent parent_in_frame(const SteinerNode& node, double length) const {
         const Vec2 p = slot_position(node);
         Vec2 spacing(0, 0);
-        if (node.parent_slot != FaceRing::site_slot && node.parent_slot % step_ != 0) {
+        if (node.parent_slot != FaceRing::site_slot && FaceRing::number_of(node.parent_slot) != 0) {
             const Vec2& apex = surface_.apex[node.from];
-            const Vec2 along = node.parent_slot / step_ == 1 ? Vec2(apex - Vec2(length, 0)) : apex;
-            spacing = along / step_;
+            const bool is_next = FaceRing::side_of(node.parent_slot) == 1;
+            spacing = inverse_step_ * (is_next ? Vec2(apex - Vec2(length, 0)) : apex);
         }
         return {{length - p.x(), -p.y()}, spacing};
     }
@@ -256,7 +288,7 @@ private:
                                               const Vec2& spacing) const {
         const Vec2 ahead = here - parent;
         const bool is_left = ahead.x() * spacing.y() - ahead.y() * spacing.x() > 0;
-        const Vec2 turn = Vec2(surface_.length_of(out) / step_, 0) + (is_left ? -spacing : spacing);
+        const Vec2 turn = Vec2(surface_.length_of(out) * inverse_step_, 0) + (is_left ? -spacing : spacing);
         const Vec2 right = ahead + turn;
         const Vec2 left = ahead - turn;
         const double first = right.y() > 0 ? target_at(out, here, right) : 0;
@@ -370,13 +402,13 @@ private:
             if (image.y() < 0) add_relay(h, image, 0, placed.site);  // Edge sites: in_face(face).
         }
         if (m_ == 0) return;
-        const FaceRing ring(surface_, twin, m_);
+        const FaceRing ring(surface_, twin, inverse_step_);
         const SteinerNode* const nodes = pool_.nodes(surface_.edge[h]);
         seen_slots_.clear();
         for (Index k = 0; k < m_; ++k) {
             const SteinerNode& node = nodes[k];
             if (node.from != twin || node.parent_slot == FaceRing::site_slot ||
-                ring.is_on_base(node.parent_slot)) {
+                FaceRing::is_on_base(node.parent_slot)) {
                 continue;
             }
             const std::pair<Index, Index> key(node.parent_slot, node.site);
@@ -386,7 +418,7 @@ private:
             seen_slots_.push_back(key);
             const Vec2 p = ring.position(node.parent_slot);
             const Index j = surface_.edge_half[surface_.edge[h]] == twin ? k + 1 : m_ - k;
-            const double chord = (p - Vec2(length * j / step_, 0)).norm();
+            const double chord = (p - Vec2(length * j * inverse_step_, 0)).norm();
             add_relay(h, mirrored(p), node.distance - chord, node.site);
         }
     }
@@ -434,7 +466,9 @@ private:
     const PropagationOptions& options_;
     SitePlacement placement_;
     Index m_;
-    Index step_;  // m + 1 intervals on each edge.
+    Index step_;           // m + 1 intervals on each edge.
+    double inverse_step_;  // 1 / (m + 1)
+    int edge_shift_;       // Nodes of an edge are numbered in steps of 2^edge_shift_ >= m.
     std::vector<SteinerNode> vertices_;
     SteinerPool pool_;
     FrontQueue queue_;

@@ -3,6 +3,7 @@
 //! edge each, taken from a pool when the front arrives and given back when both faces are done.
 #pragma once
 
+#include <bit>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -20,38 +21,55 @@ struct SteinerNode {
     Index from = no_index;
     //! Where the path's previous node lies on the boundary of that face: see FaceRing.
     std::uint16_t parent_slot = 0;
-    bool settled = false;
+    Index queued_in = no_index;  //!< The queue's memory; settled once served.
+
+    static constexpr Index settled = no_index - 1;
+    [[nodiscard]] bool is_settled() const { return queued_in == settled; }
 };
 static_assert(sizeof(SteinerNode) == 24);
 
+//! Nodes are numbered vertices first, then edges in steps of 2^shift >= m, so that a node's edge is a
+//! shift and not a division.
+[[nodiscard]] constexpr int edge_shift(Index points_per_edge) {
+    return std::bit_width(points_per_edge > 0 ? points_per_edge - 1 : 0u);
+}
+
 //! The nodes on a face's boundary, numbered counter-clockwise from the tail of one of its half-edges
-//! h: slot (m + 1) k + j is the j-th node on side k (0: h, 1: next, 2: previous); j = 0 is the
+//! h: a slot is a side (0: h, 1: next, 2: previous) and the number j of the node on it; j = 0 is the
 //! side's tail vertex, j in [1, m] a Steiner point.
 class FaceRing {
 public:
     static constexpr std::uint16_t site_slot = 0xffff;  //!< The path comes straight from its site.
 
-    FaceRing(const Surface& surface, Index half_edge, Index points_per_edge)
+    static constexpr Index slot(Index side, Index j) { return side << side_shift | j; }
+    static constexpr Index side_of(Index slot) { return slot >> side_shift; }
+    static constexpr Index number_of(Index slot) { return slot & ((Index{1} << side_shift) - 1); }
+
+    FaceRing(const Surface& surface, Index half_edge, double inverse_step)
         : length_(surface.length_of(half_edge)),
           apex_(surface.apex[half_edge]),
-          step_(points_per_edge + 1) {}
+          inverse_step_(inverse_step) {}
 
     //! Position of a slot in the frame of h.
     [[nodiscard]] Vec2 position(Index slot) const {
-        const double t = static_cast<double>(slot % step_) / step_;
-        switch (slot / step_) {
+        const double t = number_of(slot) * inverse_step_;
+        switch (side_of(slot)) {
             case 0: return {t * length_, 0};
             case 1: return {length_ + t * (apex_.x() - length_), t * apex_.y()};
             default: return (1 - t) * apex_;
         }
     }
     //! True for the nodes of h itself, both ends included.
-    [[nodiscard]] bool is_on_base(Index slot) const { return slot <= step_; }
+    [[nodiscard]] static bool is_on_base(Index slot) {
+        return side_of(slot) == 0 || slot == FaceRing::slot(1, 0);
+    }
 
 private:
+    static constexpr Index side_shift = 12;  // m < 2^12.
+
     double length_;
     Vec2 apex_;
-    Index step_;
+    double inverse_step_;  // 1 / (m + 1)
 };
 
 //! Blocks of m nodes, one per live edge.
