@@ -43,6 +43,8 @@ TEST(SelfIntersections, FacesThatShareACornerMayMeetThereOnly) {
     TriangleMesh mesh{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {2, 1, -1}, {1, 1, 1}},
                       {{1, 2, 0}, {3, 0, 4}}};
     EXPECT_EQ(pairs_of(mesh), (Pairs{{0, 1}}));
+    std::swap(mesh.triangles[0], mesh.triangles[1]);
+    EXPECT_EQ(pairs_of(mesh), (Pairs{{0, 1}})) << "whichever pierces the other";
     mesh.positions[3] = {-2, -1, -1};
     EXPECT_EQ(pairs_of(mesh), Pairs{});
 }

@@ -75,6 +75,9 @@ TEST(TriangleQuality, NonDelaunayEdgesAreThoseWithOpenAngles) {
     TriangleMesh rhombus{{{-sqrt3, 0, 0}, {0, -1, 0}, {sqrt3, 0, 0}, {0, 1, 0}},
                          {{0, 1, 2}, {0, 2, 3}}};
     EXPECT_EQ(measure_triangles(rhombus.view()).non_delaunay_edges, 1u);
+    rhombus.positions.emplace_back(0, 0, 1);
+    rhombus.triangles.push_back({0, 2, 4});
+    EXPECT_EQ(measure_triangles(rhombus.view()).non_delaunay_edges, 0u) << "not asked of 3 faces";
     rhombus.triangles = {{0, 1, 3}, {1, 2, 3}};
     EXPECT_EQ(measure_triangles(rhombus.view()).non_delaunay_edges, 0u);
 }
