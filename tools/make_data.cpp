@@ -1,0 +1,22 @@
+// make_data: writes every mesh of data/, so that nothing there is of unknown origin.
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "cli.h"
+#include "make_data/data_files.h"
+#include "remesh/io/write_mesh.h"
+
+int main(int argc, char** argv) {
+    std::filesystem::path folder;
+    CLI::App app{"Writes the meshes of data/.", "make_data"};
+    app.add_option("FOLDER", folder, "an existing folder")
+        ->required()
+        ->check(CLI::ExistingDirectory);
+    return cli::run(app, argc, argv, [&] {
+        for (const make_data::DataFile& file : make_data::data_files()) {
+            remesh::write_mesh(folder / file.name, file.make().view());
+            cli::stop_if_interrupted();
+        }
+    });
+}

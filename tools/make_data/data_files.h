@@ -1,0 +1,30 @@
+//! \file
+//! The meshes of data/, each made by formula.
+#pragma once
+
+#include <vector>
+
+#include "agvd/mesh/mesh_view.h"
+
+namespace make_data {
+
+//! An organic closed surface of genus 4 whose face sizes vary by far more than 10.
+[[nodiscard]] agvd::TriangleMesh organic();
+//! A mechanical bracket with sharp edges and through holes.
+[[nodiscard]] agvd::TriangleMesh part();
+//! A wavy open vase without a bottom: genus 0, two boundary loops.
+[[nodiscard]] agvd::TriangleMesh shell();
+//! A closed plate whose thickness is 0.2 % of its longer side.
+[[nodiscard]] agvd::TriangleMesh plate();
+//! Four closed components whose sizes span 1 : 1000.
+[[nodiscard]] agvd::TriangleMesh parts();
+//! A closed surface full of slivers, without a face of no area.
+[[nodiscard]] agvd::TriangleMesh slivers();
+
+struct DataFile {
+    const char* name;  //!< In data/; the extension gives the format.
+    agvd::TriangleMesh (*make)();
+};
+[[nodiscard]] const std::vector<DataFile>& data_files();
+
+}  // namespace make_data

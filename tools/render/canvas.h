@@ -1,0 +1,40 @@
+//! \file
+//! A picture drawn by a z-buffer: shaded triangles, lines on top of them, PNG out.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <vector>
+
+#include "agvd/core/types.h"
+
+namespace render {
+
+using Color = Eigen::Vector3f;  //!< Linear red, green, blue in [0, 1].
+
+//! Coordinates are pixels of the finished picture: x right, y down, z towards the viewer.
+class Canvas {
+public:
+    Canvas(int width, int height);
+
+    //! Fills what is in front of everything drawn before; edges get a thin dark line of this
+    //! opacity.
+    void draw_triangle(const std::array<agvd::Vec3, 3>& corners, const Color& color,
+                       float edge_opacity);
+    //! Draws a line of `width` pixels, hidden where the surface is more than `bias` in front.
+    void draw_line(const agvd::Vec3& a, const agvd::Vec3& b, const Color& color, double width,
+                   double bias);
+    //! Darkens what lies in hollows not wider than `radius` pixels; call after the triangles.
+    void shade_hollows(double radius);
+    //! \throw agvd::IoError  the file cannot be written.
+    void write_png(const std::filesystem::path& path) const;
+
+private:
+    [[nodiscard]] std::size_t index(int x, int y) const;
+
+    int width_, height_;         // of the sample grid
+    std::vector<float> depth_;   // per sample, in samples; nothing drawn: lowest
+    std::vector<Color> colors_;  // per sample
+};
+
+}  // namespace render
