@@ -74,6 +74,7 @@ Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> site
                                                         barred, options.chord_tolerance, begin, end);
                         });
         is_stale.assign(num_mixed, false);
+        if (round == max_island_rounds) break;
         if (absorb_islands(surface, sites, chunks, labels, barred, is_stale) == 0) break;
     }
     poll(options.progress, 0.9);

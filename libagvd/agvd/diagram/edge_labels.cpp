@@ -97,18 +97,26 @@ EdgeLabels label_edges(const Surface& surface, const Propagation& propagation, i
 
     const auto num_edges = static_cast<Index>(labels.edges.size());
     std::vector<std::vector<Crossing>> found(num_chunks(num_edges, grain));
+    std::vector<std::vector<EdgeRelay>> won(found.size());
+    std::vector<Index> num_won(num_edges);
     labels.crossing_counts.resize(num_edges);
     parallel_chunks(num_edges, grain, num_threads, [&](Index chunk, Index begin, Index end) {
         EnvelopeScratch scratch;
         std::vector<PlanarRelay> relays;
         std::vector<LabelInterval> intervals;
+        std::vector<EnvelopePiece> pieces;
         for (Index i = begin; i < end; ++i) {
             const Index e = labels.edges[i];
             const Index h = surface.edge_half[e];
             gather_relays(surface, propagation, labels, e, relays);
             const Vec2 head(surface.length[e], 0);
             label_envelope(relays, {0, 0}, head, labels.vertex_site[surface.tail(h)],
-                           labels.vertex_site[surface.head(h)], scratch, intervals);
+                           labels.vertex_site[surface.head(h)], scratch, intervals, &pieces);
+            num_won[i] = static_cast<Index>(pieces.size());
+            for (const EnvelopePiece& piece : pieces) {
+                won[chunk].push_back(
+                    {piece.from, piece.weight, piece.begin, piece.end, piece.site});
+            }
             labels.crossing_counts[i] = static_cast<Index>(intervals.size()) - 1;
             for (std::size_t k = 0; k + 1 < intervals.size(); ++k) {
                 const Vec2 p = intervals[k].end * head;
@@ -124,6 +132,13 @@ EdgeLabels label_edges(const Surface& surface, const Propagation& propagation, i
     for (const Index count : labels.crossing_counts) {
         labels.crossing_offsets.push_back(offset);
         offset += count;
+    }
+    labels.relay_offsets.assign(1, 0);
+    for (const Index count : num_won) {
+        labels.relay_offsets.push_back(labels.relay_offsets.back() + count);
+    }
+    for (const auto& part : won) {
+        labels.relays.insert(labels.relays.end(), part.begin(), part.end());
     }
     for (const auto& part : found) {
         labels.crossings.insert(labels.crossings.end(), part.begin(), part.end());

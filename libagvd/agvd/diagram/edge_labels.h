@@ -16,6 +16,16 @@ struct Crossing {
     Index site_after;
 };
 
+//! A relay that won on an edge: what the edge hands on to the face on its far side. Through [begin,
+//! end] of the edge and nowhere else, so that inside a face every label hangs together with an
+//! interval of its own on the boundary.
+struct EdgeRelay {
+    Vec2 image;  //!< In the frame of the edge_half; y < 0: serves its face, y > 0: the other one.
+    double weight;
+    double begin, end;
+    Index site;
+};
+
 struct EdgeLabels {
     std::vector<Index> vertex_site;       //!< #V; no_index where no site reaches.
     std::vector<double> vertex_distance;  //!< #V.
@@ -27,6 +37,13 @@ struct EdgeLabels {
     std::vector<Index> crossing_counts;   //!< #edges.
     std::vector<Crossing> crossings;      //!< Edge after edge, along each edge_half; may have gaps.
 
+    std::vector<Index> relay_offsets;     //!< #edges + 1 offsets into relays.
+    std::vector<EdgeRelay> relays;
+
+    [[nodiscard]] std::span<const EdgeRelay> relays_on(Index labelled_edge) const {
+        const Index begin = relay_offsets[labelled_edge];
+        return std::span(relays).subspan(begin, relay_offsets[labelled_edge + 1] - begin);
+    }
     [[nodiscard]] std::span<const Crossing> on_edge(Index edge) const {
         const Index i = edge_index[edge];
         if (i == no_index) return {};

@@ -25,9 +25,14 @@ struct Sample {
 
 class Envelope {
 public:
-    Envelope(const Vec2& p, const Vec2& q, EnvelopeScratch& scratch, std::vector<LabelInterval>& out)
-        : p_(p), length_((q - p).norm()), along_((q - p) / length_), stack_(scratch.candidates),
-          out_(out) {}
+    Envelope(const Vec2& p, const Vec2& q, EnvelopeScratch& scratch,
+             std::vector<LabelInterval>& out, std::vector<EnvelopePiece>* pieces)
+        : p_(p),
+          length_((q - p).norm()),
+          along_((q - p) / length_),
+          stack_(scratch.candidates),
+          out_(out),
+          pieces_(pieces) {}
 
     void run(std::span<const PlanarRelay> relays) {
         stack_.clear();
@@ -102,6 +107,42 @@ private:
         }
     }
 
+    // Where the line from a relay's image past a bend meets the segment.
+    [[nodiscard]] double line_hit(const Vec2& image, const Vec2& bend) const {
+        const Vec2 ray = bend - image;
+        const double slope = cross(ray, along_);
+        return slope != 0 ? cross(image - p_, ray) / -slope : 0;
+    }
+
+    // Splits a candidate's stretch [lo, hi] where its path begins or ceases to bend.
+    void emit_pieces(const Candidate& c, double lo, double hi) {
+        if (pieces_ == nullptr) return;
+        const Vec2& image = c.relay->image;
+        const bool bends_lo = c.from_lo != image;
+        const bool bends_hi = c.from_hi != image;
+        if (bends_lo && bends_hi && c.from_lo == c.from_hi) {
+            emit_piece(c, c.from_lo, lo, hi);
+            return;
+        }
+        const double begin = bends_lo ? std::clamp(line_hit(image, c.from_lo), lo, hi) : lo;
+        const double end = bends_hi ? std::clamp(line_hit(image, c.from_hi), begin, hi) : hi;
+        if (bends_lo) emit_piece(c, c.from_lo, lo, begin);
+        emit_piece(c, image, begin, end);
+        if (bends_hi) emit_piece(c, c.from_hi, end, hi);
+    }
+
+    void emit_piece(const Candidate& c, const Vec2& from, double begin, double end) {
+        if (!(end > begin)) return;
+        for (auto piece = pieces_->rbegin(); piece != pieces_->rend() && piece->end >= begin; ++piece) {
+            if (piece->end == begin && piece->from == from && piece->site == c.relay->site) {
+                piece->end = end;
+                return;
+            }
+        }
+        const double weight = c.relay->weight + (from - c.relay->image).norm();
+        pieces_->push_back({from, weight, begin, end, c.relay->site});
+    }
+
     [[nodiscard]] double crossing(const PlanarRelay& a, const PlanarRelay& b, double lo,
                                   double hi) const {
         const auto gap = [&](double x) { return sample(a, x, 1).value - sample(b, x, 1).value; };
@@ -143,16 +184,22 @@ private:
         const std::size_t count = stack_.size() - first;
         if (one_site) {
             emit(hi, site_lo);
+            for (std::size_t i = first; i < stack_.size(); ++i) emit_pieces(stack_[i], lo, hi);
         } else if (hi - lo <= shortest_interval * length_ || ++splits_ > max_splits) {
-            emit((lo + hi) / 2, site_lo);
-            emit(hi, site_hi);
+            meet(best_lo, best_hi, lo, (lo + hi) / 2, hi);
         } else if (count == 2 && site_lo != site_hi) {
-            emit(crossing(*best_lo.relay, *best_hi.relay, lo, hi), site_lo);
-            emit(hi, site_hi);
+            meet(best_lo, best_hi, lo, crossing(*best_lo.relay, *best_hi.relay, lo, hi), hi);
         } else {
             bisect(lo, hi, first);
         }
         stack_.resize(first);
+    }
+
+    void meet(const Candidate& below, const Candidate& above, double lo, double x, double hi) {
+        emit(x, below.relay->site);
+        emit(hi, above.relay->site);
+        emit_pieces(below, lo, x);
+        emit_pieces(above, x, hi);
     }
 
     void bisect(double lo, double hi, std::size_t first) {
@@ -179,6 +226,7 @@ private:
     Vec2 along_;
     std::vector<Candidate>& stack_;
     std::vector<LabelInterval>& out_;
+    std::vector<EnvelopePiece>* pieces_;
     int splits_ = 0;
 };
 
@@ -202,9 +250,10 @@ void drop_slivers(std::vector<LabelInterval>& intervals) {
 
 void label_envelope(std::span<const PlanarRelay> relays, const Vec2& p, const Vec2& q,
                     Index site_at_p, Index site_at_q, EnvelopeScratch& scratch,
-                    std::vector<LabelInterval>& out) {
+                    std::vector<LabelInterval>& out, std::vector<EnvelopePiece>* pieces) {
     out.clear();
-    Envelope(p, q, scratch, out).run(relays);
+    if (pieces != nullptr) pieces->clear();
+    Envelope(p, q, scratch, out, pieces).run(relays);
     drop_slivers(out);
     if (out.front().site != site_at_p) out.insert(out.begin(), {0, site_at_p});
     if (out.back().site != site_at_q) out.push_back({1, site_at_q});

@@ -12,6 +12,16 @@ struct LabelInterval {
     Index site;
 };
 
+//! A straight stretch of the envelope: from parameter `begin` to `end` (lengths along the segment) the
+//! nearest site is reached straight from `from`, itself at distance `weight` from the site. Several
+//! may overlap where one site is reached in several ways.
+struct EnvelopePiece {
+    Vec2 from;
+    double weight;
+    double begin, end;
+    Index site;
+};
+
 //! Scratch memory, so that a loop over many segments allocates once.
 struct EnvelopeScratch {
     struct Candidate {
@@ -29,9 +39,9 @@ struct EnvelopeScratch {
 //! another cannot win; what is left is bisected until one site, or one crossing of two relays, is
 //! left. Sites closer than rounding count as tied, and the lowest index takes them.
 //! The first and last interval get the sites named, with no length if need be, so that all segments
-//! at a corner agree on its site.
+//! at a corner agree on its site. `pieces`, if asked for, gets what won and where.
 void label_envelope(std::span<const PlanarRelay> relays, const Vec2& p, const Vec2& q,
                     Index site_at_p, Index site_at_q, EnvelopeScratch& scratch,
-                    std::vector<LabelInterval>& out);
+                    std::vector<LabelInterval>& out, std::vector<EnvelopePiece>* pieces = nullptr);
 
 }  // namespace agvd

@@ -1,6 +1,7 @@
 #include "agvd/diagram/face_arcs.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace agvd {
 namespace {
@@ -18,6 +19,9 @@ struct Side {
     Index from, to;  // Points of the face's local triangulation, from < to.
     std::vector<SideCrossing> crossings;
 };
+
+// Images nearer to an edge (share of its length) lie on it.
+constexpr double on_edge = 1e-12;
 
 class FaceTracer {
 public:
@@ -103,11 +107,17 @@ private:
         }
     }
 
-    // The engine's relays, the corners, and the label changes on the edges: these stand for paths
-    // from across the edges, and pin the arcs to the points where they enter.
+    // What lies in the face itself, what the edges hand on, the corners, and the label changes on
+    // the edges, which pin the arcs to the points where they enter.
     void gather_relays(Index mixed_index) {
         relays_.clear();
-        append_planar(surface_, relays_of(propagation_, mixed_index), {}, relays_);
+        for (const Relay& relay : relays_of(propagation_, mixed_index)) {
+            const bool is_inside = relay.y >= 0;
+            if (is_inside || labels_.edge_index[surface_.edge[relay.half_edge]] == no_index) {
+                append_planar(surface_, {&relay, 1}, {}, relays_);
+            }
+        }
+        for (Index h = 3 * face_; h < 3 * face_ + 3; ++h) append_edge_relays(h);
         for (std::size_t k = 0; k < 3; ++k) {
             const Index v = surface_.mesh.triangles[face_][k];
             relays_.push_back(
@@ -123,6 +133,24 @@ private:
         std::stable_sort(relays_.begin(), relays_.end(), [](const auto& a, const auto& b) {
             return a.site < b.site;
         });
+    }
+
+    void append_edge_relays(Index h) {
+        const Index edge = surface_.edge[h];
+        if (labels_.edge_index[edge] == no_index) return;
+        const double length = surface_.length[edge];
+        const bool forward = surface_.edge_half[edge] == h;
+        const Motion to = to_face_frame(surface_, h);
+        for (const EdgeRelay& won : labels_.relays_on(labels_.edge_index[edge])) {
+            Vec2 image = forward ? won.image : Vec2(length - won.image.x(), -won.image.y());
+            const bool is_on_edge = std::abs(image.y()) <= on_edge * length;
+            if (image.y() > 0 && !is_on_edge) continue;  // Comes from this face.
+            const Vec2 begin(forward ? won.begin : length - won.end, 0);
+            const Vec2 end(forward ? won.end : length - won.begin, 0);
+            relays_.push_back({to(image), to(begin), to(end), won.weight,
+                               won.weight + (begin - image).norm(),
+                               won.weight + (end - image).norm(), won.site, is_on_edge});
+        }
     }
 
     [[nodiscard]] Vec2 position_on(const Side& side, const SideCrossing& c) const {
@@ -168,22 +196,30 @@ private:
 
     // Labels the cuts between the triangles.
     void cut_inside(Index mixed_index) {
-        cut_relays_.clear();
-        for (const PlanarRelay& relay : relays_) {
-            const BarredSite key{mixed_index, relay.site};
-            if (!std::binary_search(barred_.begin(), barred_.end(), key)) cut_relays_.push_back(relay);
-        }
         for (const Triangle& t : triangles_) {
             for (std::size_t k = 0; k < 3; ++k) {
                 const Index from = std::min(t[k], t[(k + 1) % 3]);
                 const Index to = std::max(t[k], t[(k + 1) % 3]);
-                if (find_side(from, to) == nullptr) add_cut(from, to);
+                if (find_side(from, to) == nullptr) add_cut(mixed_index, from, to);
             }
         }
         for (std::size_t i = 3; i < points_.size(); ++i) out_.parts.push_back({point_site_[i], 1, 0});
     }
 
-    void add_cut(Index from, Index to) {
+    // What is barred may still own an end.
+    void choose_cut_relays(Index mixed_index, Index site_from, Index site_to) {
+        cut_relays_.clear();
+        for (const PlanarRelay& relay : relays_) {
+            const BarredSite key{mixed_index, relay.site};
+            if (relay.site == site_from || relay.site == site_to ||
+                !std::binary_search(barred_.begin(), barred_.end(), key)) {
+                cut_relays_.push_back(relay);
+            }
+        }
+    }
+
+    void add_cut(Index mixed_index, Index from, Index to) {
+        choose_cut_relays(mixed_index, point_site_[from], point_site_[to]);
         label_envelope(cut_relays_, points_[from], points_[to], point_site_[from], point_site_[to],
                        scratch_, intervals_);
         Side side{from, to, {}};
@@ -319,7 +355,7 @@ private:
     std::vector<Triangle> triangles_;
     std::vector<Side> sides_;        // The face's three, then the cuts.
     std::vector<PlanarRelay> relays_;
-    std::vector<PlanarRelay> cut_relays_;  // Without those of barred sites.
+    std::vector<PlanarRelay> cut_relays_;
     std::vector<Joint> joints_;
     std::vector<LabelInterval> intervals_;
     EnvelopeScratch scratch_;
