@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(Oracle, SmallMeshes, testing::ValuesIn(small_meshes),
                          [](const auto& test) { return test.param.name; });
 
 TEST_P(SmallMeshes, DistancesAreNeverBelowTheExactOnes) {
-    for (const std::uint64_t seed : {1, 2, 3}) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         const auto sites = points::scattered(surface, 3 + 9 * static_cast<Index>(seed), seed);
         for (const DiagramError& error : errors_of(surface, sites, {0, 1, 2, 5, 8})) {
             EXPECT_GE(error.min_relative_distance, -rounding) << "seed " << seed;

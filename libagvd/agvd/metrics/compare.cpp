@@ -96,17 +96,18 @@ std::optional<SurfacePoint> middle(const Surface& surface, const SurfacePoint& a
 void ask_bisectors(const Surface& surface, const Diagram& diagram, Questions& questions,
                    Open& open) {
     for (Index e = 0; e < diagram.edges.size(); ++e) {
-        const auto& [left, right, tail, head] = diagram.edges[e];
-        if (!left.is_valid() || !right.is_valid()) continue;
+        const VoronoiEdge& edge = diagram.edges[e];
+        if (!edge.left.is_valid() || !edge.right.is_valid()) continue;
         const auto ask = [&](const SurfacePoint& point) {
-            open.bisectors.push_back({questions.ask(left, point), questions.ask(right, point)});
+            open.bisectors.push_back(
+                {questions.ask(edge.left, point), questions.ask(edge.right, point)});
         };
         const Index begin = diagram.edge_points[e];
         const Index end = diagram.edge_points[e + 1];
         for (Index i = begin; i < end; ++i) {
             ask(diagram.points[i]);
             const bool is_last = i + 1 == end;
-            if (is_last && tail != no_index) break;
+            if (is_last && edge.tail != no_index) break;
             const SurfacePoint& next = diagram.points[is_last ? begin : i + 1];
             if (const auto between = middle(surface, diagram.points[i], next)) ask(*between);
         }
