@@ -34,7 +34,7 @@ constexpr Package packages[] = {
     {"Eigen/", R"(agvd/(core|diagram)/.*|remesh/(dual|repair|quality)/.*)"},
     {"tbb/", R"(agvd/core/parallel\.cpp)"},
     {"CGAL/", R"(agvd/metrics/oracle\.cpp|remesh/(repair|quality)/.*\.cpp)"},
-    {"OpenMesh/", R"(remesh/io/.*\.cpp)"},
+    {"OpenMesh/", R"(remesh/io/(.*\.cpp|openmesh_exchange\.h))"},
     {"nlohmann/", R"(remesh/io/.*\.cpp)"},
     {"fast_float/", R"(remesh/io/(.*\.cpp|text_scanner\.h))"},
     {"sys/", R"(remesh/io/.*\.cpp)"},

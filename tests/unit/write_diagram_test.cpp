@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "agvd/core/error.h"
-#include "support/scratch.h"
 #include "remesh/io/read_mesh.h"
+#include "support/scratch.h"
 #include "support/shapes.h"
 
 using namespace agvd;

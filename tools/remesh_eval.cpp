@@ -1,0 +1,63 @@
+// Judges a remeshed surface against the original.
+#include <CLI/CLI.hpp>
+
+#include "cli.h"
+#include "remesh/io/read_mesh.h"
+#include "remesh/io/report.h"
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* footer =
+    "Examples:\n"
+    "  remesh-eval bunny.ply out.obj\n"
+    "  remesh-eval bunny.ply out.obj --json - | jq .distance.two_sided\n\n"
+    "ORIGINAL is repaired first, as remesh does; the repair is told. RESULT is measured as it is.\n"
+    "Distances are in percent of the diagonal of ORIGINAL's bounding box; two-sided is the larger\n"
+    "of both directions. Q = 6 / sqrt(3) * area / (half perimeter * longest edge).\n\n";
+
+struct Arguments {
+    fs::path original;
+    fs::path result;
+    fs::path json;  // Empty: none; "-": stdout, and no text.
+    remesh::EvaluationOptions options;
+};
+
+void run_job(const Arguments& arguments) {
+    const bool is_json_on_stdout = arguments.json == "-";
+    if (!arguments.json.empty() && !is_json_on_stdout) {
+        cli::check_output(arguments.json, {arguments.original, arguments.result}, false);
+    }
+    const remesh::MeshFile original = remesh::read_mesh(arguments.original);
+    const remesh::MeshFile result = remesh::read_mesh(arguments.result);
+    const std::string both = arguments.original.string() + " against " + arguments.result.string();
+    const remesh::Evaluation evaluation = cli::naming_file(both, [&] {
+        return remesh::evaluate(original.mesh.view(), result.mesh.view(), arguments.options);
+    });
+    cli::stop_if_interrupted();
+    const remesh::EvaluationInfo info{.version = REMESH_VERSION,
+                                      .original_path = arguments.original.string(),
+                                      .result_path = arguments.result.string()};
+    if (!arguments.json.empty()) cli::write_text(arguments.json, to_json(evaluation, info));
+    if (!is_json_on_stdout) cli::print(to_text(evaluation, info) + '\n');
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Measures a remeshed surface and its distance to the original.", "remesh-eval");
+    Arguments arguments;
+    app.add_option("ORIGINAL", arguments.original, "Mesh that was remeshed")->required();
+    app.add_option("RESULT", arguments.result, "Mesh to judge")->required();
+    app.add_option("--json", arguments.json, "Write the figures as JSON; - writes them to stdout")
+        ->type_name("FILE|-");
+    app.add_option("--samples", arguments.options.samples, "Points to measure on each surface")
+        ->check(CLI::Range(agvd::Index{1}, agvd::Index{1'000'000'000}))
+        ->capture_default_str();
+    app.add_option("-t,--threads", arguments.options.num_threads, "Threads to use; 0: all cores")
+        ->check(CLI::Range(0, 4096))
+        ->capture_default_str();
+    app.footer(std::string(footer) + cli::exit_code_help);
+    return cli::run(app, argc, argv, [&] { run_job(arguments); });
+}
