@@ -28,7 +28,6 @@ struct BranchPoint {
 
 struct Ear {
     double violation = never;
-    std::size_t index = 0;
     BranchPoint branch;
     bool is_lens = false;
 };
@@ -45,7 +44,7 @@ public:
     void run(std::vector<Joint>& joints, Index first_branch_node) {
         first_branch_node_ = first_branch_node;
         for (const Joint& joint : joints) out_.pieces.emplace_back(joint.site_after, 1);
-        while (joints.size() > 3) close_ear(joints, best_ear(joints));
+        if (joints.size() > 3) close_ears(joints);
         if (joints.size() == 3) {
             BranchPoint branch = find_branch(joints[2], joints[0], joints[1]);
             const bool is_sound = is_accepted(branch.violation);
@@ -66,52 +65,69 @@ private:
     static std::size_t after(std::size_t i, std::size_t n) { return i + 1 == n ? 0 : i + 1; }
     static std::size_t before(std::size_t i, std::size_t n) { return i == 0 ? n - 1 : i - 1; }
 
-    [[nodiscard]] Ear best_ear(const std::vector<Joint>& joints) const {
-        Ear best;
-        const std::size_t n = joints.size();
-        for (std::size_t i = 0; i < n; ++i) {
-            const Joint& previous = joints[before(i, n)];
-            const Joint& next = joints[after(i, n)];
-            Ear ear;
-            ear.index = i;
-            ear.is_lens = previous.site_after == next.site_after;
-            if (ear.is_lens) {
-                ear.violation = lens_violation(joints[i], next);
-            } else {
-                ear.branch = find_branch(previous, joints[i], next);
-                ear.violation = ear.branch.violation;
-            }
-            if (ear.violation < best.violation || i == 0) best = ear;
+    [[nodiscard]] Ear judge_ear(const std::vector<Joint>& joints, std::size_t i) const {
+        const Joint& previous = joints[before(i, joints.size())];
+        const Joint& next = joints[after(i, joints.size())];
+        Ear ear;
+        ear.is_lens = previous.site_after == next.site_after;
+        if (ear.is_lens) {
+            ear.violation = lens_violation(joints[i], next);
+        } else {
+            ear.branch = find_branch(previous, joints[i], next);
+            ear.violation = ear.branch.violation;
         }
-        return best;
+        return ear;
+    }
+
+    // Closes ears, the best first, until at most three joints are left. Closing one changes the
+    // judgement of its two neighbours only.
+    void close_ears(std::vector<Joint>& joints) {
+        std::vector<Ear> ears;
+        for (std::size_t i = 0; i < joints.size(); ++i) ears.push_back(judge_ear(joints, i));
+        while (joints.size() > 3) {
+            const auto best = std::min_element(
+                ears.begin(), ears.end(),
+                [](const Ear& a, const Ear& b) { return a.violation < b.violation; });
+            const auto i = static_cast<std::size_t>(best - ears.begin());
+            const Ear ear = *best;
+            const std::size_t next = after(i, joints.size());
+            close_ear(joints, i, ear);
+            // The joints at both ends of the interval gave way to one branch, or to none.
+            ears.erase(ears.begin() + static_cast<std::ptrdiff_t>(std::max(i, next)));
+            if (ear.is_lens) ears.erase(ears.begin() + static_cast<std::ptrdiff_t>(std::min(i, next)));
+            const std::size_t n = joints.size();
+            const std::size_t here = std::min(i, next) % n;
+            for (const std::size_t k : {before(before(here, n), n), before(here, n), here, after(here, n)}) {
+                ears[k] = judge_ear(joints, k);
+            }
+        }
     }
 
     [[nodiscard]] bool is_accepted(double violation) const {
         return violation <= largest_violation * size_;
     }
 
-    void close_ear(std::vector<Joint>& joints, const Ear& ear) {
+    void close_ear(std::vector<Joint>& joints, std::size_t i, const Ear& ear) {
         const bool is_sound = is_accepted(ear.violation);
         if (!ear.is_lens) {
             BranchPoint branch = ear.branch;
             if (!is_sound) {
                 // On the chord that cuts the ear off what is left stays convex.
-                branch.position = (joints[ear.index].position +
-                                   joints[after(ear.index, joints.size())].position) / 2;
+                branch.position = (joints[i].position + joints[after(i, joints.size())].position) / 2;
             }
-            close_with_branch(joints, ear.index, branch, is_sound);
+            close_with_branch(joints, i, branch, is_sound);
             return;
         }
         // The interval is cut off by one arc; its two neighbours are one piece.
-        const std::size_t next = after(ear.index, joints.size());
-        const Joint from = joints[ear.index];
+        const std::size_t next = after(i, joints.size());
+        const Joint from = joints[i];
         const Joint to = joints[next];
         add_arc(from, to.position, to.node, to.site_after, is_sound);
         out_.pieces.emplace_back(to.site_after, -1);
-        out_.connected.emplace_back(joints[before(ear.index, joints.size())].interval, to.interval);
+        out_.connected.emplace_back(joints[before(i, joints.size())].interval, to.interval);
         // The interval before the ear now reaches to the end of the one after it.
-        const std::size_t low = std::min(ear.index, next);
-        const std::size_t high = std::max(ear.index, next);
+        const std::size_t low = std::min(i, next);
+        const std::size_t high = std::max(i, next);
         joints.erase(joints.begin() + static_cast<std::ptrdiff_t>(high));
         joints.erase(joints.begin() + static_cast<std::ptrdiff_t>(low));
     }

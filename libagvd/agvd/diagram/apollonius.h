@@ -52,7 +52,7 @@ struct LocalDiagram {
 //! \param joints            at least 2, neighbours differ in site_after; consumed.
 //! \param first_branch_node node number of out.branches[0].
 //! \param chord_tolerance   arcs are sampled until they stray less than this share of a chord.
-//! Cost: O(k^2) branch points for k joints, each O(relays); 2 or 3 joints cost one step.
+//! Cost: O(k) branch points for k joints, each O(relays), and O(k^2) comparisons.
 void solve_triangle(std::span<const PlanarRelay> relays, const std::array<Vec2, 3>& corners,
                     std::vector<Joint>& joints, Index first_branch_node, double chord_tolerance,
                     LocalDiagram& out);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <string>
 
 #include "agvd/diagram/diagram.h"
@@ -30,6 +31,9 @@ void check_options(const RemeshOptions& options) {
                                   "; use 0 (all cores) or more");
     }
 }
+
+// Rounds without fewer violations than ever before: adding sites does not help here.
+constexpr int max_stalled_rounds = 8;
 
 // Adds the time until it ends to its stage.
 class StageTimer {
@@ -101,12 +105,19 @@ private:
 
     // Propagates and checks the closed-ball property, adding sites until it holds.
     void build_valid_diagram() {
+        std::size_t fewest = std::numeric_limits<std::size_t>::max();
+        int stalled_rounds = 0;
         while (true) {
             build_diagram();
             std::vector<ClosedBallViolation> violations = find_missing_sites();
             if (violations.empty()) violations = find_closed_ball_violations(surface_, diagram_);
             if (violations.empty()) return;
-            if (result_.repair_rounds == options_.repair_rounds) give_up(violations);
+            stalled_rounds = violations.size() < fewest ? 0 : stalled_rounds + 1;
+            fewest = std::min(fewest, violations.size());
+            if (result_.repair_rounds == options_.repair_rounds ||
+                stalled_rounds == max_stalled_rounds) {
+                give_up(violations);
+            }
             ++result_.repair_rounds;
             add_sites(violations);
         }
@@ -165,7 +176,7 @@ private:
     [[noreturn]] void give_up(const std::vector<ClosedBallViolation>& violations) const {
         constexpr std::size_t max_named = 5;
         std::string text = "the topology was not reached in " +
-                           std::to_string(options_.repair_rounds) + " rounds of adding sites";
+                           std::to_string(result_.repair_rounds) + " rounds of adding sites";
         for (std::size_t i = 0; i < std::min(max_named, violations.size()); ++i) {
             const ClosedBallViolation& v = violations[i];
             text += i == 0 ? ": " : "; ";
