@@ -6,8 +6,8 @@
 
 namespace checks {
 
-//! Every edge has two distinct sides and two ends or none; ends, sites and loops around vertices fit
-//! together; areas sum to the surface's (of the components with a site); and the Euler
+//! Every edge has two distinct sides and two ends or none; ends, sites and loops around vertices
+//! fit together; areas sum to the surface's (of the components with a site); and the Euler
 //! characteristics of cells, edges and vertices sum to the surface's.
 void expect_valid_complex(const agvd::Surface& surface, const agvd::Diagram& diagram);
 

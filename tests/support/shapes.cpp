@@ -54,12 +54,22 @@ TriangleMesh cube() {
 
 TriangleMesh icosahedron() {
     const double g = std::numbers::phi;
-    TriangleMesh mesh{{{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-                       {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}},
-                      {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11},
-                       {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-                       {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8}, {3, 8, 9},
-                       {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}}};
+    TriangleMesh mesh{
+        {{-1, g, 0},
+         {1, g, 0},
+         {-1, -g, 0},
+         {1, -g, 0},
+         {0, -1, g},
+         {0, 1, g},
+         {0, -1, -g},
+         {0, 1, -g},
+         {g, 0, -1},
+         {g, 0, 1},
+         {-g, 0, -1},
+         {-g, 0, 1}},
+        {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+         {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+         {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
     for (Vec3& p : mesh.positions) p.normalize();
     return mesh;
 }
@@ -80,7 +90,8 @@ TriangleMesh torus(Index n, Index m, double tube_radius) {
             const double u = 2 * std::numbers::pi * i / n;
             const double v = 2 * std::numbers::pi * j / m;
             const double r = 1 + tube_radius * std::cos(v);
-            mesh.positions.emplace_back(r * std::cos(u), r * std::sin(u), tube_radius * std::sin(v));
+            mesh.positions.emplace_back(r * std::cos(u), r * std::sin(u),
+                                        tube_radius * std::sin(v));
         }
     }
     add_quads(mesh, n, m, [n, m](Index i, Index j) { return (i % n) * m + j % m; });

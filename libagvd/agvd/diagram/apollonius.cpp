@@ -23,7 +23,8 @@ constexpr double never = std::numeric_limits<double>::infinity();
 struct BranchPoint {
     Vec2 position = Vec2::Zero();
     double distance = 0;
-    double violation = never;  // How badly the distances contradict it, in length units; 0: not at all.
+    double violation =
+        never;  // How badly the distances contradict it, in length units; 0: not at all.
 };
 
 struct Ear {
@@ -94,10 +95,12 @@ private:
             close_ear(joints, i, ear);
             // The joints at both ends of the interval gave way to one branch, or to none.
             ears.erase(ears.begin() + static_cast<std::ptrdiff_t>(std::max(i, next)));
-            if (ear.is_lens) ears.erase(ears.begin() + static_cast<std::ptrdiff_t>(std::min(i, next)));
+            if (ear.is_lens)
+                ears.erase(ears.begin() + static_cast<std::ptrdiff_t>(std::min(i, next)));
             const std::size_t n = joints.size();
             const std::size_t here = std::min(i, next) % n;
-            for (const std::size_t k : {before(before(here, n), n), before(here, n), here, after(here, n)}) {
+            for (const std::size_t k :
+                 {before(before(here, n), n), before(here, n), here, after(here, n)}) {
                 ears[k] = judge_ear(joints, k);
             }
         }
@@ -113,7 +116,8 @@ private:
             BranchPoint branch = ear.branch;
             if (!is_sound) {
                 // On the chord that cuts the ear off what is left stays convex.
-                branch.position = (joints[i].position + joints[after(i, joints.size())].position) / 2;
+                branch.position =
+                    (joints[i].position + joints[after(i, joints.size())].position) / 2;
             }
             close_with_branch(joints, i, branch, is_sound);
             return;
@@ -188,7 +192,8 @@ private:
         for (int k = 0; k < 3; ++k) {
             const double at_p = signed_height(p, k);
             const double at_centroid = signed_height(centroid, k);
-            if (at_p < 0 && at_centroid > 0) keep = std::min(keep, at_centroid / (at_centroid - at_p));
+            if (at_p < 0 && at_centroid > 0)
+                keep = std::min(keep, at_centroid / (at_centroid - at_p));
         }
         return centroid + keep * (p - centroid);
     }
@@ -274,8 +279,8 @@ private:
                stray_weight * (p - middle).norm();
     }
 
-    // The point of the bisector of a and b opposite the middle of a chord; false where there is none
-    // near. 1D Newton across the chord.
+    // The point of the bisector of a and b opposite the middle of a chord; false where there is
+    // none near. 1D Newton across the chord.
     [[nodiscard]] bool project(Index a, Index b, const Vec2& from, const Vec2& to, Vec2& p,
                                double& distance) const {
         const Vec2 chord = to - from;

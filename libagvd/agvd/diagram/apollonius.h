@@ -11,9 +11,9 @@ namespace agvd {
 //! joint i + 1 (cyclic) the boundary has label joints[i].site_after.
 struct Joint {
     Vec2 position;
-    Index node;        //!< Caller's name of the point.
+    Index node;  //!< Caller's name of the point.
     Index site_after;
-    Index interval;    //!< Caller's name of the interval after it.
+    Index interval;  //!< Caller's name of the interval after it.
 };
 
 //! A piece of bisector between two nodes.
@@ -28,8 +28,8 @@ struct LocalArc {
 struct LocalBranch {
     Vec2 position;
     double distance;
-    std::array<Index, 3> arcs;   //!< Indices into arcs.
-    std::array<bool, 3> at_tail; //!< True: the arc starts here.
+    std::array<Index, 3> arcs;    //!< Indices into arcs.
+    std::array<bool, 3> at_tail;  //!< True: the arc starts here.
     std::array<Index, 3> sites;
 };
 

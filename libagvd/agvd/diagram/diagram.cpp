@@ -19,8 +19,8 @@ double face_area(const Surface& surface, Index face) {
 }
 
 // Areas and Euler characteristics: the open cell is a union of open pieces of faces, open intervals
-// of inner edges and inner vertices, and for a surface without its boundary their alternating sum is
-// the Euler characteristic.
+// of inner edges and inner vertices, and for a surface without its boundary their alternating sum
+// is the Euler characteristic.
 void measure_cells(const Surface& surface, const EdgeLabels& labels,
                    std::span<const FaceArcs> chunks, Diagram& diagram) {
     diagram.cell_area.assign(diagram.num_sites, 0);
@@ -66,13 +66,13 @@ Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> site
     std::vector<BarredSite> barred;
     std::vector<bool> is_stale(num_mixed, true);
     for (int round = 0; round <= max_island_rounds; ++round) {
-        parallel_chunks(num_mixed, grain, options.num_threads,
-                        [&](Index chunk, Index begin, Index end) {
-                            const auto first = is_stale.begin() + begin;
-                            if (std::none_of(first, is_stale.begin() + end, std::identity{})) return;
-                            chunks[chunk] = trace_faces(surface, propagation, placement, labels,
-                                                        barred, options.chord_tolerance, begin, end);
-                        });
+        parallel_chunks(
+            num_mixed, grain, options.num_threads, [&](Index chunk, Index begin, Index end) {
+                const auto first = is_stale.begin() + begin;
+                if (std::none_of(first, is_stale.begin() + end, std::identity{})) return;
+                chunks[chunk] = trace_faces(surface, propagation, placement, labels, barred,
+                                            options.chord_tolerance, begin, end);
+            });
         is_stale.assign(num_mixed, false);
         if (round == max_island_rounds) break;
         if (absorb_islands(surface, sites, chunks, labels, barred, is_stale) == 0) break;

@@ -35,11 +35,11 @@ struct Diagram {
     std::vector<Index> edge_points;      //!< #edges + 1 offsets into points.
     std::vector<VoronoiEdge> edges;
 
-    std::vector<Index> vertex_offsets;     //!< #vertices + 1 offsets into the next two.
-    std::vector<EdgeEnd> vertex_ends;      //!< Counter-clockwise edge ends.
-    std::vector<SiteId> vertex_sites;      //!< The cell after each end; invalid: outside.
-    std::vector<SurfacePoint> vertices;    //!< Where each Voronoi vertex lies.
-    std::vector<double> vertex_distance;   //!< Its distance from its sites.
+    std::vector<Index> vertex_offsets;    //!< #vertices + 1 offsets into the next two.
+    std::vector<EdgeEnd> vertex_ends;     //!< Counter-clockwise edge ends.
+    std::vector<SiteId> vertex_sites;     //!< The cell after each end; invalid: outside.
+    std::vector<SurfacePoint> vertices;   //!< Where each Voronoi vertex lies.
+    std::vector<double> vertex_distance;  //!< Its distance from its sites.
 
     std::vector<SiteId> nearest_site;      //!< #V of the mesh: the cell that holds each vertex;
     std::vector<double> nearest_distance;  //!< invalid and infinity where no site reaches.

@@ -1,6 +1,6 @@
 //! \file
-//! First half of the diagram: the labels on mesh vertices and edges, computed once and shared by the
-//! faces around them, so that neighbouring faces cannot disagree.
+//! First half of the diagram: the labels on mesh vertices and edges, computed once and shared by
+//! the faces around them, so that neighbouring faces cannot disagree.
 #pragma once
 
 #include "agvd/diagram/diagram.h"
@@ -10,8 +10,8 @@ namespace agvd {
 
 //! A change of label on a mesh edge.
 struct Crossing {
-    double at;           //!< In [0, 1] along the edge's edge_half.
-    double distance;     //!< From both sites.
+    double at;        //!< In [0, 1] along the edge's edge_half.
+    double distance;  //!< From both sites.
     Index site_before;
     Index site_after;
 };
@@ -37,7 +37,7 @@ struct EdgeLabels {
     std::vector<Index> crossing_counts;   //!< #edges.
     std::vector<Crossing> crossings;      //!< Edge after edge, along each edge_half; may have gaps.
 
-    std::vector<Index> relay_offsets;     //!< #edges + 1 offsets into relays.
+    std::vector<Index> relay_offsets;  //!< #edges + 1 offsets into relays.
     std::vector<EdgeRelay> relays;
 
     [[nodiscard]] std::span<const EdgeRelay> relays_on(Index labelled_edge) const {

@@ -77,25 +77,28 @@ private:
     }
 
     // True if c cannot be below b anywhere on [lo, hi] by more than a tie.
-    [[nodiscard]] bool is_above(const Candidate& c, const Candidate& b, double lo, double hi) const {
+    [[nodiscard]] bool is_above(const Candidate& c, const Candidate& b, double lo,
+                                double hi) const {
         const double slack = tolerance(std::max(b.value_lo, b.value_hi));
         if (c.value_lo < b.value_lo - slack || c.value_hi < b.value_hi - slack) return false;
         const double width = hi - lo;
         if (are_one(c.from_lo, c.from_hi) && are_one(b.from_lo, b.from_hi)) {
             // Seen from x, two images differ in direction by at most their distance over either's
-            // distance, so near images have nearly parallel distances: told apart without bisecting.
+            // distance, so near images have nearly parallel distances: told apart without
+            // bisecting.
             const double apart = (c.from_lo - b.from_lo).norm();
             const double range = (p_ + lo * along_ - b.from_lo).norm() - width;
             const double gap = std::min(c.value_lo - b.value_lo, c.value_hi - b.value_hi);
             if (apart == 0 || (range > 0 && gap + slack >= width * apart / range)) return true;
         }
         const double chord = (b.value_hi - b.value_lo) / width;
-        // The tangents at both ends meet at lo + t; above the chord there means above it everywhere.
+        // The tangents at both ends meet at lo + t; above the chord there means above it
+        // everywhere.
         const double bend = c.slope_hi - c.slope_lo;
         double t = bend > 0 ? (c.value_lo - c.value_hi + c.slope_hi * width) / bend : 0;
         t = std::clamp(t, 0.0, width);
-        const double tangent = std::max(c.value_lo + c.slope_lo * t,
-                                        c.value_hi - c.slope_hi * (width - t));
+        const double tangent =
+            std::max(c.value_lo + c.slope_lo * t, c.value_hi - c.slope_hi * (width - t));
         return tangent >= b.value_lo + chord * t - slack;
     }
 
@@ -133,7 +136,8 @@ private:
 
     void emit_piece(const Candidate& c, const Vec2& from, double begin, double end) {
         if (!(end > begin)) return;
-        for (auto piece = pieces_->rbegin(); piece != pieces_->rend() && piece->end >= begin; ++piece) {
+        for (auto piece = pieces_->rbegin(); piece != pieces_->rend() && piece->end >= begin;
+             ++piece) {
             if (piece->end == begin && piece->from == from && piece->site == c.relay->site) {
                 piece->end = end;
                 return;

@@ -12,9 +12,9 @@ struct LabelInterval {
     Index site;
 };
 
-//! A straight stretch of the envelope: from parameter `begin` to `end` (lengths along the segment) the
-//! nearest site is reached straight from `from`, itself at distance `weight` from the site. Several
-//! may overlap where one site is reached in several ways.
+//! A straight stretch of the envelope: from parameter `begin` to `end` (lengths along the segment)
+//! the nearest site is reached straight from `from`, itself at distance `weight` from the site.
+//! Several may overlap where one site is reached in several ways.
 struct EnvelopePiece {
     Vec2 from;
     double weight;

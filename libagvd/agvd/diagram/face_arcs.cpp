@@ -78,8 +78,9 @@ private:
             side.from = k == 2 ? 0 : k;
             side.to = k == 2 ? 2 : k + 1;
             const auto crossings = labels_.on_edge(edge);
-            const Index first =
-                crossings.empty() ? 0 : static_cast<Index>(&crossings[0] - labels_.crossings.data());
+            const Index first = crossings.empty()
+                                    ? 0
+                                    : static_cast<Index>(&crossings[0] - labels_.crossings.data());
             Index interval = vertex_name(surface_.tail(surface_.edge_half[edge]));
             for (Index i = 0; i < crossings.size(); ++i) {
                 const Crossing& c = crossings[i];
@@ -87,8 +88,8 @@ private:
                 interval = i + 1 < crossings.size()
                                ? IntervalName::make(IntervalName::Crossing, first + i)
                                : vertex_name(surface_.head(surface_.edge_half[edge]));
-                side.crossings.push_back({c.at, c.distance, first + i, c.site_before, c.site_after,
-                                          before, interval});
+                side.crossings.push_back(
+                    {c.at, c.distance, first + i, c.site_before, c.site_after, before, interval});
             }
             if (!along) turn(side);
         }
@@ -130,9 +131,8 @@ private:
                 relays_.push_back(point_relay(p, c.distance, c.site_after));
             }
         }
-        std::stable_sort(relays_.begin(), relays_.end(), [](const auto& a, const auto& b) {
-            return a.site < b.site;
-        });
+        std::stable_sort(relays_.begin(), relays_.end(),
+                         [](const auto& a, const auto& b) { return a.site < b.site; });
     }
 
     void append_edge_relays(Index h) {
@@ -203,7 +203,8 @@ private:
                 if (find_side(from, to) == nullptr) add_cut(mixed_index, from, to);
             }
         }
-        for (std::size_t i = 3; i < points_.size(); ++i) out_.parts.push_back({point_site_[i], 1, 0});
+        for (std::size_t i = 3; i < points_.size(); ++i)
+            out_.parts.push_back({point_site_[i], 1, 0});
     }
 
     // What is barred may still own an end.
@@ -232,14 +233,18 @@ private:
             const Index before = interval;
             interval = i + 2 < intervals_.size() ? IntervalName::make(IntervalName::Inner, inner)
                                                  : point_name_[to];
-            SideCrossing c{intervals_[i].end,  0,      FaceArcs::inner_base + inner,
-                           intervals_[i].site, intervals_[i + 1].site,
-                           before,             interval};
+            SideCrossing c{intervals_[i].end,
+                           0,
+                           FaceArcs::inner_base + inner,
+                           intervals_[i].site,
+                           intervals_[i + 1].site,
+                           before,
+                           interval};
             const Vec2 p = points_[from] + c.at * (points_[to] - points_[from]);
             c.distance = std::max(reach_from(relays_, c.site_before, p).distance,
                                   reach_from(relays_, c.site_after, p).distance);
-            out_.inner.push_back({p, c.distance,
-                                  i + 2 < intervals_.size() ? c.site_after : no_index});
+            out_.inner.push_back(
+                {p, c.distance, i + 2 < intervals_.size() ? c.site_after : no_index});
             side.crossings.push_back(c);
         }
         sides_.push_back(std::move(side));
@@ -260,7 +265,8 @@ private:
             const Side& side = *find_side(std::min(a, b), std::max(a, b));
             if (a < b) {
                 for (const SideCrossing& c : side.crossings) {
-                    joints_.push_back({position_on(side, c), c.node, c.site_after, c.interval_after});
+                    joints_.push_back(
+                        {position_on(side, c), c.node, c.site_after, c.interval_after});
                 }
             } else {
                 for (auto c = side.crossings.rbegin(); c != side.crossings.rend(); ++c) {
@@ -349,11 +355,11 @@ private:
 
     // The face at hand.
     Index face_ = 0;
-    std::vector<Vec2> points_;       // Corners, then inner sites.
+    std::vector<Vec2> points_;  // Corners, then inner sites.
     std::vector<Index> point_site_;
     std::vector<Index> point_name_;  // As an interval.
     std::vector<Triangle> triangles_;
-    std::vector<Side> sides_;        // The face's three, then the cuts.
+    std::vector<Side> sides_;  // The face's three, then the cuts.
     std::vector<PlanarRelay> relays_;
     std::vector<PlanarRelay> cut_relays_;
     std::vector<Joint> joints_;

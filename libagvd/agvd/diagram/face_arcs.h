@@ -13,7 +13,8 @@ namespace agvd {
 struct InnerCrossing {
     Vec2 position;
     double distance;
-    Index site_after;  //!< Of the interval named after it; no_index when that is named after a point.
+    Index
+        site_after;  //!< Of the interval named after it; no_index when that is named after a point.
 };
 
 //! A site kept off the cuts inside a face (by position in mixed_faces), since its interval there
@@ -24,9 +25,9 @@ struct BarredSite {
     [[nodiscard]] auto operator<=>(const BarredSite&) const = default;
 };
 
-//! Names of boundary intervals, for telling what hangs together: an interval that ends at a mesh vertex
-//! or site is named after it, another after the crossing that it follows (along the edge_half, or
-//! along the cut).
+//! Names of boundary intervals, for telling what hangs together: an interval that ends at a mesh
+//! vertex or site is named after it, another after the crossing that it follows (along the
+//! edge_half, or along the cut).
 struct IntervalName {
     enum Kind : Index { Vertex, Crossing, Inner, Site };
     static constexpr Index make(Kind kind, Index index) { return Index{kind} << 30 | index; }
@@ -41,14 +42,14 @@ struct FaceArcs {
     static constexpr Index inner_base = Index{1} << 30;
     static constexpr Index branch_base = Index{1} << 31;
 
-    LocalDiagram local;               //!< Positions in the own frame of the face concerned.
-    std::vector<Index> arc_face;      //!< #arcs.
-    std::vector<Index> branch_face;   //!< #branches.
+    LocalDiagram local;              //!< Positions in the own frame of the face concerned.
+    std::vector<Index> arc_face;     //!< #arcs.
+    std::vector<Index> branch_face;  //!< #branches.
     std::vector<InnerCrossing> inner;
-    std::vector<Index> inner_face;    //!< #inner.
+    std::vector<Index> inner_face;  //!< #inner.
 
-    //! What a face adds to a cell: its area there, and pieces - cuts + sites inside (the face's part
-    //! of the cell's Euler characteristic).
+    //! What a face adds to a cell: its area there, and pieces - cuts + sites inside (the face's
+    //! part of the cell's Euler characteristic).
     struct CellPart {
         Index site;
         int euler;

@@ -66,7 +66,8 @@ Nearest nearest(std::span<const PlanarRelay> relays, const Vec2& p) {
     Nearest best{no_index, std::numeric_limits<double>::infinity()};
     for (const PlanarRelay& relay : relays) {
         const double distance = reach(relay, p).distance;
-        if (is_nearer(distance, relay.site, best.distance, best.site)) best = {relay.site, distance};
+        if (is_nearer(distance, relay.site, best.distance, best.site))
+            best = {relay.site, distance};
     }
     return best;
 }

@@ -12,12 +12,12 @@ namespace agvd {
 //! A relay in a planar frame shared with other relays.
 struct PlanarRelay {
     Vec2 image;
-    Vec2 begin, end;   //!< Ends of the visible interval, seen from the image left and right.
-    double weight;     //!< Distance from the site to the image.
-    double at_begin;   //!< Distance from the site to `begin` through the image.
-    double at_end;     //!< Distance from the site to `end` through the image.
+    Vec2 begin, end;  //!< Ends of the visible interval, seen from the image left and right.
+    double weight;    //!< Distance from the site to the image.
+    double at_begin;  //!< Distance from the site to `begin` through the image.
+    double at_end;    //!< Distance from the site to `end` through the image.
     Index site;
-    bool sees_all;     //!< The image lies in the face: no interval.
+    bool sees_all;  //!< The image lies in the face: no interval.
 };
 
 //! Distance of a point through a relay, and where the last straight piece of the path begins.
@@ -95,7 +95,7 @@ inline constexpr double tie_tolerance = 1e-13;
 }
 
 struct Nearest {
-    Index site;       //!< no_index without relays; of equally near sites the lowest.
+    Index site;  //!< no_index without relays; of equally near sites the lowest.
     double distance;
 };
 

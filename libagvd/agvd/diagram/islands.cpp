@@ -68,15 +68,16 @@ public:
         for (Index i = 0; i < labels_.edges.size(); ++i) {
             bool is_changed = false;
             std::vector<Crossing> kept;
-            for_each_interval(labels_.edges[i], [&](Index c, Index a, Index site_a, Index b,
-                                                    Index site_b) {
-                Crossing crossing = labels_.crossings[c];
-                crossing.site_before = site_of(a, site_a);
-                crossing.site_after = site_of(b, site_b);
-                is_changed = is_changed || crossing.site_before != site_a ||
-                             crossing.site_after != site_b;
-                if (crossing.site_before != crossing.site_after) kept.push_back(crossing);
-            });
+            for_each_interval(labels_.edges[i],
+                              [&](Index c, Index a, Index site_a, Index b, Index site_b) {
+                                  Crossing crossing = labels_.crossings[c];
+                                  crossing.site_before = site_of(a, site_a);
+                                  crossing.site_after = site_of(b, site_b);
+                                  is_changed = is_changed || crossing.site_before != site_a ||
+                                               crossing.site_after != site_b;
+                                  if (crossing.site_before != crossing.site_after)
+                                      kept.push_back(crossing);
+                              });
             if (!is_changed) continue;
             std::copy(kept.begin(), kept.end(),
                       labels_.crossings.begin() + labels_.crossing_offsets[i]);
@@ -96,10 +97,14 @@ private:
     [[nodiscard]] Index node(Index chunk, Index name) const {
         const Index index = IntervalName::index(name);
         switch (IntervalName::kind(name)) {
-            case IntervalName::Vertex: return index;
-            case IntervalName::Crossing: return surface_.num_vertices() + index;
-            case IntervalName::Inner: return inner_offset_[chunk] + index;
-            default: return first_site_ + index;
+            case IntervalName::Vertex:
+                return index;
+            case IntervalName::Crossing:
+                return surface_.num_vertices() + index;
+            case IntervalName::Inner:
+                return inner_offset_[chunk] + index;
+            default:
+                return first_site_ + index;
         }
     }
 
@@ -121,9 +126,8 @@ private:
         const auto first = static_cast<Index>(&crossings[0] - labels_.crossings.data());
         Index before = surface_.tail(surface_.edge_half[edge]);
         for (Index i = 0; i < crossings.size(); ++i) {
-            const Index after = i + 1 < crossings.size()
-                                    ? surface_.num_vertices() + first + i
-                                    : surface_.head(surface_.edge_half[edge]);
+            const Index after = i + 1 < crossings.size() ? surface_.num_vertices() + first + i
+                                                         : surface_.head(surface_.edge_half[edge]);
             callback(first + i, before, crossings[i].site_before, after, crossings[i].site_after);
             before = after;
         }

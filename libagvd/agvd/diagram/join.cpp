@@ -65,8 +65,9 @@ private:
         for (const FaceArcs& chunk : chunks_) {
             inner_offset_.push_back(static_cast<Index>(nodes_.size()));
             for (std::size_t i = 0; i < chunk.inner.size(); ++i) {
-                nodes_.push_back({to_surface(surface_, chunk.inner_face[i], chunk.inner[i].position),
-                                  chunk.inner[i].distance});
+                nodes_.push_back(
+                    {to_surface(surface_, chunk.inner_face[i], chunk.inner[i].position),
+                     chunk.inner[i].distance});
             }
         }
         first_branch_ = static_cast<Index>(nodes_.size());
@@ -81,8 +82,10 @@ private:
     }
 
     [[nodiscard]] Index global_node(Index chunk, Index local) const {
-        if (local >= FaceArcs::branch_base) return branch_offset_[chunk] + local - FaceArcs::branch_base;
-        if (local >= FaceArcs::inner_base) return inner_offset_[chunk] + local - FaceArcs::inner_base;
+        if (local >= FaceArcs::branch_base)
+            return branch_offset_[chunk] + local - FaceArcs::branch_base;
+        if (local >= FaceArcs::inner_base)
+            return inner_offset_[chunk] + local - FaceArcs::inner_base;
         return local;
     }
 
@@ -237,7 +240,8 @@ private:
             // The mesh vertices between: tails of the half-edges after `from` up to that of `to`.
             Index steps = (to.position + loop_size - from.position) % loop_size;
             if (steps == 0 && i + 1 == count) steps = loop_size;
-            for (Index j = 1; j <= steps; ++j) add_mesh_vertex(loop[(from.position + j) % loop_size]);
+            for (Index j = 1; j <= steps; ++j)
+                add_mesh_vertex(loop[(from.position + j) % loop_size]);
             add_node_point(to.node);
             out_.edges.push_back({SiteId(from.site_after), {}, no_index, no_index});
             out_.edge_points.push_back(static_cast<Index>(out_.points.size()));
@@ -259,7 +263,7 @@ private:
     Diagram& out_;
 
     std::vector<Node> nodes_;
-    std::vector<bool> is_boundary_;  // Of the mesh crossings.
+    std::vector<bool> is_boundary_;                                 // Of the mesh crossings.
     std::vector<Index> inner_offset_, branch_offset_, arc_offset_;  // By chunk.
     Index first_branch_ = 0;
     std::vector<Arc> arcs_;

@@ -14,8 +14,8 @@ constexpr const char* remedy = "; repair the mesh first (remesh::clean_input)";
 void check_elements(const MeshView& mesh) {
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         if (!mesh.positions[v].allFinite()) {
-            throw InvalidInput("vertex " + std::to_string(v) + " has a coordinate that is not finite" +
-                               remedy);
+            throw InvalidInput("vertex " + std::to_string(v) +
+                               " has a coordinate that is not finite" + remedy);
         }
     }
     if (mesh.triangles.size() > no_index / 3) {
@@ -66,7 +66,8 @@ void connect(Surface& surface) {
             const Index other = keys[i + 1].half_edge;
             if (surface.tail(h) == surface.tail(other)) {
                 throw InvalidInput("faces " + std::to_string(h / 3) + " and " +
-                                   std::to_string(other / 3) + " are oriented differently" + remedy);
+                                   std::to_string(other / 3) + " are oriented differently" +
+                                   remedy);
             }
             surface.twin[h] = other;
             surface.twin[other] = h;
@@ -111,8 +112,9 @@ void measure(Surface& surface) {
     surface.length.resize(surface.num_edges());
     for (Index e = 0; e < surface.num_edges(); ++e) {
         const Index h = surface.edge_half[e];
-        surface.length[e] = (surface.mesh.positions[surface.head(h)] -
-                             surface.mesh.positions[surface.tail(h)]).norm();
+        surface.length[e] =
+            (surface.mesh.positions[surface.head(h)] - surface.mesh.positions[surface.tail(h)])
+                .norm();
     }
     surface.apex.resize(surface.twin.size());
     for (Index h = 0; h < surface.apex.size(); ++h) {

@@ -12,11 +12,11 @@ namespace agvd {
 //! The frame of half-edge h: its tail at (0, 0), its head at (length, 0), its face above (y > 0).
 struct Surface {
     TriangleMesh mesh;
-    std::vector<Index> twin;      //!< #H: the half-edge across; no_index on the boundary.
-    std::vector<Index> edge;      //!< #H: its undirected edge.
-    std::vector<Index> edge_half; //!< #E: the edge's half-edge with the lower index.
-    std::vector<double> length;   //!< #E, mesh units.
-    std::vector<Vec2> apex;       //!< #H: the opposite corner in the half-edge's frame.
+    std::vector<Index> twin;       //!< #H: the half-edge across; no_index on the boundary.
+    std::vector<Index> edge;       //!< #H: its undirected edge.
+    std::vector<Index> edge_half;  //!< #E: the edge's half-edge with the lower index.
+    std::vector<double> length;    //!< #E, mesh units.
+    std::vector<Vec2> apex;        //!< #H: the opposite corner in the half-edge's frame.
     //! #V: a half-edge that leaves the vertex; on the boundary the one without twin, from which
     //! `previous` and `twin` walk through the whole one-ring. no_index for an isolated vertex.
     std::vector<Index> outgoing;

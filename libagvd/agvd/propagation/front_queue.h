@@ -22,11 +22,11 @@ struct FrontEntry {
     }
 };
 
-//! Pops in the order (distance, site, node). Nodes wait unsorted in buckets of equal distance range;
-//! only the bucket being served is a heap, small enough for the first cache levels, and a node
-//! that improves within its bucket is not pushed again. (One heap over the whole front took 70 % of
-//! the propagation's time on 70k faces.) The caller skips the stale entries on pop. Nothing may
-//! be pushed below the last pop.
+//! Pops in the order (distance, site, node). Nodes wait unsorted in buckets of equal distance
+//! range; only the bucket being served is a heap, small enough for the first cache levels, and a
+//! node that improves within its bucket is not pushed again. (One heap over the whole front took 70
+//! % of the propagation's time on 70k faces.) The caller skips the stale entries on pop. Nothing
+//! may be pushed below the last pop.
 class FrontQueue {
 public:
     //! \param bucket_width > 0, in mesh units; a matter of speed only, but no distance may exceed
@@ -138,10 +138,10 @@ private:
     double per_width_;
     Index current_ = 0;  // The bucket in the heap; buckets count from 1.
     std::vector<FrontEntry> heap_;
-    std::vector<std::vector<Index>> ring_;     // Nodes in buckets current_ + 1 .. + ring_size - 1.
-    std::vector<std::pair<Index, Index>> far_; // (bucket, node) beyond.
+    std::vector<std::vector<Index>> ring_;      // Nodes in buckets current_ + 1 .. + ring_size - 1.
+    std::vector<std::pair<Index, Index>> far_;  // (bucket, node) beyond.
     Index nearest_far_ = no_index;
-    std::size_t waiting_ = 0;                  // In ring_ and far_.
+    std::size_t waiting_ = 0;  // In ring_ and far_.
 };
 
 }  // namespace agvd

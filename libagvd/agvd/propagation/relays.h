@@ -15,8 +15,8 @@ namespace agvd {
 //! (convex) face itself and sees all of it.
 struct Relay {
     double x = 0, y = 0;
-    double weight = 0;           //!< Geodesic distance from the site to the image, >= 0.
-    double begin = 0, end = 0;   //!< Visible interval on the half-edge, 0 <= begin <= end <= length.
+    double weight = 0;          //!< Geodesic distance from the site to the image, >= 0.
+    double begin = 0, end = 0;  //!< Visible interval on the half-edge, 0 <= begin <= end <= length.
     SiteId site;
     Index half_edge = no_index;
 };

@@ -22,14 +22,16 @@ void check_site(const Surface& surface, const SurfacePoint& site, std::size_t in
     double sum = 0;
     for (const double b : site.barycentric) {
         if (!(b >= 0)) {
-            throw InvalidInput(name + " has a negative barycentric coordinate; a site must lie in "
-                                      "its face");
+            throw InvalidInput(name +
+                               " has a negative barycentric coordinate; a site must lie in "
+                               "its face");
         }
         sum += b;
     }
     if (!(std::abs(sum - 1) <= barycentric_tolerance)) {
-        throw InvalidInput(name + " has barycentric coordinates that do not sum to 1; divide them "
-                                  "by their sum");
+        throw InvalidInput(name +
+                           " has barycentric coordinates that do not sum to 1; divide them "
+                           "by their sum");
     }
 }
 

@@ -10,8 +10,8 @@
 //   Vertices serve their whole one-ring. So every target is reached, by a path of the graph, and
 //   d(x) <= (d(a) + d(b) + |e|) / 2 holds on every edge.
 // - Relays: inside a face, a node whose parent lies on the same face is dominated by that parent
-//   (triangle inequality), and one that came through a neighbour is dominated by its parent's image,
-//   unfolded across the shared edge. So the relays of a face are the parents' images: the
+//   (triangle inequality), and one that came through a neighbour is dominated by its parent's
+//   image, unfolded across the shared edge. So the relays of a face are the parents' images: the
 //   joint diagram with the neighbours' Steiner points, without the points that cannot win.
 
 #include "agvd/propagation/steiner_engine.h"
@@ -210,7 +210,8 @@ private:
         do {
             const double length = surface_.length_of(h);
             const Index opposite = Surface::next(h);
-            const Vec2& apex = surface_.apex[opposite];  // This vertex, seen from the opposite edge.
+            const Vec2& apex =
+                surface_.apex[opposite];  // This vertex, seen from the opposite edge.
             const Index slot = FaceRing::slot(2, 0);
             relax_points(h, 1, step_, {0, 0}, {length, 0}, {0, 0}, node.distance, node.site,
                          FaceRing::slot(0, 0));
@@ -253,8 +254,8 @@ private:
                          FaceRing::slot(1, j));
         }
         relax_points(previous, std::max(range.begin, step_ + 1) - step_,
-                     std::clamp(range.end, step_ + 1, 2 * step_) - step_, apex, -apex, here, node.distance,
-                     node.site, FaceRing::slot(1, j));
+                     std::clamp(range.end, step_ + 1, 2 * step_) - step_, apex, -apex, here,
+                     node.distance, node.site, FaceRing::slot(1, j));
     }
 
     struct Parent {
@@ -264,8 +265,7 @@ private:
 
     [[nodiscard]] Vec2 slot_position(const SteinerNode& node) const {
         if (node.parent_slot == FaceRing::site_slot) {
-            const SurfacePoint& site =
-                placement_.seen_from(Surface::face(node.from), node.site);
+            const SurfacePoint& site = placement_.seen_from(Surface::face(node.from), node.site);
             return position_in_frame(surface_, site, node.from);
         }
         return FaceRing(surface_, node.from, inverse_step_).position(node.parent_slot);
@@ -288,7 +288,8 @@ private:
                                               const Vec2& spacing) const {
         const Vec2 ahead = here - parent;
         const bool is_left = ahead.x() * spacing.y() - ahead.y() * spacing.x() > 0;
-        const Vec2 turn = Vec2(surface_.length_of(out) * inverse_step_, 0) + (is_left ? -spacing : spacing);
+        const Vec2 turn =
+            Vec2(surface_.length_of(out) * inverse_step_, 0) + (is_left ? -spacing : spacing);
         const Vec2 right = ahead + turn;
         const Vec2 left = ahead - turn;
         const double first = right.y() > 0 ? target_at(out, here, right) : 0;
@@ -313,9 +314,10 @@ private:
     void retire_behind(double front) {
         const auto is_behind = [&](Index face) {
             for (Index h = 3 * face; h < 3 * face + 3; ++h) {
-                const double bound = (vertices_[surface_.tail(h)].distance +
-                                      vertices_[surface_.head(h)].distance +
-                                      surface_.length_of(h)) / 2;
+                const double bound =
+                    (vertices_[surface_.tail(h)].distance + vertices_[surface_.head(h)].distance +
+                     surface_.length_of(h)) /
+                    2;
                 if (!(bound < front)) return false;
             }
             return true;
@@ -380,7 +382,8 @@ private:
 
     void collect_relays(Index face) {
         for (const PlacedSite& placed : placement_.in_face(face)) {
-            add_relay(3 * face, position_in_frame(surface_, placed.point, 3 * face), 0, placed.site);
+            add_relay(3 * face, position_in_frame(surface_, placed.point, 3 * face), 0,
+                      placed.site);
         }
         for (Index h = 3 * face; h < 3 * face + 3; ++h) {
             const SteinerNode& corner = vertices_[surface_.tail(h)];
@@ -392,7 +395,8 @@ private:
         }
     }
 
-    // Images, in the frame of h, of the parents in the neighbour from which nodes on h were reached.
+    // Images, in the frame of h, of the parents in the neighbour from which nodes on h were
+    // reached.
     void collect_relays_across(Index h, Index twin) {
         const double length = surface_.length_of(h);
         const auto mirrored = [length](const Vec2& p) { return Vec2(length - p.x(), -p.y()); };
@@ -453,11 +457,11 @@ private:
             sorted.vertex_distance.push_back(node.distance);
         }
         sorted.num_nodes = r.num_nodes;
-        sorted.peak_bytes =
-            vertices_.capacity() * sizeof(SteinerNode) + pool_.peak_bytes() + queue_.peak_bytes() +
-            face_state_.capacity() + open_faces_.capacity() * sizeof(Index) +
-            r.relays.capacity() * sizeof(Relay) +
-            (r.mixed_faces.capacity() + r.relay_offsets.capacity()) * sizeof(Index);
+        sorted.peak_bytes = vertices_.capacity() * sizeof(SteinerNode) + pool_.peak_bytes() +
+                            queue_.peak_bytes() + face_state_.capacity() +
+                            open_faces_.capacity() * sizeof(Index) +
+                            r.relays.capacity() * sizeof(Relay) +
+                            (r.mixed_faces.capacity() + r.relay_offsets.capacity()) * sizeof(Index);
         return sorted;
     }
 

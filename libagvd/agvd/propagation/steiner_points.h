@@ -28,15 +28,15 @@ struct SteinerNode {
 };
 static_assert(sizeof(SteinerNode) == 24);
 
-//! Nodes are numbered vertices first, then edges in steps of 2^shift >= m, so that a node's edge is a
-//! shift and not a division.
+//! Nodes are numbered vertices first, then edges in steps of 2^shift >= m, so that a node's edge is
+//! a shift and not a division.
 [[nodiscard]] constexpr int edge_shift(Index points_per_edge) {
     return std::bit_width(points_per_edge > 0 ? points_per_edge - 1 : 0u);
 }
 
-//! The nodes on a face's boundary, numbered counter-clockwise from the tail of one of its half-edges
-//! h: a slot is a side (0: h, 1: next, 2: previous) and the number j of the node on it; j = 0 is the
-//! side's tail vertex, j in [1, m] a Steiner point.
+//! The nodes on a face's boundary, numbered counter-clockwise from the tail of one of its
+//! half-edges h: a slot is a side (0: h, 1: next, 2: previous) and the number j of the node on it;
+//! j = 0 is the side's tail vertex, j in [1, m] a Steiner point.
 class FaceRing {
 public:
     static constexpr std::uint16_t site_slot = 0xffff;  //!< The path comes straight from its site.
@@ -54,9 +54,12 @@ public:
     [[nodiscard]] Vec2 position(Index slot) const {
         const double t = number_of(slot) * inverse_step_;
         switch (side_of(slot)) {
-            case 0: return {t * length_, 0};
-            case 1: return {length_ + t * (apex_.x() - length_), t * apex_.y()};
-            default: return (1 - t) * apex_;
+            case 0:
+                return {t * length_, 0};
+            case 1:
+                return {length_ + t * (apex_.x() - length_), t * apex_.y()};
+            default:
+                return (1 - t) * apex_;
         }
     }
     //! True for the nodes of h itself, both ends included.

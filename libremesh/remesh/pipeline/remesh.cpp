@@ -134,9 +134,9 @@ private:
             result_.propagation_bytes = propagation.peak_bytes;
         }
         const StageTimer timer(Stage::Diagram, result_);
-        diagram_ = agvd::build_diagram(surface_, sites_, propagation,
-                                       {.num_threads = options_.num_threads,
-                                        .progress = progress_of(Stage::Diagram)});
+        diagram_ = agvd::build_diagram(
+            surface_, sites_, propagation,
+            {.num_threads = options_.num_threads, .progress = progress_of(Stage::Diagram)});
     }
 
     // Components that no given site reaches.
@@ -222,7 +222,8 @@ private:
             !same_topology(topology, result_.input_topology)) {
             throw agvd::ConstraintUnmet(
                 "the dual of these sites is no manifold of the input's topology; ask for more "
-                "samples, for example " + std::to_string(2 * sites_.size()));
+                "samples, for example " +
+                std::to_string(2 * sites_.size()));
         }
     }
 
@@ -239,11 +240,16 @@ private:
 
 const char* stage_name(Stage stage) {
     switch (stage) {
-        case Stage::Clean: return "clean";
-        case Stage::Sample: return "sample";
-        case Stage::Propagate: return "propagate";
-        case Stage::Diagram: return "diagram";
-        case Stage::Dual: return "dual";
+        case Stage::Clean:
+            return "clean";
+        case Stage::Sample:
+            return "sample";
+        case Stage::Propagate:
+            return "propagate";
+        case Stage::Diagram:
+            return "diagram";
+        case Stage::Dual:
+            return "dual";
     }
     return "unknown";
 }

@@ -21,14 +21,14 @@ enum class Stage { Clean, Sample, Propagate, Diagram, Dual };
 struct RemeshOptions {
     agvd::Index num_samples = 2000;  //!< Sites to place, >= 1; repair may add some.
     Init init = Init::BlueNoise;
-    std::uint64_t seed = 1;          //!< Same seed, same bytes, any num_threads.
+    std::uint64_t seed = 1;  //!< Same seed, same bytes, any num_threads.
     //! Sites to use instead of sampling, on the caller's mesh; num_samples, init and seed are then
     //! ignored. Faces are the caller's.
     std::optional<std::vector<agvd::SurfacePoint>> sites = {};
-    int steiner_points = 8;          //!< m: Steiner points on each edge, in [0, 1000].
-    double lambda = 1;               //!< Triangles are retired every lambda * #F pops, > 0.
-    int repair_rounds = 50;          //!< Rounds of adding sites until the topology is kept, >= 0.
-    int num_threads = 0;             //!< >= 0; 0: all cores.
+    int steiner_points = 8;  //!< m: Steiner points on each edge, in [0, 1000].
+    double lambda = 1;       //!< Triangles are retired every lambda * #F pops, > 0.
+    int repair_rounds = 50;  //!< Rounds of adding sites until the topology is kept, >= 0.
+    int num_threads = 0;     //!< >= 0; 0: all cores.
     //! Gets the stage and a fraction in [0, 1] on the caller's thread; return false to stop.
     std::function<bool(Stage, double)> progress = {};
 };

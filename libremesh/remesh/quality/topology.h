@@ -8,9 +8,9 @@ namespace remesh {
 
 struct ComponentTopology {
     agvd::Index faces = 0;
-    int euler = 0;           //!< V - E + F.
+    int euler = 0;  //!< V - E + F.
     int boundary_loops = 0;
-    int genus = 0;           //!< (2 - euler - boundary_loops) / 2; meaningful on an oriented manifold.
+    int genus = 0;  //!< (2 - euler - boundary_loops) / 2; meaningful on an oriented manifold.
     double area = 0;
     [[nodiscard]] bool same_type(const ComponentTopology& other) const {
         return genus == other.genus && boundary_loops == other.boundary_loops;

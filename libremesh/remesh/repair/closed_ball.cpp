@@ -56,7 +56,8 @@ private:
         const agvd::MeshView mesh = surface_.mesh.view();
         double sum = 0;
         for (Index i = diagram_.edge_points[edge]; i + 1 < diagram_.edge_points[edge + 1]; ++i) {
-            sum += (position(mesh, diagram_.points[i + 1]) - position(mesh, diagram_.points[i])).norm();
+            sum += (position(mesh, diagram_.points[i + 1]) - position(mesh, diagram_.points[i]))
+                       .norm();
         }
         return sum;
     }
@@ -65,8 +66,8 @@ private:
         for (Index s = 0; s < diagram_.num_sites; ++s) {
             const Index first = cells_.cell_loops[s];
             const Index num_loops = cells_.cell_loops[s + 1] - first;
-            const bool is_empty = num_loops == 0 && diagram_.cell_euler[s] == 0 &&
-                                  !(diagram_.cell_area[s] > 0);
+            const bool is_empty =
+                num_loops == 0 && diagram_.cell_euler[s] == 0 && !(diagram_.cell_area[s] > 0);
             if (is_empty || (num_loops == 1 && diagram_.cell_euler[s] == 1)) continue;
             if (num_loops == 0) {
                 report(SiteId(s), {}, "covers a whole component", farthest_vertex(SiteId(s)));
@@ -112,7 +113,8 @@ private:
         for (Index e = 0; e < diagram_.edges.size(); ++e) {
             const VoronoiEdge& edge = diagram_.edges[e];
             if (edge.right.is_valid()) {
-                if (edge.tail != no_index && is_on_boundary(edge.tail) && is_on_boundary(edge.head)) {
+                if (edge.tail != no_index && is_on_boundary(edge.tail) &&
+                    is_on_boundary(edge.head)) {
                     report(edge.left, edge.right, "meets the boundary at both ends of its arc with",
                            middle_point(e));
                 }
@@ -123,7 +125,8 @@ private:
     }
 
     [[nodiscard]] bool is_on_boundary(Index vertex) const {
-        for (Index i = diagram_.vertex_offsets[vertex]; i < diagram_.vertex_offsets[vertex + 1]; ++i) {
+        for (Index i = diagram_.vertex_offsets[vertex]; i < diagram_.vertex_offsets[vertex + 1];
+             ++i) {
             if (!diagram_.vertex_sites[i].is_valid()) return true;
         }
         return false;
@@ -144,8 +147,8 @@ private:
                 report(edge.left, edge.right, "meets along a closed curve",
                        diagram_.points[farthest_point(e)]);
             }
-            arcs.push_back({std::min(edge.left, edge.right), std::max(edge.left, edge.right),
-                            length(e), e});
+            arcs.push_back(
+                {std::min(edge.left, edge.right), std::max(edge.left, edge.right), length(e), e});
         }
         std::sort(arcs.begin(), arcs.end(), [](const Shared& x, const Shared& y) {
             if (x.a != y.a) return x.a < y.a;
@@ -172,10 +175,10 @@ private:
                 is_degenerate_[diagram_.vertex_ends[begin + 2].edge]) {
                 continue;
             }
-            Corner corner{{diagram_.vertex_sites[begin].value(),
-                           diagram_.vertex_sites[begin + 1].value(),
-                           diagram_.vertex_sites[begin + 2].value()},
-                          v};
+            Corner corner{
+                {diagram_.vertex_sites[begin].value(), diagram_.vertex_sites[begin + 1].value(),
+                 diagram_.vertex_sites[begin + 2].value()},
+                v};
             std::sort(corner.sites.begin(), corner.sites.end());
             corners.push_back(corner);
         }

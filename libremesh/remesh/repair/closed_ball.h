@@ -8,10 +8,10 @@ namespace remesh {
 
 //! One way in which cells break the property, and a point where one more site helps.
 struct ClosedBallViolation {
-    agvd::SiteId site;           //!< The cell named.
-    agvd::SiteId other;          //!< The second cell, if two are concerned.
-    const char* reason = "";     //!< A fixed text that follows the cell's name.
-    agvd::SurfacePoint remedy;   //!< Where to add a site.
+    agvd::SiteId site;          //!< The cell named.
+    agvd::SiteId other;         //!< The second cell, if two are concerned.
+    const char* reason = "";    //!< A fixed text that follows the cell's name.
+    agvd::SurfacePoint remedy;  //!< Where to add a site.
 };
 
 //! All violations: every cell is a disc with one loop; two cells meet in nothing or one arc, and no
