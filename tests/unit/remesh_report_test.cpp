@@ -19,6 +19,7 @@ remesh::RemeshResult example() {
     result.sites_dropped = 6;
     result.repair_rounds = 2;
     result.propagation_bytes = 12'300'000;
+    result.refined_faces = 4321;
     result.seconds = {{remesh::Stage::Clean, 0.25}, {remesh::Stage::Dual, 0.5}};
     return result;
 }
@@ -53,6 +54,7 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
     EXPECT_EQ(report["sites_dropped"], 6);
     EXPECT_EQ(report["repair_rounds"], 2);
     EXPECT_EQ(report["propagation_bytes"], 12'300'000);
+    EXPECT_EQ(report["refined_faces"], 4321);
     EXPECT_EQ(report["stage_seconds"]["clean_s"], 0.25);
     EXPECT_EQ(report["stage_seconds"]["dual_s"], 0.5);
     EXPECT_EQ(report["total_s"], 0.75);

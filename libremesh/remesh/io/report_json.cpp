@@ -116,6 +116,7 @@ std::string to_json(const RemeshResult& result, const RunInfo& info) {
     add_topology(object["input_topology"], result.input_topology);
     object["output_vertices"] = result.mesh.positions.size();
     object["output_faces"] = result.mesh.triangles.size();
+    object["refined_faces"] = result.refined_faces;
     object["sites_added"] = result.sites_added;
     object["sites_dropped"] = result.sites_dropped;
     object["repair_rounds"] = result.repair_rounds;

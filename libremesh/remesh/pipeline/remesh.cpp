@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <string>
 
 #include "agvd/diagram/diagram.h"
+#include "agvd/mesh/refine.h"
 #include "remesh/dual/build_dual.h"
 #include "remesh/repair/carry_sites.h"
 #include "remesh/repair/closed_ball.h"
@@ -32,6 +34,9 @@ void check_options(const RemeshOptions& options) {
     }
 }
 
+// Longest edge that propagation gets to see, in mean spacings of the sites: the Steiner points of a
+// longer one resolve no cell.
+constexpr double longest_edge = 1.5;
 // Rounds without fewer violations than ever before: adding sites does not help here.
 constexpr int max_stalled_rounds = 8;
 
@@ -68,6 +73,7 @@ public:
     RemeshResult run() {
         check_options(options_);
         clean();
+        refine();
         place_sites();
         build_valid_diagram();
         build_mesh();
@@ -84,10 +90,31 @@ private:
         const StageTimer timer(Stage::Clean, result_);
         agvd::poll(progress_of(Stage::Clean), 0);
         clean_ = clean_input(input_);
-        surface_ = agvd::build_surface(clean_.mesh.view());
         result_.cleaned = clean_.counts;
         result_.input_topology = analyze_topology(clean_.mesh.view());
         agvd::poll(progress_of(Stage::Clean), 1);
+    }
+
+    // Edges that span several cells are split; the surface stays what it is.
+    void refine() {
+        const StageTimer timer(Stage::Clean, result_);
+        double area = 0;
+        for (const ComponentTopology& c : result_.input_topology.components) area += c.area;
+        const std::size_t num_sites =
+            options_.sites ? options_.sites->size() : options_.num_samples;
+        const double spacing =
+            std::sqrt(area / static_cast<double>(std::max<std::size_t>(num_sites, 1)));
+        agvd::RefinedMesh refined =
+            agvd::split_long_edges(clean_.mesh.view(), longest_edge * spacing);
+        clean_.mesh = std::move(refined.mesh);
+        component_.reserve(refined.face_origin.size());
+        for (Index& origin : refined.face_origin) {
+            component_.push_back(result_.input_topology.face_component[origin]);
+            origin = clean_.face_origin[origin];
+        }
+        clean_.face_origin = std::move(refined.face_origin);
+        result_.refined_faces = static_cast<Index>(clean_.mesh.triangles.size());
+        surface_ = agvd::build_surface(clean_.mesh.view());
     }
 
     void place_sites() {
@@ -144,7 +171,7 @@ private:
         std::vector<ClosedBallViolation> missing;
         std::vector<bool> is_told(result_.input_topology.components.size(), false);
         for (Index f = 0; f < surface_.num_faces(); ++f) {
-            const Index component = result_.input_topology.face_component[f];
+            const Index component = component_[f];
             const Index v = clean_.mesh.triangles[f][0];
             if (diagram_.nearest_site[v].is_valid() || is_told[component]) continue;
             is_told[component] = true;
@@ -230,7 +257,8 @@ private:
     agvd::MeshView input_;
     const RemeshOptions& options_;
     RemeshResult result_;
-    CleanResult clean_;
+    CleanResult clean_;             // Cleaned, then refined.
+    std::vector<Index> component_;  // #F of it.
     Surface surface_;
     std::vector<SurfacePoint> sites_;
     agvd::Diagram diagram_;

@@ -40,6 +40,7 @@ struct RemeshResult {
                                             //!< (faces are the caller's).
     CleanCounts cleaned;                    //!< What was repaired on the input before.
     Topology input_topology;                //!< Of the cleaned input.
+    agvd::Index refined_faces = 0;          //!< Faces that propagation saw, long edges split.
     agvd::Index sites_added = 0;            //!< By topology repair.
     agvd::Index sites_dropped = 0;          //!< Given sites that own nothing (e.g. duplicates).
     int repair_rounds = 0;                  //!< Rounds that adding took.
