@@ -25,13 +25,15 @@ TEST_F(AgvdDiagram, WritesEveryOutputAskedFor) {
 }
 
 TEST_F(AgvdDiagram, SitesMayLieInDirtyMeshes) {
-    // Face 0 is degenerate and dropped in cleaning; sites keep the numbers of the file.
+    // Face 0 is degenerate and dropped in cleaning; sites keep the numbers of the file. One end of
+    // it is a corner of the square, the other is nowhere on the surface.
     const std::string in =
-        put("in.off", "OFF\n4 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 0 1\n3 0 1 2\n3 0 2 3\n");
+        put("in.off", "OFF\n5 3 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n5 5 0\n3 0 0 4\n3 0 1 2\n3 0 2 3\n");
     EXPECT_EQ(
-        diagram({in, "--sites", put("s", "f 1 1 0 0\nf 2 0 0 1\n"), "-o", at("d.ply")}).exit_code,
+        diagram({in, "--sites", put("s", "f 0 1 0 0\nf 1 0 1 0\nf 2 0 0 1\n"), "-o", at("d.ply")})
+            .exit_code,
         0);
-    EXPECT_EQ(diagram({in, "--sites", put("s", "f 0 1 0 0\n"), "-o", at("d.ply")}).exit_code, 4);
+    EXPECT_EQ(diagram({in, "--sites", put("s", "f 0 0 0 1\n"), "-o", at("d.ply")}).exit_code, 4);
 }
 
 TEST_F(AgvdDiagram, AComponentWithoutASiteIsToldAndWritten) {
