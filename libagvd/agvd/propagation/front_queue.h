@@ -43,7 +43,7 @@ public:
         if (queued_in == bucket) return;
         queued_in = bucket;
         ++waiting_;
-        if (bucket - current_ < ring_size) {
+        if (bucket < window_end_) {
             ring_[bucket % ring_size].push_back(entry.node);
         } else {
             far_.emplace_back(bucket, entry.node);
@@ -57,9 +57,13 @@ public:
     [[nodiscard]] bool refill(const Load& load) {
         while (heap_.empty()) {
             if (waiting_ == 0) return false;
-            if (waiting_ == far_.size()) current_ = nearest_far_ - 1;
             ++current_;
-            if (nearest_far_ - current_ < ring_size) bring_far_in();
+            if (waiting_ == far_.size()) {
+                current_ = nearest_far_;
+                open_window();
+            } else if (current_ == window_end_) {
+                open_window();
+            }
             std::vector<Index>& bucket = ring_[current_ % ring_size];
             waiting_ -= bucket.size();
             for (const Index node : bucket) {
@@ -91,11 +95,13 @@ public:
 private:
     static constexpr Index ring_size = 1024;
 
-    void bring_far_in() {
+    // Moves the ring's window to the ring_size buckets from current_ on.
+    void open_window() {
+        window_end_ = current_ + ring_size;
         std::vector<std::pair<Index, Index>> beyond;
         nearest_far_ = no_index;
         for (const auto& [bucket, node] : far_) {
-            if (bucket - current_ < ring_size) {
+            if (bucket < window_end_) {
                 ring_[bucket % ring_size].push_back(node);
             } else {
                 beyond.emplace_back(bucket, node);
@@ -137,8 +143,9 @@ private:
 
     double per_width_;
     Index current_ = 0;  // The bucket in the heap; buckets count from 1.
+    Index window_end_ = ring_size;
     std::vector<FrontEntry> heap_;
-    std::vector<std::vector<Index>> ring_;      // Nodes in buckets current_ + 1 .. + ring_size - 1.
+    std::vector<std::vector<Index>> ring_;      // Nodes in the buckets of the window.
     std::vector<std::pair<Index, Index>> far_;  // (bucket, node) beyond.
     Index nearest_far_ = no_index;
     std::size_t waiting_ = 0;  // In ring_ and far_.

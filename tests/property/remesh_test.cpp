@@ -1,0 +1,101 @@
+// The whole job keeps the topology, whatever the surface and the number of samples.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "remesh/io/read_mesh.h"
+#include "remesh/pipeline/remesh.h"
+#include "support/shapes.h"
+
+using namespace agvd;
+
+namespace {
+
+void expect_same_topology(const TriangleMesh& mesh, const remesh::RemeshOptions& options) {
+    const remesh::RemeshResult result = remesh::remesh(mesh.view(), options);
+    const remesh::Topology topology = remesh::analyze_topology(result.mesh.view());
+    EXPECT_TRUE(topology.is_manifold);
+    EXPECT_TRUE(topology.is_oriented);
+    EXPECT_TRUE(same_topology(topology, result.input_topology));
+    EXPECT_EQ(result.mesh.positions.size(),
+              options.num_samples + result.sites_added - result.sites_dropped);
+    ASSERT_EQ(result.sites.size(), result.mesh.positions.size());
+    for (std::size_t i = 0; i < result.sites.size(); ++i) {
+        EXPECT_LT((position(mesh.view(), result.sites[i]) - result.mesh.positions[i]).norm(), 1e-9);
+    }
+}
+
+std::filesystem::path meshes() {
+    const char* folder = std::getenv("AGVD_MESHES");
+    return folder != nullptr ? folder : AGVD_MESHES_DEFAULT;
+}
+
+}  // namespace
+
+TEST(Remesh, KeepsTheTopologyOfManySurfaces) {
+    const std::vector<TriangleMesh> surfaces = {
+        shapes::sphere(3),     shapes::jitter(shapes::sphere(3), 0.03, 1),
+        shapes::torus(30, 14), shapes::tube(20, 9),
+        shapes::grid(9),       shapes::cube(),
+        shapes::tetrahedron(), shapes::join(shapes::sphere(2), shapes::torus(12, 8)),
+    };
+    const bool is_long = std::getenv("AGVD_LONG") != nullptr;
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+        for (const Index samples : {40u, 150u, 600u}) {
+            for (const auto init : {remesh::Init::BlueNoise, remesh::Init::Random}) {
+                for (std::uint64_t seed = 1; seed <= (is_long ? 20u : 1u); ++seed) {
+                    SCOPED_TRACE("surface " + std::to_string(i) + ", samples " +
+                                 std::to_string(samples) + ", seed " + std::to_string(seed));
+                    expect_same_topology(surfaces[i],
+                                         {.num_samples = samples, .init = init, .seed = seed});
+                }
+            }
+        }
+    }
+}
+
+TEST(Remesh, SamplesMayExceedVerticesAndFaces) {
+    expect_same_topology(shapes::cube(), {.num_samples = 500});
+    expect_same_topology(shapes::tetrahedron(), {.num_samples = 300});
+}
+
+TEST(Remesh, TooFewSamplesForTheTopologyAreRefused) {
+    EXPECT_THROW((void)remesh::remesh(shapes::torus(20, 10).view(), {.num_samples = 6}),
+                 ConstraintUnmet);
+    EXPECT_THROW((void)remesh::remesh(shapes::cube().view(), {.num_samples = 0}), InvalidOption);
+}
+
+TEST(Remesh, AStoppedRunThrows) {
+    int calls = 0;
+    const remesh::RemeshOptions options{
+        .num_samples = 100,
+        .progress = [&](remesh::Stage, double) { return ++calls < 6; },
+    };
+    EXPECT_THROW((void)remesh::remesh(shapes::sphere(3).view(), options), Cancelled);
+    EXPECT_EQ(calls, 6);
+}
+
+TEST(Remesh, SameBytesForAnyThreadCount) {
+    const TriangleMesh mesh = shapes::jitter(shapes::torus(40, 20), 0.01, 3);
+    const auto one = remesh::remesh(mesh.view(), {.num_samples = 300, .num_threads = 1});
+    for (const int threads : {2, 3, 8}) {
+        const auto other =
+            remesh::remesh(mesh.view(), {.num_samples = 300, .num_threads = threads});
+        EXPECT_EQ(one.mesh.positions, other.mesh.positions);
+        EXPECT_EQ(one.mesh.triangles, other.mesh.triangles);
+    }
+}
+
+TEST(Remesh, RealMeshesKeepTheirTopology) {
+    if (!std::filesystem::exists(meshes())) GTEST_SKIP() << "no real meshes at " << meshes();
+    for (const char* name : {"fertility.off", "3holes.off", "fandisk.off", "camelhead.off",
+                             "spot.obj", "dirty/72214.stl", "hole_capsule.off"}) {
+        SCOPED_TRACE(name);
+        const TriangleMesh mesh = remesh::read_mesh(meshes() / name).mesh;
+        const remesh::RemeshResult result =
+            remesh::remesh(mesh.view(), {.num_samples = 500, .steiner_points = 5});
+        EXPECT_TRUE(
+            same_topology(remesh::analyze_topology(result.mesh.view()), result.input_topology));
+    }
+}
