@@ -44,7 +44,7 @@ public:
         queued_in = bucket;
         ++waiting_;
         if (bucket < window_end_) {
-            ring_[bucket % ring_size].push_back(entry.node);
+            wait_in_ring(bucket, entry.node);
         } else {
             far_.emplace_back(bucket, entry.node);
             nearest_far_ = std::min(nearest_far_, bucket);
@@ -69,7 +69,8 @@ public:
             for (const Index node : bucket) {
                 if (const std::optional<FrontEntry> entry = load(node, current_)) sift_up(*entry);
             }
-            bucket.clear();
+            ring_capacity_ -= bucket.capacity();
+            bucket = {};  // Given back: the next node here comes a thousand buckets later.
         }
         return true;
     }
@@ -86,14 +87,20 @@ public:
 
     //! Most bytes held.
     [[nodiscard]] std::size_t peak_bytes() const {
-        std::size_t bytes = heap_.capacity() * sizeof(FrontEntry) +
-                            far_.capacity() * sizeof(far_[0]) + ring_.capacity() * sizeof(ring_[0]);
-        for (const auto& bucket : ring_) bytes += bucket.capacity() * sizeof(Index);
-        return bytes;
+        return heap_.capacity() * sizeof(FrontEntry) + ring_.capacity() * sizeof(ring_[0]) +
+               peak_waiting_ * sizeof(Index) + far_.capacity() * sizeof(far_[0]);
     }
 
 private:
     static constexpr Index ring_size = 1024;
+
+    void wait_in_ring(Index bucket, Index node) {
+        std::vector<Index>& nodes = ring_[bucket % ring_size];
+        const std::size_t before = nodes.capacity();
+        nodes.push_back(node);
+        ring_capacity_ += nodes.capacity() - before;
+        peak_waiting_ = std::max(peak_waiting_, ring_capacity_);
+    }
 
     // Moves the ring's window to the ring_size buckets from current_ on.
     void open_window() {
@@ -102,7 +109,7 @@ private:
         nearest_far_ = no_index;
         for (const auto& [bucket, node] : far_) {
             if (bucket < window_end_) {
-                ring_[bucket % ring_size].push_back(node);
+                wait_in_ring(bucket, node);
             } else {
                 beyond.emplace_back(bucket, node);
                 nearest_far_ = std::min(nearest_far_, bucket);
@@ -148,6 +155,8 @@ private:
     std::vector<std::vector<Index>> ring_;      // Nodes in the buckets of the window.
     std::vector<std::pair<Index, Index>> far_;  // (bucket, node) beyond.
     Index nearest_far_ = no_index;
+    std::size_t ring_capacity_ = 0;  // Nodes that the buckets have room for, and its maximum.
+    std::size_t peak_waiting_ = 0;
     std::size_t waiting_ = 0;  // In ring_ and far_.
 };
 

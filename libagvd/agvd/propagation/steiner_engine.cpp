@@ -429,9 +429,21 @@ private:
 
     // --- Result --------------------------------------------------------------------------------
 
+    [[nodiscard]] static std::size_t bytes_of(const Propagation& p) {
+        return p.relays.capacity() * sizeof(Relay) +
+               (p.mixed_faces.capacity() + p.relay_offsets.capacity()) * sizeof(Index) +
+               p.vertex_site.capacity() * sizeof(SiteId) +
+               p.vertex_distance.capacity() * sizeof(double);
+    }
+
     // Faces retire in an order that depends on lambda; the result does not.
     Propagation collect() {
         Propagation& r = result_;
+        const std::size_t common = vertices_.capacity() * sizeof(SteinerNode) +
+                                   face_state_.capacity() + open_faces_.capacity() * sizeof(Index) +
+                                   bytes_of(r);
+        const std::size_t peak_of_front = common + pool_.peak_bytes() + queue_.peak_bytes();
+        pool_ = SteinerPool(0, m_);
         const auto count = static_cast<Index>(r.mixed_faces.size());
         r.relay_offsets.push_back(static_cast<Index>(r.relays.size()));
         std::vector<Index> order(count);
@@ -457,11 +469,8 @@ private:
             sorted.vertex_distance.push_back(node.distance);
         }
         sorted.num_nodes = r.num_nodes;
-        sorted.peak_bytes = vertices_.capacity() * sizeof(SteinerNode) + pool_.peak_bytes() +
-                            queue_.peak_bytes() + face_state_.capacity() +
-                            open_faces_.capacity() * sizeof(Index) +
-                            r.relays.capacity() * sizeof(Relay) +
-                            (r.mixed_faces.capacity() + r.relay_offsets.capacity()) * sizeof(Index);
+        sorted.peak_bytes =
+            std::max(peak_of_front, common + queue_.peak_bytes() + bytes_of(sorted));
         return sorted;
     }
 
