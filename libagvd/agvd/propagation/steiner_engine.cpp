@@ -4,15 +4,10 @@
 // Symbols: m = points_per_edge, Q = queue_, lambda n = retire_interval_; d(a), d(b), |e| as named.
 //
 // A node knows the face its path came through and the previous node on that face's boundary (its
-// parent). Two things follow:
-// - Filter: a Steiner point stands for a window around it, seen from its parent, so it serves only
-//   the targets across its edge inside the strip through both, each widened by its own spacing.
-//   Vertices serve their whole one-ring. So every target is reached, by a path of the graph, and
-//   d(x) <= (d(a) + d(b) + |e|) / 2 holds on every edge.
-// - Relays: inside a face, a node whose parent lies on the same face is dominated by that parent
-//   (triangle inequality), and one that came through a neighbour is dominated by its parent's
-//   image, unfolded across the shared edge. So the relays of a face are the parents' images: the
-//   joint diagram with the neighbours' Steiner points, without the points that cannot win.
+// parent). A Steiner point stands for a window around it, seen from its parent, so it serves only
+// the targets across its edge inside the fan through both windows; vertices serve their whole
+// one-ring. So every target is reached, by a path of the graph, and d(x) <= (d(a) + d(b) + |e|) / 2
+// holds on every edge.
 
 #include "agvd/propagation/steiner_engine.h"
 
@@ -22,6 +17,7 @@
 #include "agvd/propagation/front_queue.h"
 #include "agvd/propagation/site_placement.h"
 #include "agvd/propagation/steiner_points.h"
+#include "agvd/propagation/steiner_relays.h"
 
 namespace agvd {
 namespace {
@@ -51,6 +47,7 @@ public:
           edge_shift_(edge_shift(m_)),
           vertices_(surface.num_vertices()),
           pool_(surface.num_edges(), m_),
+          relays_(surface_, placement_, vertices_, pool_, m_),
           queue_(bucket_width(surface, m_)),
           face_state_(surface.num_faces(), FaceState::Untouched) {}
 
@@ -336,8 +333,8 @@ private:
     void retire(Index face) {
         face_state_[face] = FaceState::Retired;
         const std::size_t before = result_.relays.size();
-        if (is_mixed(face)) {
-            collect_relays(face);
+        if (relays_.is_mixed(face)) {
+            relays_.collect(face, result_.relays);
             result_.mixed_faces.push_back(face);
             result_.relay_offsets.push_back(static_cast<Index>(before));
         }
@@ -346,84 +343,6 @@ private:
             if (twin == no_index || face_state_[Surface::face(twin)] == FaceState::Retired) {
                 pool_.retire(surface_.edge[h]);
             }
-        }
-    }
-
-    [[nodiscard]] bool are_all_from(Index half_edge, Index site) {
-        if (vertices_[surface_.tail(half_edge)].site != site) return false;
-        const SteinerNode* nodes = m_ > 0 ? pool_.nodes(surface_.edge[half_edge]) : nullptr;
-        return std::all_of(nodes, nodes + m_,
-                           [site](const SteinerNode& node) { return node.site == site; });
-    }
-
-    // Not redundant (Sec. 4.3); nor when a site inside, or inside a neighbour, may have a cell that
-    // slips between the nodes.
-    [[nodiscard]] bool is_mixed(Index face) {
-        const Index site = vertices_[surface_.tail(3 * face)].site;
-        const auto may_hold_another = [&](Index f) {
-            const auto placed = placement_.in_face(f);
-            return std::any_of(placed.begin(), placed.end(),
-                               [site](const PlacedSite& p) { return p.site != site; });
-        };
-        for (Index h = 3 * face; h < 3 * face + 3; ++h) {
-            if (!are_all_from(h, site)) return true;
-            const Index twin = surface_.twin[h];
-            if (twin != no_index && may_hold_another(Surface::face(twin))) return true;
-        }
-        return may_hold_another(face);
-    }
-
-    // --- Relays --------------------------------------------------------------------------------
-
-    void add_relay(Index half_edge, const Vec2& image, double weight, Index site) {
-        result_.relays.push_back({image.x(), image.y(), std::max(weight, 0.0), 0,
-                                  surface_.length_of(half_edge), SiteId(site), half_edge});
-    }
-
-    void collect_relays(Index face) {
-        for (const PlacedSite& placed : placement_.in_face(face)) {
-            add_relay(3 * face, position_in_frame(surface_, placed.point, 3 * face), 0,
-                      placed.site);
-        }
-        for (Index h = 3 * face; h < 3 * face + 3; ++h) {
-            const SteinerNode& corner = vertices_[surface_.tail(h)];
-            if (corner.from == no_index || Surface::face(corner.from) != face) {
-                add_relay(h, {0, 0}, corner.distance, corner.site);
-            }
-            const Index twin = surface_.twin[h];
-            if (twin != no_index) collect_relays_across(h, twin);
-        }
-    }
-
-    // Images, in the frame of h, of the parents in the neighbour from which nodes on h were
-    // reached.
-    void collect_relays_across(Index h, Index twin) {
-        const double length = surface_.length_of(h);
-        const auto mirrored = [length](const Vec2& p) { return Vec2(length - p.x(), -p.y()); };
-        const Index neighbour = Surface::face(twin);
-        for (const PlacedSite& placed : placement_.in_face(neighbour)) {
-            const Vec2 image = mirrored(position_in_frame(surface_, placed.point, twin));
-            if (image.y() < 0) add_relay(h, image, 0, placed.site);  // Edge sites: in_face(face).
-        }
-        if (m_ == 0) return;
-        const FaceRing ring(surface_, twin, inverse_step_);
-        const SteinerNode* const nodes = pool_.nodes(surface_.edge[h]);
-        seen_slots_.clear();
-        for (Index k = 0; k < m_; ++k) {
-            const SteinerNode& node = nodes[k];
-            if (node.from != twin || node.parent_slot == FaceRing::site_slot ||
-                FaceRing::is_on_base(node.parent_slot)) {
-                continue;
-            }
-            const std::pair<Index, Index> key(node.parent_slot, node.site);
-            if (std::find(seen_slots_.begin(), seen_slots_.end(), key) != seen_slots_.end()) {
-                continue;
-            }
-            seen_slots_.push_back(key);
-            const Vec2 p = ring.position(node.parent_slot);
-            const Index j = surface_.edge_half[surface_.edge[h]] == twin ? k + 1 : m_ - k;
-            const double chord = (p - Vec2(length * j * inverse_step_, 0)).norm();
-            add_relay(h, mirrored(p), node.distance - chord, node.site);
         }
     }
 
@@ -484,10 +403,10 @@ private:
     int edge_shift_;       // Nodes of an edge are numbered in steps of 2^edge_shift_ >= m.
     std::vector<SteinerNode> vertices_;
     SteinerPool pool_;
+    SteinerRelays relays_;
     FrontQueue queue_;
     std::vector<FaceState> face_state_;
     std::vector<Index> open_faces_;
-    std::vector<std::pair<Index, Index>> seen_slots_;  // Scratch of collect_relays_across.
     Propagation result_;
 };
 

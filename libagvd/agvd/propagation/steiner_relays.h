@@ -1,0 +1,55 @@
+//! \file
+//! From settled Steiner points to relays: the hand-over from the paper's propagation to the
+//! diagram.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "agvd/propagation/relays.h"
+#include "agvd/propagation/site_placement.h"
+#include "agvd/propagation/steiner_points.h"
+
+namespace agvd {
+
+//! Reads the nodes around a face that no longer change.
+//!
+//! Inside a face, a node whose parent lies on the same face is dominated by that parent (triangle
+//! inequality), and one that came through a neighbour is dominated by its parent's image, unfolded
+//! across the shared edge. So the relays of a face are the parents' images: the joint diagram with
+//! the neighbours' Steiner points ([meng2023] Sec. 5.3), without the points that cannot win.
+class SteinerRelays {
+public:
+    SteinerRelays(const Surface& surface, const SitePlacement& placement,
+                  const std::vector<SteinerNode>& vertices, SteinerPool& pool,
+                  Index points_per_edge)
+        : surface_(surface),
+          placement_(placement),
+          vertices_(vertices),
+          pool_(pool),
+          m_(points_per_edge),
+          inverse_step_(1.0 / (points_per_edge + 1)) {}
+
+    //! Not redundant (Sec. 4.3): more than one site on the face's boundary; or a site inside, or
+    //! inside a neighbour, may have a cell that slips between the nodes.
+    [[nodiscard]] bool is_mixed(Index face);
+
+    //! Appends the relays of a face.
+    void collect(Index face, std::vector<Relay>& out);
+
+private:
+    [[nodiscard]] bool are_all_from(Index half_edge, Index site);
+    void add_relay(Index half_edge, const Vec2& image, double weight, Index site,
+                   std::vector<Relay>& out) const;
+    void collect_across(Index h, Index twin, std::vector<Relay>& out);
+
+    const Surface& surface_;
+    const SitePlacement& placement_;
+    const std::vector<SteinerNode>& vertices_;
+    SteinerPool& pool_;
+    Index m_;
+    double inverse_step_;                              // 1 / (m + 1)
+    std::vector<std::pair<Index, Index>> seen_slots_;  // Scratch: (slot, site).
+};
+
+}  // namespace agvd
