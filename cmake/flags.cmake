@@ -5,7 +5,8 @@ function(agvd_flags target)
         -ffp-contract=off -Wall -Wextra -Wshadow -Wconversion $<$<BOOL:${AGVD_WERROR}>:-Werror>)
     if(AGVD_SANITIZE)  # gcc's uninitialised-variable warnings misfire under instrumentation
         target_compile_options(${target} PRIVATE
-            -Wno-maybe-uninitialized -fsanitize=${AGVD_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+            $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
+            -fsanitize=${AGVD_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
         target_link_options(${target} PUBLIC -fsanitize=${AGVD_SANITIZE})
     endif()
 endfunction()
