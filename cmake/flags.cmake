@@ -4,7 +4,9 @@ function(agvd_flags target)
     target_compile_options(${target} PRIVATE
         -ffp-contract=off -Wall -Wextra -Wshadow -Wconversion $<$<BOOL:${AGVD_WERROR}>:-Werror>)
     if(AGVD_SANITIZE)
+        # gcc sees uninitialised temporaries in instrumented code of the standard library.
         target_compile_options(${target} PRIVATE
+            $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
             -fsanitize=${AGVD_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
         target_link_options(${target} PUBLIC -fsanitize=${AGVD_SANITIZE})
     endif()
