@@ -3,7 +3,8 @@ function(agvd_flags target)
     target_compile_features(${target} PUBLIC cxx_std_20)
     target_compile_options(${target} PRIVATE
         -ffp-contract=off -Wall -Wextra -Wshadow -Wconversion $<$<BOOL:${AGVD_WERROR}>:-Werror>)
-    if(AGVD_SANITIZE)  # gcc's uninitialised-variable warnings misfire under instrumentation
+    if(AGVD_SANITIZE)
+        # gcc sees uninitialised temporaries in instrumented code of the standard library.
         target_compile_options(${target} PRIVATE
             $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>
             -fsanitize=${AGVD_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)

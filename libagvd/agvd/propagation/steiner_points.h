@@ -31,7 +31,7 @@ static_assert(sizeof(SteinerNode) == 24);
 //! Nodes are numbered vertices first, then edges in steps of 2^shift >= m, so that a node's edge is
 //! a shift and not a division.
 [[nodiscard]] constexpr int edge_shift(Index points_per_edge) {
-    return std::bit_width(points_per_edge > 0 ? points_per_edge - 1 : 0u);
+    return static_cast<int>(std::bit_width(points_per_edge > 0 ? points_per_edge - 1 : 0u));
 }
 
 //! The nodes on a face's boundary, numbered counter-clockwise from the tail of one of its
