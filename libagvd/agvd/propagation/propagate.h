@@ -2,6 +2,7 @@
 //! Multi-source geodesic distance propagation: the first stage of the AGVD.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "agvd/core/progress.h"
@@ -9,21 +10,38 @@
 
 namespace agvd {
 
-//! `{}` gives the paper's defaults.
+//! Who carries the distances over the faces. All hand the same Propagation to the diagram.
+enum class Engine : std::uint8_t {
+    Window,   //!< Exact windows, merged as far as max_error allows: our AGVD.
+    Steiner,  //!< Steiner points on the edges, [meng2023] Algorithm 1: the paper's AGVD.
+    Vertex,   //!< One image of a site per vertex: coarse and quick.
+};
+
+//! `{}` gives the defaults.
 struct PropagationOptions {
-    int steiner_points = 8;  //!< m: Steiner points on each edge, in [0, 1000].
-    double lambda = 1;       //!< Triangles are retired every lambda * #F pops, > 0. Memory only.
+    Engine engine = Engine::Steiner;
+    //! Relative distance error, in [0, 1); 0: exact in double. Certified: see
+    //! Propagation::certified_error. Unset: the window engine takes default_max_error, the Steiner
+    //! engine certifies nothing. The vertex engine knows no bound and refuses one.
+    std::optional<double> max_error = {};
+    int steiner_points = 8;  //!< Steiner engine, m: Steiner points on each edge, in [0, 1000].
+    double lambda = 1;       //!< Steiner engine: triangles are retired every lambda * #F pops, > 0.
+    int num_threads = 0;     //!< >= 0; 0: all cores. The same bytes for any number.
     Progress progress = {};
 };
 
-//! Propagates distances from all sites at once ([meng2023] Algorithm 1).
+//! max_error of the window engine where none is asked for.
+inline constexpr double default_max_error = 1e-3;
+
+//! Propagates distances from all sites at once.
 //!
 //! \param sites  t surface points; several may share a face or even a position (the lower index
 //!               then owns it).
-//! \throw InvalidOption  an option is out of range.
-//! \throw InvalidInput   a site names a face that does not exist or has coordinates off the face.
-//! \throw Cancelled      the progress callback returned false.
-//! Cost: O(m n log(m n)) time, O(m n) space, n = #F. Re-entrant. The same bytes for every lambda.
+//! \throw InvalidOption    an option is out of range, or the engine cannot do what it asks.
+//! \throw InvalidInput     a site names a face that does not exist or has coordinates off the face.
+//! \throw ConstraintUnmet  the Steiner engine cannot meet max_error.
+//! \throw Cancelled        the progress callback returned false.
+//! Re-entrant.
 [[nodiscard]] Propagation propagate(const Surface& surface, std::span<const SurfacePoint> sites,
                                     const PropagationOptions& options = {});
 

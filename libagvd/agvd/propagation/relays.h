@@ -15,7 +15,7 @@ namespace agvd {
 //! (convex) face itself and sees all of it.
 struct Relay {
     double x = 0, y = 0;
-    double weight = 0;          //!< Geodesic distance from the site to the image, >= 0.
+    double weight = 0;          //!< Distance from the site to the image.
     double begin = 0, end = 0;  //!< Visible interval on the half-edge, 0 <= begin <= end <= length.
     SiteId site;
     Index half_edge = no_index;
@@ -31,6 +31,10 @@ struct Propagation {
     std::vector<Index> mixed_faces;
     std::vector<Index> relay_offsets;  //!< #mixed + 1: relays of mixed face i are
     std::vector<Relay> relays;         //!< relays[relay_offsets[i] .. relay_offsets[i + 1]).
+
+    //! Certified: no distance, at a vertex or through the relays, exceeds the exact one by more
+    //! than this share of it (rounding in double apart). Infinity: the engine certifies nothing.
+    double certified_error = std::numeric_limits<double>::infinity();
 
     std::size_t peak_bytes = 0;  //!< Most bytes held at once beyond the mesh, result included.
     std::size_t num_nodes = 0;   //!< Graph nodes (vertices and Steiner points) reached.
