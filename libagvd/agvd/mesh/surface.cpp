@@ -130,6 +130,43 @@ void measure(Surface& surface) {
     }
 }
 
+// The angle around a vertex as a unit vector and a number of full turns: corner angles are below
+// pi, so a product that comes back to the upper half plane from the lower one has passed 2 pi.
+struct ConeAngle {
+    Vec2 direction{1, 0};
+    Index turns = 0;
+
+    void add(const Vec2& corner) {
+        const Vec2 sum(direction.x() * corner.x() - direction.y() * corner.y(),
+                       direction.x() * corner.y() + direction.y() * corner.x());
+        if (direction.y() < 0 && sum.y() >= 0) ++turns;
+        direction = sum;
+    }
+    [[nodiscard]] bool exceeds_pi() const {
+        return turns > 0 ||
+               (direction.y() < 0 && (direction.x() > 0 || direction.y() < -tolerance));
+    }
+    [[nodiscard]] bool exceeds_two_pi() const {
+        return turns > 1 || (turns == 1 && (direction.x() < 0 || direction.y() < 0 ||
+                                            direction.y() > tolerance));
+    }
+
+    static constexpr double tolerance = 1e-9;
+};
+
+void find_turning_vertices(Surface& surface) {
+    std::vector<ConeAngle> cones(surface.num_vertices());
+    for (Index h = 0; h < surface.twin.size(); ++h) {
+        cones[surface.tail(h)].add(surface.apex[h].normalized());
+    }
+    surface.can_turn.resize(surface.num_vertices());
+    for (Index v = 0; v < surface.num_vertices(); ++v) {
+        const bool can_turn =
+            surface.is_boundary_vertex(v) ? cones[v].exceeds_pi() : cones[v].exceeds_two_pi();
+        surface.can_turn[v] = can_turn ? 1 : 0;
+    }
+}
+
 }  // namespace
 
 Surface build_surface(const MeshView& mesh) {
@@ -140,6 +177,7 @@ Surface build_surface(const MeshView& mesh) {
     connect(surface);
     find_outgoing(surface);
     measure(surface);
+    find_turning_vertices(surface);
     return surface;
 }
 

@@ -1,0 +1,25 @@
+//! \file
+//! Quick upper bounds for the distance from the nearest site, by which windows die.
+#pragma once
+
+#include <span>
+
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_point.h"
+
+namespace agvd {
+
+struct DistanceBounds {
+    std::vector<float> distance;  //!< #V; infinity where no site reaches.
+    std::vector<Index> site;      //!< #V: whose path it is; no_index where none reaches.
+};
+
+//! Shortest paths along edges and along the straight lines between the apexes of two neighbouring
+//! faces, where those cross the shared edge. Rounded up, so that no rounding of an exact distance
+//! lies above.
+//!
+//! Cost: about that of one Dijkstra sweep over the edges.
+[[nodiscard]] DistanceBounds distance_bounds(const Surface& surface,
+                                             std::span<const SurfacePoint> sites, int num_threads);
+
+}  // namespace agvd

@@ -1,0 +1,45 @@
+//! \file
+//! Windows: what one straight beam of shortest paths knows where it crosses an edge.
+#pragma once
+
+#include <cmath>
+
+#include "agvd/core/types.h"
+
+namespace agvd {
+
+//! Straight paths from the (pseudo-)source at `image` through [begin, end] of a half-edge into its
+//! face, in the frame of that half-edge, y < 0 ([mitchell1987]). The distance of a point p beyond
+//! is weight + |image - p| from below: a real path of at most `error` more leads there.
+struct Window {
+    double x, y;
+    double weight;
+    double begin, end;
+    double at_begin, at_end;  //!< Distances of the interval's ends.
+    float error = 0;
+    bool is_served = false;  //!< Its children have been sent on.
+
+    //! Distance of a point of the edge; the ends cost nothing.
+    [[nodiscard]] double distance(double at) const {
+        if (at == begin) return at_begin;
+        if (at == end) return at_end;
+        return weight + std::sqrt((at - x) * (at - x) + y * y);
+    }
+    //! The part of it over [from, to], which must lie inside [begin, end].
+    [[nodiscard]] Window part(double from, double to) const {
+        Window result = *this;
+        result.at_begin = distance(from);
+        result.at_end = distance(to);
+        result.begin = from;
+        result.end = to;
+        return result;
+    }
+    //! Least distance over the interval.
+    [[nodiscard]] double nearest() const {
+        if (begin < x && x < end) return weight - y;
+        return at_begin < at_end ? at_begin : at_end;
+    }
+};
+static_assert(sizeof(Window) == 64);
+
+}  // namespace agvd

@@ -1,0 +1,229 @@
+#include "agvd/propagation/window_envelope.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace agvd {
+namespace {
+
+// Distances that differ by less, relative to their size, are rounding.
+constexpr double rounding = 1e-14;
+
+// Who wins where on an interval: at first `first_wins`, then turn about at each cut.
+struct Duel {
+    bool first_wins;
+    int num_cuts = 0;
+    std::array<double, 2> cuts{};
+};
+
+// Where the distances of two windows are equal: roots of a quadratic, ascending (the squared
+// equation also holds where the roots' difference has the other sign; callers check).
+std::optional<std::array<double, 2>> equal_distances(const Window& a, const Window& b) {
+    const double delta = b.weight - a.weight;  // |a - x| = |b - x| + delta
+    const double c0 = (a.x - b.x) * (a.x + b.x) + (a.y - b.y) * (a.y + b.y) - delta * delta;
+    const double c1 = -2 * (a.x - b.x);
+    if (delta == 0) {
+        if (c1 == 0) return std::nullopt;
+        return std::array{-c0 / c1, -c0 / c1};
+    }
+    const double d2 = 4 * delta * delta;  // (c0 + c1 x)^2 = d2 ((x - b.x)^2 + b.y^2)
+    const double p2 = c1 * c1 - d2;
+    const double p1 = c0 * c1 + d2 * b.x;  // Half the linear coefficient.
+    const double p0 = c0 * c0 - d2 * (b.x * b.x + b.y * b.y);
+    const double discriminant = p1 * p1 - p2 * p0;
+    if (!(discriminant >= 0)) return std::nullopt;
+    const double q = -(p1 + std::copysign(std::sqrt(discriminant), p1));
+    if (q == 0) return std::nullopt;
+    const double other = p0 / q;
+    if (p2 == 0) return std::array{other, other};
+    return std::array{std::min(q / p2, other), std::max(q / p2, other)};
+}
+
+// The one change of sign of a - b in [low, high].
+double crossing(const Window& a, const Window& b, double low, double high, double at_low,
+                double at_high) {
+    const double scale = rounding * 16 * a.distance(low);
+    const auto gap = [&](double x) { return a.distance(x) - b.distance(x); };
+    if (const auto roots = equal_distances(a, b)) {
+        for (const double x : *roots) {
+            if (low < x && x < high && std::abs(gap(x)) <= scale) return x;
+        }
+    }
+    // Regula falsi (Illinois): the closed form has lost its digits or an end is nearly a root.
+    int side = 0;
+    double middle = low;
+    for (int i = 0; i < 60 && high - low > 1e-14 * (std::abs(low) + std::abs(high)); ++i) {
+        middle = (low * at_high - high * at_low) / (at_high - at_low);
+        if (!(low <= middle && middle <= high)) middle = (low + high) / 2;
+        const double value = gap(middle);
+        if (std::abs(value) <= scale) return middle;
+        if ((value < 0) == (at_low < 0)) {
+            low = middle;
+            at_low = value;
+            if (side == -1) at_high /= 2;
+            side = -1;
+        } else {
+            high = middle;
+            at_high = value;
+            if (side == 1) at_low /= 2;
+            side = 1;
+        }
+    }
+    return middle;
+}
+
+double slope(const Window& w, double at, double distance) {
+    const double run = distance - w.weight;
+    return run > 0 ? (at - w.x) / run : 0;
+}
+
+// Can `loser`, behind at both ends, win in between? Not if its tangents stay above the other's
+// chord, since distances are convex.
+bool may_win_between(const Window& loser, double low, double high, double lost_low, double lost_high,
+                     double won_low, double won_high) {
+    const double slope_low = slope(loser, low, lost_low);
+    const double slope_high = slope(loser, high, lost_high);
+    const double width = high - low;
+    const double turn = slope_high - slope_low;
+    if (!(turn > 0)) return false;
+    const double t = std::clamp((lost_low - lost_high + slope_high * width) / turn, 0.0, width);
+    const double tangent = lost_low + slope_low * t;
+    const double chord = won_low + (won_high - won_low) * (t / width);
+    return tangent < chord;
+}
+
+Duel fight(const Window& a, const Window& b, double low, double high) {
+    const double a_low = a.distance(low), a_high = a.distance(high);
+    const double b_low = b.distance(low), b_high = b.distance(high);
+    const double tie = rounding * b_low;  // b holds the ground where they tie.
+    const bool wins_low = a_low < b_low - tie;
+    const bool wins_high = a_high < b_high - tie;
+    Duel duel{wins_low};
+    if (wins_low != wins_high) {
+        duel.num_cuts = 1;
+        duel.cuts[0] = crossing(a, b, low, high, a_low - b_low, a_high - b_high);
+        return duel;
+    }
+    if (a.weight == b.weight) return duel;
+    const bool may_change =
+        wins_low ? may_win_between(b, low, high, b_low, b_high, a_low, a_high)
+                 : may_win_between(a, low, high, a_low, a_high, b_low, b_high);
+    if (!may_change) return duel;
+    const auto roots = equal_distances(a, b);
+    if (!roots || !(low < (*roots)[0]) || !((*roots)[0] < (*roots)[1]) || !((*roots)[1] < high)) {
+        return duel;
+    }
+    const double middle = ((*roots)[0] + (*roots)[1]) / 2;
+    if ((a.distance(middle) < b.distance(middle) - tie) == wins_low) return duel;
+    duel.num_cuts = 2;
+    duel.cuts = *roots;
+    return duel;
+}
+
+// Writes the envelope from left to right.
+class Writer {
+public:
+    Writer(const Window& window, double least_width, std::vector<Window>& out)
+        : window_(window), least_width_(least_width), out_(out) {}
+
+    void add_new(double from, double to) {
+        if (from == new_end_) {
+            out_.back().end = to;
+            out_.back().at_end = window_.distance(to);
+        } else {
+            if (!(to - from > least_width_)) return;
+            out_.push_back(window_.part(from, to));
+        }
+        new_end_ = to;
+    }
+    void add_old(const Window& old, double from, double to) {
+        if (from == old.begin && to == old.end) {
+            out_.push_back(old);
+        } else if (to - from > least_width_) {
+            out_.push_back(old.part(from, to));
+        } else {
+            return;
+        }
+        new_end_ = std::numeric_limits<double>::quiet_NaN();
+    }
+
+private:
+    const Window& window_;
+    double least_width_;
+    std::vector<Window>& out_;
+    // Where the new window's last piece ends, if it was written last.
+    double new_end_ = std::numeric_limits<double>::quiet_NaN();
+};
+
+}  // namespace
+
+void insert_window(std::span<const Window> envelope, const Window& window, double least_width,
+                   std::vector<Window>& out) {
+    Writer writer(window, least_width, out);
+    double decided = window.begin;  // The new window is written up to here.
+    for (const Window& old : envelope) {
+        if (old.end <= window.begin) {
+            writer.add_old(old, old.begin, old.end);
+            continue;
+        }
+        const double low = std::max(old.begin, window.begin);
+        const double high = std::min(old.end, window.end);
+        const double gap_end = std::min(old.begin, window.end);
+        if (decided < gap_end) writer.add_new(decided, gap_end);
+        decided = std::max(decided, gap_end);
+        if (!(low < high)) {
+            writer.add_old(old, old.begin, old.end);
+            continue;
+        }
+        const Duel duel = fight(window, old, low, high);
+        double old_begin = old.begin;
+        double from = low;
+        bool is_new = duel.first_wins;
+        for (int i = 0; i <= duel.num_cuts; ++i) {
+            const double to = i < duel.num_cuts ? duel.cuts[static_cast<std::size_t>(i)] : high;
+            if (is_new) {
+                if (old_begin < from) writer.add_old(old, old_begin, from);
+                writer.add_new(from, to);
+                old_begin = to;
+            }
+            from = to;
+            is_new = !is_new;
+        }
+        if (old_begin < old.end) writer.add_old(old, old_begin, old.end);
+        decided = high;
+    }
+    if (decided < window.end) writer.add_new(decided, window.end);
+}
+
+std::optional<Window> merge_windows(const Window& left, const Window& right, double max_error) {
+    if (left.end != right.begin) return std::nullopt;
+    const double begin = left.begin;
+    const double middle = left.end;
+    const double end = right.end;
+    const double slope_begin = (begin - left.x) / -left.y;
+    const double slope_end = (end - right.x) / -right.y;
+    if (!(slope_begin < slope_end)) return std::nullopt;
+    Window merged = left;
+    merged.y = (begin - end) / (slope_end - slope_begin);
+    merged.x = begin + slope_begin * merged.y;
+    merged.weight = 0;
+    merged.begin = merged.end = std::numeric_limits<double>::quiet_NaN();
+    const double run_begin = merged.distance(begin);
+    const double run_end = merged.distance(end);
+    const std::array gaps{run_begin - left.at_begin,
+                          merged.distance(middle) - std::min(left.at_end, right.at_begin),
+                          run_end - right.at_end};
+    const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
+    constexpr float round_up = 1 + 0x1p-20F;
+    merged.error =
+        (std::max(left.error, right.error) + static_cast<float>(*most - *least)) * round_up;
+    merged.weight = -*most;
+    merged.begin = begin;
+    merged.end = end;
+    merged.at_begin = run_begin + merged.weight;
+    merged.at_end = run_end + merged.weight;
+    if (!(merged.error <= max_error * merged.nearest())) return std::nullopt;
+    return merged;
+}
+
+}  // namespace agvd

@@ -1,0 +1,137 @@
+//! \file
+//! Exact or error-bounded distances from one site, as far as it can be the nearest: windows through
+//! a bucketed queue of half-edges.
+#pragma once
+
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_point.h"
+#include "agvd/propagation/window.h"
+
+namespace agvd {
+
+//! In which order half-edges are served. Any order gives the same distances up to rounding.
+enum class FrontOrder : std::uint8_t {
+    Buckets,  //!< By half a mean edge length: quick, but how often a half-edge is served has no
+              //!< useful bound.
+    Nearest,  //!< Nearest window first: slower, and bounded as in [mitchell1987].
+};
+
+//! The memory of one run, which the next one reuses. Not for use by two threads at once.
+class WindowFront {
+public:
+    //! \param surface      outlives the front.
+    //! \param bucket_width  > 0, mesh units.
+    //! \param max_error    relative; 0: no window is merged.
+    WindowFront(const Surface& surface, double bucket_width, double max_error);
+
+    //! Propagates from one site. Windows die where `bounds` are lower.
+    //!
+    //! \param bounds    #V upper bounds for the distance from the nearest of all sites, larger than
+    //!                  any rounding of it.
+    //! \param work_cap  the most windows that may be served through one half-edge.
+    //! \return false if the cap was passed; what the front then holds means nothing.
+    [[nodiscard]] bool run(const SurfacePoint& site, std::span<const float> bounds,
+                           FrontOrder order, Index work_cap);
+
+    struct ReachedVertex {
+        Index vertex;
+        double distance;  //!< Of a real path: the windows' distance and error.
+    };
+    //! Calls each(ReachedVertex) for the vertices reached within their bound.
+    template <typename Each>
+    void for_each_vertex(const Each& each) const {
+        for (const VertexRecord& v : vertices_) {
+            if (v.upper < infinity && v.low <= v.outer_bound) each(ReachedVertex{v.vertex, v.upper});
+        }
+    }
+    //! Calls each(half_edge, windows) for the half-edges that windows came through.
+    template <typename Each>
+    void for_each_half_edge(const Each& each) const {
+        for (const EdgeRecord& e : edges_) {
+            if (e.num_windows > 0) {
+                each(e.half_edge, std::span(pool_).subspan(e.first_window, e.num_windows));
+            }
+        }
+    }
+    //! Largest error of a merged window over its least distance; 0 if none was merged.
+    [[nodiscard]] double relative_error() const { return relative_error_; }
+    //! Windows served in the last run.
+    [[nodiscard]] std::size_t num_windows() const { return num_served_; }
+    [[nodiscard]] std::size_t bytes() const;
+
+private:
+    static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+    struct EdgeRecord {
+        Index half_edge;
+        Index arrivals = no_index;  // List of windows that wait.
+        Index first_window = 0;     // In the pool: the envelope of those that came.
+        Index num_windows = 0;
+        Index bucket = no_index;  // Where the half-edge waits.
+        Index num_served = 0;  // Windows, against the cap.
+        double apex_distance = infinity;  // Best distance of the opposite corner through this edge,
+        double apex_ray = 0;              // and where its ray crosses the edge.
+    };
+    struct VertexRecord {
+        Index vertex;
+        Index arrival_half_edge = no_index;  // Leaves the vertex; the arrival is in its frame.
+        Vec2 arrival;                        // Towards the image that `low` came from.
+        double bound;                        // Least of all known.
+        double outer_bound;                  // Given by the caller.
+        double low = infinity;               // Of this site.
+        double upper = infinity;
+        float error = 0;            // Of the windows that gave `low`.
+        double emitted = infinity;  // `low` when it last became a pseudo-source.
+        Index bucket = no_index;    // Where it waits to become one.
+    };
+    struct Arrival {
+        Window window;
+        Index next;
+    };
+    struct Face;
+
+    void start(const SurfacePoint& site);
+    [[nodiscard]] Index vertex_record(Index vertex);
+    [[nodiscard]] Index edge_record(Index half_edge);
+    void reach_vertex(Index record, double distance, float error, Index half_edge,
+                      const Vec2& arrival);
+    void send(Index half_edge, const Window& window);
+    void schedule(Index item, Index& bucket, double distance);
+    [[nodiscard]] bool next_item(Index& item);
+    void serve_edge(Index record);
+    void merge_neighbours();
+    void serve_window(const Window& window, Index record, Face& face);
+    void send_right(const Window& window, const Face& face, double from, double ray,
+                    double at_apex);
+    void send_left(const Window& window, const Face& face, double to, double ray, double at_apex);
+    void emit(Index record);
+    void emit_fan(Index first, const Vec2* from, Index last, const Vec2* to, const VertexRecord& v);
+    void emit_into(Index half_edge, double weight, float error, const Vec2* from, const Vec2* to);
+
+    const Surface& surface_;
+    double per_bucket_;
+    double max_error_;
+    std::span<const float> bounds_;
+    FrontOrder order_ = FrontOrder::Buckets;
+
+    std::vector<Index> vertex_slot_;  // #V, #H: the record, if that record names it.
+    std::vector<Index> edge_slot_;
+    std::vector<VertexRecord> vertices_;
+    std::vector<EdgeRecord> edges_;
+    std::vector<Arrival> arrivals_;
+    Index free_arrival_ = no_index;
+    std::vector<Window> pool_;
+    std::vector<Window> envelope_, next_envelope_;
+    std::vector<std::vector<Index>> buckets_;
+    std::vector<std::pair<double, Index>> heap_;  // FrontOrder::Nearest.
+    Index current_bucket_ = 0;
+    std::size_t num_waiting_ = 0;
+    double relative_error_ = 0;
+    std::size_t num_served_ = 0;
+};
+
+}  // namespace agvd
