@@ -95,7 +95,8 @@ bool may_win_between(const Window& loser, double low, double high, double lost_l
 Duel fight(const Window& a, const Window& b, double low, double high) {
     const double a_low = a.distance(low), a_high = a.distance(high);
     const double b_low = b.distance(low), b_high = b.distance(high);
-    const double tie = rounding * b_low;  // b holds the ground where they tie.
+    // b holds the ground where they tie.
+    const double tie = a.is_served && !b.is_served ? -rounding * b_low : rounding * b_low;
     const bool wins_low = a_low < b_low - tie;
     const bool wins_high = a_high < b_high - tie;
     Duel duel{wins_low};
@@ -157,15 +158,19 @@ private:
 
 }  // namespace
 
-void insert_window(std::span<const Window> envelope, const Window& window, double least_width,
-                   std::vector<Window>& out) {
-    Writer writer(window, least_width, out);
+void insert_window(const Window& window, double least_width, std::vector<Window>& scratch,
+                   std::vector<Window>& envelope) {
+    auto first = envelope.end();
+    while (first != envelope.begin() && (first - 1)->end > window.begin) --first;
+    if (first == envelope.end()) {
+        envelope.push_back(window);
+        return;
+    }
+    scratch.assign(first, envelope.end());
+    envelope.erase(first, envelope.end());
+    Writer writer(window, least_width, envelope);
     double decided = window.begin;  // The new window is written up to here.
-    for (const Window& old : envelope) {
-        if (old.end <= window.begin) {
-            writer.add_old(old, old.begin, old.end);
-            continue;
-        }
+    for (const Window& old : scratch) {
         const double low = std::max(old.begin, window.begin);
         const double high = std::min(old.end, window.end);
         const double gap_end = std::min(old.begin, window.end);

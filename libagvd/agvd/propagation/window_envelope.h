@@ -10,13 +10,14 @@
 
 namespace agvd {
 
-//! Appends to `out` the envelope of `envelope` and one more window. Where both give the same
-//! distance up to rounding, the envelope keeps its own.
+//! Adds a window to an envelope. Where two windows give the same distance up to rounding, one that
+//! is served keeps its ground, else the one that came first.
 //!
 //! \param least_width  pieces narrower than this are dropped; far below any width that matters.
-//! Cost: O(windows).
-void insert_window(std::span<const Window> envelope, const Window& window, double least_width,
-                   std::vector<Window>& out);
+//! \param scratch      any content; reused memory.
+//! Cost: O(windows that end behind its begin): constant for windows that come in order.
+void insert_window(const Window& window, double least_width, std::vector<Window>& scratch,
+                   std::vector<Window>& envelope);
 
 //! One window in place of two that touch, if it stays within the error: its outermost rays are
 //! theirs, so that its beam holds both beams, and its distances lie below theirs by at most the

@@ -5,6 +5,7 @@
 #include "agvd/propagation/window_front.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "agvd/propagation/site_placement.h"
 #include "agvd/propagation/window_envelope.h"
@@ -24,36 +25,47 @@ double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(
 // A vector in the frame whose x axis is the unit vector `axis`, and back.
 Vec2 into(const Vec2& axis, const Vec2& v) { return {axis.dot(v), cross(axis, v)}; }
 
+// |v| < limit, without a root.
+bool is_within(const Vec2& v, double limit) { return limit > 0 && v.squaredNorm() < limit * limit; }
+
 constexpr Index vertex_item(Index record) { return 2 * record + 1; }
 constexpr Index edge_item(Index record) { return 2 * record; }
 
 }  // namespace
 
-// The face above a half-edge: tail at (0, 0), head at (length, 0). `right` and `left` are its other
-// half-edges seen from the faces beyond; their frames start at the apex and at the tail.
+// The face above a half-edge: tail at (0, 0), head at (length, 0). Windows leave it through the next
+// half-edge (right) and the previous one (left); the frames of their twins start at the apex and at
+// the tail. Plain numbers, since compilers tear vectors apart and stall where they join them again.
 struct WindowFront::Face {
-    Face(const Surface& surface, Index half_edge)
+    Face(std::span<const PackedHalfEdge> half_edges, Index half_edge)
         : half_edge(half_edge),
-          to_right(surface.twin[Surface::next(half_edge)]),
-          to_left(surface.twin[Surface::previous(half_edge)]),
-          length(surface.length_of(half_edge)),
-          right_length(surface.length_of(Surface::next(half_edge))),
-          left_length(surface.length_of(Surface::previous(half_edge))),
-          apex(surface.apex[half_edge]),
-          right_axis((Vec2(length, 0) - apex) / right_length),
-          left_axis(apex / left_length) {}
+          base(half_edges[half_edge]),
+          next(half_edges[Surface::next(half_edge)]),
+          previous(half_edges[Surface::previous(half_edge)]),
+          length(base.length),
+          apex_x(base.apex.x()),
+          apex_y(base.apex.y()),
+          right_x((length - apex_x) / next.length),
+          right_y(-apex_y / next.length),
+          left_x(apex_x / previous.length),
+          left_y(apex_y / previous.length) {}
 
     Index half_edge;
-    Index to_right, to_left;
-    double length, right_length, left_length;
-    Vec2 apex;
-    Vec2 right_axis, left_axis;
+    const PackedHalfEdge& base;
+    const PackedHalfEdge& next;
+    const PackedHalfEdge& previous;
+    double length;
+    double apex_x, apex_y;
+    double right_x, right_y;  // Unit vector from the apex to the head.
+    double left_x, left_y;    // From the tail to the apex.
     double tail_bound = 0, head_bound = 0, apex_bound = 0;
     Index apex_record = no_index;
 };
 
-WindowFront::WindowFront(const Surface& surface, double bucket_width, double max_error)
+WindowFront::WindowFront(const Surface& surface, std::span<const PackedHalfEdge> half_edges,
+                         double bucket_width, double max_error)
     : surface_(surface),
+      half_edges_(half_edges),
       per_bucket_(1 / bucket_width),
       max_error_(max_error),
       vertex_slot_(surface.num_vertices(), 0),
@@ -62,11 +74,12 @@ WindowFront::WindowFront(const Surface& surface, double bucket_width, double max
 bool WindowFront::run(const SurfacePoint& site, std::span<const float> bounds, FrontOrder order,
                       Index work_cap) {
     bounds_ = bounds;
-    order_ = order;
+    queue_order_ = order;
     vertices_.clear();
     edges_.clear();
-    arrivals_.clear();
-    free_arrival_ = no_index;
+    runs_.clear();
+    waiting_.clear();
+    free_runs_.assign(free_runs_.size(), no_index);
     pool_.clear();
     for (auto& bucket : buckets_) bucket.clear();
     heap_.clear();
@@ -91,7 +104,7 @@ std::size_t WindowFront::bytes() const {
     std::size_t sum = (vertex_slot_.capacity() + edge_slot_.capacity()) * sizeof(Index) +
                       vertices_.capacity() * sizeof(VertexRecord) +
                       edges_.capacity() * sizeof(EdgeRecord) +
-                      arrivals_.capacity() * sizeof(Arrival) + pool_.capacity() * sizeof(Window) +
+                      runs_.capacity() * sizeof(Run) + waiting_.capacity() * sizeof(Window) + pool_.capacity() * sizeof(Window) +
                       heap_.capacity() * sizeof(heap_[0]);
     for (const auto& bucket : buckets_) sum += bucket.capacity() * sizeof(Index);
     return sum;
@@ -117,7 +130,7 @@ Index WindowFront::edge_record(Index half_edge) {
 // --- Queue -----------------------------------------------------------------------------------
 
 void WindowFront::schedule(Index item, Index& bucket, double distance) {
-    if (order_ == FrontOrder::Nearest) {
+    if (queue_order_ == FrontOrder::Nearest) {
         heap_.emplace_back(distance, item);
         std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
         return;
@@ -133,7 +146,7 @@ void WindowFront::schedule(Index item, Index& bucket, double distance) {
 }
 
 bool WindowFront::next_item(Index& item) {
-    if (order_ == FrontOrder::Nearest) {
+    if (queue_order_ == FrontOrder::Nearest) {
         if (heap_.empty()) return false;
         std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
         item = heap_.back().second;
@@ -203,8 +216,9 @@ void WindowFront::start(const SurfacePoint& site) {
             const double length = surface_.length_of(h);
             const Vec2 image(length - p.x(), -p.y());
             if (!(image.y() < -negligible * length)) continue;
-            send(surface_.twin[h], {image.x(), image.y(), 0, 0, length, image.norm(),
-                                    (image - Vec2(length, 0)).norm()});
+            const Window window{image.x(), image.y(), 0, 0, length, image.norm(),
+                                (image - Vec2(length, 0)).norm()};
+            send(surface_.twin[h], {&window, 1});
         }
     };
     const auto half_edge = half_edge_of(site);
@@ -218,24 +232,22 @@ void WindowFront::start(const SurfacePoint& site) {
 // given, are rays that bound the fan, in the frame of the half-edge.
 void WindowFront::emit_into(Index half_edge, double weight, float error, const Vec2* from,
                             const Vec2* to) {
-    const Index opposite = Surface::next(half_edge);
-    const Index back = Surface::previous(half_edge);
-    const Vec2& vertex = surface_.apex[opposite];
-    const double first_length = surface_.length_of(half_edge);
-    const double last_length = surface_.length_of(back);
-    reach_vertex(vertex_record(surface_.head(half_edge)), weight + first_length, error, opposite,
-                 vertex);
-    reach_vertex(vertex_record(surface_.tail(back)), weight + last_length, error, back,
-                 {last_length, 0});
-    const Index beyond = surface_.twin[opposite];
-    if (beyond == no_index) return;
-    const double length = surface_.length_of(opposite);
+    const PackedHalfEdge& first = half_edges_[half_edge];
+    const PackedHalfEdge& opposite = half_edges_[Surface::next(half_edge)];
+    const PackedHalfEdge& last = half_edges_[Surface::previous(half_edge)];
+    const Vec2& vertex = opposite.apex;
+    reach_vertex(vertex_record(opposite.tail), weight + first.length, error,
+                 Surface::next(half_edge), vertex);
+    reach_vertex(vertex_record(last.tail), weight + last.length, error,
+                 Surface::previous(half_edge), {last.length, 0});
+    if (opposite.twin == no_index) return;
+    const double length = opposite.length;
     const Vec2 image(length - vertex.x(), -vertex.y());
     if (!(image.y() < -negligible * length)) return;
     // The frame of `beyond` starts at the apex of `half_edge` and runs clockwise around the vertex.
-    Window window{image.x(), image.y(), weight, 0, length, weight + last_length,
-                  weight + first_length, error};
-    const Vec2 axis = (Vec2(first_length, 0) - surface_.apex[half_edge]) / length;
+    Window window{image.x(), image.y(), weight, 0, length, weight + last.length,
+                  weight + first.length, error};
+    const Vec2 axis = (Vec2(first.length, 0) - first.apex) / length;
     const auto meets_at = [&](const Vec2& ray) {
         const Vec2 direction = into(axis, ray);
         return image.x() - image.y() * direction.x() / direction.y();
@@ -252,7 +264,7 @@ void WindowFront::emit_into(Index half_edge, double weight, float error, const V
             window = window.part(at, window.end);
         }
     }
-    send(beyond, window);
+    send(opposite.twin, {&window, 1});
 }
 
 // The shadow behind a saddle or boundary vertex: the directions that make an angle of pi or more
@@ -267,22 +279,22 @@ void WindowFront::emit(Index record) {
     Index first = no_index;
     Vec2 from = v.arrival;
     for (Index h = v.arrival_half_edge; h != no_index;) {
-        const Vec2 turned = into(surface_.apex[h].normalized(), from);
+        const Vec2 turned = into(half_edges_[h].apex.normalized(), from);
         if (h != v.arrival_half_edge && from.y() <= 0 && turned.y() > 0) {
             first = h;
             break;
         }
         from = turned;
-        h = surface_.twin[Surface::previous(h)];
+        h = half_edges_[Surface::previous(h)].twin;
         if (h == v.arrival_half_edge) break;
     }
     // Clockwise, the other way round.
     Index last = no_index;
     Vec2 to = v.arrival;
-    for (Index twin = surface_.twin[v.arrival_half_edge]; twin != no_index;) {
+    for (Index twin = half_edges_[v.arrival_half_edge].twin; twin != no_index;) {
         const Index h = Surface::next(twin);
         if (h == v.arrival_half_edge) break;
-        const Vec2 corner = surface_.apex[h].normalized();
+        const Vec2 corner = half_edges_[h].apex.normalized();
         const Vec2 turned(corner.x() * to.x() - corner.y() * to.y(),
                           corner.x() * to.y() + corner.y() * to.x());
         const bool is_behind = to.y() >= 0 && turned.y() < 0;
@@ -291,7 +303,7 @@ void WindowFront::emit(Index record) {
             last = h;
             break;
         }
-        twin = surface_.twin[h];
+        twin = half_edges_[h].twin;
     }
     from = -from;
     to = -to;
@@ -306,7 +318,7 @@ void WindowFront::emit(Index record) {
 
 void WindowFront::emit_fan(Index first, const Vec2* from, Index last, const Vec2* to,
                            const VertexRecord& v) {
-    for (Index h = first; h != no_index; h = surface_.twin[Surface::previous(h)]) {
+    for (Index h = first; h != no_index; h = half_edges_[Surface::previous(h)].twin) {
         emit_into(h, v.low, v.error, h == first ? from : nullptr, h == last ? to : nullptr);
         if (h == last) break;
     }
@@ -314,67 +326,114 @@ void WindowFront::emit_fan(Index first, const Vec2* from, Index last, const Vec2
 
 // --- Half-edges --------------------------------------------------------------------------------
 
-void WindowFront::send(Index half_edge, const Window& window) {
+void WindowFront::send(Index half_edge, std::span<const Window> windows) {
+    if (windows.empty()) return;
     const Index record = edge_record(half_edge);
-    Index place = free_arrival_;
-    if (place == no_index) {
-        place = static_cast<Index>(arrivals_.size());
-        arrivals_.push_back({window, no_index});
-    } else {
-        free_arrival_ = arrivals_[place].next;
-        arrivals_[place].window = window;
-    }
+    const auto count = static_cast<Index>(windows.size());
     EdgeRecord& edge = edges_[record];
-    arrivals_[place].next = edge.arrivals;
-    edge.arrivals = place;
-    schedule(edge_item(record), edge.bucket, window.nearest());
+    const Index run = take_run(count);
+    runs_[run].count = count;
+    runs_[run].next = edge.runs;
+    edge.runs = run;
+    double nearest = infinity;
+    Window* const to = waiting_.data() + runs_[run].first;
+    for (Index i = 0; i < count; ++i) {
+        nearest = std::min(nearest, windows[i].nearest());
+        to[i] = windows[i];
+    }
+    schedule(edge_item(record), edge.bucket, nearest);
+}
+
+// Memory for a run: its size is a power of two, and runs of that size that were served come first.
+Index WindowFront::take_run(Index count) {
+    const auto size_class = static_cast<std::size_t>(std::bit_width(count - 1));
+    if (size_class >= free_runs_.size()) free_runs_.resize(size_class + 1, no_index);
+    Index run = free_runs_[size_class];
+    if (run != no_index) {
+        free_runs_[size_class] = runs_[run].next;
+        return run;
+    }
+    run = static_cast<Index>(runs_.size());
+    runs_.push_back({static_cast<Index>(waiting_.size()), 0, no_index});
+    waiting_.resize(waiting_.size() + (std::size_t{1} << size_class));
+    return run;
+}
+
+void WindowFront::give_back(Index run) {
+    Index& free_run = free_runs_[static_cast<std::size_t>(std::bit_width(runs_[run].count - 1))];
+    runs_[run].next = free_run;
+    free_run = run;
+}
+
+// Merges the windows that wait, which come in ascending runs, into the envelope.
+void WindowFront::take_in(EdgeRecord& edge, const Face& face) {
+    envelope_.clear();
+    const double least_width = negligible * face.length;
+    const auto is_beaten = [&](const Window& w) {
+        return (face.tail_bound + w.end < w.at_end) |
+               (face.head_bound + face.length - w.begin < w.at_begin);
+    };
+    const Index only = edge.runs;
+    edge.runs = no_index;
+    if (edge.num_windows == 0 && runs_[only].next == no_index) {
+        const Window* const run = waiting_.data() + runs_[only].first;
+        for (Index i = 0; i < runs_[only].count; ++i) {
+            if (!is_beaten(run[i])) insert_window(run[i], least_width, scratch_, envelope_);
+        }
+        give_back(only);
+        return;
+    }
+    order_.clear();
+    for (Index i = 0; i < edge.num_windows; ++i) order_.push_back(&pool_[edge.first_window + i]);
+    for (Index run = only; run != no_index;) {
+        const Window* const windows = waiting_.data() + runs_[run].first;
+        for (Index i = 0; i < runs_[run].count; ++i) {
+            if (is_beaten(windows[i])) continue;
+            std::size_t place = order_.size();
+            order_.push_back(nullptr);
+            for (; place > 0 && windows[i].begin < order_[place - 1]->begin; --place) {
+                order_[place] = order_[place - 1];
+            }
+            order_[place] = &windows[i];
+        }
+        const Index next = runs_[run].next;
+        give_back(run);
+        run = next;
+    }
+    for (const Window* window : order_) insert_window(*window, least_width, scratch_, envelope_);
 }
 
 // Takes in the windows that wait, and sends on what has not been sent on.
 void WindowFront::serve_edge(Index record) {
-    if (edges_[record].arrivals == no_index) return;
-    Face face(surface_, edges_[record].half_edge);
-    const double tail_bound = vertices_[vertex_record(surface_.tail(face.half_edge))].bound;
-    const double head_bound = vertices_[vertex_record(surface_.head(face.half_edge))].bound;
-    face.tail_bound = tail_bound;
-    face.head_bound = head_bound;
-    face.apex_record = vertex_record(surface_.tail(Surface::previous(face.half_edge)));
+    if (edges_[record].runs == no_index) return;
+    Face face(half_edges_, edges_[record].half_edge);
+    face.tail_bound = vertices_[vertex_record(face.base.tail)].bound;
+    face.head_bound = vertices_[vertex_record(face.next.tail)].bound;
+    face.apex_record = vertex_record(face.previous.tail);
 
-    {
-        EdgeRecord& edge = edges_[record];
-        envelope_.assign(pool_.begin() + edge.first_window,
-                         pool_.begin() + edge.first_window + edge.num_windows);
-        Index place = edge.arrivals;
-        edge.arrivals = no_index;
-        while (place != no_index) {
-            const Window& window = arrivals_[place].window;
-            const bool is_beaten = tail_bound + window.end < window.at_end ||
-                                   head_bound + face.length - window.begin < window.at_begin;
-            if (!is_beaten) {
-                next_envelope_.clear();
-                insert_window(envelope_, window, negligible * face.length, next_envelope_);
-                envelope_.swap(next_envelope_);
-            }
-            const Index next = arrivals_[place].next;
-            arrivals_[place].next = free_arrival_;
-            free_arrival_ = place;
-            place = next;
-        }
-        if (max_error_ > 0) merge_neighbours();
-        if (envelope_.size() > edge.num_windows) {
-            edge.first_window = static_cast<Index>(pool_.size());
-            pool_.resize(pool_.size() + envelope_.size());
-        }
-        edge.num_windows = static_cast<Index>(envelope_.size());
-    }
+    EdgeRecord& edge = edges_[record];
+    take_in(edge, face);
+    if (max_error_ > 0) merge_neighbours();
+    right_.clear();
+    left_.clear();
     for (Window& window : envelope_) {
         if (window.is_served) continue;
         window.is_served = true;
         ++num_served_;
-        ++edges_[record].num_served;
-        serve_window(window, record, face);
+        ++edge.num_served;
+        divide_window(window, edge, face);
     }
-    std::copy(envelope_.begin(), envelope_.end(), pool_.begin() + edges_[record].first_window);
+    const auto count = static_cast<Index>(envelope_.size());
+    if (count > edge.num_windows) {
+        edge.first_window = static_cast<Index>(pool_.size());
+        pool_.insert(pool_.end(), envelope_.begin(), envelope_.end());
+    } else {
+        std::copy(envelope_.begin(), envelope_.end(), pool_.begin() + edge.first_window);
+    }
+    edge.num_windows = count;
+    face.apex_bound = vertices_[face.apex_record].bound;
+    pass_right(face);
+    pass_left(face);
 }
 
 void WindowFront::merge_neighbours() {
@@ -394,101 +453,118 @@ void WindowFront::merge_neighbours() {
     if (!envelope_.empty()) envelope_.resize(kept + 1);
 }
 
-void WindowFront::serve_window(const Window& w, Index record, Face& face) {
-    const Vec2& apex = face.apex;
-    const Vec2 to_image(w.x - apex.x(), w.y - apex.y());
-    const double ray = (w.x * apex.y() - w.y * apex.x()) / (apex.y() - w.y);
+void WindowFront::reach_bent(const Face& face, double distance, double at, float error) {
+    const VertexRecord& apex = vertices_[face.apex_record];
+    const Vec2 rest(face.apex_x - at, face.apex_y);
+    if (!is_within(rest, std::max(apex.low, apex.upper - error) - distance)) return;
+    reach_vertex(face.apex_record, distance + rest.norm(), error, no_index, {0, 0});
+}
+
+// Reaches the apex, and decides which part of the window goes on to the right and to the left.
+void WindowFront::divide_window(const Window& w, EdgeRecord& edge, const Face& face) {
+    const double ray = (w.x * face.apex_y - w.y * face.apex_x) / (face.apex_y - w.y);
     const double slack = grazing * face.length;
-    double at_apex = infinity;
     if (ray < w.begin - slack) {
-        const double bent = w.at_begin + (apex - Vec2(w.begin, 0)).norm();
-        reach_vertex(face.apex_record, bent, w.error, no_index, {0, 0});
+        reach_bent(face, w.at_begin, w.begin, w.error);
     } else if (ray > w.end + slack) {
-        const double bent = w.at_end + (apex - Vec2(w.end, 0)).norm();
-        reach_vertex(face.apex_record, bent, w.error, no_index, {0, 0});
+        reach_bent(face, w.at_end, w.end, w.error);
     } else {
-        at_apex = w.weight + to_image.norm();
+        const Vec2 to_image(w.x - face.apex_x, w.y - face.apex_y);
+        const double at_apex = w.weight + to_image.norm();
         reach_vertex(face.apex_record, at_apex, w.error, Surface::previous(face.half_edge),
-                     into(-face.left_axis, to_image));
-    }
-    face.apex_bound = vertices_[face.apex_record].bound;
-    double left_end = std::min(ray, w.end);
-    double right_begin = std::max(ray, w.begin);
-    if (w.begin < ray && ray < w.end) {
-        // One angle, one split: rays that cross the best one on its way to the apex lead nowhere.
-        EdgeRecord& edge = edges_[record];
-        if (at_apex < edge.apex_distance) {
-            edge.apex_distance = at_apex;
-            edge.apex_ray = ray;
-        } else if (ray < edge.apex_ray) {
-            right_begin = std::max(right_begin, edge.apex_ray);
-        } else {
-            left_end = std::min(left_end, edge.apex_ray);
+                     into(Vec2(-face.left_x, -face.left_y), to_image));
+        if (w.begin < ray && ray < w.end) {
+            Part left{&w, ray, true};
+            Part right{&w, ray, true};
+            // One angle, one split: rays that cross the best one on its way to the apex lead
+            // nowhere.
+            if (at_apex < edge.apex_distance) {
+                edge.apex_distance = at_apex;
+                edge.apex_ray = ray;
+            } else if (ray < edge.apex_ray) {
+                right = {&w, edge.apex_ray, false};
+            } else {
+                left = {&w, edge.apex_ray, false};
+            }
+            if (w.begin < left.limit) left_.push_back(left);
+            if (right.limit < w.end) right_.push_back(right);
+            return;
         }
     }
-    if (face.to_right != no_index && right_begin < w.end) {
-        send_right(w, face, right_begin, ray, at_apex);
-    }
-    if (face.to_left != no_index && w.begin < left_end) {
-        send_left(w, face, left_end, ray, at_apex);
+    if (ray <= w.begin) {
+        right_.push_back({&w, w.begin, false});
+    } else {
+        left_.push_back({&w, w.end, false});
     }
 }
 
-// The part of the window from `from` on, seen through the next half-edge. In its frame the apex is
-// at 0 and a point of the edge at a distance s before the head lies at (right_length, 0) - s times
-// the direction from head to tail.
-void WindowFront::send_right(const Window& w, const Face& face, double from, double ray,
-                             double at_apex) {
-    const Vec2 image = into(face.right_axis, Vec2(w.x, w.y) - face.apex);
-    const double length = face.right_length;
-    if (!(image.y() < -negligible * length)) return;
-    const double sine = face.apex.y() / length;  // Of the angle at the head.
-    const auto seen_at = [&](double at) {
-        if (at == face.length) return length;
-        const Vec2 p(length - (face.length - at) * face.right_axis.x(),
-                     -(face.length - at) * sine);
-        return image.x() + (p.x() - image.x()) * image.y() / (image.y() - p.y());
-    };
-    Window child{image.x(), image.y(), w.weight, 0, 0, 0, 0, w.error};
-    child.begin = from == ray ? 0.0 : std::max(seen_at(from), 0.0);
-    child.end = std::min(seen_at(w.end), length);
-    if (!(child.end - child.begin > negligible * length)) return;
-    child.at_end = w.weight + (image - Vec2(child.end, 0)).norm();
-    if (face.apex_bound + child.end < child.at_end) return;
-    const Vec2 tail(length - face.length * face.right_axis.x(), -face.length * sine);
-    if (face.tail_bound + (tail - Vec2(child.end, 0)).norm() < child.at_end) return;
-    child.at_begin = from == ray && at_apex < infinity
-                         ? at_apex
-                         : w.weight + (image - Vec2(child.begin, 0)).norm();
-    if (face.head_bound + length - child.begin < child.at_begin) return;
-    send(face.to_right, child);
+// Sends the parts on through the next half-edge. In the frame beyond, the apex is at 0, and a point
+// of the base at a distance s before the head is at (length, 0) - s (right_x, sine). Without
+// branches but the last, since whether a window dies cannot be predicted.
+void WindowFront::pass_right(const Face& face) {
+    if (right_.empty() || face.next.twin == no_index) return;
+    children_.resize(right_.size());
+    const double length = face.next.length;
+    const double sine = face.apex_y / length;  // Of the angle at the head.
+    const double tail_x = length - face.length * face.right_x;
+    const double tail_y = -face.length * sine;
+    std::size_t count = 0;
+    for (const Part& part : right_) {
+        const Window& w = *part.window;
+        const double dx = w.x - face.apex_x;
+        const double dy = w.y - face.apex_y;
+        const double x = dx * face.right_x + dy * face.right_y;
+        const double y = dy * face.right_x - dx * face.right_y;
+        const auto seen_at = [&](double at) {
+            const double s = face.length - at;
+            const double from_x = length - s * face.right_x;
+            return x + (from_x - x) * y / (y + s * sine);
+        };
+        const double begin = part.is_apex ? 0.0 : std::max(seen_at(part.limit), 0.0);
+        const double end = w.end == face.length ? length : std::min(seen_at(w.end), length);
+        const double at_begin = w.weight + std::sqrt((begin - x) * (begin - x) + y * y);
+        const double at_end = w.weight + std::sqrt((end - x) * (end - x) + y * y);
+        const double spare = at_end - face.tail_bound;
+        const double to_tail = (tail_x - end) * (tail_x - end) + tail_y * tail_y;
+        const bool lives = (y < -negligible * length) & (end - begin > negligible * length) &
+                           (face.apex_bound + end >= at_end) &
+                           (face.head_bound + length - begin >= at_begin) &
+                           ((spare <= 0) | (to_tail >= spare * spare));
+        children_[count] = {x, y, w.weight, begin, end, at_begin, at_end, w.error};
+        count += lives ? 1 : 0;
+    }
+    send(face.next.twin, std::span(children_).first(count));
 }
 
-// The part of the window up to `to`, seen through the previous half-edge: the tail at 0, the apex
-// at left_length.
-void WindowFront::send_left(const Window& w, const Face& face, double to, double ray,
-                            double at_apex) {
-    const Vec2 image = into(face.left_axis, Vec2(w.x, w.y));
-    const double length = face.left_length;
-    if (!(image.y() < -negligible * length)) return;
-    const auto seen_at = [&](double at) {
-        if (at == 0) return 0.0;
-        const Vec2 p(at * face.left_axis.x(), -at * face.left_axis.y());
-        return image.x() + (p.x() - image.x()) * image.y() / (image.y() - p.y());
-    };
-    Window child{image.x(), image.y(), w.weight, 0, 0, 0, 0, w.error};
-    child.begin = std::max(seen_at(w.begin), 0.0);
-    child.end = to == ray ? length : std::min(seen_at(to), length);
-    if (!(child.end - child.begin > negligible * length)) return;
-    child.at_begin = w.weight + (image - Vec2(child.begin, 0)).norm();
-    if (face.apex_bound + length - child.begin < child.at_begin) return;
-    const Vec2 head(face.length * face.left_axis.x(), -face.length * face.left_axis.y());
-    if (face.head_bound + (head - Vec2(child.begin, 0)).norm() < child.at_begin) return;
-    child.at_end = to == ray && at_apex < infinity
-                       ? at_apex
-                       : w.weight + (image - Vec2(child.end, 0)).norm();
-    if (face.tail_bound + child.end < child.at_end) return;
-    send(face.to_left, child);
+// The same through the previous half-edge: the tail at 0, the apex at `length`.
+void WindowFront::pass_left(const Face& face) {
+    if (left_.empty() || face.previous.twin == no_index) return;
+    children_.resize(left_.size());
+    const double length = face.previous.length;
+    const double head_x = face.length * face.left_x;
+    const double head_y = -face.length * face.left_y;
+    std::size_t count = 0;
+    for (const Part& part : left_) {
+        const Window& w = *part.window;
+        const double x = w.x * face.left_x + w.y * face.left_y;
+        const double y = w.y * face.left_x - w.x * face.left_y;
+        const auto seen_at = [&](double at) {
+            return x + (at * face.left_x - x) * y / (y + at * face.left_y);
+        };
+        const double begin = w.begin == 0 ? 0.0 : std::max(seen_at(w.begin), 0.0);
+        const double end = part.is_apex ? length : std::min(seen_at(part.limit), length);
+        const double at_begin = w.weight + std::sqrt((begin - x) * (begin - x) + y * y);
+        const double at_end = w.weight + std::sqrt((end - x) * (end - x) + y * y);
+        const double spare = at_begin - face.head_bound;
+        const double to_head = (head_x - begin) * (head_x - begin) + head_y * head_y;
+        const bool lives = (y < -negligible * length) & (end - begin > negligible * length) &
+                           (face.tail_bound + end >= at_end) &
+                           (face.apex_bound + length - begin >= at_begin) &
+                           ((spare <= 0) | (to_head >= spare * spare));
+        children_[count] = {x, y, w.weight, begin, end, at_begin, at_end, w.error};
+        count += lives ? 1 : 0;
+    }
+    send(face.previous.twin, std::span(children_).first(count));
 }
 
 }  // namespace agvd

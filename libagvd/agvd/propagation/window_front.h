@@ -9,6 +9,7 @@
 
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_point.h"
+#include "agvd/propagation/packed_half_edges.h"
 #include "agvd/propagation/window.h"
 
 namespace agvd {
@@ -23,10 +24,11 @@ enum class FrontOrder : std::uint8_t {
 //! The memory of one run, which the next one reuses. Not for use by two threads at once.
 class WindowFront {
 public:
-    //! \param surface      outlives the front.
+    //! \param surface, half_edges  outlive the front; pack_half_edges(surface).
     //! \param bucket_width  > 0, mesh units.
     //! \param max_error    relative; 0: no window is merged.
-    WindowFront(const Surface& surface, double bucket_width, double max_error);
+    WindowFront(const Surface& surface, std::span<const PackedHalfEdge> half_edges,
+                double bucket_width, double max_error);
 
     //! Propagates from one site. Windows die where `bounds` are lower.
     //!
@@ -68,7 +70,7 @@ private:
 
     struct EdgeRecord {
         Index half_edge;
-        Index arrivals = no_index;  // List of windows that wait.
+        Index runs = no_index;      // List of the runs of windows that wait.
         Index first_window = 0;     // In the pool: the envelope of those that came.
         Index num_windows = 0;
         Index bucket = no_index;  // Where the half-edge waits.
@@ -88,9 +90,17 @@ private:
         double emitted = infinity;  // `low` when it last became a pseudo-source.
         Index bucket = no_index;    // Where it waits to become one.
     };
-    struct Arrival {
-        Window window;
+    // Windows that wait for their half-edge, in ascending order along it.
+    struct Run {
+        Index first;  // In waiting_.
+        Index count;
         Index next;
+    };
+    // The part of a window up to or from a limit, which may be the ray to the apex.
+    struct Part {
+        const Window* window;
+        double limit;
+        bool is_apex;
     };
     struct Face;
 
@@ -99,33 +109,41 @@ private:
     [[nodiscard]] Index edge_record(Index half_edge);
     void reach_vertex(Index record, double distance, float error, Index half_edge,
                       const Vec2& arrival);
-    void send(Index half_edge, const Window& window);
+    void send(Index half_edge, std::span<const Window> windows);
+    [[nodiscard]] Index take_run(Index count);
+    void give_back(Index run);
     void schedule(Index item, Index& bucket, double distance);
     [[nodiscard]] bool next_item(Index& item);
     void serve_edge(Index record);
+    void take_in(EdgeRecord& edge, const Face& face);
     void merge_neighbours();
-    void serve_window(const Window& window, Index record, Face& face);
-    void send_right(const Window& window, const Face& face, double from, double ray,
-                    double at_apex);
-    void send_left(const Window& window, const Face& face, double to, double ray, double at_apex);
+    void reach_bent(const Face& face, double distance, double at, float error);
+    void divide_window(const Window& window, EdgeRecord& edge, const Face& face);
+    void pass_right(const Face& face);
+    void pass_left(const Face& face);
     void emit(Index record);
     void emit_fan(Index first, const Vec2* from, Index last, const Vec2* to, const VertexRecord& v);
     void emit_into(Index half_edge, double weight, float error, const Vec2* from, const Vec2* to);
 
     const Surface& surface_;
+    std::span<const PackedHalfEdge> half_edges_;
     double per_bucket_;
     double max_error_;
     std::span<const float> bounds_;
-    FrontOrder order_ = FrontOrder::Buckets;
+    FrontOrder queue_order_ = FrontOrder::Buckets;
 
     std::vector<Index> vertex_slot_;  // #V, #H: the record, if that record names it.
     std::vector<Index> edge_slot_;
     std::vector<VertexRecord> vertices_;
     std::vector<EdgeRecord> edges_;
-    std::vector<Arrival> arrivals_;
-    Index free_arrival_ = no_index;
+    std::vector<Run> runs_;
+    std::vector<Window> waiting_;
+    std::vector<Index> free_runs_;  // By size class: list of runs.
     std::vector<Window> pool_;
-    std::vector<Window> envelope_, next_envelope_;
+    std::vector<Window> envelope_, scratch_;
+    std::vector<const Window*> order_;
+    std::vector<Part> right_, left_;
+    std::vector<Window> children_;
     std::vector<std::vector<Index>> buckets_;
     std::vector<std::pair<double, Index>> heap_;  // FrontOrder::Nearest.
     Index current_bucket_ = 0;
