@@ -82,18 +82,6 @@ void append_planar(const Surface& surface, std::span<const Relay> relays, const 
 //! Least distance over the relays of one site; infinity if it has none.
 [[nodiscard]] Reach reach_from(std::span<const PlanarRelay> relays, Index site, const Vec2& p);
 
-//! Distances that differ by less, relative to their size, are tied: a few hundred roundings of a
-//! path's sum.
-inline constexpr double tie_tolerance = 1e-13;
-
-//! Nearer, or tied with a lower site.
-[[nodiscard]] inline bool is_nearer(double distance, Index site, double other_distance,
-                                    Index other_site) {
-    const double slack = tie_tolerance * distance;
-    if (distance < other_distance - slack) return true;
-    return distance <= other_distance + slack && site < other_site;
-}
-
 struct Nearest {
     Index site;  //!< no_index without relays; of equally near sites the lowest.
     double distance;

@@ -147,8 +147,8 @@ struct ConeAngle {
                (direction.y() < 0 && (direction.x() > 0 || direction.y() < -tolerance));
     }
     [[nodiscard]] bool exceeds_two_pi() const {
-        return turns > 1 || (turns == 1 && (direction.x() < 0 || direction.y() < 0 ||
-                                            direction.y() > tolerance));
+        return turns > 1 || (turns == 1 &&
+                             (direction.x() < 0 || direction.y() < 0 || direction.y() > tolerance));
     }
 
     static constexpr double tolerance = 1e-9;

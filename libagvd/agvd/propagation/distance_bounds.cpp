@@ -1,8 +1,11 @@
 #include "agvd/propagation/distance_bounds.h"
 
 #include <algorithm>
+#include <atomic>
+#include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "agvd/core/parallel.h"
 #include "agvd/propagation/site_placement.h"
@@ -14,101 +17,195 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 // Each step is rounded up by more than all roundings of the exact distance.
 constexpr float round_up = 1 + 0x1p-20F;
 
-// Length of the straight line across each edge between the apexes of its faces; infinity where it
-// misses the edge.
-std::vector<float> flip_lengths(const Surface& surface, int num_threads) {
-    std::vector<float> result(surface.num_edges());
-    parallel_chunks(surface.num_edges(), 4096, num_threads, [&](Index, Index begin, Index end) {
-        for (Index e = begin; e < end; ++e) {
-            const Index h = surface.edge_half[e];
-            const Index twin = surface.twin[h];
-            result[e] = infinity;
-            if (twin == no_index) continue;
-            const double length = surface.length[e];
-            const Vec2& above = surface.apex[h];
-            const Vec2 below(length - surface.apex[twin].x(), -surface.apex[twin].y());
-            const double crossed = above.x() * -below.y() + below.x() * above.y();
-            if (crossed < 0 || crossed > length * (above.y() - below.y())) continue;
-            result[e] = static_cast<float>((above - below).norm()) * round_up;
-        }
-    });
-    return result;
+// Distance and site in one number, in the order of (distance, site): floats above 0 are ordered
+// like their bits.
+using Key = std::uint64_t;
+
+Key to_key(float distance, Index site) {
+    return Key{std::bit_cast<std::uint32_t>(distance)} << 32 | site;
 }
+float distance_of(Key key) { return std::bit_cast<float>(static_cast<std::uint32_t>(key >> 32)); }
+Index site_of(Key key) { return static_cast<Index>(key); }
+
+struct Arc {
+    Index head;
+    float length;
+};
+
+// Arcs of each vertex side by side.
+struct ArcGraph {
+    std::vector<Index> offsets;  // #V + 1
+    std::vector<Index> ends;     // #V: some places stay empty.
+    std::vector<Arc> arcs;
+
+    void add(Index tail, Index head, double length) {
+        arcs[ends[tail]++] = {head, static_cast<float>(length) * round_up};
+    }
+};
+
+// The straight line from the apex of a half-edge's face to the apex across it; below 0 where it
+// misses the edge.
+double flip_length(const PackedHalfEdge& half_edge, const PackedHalfEdge& twin) {
+    const double length = half_edge.length;
+    const Vec2& above = half_edge.apex;
+    const Vec2 below(length - twin.apex.x(), -twin.apex.y());
+    const double crossed = below.x() * above.y() - above.x() * below.y();
+    if (crossed < 0 || crossed > length * (above.y() - below.y())) return -1;
+    return (above - below).norm();
+}
+
+ArcGraph build_graph(const Surface& surface, std::span<const PackedHalfEdge> half_edges) {
+    ArcGraph graph;
+    graph.offsets.assign(surface.num_vertices() + 1, 0);
+    // An edge and a flip for each half-edge that leaves, and the last edge on the boundary.
+    for (const PackedHalfEdge& h : half_edges) graph.offsets[h.tail + 1] += 2;
+    for (Index h = 0; h < half_edges.size(); ++h) {
+        if (half_edges[h].twin == no_index) ++graph.offsets[surface.head(h) + 1];
+    }
+    for (Index v = 0; v < surface.num_vertices(); ++v) graph.offsets[v + 1] += graph.offsets[v];
+    graph.ends.assign(graph.offsets.begin(), graph.offsets.end() - 1);
+    graph.arcs.resize(graph.offsets.back());
+    for (Index h = 0; h < half_edges.size(); ++h) {
+        const PackedHalfEdge& here = half_edges[h];
+        const Index head = half_edges[Surface::next(h)].tail;
+        graph.add(here.tail, head, here.length);
+        if (here.twin == no_index) {
+            graph.add(head, here.tail, here.length);
+        } else if (h < here.twin) {
+            const double length = flip_length(here, half_edges[here.twin]);
+            if (!(length > 0)) continue;
+            const Index above = half_edges[Surface::previous(h)].tail;
+            const Index below = half_edges[Surface::previous(here.twin)].tail;
+            graph.add(above, below, length);
+            graph.add(below, above, length);
+        }
+    }
+    return graph;
+}
+
+// Label-correcting in buckets of distance; the vertices of a bucket are relaxed side by side.
+class BoundsFront {
+public:
+    BoundsFront(const Surface& surface, std::span<const PackedHalfEdge> half_edges, int num_threads)
+        : graph_(build_graph(surface, half_edges)),
+          num_threads_(num_threads),
+          keys_(surface.num_vertices(), to_key(infinity, no_index)),
+          queued_in_(surface.num_vertices(), no_index) {
+        const double sum = std::accumulate(surface.length.begin(), surface.length.end(), 0.0);
+        constexpr double share = 0.5;  // Of the mean edge.
+        per_bucket_ = static_cast<float>(surface.num_edges() / (share * sum));
+    }
+
+    void start(Index vertex, double distance, Index site) {
+        const Key key = to_key(static_cast<float>(distance) * round_up, site);
+        if (key >= keys_[vertex]) return;
+        keys_[vertex] = key;
+        queue(vertex);
+    }
+
+    void run() {
+        constexpr Index grain = 512;
+        std::vector<Index> bucket;
+        std::vector<std::vector<Index>> changed;
+        for (; current_ < buckets_.size(); ++current_) {
+            while (!buckets_[current_].empty()) {
+                bucket.clear();
+                for (const Index v : buckets_[current_]) {
+                    if (queued_in_[v] != current_) continue;
+                    queued_in_[v] = no_index;
+                    bucket.push_back(v);
+                }
+                buckets_[current_].clear();
+                const auto count = static_cast<Index>(bucket.size());
+                changed.resize(num_chunks(count, grain));
+                parallel_chunks(count, grain, num_threads_,
+                                [&](Index chunk, Index begin, Index end) {
+                                    changed[chunk].clear();
+                                    for (Index i = begin; i < end; ++i)
+                                        relax_arcs(bucket[i], changed[chunk]);
+                                });
+                for (const auto& part : changed) {
+                    for (const Index v : part) queue(v);
+                }
+            }
+            std::vector<Index>().swap(buckets_[current_]);
+        }
+    }
+
+    [[nodiscard]] DistanceBounds result() const {
+        DistanceBounds bounds;
+        bounds.distance.reserve(keys_.size());
+        bounds.site.reserve(keys_.size());
+        for (const Key key : keys_) {
+            bounds.distance.push_back(distance_of(key));
+            bounds.site.push_back(site_of(key));
+        }
+        bounds.peak_bytes = graph_.arcs.capacity() * sizeof(Arc) +
+                            keys_.size() * (5 * sizeof(Index) + sizeof(Key) + sizeof(float));
+        return bounds;
+    }
+
+private:
+    void queue(Index vertex) {
+        constexpr float last_bucket = 1 << 20;
+        const float place = std::min(distance_of(keys_[vertex]) * per_bucket_, last_bucket);
+        const Index bucket = std::max(static_cast<Index>(place), current_);
+        if (queued_in_[vertex] <= bucket) return;
+        queued_in_[vertex] = bucket;
+        if (bucket >= buckets_.size()) buckets_.resize(bucket + 1);
+        buckets_[bucket].push_back(vertex);
+    }
+
+    void relax_arcs(Index vertex, std::vector<Index>& changed) {
+        constexpr auto relaxed = std::memory_order_relaxed;
+        const Key from = std::atomic_ref(keys_[vertex]).load(relaxed);
+        for (Index i = graph_.offsets[vertex]; i < graph_.ends[vertex]; ++i) {
+            const Arc& arc = graph_.arcs[i];
+            const Key key = to_key(distance_of(from) + arc.length, site_of(from));
+            std::atomic_ref best(keys_[arc.head]);
+            Key old = best.load(relaxed);
+            while (key < old) {
+                if (best.compare_exchange_weak(old, key, relaxed)) {
+                    changed.push_back(arc.head);
+                    break;
+                }
+            }
+        }
+    }
+
+    ArcGraph graph_;
+    int num_threads_;
+    float per_bucket_;
+    std::vector<Key> keys_;         // #V
+    std::vector<Index> queued_in_;  // #V: the bucket in which a vertex waits.
+    std::vector<std::vector<Index>> buckets_;
+    Index current_ = 0;
+};
 
 }  // namespace
 
-DistanceBounds distance_bounds(const Surface& surface, std::span<const SurfacePoint> sites,
-                               int num_threads) {
-    DistanceBounds bounds;
-    bounds.distance.assign(surface.num_vertices(), infinity);
-    bounds.site.assign(surface.num_vertices(), no_index);
-    const std::vector<float> flips = flip_lengths(surface, num_threads);
-    double sum = 0;
-    for (const double l : surface.length) sum += l;
-    const double width = std::max(0.5 * sum / surface.num_edges(), sum * 0x1p-22);
-    const auto per_bucket = static_cast<float>(1 / width);
-    std::vector<std::vector<Index>> buckets(1);
-    std::vector<Index> queued(surface.num_vertices(), no_index);
-    Index current = 0;
-    const auto relax = [&](Index v, float d, Index site) {
-        if (d > bounds.distance[v] || (d == bounds.distance[v] && site >= bounds.site[v])) return;
-        bounds.distance[v] = d;
-        bounds.site[v] = site;
-        const auto place = std::max(static_cast<Index>(std::min(d * per_bucket, 0x1p22F)), current);
-        if (queued[v] <= place) return;
-        queued[v] = place;
-        if (place >= buckets.size()) buckets.resize(place + 1);
-        buckets[place].push_back(v);
-    };
+DistanceBounds distance_bounds(const Surface& surface, std::span<const PackedHalfEdge> half_edges,
+                               std::span<const SurfacePoint> sites, int num_threads) {
+    BoundsFront front(surface, half_edges, num_threads);
     for (Index s = 0; s < sites.size(); ++s) {
-        const auto from_face = [&](const SurfacePoint& point) {
-            for (Index k = 0; k < 3; ++k) {
-                const Index h = 3 * point.face.value() + k;
-                const Vec2 p = position_in_frame(surface, point, h);
-                relax(surface.tail(h), static_cast<float>(p.norm()) * round_up, s);
-            }
-        };
         if (const auto vertex = vertex_of(surface, sites[s])) {
-            relax(*vertex, 0, s);
+            front.start(*vertex, 0, s);
             continue;
         }
-        from_face(sites[s]);
+        const auto start_in_face = [&](const SurfacePoint& point) {
+            for (Index k = 0; k < 3; ++k) {
+                const Index h = 3 * point.face.value() + k;
+                front.start(surface.tail(h), position_in_frame(surface, point, h).norm(), s);
+            }
+        };
+        start_in_face(sites[s]);
         const auto half_edge = half_edge_of(sites[s]);
         if (half_edge && surface.twin[*half_edge] != no_index) {
-            from_face(across_edge(surface, sites[s], *half_edge));
+            start_in_face(across_edge(surface, sites[s], *half_edge));
         }
     }
-    for (; current < buckets.size(); ++current) {
-        while (!buckets[current].empty()) {
-            const Index v = buckets[current].back();
-            buckets[current].pop_back();
-            if (queued[v] != current) continue;
-            queued[v] = no_index;
-            const float d = bounds.distance[v];
-            const Index site = bounds.site[v];
-            Index h = surface.outgoing[v];
-            while (true) {
-                const Index opposite = Surface::next(h);
-                relax(surface.tail(opposite),
-                      d + static_cast<float>(surface.length_of(h)) * round_up, site);
-                const float flip = flips[surface.edge[opposite]];
-                if (flip < infinity) {
-                    const Index across = surface.twin[opposite];
-                    relax(surface.tail(Surface::previous(across)), d + flip, site);
-                }
-                const Index back = Surface::previous(h);
-                h = surface.twin[back];
-                if (h == no_index) {
-                    relax(surface.tail(back),
-                          d + static_cast<float>(surface.length_of(back)) * round_up, site);
-                    break;
-                }
-                if (h == surface.outgoing[v]) break;
-            }
-        }
-        buckets[current] = {};
-    }
-    return bounds;
+    front.run();
+    return front.result();
 }
 
 }  // namespace agvd

@@ -4,22 +4,25 @@
 
 #include <span>
 
-#include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_point.h"
+#include "agvd/propagation/packed_half_edges.h"
 
 namespace agvd {
 
 struct DistanceBounds {
     std::vector<float> distance;  //!< #V; infinity where no site reaches.
     std::vector<Index> site;      //!< #V: whose path it is; no_index where none reaches.
+    std::size_t peak_bytes = 0;   //!< Most bytes held at once, result included.
 };
 
 //! Shortest paths along edges and along the straight lines between the apexes of two neighbouring
 //! faces, where those cross the shared edge. Rounded up, so that no rounding of an exact distance
-//! lies above.
+//! lies above. Unique, so that the order in which threads relax does not matter.
 //!
+//! \param half_edges  pack_half_edges(surface).
 //! Cost: about that of one Dijkstra sweep over the edges.
 [[nodiscard]] DistanceBounds distance_bounds(const Surface& surface,
+                                             std::span<const PackedHalfEdge> half_edges,
                                              std::span<const SurfacePoint> sites, int num_threads);
 
 }  // namespace agvd

@@ -5,11 +5,13 @@
 
 #include "agvd/propagation/steiner_engine.h"
 #include "agvd/propagation/steiner_points.h"
+#include "agvd/propagation/window_engine.h"
 
 namespace agvd {
 
-Propagation propagate(const Surface& surface, std::span<const SurfacePoint> sites,
-                      const PropagationOptions& options) {
+namespace {
+
+void check_steiner_options(const Surface& surface, const PropagationOptions& options) {
     constexpr int max_points = 1000;
     if (options.steiner_points < 0 || options.steiner_points > max_points) {
         throw InvalidOption("the number of Steiner points per edge is " +
@@ -27,7 +29,26 @@ Propagation propagate(const Surface& surface, std::span<const SurfacePoint> site
         throw InvalidOption("this mesh with " + std::to_string(options.steiner_points) +
                             " Steiner points per edge needs more than 2^32 nodes; use fewer");
     }
-    return propagate_steiner(surface, sites, options);
+}
+
+}  // namespace
+
+Propagation propagate(const Surface& surface, std::span<const SurfacePoint> sites,
+                      const PropagationOptions& options) {
+    if (options.max_error && !(*options.max_error >= 0 && *options.max_error < 1)) {
+        throw InvalidOption("the maximal error is " + std::to_string(*options.max_error) +
+                            "; use a number from 0 (exact) to below 1");
+    }
+    switch (options.engine) {
+        case Engine::Window:
+            return propagate_windows(surface, sites, options);
+        case Engine::Steiner:
+            check_steiner_options(surface, options);
+            return propagate_steiner(surface, sites, options);
+        case Engine::Vertex:
+            break;
+    }
+    throw InvalidOption("unknown engine");
 }
 
 }  // namespace agvd

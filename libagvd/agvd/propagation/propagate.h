@@ -19,7 +19,7 @@ enum class Engine : std::uint8_t {
 
 //! `{}` gives the defaults.
 struct PropagationOptions {
-    Engine engine = Engine::Steiner;
+    Engine engine = Engine::Window;
     //! Relative distance error, in [0, 1); 0: exact in double. Certified: see
     //! Propagation::certified_error. Unset: the window engine takes default_max_error, the Steiner
     //! engine certifies nothing. The vertex engine knows no bound and refuses one.

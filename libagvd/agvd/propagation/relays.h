@@ -21,6 +21,18 @@ struct Relay {
     Index half_edge = no_index;
 };
 
+//! Distances that differ by less, relative to their size, are tied: a few hundred roundings of a
+//! path's sum.
+inline constexpr double tie_tolerance = 1e-13;
+
+//! Nearer, or tied with a lower site.
+[[nodiscard]] inline bool is_nearer(double distance, Index site, double other_distance,
+                                    Index other_site) {
+    const double slack = tie_tolerance * distance;
+    if (distance < other_distance - slack) return true;
+    return distance <= other_distance + slack && site < other_site;
+}
+
 //! Distances are of real paths: never below the exact geodesic distance beyond rounding.
 struct Propagation {
     std::vector<SiteId> vertex_site;      //!< #V; invalid where no site reaches.
@@ -37,7 +49,7 @@ struct Propagation {
     double certified_error = std::numeric_limits<double>::infinity();
 
     std::size_t peak_bytes = 0;  //!< Most bytes held at once beyond the mesh, result included.
-    std::size_t num_nodes = 0;   //!< Graph nodes (vertices and Steiner points) reached.
+    std::size_t num_nodes = 0;   //!< Work done: graph nodes reached, or windows served.
 };
 
 }  // namespace agvd

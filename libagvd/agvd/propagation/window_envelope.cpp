@@ -79,8 +79,8 @@ double slope(const Window& w, double at, double distance) {
 
 // Can `loser`, behind at both ends, win in between? Not if its tangents stay above the other's
 // chord, since distances are convex.
-bool may_win_between(const Window& loser, double low, double high, double lost_low, double lost_high,
-                     double won_low, double won_high) {
+bool may_win_between(const Window& loser, double low, double high, double lost_low,
+                     double lost_high, double won_low, double won_high) {
     const double slope_low = slope(loser, low, lost_low);
     const double slope_high = slope(loser, high, lost_high);
     const double width = high - low;
@@ -106,9 +106,8 @@ Duel fight(const Window& a, const Window& b, double low, double high) {
         return duel;
     }
     if (a.weight == b.weight) return duel;
-    const bool may_change =
-        wins_low ? may_win_between(b, low, high, b_low, b_high, a_low, a_high)
-                 : may_win_between(a, low, high, a_low, a_high, b_low, b_high);
+    const bool may_change = wins_low ? may_win_between(b, low, high, b_low, b_high, a_low, a_high)
+                                     : may_win_between(a, low, high, a_low, a_high, b_low, b_high);
     if (!may_change) return duel;
     const auto roots = equal_distances(a, b);
     if (!roots || !(low < (*roots)[0]) || !((*roots)[0] < (*roots)[1]) || !((*roots)[1] < high)) {
@@ -215,9 +214,9 @@ std::optional<Window> merge_windows(const Window& left, const Window& right, dou
     merged.begin = merged.end = std::numeric_limits<double>::quiet_NaN();
     const double run_begin = merged.distance(begin);
     const double run_end = merged.distance(end);
-    const std::array gaps{run_begin - left.at_begin,
-                          merged.distance(middle) - std::min(left.at_end, right.at_begin),
-                          run_end - right.at_end};
+    const double run_middle = merged.distance(middle);
+    const std::array gaps{run_begin - left.at_begin, run_middle - left.at_end,
+                          run_middle - right.at_begin, run_end - right.at_end};
     const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
     constexpr float round_up = 1 + 0x1p-20F;
     merged.error =

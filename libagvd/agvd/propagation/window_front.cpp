@@ -1,6 +1,6 @@
-// Sources: [mitchell1987] windows, [chen1990] one angle, one split, [xin2009] filters. What differs:
-// windows die by bounds that all sites share, half-edges wait in buckets and are served with all
-// their windows at once, and every half-edge keeps the lower envelope of its windows.
+// Sources: [mitchell1987] windows, [chen1990] one angle, one split, [xin2009] filters. What
+// differs: windows die by bounds that all sites share, half-edges wait in buckets and are served
+// with all their windows at once, and every half-edge keeps the lower envelope of its windows.
 
 #include "agvd/propagation/window_front.h"
 
@@ -28,17 +28,24 @@ Vec2 into(const Vec2& axis, const Vec2& v) { return {axis.dot(v), cross(axis, v)
 // |v| < limit, without a root.
 bool is_within(const Vec2& v, double limit) { return limit > 0 && v.squaredNorm() < limit * limit; }
 
+void prefetch(std::span<const PackedHalfEdge> half_edges, Index half_edge) {
+    const auto* face = half_edges.data() + 3 * std::size_t{Surface::face(half_edge)};
+    __builtin_prefetch(face);
+    __builtin_prefetch(face + 2);
+}
+
 constexpr Index vertex_item(Index record) { return 2 * record + 1; }
 constexpr Index edge_item(Index record) { return 2 * record; }
 
 }  // namespace
 
-// The face above a half-edge: tail at (0, 0), head at (length, 0). Windows leave it through the next
-// half-edge (right) and the previous one (left); the frames of their twins start at the apex and at
-// the tail. Plain numbers, since compilers tear vectors apart and stall where they join them again.
+// The face above a half-edge: tail at (0, 0), head at (length, 0). Windows leave it through the
+// next half-edge (right) and the previous one (left); the frames of their twins start at the apex
+// and at the tail. Plain numbers, since compilers tear vectors apart and stall where they join them
+// again.
 struct WindowFront::Face {
-    Face(std::span<const PackedHalfEdge> half_edges, Index half_edge)
-        : half_edge(half_edge),
+    Face(std::span<const PackedHalfEdge> half_edges, Index base_half_edge)
+        : half_edge(base_half_edge),
           base(half_edges[half_edge]),
           next(half_edges[Surface::next(half_edge)]),
           previous(half_edges[Surface::previous(half_edge)]),
@@ -59,7 +66,7 @@ struct WindowFront::Face {
     double right_x, right_y;  // Unit vector from the apex to the head.
     double left_x, left_y;    // From the tail to the apex.
     double tail_bound = 0, head_bound = 0, apex_bound = 0;
-    Index apex_record = no_index;
+    Index tail_record = no_index, head_record = no_index, apex_record = no_index;
 };
 
 WindowFront::WindowFront(const Surface& surface, std::span<const PackedHalfEdge> half_edges,
@@ -81,7 +88,9 @@ bool WindowFront::run(const SurfacePoint& site, std::span<const float> bounds, F
     waiting_.clear();
     free_runs_.assign(free_runs_.size(), no_index);
     pool_.clear();
-    for (auto& bucket : buckets_) bucket.clear();
+    if (num_waiting_ > 0) {  // The last run was broken off.
+        for (auto& bucket : buckets_) bucket.clear();
+    }
     heap_.clear();
     current_bucket_ = 0;
     num_waiting_ = 0;
@@ -103,8 +112,8 @@ bool WindowFront::run(const SurfacePoint& site, std::span<const float> bounds, F
 std::size_t WindowFront::bytes() const {
     std::size_t sum = (vertex_slot_.capacity() + edge_slot_.capacity()) * sizeof(Index) +
                       vertices_.capacity() * sizeof(VertexRecord) +
-                      edges_.capacity() * sizeof(EdgeRecord) +
-                      runs_.capacity() * sizeof(Run) + waiting_.capacity() * sizeof(Window) + pool_.capacity() * sizeof(Window) +
+                      edges_.capacity() * sizeof(EdgeRecord) + runs_.capacity() * sizeof(Run) +
+                      waiting_.capacity() * sizeof(Window) + pool_.capacity() * sizeof(Window) +
                       heap_.capacity() * sizeof(heap_[0]);
     for (const auto& bucket : buckets_) sum += bucket.capacity() * sizeof(Index);
     return sum;
@@ -119,11 +128,12 @@ Index WindowFront::vertex_record(Index vertex) {
     return slot;
 }
 
-Index WindowFront::edge_record(Index half_edge) {
+Index WindowFront::edge_record(Index half_edge, Index tail, Index head) {
     Index& slot = edge_slot_[half_edge];
     if (slot < edges_.size() && edges_[slot].half_edge == half_edge) return slot;
     slot = static_cast<Index>(edges_.size());
-    edges_.push_back({half_edge});
+    edges_.push_back({half_edge, tail, head});
+    prefetch(half_edges_, half_edge);
     return slot;
 }
 
@@ -136,8 +146,8 @@ void WindowFront::schedule(Index item, Index& bucket, double distance) {
         return;
     }
     constexpr double last_bucket = 1 << 20;
-    const auto place = std::max(
-        static_cast<Index>(std::min(distance * per_bucket_, last_bucket)), current_bucket_);
+    const auto place = std::max(static_cast<Index>(std::min(distance * per_bucket_, last_bucket)),
+                                current_bucket_);
     if (bucket <= place) return;
     bucket = place;
     if (place >= buckets_.size()) buckets_.resize(place + 1);
@@ -172,26 +182,27 @@ bool WindowFront::next_item(Index& item) {
 
 // --- Vertices ----------------------------------------------------------------------------------
 
+// By a path that is straight where it arrives. It comes from `arrival` in the frame of the
+// half-edge, or from no known direction.
 void WindowFront::reach_vertex(Index record, double distance, float error, Index half_edge,
                                const Vec2& arrival) {
+    bound_vertex(record, distance + error);
     VertexRecord& v = vertices_[record];
-    v.upper = std::min(v.upper, distance + error);
-    // A bent path may tie with the straight one, which alone says where the shadow lies.
-    const bool is_bent = half_edge == no_index;
-    const bool was_bent = v.arrival_half_edge == no_index;
-    const double least = is_bent && !was_bent ? v.low * (1 - grazing)
-                         : was_bent && !is_bent ? v.low * (1 + grazing)
-                                                : v.low;
-    const bool takes_over = distance < least;
-    v.low = std::min(v.low, distance);
-    v.bound = std::min(v.bound, v.low);
-    if (!takes_over) return;
+    if (!(distance < v.low)) return;
+    v.low = distance;
     v.error = error;
     v.arrival_half_edge = half_edge;
     v.arrival = arrival;
-    if (!is_bent && surface_.can_turn[v.vertex] && v.low <= v.outer_bound) {
+    if (surface_.can_turn[v.vertex] && v.low <= v.bound * (1 + grazing)) {
         schedule(vertex_item(record), v.bucket, v.low);
     }
+}
+
+// By any path on the surface.
+void WindowFront::bound_vertex(Index record, double distance) {
+    VertexRecord& v = vertices_[record];
+    v.upper = std::min(v.upper, distance);
+    v.bound = std::min(v.bound, v.upper);
 }
 
 void WindowFront::start(const SurfacePoint& site) {
@@ -216,9 +227,10 @@ void WindowFront::start(const SurfacePoint& site) {
             const double length = surface_.length_of(h);
             const Vec2 image(length - p.x(), -p.y());
             if (!(image.y() < -negligible * length)) continue;
-            const Window window{image.x(), image.y(), 0, 0, length, image.norm(),
-                                (image - Vec2(length, 0)).norm()};
-            send(surface_.twin[h], {&window, 1});
+            const Window window{
+                image.x(), image.y(), 0, 0, length, image.norm(), (image - Vec2(length, 0)).norm()};
+            send(surface_.twin[h], vertex_record(surface_.head(h)), vertex_record(surface_.tail(h)),
+                 {&window, 1});
         }
     };
     const auto half_edge = half_edge_of(site);
@@ -236,43 +248,51 @@ void WindowFront::emit_into(Index half_edge, double weight, float error, const V
     const PackedHalfEdge& opposite = half_edges_[Surface::next(half_edge)];
     const PackedHalfEdge& last = half_edges_[Surface::previous(half_edge)];
     const Vec2& vertex = opposite.apex;
-    reach_vertex(vertex_record(opposite.tail), weight + first.length, error,
-                 Surface::next(half_edge), vertex);
-    reach_vertex(vertex_record(last.tail), weight + last.length, error,
-                 Surface::previous(half_edge), {last.length, 0});
-    if (opposite.twin == no_index) return;
     const double length = opposite.length;
+    // The frame beyond starts at the apex of `half_edge` and runs clockwise around the vertex.
     const Vec2 image(length - vertex.x(), -vertex.y());
-    if (!(image.y() < -negligible * length)) return;
-    // The frame of `beyond` starts at the apex of `half_edge` and runs clockwise around the vertex.
-    Window window{image.x(), image.y(), weight, 0, length, weight + last.length,
-                  weight + first.length, error};
+    Window window{
+        image.x(), image.y(), weight, 0, length, weight + last.length, weight + first.length,
+        error};
     const Vec2 axis = (Vec2(first.length, 0) - first.apex) / length;
     const auto meets_at = [&](const Vec2& ray) {
         const Vec2 direction = into(axis, ray);
-        return image.x() - image.y() * direction.x() / direction.y();
+        if (direction.y() > 0) return image.x() - image.y() * direction.x() / direction.y();
+        return direction.x() > 0 ? infinity : -infinity;
     };
+    // The fan lies to the left of `from`: nearer the apex.
     const double slack = grazing * length;
-    if (from) {  // The fan lies to the left of this ray: nearer the apex.
-        const double at = std::max(meets_at(*from) + slack, 0.0);
-        if (into(axis, *from).y() > 0 && at < length) window = window.part(0, at);
+    const double end = from ? std::min(meets_at(*from) + slack, length) : length;
+    const double begin = to ? std::max(meets_at(*to) - slack, 0.0) : 0;
+
+    const Index head = vertex_record(opposite.tail);
+    const Index apex = vertex_record(last.tail);
+    if (end == length) {
+        reach_vertex(head, window.at_end, error, Surface::next(half_edge), vertex);
+    } else {
+        bound_vertex(head, window.at_end + error);
     }
-    if (to) {
-        const double at = meets_at(*to) - slack;
-        if (into(axis, *to).y() > 0 && at > 0) {
-            if (!(at < window.end)) return;
-            window = window.part(at, window.end);
-        }
+    if (begin == 0) {
+        reach_vertex(apex, window.at_begin, error, Surface::previous(half_edge), {last.length, 0});
+    } else {
+        bound_vertex(apex, window.at_begin + error);
     }
-    send(opposite.twin, {&window, 1});
+    if (opposite.twin == no_index || !(begin < end) || !(image.y() < -negligible * length)) return;
+    window = window.part(begin, end);
+    send(opposite.twin, apex, head, {&window, 1});
 }
 
 // The shadow behind a saddle or boundary vertex: the directions that make an angle of pi or more
 // with the arrival on both sides. Faces are unfolded around the vertex one after the other.
 void WindowFront::emit(Index record) {
     const VertexRecord v = vertices_[record];
-    if (v.arrival_half_edge == no_index || v.emitted == v.low || !(v.low <= v.outer_bound)) return;
+    if (v.emitted == v.low || !(v.low <= v.bound * (1 + grazing))) return;
     vertices_[record].emitted = v.low;
+    const Index start = surface_.outgoing[v.vertex];
+    if (v.arrival_half_edge == no_index) {
+        emit_fan(start, nullptr, Surface::previous(start), nullptr, v);
+        return;
+    }
 
     // Counter-clockwise: the arrival in the frame of each next half-edge turns clockwise, and has
     // turned by pi where it comes up again.
@@ -309,7 +329,7 @@ void WindowFront::emit(Index record) {
     to = -to;
     const bool is_boundary = surface_.is_boundary_vertex(v.vertex);
     if (last != no_index && (is_boundary || first == no_index)) {
-        emit_fan(is_boundary ? surface_.outgoing[v.vertex] : last, nullptr, last, &to, v);
+        emit_fan(is_boundary ? start : last, nullptr, last, &to, v);
     }
     if (first != no_index) {
         emit_fan(first, &from, is_boundary ? no_index : last, &to, v);
@@ -326,9 +346,9 @@ void WindowFront::emit_fan(Index first, const Vec2* from, Index last, const Vec2
 
 // --- Half-edges --------------------------------------------------------------------------------
 
-void WindowFront::send(Index half_edge, std::span<const Window> windows) {
+void WindowFront::send(Index half_edge, Index tail, Index head, std::span<const Window> windows) {
     if (windows.empty()) return;
-    const Index record = edge_record(half_edge);
+    const Index record = edge_record(half_edge, tail, head);
     const auto count = static_cast<Index>(windows.size());
     EdgeRecord& edge = edges_[record];
     const Index run = take_run(count);
@@ -407,8 +427,10 @@ void WindowFront::take_in(EdgeRecord& edge, const Face& face) {
 void WindowFront::serve_edge(Index record) {
     if (edges_[record].runs == no_index) return;
     Face face(half_edges_, edges_[record].half_edge);
-    face.tail_bound = vertices_[vertex_record(face.base.tail)].bound;
-    face.head_bound = vertices_[vertex_record(face.next.tail)].bound;
+    face.tail_record = edges_[record].tail;
+    face.head_record = edges_[record].head;
+    face.tail_bound = vertices_[face.tail_record].bound;
+    face.head_bound = vertices_[face.head_record].bound;
     face.apex_record = vertex_record(face.previous.tail);
 
     EdgeRecord& edge = edges_[record];
@@ -456,8 +478,8 @@ void WindowFront::merge_neighbours() {
 void WindowFront::reach_bent(const Face& face, double distance, double at, float error) {
     const VertexRecord& apex = vertices_[face.apex_record];
     const Vec2 rest(face.apex_x - at, face.apex_y);
-    if (!is_within(rest, std::max(apex.low, apex.upper - error) - distance)) return;
-    reach_vertex(face.apex_record, distance + rest.norm(), error, no_index, {0, 0});
+    if (!is_within(rest, apex.upper - error - distance)) return;
+    bound_vertex(face.apex_record, distance + rest.norm() + error);
 }
 
 // Reaches the apex, and decides which part of the window goes on to the right and to the left.
@@ -471,7 +493,11 @@ void WindowFront::divide_window(const Window& w, EdgeRecord& edge, const Face& f
     } else {
         const Vec2 to_image(w.x - face.apex_x, w.y - face.apex_y);
         const double at_apex = w.weight + to_image.norm();
-        reach_vertex(face.apex_record, at_apex, w.error, Surface::previous(face.half_edge),
+        // A merged window's end ray touches the apex on one side only, and others go past it on
+        // the other side in other directions.
+        const bool touches = w.error > 0 && !(w.begin < ray && ray < w.end);
+        reach_vertex(face.apex_record, at_apex, w.error,
+                     touches ? no_index : Surface::previous(face.half_edge),
                      into(Vec2(-face.left_x, -face.left_y), to_image));
         if (w.begin < ray && ray < w.end) {
             Part left{&w, ray, true};
@@ -533,7 +559,7 @@ void WindowFront::pass_right(const Face& face) {
         children_[count] = {x, y, w.weight, begin, end, at_begin, at_end, w.error};
         count += lives ? 1 : 0;
     }
-    send(face.next.twin, std::span(children_).first(count));
+    send(face.next.twin, face.apex_record, face.head_record, std::span(children_).first(count));
 }
 
 // The same through the previous half-edge: the tail at 0, the apex at `length`.
@@ -564,7 +590,7 @@ void WindowFront::pass_left(const Face& face) {
         children_[count] = {x, y, w.weight, begin, end, at_begin, at_end, w.error};
         count += lives ? 1 : 0;
     }
-    send(face.previous.twin, std::span(children_).first(count));
+    send(face.previous.twin, face.tail_record, face.apex_record, std::span(children_).first(count));
 }
 
 }  // namespace agvd

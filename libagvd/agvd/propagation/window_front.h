@@ -3,6 +3,7 @@
 //! a bucketed queue of half-edges.
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <span>
 #include <vector>
@@ -47,7 +48,7 @@ public:
     template <typename Each>
     void for_each_vertex(const Each& each) const {
         for (const VertexRecord& v : vertices_) {
-            if (v.upper < infinity && v.low <= v.outer_bound) each(ReachedVertex{v.vertex, v.upper});
+            if (std::min(v.low, v.upper) <= v.outer_bound) each(ReachedVertex{v.vertex, v.upper});
         }
     }
     //! Calls each(half_edge, windows) for the half-edges that windows came through.
@@ -70,11 +71,12 @@ private:
 
     struct EdgeRecord {
         Index half_edge;
-        Index runs = no_index;      // List of the runs of windows that wait.
-        Index first_window = 0;     // In the pool: the envelope of those that came.
+        Index tail, head;        // Records of its ends.
+        Index runs = no_index;   // List of the runs of windows that wait.
+        Index first_window = 0;  // In the pool: the envelope of those that came.
         Index num_windows = 0;
-        Index bucket = no_index;  // Where the half-edge waits.
-        Index num_served = 0;  // Windows, against the cap.
+        Index bucket = no_index;          // Where the half-edge waits.
+        Index num_served = 0;             // Windows, against the cap.
         double apex_distance = infinity;  // Best distance of the opposite corner through this edge,
         double apex_ray = 0;              // and where its ray crosses the edge.
     };
@@ -82,13 +84,13 @@ private:
         Index vertex;
         Index arrival_half_edge = no_index;  // Leaves the vertex; the arrival is in its frame.
         Vec2 arrival;                        // Towards the image that `low` came from.
-        double bound;                        // Least of all known.
+        double bound;                        // The lower of the two that follow.
         double outer_bound;                  // Given by the caller.
-        double low = infinity;               // Of this site.
-        double upper = infinity;
-        float error = 0;            // Of the windows that gave `low`.
-        double emitted = infinity;  // `low` when it last became a pseudo-source.
-        Index bucket = no_index;    // Where it waits to become one.
+        double upper = infinity;             // Of a path from this site.
+        double low = infinity;               // Least that a window gives,
+        float error = 0;                     // and its error.
+        double emitted = infinity;           // `low` when it last became a pseudo-source.
+        Index bucket = no_index;             // Where it waits to become one.
     };
     // Windows that wait for their half-edge, in ascending order along it.
     struct Run {
@@ -106,10 +108,11 @@ private:
 
     void start(const SurfacePoint& site);
     [[nodiscard]] Index vertex_record(Index vertex);
-    [[nodiscard]] Index edge_record(Index half_edge);
+    [[nodiscard]] Index edge_record(Index half_edge, Index tail, Index head);
     void reach_vertex(Index record, double distance, float error, Index half_edge,
                       const Vec2& arrival);
-    void send(Index half_edge, std::span<const Window> windows);
+    void bound_vertex(Index record, double distance);
+    void send(Index half_edge, Index tail, Index head, std::span<const Window> windows);
     [[nodiscard]] Index take_run(Index count);
     void give_back(Index run);
     void schedule(Index item, Index& bucket, double distance);

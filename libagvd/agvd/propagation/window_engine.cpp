@@ -1,0 +1,286 @@
+#include "agvd/propagation/window_engine.h"
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <numeric>
+
+#include "agvd/core/parallel.h"
+#include "agvd/propagation/distance_bounds.h"
+#include "agvd/propagation/site_placement.h"
+#include "agvd/propagation/window_front.h"
+#include "agvd/propagation/window_relays.h"
+
+namespace agvd {
+namespace {
+
+// Above every rounding of a distance, so that ties never cut a site off.
+constexpr double bound_slack = 1 + 1e-6;
+
+constexpr Index grain = 2;  // Sites of one task.
+
+// Fronts that no task holds; each is as large as the mesh's index arrays.
+class FrontPool {
+public:
+    FrontPool(const Surface& surface, std::span<const PackedHalfEdge> half_edges,
+              double bucket_width, double max_error)
+        : surface_(surface),
+          half_edges_(half_edges),
+          bucket_width_(bucket_width),
+          max_error_(max_error) {}
+
+    std::unique_ptr<WindowFront> take() {
+        const std::scoped_lock lock(mutex_);
+        if (free_.empty()) {
+            return std::make_unique<WindowFront>(surface_, half_edges_, bucket_width_, max_error_);
+        }
+        auto front = std::move(free_.back());
+        free_.pop_back();
+        return front;
+    }
+    void give_back(std::unique_ptr<WindowFront> front) {
+        const std::scoped_lock lock(mutex_);
+        free_.push_back(std::move(front));
+    }
+    [[nodiscard]] std::size_t bytes() const {
+        std::size_t sum = 0;
+        for (const auto& front : free_) sum += front->bytes();
+        return sum;
+    }
+    [[nodiscard]] double relative_error() const {
+        double most = 0;
+        for (const auto& front : free_) most = std::max(most, front->relative_error());
+        return most;
+    }
+
+private:
+    const Surface& surface_;
+    std::span<const PackedHalfEdge> half_edges_;
+    double bucket_width_;
+    double max_error_;
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<WindowFront>> free_;
+};
+
+// What the sites of one task hand over.
+struct TaskResult {
+    struct Reached {
+        double distance;
+        Index vertex;
+        Index site;
+    };
+    std::vector<Reached> vertices;
+    std::vector<Relay> relays;           // In faces near borders.
+    std::vector<FaceVisit> late_visits;  // Elsewhere, in faces that another site has visited.
+    std::size_t num_windows = 0;
+};
+
+class WindowEngine {
+public:
+    WindowEngine(const Surface& surface, std::span<const SurfacePoint> sites,
+                 const PropagationOptions& options, Index work_cap)
+        : surface_(surface),
+          sites_(sites),
+          options_(options),
+          max_error_(options.max_error.value_or(default_max_error)),
+          work_cap_(work_cap),
+          placement_(surface, sites) {}
+
+    Propagation run() {
+        poll(options_.progress, 0);
+        {
+            const std::vector<PackedHalfEdge> half_edges =
+                pack_half_edges(surface_, options_.num_threads);
+            DistanceBounds bounds =
+                distance_bounds(surface_, half_edges, sites_, options_.num_threads);
+            borders_ = faces_near_borders(surface_, bounds.site);
+            bounds_ = std::move(bounds.distance);
+            std::vector<Index>().swap(bounds.site);
+            first_visitor_ = std::vector<std::atomic<Index>>(surface_.num_faces());
+            for (auto& visitor : first_visitor_) visitor.store(no_index, relaxed);
+
+            FrontPool fronts(surface_, half_edges, bucket_width(), max_error_);
+            result_.vertex_distance.assign(surface_.num_vertices(),
+                                           std::numeric_limits<double>::infinity());
+            result_.vertex_site.assign(surface_.num_vertices(), SiteId());
+            propagate_all(fronts);
+            propagate_late(fronts);
+            result_.certified_error = fronts.relative_error();
+            result_.peak_bytes = half_edges.capacity() * sizeof(half_edges[0]) + fronts.bytes() +
+                                 bounds_.capacity() * sizeof(float) + common_bytes();
+        }
+        std::vector<float>().swap(bounds_);
+        std::vector<std::atomic<Index>>().swap(first_visitor_);
+        const std::size_t log_bytes = common_bytes();
+        write_relays(surface_, placement_, std::move(logs_), options_.num_threads, result_);
+        result_.peak_bytes =
+            std::max(result_.peak_bytes, log_bytes + result_.relays.capacity() * sizeof(Relay) +
+                                             result_.mixed_faces.capacity() * 2 * sizeof(Index));
+        poll(options_.progress, 1);
+        return std::move(result_);
+    }
+
+private:
+    static constexpr auto relaxed = std::memory_order_relaxed;
+
+    [[nodiscard]] double bucket_width() const {
+        const double sum = std::accumulate(surface_.length.begin(), surface_.length.end(), 0.0);
+        return 0.5 * sum / surface_.num_edges();
+    }
+
+    [[nodiscard]] std::size_t common_bytes() const {
+        std::size_t sum = result_.vertex_distance.capacity() * sizeof(double) +
+                          result_.vertex_site.capacity() * sizeof(SiteId) +
+                          borders_.capacity() / 8 + first_visitor_.capacity() * sizeof(Index);
+        for (const auto& log : logs_) sum += log.capacity() * sizeof(Relay);
+        return sum;
+    }
+
+    // Sites in the order of their faces: neighbours on most meshes, so that caches stay warm.
+    [[nodiscard]] std::vector<Index> site_order() const {
+        std::vector<Index> order(sites_.size());
+        std::iota(order.begin(), order.end(), Index{0});
+        std::stable_sort(order.begin(), order.end(),
+                         [&](Index a, Index b) { return sites_[a].face < sites_[b].face; });
+        return order;
+    }
+
+    void propagate_all(FrontPool& fronts) {
+        constexpr Index num_batches = 8;
+        constexpr Index least_batch = 16;
+        const std::vector<Index> order = site_order();
+        const auto count = static_cast<Index>(order.size());
+        const Index batch_size = std::max(least_batch, count / num_batches + 1);
+        for (Index begin = 0; begin < count; begin += batch_size) {
+            const Index end = std::min(count, begin + batch_size);
+            const auto tasks = run_tasks(std::span(order).subspan(begin, end - begin), fronts,
+                                         [&](Index site, const WindowFront& front,
+                                             TaskResult& task) { collect(site, front, task); });
+            for (const TaskResult& task : tasks) take_vertices(task);
+            poll(options_.progress, static_cast<double>(end) / (count + 1));
+        }
+    }
+
+    // Runs sites in tasks of `grain`, and keeps the relays and late visits of each.
+    template <typename Collect>
+    std::vector<TaskResult> run_tasks(std::span<const Index> order, FrontPool& fronts,
+                                      const Collect& collect) {
+        const auto count = static_cast<Index>(order.size());
+        std::vector<TaskResult> tasks(num_chunks(count, grain));
+        parallel_chunks(count, grain, options_.num_threads,
+                        [&](Index chunk, Index begin, Index end) {
+                            auto front = fronts.take();
+                            for (Index i = begin; i < end; ++i) {
+                                run_site(*front, order[i]);
+                                tasks[chunk].num_windows += front->num_windows();
+                                collect(order[i], *front, tasks[chunk]);
+                            }
+                            tasks[chunk].relays.shrink_to_fit();
+                            fronts.give_back(std::move(front));
+                        });
+        for (TaskResult& task : tasks) {
+            result_.num_nodes += task.num_windows;
+            if (!task.relays.empty()) logs_.push_back(std::move(task.relays));
+            late_visits_.insert(late_visits_.end(), task.late_visits.begin(),
+                                task.late_visits.end());
+        }
+        return tasks;
+    }
+
+    void run_site(WindowFront& front, Index site) const {
+        if (front.run(sites_[site], bounds_, FrontOrder::Buckets, work_cap_)) return;
+        (void)front.run(sites_[site], bounds_, FrontOrder::Nearest, no_index);
+    }
+
+    void collect(Index site, const WindowFront& front, TaskResult& task) {
+        front.for_each_vertex([&](const WindowFront::ReachedVertex& v) {
+            task.vertices.push_back({v.distance, v.vertex, site});
+        });
+        front.for_each_half_edge([&](Index half_edge, std::span<const Window> windows) {
+            const Index face = Surface::face(half_edge);
+            if (borders_[face]) {
+                for (const Window& w : windows) task.relays.push_back(to_relay(w, site, half_edge));
+                return;
+            }
+            Index visitor = no_index;
+            first_visitor_[face].compare_exchange_strong(visitor, site, relaxed);
+            if (visitor != no_index && visitor != site) {
+                task.late_visits.push_back({face, site});
+                task.late_visits.push_back({face, visitor});
+            }
+        });
+    }
+
+    // In the fixed order of the tasks: ties depend on nothing else.
+    void take_vertices(const TaskResult& task) {
+        for (const auto& [distance, vertex, site] : task.vertices) {
+            double& best = result_.vertex_distance[vertex];
+            SiteId& best_site = result_.vertex_site[vertex];
+            if (!is_nearer(distance, site, best, best_site.value())) continue;
+            best = distance;
+            best_site = SiteId(site);
+            bounds_[vertex] = std::min(bounds_[vertex], static_cast<float>(distance * bound_slack));
+        }
+    }
+
+    // Sites that came to a face where the bounds showed no border, and others did, too.
+    void propagate_late(FrontPool& fronts) {
+        for (Index face = 0; face < surface_.num_faces(); ++face) {
+            if (borders_[face] || has_one_site(face)) continue;
+            const Index visitor = first_visitor_[face].load(relaxed);
+            late_visits_.push_back({face, visitor});
+        }
+        for (const FaceVisit& visit : late_visits_) borders_[visit.face] = true;
+        std::vector<Index> again;
+        for (const FaceVisit& visit : late_visits_) {
+            if (visit.site != no_index) again.push_back(visit.site);
+        }
+        std::sort(again.begin(), again.end());
+        again.erase(std::unique(again.begin(), again.end()), again.end());
+        std::vector<bool> is_late(surface_.num_faces(), false);
+        for (const FaceVisit& visit : late_visits_) is_late[visit.face] = true;
+        (void)run_tasks(again, fronts, [&](Index site, const WindowFront& front, TaskResult& task) {
+            front.for_each_half_edge([&](Index half_edge, std::span<const Window> windows) {
+                if (!is_late[Surface::face(half_edge)]) return;
+                for (const Window& w : windows) task.relays.push_back(to_relay(w, site, half_edge));
+            });
+        });
+    }
+
+    [[nodiscard]] bool has_one_site(Index face) const {
+        Index site = first_visitor_[face].load(relaxed);
+        const auto agrees = [&site](Index other) {
+            if (site == no_index) site = other;
+            return other == no_index || other == site;
+        };
+        for (const Index v : surface_.mesh.triangles[face]) {
+            if (!agrees(result_.vertex_site[v].value())) return false;
+        }
+        const auto placed = placement_.in_face(face);
+        return std::all_of(placed.begin(), placed.end(),
+                           [&](const PlacedSite& p) { return agrees(p.site); });
+    }
+
+    const Surface& surface_;
+    std::span<const SurfacePoint> sites_;
+    const PropagationOptions& options_;
+    double max_error_;
+    Index work_cap_;
+    SitePlacement placement_;
+    std::vector<float> bounds_;                      // #V, of the nearest site.
+    std::vector<bool> borders_;                      // #F: windows are kept.
+    std::vector<std::atomic<Index>> first_visitor_;  // #F: of the other faces.
+    std::vector<FaceVisit> late_visits_;
+    std::vector<std::vector<Relay>> logs_;
+    Propagation result_;
+};
+
+}  // namespace
+
+Propagation propagate_windows(const Surface& surface, std::span<const SurfacePoint> sites,
+                              const PropagationOptions& options, Index work_cap) {
+    return WindowEngine(surface, sites, options, work_cap).run();
+}
+
+}  // namespace agvd

@@ -1,0 +1,25 @@
+//! \file
+//! The window engine: exact or error-bounded propagation.
+#pragma once
+
+#include "agvd/propagation/propagate.h"
+
+namespace agvd {
+
+//! Windows served through one half-edge, from one site, before its site is propagated again in the
+//! order of distance. Real meshes stay below a few hundred.
+inline constexpr Index default_work_cap = 1 << 16;
+
+//! propagate() with Engine::Window, its options checked.
+//!
+//! Sites are propagated one by one, each as far as quick upper bounds for the nearest site allow,
+//! in batches of a fixed size; sites of a batch run side by side, and their distances tighten the
+//! bounds of the next. Windows are kept as relays near the borders that the bounds show; where that
+//! misses a border the sites concerned run once more.
+//! Cost: about O(n sqrt(n / t)) time for exact distances, O(n) for error-bounded ones, O(n) space.
+[[nodiscard]] Propagation propagate_windows(const Surface& surface,
+                                            std::span<const SurfacePoint> sites,
+                                            const PropagationOptions& options,
+                                            Index work_cap = default_work_cap);
+
+}  // namespace agvd

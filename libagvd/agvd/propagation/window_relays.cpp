@@ -1,0 +1,121 @@
+#include "agvd/propagation/window_relays.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "agvd/core/parallel.h"
+
+namespace agvd {
+namespace {
+
+constexpr Index grain = 4096;
+
+// Relays that start in the face itself: sites in it, and corners that are sites or turn paths.
+void add_inner_relays(const Surface& surface, const SitePlacement& placement,
+                      const Propagation& result, Index face, std::vector<Relay>& out) {
+    for (const PlacedSite& placed : placement.in_face(face)) {
+        const Vec2 p = position_in_frame(surface, placed.point, 3 * face);
+        out.push_back(
+            {p.x(), p.y(), 0, 0, surface.length_of(3 * face), SiteId(placed.site), 3 * face});
+    }
+    for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+        const Index v = surface.tail(h);
+        if (!result.vertex_site[v].is_valid()) continue;
+        if (!surface.can_turn[v] && result.vertex_distance[v] > 0) continue;
+        out.push_back(
+            {0, 0, result.vertex_distance[v], 0, surface.length_of(h), result.vertex_site[v], h});
+    }
+}
+
+}  // namespace
+
+std::vector<bool> faces_near_borders(const Surface& surface, std::span<const Index> vertex_site) {
+    std::vector<bool> is_near(surface.num_vertices(), false);
+    for (const Triangle& t : surface.mesh.triangles) {
+        if (vertex_site[t[0]] == vertex_site[t[1]] && vertex_site[t[1]] == vertex_site[t[2]]) {
+            continue;
+        }
+        for (const Index v : t) is_near[v] = true;
+    }
+    const auto touches = [&](const Triangle& t) {
+        return std::any_of(t.begin(), t.end(), [&](Index v) { return is_near[v]; });
+    };
+    std::vector<bool> faces(surface.num_faces(), false);
+    std::vector<Index> grown;
+    for (Index f = 0; f < surface.num_faces(); ++f) {
+        if (touches(surface.mesh.triangles[f])) grown.push_back(f);
+    }
+    for (const Index f : grown) {
+        for (const Index v : surface.mesh.triangles[f]) is_near[v] = true;
+    }
+    for (Index f = 0; f < surface.num_faces(); ++f) faces[f] = touches(surface.mesh.triangles[f]);
+    return faces;
+}
+
+Relay to_relay(const Window& window, Index site, Index half_edge) {
+    return {window.x,     window.y, window.weight + window.error, window.begin, window.end,
+            SiteId(site), half_edge};
+}
+
+void write_relays(const Surface& surface, const SitePlacement& placement,
+                  std::vector<std::vector<Relay>> logs, int num_threads, Propagation& result) {
+    const Index num_faces = surface.num_faces();
+    std::vector<Index> counts(num_faces, 0);
+    std::vector<bool> is_mixed(num_faces, false);
+    {
+        std::vector<SiteId> first_site(num_faces);
+        for (const auto& log : logs) {
+            for (const Relay& r : log) {
+                const Index f = Surface::face(r.half_edge);
+                ++counts[f];
+                if (!first_site[f].is_valid()) first_site[f] = r.site;
+                if (first_site[f] != r.site) is_mixed[f] = true;
+            }
+        }
+        std::vector<Relay> inner;
+        for (Index f = 0; f < num_faces; ++f) {
+            inner.clear();
+            add_inner_relays(surface, placement, result, f, inner);
+            SiteId site = first_site[f];
+            const auto add_site = [&](SiteId other) {
+                if (!other.is_valid()) return;
+                if (!site.is_valid()) site = other;
+                if (other != site) is_mixed[f] = true;
+            };
+            for (const Relay& r : inner) add_site(r.site);
+            for (const Index v : surface.mesh.triangles[f]) add_site(result.vertex_site[v]);
+            counts[f] += static_cast<Index>(inner.size());
+        }
+    }
+    std::vector<Index>& next = counts;  // Where the next relay of a face goes.
+    Index total = 0;
+    for (Index f = 0; f < num_faces; ++f) {
+        const Index count = counts[f];
+        next[f] = total;
+        if (!is_mixed[f]) continue;
+        result.mixed_faces.push_back(f);
+        result.relay_offsets.push_back(total);
+        total += count;
+    }
+    result.relay_offsets.push_back(total);
+    result.relays.resize(total);
+    for (auto& log : logs) {
+        for (const Relay& r : log) {
+            const Index f = Surface::face(r.half_edge);
+            if (is_mixed[f]) result.relays[next[f]++] = r;
+        }
+        std::vector<Relay>().swap(log);
+    }
+    const auto num_mixed = static_cast<Index>(result.mixed_faces.size());
+    parallel_chunks(num_mixed, grain, num_threads, [&](Index, Index begin, Index end) {
+        std::vector<Relay> inner;
+        for (Index i = begin; i < end; ++i) {
+            const Index f = result.mixed_faces[i];
+            inner.clear();
+            add_inner_relays(surface, placement, result, f, inner);
+            std::copy(inner.begin(), inner.end(), result.relays.begin() + next[f]);
+        }
+    });
+}
+
+}  // namespace agvd

@@ -1,0 +1,32 @@
+//! \file
+//! From the windows of all sites to the relays of the faces that may hold more than one label.
+#pragma once
+
+#include "agvd/propagation/relays.h"
+#include "agvd/propagation/site_placement.h"
+#include "agvd/propagation/window.h"
+
+namespace agvd {
+
+//! A site whose windows came into a face.
+struct FaceVisit {
+    Index face;
+    Index site;
+};
+
+//! Faces within two rings of a change of label. The labels come from bounds: the borders of exact
+//! distances lie near, on most faces.
+[[nodiscard]] std::vector<bool> faces_near_borders(const Surface& surface,
+                                                   std::span<const Index> vertex_site);
+
+//! Weighted by the length of a real path.
+[[nodiscard]] Relay to_relay(const Window& window, Index site, Index half_edge);
+
+//! Writes the mixed faces and their relays into `result`, whose vertices are final: the faces with
+//! windows, corners or sites inside of more than one site.
+//!
+//! \param logs  windows of every face that may be mixed; consumed. Relays keep their order.
+void write_relays(const Surface& surface, const SitePlacement& placement,
+                  std::vector<std::vector<Relay>> logs, int num_threads, Propagation& result);
+
+}  // namespace agvd
