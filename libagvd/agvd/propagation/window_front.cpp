@@ -28,6 +28,13 @@ Vec2 into(const Vec2& axis, const Vec2& v) { return {axis.dot(v), cross(axis, v)
 // |v| < limit, without a root.
 bool is_within(const Vec2& v, double limit) { return limit > 0 && v.squaredNorm() < limit * limit; }
 
+// Where the paths along the edge from both its ends meet, inside an interval: if a window is beaten
+// there it is beaten everywhere, by the tail before and by the head behind.
+double meeting_point(double tail_bound, double head_bound, double length, double begin,
+                     double end) {
+    return std::min(std::max(begin, (head_bound + length - tail_bound) / 2), end);
+}
+
 void prefetch(std::span<const PackedHalfEdge> half_edges, Index half_edge) {
     const auto* face = half_edges.data() + 3 * std::size_t{Surface::face(half_edge)};
     __builtin_prefetch(face);
@@ -390,8 +397,11 @@ void WindowFront::take_in(EdgeRecord& edge, const Face& face) {
     envelope_.clear();
     const double least_width = negligible * face.length;
     const auto is_beaten = [&](const Window& w) {
-        return (face.tail_bound + w.end < w.at_end) |
-               (face.head_bound + face.length - w.begin < w.at_begin);
+        const double at =
+            meeting_point(face.tail_bound, face.head_bound, face.length, w.begin, w.end);
+        const double around =
+            std::min(face.tail_bound + at, face.head_bound + face.length - at) - w.weight;
+        return (around <= 0) | (around * around < (at - w.x) * (at - w.x) + w.y * w.y);
     };
     const Index only = edge.runs;
     edge.runs = no_index;
@@ -552,9 +562,11 @@ void WindowFront::pass_right(const Face& face) {
         const double at_end = w.weight + std::sqrt((end - x) * (end - x) + y * y);
         const double spare = at_end - face.tail_bound;
         const double to_tail = (tail_x - end) * (tail_x - end) + tail_y * tail_y;
+        const double at = meeting_point(face.apex_bound, face.head_bound, length, begin, end);
+        const double around =
+            std::min(face.apex_bound + at, face.head_bound + length - at) - w.weight;
         const bool lives = (y < -negligible * length) & (end - begin > negligible * length) &
-                           (face.apex_bound + end >= at_end) &
-                           (face.head_bound + length - begin >= at_begin) &
+                           (around >= 0) & (around * around >= (at - x) * (at - x) + y * y) &
                            ((spare <= 0) | (to_tail >= spare * spare));
         children_[count] = {x, y, w.weight, begin, end, at_begin, at_end, w.error};
         count += lives ? 1 : 0;
@@ -583,9 +595,11 @@ void WindowFront::pass_left(const Face& face) {
         const double at_end = w.weight + std::sqrt((end - x) * (end - x) + y * y);
         const double spare = at_begin - face.head_bound;
         const double to_head = (head_x - begin) * (head_x - begin) + head_y * head_y;
+        const double at = meeting_point(face.tail_bound, face.apex_bound, length, begin, end);
+        const double around =
+            std::min(face.tail_bound + at, face.apex_bound + length - at) - w.weight;
         const bool lives = (y < -negligible * length) & (end - begin > negligible * length) &
-                           (face.tail_bound + end >= at_end) &
-                           (face.apex_bound + length - begin >= at_begin) &
+                           (around >= 0) & (around * around >= (at - x) * (at - x) + y * y) &
                            ((spare <= 0) | (to_head >= spare * spare));
         children_[count] = {x, y, w.weight, begin, end, at_begin, at_end, w.error};
         count += lives ? 1 : 0;
