@@ -23,7 +23,8 @@ std::vector<DiagramError> errors_of(const Surface& surface, const std::vector<Su
     std::vector<Propagation> propagations;
     std::vector<Diagram> diagrams;
     for (const int m : steiner_points) {
-        propagations.push_back(propagate(surface, sites, {.steiner_points = m}));
+        propagations.push_back(
+            propagate(surface, sites, {.engine = Engine::Steiner, .steiner_points = m}));
         diagrams.push_back(build_diagram(surface, sites, propagations.back()));
     }
     std::vector<Approximation> approximations;

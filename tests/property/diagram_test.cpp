@@ -78,7 +78,8 @@ TEST(Diagram, IsAValidComplexOnManyMeshesAndSiteSets) {
                     SCOPED_TRACE(std::string(c.name) + " t=" + std::to_string(t) +
                                  " m=" + std::to_string(m) + " seed=" + std::to_string(seed));
                     const auto sites = random_sites(c.mesh, t, seed);
-                    const auto propagation = propagate(surface, sites, {.steiner_points = m});
+                    const auto propagation =
+                        propagate(surface, sites, {.engine = Engine::Steiner, .steiner_points = m});
                     const auto diagram =
                         build_diagram(surface, sites, propagation, {.num_threads = 1});
                     checks::expect_valid_complex(surface, diagram);
@@ -93,10 +94,10 @@ TEST(Diagram, SameBytesForAnyThreadCountAndLambda) {
     const TriangleMesh mesh = shapes::jitter(shapes::sphere(4), 0.01, 3);
     const Surface surface = build_surface(mesh.view());
     const auto sites = random_sites(mesh, 50, 9);
-    const auto propagation = propagate(surface, sites);
+    const auto propagation = propagate(surface, sites, {.engine = Engine::Steiner});
     const auto diagram = build_diagram(surface, sites, propagation, {.num_threads = 1});
     for (const double lambda : {0.01, 0.3, 100.0}) {
-        const auto other = propagate(surface, sites, {.lambda = lambda});
+        const auto other = propagate(surface, sites, {.engine = Engine::Steiner, .lambda = lambda});
         EXPECT_TRUE(same_bytes(propagation.relays, other.relays));
         EXPECT_TRUE(same_bytes(propagation.vertex_distance, other.vertex_distance));
         EXPECT_TRUE(same_bytes(propagation.mixed_faces, other.mixed_faces));
@@ -113,8 +114,8 @@ TEST(Diagram, SmallerLambdaHoldsFewerSteinerPoints) {
     const TriangleMesh mesh = shapes::sphere(5);
     const Surface surface = build_surface(mesh.view());
     const auto sites = random_sites(mesh, 3, 2);
-    const auto all = propagate(surface, sites, {.lambda = 100});
-    const auto few = propagate(surface, sites, {.lambda = 0.1});
+    const auto all = propagate(surface, sites, {.engine = Engine::Steiner, .lambda = 100});
+    const auto few = propagate(surface, sites, {.engine = Engine::Steiner, .lambda = 0.1});
     EXPECT_LT(few.peak_bytes, all.peak_bytes / 2);
 }
 
@@ -123,7 +124,8 @@ TEST(Diagram, PlaneSitesGiveThePlanarVoronoiDiagram) {
     const Surface surface = build_surface(mesh.view());
     const auto sites = random_sites(mesh, 5, 4);
     const auto diagram =
-        build_diagram(surface, sites, propagate(surface, sites, {.steiner_points = 12}));
+        build_diagram(surface, sites,
+                      propagate(surface, sites, {.engine = Engine::Steiner, .steiner_points = 12}));
     const auto distance = [&](const Vec3& p, SiteId s) {
         return (p - position(mesh.view(), sites[s.value()])).norm();
     };

@@ -30,7 +30,8 @@ nlohmann::ordered_json measure(const std::string& mesh, const Surface& surface,
     std::vector<Propagation> propagations;
     std::vector<Diagram> diagrams;
     for (const int m : options.steiner_points) {
-        propagations.push_back(propagate(surface, sites, {.steiner_points = m}));
+        propagations.push_back(
+            propagate(surface, sites, {.engine = Engine::Steiner, .steiner_points = m}));
         diagrams.push_back(build_diagram(surface, sites, propagations.back(),
                                          {.num_threads = compare.num_threads}));
     }

@@ -45,7 +45,9 @@ nlohmann::ordered_json measure(const Case& c, int repetitions, int threads) {
         Propagation propagation;
         const bench::Seconds propagating = bench::time([&] {
             propagation = propagate(c.surface, c.sites,
-                                    {.steiner_points = c.steiner_points, .lambda = c.lambda});
+                                    {.engine = Engine::Steiner,
+                                     .steiner_points = c.steiner_points,
+                                     .lambda = c.lambda});
         });
         Diagram diagram;
         const bench::Seconds building = bench::time([&] {

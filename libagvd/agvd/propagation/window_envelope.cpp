@@ -214,6 +214,11 @@ std::optional<Window> merge_windows(const Window& left, const Window& right, dou
     merged.begin = merged.end = std::numeric_limits<double>::quiet_NaN();
     const double run_begin = merged.distance(begin);
     const double run_end = merged.distance(end);
+    // An image much farther than the source would cost the distances their digits.
+    constexpr double farthest = 1e4;
+    if (!(run_begin < farthest * left.at_begin && run_end < farthest * right.at_end)) {
+        return std::nullopt;
+    }
     const double run_middle = merged.distance(middle);
     const std::array gaps{run_begin - left.at_begin, run_middle - left.at_end,
                           run_middle - right.at_begin, run_end - right.at_end};

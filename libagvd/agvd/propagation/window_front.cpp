@@ -306,13 +306,14 @@ void WindowFront::emit(Index record) {
     Index first = no_index;
     Vec2 from = v.arrival;
     for (Index h = v.arrival_half_edge; h != no_index;) {
-        const Vec2 turned = into(half_edges_[h].apex.normalized(), from);
+        const Index back = Surface::previous(h);
+        const Vec2 turned = into(half_edges_[h].apex / half_edges_[back].length, from);
         if (h != v.arrival_half_edge && from.y() <= 0 && turned.y() > 0) {
             first = h;
             break;
         }
         from = turned;
-        h = half_edges_[Surface::previous(h)].twin;
+        h = half_edges_[back].twin;
         if (h == v.arrival_half_edge) break;
     }
     // Clockwise, the other way round.
@@ -321,7 +322,7 @@ void WindowFront::emit(Index record) {
     for (Index twin = half_edges_[v.arrival_half_edge].twin; twin != no_index;) {
         const Index h = Surface::next(twin);
         if (h == v.arrival_half_edge) break;
-        const Vec2 corner = half_edges_[h].apex.normalized();
+        const Vec2 corner = half_edges_[h].apex / half_edges_[Surface::previous(h)].length;
         const Vec2 turned(corner.x() * to.x() - corner.y() * to.y(),
                           corner.x() * to.y() + corner.y() * to.x());
         const bool is_behind = to.y() >= 0 && turned.y() < 0;
@@ -539,7 +540,7 @@ void WindowFront::divide_window(const Window& w, EdgeRecord& edge, const Face& f
 // branches but the last, since whether a window dies cannot be predicted.
 void WindowFront::pass_right(const Face& face) {
     if (right_.empty() || face.next.twin == no_index) return;
-    children_.resize(right_.size());
+    if (children_.size() < right_.size()) children_.resize(right_.size());
     const double length = face.next.length;
     const double sine = face.apex_y / length;  // Of the angle at the head.
     const double tail_x = length - face.length * face.right_x;
@@ -577,7 +578,7 @@ void WindowFront::pass_right(const Face& face) {
 // The same through the previous half-edge: the tail at 0, the apex at `length`.
 void WindowFront::pass_left(const Face& face) {
     if (left_.empty() || face.previous.twin == no_index) return;
-    children_.resize(left_.size());
+    if (children_.size() < left_.size()) children_.resize(left_.size());
     const double length = face.previous.length;
     const double head_x = face.length * face.left_x;
     const double head_y = -face.length * face.left_y;

@@ -10,20 +10,32 @@ namespace {
 
 constexpr Index grain = 4096;
 
-// Relays that start in the face itself: sites in it, and corners that are sites or turn paths.
-void add_inner_relays(const Surface& surface, const SitePlacement& placement,
-                      const Propagation& result, Index face, std::vector<Relay>& out) {
-    for (const PlacedSite& placed : placement.in_face(face)) {
-        const Vec2 p = position_in_frame(surface, placed.point, 3 * face);
-        out.push_back(
-            {p.x(), p.y(), 0, 0, surface.length_of(3 * face), SiteId(placed.site), 3 * face});
+// A corner that is a site or turns paths is itself the image of what comes by it.
+bool is_source(const Surface& surface, const Propagation& result, Index vertex) {
+    return result.vertex_site[vertex].is_valid() &&
+           (surface.can_turn[vertex] != 0 || result.vertex_distance[vertex] == 0);
+}
+
+// Relays that start in the face itself: sites in it, and corners that are sources.
+Index count_inner_relays(const Surface& surface, std::span<const PlacedSite> placed,
+                         const Propagation& result, Index face) {
+    const Triangle& corners = surface.mesh.triangles[face];
+    const auto sources = std::count_if(corners.begin(), corners.end(),
+                                       [&](Index v) { return is_source(surface, result, v); });
+    return static_cast<Index>(placed.size()) + static_cast<Index>(sources);
+}
+
+void write_inner_relays(const Surface& surface, std::span<const PlacedSite> placed,
+                        const Propagation& result, Index face, Relay* out) {
+    for (const PlacedSite& site : placed) {
+        const Vec2 p = position_in_frame(surface, site.point, 3 * face);
+        *out++ = {p.x(), p.y(), 0, 0, surface.length_of(3 * face), SiteId(site.site), 3 * face};
     }
     for (Index h = 3 * face; h < 3 * face + 3; ++h) {
         const Index v = surface.tail(h);
-        if (!result.vertex_site[v].is_valid()) continue;
-        if (!surface.can_turn[v] && result.vertex_distance[v] > 0) continue;
-        out.push_back(
-            {0, 0, result.vertex_distance[v], 0, surface.length_of(h), result.vertex_site[v], h});
+        if (!is_source(surface, result, v)) continue;
+        *out++ = {0, 0, result.vertex_distance[v], 0, surface.length_of(h), result.vertex_site[v],
+                  h};
     }
 }
 
@@ -72,19 +84,19 @@ void write_relays(const Surface& surface, const SitePlacement& placement,
                 if (first_site[f] != r.site) is_mixed[f] = true;
             }
         }
-        std::vector<Relay> inner;
         for (Index f = 0; f < num_faces; ++f) {
-            inner.clear();
-            add_inner_relays(surface, placement, result, f, inner);
             SiteId site = first_site[f];
+            bool has_another = is_mixed[f];
             const auto add_site = [&](SiteId other) {
                 if (!other.is_valid()) return;
                 if (!site.is_valid()) site = other;
-                if (other != site) is_mixed[f] = true;
+                has_another |= other != site;
             };
-            for (const Relay& r : inner) add_site(r.site);
             for (const Index v : surface.mesh.triangles[f]) add_site(result.vertex_site[v]);
-            counts[f] += static_cast<Index>(inner.size());
+            const auto placed = placement.in_face(f);
+            for (const PlacedSite& p : placed) add_site(SiteId(p.site));
+            is_mixed[f] = has_another;
+            if (has_another) counts[f] += count_inner_relays(surface, placed, result, f);
         }
     }
     std::vector<Index>& next = counts;  // Where the next relay of a face goes.
@@ -108,12 +120,10 @@ void write_relays(const Surface& surface, const SitePlacement& placement,
     }
     const auto num_mixed = static_cast<Index>(result.mixed_faces.size());
     parallel_chunks(num_mixed, grain, num_threads, [&](Index, Index begin, Index end) {
-        std::vector<Relay> inner;
         for (Index i = begin; i < end; ++i) {
             const Index f = result.mixed_faces[i];
-            inner.clear();
-            add_inner_relays(surface, placement, result, f, inner);
-            std::copy(inner.begin(), inner.end(), result.relays.begin() + next[f]);
+            write_inner_relays(surface, placement.in_face(f), result, f,
+                               result.relays.data() + next[f]);
         }
     });
 }
