@@ -5,11 +5,20 @@
 
 #include "agvd/propagation/steiner_engine.h"
 #include "agvd/propagation/steiner_points.h"
+#include "agvd/propagation/vertex_engine.h"
 
 namespace agvd {
 
 Propagation propagate(const Surface& surface, std::span<const SurfacePoint> sites,
                       const PropagationOptions& options) {
+    if (options.engine == Engine::Vertex) {
+        if (options.max_error) {
+            throw InvalidOption(
+                "the vertex engine knows no error bound; leave max_error unset, or use the window "
+                "or the Steiner engine");
+        }
+        return propagate_vertices(surface, sites, options);
+    }
     constexpr int max_points = 1000;
     if (options.steiner_points < 0 || options.steiner_points > max_points) {
         throw InvalidOption("the number of Steiner points per edge is " +
