@@ -10,10 +10,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
-#include "agvd/core/parallel.h"
 #include "agvd/propagation/bucket_queue.h"
+#include "agvd/propagation/corners.h"
 #include "agvd/propagation/site_placement.h"
 #include "agvd/propagation/vertex_relays.h"
 #include "agvd/propagation/vertex_views.h"
@@ -23,29 +22,26 @@ namespace {
 
 // Distances that differ by less, relative to their size, are tied: some hundred roundings.
 constexpr double tie_tolerance = 1e-13;
-// Sine below which a wedge has no width, and a chord beside it still counts as inside: it then
-// bends by no more than this, and is short by the square of it.
-constexpr double least_angle = 1e-7;
+// A chord that passes outside a wedge by no more than this angle counts as inside: it bends by no
+// more, and is short by the square of it.
+constexpr double angle_tolerance = 1e-7;
+// The parts of a wedge at a vertex that are narrower than this angle are let go: they would hardly
+// meet another vertex.
+constexpr double least_width = 2e-2;
 // A wedge goes on past a vertex nearer to something else while it leads, up to this share of its
 // distance, at an end of the edge it crosses.
 constexpr double lead_tolerance = 1e-6;
 // Faces that a wedge crosses in search of a vertex. More is more accurate where sites are far apart
-// (30: a tenth of the error on 70k faces with 100 sites, at three times the cost).
-constexpr int max_crossings = 7;
-// The same for the shadow behind a saddle vertex, mostly too narrow to meet anything.
-constexpr int max_shadow_crossings = 3;
+// (30, with narrower wedges: a tenth of the error on 70k faces with 100 sites, for three times the
+// time).
+constexpr int max_crossings = 8;
+// The same for the shadow behind a saddle vertex, mostly too narrow to meet any but the next
+// vertex.
+constexpr int max_shadow_crossings = 2;
 // Width of the queue's buckets in mean edge lengths.
 constexpr double bucket_share = 0.4;
 // Nodes looked up ahead of their turn.
 constexpr std::size_t look_ahead = 6;
-
-// What a step across a face reads, in two cache lines for each face.
-struct alignas(32) Corner {
-    Vec2 turn;      // Turns and stretches the half-edge into the other edge at its tail.
-    double length;  // Of the half-edge.
-    Index twin;
-    Index tail;
-};
 
 struct Wedge {
     Vec2 tail, head;  // Of the half-edge about to be crossed.
@@ -64,7 +60,7 @@ public:
           sites_(sites),
           options_(options),
           placement_(surface, sites),
-          corners_(make_corners(surface, options.num_threads)),
+          corners_(surface, options.num_threads),
           reach_(surface.num_vertices()),
           views_(surface.num_vertices()),
           queue_(bucket_width(surface)) {}
@@ -89,20 +85,6 @@ public:
 private:
     static constexpr std::size_t poll_interval = 1 << 16;
 
-    static std::unique_ptr<Corner[]> make_corners(const Surface& surface, int num_threads) {
-        constexpr Index grain = 1 << 14;
-        auto corners = std::make_unique_for_overwrite<Corner[]>(surface.twin.size());
-        parallel_chunks(surface.num_faces(), grain, num_threads,
-                        [&](Index, Index begin, Index end) {
-                            for (Index h = 3 * begin; h < 3 * end; ++h) {
-                                const double length = surface.length_of(h);
-                                corners[h] = {surface.apex[h] / length, length, surface.twin[h],
-                                              surface.tail(h)};
-                            }
-                        });
-        return corners;
-    }
-
     static double bucket_width(const Surface& surface) {
         double sum = 0;
         for (const double length : surface.length) sum += length;
@@ -123,14 +105,6 @@ private:
         __builtin_prefetch(&corners_[3 * face + 2]);
     }
 
-    // --- Mesh ----------------------------------------------------------------------------------
-
-    [[nodiscard]] Index tail(Index h) const { return corners_[h].tail; }
-    [[nodiscard]] Index head(Index h) const { return corners_[Surface::next(h)].tail; }
-    [[nodiscard]] Index twin(Index h) const { return corners_[h].twin; }
-    [[nodiscard]] double length(Index h) const { return corners_[h].length; }
-    [[nodiscard]] Vec2 apex(Index h) const { return corners_[h].turn * corners_[h].length; }
-
     // --- Wedges --------------------------------------------------------------------------------
 
     [[nodiscard]] bool improve(Index v, double distance, Index site) {
@@ -148,7 +122,7 @@ private:
 
     [[nodiscard]] Wedge wedge_of(const VertexView& view, Index site) const {
         return {{0, 0},
-                {length(view.half_edge), 0},
+                {corners_.length(view.half_edge), 0},
                 view.image,
                 direction(view.left),
                 direction(view.right),
@@ -158,7 +132,7 @@ private:
     }
 
     [[nodiscard]] VertexView view_of(const Wedge& w) const {
-        const Vec2 axis = (w.head - w.tail) / length(w.half_edge);
+        const Vec2 axis = (w.head - w.tail) / corners_.length(w.half_edge);
         return {
             turned_back(w.image - w.tail, axis), w.weight,    rounded(turned_back(w.left, axis)),
             rounded(turned_back(w.right, axis)), w.half_edge, ViewKind::Window};
@@ -175,17 +149,17 @@ private:
             const Index h = w.half_edge;
             const Vec2 apex = apex_of(w);
             const Vec2 chord = apex - w.image;
-            if (cross_product(w.right, chord) < -least_angle * w.right.dot(chord)) {
+            if (cross_product(w.right, chord) < -angle_tolerance * w.right.dot(chord)) {
                 w.head = apex;
-                w.half_edge = twin(Surface::previous(h));
+                w.half_edge = corners_.twin(Surface::previous(h));
                 continue;
             }
-            if (cross_product(chord, w.left) < -least_angle * w.left.dot(chord)) {
+            if (cross_product(chord, w.left) < -angle_tolerance * w.left.dot(chord)) {
                 w.tail = apex;
-                w.half_edge = twin(Surface::next(h));
+                w.half_edge = corners_.twin(Surface::next(h));
                 continue;
             }
-            const Index v = tail(Surface::previous(h));
+            const Index v = corners_.apex_vertex(h);
             const VertexReach before = reach_[v];
             if (improve(v, w.weight + chord.norm(), w.site)) {
                 const VertexView loser = views_[v];
@@ -206,8 +180,8 @@ private:
             const double bound = w.weight + (end - w.image).norm();
             return bound * (1 - lead_tolerance) <= reach_[vertex].distance;
         };
-        const bool on_left = leads_at(w.tail, tail(w.half_edge));
-        const bool on_right = leads_at(w.head, head(w.half_edge));
+        const bool on_left = leads_at(w.tail, corners_.tail(w.half_edge));
+        const bool on_right = leads_at(w.head, corners_.head(w.half_edge));
         if (!on_left) return on_right && keep_right(w, apex);
         if (on_right) {
             Wedge right = w;
@@ -216,22 +190,23 @@ private:
         return keep_left(w, apex);
     }
 
-    // The part left of the apex, about to leave the face; false if it has no width.
+    // The part left of the apex, about to leave the face; false if it is too
+    // narrow.
     [[nodiscard]] bool keep_left(Wedge& w, const Vec2& apex) const {
         const Vec2 chord = apex - w.image;
-        if (!(cross_product(chord, w.left) > least_angle * w.left.dot(chord))) return false;
+        if (!(cross_product(chord, w.left) > least_width * w.left.dot(chord))) return false;
         w.right = chord;
         w.head = apex;
-        w.half_edge = twin(Surface::previous(w.half_edge));
+        w.half_edge = corners_.twin(Surface::previous(w.half_edge));
         return true;
     }
 
     [[nodiscard]] bool keep_right(Wedge& w, const Vec2& apex) const {
         const Vec2 chord = apex - w.image;
-        if (!(cross_product(w.right, chord) > least_angle * w.right.dot(chord))) return false;
+        if (!(cross_product(w.right, chord) > least_width * w.right.dot(chord))) return false;
         w.left = chord;
         w.tail = apex;
-        w.half_edge = twin(Surface::next(w.half_edge));
+        w.half_edge = corners_.twin(Surface::next(w.half_edge));
         return true;
     }
 
@@ -242,10 +217,12 @@ private:
         trace({tail, head, point, tail - point, head - point, weight, site, out}, max_crossings);
     }
     void look_through_next(Index h, const Vec2& point, double weight, Index site) {
-        look_through(twin(Surface::next(h)), apex(h), {length(h), 0}, point, weight, site);
+        look_through(corners_.twin(Surface::next(h)), corners_.apex(h), {corners_.length(h), 0},
+                     point, weight, site);
     }
     void look_through_previous(Index h, const Vec2& point, double weight, Index site) {
-        look_through(twin(Surface::previous(h)), {0, 0}, apex(h), point, weight, site);
+        look_through(corners_.twin(Surface::previous(h)), {0, 0}, corners_.apex(h), point, weight,
+                     site);
     }
 
     // --- Sites ---------------------------------------------------------------------------------
@@ -258,16 +235,17 @@ private:
         }
         serve_face(site.face.value(), s, site);
         const auto half_edge = half_edge_of(site);
-        if (half_edge && twin(*half_edge) != no_index) {
-            serve_face(Surface::face(twin(*half_edge)), s, across_edge(surface_, site, *half_edge));
+        if (half_edge && corners_.twin(*half_edge) != no_index) {
+            serve_face(Surface::face(corners_.twin(*half_edge)), s,
+                       across_edge(surface_, site, *half_edge));
         }
     }
 
     void serve_face(Index face, Index site, const SurfacePoint& point) {
         for (Index h = 3 * face; h < 3 * face + 3; ++h) {
             const Vec2 image = position_in_frame(surface_, point, h);
-            const Index v = tail(Surface::previous(h));
-            if (!improve(v, (apex(h) - image).norm(), site)) continue;
+            const Index v = corners_.apex_vertex(h);
+            if (!improve(v, (corners_.apex(h) - image).norm(), site)) continue;
             views_[v] = {image, 0, {}, {}, h, ViewKind::Face};
         }
         for (Index h = 3 * face; h < 3 * face + 3; ++h) {
@@ -286,7 +264,7 @@ private:
                 serve_ring(v, reach, surface_.outgoing[v], {0, 0});
                 break;
             case ViewKind::Window: {
-                const Vec2 apex = this->apex(h);
+                const Vec2 apex = corners_.apex(h);
                 Wedge left = wedge_of(view, reach.site);
                 if (keep_left(left, apex)) trace(left, max_crossings);
                 Wedge right = wedge_of(view, reach.site);
@@ -295,14 +273,17 @@ private:
             }
             case ViewKind::Face:
                 serve_ring(v, reach, Surface::previous(h),
-                           turned_back(view.image - apex(h), -apex(h)));
+                           turned_back(view.image - corners_.apex(h), -corners_.apex(h)));
                 break;
             case ViewKind::FromTail:
                 look_past_head(h, reach);
-                serve_ring(v, reach, twin(h) != no_index ? twin(h) : Surface::next(h), {1, 0});
+                serve_ring(v, reach,
+                           corners_.twin(h) != no_index ? corners_.twin(h) : Surface::next(h),
+                           {1, 0});
                 break;
             case ViewKind::FromHead:
-                look_through_previous(h, {length(h), 0}, reach.distance - length(h), reach.site);
+                look_through_previous(h, {corners_.length(h), 0},
+                                      reach.distance - corners_.length(h), reach.site);
                 serve_ring(v, reach, h, {1, 0});
                 break;
         }
@@ -312,18 +293,18 @@ private:
     // h. The neighbour at the other end of such an edge may have looked through it already.
     void look_past_head(Index h, const VertexReach& at_head) {
         const auto has_looked = [&](Index spoke) {
-            const Index v = head(spoke);
+            const Index v = corners_.head(spoke);
             return views_[v].half_edge == spoke && views_[v].kind == ViewKind::FromTail &&
                    reach_[v].queued_in == no_index;
         };
-        const double weight = at_head.distance - length(h);
-        const Index left = twin(Surface::previous(h));
+        const double weight = at_head.distance - corners_.length(h);
+        const Index left = corners_.twin(Surface::previous(h));
         if (left == no_index || !has_looked(left)) {
             look_through_next(h, {0, 0}, weight, at_head.site);
         }
-        const Index across = twin(h);
+        const Index across = corners_.twin(h);
         if (across != no_index && !has_looked(Surface::next(across))) {
-            look_through_previous(across, {length(h), 0}, weight, at_head.site);
+            look_through_previous(across, {corners_.length(h), 0}, weight, at_head.site);
         }
     }
 
@@ -339,7 +320,7 @@ private:
     // \param back   where the path to v comes from, in the frame of `first`, in its face.
     void serve_ring(Index v, const VertexReach& reach, Index first, const Vec2& back) {
         if (first == no_index) return;
-        const Vec2 begin(length(first), 0);
+        const Vec2 begin(corners_.length(first), 0);
         Vec2 spoke = begin;  // h, laid out around v at the origin.
         double side = cross_product(back, spoke);
         int half_turns = 0;
@@ -347,21 +328,22 @@ private:
         Index h = first;
         do {
             const Corner& corner = corners_[h];
-            relax_along(head(h), h, ViewKind::FromTail, reach.distance + corner.length, reach.site);
+            relax_along(corners_.head(h), h, ViewKind::FromTail, reach.distance + corner.length,
+                        reach.site);
             const Vec2 next_spoke = turned(spoke, corner.turn);
             const double next_side = cross_product(back, next_spoke);
             if (side > 0 && next_side <= 0 && half_turns++ == 0) {
                 shadow.tail = next_spoke;
                 shadow.head = spoke;
-                shadow.half_edge = twin(Surface::next(h));
+                shadow.half_edge = corners_.twin(Surface::next(h));
             }
             spoke = next_spoke;
             side = next_side;
             const Index previous = Surface::previous(h);
-            h = twin(previous);
+            h = corners_.twin(previous);
             if (h == no_index) {
-                relax_along(tail(previous), previous, ViewKind::FromHead,
-                            reach.distance + length(previous), reach.site);
+                relax_along(corners_.tail(previous), previous, ViewKind::FromHead,
+                            reach.distance + corners_.length(previous), reach.site);
                 serve_clockwise(first, reach);
                 return;
             }
@@ -371,7 +353,7 @@ private:
         // what the angle of the cone exceeds 2 pi by. If a neighbour lies there, it will look past
         // itself from v.
         const Vec2 excess(begin.dot(spoke), cross_product(begin, spoke));
-        if (!(excess.x() > 0 && excess.y() > least_angle * excess.x())) return;
+        if (!(excess.x() > 0 && excess.y() > angle_tolerance * excess.x())) return;
         shadow.right = -back;
         shadow.left = turned(shadow.right, excess);
         if (cross_product(shadow.left, shadow.tail) <= 0) return;
@@ -383,28 +365,26 @@ private:
 
     // The part of a boundary vertex's ring that lies clockwise of half-edge h.
     void serve_clockwise(Index h, const VertexReach& reach) {
-        while (twin(h) != no_index) {
-            h = Surface::next(twin(h));
-            relax_along(head(h), h, ViewKind::FromTail, reach.distance + length(h), reach.site);
+        while (corners_.twin(h) != no_index) {
+            h = Surface::next(corners_.twin(h));
+            relax_along(corners_.head(h), h, ViewKind::FromTail,
+                        reach.distance + corners_.length(h), reach.site);
         }
     }
 
     // --- Result --------------------------------------------------------------------------------
 
     Propagation collect() {
-        const std::size_t common = reach_.capacity() * sizeof(VertexReach) +
-                                   views_.capacity() * sizeof(VertexView) + queue_.bytes();
-        const std::size_t in_front = common + surface_.twin.size() * sizeof(Corner);
-        corners_.reset();
-
         Propagation result;
-        const VertexRelays relays(surface_, sites_, placement_, reach_, views_);
+        const VertexRelays relays(surface_, sites_, placement_, corners_, reach_, views_);
         result.mixed_faces = relays.mixed_faces();
-        result.relay_offsets.reserve(result.mixed_faces.size() + 1);
-        result.relays.reserve(relays_per_face * result.mixed_faces.size());
-        for (const Index face : result.mixed_faces) {
+        const std::size_t num_mixed = result.mixed_faces.size();
+        result.relay_offsets.reserve(num_mixed + 1);
+        result.relays.reserve(relays_per_face * num_mixed);
+        for (std::size_t i = 0; i < num_mixed; ++i) {
+            if (i + look_ahead < num_mixed) relays.prefetch(result.mixed_faces[i + look_ahead]);
             result.relay_offsets.push_back(static_cast<Index>(result.relays.size()));
-            relays.collect(face, result.relays);
+            relays.collect(result.mixed_faces[i], result.relays);
         }
         result.relay_offsets.push_back(static_cast<Index>(result.relays.size()));
 
@@ -415,24 +395,25 @@ private:
             result.vertex_distance.push_back(reach.distance);
             if (reach.site != no_index) ++result.num_nodes;
         }
-        const std::size_t in_result =
+        result.peak_bytes =
+            corners_.bytes() + reach_.capacity() * sizeof(VertexReach) +
+            views_.capacity() * sizeof(VertexView) + queue_.bytes() +
             result.relays.capacity() * sizeof(Relay) +
             (result.mixed_faces.capacity() + result.relay_offsets.capacity()) * sizeof(Index) +
             result.vertex_site.capacity() * sizeof(SiteId) +
             result.vertex_distance.capacity() * sizeof(double);
-        result.peak_bytes = std::max(in_front, common + in_result);
         return result;
     }
 
-    static constexpr std::size_t relays_per_face = 5;  // Seldom exceeded on average.
+    static constexpr std::size_t relays_per_face = 3;  // On average, seldom exceeded.
 
     const Surface& surface_;
     std::span<const SurfacePoint> sites_;
     const PropagationOptions& options_;
     SitePlacement placement_;
-    std::unique_ptr<Corner[]> corners_;  // #H
-    std::vector<VertexReach> reach_;     // #V
-    std::vector<VertexView> views_;      // #V
+    Corners corners_;
+    std::vector<VertexReach> reach_;  // #V
+    std::vector<VertexView> views_;   // #V
     BucketQueue queue_;
 };
 

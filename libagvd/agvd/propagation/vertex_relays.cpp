@@ -13,7 +13,7 @@ std::vector<Index> VertexRelays::mixed_faces() const {
     }
     const std::size_t num_by_corners = mixed.size();
     const auto list_if_foreign = [&](Index face, Index site) {
-        if (site_of_tail(3 * face) != site) mixed.push_back(face);
+        if (reach_[surface_.tail(3 * face)].site != site) mixed.push_back(face);
     };
     const auto list_around = [&](Index face, Index site) {
         list_if_foreign(face, site);
@@ -38,41 +38,49 @@ std::vector<Index> VertexRelays::mixed_faces() const {
 }
 
 void VertexRelays::collect(Index face, std::vector<Relay>& out) const {
+    const auto add = [&](Index h, const Vec2& p, double weight, Index site) {
+        out.push_back({p.x(), p.y(), weight, 0, corners_.length(h), SiteId(site), h});
+    };
     for (const PlacedSite& placed : placement_.in_face(face)) {
-        const Vec2 p = position_in_frame(surface_, placed.point, 3 * face);
-        out.push_back(
-            {p.x(), p.y(), 0, 0, surface_.length_of(3 * face), SiteId(placed.site), 3 * face});
+        add(3 * face, position_in_frame(surface_, placed.point, 3 * face), 0, placed.site);
     }
     for (Index h = 3 * face; h < 3 * face + 3; ++h) {
-        if (surface_.twin[h] != no_index) collect_beyond(h, out);
-        if (is_served(h, out)) continue;
-        const VertexReach& reach = reach_[surface_.tail(h)];
-        out.push_back({0, 0, reach.distance, 0, surface_.length_of(h), SiteId(reach.site), h});
+        const Index tail = corners_.tail(h);
+        if (!is_served(h, out)) add(h, {0, 0}, reach_[tail].distance, reach_[tail].site);
+        const Index twin = corners_.twin(h);
+        if (twin == no_index) continue;
+        // In the neighbour: its sites, and its far corner where an end of h was reached from there.
+        const auto add_mirrored = [&](const Vec2& p, double weight, Index site) {
+            if (p.y() > 0) add(h, {corners_.length(h) - p.x(), -p.y()}, weight, site);
+        };
+        for (const PlacedSite& placed : placement_.in_face(Surface::face(twin))) {
+            add_mirrored(position_in_frame(surface_, placed.point, twin), 0, placed.site);
+        }
+        const Index source = source_of(views_[tail]);
+        const Index other = source_of(views_[corners_.head(h)]);
+        if (source == no_index && other == no_index) continue;
+        const Index far = corners_.apex_vertex(twin);
+        if (far == source || far == other) {
+            add_mirrored(corners_.apex(twin), reach_[far].distance, reach_[far].site);
+        }
     }
 }
 
 // The vertex from which another was reached along an edge; no_index: it was not.
-Index VertexRelays::source_of(Index vertex) const {
-    const VertexView& view = views_[vertex];
-    if (view.kind == ViewKind::FromTail) return surface_.tail(view.half_edge);
-    if (view.kind == ViewKind::FromHead) return surface_.head(view.half_edge);
+Index VertexRelays::source_of(const VertexView& view) const {
+    if (view.kind == ViewKind::FromTail) return corners_.tail(view.half_edge);
+    if (view.kind == ViewKind::FromHead) return corners_.head(view.half_edge);
     return no_index;
 }
 
 // Whether another relay of the face stands for the corner at the tail of h; adds that which the
 // corner sees through an edge.
 bool VertexRelays::is_served(Index h, std::vector<Relay>& out) const {
-    const Index vertex = surface_.tail(h);
+    const Index vertex = corners_.tail(h);
     const VertexView& view = views_[vertex];
-    const Index previous = Surface::previous(h);
-    const Index across[2] = {surface_.twin[h], surface_.twin[previous]};
     if (view.kind == ViewKind::Site) return false;
-    if (view.kind == ViewKind::Face) {  // The site is a relay of its face and of the next ones.
-        const Index face = Surface::face(view.half_edge);
-        return face == Surface::face(h) || std::any_of(across, across + 2, [face](Index twin) {
-                   return twin != no_index && Surface::face(twin) == face;
-               });
-    }
+    const Index previous = Surface::previous(h);
+    const Index across[2] = {corners_.twin(h), corners_.twin(previous)};
     if (view.kind == ViewKind::Window) {
         const Index site = reach_[vertex].site;
         if (view.half_edge == Surface::next(h)) {
@@ -88,21 +96,27 @@ bool VertexRelays::is_served(Index h, std::vector<Relay>& out) const {
         }
         return false;
     }
-    const Index source = source_of(vertex);
-    return source == surface_.head(h) || source == surface_.tail(previous) ||
+    if (view.kind == ViewKind::Face) {  // The site is a relay of its face and of the next ones.
+        const Index face = Surface::face(view.half_edge);
+        return face == Surface::face(h) || std::any_of(across, across + 2, [face](Index twin) {
+                   return twin != no_index && Surface::face(twin) == face;
+               });
+    }
+    const Index source = source_of(view);
+    return source == corners_.head(h) || source == corners_.tail(previous) ||
            std::any_of(across, across + 2, [&](Index twin) {
-               return twin != no_index && source == surface_.tail(Surface::previous(twin));
+               return twin != no_index && source == corners_.apex_vertex(twin);
            });
 }
 
 // The view of one end of half-edge h, in the face across h: what of it passes h.
 bool VertexRelays::add_across(Index h, const VertexView& view, Index site,
                               std::vector<Relay>& out) const {
-    const Vec2& apex = surface_.apex[view.half_edge];
-    const bool at_tail = Surface::next(view.half_edge) == surface_.twin[h];
-    const double length = surface_.length_of(h);
+    const Vec2 apex = corners_.apex(view.half_edge);
+    const bool at_tail = Surface::next(view.half_edge) == corners_.twin(h);
+    const double length = corners_.length(h);
     const Vec2 tail = at_tail ? apex : Vec2(0, 0);
-    const Vec2 head = at_tail ? Vec2(surface_.length_of(view.half_edge), 0) : apex;
+    const Vec2 head = at_tail ? Vec2(corners_.length(view.half_edge), 0) : apex;
     const Vec2 axis = (head - tail) / length;
     const Vec2 image = turned_back(view.image - tail, axis);
     if (!(image.y() < 0)) return false;
@@ -116,28 +130,10 @@ bool VertexRelays::add_across(Index h, const VertexView& view, Index site,
     return true;
 }
 
-// Images in the neighbour across h that see all of h: its sites, and its far corner where an end of
-// h was reached from there.
-void VertexRelays::collect_beyond(Index h, std::vector<Relay>& out) const {
-    const Index twin = surface_.twin[h];
-    const double length = surface_.length_of(h);
-    const auto add = [&](const Vec2& p, double weight, Index site) {
-        if (!(p.y() > 0)) return;  // On the edge: a point of this face.
-        out.push_back({length - p.x(), -p.y(), weight, 0, length, SiteId(site), h});
-    };
-    for (const PlacedSite& placed : placement_.in_face(Surface::face(twin))) {
-        add(position_in_frame(surface_, placed.point, twin), 0, placed.site);
-    }
-    const Index far = surface_.tail(Surface::previous(twin));
-    if (source_of(surface_.tail(h)) == far || source_of(surface_.head(h)) == far) {
-        add(surface_.apex[twin], reach_[far].distance, reach_[far].site);
-    }
-}
-
 // An image below half-edge h that sees what lies between two directions.
 void VertexRelays::add_image(Index h, const Vec2& image, double weight, Index site,
                              const Vec2& left, const Vec2& right, std::vector<Relay>& out) const {
-    const double length = surface_.length_of(h);
+    const double length = corners_.length(h);
     const auto hit = [&](const Vec2& d, double otherwise) {
         if (!(d.y() > 0)) return otherwise;
         return std::clamp(image.x() - image.y() * d.x() / d.y(), 0.0, length);

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "agvd/propagation/corners.h"
 #include "agvd/propagation/relays.h"
 #include "agvd/propagation/site_placement.h"
 #include "agvd/propagation/vertex_views.h"
@@ -20,9 +21,14 @@ namespace agvd {
 class VertexRelays {
 public:
     VertexRelays(const Surface& surface, std::span<const SurfacePoint> sites,
-                 const SitePlacement& placement, std::span<const VertexReach> reach,
-                 std::span<const VertexView> views)
-        : surface_(surface), sites_(sites), placement_(placement), reach_(reach), views_(views) {}
+                 const SitePlacement& placement, const Corners& corners,
+                 std::span<const VertexReach> reach, std::span<const VertexView> views)
+        : surface_(surface),
+          sites_(sites),
+          placement_(placement),
+          corners_(corners),
+          reach_(reach),
+          views_(views) {}
 
     //! Faces with corners of different sites; and those that hold, or whose neighbour holds, a site
     //! other than that of their corners. Ascending.
@@ -31,21 +37,27 @@ public:
     //! Appends the relays of a face.
     void collect(Index face, std::vector<Relay>& out) const;
 
-private:
-    [[nodiscard]] Index site_of_tail(Index half_edge) const {
-        return reach_[surface_.tail(half_edge)].site;
+    //! A face to be collected soon.
+    void prefetch(Index face) const {
+        for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+            __builtin_prefetch(&views_[surface_.tail(h)]);
+        }
+        __builtin_prefetch(&corners_[3 * face]);
+        __builtin_prefetch(&corners_[3 * face + 2]);
     }
-    void add_image(Index half_edge, const Vec2& image, double weight, Index site, const Vec2& left,
-                   const Vec2& right, std::vector<Relay>& out) const;
+
+private:
+    [[nodiscard]] Index source_of(const VertexView& view) const;
+    [[nodiscard]] bool is_served(Index half_edge, std::vector<Relay>& out) const;
     [[nodiscard]] bool add_across(Index half_edge, const VertexView& view, Index site,
                                   std::vector<Relay>& out) const;
-    void collect_beyond(Index half_edge, std::vector<Relay>& out) const;
-    [[nodiscard]] Index source_of(Index vertex) const;
-    [[nodiscard]] bool is_served(Index half_edge, std::vector<Relay>& out) const;
+    void add_image(Index half_edge, const Vec2& image, double weight, Index site, const Vec2& left,
+                   const Vec2& right, std::vector<Relay>& out) const;
 
     const Surface& surface_;
     std::span<const SurfacePoint> sites_;
     const SitePlacement& placement_;
+    const Corners& corners_;
     std::span<const VertexReach> reach_;
     std::span<const VertexView> views_;
 };
