@@ -38,32 +38,48 @@ std::vector<Index> VertexRelays::mixed_faces() const {
 }
 
 void VertexRelays::collect(Index face, std::vector<Relay>& out) const {
-    const auto add = [&](Index h, const Vec2& p, double weight, Index site) {
-        out.push_back({p.x(), p.y(), weight, 0, corners_.length(h), SiteId(site), h});
-    };
+    if (!placement_.is_empty()) collect_sites(face, out);
+    std::array<Index, 3> source{};
+    for (Index k = 0; k < 3; ++k) source[k] = source_of(views_[corners_.tail(3 * face + k)]);
+    for (Index k = 0; k < 3; ++k) {
+        const Index h = 3 * face + k;
+        if (!is_served(h, source[k], out)) {
+            const VertexReach& reach = reach_[corners_.tail(h)];
+            add_point(h, {0, 0}, reach.distance, reach.site, out);
+        }
+        // The neighbour's far corner, where an end of h was reached from there.
+        const Index other = source[(k + 1) % 3];
+        const Index twin = corners_.twin(h);
+        if (twin == no_index || (source[k] == no_index && other == no_index)) continue;
+        const Index far = corners_.apex_vertex(twin);
+        if (far != source[k] && far != other) continue;
+        const Vec2 apex = corners_.apex(twin);
+        add_point(h, {corners_.length(h) - apex.x(), -apex.y()}, reach_[far].distance,
+                  reach_[far].site, out);
+    }
+}
+
+// The sites in a face and in its neighbours.
+void VertexRelays::collect_sites(Index face, std::vector<Relay>& out) const {
     for (const PlacedSite& placed : placement_.in_face(face)) {
-        add(3 * face, position_in_frame(surface_, placed.point, 3 * face), 0, placed.site);
+        const Vec2 p = position_in_frame(surface_, placed.point, 3 * face);
+        add_point(3 * face, p, 0, placed.site, out);
     }
     for (Index h = 3 * face; h < 3 * face + 3; ++h) {
-        const Index tail = corners_.tail(h);
-        if (!is_served(h, out)) add(h, {0, 0}, reach_[tail].distance, reach_[tail].site);
         const Index twin = corners_.twin(h);
         if (twin == no_index) continue;
-        // In the neighbour: its sites, and its far corner where an end of h was reached from there.
-        const auto add_mirrored = [&](const Vec2& p, double weight, Index site) {
-            if (p.y() > 0) add(h, {corners_.length(h) - p.x(), -p.y()}, weight, site);
-        };
         for (const PlacedSite& placed : placement_.in_face(Surface::face(twin))) {
-            add_mirrored(position_in_frame(surface_, placed.point, twin), 0, placed.site);
-        }
-        const Index source = source_of(views_[tail]);
-        const Index other = source_of(views_[corners_.head(h)]);
-        if (source == no_index && other == no_index) continue;
-        const Index far = corners_.apex_vertex(twin);
-        if (far == source || far == other) {
-            add_mirrored(corners_.apex(twin), reach_[far].distance, reach_[far].site);
+            const Vec2 p = position_in_frame(surface_, placed.point, twin);
+            if (!(p.y() > 0)) continue;  // On the edge: a site of this face too.
+            add_point(h, {corners_.length(h) - p.x(), -p.y()}, 0, placed.site, out);
         }
     }
+}
+
+// A point that sees the whole face, or all of it that lies behind h.
+void VertexRelays::add_point(Index h, const Vec2& p, double weight, Index site,
+                             std::vector<Relay>& out) const {
+    out.push_back({p.x(), p.y(), weight, 0, corners_.length(h), SiteId(site), h});
 }
 
 // The vertex from which another was reached along an edge; no_index: it was not.
@@ -73,9 +89,9 @@ Index VertexRelays::source_of(const VertexView& view) const {
     return no_index;
 }
 
-// Whether another relay of the face stands for the corner at the tail of h; adds that which the
-// corner sees through an edge.
-bool VertexRelays::is_served(Index h, std::vector<Relay>& out) const {
+// Whether another relay of the face stands for the corner at the tail of h, which was reached from
+// `source`; adds that which the corner sees through an edge.
+bool VertexRelays::is_served(Index h, Index source, std::vector<Relay>& out) const {
     const Index vertex = corners_.tail(h);
     const VertexView& view = views_[vertex];
     if (view.kind == ViewKind::Site) return false;
@@ -102,7 +118,6 @@ bool VertexRelays::is_served(Index h, std::vector<Relay>& out) const {
                    return twin != no_index && Surface::face(twin) == face;
                });
     }
-    const Index source = source_of(view);
     return source == corners_.head(h) || source == corners_.tail(previous) ||
            std::any_of(across, across + 2, [&](Index twin) {
                return twin != no_index && source == corners_.apex_vertex(twin);
