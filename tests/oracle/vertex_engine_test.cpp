@@ -66,7 +66,7 @@ TEST_P(VertexEngine, DistancesAtVerticesAreNeverBelowTheExactOnes) {
             if (exact.distance[v] > 0) mean += p.vertex_distance[v] / exact.distance[v] - 1;
             if (p.vertex_site[v] != exact.site[v]) ++wrong;
         }
-        EXPECT_LT(mean / surface.num_vertices(), 0.01) << t << " sites";
+        EXPECT_LT(mean / surface.num_vertices(), 0.008) << t << " sites";
         EXPECT_LT(wrong, 1 + surface.num_vertices() / 20) << t << " sites";
     }
 }

@@ -257,6 +257,24 @@ TEST(VertexEngine, BendsAroundAReflexCorner) {
     EXPECT_NEAR(p.vertex_distance[vertex_at(0.75, 0.375)], bend + std::hypot(0.25, 0.125), 1e-12);
 }
 
+TEST(VertexEngine, DistancesScaleWithTheMesh) {
+    for (const Case& c : cases()) {
+        const Surface surface = build_surface(c.mesh.view());
+        const auto sites = points::scattered(surface, 7, 3);
+        const Propagation p = run(surface, sites);
+        for (const int exponent : {-70, 70}) {
+            SCOPED_TRACE(std::string(c.name) + " by 2^" + std::to_string(exponent));
+            TriangleMesh scaled = c.mesh;
+            for (Vec3& x : scaled.positions) x *= std::ldexp(1.0, exponent);
+            const Propagation q = run(build_surface(scaled.view()), sites);
+            EXPECT_EQ(p.vertex_site, q.vertex_site);
+            for (Index v = 0; v < surface.num_vertices(); ++v) {
+                ASSERT_EQ(std::ldexp(p.vertex_distance[v], exponent), q.vertex_distance[v]);
+            }
+        }
+    }
+}
+
 TEST(VertexEngine, SameBytesForAnyThreadCount) {
     const TriangleMesh mesh = shapes::jitter(shapes::sphere(4), 0.01, 3);
     const Surface surface = build_surface(mesh.view());

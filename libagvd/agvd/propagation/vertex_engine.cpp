@@ -142,8 +142,12 @@ private:
         return w.tail + turned(w.head - w.tail, corners_[w.half_edge].turn);
     }
 
-    // Lays out faces until the wedge meets a vertex that it improves. What it meets there must not
-    // be lost: the loser of the two goes on.
+    // The wedge of a vertex that has just been overtaken, if it waited there: it must not be lost.
+    [[nodiscard]] static bool has_waited(const VertexReach& before, const VertexView& loser) {
+        return before.queued_in != no_index && loser.kind == ViewKind::Window;
+    }
+
+    // Lays out faces until the wedge meets a vertex that it improves; the loser of the two goes on.
     void trace(Wedge w, int crossings) {
         for (; crossings > 0 && w.half_edge != no_index; --crossings) {
             const Index h = w.half_edge;
@@ -164,12 +168,22 @@ private:
             if (improve(v, w.weight + chord.norm(), w.site)) {
                 const VertexView loser = views_[v];
                 views_[v] = view_of(w);
-                const bool was_served = before.queued_in == no_index;
-                if (was_served || loser.kind != ViewKind::Window) return;
+                if (!has_waited(before, loser)) return;
                 w = wedge_of(loser, before.site);
             }
             if (!pass(w, crossings)) return;
         }
+    }
+
+    // Improves a vertex otherwise than by a wedge.
+    void overtake(Index v, double distance, Index site, const VertexView& view) {
+        const VertexReach before = reach_[v];
+        if (!improve(v, distance, site)) return;
+        const VertexView loser = views_[v];
+        views_[v] = view;
+        if (!has_waited(before, loser)) return;
+        Wedge w = wedge_of(loser, before.site);
+        if (pass(w, max_crossings)) trace(w, max_crossings - 1);
     }
 
     // Beyond the apex of its face, which is nearer to something else, a wedge keeps the sides on
@@ -230,7 +244,7 @@ private:
     void start(Index s) {
         const SurfacePoint& site = sites_[s];
         if (const auto vertex = vertex_of(surface_, site)) {
-            if (improve(*vertex, 0, s)) views_[*vertex] = {};
+            overtake(*vertex, 0, s, {});
             return;
         }
         serve_face(site.face.value(), s, site);
@@ -245,8 +259,8 @@ private:
         for (Index h = 3 * face; h < 3 * face + 3; ++h) {
             const Vec2 image = position_in_frame(surface_, point, h);
             const Index v = corners_.apex_vertex(h);
-            if (!improve(v, (corners_.apex(h) - image).norm(), site)) continue;
-            views_[v] = {image, 0, {}, {}, h, ViewKind::Face};
+            overtake(v, (corners_.apex(h) - image).norm(), site,
+                     {image, 0, {}, {}, h, ViewKind::Face});
         }
         for (Index h = 3 * face; h < 3 * face + 3; ++h) {
             look_through_next(h, position_in_frame(surface_, point, h), 0, site);
@@ -261,7 +275,7 @@ private:
         const Index h = view.half_edge;
         switch (view.kind) {
             case ViewKind::Site:
-                serve_ring(v, reach, surface_.outgoing[v], {0, 0});
+                serve_ring(reach, surface_.outgoing[v], {0, 0});
                 break;
             case ViewKind::Window: {
                 const Vec2 apex = corners_.apex(h);
@@ -272,19 +286,19 @@ private:
                 [[fallthrough]];
             }
             case ViewKind::Face:
-                serve_ring(v, reach, Surface::previous(h),
+                serve_ring(reach, Surface::previous(h),
                            turned_back(view.image - corners_.apex(h), -corners_.apex(h)));
                 break;
             case ViewKind::FromTail:
                 look_past_head(h, reach);
-                serve_ring(v, reach,
+                serve_ring(reach,
                            corners_.twin(h) != no_index ? corners_.twin(h) : Surface::next(h),
                            {1, 0});
                 break;
             case ViewKind::FromHead:
                 look_through_previous(h, {corners_.length(h), 0},
                                       reach.distance - corners_.length(h), reach.site);
-                serve_ring(v, reach, h, {1, 0});
+                serve_ring(reach, h, {1, 0});
                 break;
         }
     }
@@ -309,22 +323,21 @@ private:
     }
 
     void relax_along(Index v, Index h, ViewKind kind, double distance, Index site) {
-        if (!improve(v, distance, site)) return;
-        views_[v].half_edge = h;
-        views_[v].kind = kind;
+        overtake(v, distance, site, {{0, 0}, 0, {}, {}, h, kind});
     }
 
     // The neighbours, along the edges; and the shadow of a saddle vertex.
     //
-    // \param first  a half-edge from v.
-    // \param back   where the path to v comes from, in the frame of `first`, in its face.
-    void serve_ring(Index v, const VertexReach& reach, Index first, const Vec2& back) {
+    // \param first  a half-edge from the vertex.
+    // \param back   where the path to the vertex comes from, in the frame of `first`, in its face.
+    void serve_ring(const VertexReach& reach, Index first, const Vec2& back) {
         if (first == no_index) return;
         const Vec2 begin(corners_.length(first), 0);
-        Vec2 spoke = begin;  // h, laid out around v at the origin.
+        Vec2 spoke = begin;  // h, laid out around the vertex at the origin.
         double side = cross_product(back, spoke);
         int half_turns = 0;
-        Wedge shadow{};
+        Vec2 right_of_ahead(0, 0), left_of_ahead(0, 0);  // The spokes around the way straight on.
+        Index ahead = no_index;                          // The half-edge on its right.
         Index h = first;
         do {
             const Corner& corner = corners_[h];
@@ -333,9 +346,9 @@ private:
             const Vec2 next_spoke = turned(spoke, corner.turn);
             const double next_side = cross_product(back, next_spoke);
             if (side > 0 && next_side <= 0 && half_turns++ == 0) {
-                shadow.tail = next_spoke;
-                shadow.head = spoke;
-                shadow.half_edge = corners_.twin(Surface::next(h));
+                right_of_ahead = spoke;
+                left_of_ahead = next_spoke;
+                ahead = h;
             }
             spoke = next_spoke;
             side = next_side;
@@ -351,16 +364,15 @@ private:
         if (half_turns != 1) return;
         // Straight on lies half a turn from `back`, counted from either side; between the two lies
         // what the angle of the cone exceeds 2 pi by. If a neighbour lies there, it will look past
-        // itself from v.
+        // itself from this vertex.
         const Vec2 excess(begin.dot(spoke), cross_product(begin, spoke));
         if (!(excess.x() > 0 && excess.y() > angle_tolerance * excess.x())) return;
-        shadow.right = -back;
-        shadow.left = turned(shadow.right, excess);
-        if (cross_product(shadow.left, shadow.tail) <= 0) return;
-        shadow.image = {0, 0};
-        shadow.weight = reach.distance;
-        shadow.site = reach.site;
-        trace(shadow, max_shadow_crossings);
+        const Vec2 right = -back.normalized();  // Not products of lengths: a view keeps floats.
+        const Vec2 left = turned(right, excess.normalized());
+        if (cross_product(left, left_of_ahead) <= 0) return;
+        trace({left_of_ahead, right_of_ahead, Vec2(0, 0), left, right, reach.distance, reach.site,
+               corners_.twin(Surface::next(ahead))},
+              max_shadow_crossings);
     }
 
     // The part of a boundary vertex's ring that lies clockwise of half-edge h.
