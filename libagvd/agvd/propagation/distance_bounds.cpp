@@ -45,39 +45,40 @@ struct ArcGraph {
 
 // The straight line from the apex of a half-edge's face to the apex across it; below 0 where it
 // misses the edge.
-double flip_length(const PackedHalfEdge& half_edge, const PackedHalfEdge& twin) {
-    const double length = half_edge.length;
-    const Vec2& above = half_edge.apex;
-    const Vec2 below(length - twin.apex.x(), -twin.apex.y());
+double flip_length(const Corners& corners, Index half_edge) {
+    const double length = corners.length(half_edge);
+    const Vec2 above = corners.apex(half_edge);
+    const Vec2 across = corners.apex(corners.twin(half_edge));
+    const Vec2 below(length - across.x(), -across.y());
     const double crossed = below.x() * above.y() - above.x() * below.y();
     if (crossed < 0 || crossed > length * (above.y() - below.y())) return -1;
     return (above - below).norm();
 }
 
-ArcGraph build_graph(const Surface& surface, std::span<const PackedHalfEdge> half_edges) {
+ArcGraph build_graph(const Surface& surface, const Corners& corners) {
     ArcGraph graph;
     graph.offsets.assign(surface.num_vertices() + 1, 0);
+    const auto num_half_edges = static_cast<Index>(surface.twin.size());
     // An edge and a flip for each half-edge that leaves, and the last edge on the boundary.
-    for (const PackedHalfEdge& h : half_edges) graph.offsets[h.tail + 1] += 2;
-    for (Index h = 0; h < half_edges.size(); ++h) {
-        if (half_edges[h].twin == no_index) ++graph.offsets[surface.head(h) + 1];
+    for (Index h = 0; h < num_half_edges; ++h) {
+        graph.offsets[corners.tail(h) + 1] += 2;
+        if (corners.twin(h) == no_index) ++graph.offsets[corners.head(h) + 1];
     }
     for (Index v = 0; v < surface.num_vertices(); ++v) graph.offsets[v + 1] += graph.offsets[v];
     graph.ends.assign(graph.offsets.begin(), graph.offsets.end() - 1);
     graph.arcs.resize(graph.offsets.back());
-    for (Index h = 0; h < half_edges.size(); ++h) {
-        const PackedHalfEdge& here = half_edges[h];
-        const Index head = half_edges[Surface::next(h)].tail;
-        graph.add(here.tail, head, here.length);
-        if (here.twin == no_index) {
-            graph.add(head, here.tail, here.length);
-        } else if (h < here.twin) {
-            const double length = flip_length(here, half_edges[here.twin]);
+    for (Index h = 0; h < num_half_edges; ++h) {
+        const Index tail = corners.tail(h);
+        const Index head = corners.head(h);
+        const Index twin = corners.twin(h);
+        graph.add(tail, head, corners.length(h));
+        if (twin == no_index) {
+            graph.add(head, tail, corners.length(h));
+        } else if (h < twin) {
+            const double length = flip_length(corners, h);
             if (!(length > 0)) continue;
-            const Index above = half_edges[Surface::previous(h)].tail;
-            const Index below = half_edges[Surface::previous(here.twin)].tail;
-            graph.add(above, below, length);
-            graph.add(below, above, length);
+            graph.add(corners.apex_vertex(h), corners.apex_vertex(twin), length);
+            graph.add(corners.apex_vertex(twin), corners.apex_vertex(h), length);
         }
     }
     return graph;
@@ -86,8 +87,8 @@ ArcGraph build_graph(const Surface& surface, std::span<const PackedHalfEdge> hal
 // Label-correcting in buckets of distance; the vertices of a bucket are relaxed side by side.
 class BoundsFront {
 public:
-    BoundsFront(const Surface& surface, std::span<const PackedHalfEdge> half_edges, int num_threads)
-        : graph_(build_graph(surface, half_edges)),
+    BoundsFront(const Surface& surface, const Corners& corners, int num_threads)
+        : graph_(build_graph(surface, corners)),
           num_threads_(num_threads),
           keys_(surface.num_vertices(), to_key(infinity, no_index)),
           queued_in_(surface.num_vertices(), no_index) {
@@ -184,9 +185,9 @@ private:
 
 }  // namespace
 
-DistanceBounds distance_bounds(const Surface& surface, std::span<const PackedHalfEdge> half_edges,
+DistanceBounds distance_bounds(const Surface& surface, const Corners& corners,
                                std::span<const SurfacePoint> sites, int num_threads) {
-    BoundsFront front(surface, half_edges, num_threads);
+    BoundsFront front(surface, corners, num_threads);
     for (Index s = 0; s < sites.size(); ++s) {
         if (const auto vertex = vertex_of(surface, sites[s])) {
             front.start(*vertex, 0, s);

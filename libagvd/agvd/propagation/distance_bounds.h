@@ -5,7 +5,7 @@
 #include <span>
 
 #include "agvd/mesh/surface_point.h"
-#include "agvd/propagation/packed_half_edges.h"
+#include "agvd/propagation/corners.h"
 
 namespace agvd {
 
@@ -19,10 +19,9 @@ struct DistanceBounds {
 //! faces, where those cross the shared edge. Rounded up, so that no rounding of an exact distance
 //! lies above. Unique, so that the order in which threads relax does not matter.
 //!
-//! \param half_edges  pack_half_edges(surface).
+//! \param corners  Corners(surface).
 //! Cost: about that of one Dijkstra sweep over the edges.
-[[nodiscard]] DistanceBounds distance_bounds(const Surface& surface,
-                                             std::span<const PackedHalfEdge> half_edges,
+[[nodiscard]] DistanceBounds distance_bounds(const Surface& surface, const Corners& corners,
                                              std::span<const SurfacePoint> sites, int num_threads);
 
 }  // namespace agvd

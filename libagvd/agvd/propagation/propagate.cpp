@@ -5,6 +5,7 @@
 
 #include "agvd/propagation/steiner_engine.h"
 #include "agvd/propagation/steiner_points.h"
+#include "agvd/propagation/vertex_engine.h"
 #include "agvd/propagation/window_engine.h"
 
 namespace agvd {
@@ -46,7 +47,12 @@ Propagation propagate(const Surface& surface, std::span<const SurfacePoint> site
             check_steiner_options(surface, options);
             return propagate_steiner(surface, sites, options);
         case Engine::Vertex:
-            break;
+            if (options.max_error) {
+                throw InvalidOption(
+                    "the vertex engine knows no error bound; leave max_error unset, or use the "
+                    "window or the Steiner engine");
+            }
+            return propagate_vertices(surface, sites, options);
     }
     throw InvalidOption("unknown engine");
 }

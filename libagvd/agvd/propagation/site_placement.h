@@ -37,6 +37,8 @@ public:
     //! \throw InvalidInput naming the site when its face does not exist or it is off the face.
     SitePlacement(const Surface& surface, std::span<const SurfacePoint> sites);
 
+    //! All sites lie at vertices.
+    [[nodiscard]] bool is_empty() const { return placed_.empty(); }
     [[nodiscard]] std::span<const PlacedSite> in_face(Index face) const;
     //! The site as seen from `face`, which must hold it.
     [[nodiscard]] const SurfacePoint& seen_from(Index face, Index site) const;

@@ -23,17 +23,16 @@ constexpr Index grain = 2;  // Sites of one task.
 // Fronts that no task holds; each is as large as the mesh's index arrays.
 class FrontPool {
 public:
-    FrontPool(const Surface& surface, std::span<const PackedHalfEdge> half_edges,
-              double bucket_width, double max_error)
+    FrontPool(const Surface& surface, const Corners& corners, double bucket_width, double max_error)
         : surface_(surface),
-          half_edges_(half_edges),
+          corners_(corners),
           bucket_width_(bucket_width),
           max_error_(max_error) {}
 
     std::unique_ptr<WindowFront> take() {
         const std::scoped_lock lock(mutex_);
         if (free_.empty()) {
-            return std::make_unique<WindowFront>(surface_, half_edges_, bucket_width_, max_error_);
+            return std::make_unique<WindowFront>(surface_, corners_, bucket_width_, max_error_);
         }
         auto front = std::move(free_.back());
         free_.pop_back();
@@ -56,7 +55,7 @@ public:
 
 private:
     const Surface& surface_;
-    std::span<const PackedHalfEdge> half_edges_;
+    const Corners& corners_;
     double bucket_width_;
     double max_error_;
     std::mutex mutex_;
@@ -90,24 +89,23 @@ public:
     Propagation run() {
         poll(options_.progress, 0);
         {
-            const std::vector<PackedHalfEdge> half_edges =
-                pack_half_edges(surface_, options_.num_threads);
+            const Corners corners(surface_, options_.num_threads);
             DistanceBounds bounds =
-                distance_bounds(surface_, half_edges, sites_, options_.num_threads);
+                distance_bounds(surface_, corners, sites_, options_.num_threads);
             borders_ = faces_near_borders(surface_, bounds.site);
             bounds_ = std::move(bounds.distance);
             std::vector<Index>().swap(bounds.site);
             first_visitor_ = std::vector<std::atomic<Index>>(surface_.num_faces());
             for (auto& visitor : first_visitor_) visitor.store(no_index, relaxed);
 
-            FrontPool fronts(surface_, half_edges, bucket_width(), max_error_);
+            FrontPool fronts(surface_, corners, bucket_width(), max_error_);
             result_.vertex_distance.assign(surface_.num_vertices(),
                                            std::numeric_limits<double>::infinity());
             result_.vertex_site.assign(surface_.num_vertices(), SiteId());
             propagate_all(fronts);
             propagate_late(fronts);
             result_.certified_error = fronts.relative_error();
-            result_.peak_bytes = half_edges.capacity() * sizeof(half_edges[0]) + fronts.bytes() +
+            result_.peak_bytes = corners.bytes() + fronts.bytes() +
                                  bounds_.capacity() * sizeof(float) + common_bytes();
         }
         std::vector<float>().swap(bounds_);

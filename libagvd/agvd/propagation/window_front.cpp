@@ -35,12 +35,6 @@ double meeting_point(double tail_bound, double head_bound, double length, double
     return std::min(std::max(begin, (head_bound + length - tail_bound) / 2), end);
 }
 
-void prefetch(std::span<const PackedHalfEdge> half_edges, Index half_edge) {
-    const auto* face = half_edges.data() + 3 * std::size_t{Surface::face(half_edge)};
-    __builtin_prefetch(face);
-    __builtin_prefetch(face + 2);
-}
-
 constexpr Index vertex_item(Index record) { return 2 * record + 1; }
 constexpr Index edge_item(Index record) { return 2 * record; }
 
@@ -51,23 +45,23 @@ constexpr Index edge_item(Index record) { return 2 * record; }
 // and at the tail. Plain numbers, since compilers tear vectors apart and stall where they join them
 // again.
 struct WindowFront::Face {
-    Face(std::span<const PackedHalfEdge> half_edges, Index base_half_edge)
+    Face(const Corners& corners, Index base_half_edge)
         : half_edge(base_half_edge),
-          base(half_edges[half_edge]),
-          next(half_edges[Surface::next(half_edge)]),
-          previous(half_edges[Surface::previous(half_edge)]),
+          base(corners[half_edge]),
+          next(corners[Surface::next(half_edge)]),
+          previous(corners[Surface::previous(half_edge)]),
           length(base.length),
-          apex_x(base.apex.x()),
-          apex_y(base.apex.y()),
+          apex_x(base.turn.x() * length),
+          apex_y(base.turn.y() * length),
           right_x((length - apex_x) / next.length),
           right_y(-apex_y / next.length),
           left_x(apex_x / previous.length),
           left_y(apex_y / previous.length) {}
 
     Index half_edge;
-    const PackedHalfEdge& base;
-    const PackedHalfEdge& next;
-    const PackedHalfEdge& previous;
+    const Corner& base;
+    const Corner& next;
+    const Corner& previous;
     double length;
     double apex_x, apex_y;
     double right_x, right_y;  // Unit vector from the apex to the head.
@@ -76,10 +70,10 @@ struct WindowFront::Face {
     Index tail_record = no_index, head_record = no_index, apex_record = no_index;
 };
 
-WindowFront::WindowFront(const Surface& surface, std::span<const PackedHalfEdge> half_edges,
-                         double bucket_width, double max_error)
+WindowFront::WindowFront(const Surface& surface, const Corners& corners, double bucket_width,
+                         double max_error)
     : surface_(surface),
-      half_edges_(half_edges),
+      corners_(corners),
       per_bucket_(1 / bucket_width),
       max_error_(max_error),
       vertex_slot_(surface.num_vertices(), 0),
@@ -140,7 +134,7 @@ Index WindowFront::edge_record(Index half_edge, Index tail, Index head) {
     if (slot < edges_.size() && edges_[slot].half_edge == half_edge) return slot;
     slot = static_cast<Index>(edges_.size());
     edges_.push_back({half_edge, tail, head});
-    prefetch(half_edges_, half_edge);
+    corners_.prefetch(Surface::face(half_edge));
     return slot;
 }
 
@@ -251,17 +245,17 @@ void WindowFront::start(const SurfacePoint& site) {
 // given, are rays that bound the fan, in the frame of the half-edge.
 void WindowFront::emit_into(Index half_edge, double weight, float error, const Vec2* from,
                             const Vec2* to) {
-    const PackedHalfEdge& first = half_edges_[half_edge];
-    const PackedHalfEdge& opposite = half_edges_[Surface::next(half_edge)];
-    const PackedHalfEdge& last = half_edges_[Surface::previous(half_edge)];
-    const Vec2& vertex = opposite.apex;
+    const Corner& first = corners_[half_edge];
+    const Corner& opposite = corners_[Surface::next(half_edge)];
+    const Corner& last = corners_[Surface::previous(half_edge)];
+    const Vec2 vertex = corners_.apex(Surface::next(half_edge));
     const double length = opposite.length;
     // The frame beyond starts at the apex of `half_edge` and runs clockwise around the vertex.
     const Vec2 image(length - vertex.x(), -vertex.y());
     Window window{
         image.x(), image.y(), weight, 0, length, weight + last.length, weight + first.length,
         error};
-    const Vec2 axis = (Vec2(first.length, 0) - first.apex) / length;
+    const Vec2 axis = (Vec2(first.length, 0) - corners_.apex(half_edge)) / length;
     const auto meets_at = [&](const Vec2& ray) {
         const Vec2 direction = into(axis, ray);
         if (direction.y() > 0) return image.x() - image.y() * direction.x() / direction.y();
@@ -306,32 +300,31 @@ void WindowFront::emit(Index record) {
     Index first = no_index;
     Vec2 from = v.arrival;
     for (Index h = v.arrival_half_edge; h != no_index;) {
-        const Index back = Surface::previous(h);
-        const Vec2 turned = into(half_edges_[h].apex / half_edges_[back].length, from);
+        const Vec2 turned = into(corners_[h].turn, from);
         if (h != v.arrival_half_edge && from.y() <= 0 && turned.y() > 0) {
             first = h;
             break;
         }
         from = turned;
-        h = half_edges_[back].twin;
+        h = corners_.twin(Surface::previous(h));
         if (h == v.arrival_half_edge) break;
     }
     // Clockwise, the other way round.
     Index last = no_index;
     Vec2 to = v.arrival;
-    for (Index twin = half_edges_[v.arrival_half_edge].twin; twin != no_index;) {
+    for (Index twin = corners_[v.arrival_half_edge].twin; twin != no_index;) {
         const Index h = Surface::next(twin);
         if (h == v.arrival_half_edge) break;
-        const Vec2 corner = half_edges_[h].apex / half_edges_[Surface::previous(h)].length;
-        const Vec2 turned(corner.x() * to.x() - corner.y() * to.y(),
-                          corner.x() * to.y() + corner.y() * to.x());
+        const Vec2& turn = corners_[h].turn;
+        const Vec2 turned(turn.x() * to.x() - turn.y() * to.y(),
+                          turn.x() * to.y() + turn.y() * to.x());
         const bool is_behind = to.y() >= 0 && turned.y() < 0;
         to = turned;
         if (is_behind) {
             last = h;
             break;
         }
-        twin = half_edges_[h].twin;
+        twin = corners_[h].twin;
     }
     from = -from;
     to = -to;
@@ -346,7 +339,7 @@ void WindowFront::emit(Index record) {
 
 void WindowFront::emit_fan(Index first, const Vec2* from, Index last, const Vec2* to,
                            const VertexRecord& v) {
-    for (Index h = first; h != no_index; h = half_edges_[Surface::previous(h)].twin) {
+    for (Index h = first; h != no_index; h = corners_[Surface::previous(h)].twin) {
         emit_into(h, v.low, v.error, h == first ? from : nullptr, h == last ? to : nullptr);
         if (h == last) break;
     }
@@ -437,7 +430,7 @@ void WindowFront::take_in(EdgeRecord& edge, const Face& face) {
 // Takes in the windows that wait, and sends on what has not been sent on.
 void WindowFront::serve_edge(Index record) {
     if (edges_[record].runs == no_index) return;
-    Face face(half_edges_, edges_[record].half_edge);
+    Face face(corners_, edges_[record].half_edge);
     face.tail_record = edges_[record].tail;
     face.head_record = edges_[record].head;
     face.tail_bound = vertices_[face.tail_record].bound;

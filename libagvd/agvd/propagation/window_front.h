@@ -10,7 +10,7 @@
 
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_point.h"
-#include "agvd/propagation/packed_half_edges.h"
+#include "agvd/propagation/corners.h"
 #include "agvd/propagation/window.h"
 
 namespace agvd {
@@ -25,11 +25,11 @@ enum class FrontOrder : std::uint8_t {
 //! The memory of one run, which the next one reuses. Not for use by two threads at once.
 class WindowFront {
 public:
-    //! \param surface, half_edges  outlive the front; pack_half_edges(surface).
+    //! \param surface, corners  outlive the front; Corners(surface).
     //! \param bucket_width  > 0, mesh units.
     //! \param max_error    relative; 0: no window is merged.
-    WindowFront(const Surface& surface, std::span<const PackedHalfEdge> half_edges,
-                double bucket_width, double max_error);
+    WindowFront(const Surface& surface, const Corners& corners, double bucket_width,
+                double max_error);
 
     //! Propagates from one site. Windows die where `bounds` are lower.
     //!
@@ -129,7 +129,7 @@ private:
     void emit_into(Index half_edge, double weight, float error, const Vec2* from, const Vec2* to);
 
     const Surface& surface_;
-    std::span<const PackedHalfEdge> half_edges_;
+    const Corners& corners_;
     double per_bucket_;
     double max_error_;
     std::span<const float> bounds_;

@@ -1,0 +1,47 @@
+//! \file
+//! The surface laid out for walks from face to face: what a step reads stands together.
+#pragma once
+
+#include <memory>
+
+#include "agvd/mesh/surface.h"
+
+namespace agvd {
+
+//! The corner at the tail of a half-edge. 32 bytes, so that a face lies in two cache lines.
+struct alignas(32) Corner {
+    Vec2 turn;      //!< Turns and stretches the half-edge into the other edge of the corner.
+    double length;  //!< Of the half-edge.
+    Index twin;
+    Index tail;
+};
+
+//! The corners of all half-edges, and the walks on them that Surface has.
+class Corners {
+public:
+    //! Cost: O(#H) time and space.
+    Corners(const Surface& surface, int num_threads);
+
+    [[nodiscard]] const Corner& operator[](Index h) const { return corners_[h]; }
+    [[nodiscard]] Index tail(Index h) const { return corners_[h].tail; }
+    [[nodiscard]] Index head(Index h) const { return corners_[Surface::next(h)].tail; }
+    [[nodiscard]] Index twin(Index h) const { return corners_[h].twin; }
+    [[nodiscard]] double length(Index h) const { return corners_[h].length; }
+    //! In the frame of h.
+    [[nodiscard]] Vec2 apex(Index h) const { return corners_[h].turn * corners_[h].length; }
+    [[nodiscard]] Index apex_vertex(Index h) const { return corners_[Surface::previous(h)].tail; }
+
+    //! Starts to load a face, which will be read soon.
+    void prefetch(Index face) const {
+        __builtin_prefetch(&corners_[3 * std::size_t{face}]);
+        __builtin_prefetch(&corners_[3 * std::size_t{face} + 2]);
+    }
+
+    [[nodiscard]] std::size_t bytes() const { return num_half_edges_ * sizeof(Corner); }
+
+private:
+    std::size_t num_half_edges_;
+    std::unique_ptr<Corner[]> corners_;  // Not a vector: that would write everything twice.
+};
+
+}  // namespace agvd

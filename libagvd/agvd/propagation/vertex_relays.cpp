@@ -1,0 +1,161 @@
+#include "agvd/propagation/vertex_relays.h"
+
+#include <algorithm>
+
+namespace agvd {
+
+std::vector<Index> VertexRelays::mixed_faces() const {
+    std::vector<Index> mixed;
+    for (Index f = 0; f < surface_.num_faces(); ++f) {
+        const Triangle& corners = surface_.mesh.triangles[f];
+        const Index site = reach_[corners[0]].site;
+        if (reach_[corners[1]].site != site || reach_[corners[2]].site != site) mixed.push_back(f);
+    }
+    const std::size_t num_by_corners = mixed.size();
+    const auto list_if_foreign = [&](Index face, Index site) {
+        if (reach_[surface_.tail(3 * face)].site != site) mixed.push_back(face);
+    };
+    const auto list_around = [&](Index face, Index site) {
+        list_if_foreign(face, site);
+        for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+            const Index twin = surface_.twin[h];
+            if (twin != no_index) list_if_foreign(Surface::face(twin), site);
+        }
+    };
+    for (Index s = 0; s < sites_.size(); ++s) {
+        if (vertex_of(surface_, sites_[s])) continue;
+        list_around(sites_[s].face.value(), s);
+        const auto half_edge = half_edge_of(sites_[s]);
+        if (half_edge && surface_.twin[*half_edge] != no_index) {
+            list_around(Surface::face(surface_.twin[*half_edge]), s);
+        }
+    }
+    if (mixed.size() > num_by_corners) {
+        std::sort(mixed.begin(), mixed.end());
+        mixed.erase(std::unique(mixed.begin(), mixed.end()), mixed.end());
+    }
+    return mixed;
+}
+
+void VertexRelays::collect(Index face, std::vector<Relay>& out) const {
+    if (!placement_.is_empty()) collect_sites(face, out);
+    std::array<Index, 3> source{};
+    for (Index k = 0; k < 3; ++k) source[k] = source_of(views_[corners_.tail(3 * face + k)]);
+    for (Index k = 0; k < 3; ++k) {
+        const Index h = 3 * face + k;
+        if (!is_served(h, source[k], out)) {
+            const VertexReach& reach = reach_[corners_.tail(h)];
+            add_point(h, {0, 0}, reach.distance, reach.site, out);
+        }
+        // The neighbour's far corner, where an end of h was reached from there.
+        const Index other = source[(k + 1) % 3];
+        const Index twin = corners_.twin(h);
+        if (twin == no_index || (source[k] == no_index && other == no_index)) continue;
+        const Index far = corners_.apex_vertex(twin);
+        if (far != source[k] && far != other) continue;
+        const Vec2 apex = corners_.apex(twin);
+        add_point(h, {corners_.length(h) - apex.x(), -apex.y()}, reach_[far].distance,
+                  reach_[far].site, out);
+    }
+}
+
+// The sites in a face and in its neighbours.
+void VertexRelays::collect_sites(Index face, std::vector<Relay>& out) const {
+    for (const PlacedSite& placed : placement_.in_face(face)) {
+        const Vec2 p = position_in_frame(surface_, placed.point, 3 * face);
+        add_point(3 * face, p, 0, placed.site, out);
+    }
+    for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+        const Index twin = corners_.twin(h);
+        if (twin == no_index) continue;
+        for (const PlacedSite& placed : placement_.in_face(Surface::face(twin))) {
+            const Vec2 p = position_in_frame(surface_, placed.point, twin);
+            if (!(p.y() > 0)) continue;  // On the edge: a site of this face too.
+            add_point(h, {corners_.length(h) - p.x(), -p.y()}, 0, placed.site, out);
+        }
+    }
+}
+
+// A point that sees the whole face, or all of it that lies behind h.
+void VertexRelays::add_point(Index h, const Vec2& p, double weight, Index site,
+                             std::vector<Relay>& out) const {
+    out.push_back({p.x(), p.y(), weight, 0, corners_.length(h), SiteId(site), h});
+}
+
+// The vertex from which another was reached along an edge; no_index: it was not.
+Index VertexRelays::source_of(const VertexView& view) const {
+    if (view.kind == ViewKind::FromTail) return corners_.tail(view.half_edge);
+    if (view.kind == ViewKind::FromHead) return corners_.head(view.half_edge);
+    return no_index;
+}
+
+// Whether another relay of the face stands for the corner at the tail of h, which was reached from
+// `source`; adds that which the corner sees through an edge.
+bool VertexRelays::is_served(Index h, Index source, std::vector<Relay>& out) const {
+    const Index vertex = corners_.tail(h);
+    const VertexView& view = views_[vertex];
+    if (view.kind == ViewKind::Site) return false;
+    const Index previous = Surface::previous(h);
+    const Index across[2] = {corners_.twin(h), corners_.twin(previous)};
+    if (view.kind == ViewKind::Window) {
+        const Index site = reach_[vertex].site;
+        if (view.half_edge == Surface::next(h)) {
+            add_image(view.half_edge, view.image, view.weight, site, direction(view.left),
+                      direction(view.right), out);
+            return true;
+        }
+        if (across[0] != no_index && view.half_edge == Surface::previous(across[0])) {
+            return add_across(h, view, site, out);
+        }
+        if (across[1] != no_index && view.half_edge == Surface::next(across[1])) {
+            return add_across(previous, view, site, out);
+        }
+        return false;
+    }
+    if (view.kind == ViewKind::Face) {  // The site is a relay of its face and of the next ones.
+        const Index face = Surface::face(view.half_edge);
+        return face == Surface::face(h) || std::any_of(across, across + 2, [face](Index twin) {
+                   return twin != no_index && Surface::face(twin) == face;
+               });
+    }
+    return source == corners_.head(h) || source == corners_.tail(previous) ||
+           std::any_of(across, across + 2, [&](Index twin) {
+               return twin != no_index && source == corners_.apex_vertex(twin);
+           });
+}
+
+// The view of one end of half-edge h, in the face across h: what of it passes h.
+bool VertexRelays::add_across(Index h, const VertexView& view, Index site,
+                              std::vector<Relay>& out) const {
+    const Vec2 apex = corners_.apex(view.half_edge);
+    const bool at_tail = Surface::next(view.half_edge) == corners_.twin(h);
+    const double length = corners_.length(h);
+    const Vec2 tail = at_tail ? apex : Vec2(0, 0);
+    const Vec2 head = at_tail ? Vec2(corners_.length(view.half_edge), 0) : apex;
+    const Vec2 axis = (head - tail) / length;
+    const Vec2 image = turned_back(view.image - tail, axis);
+    if (!(image.y() < 0)) return false;
+    if (at_tail) {
+        add_image(h, image, view.weight, site, -image, turned_back(direction(view.right), axis),
+                  out);
+    } else {
+        add_image(h, image, view.weight, site, turned_back(direction(view.left), axis),
+                  Vec2(length, 0) - image, out);
+    }
+    return true;
+}
+
+// An image below half-edge h that sees what lies between two directions.
+void VertexRelays::add_image(Index h, const Vec2& image, double weight, Index site,
+                             const Vec2& left, const Vec2& right, std::vector<Relay>& out) const {
+    const double length = corners_.length(h);
+    const auto hit = [&](const Vec2& d, double otherwise) {
+        if (!(d.y() > 0)) return otherwise;
+        return std::clamp(image.x() - image.y() * d.x() / d.y(), 0.0, length);
+    };
+    const double begin = hit(left, 0);
+    const double end = std::max(begin, hit(right, length));
+    out.push_back({image.x(), image.y(), weight, begin, end, SiteId(site), h});
+}
+
+}  // namespace agvd
