@@ -19,6 +19,8 @@ namespace {
 constexpr double bound_slack = 1 + 1e-6;
 
 constexpr Index grain = 2;  // Sites of one task.
+constexpr Index least_batch = 6;
+constexpr Index most_batches = 16;
 
 // Fronts that no task holds; each is as large as the mesh's index arrays.
 class FrontPool {
@@ -130,7 +132,7 @@ private:
     [[nodiscard]] std::size_t common_bytes() const {
         std::size_t sum = result_.vertex_distance.capacity() * sizeof(double) +
                           result_.vertex_site.capacity() * sizeof(SiteId) +
-                          borders_.capacity() / 8 + first_visitor_.capacity() * sizeof(Index);
+                          borders_.capacity() + first_visitor_.capacity() * sizeof(Index);
         for (const auto& log : logs_) sum += log.capacity() * sizeof(Relay);
         return sum;
     }
@@ -145,18 +147,19 @@ private:
     }
 
     void propagate_all(FrontPool& fronts) {
-        constexpr Index num_batches = 8;
-        constexpr Index least_batch = 16;
         const std::vector<Index> order = site_order();
         const auto count = static_cast<Index>(order.size());
-        const Index batch_size = std::max(least_batch, count / num_batches + 1);
-        for (Index begin = 0; begin < count; begin += batch_size) {
-            const Index end = std::min(count, begin + batch_size);
-            const auto tasks = run_tasks(std::span(order).subspan(begin, end - begin), fronts,
-                                         [&](Index site, const WindowFront& front,
+        const Index num_batches = std::clamp(count / least_batch, Index{1}, most_batches);
+        std::vector<Index> batch;
+        for (Index first = 0; first < num_batches; ++first) {
+            // Every num_batches-th, so that half the neighbours of a site have run before it.
+            batch.clear();
+            for (Index i = first; i < count; i += num_batches) batch.push_back(order[i]);
+            const auto tasks =
+                run_tasks(batch, fronts, [&](Index site, const WindowFront& front,
                                              TaskResult& task) { collect(site, front, task); });
             for (const TaskResult& task : tasks) take_vertices(task);
-            poll(options_.progress, static_cast<double>(end) / (count + 1));
+            poll(options_.progress, static_cast<double>(first + 1) / (num_batches + 1));
         }
     }
 
@@ -197,7 +200,7 @@ private:
         });
         front.for_each_half_edge([&](Index half_edge, std::span<const Window> windows) {
             const Index face = Surface::face(half_edge);
-            if (borders_[face]) {
+            if (borders_[face] != 0) {
                 for (const Window& w : windows) task.relays.push_back(to_relay(w, site, half_edge));
                 return;
             }
@@ -225,11 +228,11 @@ private:
     // Sites that came to a face where the bounds showed no border, and others did, too.
     void propagate_late(FrontPool& fronts) {
         for (Index face = 0; face < surface_.num_faces(); ++face) {
-            if (borders_[face] || has_one_site(face)) continue;
+            if (borders_[face] != 0 || has_one_site(face)) continue;
             const Index visitor = first_visitor_[face].load(relaxed);
             late_visits_.push_back({face, visitor});
         }
-        for (const FaceVisit& visit : late_visits_) borders_[visit.face] = true;
+        for (const FaceVisit& visit : late_visits_) borders_[visit.face] = 1;
         std::vector<Index> again;
         for (const FaceVisit& visit : late_visits_) {
             if (visit.site != no_index) again.push_back(visit.site);
@@ -267,7 +270,7 @@ private:
     Index work_cap_;
     SitePlacement placement_;
     std::vector<float> bounds_;                      // #V, of the nearest site.
-    std::vector<bool> borders_;                      // #F: windows are kept.
+    std::vector<std::uint8_t> borders_;  // #F: 1 where windows are kept.
     std::vector<std::atomic<Index>> first_visitor_;  // #F: of the other faces.
     std::vector<FaceVisit> late_visits_;
     std::vector<std::vector<Relay>> logs_;

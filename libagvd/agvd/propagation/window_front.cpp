@@ -291,7 +291,7 @@ void WindowFront::emit(Index record) {
     vertices_[record].emitted = v.low;
     const Index start = surface_.outgoing[v.vertex];
     if (v.arrival_half_edge == no_index) {
-        emit_fan(start, nullptr, Surface::previous(start), nullptr, v);
+        emit_fan(start, nullptr, no_index, nullptr, v);
         return;
     }
 
@@ -339,10 +339,12 @@ void WindowFront::emit(Index record) {
 
 void WindowFront::emit_fan(Index first, const Vec2* from, Index last, const Vec2* to,
                            const VertexRecord& v) {
-    for (Index h = first; h != no_index; h = corners_[Surface::previous(h)].twin) {
+    Index h = first;
+    do {
         emit_into(h, v.low, v.error, h == first ? from : nullptr, h == last ? to : nullptr);
-        if (h == last) break;
-    }
+        if (h == last) return;
+        h = corners_.twin(Surface::previous(h));
+    } while (h != no_index && h != first);
 }
 
 // --- Half-edges --------------------------------------------------------------------------------
@@ -435,11 +437,16 @@ void WindowFront::serve_edge(Index record) {
     face.head_record = edges_[record].head;
     face.tail_bound = vertices_[face.tail_record].bound;
     face.head_bound = vertices_[face.head_record].bound;
-    face.apex_record = vertex_record(face.previous.tail);
+    // Needed after the windows that wait are sorted out, and seldom in the cache.
+    __builtin_prefetch(&vertex_slot_[face.previous.tail]);
+    __builtin_prefetch(&bounds_[face.previous.tail]);
+    if (face.next.twin != no_index) __builtin_prefetch(&edge_slot_[face.next.twin]);
+    if (face.previous.twin != no_index) __builtin_prefetch(&edge_slot_[face.previous.twin]);
 
     EdgeRecord& edge = edges_[record];
     take_in(edge, face);
     if (max_error_ > 0) merge_neighbours();
+    face.apex_record = vertex_record(face.previous.tail);
     right_.clear();
     left_.clear();
     for (Window& window : envelope_) {
@@ -500,9 +507,13 @@ void WindowFront::divide_window(const Window& w, EdgeRecord& edge, const Face& f
         // A merged window's end ray touches the apex on one side only, and others go past it on
         // the other side in other directions.
         const bool touches = w.error > 0 && !(w.begin < ray && ray < w.end);
-        reach_vertex(face.apex_record, at_apex, w.error,
-                     touches ? no_index : Surface::previous(face.half_edge),
-                     into(Vec2(-face.left_x, -face.left_y), to_image));
+        if (at_apex < vertices_[face.apex_record].low) {
+            reach_vertex(face.apex_record, at_apex, w.error,
+                         touches ? no_index : Surface::previous(face.half_edge),
+                         into(Vec2(-face.left_x, -face.left_y), to_image));
+        } else {
+            bound_vertex(face.apex_record, at_apex + w.error);
+        }
         if (w.begin < ray && ray < w.end) {
             Part left{&w, ray, true};
             Part right{&w, ray, true};

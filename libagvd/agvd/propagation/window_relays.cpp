@@ -41,26 +41,26 @@ void write_inner_relays(const Surface& surface, std::span<const PlacedSite> plac
 
 }  // namespace
 
-std::vector<bool> faces_near_borders(const Surface& surface, std::span<const Index> vertex_site) {
-    std::vector<bool> is_near(surface.num_vertices(), false);
-    for (const Triangle& t : surface.mesh.triangles) {
-        if (vertex_site[t[0]] == vertex_site[t[1]] && vertex_site[t[1]] == vertex_site[t[2]]) {
-            continue;
+std::vector<std::uint8_t> faces_near_borders(const Surface& surface,
+                                             std::span<const Index> vertex_site) {
+    const std::vector<Triangle>& triangles = surface.mesh.triangles;
+    std::vector<std::uint8_t> ring(surface.num_vertices(), 0);  // 1: at a border, 2: next to one.
+    for (const auto& [a, b, c] : triangles) {
+        const bool is_border =
+            vertex_site[a] != vertex_site[b] || vertex_site[b] != vertex_site[c];
+        if (is_border) ring[a] = ring[b] = ring[c] = 1;
+    }
+    for (const auto& [a, b, c] : triangles) {
+        if (ring[a] != 1 && ring[b] != 1 && ring[c] != 1) continue;
+        for (const Index v : {a, b, c}) {
+            if (ring[v] == 0) ring[v] = 2;
         }
-        for (const Index v : t) is_near[v] = true;
     }
-    const auto touches = [&](const Triangle& t) {
-        return std::any_of(t.begin(), t.end(), [&](Index v) { return is_near[v]; });
-    };
-    std::vector<bool> faces(surface.num_faces(), false);
-    std::vector<Index> grown;
-    for (Index f = 0; f < surface.num_faces(); ++f) {
-        if (touches(surface.mesh.triangles[f])) grown.push_back(f);
+    std::vector<std::uint8_t> faces;
+    faces.reserve(triangles.size());
+    for (const auto& [a, b, c] : triangles) {
+        faces.push_back((ring[a] | ring[b] | ring[c]) != 0 ? 1 : 0);
     }
-    for (const Index f : grown) {
-        for (const Index v : surface.mesh.triangles[f]) is_near[v] = true;
-    }
-    for (Index f = 0; f < surface.num_faces(); ++f) faces[f] = touches(surface.mesh.triangles[f]);
     return faces;
 }
 

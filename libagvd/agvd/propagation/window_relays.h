@@ -14,10 +14,10 @@ struct FaceVisit {
     Index site;
 };
 
-//! Faces within two rings of a change of label. The labels come from bounds: the borders of exact
-//! distances lie near, on most faces.
-[[nodiscard]] std::vector<bool> faces_near_borders(const Surface& surface,
-                                                   std::span<const Index> vertex_site);
+//! #F: 1 for the faces within two rings of a change of label. The labels come from bounds: the
+//! borders of exact distances lie near, on most faces.
+[[nodiscard]] std::vector<std::uint8_t> faces_near_borders(const Surface& surface,
+                                                           std::span<const Index> vertex_site);
 
 //! Weighted by the length of a real path.
 [[nodiscard]] Relay to_relay(const Window& window, Index site, Index half_edge);
