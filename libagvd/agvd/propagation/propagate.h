@@ -31,7 +31,7 @@ struct PropagationOptions {
 };
 
 //! max_error of the window engine where none is asked for.
-inline constexpr double default_max_error = 1e-3;
+inline constexpr double default_max_error = 1e-4;
 
 //! Propagates distances from all sites at once.
 //!
