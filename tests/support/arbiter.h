@@ -19,7 +19,9 @@ struct Distances {
 //! Windows in long double, nearest first, dropped only where a vertex of their own edge is at least
 //! as good for all of them (the safest test of [xin2009]); no trimming, no merging, no float. Every
 //! length is that of a path on the surface: a point that rounding puts beside a window is reached
-//! by a path that bends at the window's end. For meshes up to some thousand faces.
+//! by a path that bends at the window's end.
+//!
+//! Cost: from one site half a second on 10 000 faces, half a minute on 100 000; less from more.
 [[nodiscard]] Distances nearest_sites(const agvd::Surface& surface,
                                       std::span<const agvd::SurfacePoint> sites,
                                       std::span<const agvd::SurfacePoint> targets);
