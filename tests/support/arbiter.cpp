@@ -81,9 +81,9 @@ public:
         }
     }
 
-    Distances run(std::span<const SurfacePoint> sites) {
+    Distances run(std::span<const SurfacePoint> sites, Real longest) {
         for (Index s = 0; s < sites.size(); ++s) start(sites[s], SiteId(s));
-        while (!queue_.empty()) {
+        while (!queue_.empty() && queue_.top().key <= longest) {
             const Event event = queue_.top();
             queue_.pop();
             if (event.vertex == no_index) {
@@ -266,8 +266,8 @@ private:
 }  // namespace
 
 Distances nearest_sites(const Surface& surface, std::span<const SurfacePoint> sites,
-                        std::span<const SurfacePoint> targets) {
-    return Search(surface, targets).run(sites);
+                        std::span<const SurfacePoint> targets, long double longest) {
+    return Search(surface, targets).run(sites, longest);
 }
 
 }  // namespace arbiter
