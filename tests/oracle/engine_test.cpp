@@ -240,7 +240,8 @@ void expect_well_formed(const Case& c, const Propagation& p) {
             ASSERT_LT(relay.site.value(), c.sites.size());
             ASSERT_TRUE(0 <= relay.begin && relay.begin <= relay.end &&
                         relay.end <= c.surface.length_of(relay.half_edge));
-            ASSERT_TRUE(std::isfinite(relay.x) && std::isfinite(relay.y) && relay.weight >= 0);
+            ASSERT_TRUE(std::isfinite(relay.x) && std::isfinite(relay.y) &&
+                        std::isfinite(relay.weight));
         }
     }
     std::size_t next = 0;
