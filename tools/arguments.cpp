@@ -1,7 +1,7 @@
 #include "arguments.h"
 
 #include <CLI/CLI.hpp>
-#include <limits>
+#include <cmath>
 #include <sstream>
 #include <string>
 
@@ -21,6 +21,13 @@ std::string check_max_error(const std::string& text) {
     double error = 0;
     if (CLI::detail::lexical_cast(text, error) && error >= 0 && error < 1) return {};
     return "the error " + text + " is no number from 0 (exact) to below 1";
+}
+
+// CLI::Range lets NaN through.
+std::string check_lambda(const std::string& text) {
+    double lambda = 0;
+    if (CLI::detail::lexical_cast(text, lambda) && lambda > 0 && std::isfinite(lambda)) return {};
+    return "lambda is " + text + "; use a number above 0";
 }
 
 }  // namespace
@@ -78,8 +85,7 @@ void add_diagram_options(CLI::App& app, DiagramArguments& arguments) {
         ->capture_default_str();
     app.add_option("--lambda", propagation.lambda,
                    "Steiner engine: triangles are retired every L * #faces pops; costs memory only")
-        ->check(CLI::Range(std::numeric_limits<double>::min(), std::numeric_limits<double>::max())
-                    .description(""))
+        ->check(CLI::Validator(check_lambda, ""))
         ->type_name("L")
         ->capture_default_str();
     app.add_flag("--force", arguments.force, "Allow an output to overwrite an input");

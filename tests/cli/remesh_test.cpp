@@ -222,8 +222,9 @@ TEST_F(Remesh, ASignalEndsItWithTheOldFileUntouched) {
     const std::string in = put("in.ply", shapes::sphere(6));
     put("out.ply", "old");
     for (const int number : {SIGINT, SIGTERM}) {
-        const auto outcome = remesh({in, at("out.ply"), "--steiner-points", "40", "--verbose"},
-                                    {.signal = number, .after = "in.ply"});
+        const auto outcome = remesh(
+            {in, at("out.ply"), "--engine", "steiner", "--steiner-points", "40", "--verbose"},
+            {.signal = number, .after = "in.ply"});
         EXPECT_FALSE(outcome.killed);
         EXPECT_EQ(outcome.exit_code, 128 + number) << outcome.err;
         EXPECT_EQ(bytes("out.ply"), "old");
@@ -252,8 +253,7 @@ TEST_F(Remesh, TellsTheEngineAndWhatItCertifies) {
     EXPECT_NE(outcome.err.find("steiner engine, error unknown"), std::string::npos) << outcome.err;
 }
 
-// To be enabled with the window engine.
-TEST_F(Remesh, DISABLED_KeepsBelowTheErrorAskedFor) {
+TEST_F(Remesh, KeepsBelowTheErrorAskedFor) {
     const std::string in = put("in.off", shapes::jitter(shapes::sphere(3), 0.01, 1));
     for (const char* error : {"0", "0.001", "0.2"}) {
         const auto outcome = remesh({in, at("out.off"), "-n", "50", "--engine", "window",
