@@ -59,6 +59,7 @@ void run_diagram(const Arguments& arguments) {
             ? remesh::sample_sites(surface, sampling)
             : remesh::to_cleaned(remesh::read_sites(arguments.sites, mesh), mesh, clean);
     agvd::PropagationOptions propagating = arguments.propagation;
+    propagating.num_threads = arguments.common.threads;
     propagating.progress = progress_of("propagate");
     const agvd::Propagation propagation = agvd::propagate(surface, sites, propagating);
     const agvd::Diagram diagram = agvd::build_diagram(
@@ -76,6 +77,7 @@ void run_diagram(const Arguments& arguments) {
         console.warn(std::to_string(unreached) +
                      " vertices are reached by no site; place one on every component");
     }
+    console.info(remesh::to_text(propagating.engine, propagation.certified_error));
     console.info(std::to_string(sites.size()) + " sites, " +
                  std::to_string(diagram.vertices.size()) + " Voronoi vertices, " +
                  std::to_string(diagram.edges.size()) + " edges");

@@ -1,10 +1,44 @@
 #include "arguments.h"
 
 #include <CLI/CLI.hpp>
-#include <limits>
+#include <cmath>
+#include <sstream>
 #include <string>
 
 namespace cli {
+namespace {
+
+std::string max_error_help() {
+    std::ostringstream text;
+    text << "Distances at most this share above exact, 0 to below 1; 0: exact. Without it the "
+            "window engine keeps below "
+         << agvd::default_max_error << ", the others promise nothing; the vertex engine takes none";
+    return text.str();
+}
+
+// An empty text: it will do.
+std::string check_max_error(const std::string& text) {
+    double error = 0;
+    if (CLI::detail::lexical_cast(text, error) && error >= 0 && error < 1) return {};
+    return "the error " + text + " is no number from 0 (exact) to below 1";
+}
+
+// CLI::Range lets NaN through.
+std::string check_lambda(const std::string& text) {
+    double lambda = 0;
+    if (CLI::detail::lexical_cast(text, lambda) && lambda > 0 && std::isfinite(lambda)) return {};
+    return "lambda is " + text + "; use a number above 0";
+}
+
+}  // namespace
+
+std::map<std::string, agvd::Engine> engines_by_name() {
+    std::map<std::string, agvd::Engine> engines;
+    for (const auto engine : {agvd::Engine::Window, agvd::Engine::Steiner, agvd::Engine::Vertex}) {
+        engines[agvd::engine_name(engine)] = engine;
+    }
+    return engines;
+}
 
 void add_diagram_options(CLI::App& app, DiagramArguments& arguments) {
     remesh::SamplingOptions& sampling = arguments.sampling;
@@ -31,15 +65,27 @@ void add_diagram_options(CLI::App& app, DiagramArguments& arguments) {
                    "Sites to use instead; lines `v VERTEX`, `f FACE B0 B1 B2` or `p X Y Z`")
         ->excludes(samples)
         ->type_name("FILE");
+    app.add_option_function<std::string>(
+           "--engine",
+           [&propagation](const std::string& name) {
+               propagation.engine = engines_by_name().at(name);
+           },
+           "window: error of your choice, and the quickest for it; steiner: the paper's, "
+           "for comparison; vertex: coarse, for a first look")
+        ->check(CLI::IsMember(engines_by_name()).description(""))
+        ->type_name("NAME")
+        ->default_str(agvd::engine_name(propagation.engine));
+    app.add_option("--max-error", propagation.max_error, max_error_help())
+        ->check(CLI::Validator(check_max_error, ""))
+        ->type_name("E");
     app.add_option("--steiner-points", propagation.steiner_points,
-                   "Steiner points on each edge; more is closer to exact, and slower")
+                   "Steiner engine: points on each edge; more is closer to exact, and slower")
         ->check(CLI::Range(0, 1000).description(""))
         ->type_name("M")
         ->capture_default_str();
     app.add_option("--lambda", propagation.lambda,
-                   "Triangles are retired every L * #faces pops; costs memory only")
-        ->check(CLI::Range(std::numeric_limits<double>::min(), std::numeric_limits<double>::max())
-                    .description(""))
+                   "Steiner engine: triangles are retired every L * #faces pops; costs memory only")
+        ->check(CLI::Validator(check_lambda, ""))
         ->type_name("L")
         ->capture_default_str();
     app.add_flag("--force", arguments.force, "Allow an output to overwrite an input");

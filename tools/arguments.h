@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
+#include <string>
 
 #include "agvd/propagation/propagate.h"
 #include "cli.h"
@@ -20,8 +22,11 @@ struct DiagramArguments {
     CommonOptions common;
 };
 
-//! Adds IN, --samples, --init, --seed, --sites, --steiner-points, --lambda, --force and the common
-//! options.
+//! Every engine by its name on the command line.
+[[nodiscard]] std::map<std::string, agvd::Engine> engines_by_name();
+
+//! Adds IN, --samples, --init, --seed, --sites, --engine, --max-error, --steiner-points, --lambda,
+//! --force and the common options.
 void add_diagram_options(CLI::App& app, DiagramArguments& arguments);
 
 //! "FILE: N vertices, M faces", for the log.

@@ -44,6 +44,8 @@ void run_job(const Arguments& arguments) {
     remesh::RemeshOptions options{.num_samples = arguments.sampling.num_samples,
                                   .init = arguments.sampling.init,
                                   .seed = arguments.sampling.seed,
+                                  .engine = arguments.propagation.engine,
+                                  .max_error = arguments.propagation.max_error,
                                   .steiner_points = arguments.propagation.steiner_points,
                                   .lambda = arguments.propagation.lambda,
                                   .num_threads = arguments.common.threads,

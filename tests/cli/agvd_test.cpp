@@ -44,6 +44,13 @@ TEST_F(AgvdDiagram, AComponentWithoutASiteIsToldAndWritten) {
     EXPECT_EQ(remesh::read_mesh(at("d.ply")).mesh.positions.size(), 84u);
 }
 
+TEST_F(AgvdDiagram, TellsTheEngineAndWhatItCertifies) {
+    const std::string in = put("in.off", shapes::sphere(2));
+    const auto outcome = diagram({in, "-n", "20", "--engine", "steiner", "-o", at("d.ply")});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("steiner engine, error unknown"), std::string::npos) << outcome.err;
+}
+
 TEST_F(AgvdDiagram, ExitCodes) {
     const std::string in = put("in.off", shapes::sphere(1));
     EXPECT_EQ(run(AGVD_PROGRAM, {}).exit_code, 2);
@@ -51,6 +58,9 @@ TEST_F(AgvdDiagram, ExitCodes) {
     EXPECT_EQ(diagram({"--help"}).exit_code, 0);
     EXPECT_EQ(diagram({in}).exit_code, 2);
     EXPECT_EQ(diagram({in, "-n", "0", "-o", at("d.vtp")}).exit_code, 2);
+    EXPECT_EQ(diagram({in, "--engine", "magic", "-o", at("d.vtp")}).exit_code, 2);
+    EXPECT_EQ(diagram({in, "--max-error", "1", "-o", at("d.vtp")}).exit_code, 2);
+    EXPECT_EQ(diagram({in, "--engine=vertex", "--max-error=0", "-o", at("d.vtp")}).exit_code, 2);
     EXPECT_EQ(diagram({in, "-o", at("d.stl")}).exit_code, 3);
     EXPECT_EQ(diagram({in, "-o", at("no/d.vtp")}).exit_code, 3);
     EXPECT_EQ(diagram({at("missing.off"), "-o", at("d.vtp")}).exit_code, 3);

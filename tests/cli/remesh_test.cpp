@@ -90,6 +90,13 @@ TEST_F(Remesh, WrongUsageIsTwo) {
              {in, out, "--steiner-points", "-1"},
              {in, out, "--lambda", "0"},
              {in, out, "--lambda", "nan"},
+             {in, out, "--engine", "magic"},
+             {in, out, "--engine", "1"},
+             {in, out, "--max-error", "1"},
+             {in, out, "--max-error", "-0.001"},
+             {in, out, "--max-error", "nan"},
+             {in, out, "--max-error", "small"},
+             {in, out, "--engine", "vertex", "--max-error", "0.01"},
              {in, out, "-q", "--verbose"},
              {in, out, "--sites", at("sites"), "-n", "20"},
              {in, out, "--report", out},
@@ -215,8 +222,9 @@ TEST_F(Remesh, ASignalEndsItWithTheOldFileUntouched) {
     const std::string in = put("in.ply", shapes::sphere(6));
     put("out.ply", "old");
     for (const int number : {SIGINT, SIGTERM}) {
-        const auto outcome = remesh({in, at("out.ply"), "--steiner-points", "40", "--verbose"},
-                                    {.signal = number, .after = "in.ply"});
+        const auto outcome = remesh(
+            {in, at("out.ply"), "--engine", "steiner", "--steiner-points", "40", "--verbose"},
+            {.signal = number, .after = "in.ply"});
         EXPECT_FALSE(outcome.killed);
         EXPECT_EQ(outcome.exit_code, 128 + number) << outcome.err;
         EXPECT_EQ(bytes("out.ply"), "old");
@@ -233,6 +241,32 @@ TEST_F(Remesh, ReportsAsJsonToAFileOrStdout) {
     EXPECT_TRUE(nlohmann::json::parse(bytes("r.json")).is_object());
 }
 
+TEST_F(Remesh, TellsTheEngineAndWhatItCertifies) {
+    const std::string in = put("in.off", shapes::sphere(3));
+    const auto outcome =
+        remesh({in, at("out.off"), "-n", "50", "--engine", "steiner", "--report", "-"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto report = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(report["options"]["engine"], "steiner");
+    EXPECT_EQ(report["options"]["max_error"], nullptr);
+    EXPECT_EQ(report["certified_error"], nullptr);
+    EXPECT_NE(outcome.err.find("steiner engine, error unknown"), std::string::npos) << outcome.err;
+}
+
+TEST_F(Remesh, KeepsBelowTheErrorAskedFor) {
+    const std::string in = put("in.off", shapes::jitter(shapes::sphere(3), 0.01, 1));
+    for (const char* error : {"0", "0.001", "0.2"}) {
+        const auto outcome = remesh({in, at("out.off"), "-n", "50", "--engine", "window",
+                                     "--max-error", error, "--report", "-"});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        const auto report = nlohmann::json::parse(outcome.out);
+        EXPECT_EQ(report["options"]["engine"], "window");
+        EXPECT_EQ(report["options"]["max_error"], std::stod(error));
+        ASSERT_TRUE(report["certified_error"].is_number());
+        EXPECT_LE(report["certified_error"], std::stod(error));
+    }
+}
+
 TEST_F(Remesh, QuietSaysNothing) {
     const std::string in = put("in.off", shapes::sphere(3));
     const auto outcome = remesh({in, at("out.off"), "-n", "50", "-q"});
@@ -243,7 +277,8 @@ TEST_F(Remesh, QuietSaysNothing) {
 TEST_F(Remesh, HelpAndVersionGoToStdout) {
     const auto help = remesh({"--help"});
     EXPECT_EQ(help.exit_code, 0);
-    for (const char* text : {"Examples", "Exit codes", "--samples", "--report"}) {
+    for (const char* text : {"Examples", "Exit codes", "--samples", "--report", "--engine",
+                             "--max-error", "window", "steiner", "vertex"}) {
         EXPECT_NE(help.out.find(text), std::string::npos) << text;
     }
     EXPECT_EQ(remesh({"--version"}).out.rfind("remesh ", 0), 0u);

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "remesh/io/report.h"
@@ -18,6 +19,7 @@ remesh::RemeshResult example() {
     result.sites_added = 5;
     result.sites_dropped = 6;
     result.repair_rounds = 2;
+    result.certified_error = 1.23e-4;
     result.propagation_bytes = 12'300'000;
     result.refined_faces = 4321;
     result.seconds = {{remesh::Stage::Clean, 0.25}, {remesh::Stage::Dual, 0.5}};
@@ -27,11 +29,15 @@ remesh::RemeshResult example() {
 }  // namespace
 
 TEST(RemeshReport, GivesEveryFieldOfTheResult) {
-    const json report = json::parse(remesh::to_json(
-        example(), {.version = "1.2",
-                    .input_path = "in.ply",
-                    .output_path = "out.obj",
-                    .options = {.num_samples = 77, .init = remesh::Init::Random, .seed = 9}}));
+    const json report =
+        json::parse(remesh::to_json(example(), {.version = "1.2",
+                                                .input_path = "in.ply",
+                                                .output_path = "out.obj",
+                                                .options = {.num_samples = 77,
+                                                            .init = remesh::Init::Random,
+                                                            .seed = 9,
+                                                            .engine = agvd::Engine::Window,
+                                                            .max_error = 0.25}}));
     EXPECT_EQ(report["program"], "remesh");
     EXPECT_EQ(report["version"], "1.2");
     EXPECT_EQ(report["input_path"], "in.ply");
@@ -40,6 +46,8 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
     EXPECT_EQ(report["options"]["init"], "random");
     EXPECT_EQ(report["options"]["seed"], 9);
     EXPECT_EQ(report["options"]["given_sites"], nullptr);
+    EXPECT_EQ(report["options"]["engine"], "window");
+    EXPECT_EQ(report["options"]["max_error"], 0.25);
     EXPECT_EQ(report["options"]["steiner_points_per_edge"], 8);
     EXPECT_EQ(report["options"]["lambda"], 1);
     EXPECT_EQ(report["options"]["max_repair_rounds"], 50);
@@ -53,6 +61,7 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
     EXPECT_EQ(report["sites_added"], 5);
     EXPECT_EQ(report["sites_dropped"], 6);
     EXPECT_EQ(report["repair_rounds"], 2);
+    EXPECT_EQ(report["certified_error"], 1.23e-4);
     EXPECT_EQ(report["propagation_bytes"], 12'300'000);
     EXPECT_EQ(report["refined_faces"], 4321);
     EXPECT_EQ(report["stage_seconds"]["clean_s"], 0.25);
@@ -60,11 +69,32 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
     EXPECT_EQ(report["total_s"], 0.75);
 }
 
+TEST(RemeshReport, AnErrorNotAskedForOrNotCertifiedIsNull) {
+    remesh::RemeshResult result = example();
+    result.certified_error = std::numeric_limits<double>::infinity();
+    const json report =
+        json::parse(remesh::to_json(result, {.options = {.engine = agvd::Engine::Vertex}}));
+    EXPECT_EQ(report["options"]["engine"], "vertex");
+    EXPECT_EQ(report["options"]["max_error"], nullptr);
+    EXPECT_EQ(report["certified_error"], nullptr);
+}
+
+TEST(RemeshReport, TextTellsTheEngineAndItsBound) {
+    EXPECT_EQ(remesh::to_text(agvd::Engine::Window, 0), "distances: window engine, exact");
+    EXPECT_EQ(remesh::to_text(agvd::Engine::Vertex, std::numeric_limits<double>::infinity()),
+              "distances: vertex engine, error unknown");
+    // A bound is rounded up.
+    EXPECT_EQ(remesh::to_text(agvd::Engine::Steiner, 7.12301e-4),
+              "distances: steiner engine, at most 0.0713 % above exact");
+}
+
 TEST(RemeshReport, TextTellsRepairTopologyTimeAndMemory) {
-    const std::string text = remesh::to_text(example(), {.input_path = "in.ply"});
+    const std::string text = remesh::to_text(
+        example(), {.input_path = "in.ply", .options = {.engine = agvd::Engine::Window}});
     for (const char* part : {"in.ply", "4 split edges", "1 component, genus 1, 0 boundary loops",
-                             "3 vertices, 1 face", "5 sites added in 2 rounds", "6 sites",
-                             "clean 0.25 s, dual 0.50 s", "total 0.75 s", "12.3 MB"}) {
+                             "distances: window engine, at most 0.0123 %", "3 vertices, 1 face",
+                             "5 sites added in 2 rounds", "6 sites", "clean 0.25 s, dual 0.50 s",
+                             "total 0.75 s", "12.3 MB"}) {
         EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
     }
 }

@@ -68,11 +68,12 @@ int main(int argc, char** argv) {
     options.steiner_points = {2, 5, 8, 12};
     bench::add_options(app, options);
     CompareOptions compare;
+    app.add_option("--threads", compare.num_threads, "Threads; 0: all cores")
+        ->capture_default_str();
     app.add_option("--samples", compare.area_samples, "Points whose labels are compared")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     return cli::run(app, argc, argv, [&] {
-        compare.num_threads = options.threads;
         nlohmann::ordered_json rows = nlohmann::ordered_json::array();
         bench::print_heading(columns);
         for (const auto& path : options.meshes) {

@@ -1,127 +1,275 @@
-// Time (of all cores together) and memory of the two stages of the diagram, in one run with the
-// sweep they are measured by.
+// Time, memory and error of the propagation engines side by side, and of the diagram if asked for,
+// in one run with the sweep that they are measured by.
+
+#include <optional>
 
 #include "agvd/diagram/diagram.h"
-#include "agvd/propagation/propagate.h"
+#include "arguments.h"
+#include "bench/exact.h"
+#include "bench/medians.h"
+#include "bench/method.h"
 #include "bench/p0.h"
 #include "bench/report.h"
+#include "bench/timing.h"
 #include "cli.h"
 
 namespace {
 
 using namespace agvd;
+using Json = nlohmann::ordered_json;
+
+struct Arguments {
+    bench::Options common;
+    bench::MethodLists lists;
+    std::vector<int> threads{1};
+    Index min_faces = 0;
+    Index exact_limit = 0;  // Faces.
+    int repetitions = 5;
+    bool diagram = false;
+};
 
 struct Case {
     std::string mesh;
     const Surface& surface;
     const std::vector<SurfacePoint>& sites;
-    int steiner_points;
-    double lambda;
 };
 
-const std::vector<bench::Column> columns{
-    {"mesh", "mesh", 0},
-    {"faces", "faces", 0},
-    {"sites", "sites", 0},
-    {"steiner_points", "m", 0},
-    {"lambda", "lambda", 2},
-    {"p0_ms", "P0 ms", 2},
-    {"propagate_ms", "propag. ms", 1},
-    {"propagate_spread", "spread", 2},
-    {"propagate_ns_per_face", "ns/face", 0},
-    {"propagate_p0", "propag. P0", 1},
-    {"diagram_ms", "diagram ms", 1},
-    {"diagram_p0", "diagram P0", 1},
-    {"bytes_per_node", "bytes/node", 1},
-};
-
-// P0, propagation and diagram in turn, so that all three meet the same disturbances.
-nlohmann::ordered_json measure(const Case& c, int repetitions, int threads) {
-    constexpr int sweeps = 5;
-    double p0 = bench::p0_seconds(c.surface, c.sites, sweeps);
-    std::vector<double> propagate_s, propagate_wall, diagram_s, diagram_wall;
-    std::size_t peak_bytes = 0, num_nodes = 0;
-    for (int i = 0; i < repetitions; ++i) {
-        Propagation propagation;
-        const bench::Seconds propagating = bench::time([&] {
-            propagation = propagate(c.surface, c.sites,
-                                    {.engine = Engine::Steiner,
-                                     .steiner_points = c.steiner_points,
-                                     .lambda = c.lambda});
-        });
-        Diagram diagram;
-        const bench::Seconds building = bench::time([&] {
-            diagram = build_diagram(c.surface, c.sites, propagation, {.num_threads = threads});
-        });
-        p0 = std::min(p0, bench::p0_seconds(c.surface, c.sites, sweeps));
-        propagate_s.push_back(propagating.cpu);
-        propagate_wall.push_back(propagating.wall);
-        diagram_s.push_back(building.cpu);
-        diagram_wall.push_back(building.wall);
-        peak_bytes = propagation.peak_bytes;
-        num_nodes = propagation.num_nodes;
+std::vector<bench::Column> columns_for(const Arguments& arguments) {
+    std::vector<bench::Column> columns{{"mesh", "mesh"},
+                                       {"faces", "faces", 0, 8},
+                                       {"sites", "sites", 0, 6},
+                                       {"method", "method", 0, 14},
+                                       {"threads", "threads", 0, 7},
+                                       {"p0_ms", "P0 ms", 2, 8},
+                                       {"propagate_ms", "cpu ms", 1, 9},
+                                       {"propagate_p0", "cpu P0", 2, 7},
+                                       {"propagate_spread", "spread", 2, 6},
+                                       {"propagate_ns_per_face", "ns/face", 0, 7},
+                                       {"propagate_wall_p0", "wall P0", 2, 7},
+                                       {"speedup", "speedup", 2, 7},
+                                       {"bytes_per_face", "B/face", 0, 6},
+                                       {"certified_error", "certified", -1, 9},
+                                       {"mixed_faces", "mixed", 0, 8},
+                                       {"relays_per_mixed_face", "relays", 2, 6}};
+    if (arguments.exact_limit > 0) {
+        columns.insert(columns.end(), {{"mean_relative_error", "mean err.", -1, 9},
+                                       {"max_relative_error", "max err.", -1, 9},
+                                       {"lowest_relative_error", "lowest", -1, 9}});
     }
-    const auto [propagation, propagation_spread] = bench::spread_of(propagate_s);
-    const auto [diagram, diagram_spread] = bench::spread_of(diagram_s);
-    const double faces = c.surface.num_faces();
+    if (arguments.diagram) {
+        columns.insert(columns.end(),
+                       {{"diagram_ms", "diagram ms", 1}, {"diagram_p0", "diagram P0", 1}});
+    }
+    return columns;
+}
+
+// Seconds of the repetitions, in P0 of the sweeps before and after each of them.
+struct Timings {
+    std::vector<double> cpu, wall, cpu_p0, wall_p0;
+
+    void add(const bench::Seconds& taken, double p0) {
+        cpu.push_back(taken.cpu);
+        wall.push_back(taken.wall);
+        cpu_p0.push_back(taken.cpu / p0);
+        wall_p0.push_back(taken.wall / p0);
+    }
+    void tell(const std::string& stage, double faces, Json& row) const {
+        row[stage + "_ms"] = 1e3 * bench::median(cpu);
+        row[stage + "_wall_ms"] = 1e3 * bench::median(wall);
+        row[stage + "_p0"] = bench::median(cpu_p0);
+        row[stage + "_wall_p0"] = bench::median(wall_p0);
+        row[stage + "_spread"] = bench::spread(cpu_p0);
+        row[stage + "_ns_per_face"] = 1e9 * bench::median(cpu) / faces;
+    }
+};
+
+// One way of doing it, run again and again.
+struct Contestant {
+    const bench::Method& method;
+    int threads;
+    std::vector<double> p0 = {};
+    Timings propagate = {}, diagram = {};
+    Json result = {};  // What does not depend on the run.
+};
+
+Json describe(const Case& c, const Propagation& propagation,
+              const std::optional<bench::ExactRun>& exact) {
+    const auto mixed = static_cast<double>(propagation.mixed_faces.size());
+    Json result{{"peak_bytes", propagation.peak_bytes},
+                {"bytes_per_face", static_cast<double>(propagation.peak_bytes) /
+                                       static_cast<double>(c.surface.num_faces())},
+                {"nodes", propagation.num_nodes},
+                {"certified_error", propagation.certified_error},
+                {"mixed_faces", propagation.mixed_faces.size()},
+                {"relays_per_mixed_face",
+                 mixed == 0 ? 0 : static_cast<double>(propagation.relays.size()) / mixed}};
+    if (!std::isfinite(propagation.certified_error)) result["certified_error"] = nullptr;
+    if (exact) {
+        const bench::VertexError error =
+            bench::vertex_error(propagation.vertex_distance, exact->vertex_distance);
+        result["mean_relative_error"] = error.mean;
+        result["max_relative_error"] = error.max;
+        result["lowest_relative_error"] = error.lowest;
+    }
+    return result;
+}
+
+// Adds one repetition. Returns P0 after it.
+double run(const Case& c, const std::optional<bench::ExactRun>& exact, bool with_diagram,
+           bench::P0& p0, double p0_before, Contestant& contestant) {
+    PropagationOptions options = contestant.method.options;
+    options.num_threads = contestant.threads;
+    Propagation propagation;
+    const bench::Seconds propagating =
+        bench::time([&] { propagation = propagate(c.surface, c.sites, options); });
+    bench::Seconds building;
+    if (with_diagram) {
+        Diagram diagram;
+        building = bench::time([&] {
+            diagram =
+                build_diagram(c.surface, c.sites, propagation, {.num_threads = contestant.threads});
+        });
+    }
+    if (contestant.result.empty()) contestant.result = describe(c, propagation, exact);
+    const double p0_after = p0.seconds();
+    const double beside = std::min(p0_before, p0_after);
+    contestant.p0.push_back(beside);
+    contestant.propagate.add(propagating, beside);
+    if (with_diagram) contestant.diagram.add(building, beside);
+    return p0_after;
+}
+
+// Wall time over that of one thread, repetition by repetition; null without a run on one thread.
+Json speedup(const Contestant& contestant, std::span<const Contestant> all) {
+    for (const Contestant& other : all) {
+        if (&other.method != &contestant.method || other.threads != 1) continue;
+        std::vector<double> ratios;
+        for (std::size_t i = 0; i < other.propagate.wall.size(); ++i) {
+            ratios.push_back(other.propagate.wall[i] / contestant.propagate.wall[i]);
+        }
+        return bench::median(ratios);
+    }
+    return nullptr;
+}
+
+Json heading_of(const Case& c, const std::string& method, int threads) {
     return {{"mesh", c.mesh},
             {"faces", c.surface.num_faces()},
             {"sites", c.sites.size()},
-            {"steiner_points", c.steiner_points},
-            {"lambda", c.lambda},
-            {"threads", threads},
-            {"repetitions", repetitions},
-            {"p0_ms", 1e3 * p0},
-            {"propagate_ms", 1e3 * propagation},
-            {"propagate_wall_ms", 1e3 * bench::spread_of(propagate_wall).median},
-            {"propagate_spread", propagation_spread},
-            {"propagate_ns_per_face", 1e9 * propagation / faces},
-            {"propagate_p0", propagation / p0},
-            {"diagram_ms", 1e3 * diagram},
-            {"diagram_wall_ms", 1e3 * bench::spread_of(diagram_wall).median},
-            {"diagram_spread", diagram_spread},
-            {"diagram_ns_per_face", 1e9 * diagram / faces},
-            {"diagram_p0", diagram / p0},
-            {"peak_bytes", peak_bytes},
-            {"nodes", num_nodes},
-            {"bytes_per_node", static_cast<double>(peak_bytes) / static_cast<double>(num_nodes)}};
+            {"method", method},
+            {"threads", threads}};
+}
+
+Json row_of(const Case& c, const Contestant& contestant, std::span<const Contestant> all) {
+    const PropagationOptions& options = contestant.method.options;
+    Json row = heading_of(c, contestant.method.name, contestant.threads);
+    row["engine"] = engine_name(options.engine);
+    row["max_error"] = options.max_error ? Json(*options.max_error) : Json();
+    const bool is_steiner = options.engine == Engine::Steiner;
+    row["steiner_points"] = is_steiner ? Json(options.steiner_points) : Json();
+    row["lambda"] = is_steiner ? Json(options.lambda) : Json();
+    row["repetitions"] = contestant.p0.size();
+    row["p0_ms"] = 1e3 * bench::median(contestant.p0);
+    const double faces = c.surface.num_faces();
+    contestant.propagate.tell("propagate", faces, row);
+    row["speedup"] = speedup(contestant, all);
+    if (!contestant.diagram.cpu.empty()) contestant.diagram.tell("diagram", faces, row);
+    row.update(contestant.result);
+    return row;
+}
+
+// All contestants in turn, with the sweep between them, so that all meet the same disturbances.
+std::vector<Json> measure(const Case& c, const std::vector<bench::Method>& methods,
+                          const Arguments& arguments) {
+    std::vector<Json> rows;
+    bench::P0 p0(c.surface, c.sites);
+    double last_p0 = p0.seconds();
+    std::optional<bench::ExactRun> exact;
+    if (c.surface.num_faces() <= arguments.exact_limit) {
+        exact = bench::run_exact(c.surface, c.sites);
+        const double beside = std::min(last_p0, p0.seconds());
+        Timings timings;
+        timings.add(exact->taken, beside);
+        rows.push_back(heading_of(c, "CGAL exact", 1));
+        rows.back()["repetitions"] = 1;
+        rows.back()["p0_ms"] = 1e3 * beside;
+        timings.tell("propagate", c.surface.num_faces(), rows.back());
+    }
+    std::vector<Contestant> contestants;
+    for (const bench::Method& method : methods) {
+        for (const int threads : arguments.threads) contestants.push_back({method, threads});
+    }
+    for (int i = 0; i < arguments.repetitions; ++i) {
+        for (Contestant& contestant : contestants) {
+            cli::stop_if_interrupted();
+            last_p0 = run(c, exact, arguments.diagram, p0, last_p0, contestant);
+        }
+    }
+    for (const Contestant& contestant : contestants) {
+        rows.push_back(row_of(c, contestant, contestants));
+    }
+    return rows;
+}
+
+void add_options(CLI::App& app, Arguments& arguments) {
+    bench::Options& common = arguments.common;
+    bench::MethodLists& lists = arguments.lists;
+    common.sites = {2000, 1000, 100, 30};
+    common.steiner_points = {8};
+    lists.engines = {Engine::Window, Engine::Steiner, Engine::Vertex};
+    lists.max_errors = {0, default_max_error};
+    lists.lambdas = {1};
+    bench::add_options(app, common);
+    app.add_option("--engine", lists.engines, "Engines: window, steiner, vertex; all without this")
+        ->transform(CLI::CheckedTransformer(cli::engines_by_name()).description(""));
+    app.add_option("--max-error", lists.max_errors, "Window engine: errors to ask for; 0: exact")
+        ->capture_default_str();
+    app.add_option("--lambda", lists.lambdas,
+                   "Steiner engine: triangles are retired every lambda * #F pops")
+        ->capture_default_str();
+    app.add_option("--threads", arguments.threads,
+                   "Numbers of threads, 0: all cores; the speedup is over 1")
+        ->capture_default_str();
+    app.add_option("--subdivide", arguments.min_faces,
+                   "Split faces in four until there are this many");
+    app.add_option("--exact-limit", arguments.exact_limit,
+                   "Also run CGAL's exact method on meshes of up to this many faces, once, and "
+                   "measure the error of the vertex distances; slow");
+    app.add_option("--repetitions", arguments.repetitions, "Runs of each case; medians are shown")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    app.add_flag("--diagram", arguments.diagram, "Also build the diagram");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Time and memory of propagation and diagram, beside one Dijkstra sweep (P0)",
-                 "bench-propagation");
-    bench::Options options;
-    options.sites = {100};
-    options.steiner_points = {8};
-    bench::add_options(app, options);
-    std::vector<double> lambdas{1};
-    Index min_faces = 0;
-    int repetitions = 5;
-    app.add_option("--lambda", lambdas, "Triangles are retired every lambda * #F pops")
-        ->capture_default_str();
-    app.add_option("--subdivide", min_faces, "Split faces in four until there are this many");
-    app.add_option("--repetitions", repetitions, "Runs of each case; medians are shown")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
+    CLI::App app(
+        "Time, memory and error of the propagation engines, beside one Dijkstra sweep (P0)",
+        "bench-propagation");
+    Arguments arguments;
+    add_options(app, arguments);
     return cli::run(app, argc, argv, [&] {
-        nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+        const bench::Options& common = arguments.common;
+        arguments.lists.steiner_points = common.steiner_points;
+        const std::vector<bench::Method> methods = bench::methods(arguments.lists);
+        const std::vector<bench::Column> columns = columns_for(arguments);
+        Json rows = Json::array();
         bench::print_heading(columns);
-        for (const auto& path : options.meshes) {
-            const Surface surface = bench::load(path, min_faces);
-            for (const Index count : options.sites) {
-                const auto sites = bench::random_sites(surface, count, options.place, options.seed);
-                for (const int m : options.steiner_points) {
-                    for (const double lambda : lambdas) {
-                        cli::stop_if_interrupted();
-                        rows.push_back(measure({path.stem(), surface, sites, m, lambda},
-                                               repetitions, options.threads));
-                        bench::print_row(columns, rows.back());
-                    }
+        for (const auto& path : common.meshes) {
+            const Surface surface = bench::load(path, arguments.min_faces);
+            for (const Index count : common.sites) {
+                const auto sites = bench::random_sites(surface, count, common.place, common.seed);
+                for (const Json& row : measure({path.stem(), surface, sites}, methods, arguments)) {
+                    rows.push_back(row);
+                    bench::print_row(columns, row);
                 }
             }
         }
-        bench::write_json(options, "propagation", rows);
+        for (const Json& row : bench::medians(rows)) {
+            rows.push_back(row);
+            bench::print_row(columns, row);
+        }
+        bench::write_json(common, "propagation", rows);
     });
 }

@@ -1,4 +1,4 @@
-// Our readers against OpenMesh's: bench_read FILE... prints, for each file, what either makes of it
+// Our readers against OpenMesh's: bench-read FILE... prints, for each file, what either makes of it
 // and how long it takes, in turn. OpenMesh reads into an importer that keeps plain arrays in
 // double, which is the least work that it can be given, and the most trustworthy way to use it.
 

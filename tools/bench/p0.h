@@ -30,8 +30,19 @@ struct Sweep {
 //! Dijkstra's algorithm with an indexed 4-ary heap. Reuses the memory of `result`.
 void sweep(const EdgeGraph& graph, std::span<const agvd::Index> sources, Sweep& result);
 
-//! Seconds of the quickest of several sweeps, on one core; a site starts at its nearest corner.
-[[nodiscard]] double p0_seconds(const agvd::Surface& surface,
-                                std::span<const agvd::SurfacePoint> sites, int repetitions);
+//! The sweep from the same sites again and again, to time other work by it.
+class P0 {
+public:
+    //! A site starts at its nearest corner.
+    P0(const agvd::Surface& surface, std::span<const agvd::SurfacePoint> sites);
+
+    //! Seconds of the quickest of a few sweeps, on one core.
+    [[nodiscard]] double seconds();
+
+private:
+    EdgeGraph graph_;
+    std::vector<agvd::Index> sources_;
+    Sweep sweep_;
+};
 
 }  // namespace bench

@@ -1,8 +1,5 @@
 #include "bench/report.h"
 
-#include <algorithm>
-#include <chrono>
-#include <ctime>
 #include <iomanip>
 #include <map>
 #include <sstream>
@@ -12,9 +9,8 @@
 namespace bench {
 namespace {
 
-constexpr int column_width = 11;
-
 std::string cell(const nlohmann::ordered_json& value, int digits) {
+    if (value.is_null()) return "-";
     if (value.is_string()) return value.get<std::string>();
     std::ostringstream text;
     if (digits < 0) {
@@ -37,34 +33,21 @@ void add_options(CLI::App& app, Options& options) {
     app.add_option("--place", options.place, "Where sites lie: vertices or faces")
         ->transform(CLI::CheckedTransformer(places));
     app.add_option("--seed", options.seed, "Seed of the random sites")->capture_default_str();
-    app.add_option("--threads", options.threads, "Threads; 0: all cores")->capture_default_str();
     app.add_option("--json", options.json, "Write the results to this file");
-}
-
-Seconds time(const std::function<void()>& job) {
-    const auto wall = std::chrono::steady_clock::now();
-    const std::clock_t cpu = std::clock();
-    job();
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - wall;
-    return {taken.count(), static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC};
-}
-
-Spread spread_of(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const double median = values[values.size() / 2];
-    return {median, (values.back() - values.front()) / median};
 }
 
 void print_heading(const std::vector<Column>& columns) {
     std::ostringstream line;
-    for (const Column& column : columns) line << std::setw(column_width) << column.heading << ' ';
+    for (const Column& column : columns) line << std::setw(column.width) << column.heading << ' ';
     cli::print(line.str() + '\n');
 }
 
 void print_row(const std::vector<Column>& columns, const nlohmann::ordered_json& row) {
     std::ostringstream line;
-    for (const auto& [key, heading, digits] : columns) {
-        line << std::setw(column_width) << cell(row.at(key), digits) << ' ';
+    for (const auto& [key, heading, digits, width] : columns) {
+        const auto found = row.find(key);
+        const nlohmann::ordered_json value = found == row.end() ? nlohmann::ordered_json() : *found;
+        line << std::setw(width) << cell(value, digits) << ' ';
     }
     cli::print(line.str() + '\n');
 }

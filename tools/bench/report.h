@@ -1,10 +1,9 @@
 //! \file
-//! What the benchmarks share: their common options, timing, and results as a table and as JSON.
+//! What the benchmarks share: their common options, and results as a table and as JSON.
 #pragma once
 
 #include <CLI/CLI.hpp>
 #include <filesystem>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -19,35 +18,22 @@ struct Options {
     std::vector<int> steiner_points;
     Place place = Place::Vertices;
     std::uint64_t seed = 1;
-    int threads = 0;             //!< 0: all cores.
     std::filesystem::path json;  //!< Empty: no file.
 };
 
 //! Adds the options above; the lists start with the values that `options` has.
 void add_options(CLI::App& app, Options& options);
 
-//! Seconds of the wall clock, and of all cores together: the latter stays fair on a busy machine.
-struct Seconds {
-    double wall = 0;
-    double cpu = 0;
-};
-[[nodiscard]] Seconds time(const std::function<void()>& job);
-
-//! Median, and largest minus smallest over the median.
-struct Spread {
-    double median;
-    double spread;
-};
-[[nodiscard]] Spread spread_of(std::vector<double> values);
-
-//! A column of the table: a key of the rows, its heading, and how many digits to print.
+//! A column of the table: a key of the rows, its heading, and how many digits to print; below 0:
+//! that many behind the point, in scientific notation.
 struct Column {
     std::string key;
     std::string heading;
-    int digits;
+    int digits = 0;
+    int width = 11;
 };
 
-//! Prints a heading or one row, numbers right-aligned.
+//! Prints a heading or one row, right-aligned; a key that is missing or null as "-".
 void print_heading(const std::vector<Column>& columns);
 void print_row(const std::vector<Column>& columns, const nlohmann::ordered_json& row);
 

@@ -45,9 +45,7 @@ std::vector<SurfacePoint> random_vertices(const Surface& surface, Index count, s
     for (Index i = 0; i < count; ++i) {  // The first steps of a shuffle.
         const auto rest = static_cast<double>(vertices.size() - i);
         std::swap(vertices[i], vertices[i + static_cast<Index>(random_unit(seed, 0, i) * rest)]);
-        const Index h = surface.outgoing[vertices[i]];
-        sites[i] = {FaceId(Surface::face(h)), {0, 0, 0}};
-        sites[i].barycentric[h % 3] = 1;
+        sites[i] = point_at(surface, vertices[i]);
     }
     return sites;
 }
@@ -61,6 +59,13 @@ Surface subdivided(Surface surface, Index min_faces) {
 
 Surface load(const std::filesystem::path& path, Index min_faces) {
     return subdivided(build_surface(remesh::read_mesh(path).mesh.view()), min_faces);
+}
+
+SurfacePoint point_at(const Surface& surface, Index vertex) {
+    const Index h = surface.outgoing[vertex];
+    SurfacePoint point{FaceId(Surface::face(h)), {0, 0, 0}};
+    point.barycentric[h % 3] = 1;
+    return point;
 }
 
 std::vector<SurfacePoint> random_sites(const Surface& surface, Index count, Place place,

@@ -6,10 +6,9 @@
 #include <numbers>
 #include <optional>
 
-#include "agvd/diagram/face_relays.h"
+#include "agvd/diagram/point_label.h"
 #include "agvd/mesh/uniform_points.h"
 #include "agvd/metrics/oracle.h"
-#include "agvd/propagation/site_placement.h"
 
 namespace agvd {
 namespace {
@@ -114,40 +113,12 @@ void ask_bisectors(const Surface& surface, const Diagram& diagram, Questions& qu
     }
 }
 
-// The label of a point of the surface, by the relays of its face where labels meet.
-class Labels {
-public:
-    Labels(const Surface& surface, const Propagation& propagation)
-        : surface_(surface), propagation_(propagation) {}
-
-    SiteId operator()(const SurfacePoint& point) {
-        const Index face = point.face.value();
-        const auto& mixed = propagation_.mixed_faces;
-        const auto found = std::lower_bound(mixed.begin(), mixed.end(), face);
-        if (found == mixed.end() || *found != face) {
-            return propagation_.vertex_site[surface_.mesh.triangles[face][0]];
-        }
-        const auto i = static_cast<std::size_t>(found - mixed.begin());
-        const std::span relays(propagation_.relays);
-        const Index begin = propagation_.relay_offsets[i];
-        planar_.clear();
-        append_planar(surface_, relays.subspan(begin, propagation_.relay_offsets[i + 1] - begin),
-                      Motion{}, planar_);
-        return SiteId(nearest(planar_, position_in_frame(surface_, point, 3 * face)).site);
-    }
-
-private:
-    const Surface& surface_;
-    const Propagation& propagation_;
-    std::vector<PlanarRelay> planar_;
-};
-
 void ask_labels(const Surface& surface, const Propagation& propagation,
                 std::span<const SurfacePoint> samples, const NearestSites& exact,
                 Questions& questions, Open& open) {
-    Labels label(surface, propagation);
+    PointLabels labels(surface, propagation);
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        const SiteId ours = label(samples[i]);
+        const SiteId ours = labels(samples[i]).site;
         if (ours == exact.site[i]) continue;
         if (ours.is_valid() && exact.site[i].is_valid()) {
             open.doubtful_labels.push_back({questions.ask(ours, samples[i]), exact.distance[i]});

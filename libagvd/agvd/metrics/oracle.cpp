@@ -27,6 +27,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Keeps a bound above the distances it was made from.
 constexpr double rounding = 1 + 1e-9;
+// The same for distances in space, relative to the coordinates.
+constexpr double space_rounding = 1e-14;
 
 // Barycentric coordinates below this are rounding: CGAL tells a point on an edge or vertex from one
 // inside a face by exact zeros, and a source a rounding error off an edge has degenerate windows.
@@ -258,10 +260,11 @@ NearestSites exact_nearest_sites(const Surface& surface, std::span<const Surface
         const double bound = rounding * distance_to(tree, surface, part, targets[i]);
         const Vec3 place = position(surface.mesh.view(), targets[i]);
         for (std::size_t s = 0; s < sites.size(); ++s) {
-            if (!((place - site_positions[s]).norm() <= bound)) continue;
+            const double slack = space_rounding * (place.norm() + site_positions[s].norm());
+            if (!((place - site_positions[s]).norm() <= bound + slack)) continue;
             asked[s].push_back(targets[i]);
             asked_for[s].push_back(i);
-            reach[s] = std::max(reach[s], bound);
+            reach[s] = std::max(reach[s], bound + slack);
         }
     }
     std::vector<std::vector<double>> distances(sites.size());

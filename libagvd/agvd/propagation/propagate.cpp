@@ -34,6 +34,18 @@ void check_steiner_options(const Surface& surface, const PropagationOptions& opt
 
 }  // namespace
 
+const char* engine_name(Engine engine) {
+    switch (engine) {
+        case Engine::Window:
+            return "window";
+        case Engine::Steiner:
+            return "steiner";
+        case Engine::Vertex:
+            return "vertex";
+    }
+    return "unknown";
+}
+
 Propagation propagate(const Surface& surface, std::span<const SurfacePoint> sites,
                       const PropagationOptions& options) {
     if (options.max_error && !(*options.max_error >= 0 && *options.max_error < 1)) {

@@ -17,6 +17,9 @@ enum class Engine : std::uint8_t {
     Vertex,   //!< One image of a site per vertex: coarse and quick.
 };
 
+//! Lower-case name of an engine, for command lines and reports.
+[[nodiscard]] const char* engine_name(Engine engine);
+
 //! `{}` gives the defaults.
 struct PropagationOptions {
     Engine engine = Engine::Window;

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <iomanip>
 #include <locale>
 #include <sstream>
@@ -102,12 +103,22 @@ std::string to_text(const CleanCounts& counts) {
     return text.empty() ? "repaired: nothing" : text;
 }
 
+std::string to_text(agvd::Engine engine, double certified_error) {
+    const std::string text = std::string("distances: ") + agvd::engine_name(engine) + " engine, ";
+    if (certified_error == 0) return text + "exact";
+    if (!std::isfinite(certified_error)) return text + "error unknown";
+    constexpr double steps = 1e4;  // Per percent; rounded up, since it is a bound.
+    const double percent = std::ceil(100 * certified_error * steps) / steps;
+    return text + "at most " + fixed(percent, 4) + " % above exact";
+}
+
 std::string to_text(const RemeshResult& result, const RunInfo& info) {
     std::string text;
     if (!info.input_path.empty()) text += "input: " + info.input_path + '\n';
     text += to_text(result.cleaned) + '\n';
     text += "surface: " + counted(result.input_topology.face_component.size(), "face") + ", " +
             describe(result.input_topology) + '\n';
+    text += to_text(info.options.engine, result.certified_error) + '\n';
     text += "result: " + counted(result.mesh.positions.size(), "vertex") + ", " +
             counted(result.mesh.triangles.size(), "face") + "; same topology, " +
             counted(result.sites_added, "site") + " added in " +

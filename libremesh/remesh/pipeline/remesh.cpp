@@ -155,9 +155,13 @@ private:
         {
             const StageTimer timer(Stage::Propagate, result_);
             propagation = agvd::propagate(surface_, sites_,
-                                          {.steiner_points = options_.steiner_points,
+                                          {.engine = options_.engine,
+                                           .max_error = options_.max_error,
+                                           .steiner_points = options_.steiner_points,
                                            .lambda = options_.lambda,
+                                           .num_threads = options_.num_threads,
                                            .progress = progress_of(Stage::Propagate)});
+            result_.certified_error = propagation.certified_error;
             result_.propagation_bytes = propagation.peak_bytes;
         }
         const StageTimer timer(Stage::Diagram, result_);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 
 #include "agvd/propagation/propagate.h"
@@ -25,8 +26,11 @@ struct RemeshOptions {
     //! Sites to use instead of sampling, on the caller's mesh; num_samples, init and seed are then
     //! ignored. Faces are the caller's.
     std::optional<std::vector<agvd::SurfacePoint>> sites = {};
-    int steiner_points = 8;  //!< m: Steiner points on each edge, in [0, 1000].
-    double lambda = 1;       //!< Triangles are retired every lambda * #F pops, > 0.
+    agvd::Engine engine = agvd::PropagationOptions{}.engine;
+    //! Relative distance error, in [0, 1), 0: exact; unset: see agvd::PropagationOptions.
+    std::optional<double> max_error = {};
+    int steiner_points = 8;  //!< Steiner engine, m: Steiner points on each edge, in [0, 1000].
+    double lambda = 1;       //!< Steiner engine: triangles are retired every lambda * #F pops, > 0.
     int repair_rounds = 50;  //!< Rounds of adding sites until the topology is kept, >= 0.
     int num_threads = 0;     //!< >= 0; 0: all cores.
     //! Gets the stage and a fraction in [0, 1] on the caller's thread; return false to stop.
@@ -44,7 +48,9 @@ struct RemeshResult {
     agvd::Index sites_added = 0;            //!< By topology repair.
     agvd::Index sites_dropped = 0;          //!< Given sites that own nothing (e.g. duplicates).
     int repair_rounds = 0;                  //!< Rounds that adding took.
-    std::size_t propagation_bytes = 0;      //!< Peak of the last propagation, beyond the mesh.
+    //! Of the last propagation: see agvd::Propagation. Infinity: nothing is certified.
+    double certified_error = std::numeric_limits<double>::infinity();
+    std::size_t propagation_bytes = 0;  //!< Peak of the last propagation, beyond the mesh.
     std::vector<std::pair<Stage, double>> seconds = {};  //!< Wall time spent in each stage.
 };
 

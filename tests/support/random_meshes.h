@@ -1,0 +1,18 @@
+//! \file
+//! Small meshes that geodesics find hard, each family random in its measures.
+#pragma once
+
+#include <span>
+
+#include "agvd/mesh/mesh_view.h"
+
+namespace random_meshes {
+
+//! Their names: identifiers.
+[[nodiscard]] std::span<const char* const> families();
+
+//! An oriented manifold (or several) of about 4 to 400 faces that build_surface takes; half of them
+//! turned, moved and scaled at random, so that what is flat or regular is so up to rounding only.
+[[nodiscard]] agvd::TriangleMesh make(std::string_view family, std::uint64_t seed);
+
+}  // namespace random_meshes

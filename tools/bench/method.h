@@ -1,0 +1,27 @@
+//! \file
+//! The ways of propagating that are set side by side.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "agvd/propagation/propagate.h"
+
+namespace bench {
+
+struct Method {
+    std::string name;  //!< Short, for the table: "window 1e-03", "steiner m=8", "vertex".
+    agvd::PropagationOptions options;
+};
+
+//! What to vary; each engine varies by what it knows.
+struct MethodLists {
+    std::vector<agvd::Engine> engines;
+    std::vector<double> max_errors;   //!< Window engine.
+    std::vector<int> steiner_points;  //!< Steiner engine, with each of the lambdas.
+    std::vector<double> lambdas;
+};
+
+[[nodiscard]] std::vector<Method> methods(const MethodLists& lists);
+
+}  // namespace bench
