@@ -35,7 +35,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double rounding = 1e-9;
 
 // Engines of which the tests are to be run.
-constexpr bool has_window_engine = false;
+constexpr bool has_window_engine = true;
 constexpr bool has_vertex_engine = true;
 
 std::vector<PropagationOptions> settings() {
