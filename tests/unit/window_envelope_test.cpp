@@ -51,7 +51,7 @@ TEST(WindowEnvelope, IsTheLeastOfAllWindows) {
     for (std::uint64_t seed = 0; seed < 400; ++seed) {
         const auto windows = random_windows(seed, 2 + seed % 9, seed % 3 != 0);
         std::vector<Window> envelope, scratch;
-        for (const Window& w : windows) insert_window(w, 1e-13, scratch, envelope);
+        for (const Window& w : windows) insert_window(w, scratch, envelope);
         for (std::size_t i = 0; i < envelope.size(); ++i) {
             EXPECT_LT(envelope[i].begin, envelope[i].end);
             EXPECT_NEAR(envelope[i].at_begin, at(envelope[i], envelope[i].begin), 1e-12);
@@ -79,8 +79,8 @@ TEST(WindowEnvelope, CutsInTwoPlaces) {
     const Window narrow = window(0.5, -0.1, 0.88, 0, 1);
     for (const auto& [first, second] : {std::pair{wide, narrow}, std::pair{narrow, wide}}) {
         std::vector<Window> envelope, scratch;
-        insert_window(first, 1e-13, scratch, envelope);
-        insert_window(second, 1e-13, scratch, envelope);
+        insert_window(first, scratch, envelope);
+        insert_window(second, scratch, envelope);
         ASSERT_EQ(envelope.size(), 3u);
         EXPECT_EQ(envelope[0].y, -1);
         EXPECT_EQ(envelope[1].y, -0.1);
@@ -95,8 +95,8 @@ TEST(WindowEnvelope, ServedWindowsHoldTheirGroundInTies) {
     const Window again = window(0.3, -1, 0.5, 0, 1);
     for (const auto& [first, second] : {std::pair{served, again}, std::pair{again, served}}) {
         std::vector<Window> envelope, scratch;
-        insert_window(first, 1e-13, scratch, envelope);
-        insert_window(second, 1e-13, scratch, envelope);
+        insert_window(first, scratch, envelope);
+        insert_window(second, scratch, envelope);
         ASSERT_EQ(envelope.size(), 3u);
         EXPECT_FALSE(envelope[0].is_served);
         EXPECT_TRUE(envelope[1].is_served);
@@ -104,11 +104,29 @@ TEST(WindowEnvelope, ServedWindowsHoldTheirGroundInTies) {
     }
 }
 
+// Neighbours often tie where they meet: the better one takes all.
+TEST(WindowEnvelope, ATieAtAnEndIsNoCrossing) {
+    const double nudge = 2e-16;
+    const Window nearer = window(0, -1, 0.25, 0, 1);
+    for (const double sign : {-nudge, 0.0, nudge}) {
+        const double farther_weight = 0.25 + 1 - std::hypot(0.5, 1) + sign;
+        const Window farther = window(-0.5, -1, farther_weight, 0, 1);
+        for (const auto& [first, second] :
+             {std::pair{nearer, farther}, std::pair{farther, nearer}}) {
+            std::vector<Window> envelope, scratch;
+            insert_window(first, scratch, envelope);
+            insert_window(second, scratch, envelope);
+            for (int k = 0; k <= 10; ++k)
+                EXPECT_NEAR(least(envelope, k / 10.0), at(nearer, k / 10.0), 1e-14);
+        }
+    }
+}
+
 TEST(WindowEnvelope, PiecesOfOneWindowStayTogether) {
     std::vector<Window> envelope, scratch;
-    insert_window(window(0.2, -1, 2, 0.2, 0.4), 1e-13, scratch, envelope);
-    insert_window(window(0.7, -1, 2, 0.6, 0.9), 1e-13, scratch, envelope);
-    insert_window(window(0.5, -1, 0, 0, 1), 1e-13, scratch, envelope);
+    insert_window(window(0.2, -1, 2, 0.2, 0.4), scratch, envelope);
+    insert_window(window(0.7, -1, 2, 0.6, 0.9), scratch, envelope);
+    insert_window(window(0.5, -1, 0, 0, 1), scratch, envelope);
     ASSERT_EQ(envelope.size(), 1u);
     EXPECT_EQ(envelope[0].begin, 0);
     EXPECT_EQ(envelope[0].end, 1);

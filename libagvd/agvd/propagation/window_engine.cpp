@@ -131,8 +131,8 @@ private:
 
     [[nodiscard]] std::size_t common_bytes() const {
         std::size_t sum = result_.vertex_distance.capacity() * sizeof(double) +
-                          result_.vertex_site.capacity() * sizeof(SiteId) +
-                          borders_.capacity() + first_visitor_.capacity() * sizeof(Index);
+                          result_.vertex_site.capacity() * sizeof(SiteId) + borders_.capacity() +
+                          first_visitor_.capacity() * sizeof(Index);
         for (const auto& log : logs_) sum += log.capacity() * sizeof(Relay);
         return sum;
     }
@@ -155,9 +155,10 @@ private:
             // Every num_batches-th, so that half the neighbours of a site have run before it.
             batch.clear();
             for (Index i = first; i < count; i += num_batches) batch.push_back(order[i]);
-            const auto tasks =
-                run_tasks(batch, fronts, [&](Index site, const WindowFront& front,
-                                             TaskResult& task) { collect(site, front, task); });
+            const auto tasks = run_tasks(
+                batch, fronts, [&](Index site, const WindowFront& front, TaskResult& task) {
+                    collect(site, front, task);
+                });
             for (const TaskResult& task : tasks) take_vertices(task);
             poll(options_.progress, static_cast<double>(first + 1) / (num_batches + 1));
         }
@@ -270,7 +271,7 @@ private:
     Index work_cap_;
     SitePlacement placement_;
     std::vector<float> bounds_;                      // #V, of the nearest site.
-    std::vector<std::uint8_t> borders_;  // #F: 1 where windows are kept.
+    std::vector<std::uint8_t> borders_;              // #F: 1 where windows are kept.
     std::vector<std::atomic<Index>> first_visitor_;  // #F: of the other faces.
     std::vector<FaceVisit> late_visits_;
     std::vector<std::vector<Relay>> logs_;

@@ -101,6 +101,10 @@ Duel fight(const Window& a, const Window& b, double low, double high) {
     const bool wins_high = a_high < b_high - tie;
     Duel duel{wins_low};
     if (wins_low != wins_high) {
+        if ((a_low < b_low) == (a_high < b_high)) {  // They tie at one end.
+            duel.first_wins = a_low < b_low;
+            return duel;
+        }
         duel.num_cuts = 1;
         duel.cuts[0] = crossing(a, b, low, high, a_low - b_low, a_high - b_high);
         return duel;
@@ -123,15 +127,14 @@ Duel fight(const Window& a, const Window& b, double low, double high) {
 // Writes the envelope from left to right.
 class Writer {
 public:
-    Writer(const Window& window, double least_width, std::vector<Window>& out)
-        : window_(window), least_width_(least_width), out_(out) {}
+    Writer(const Window& window, std::vector<Window>& out) : window_(window), out_(out) {}
 
     void add_new(double from, double to) {
         if (from == new_end_) {
             out_.back().end = to;
             out_.back().at_end = window_.distance(to);
         } else {
-            if (!(to - from > least_width_)) return;
+            if (is_rounding(from, to)) return;
             out_.push_back(window_.part(from, to));
         }
         new_end_ = to;
@@ -139,7 +142,7 @@ public:
     void add_old(const Window& old, double from, double to) {
         if (from == old.begin && to == old.end) {
             out_.push_back(old);
-        } else if (to - from > least_width_) {
+        } else if (!is_rounding(from, to)) {
             out_.push_back(old.part(from, to));
         } else {
             return;
@@ -148,8 +151,9 @@ public:
     }
 
 private:
+    static bool is_rounding(double from, double to) { return !(to - from > 1e-15 * to); }
+
     const Window& window_;
-    double least_width_;
     std::vector<Window>& out_;
     // Where the new window's last piece ends, if it was written last.
     double new_end_ = std::numeric_limits<double>::quiet_NaN();
@@ -157,7 +161,7 @@ private:
 
 }  // namespace
 
-void insert_window(const Window& window, double least_width, std::vector<Window>& scratch,
+void insert_window(const Window& window, std::vector<Window>& scratch,
                    std::vector<Window>& envelope) {
     auto first = envelope.end();
     while (first != envelope.begin() && (first - 1)->end > window.begin) --first;
@@ -167,7 +171,7 @@ void insert_window(const Window& window, double least_width, std::vector<Window>
     }
     scratch.assign(first, envelope.end());
     envelope.erase(first, envelope.end());
-    Writer writer(window, least_width, envelope);
+    Writer writer(window, envelope);
     double decided = window.begin;  // The new window is written up to here.
     for (const Window& old : scratch) {
         const double low = std::max(old.begin, window.begin);

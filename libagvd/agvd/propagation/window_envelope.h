@@ -13,10 +13,9 @@ namespace agvd {
 //! Adds a window to an envelope. Where two windows give the same distance up to rounding, one that
 //! is served keeps its ground, else the one that came first.
 //!
-//! \param least_width  pieces narrower than this are dropped; far below any width that matters.
 //! \param scratch      any content; reused memory.
 //! Cost: O(windows that end behind its begin): constant for windows that come in order.
-void insert_window(const Window& window, double least_width, std::vector<Window>& scratch,
+void insert_window(const Window& window, std::vector<Window>& scratch,
                    std::vector<Window>& envelope);
 
 //! One window in place of two that touch, if it stays within the error: its outermost rays are

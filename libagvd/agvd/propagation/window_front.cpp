@@ -13,11 +13,12 @@
 namespace agvd {
 namespace {
 
-// Relative to an edge: narrower windows and flatter images carry nothing but rounding. What they
-// would have reached is reached along the windows beside them, longer by the square of this.
+// Sine of the angle of a beam: a narrower one carries nothing but rounding. What it would have
+// reached is reached along the beams beside it, longer by the square of this.
 constexpr double negligible = 1e-13;
 
-// A ray this close to a window's end (relative to the edge) is not bent.
+// A ray this close to a window's end (relative to the edge, or to the image where that is nearer)
+// is not bent.
 constexpr double grazing = 1e-10;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -227,7 +228,7 @@ void WindowFront::start(const SurfacePoint& site) {
             if (h == skipped || surface_.twin[h] == no_index) continue;
             const double length = surface_.length_of(h);
             const Vec2 image(length - p.x(), -p.y());
-            if (!(image.y() < -negligible * length)) continue;
+            if (!(image.y() < 0)) continue;
             const Window window{
                 image.x(), image.y(), 0, 0, length, image.norm(), (image - Vec2(length, 0)).norm()};
             send(surface_.twin[h], vertex_record(surface_.head(h)), vertex_record(surface_.tail(h)),
@@ -278,7 +279,7 @@ void WindowFront::emit_into(Index half_edge, double weight, float error, const V
     } else {
         bound_vertex(apex, window.at_begin + error);
     }
-    if (opposite.twin == no_index || !(begin < end) || !(image.y() < -negligible * length)) return;
+    if (opposite.twin == no_index || !(begin < end)) return;
     window = window.part(begin, end);
     send(opposite.twin, apex, head, {&window, 1});
 }
@@ -391,7 +392,6 @@ void WindowFront::give_back(Index run) {
 // Merges the windows that wait, which come in ascending runs, into the envelope.
 void WindowFront::take_in(EdgeRecord& edge, const Face& face) {
     envelope_.clear();
-    const double least_width = negligible * face.length;
     const auto is_beaten = [&](const Window& w) {
         const double at =
             meeting_point(face.tail_bound, face.head_bound, face.length, w.begin, w.end);
@@ -404,7 +404,7 @@ void WindowFront::take_in(EdgeRecord& edge, const Face& face) {
     if (edge.num_windows == 0 && runs_[only].next == no_index) {
         const Window* const run = waiting_.data() + runs_[only].first;
         for (Index i = 0; i < runs_[only].count; ++i) {
-            if (!is_beaten(run[i])) insert_window(run[i], least_width, scratch_, envelope_);
+            if (!is_beaten(run[i])) insert_window(run[i], scratch_, envelope_);
         }
         give_back(only);
         return;
@@ -426,7 +426,7 @@ void WindowFront::take_in(EdgeRecord& edge, const Face& face) {
         give_back(run);
         run = next;
     }
-    for (const Window* window : order_) insert_window(*window, least_width, scratch_, envelope_);
+    for (const Window* window : order_) insert_window(*window, scratch_, envelope_);
 }
 
 // Takes in the windows that wait, and sends on what has not been sent on.
@@ -496,7 +496,7 @@ void WindowFront::reach_bent(const Face& face, double distance, double at, float
 // Reaches the apex, and decides which part of the window goes on to the right and to the left.
 void WindowFront::divide_window(const Window& w, EdgeRecord& edge, const Face& face) {
     const double ray = (w.x * face.apex_y - w.y * face.apex_x) / (face.apex_y - w.y);
-    const double slack = grazing * face.length;
+    const double slack = grazing * std::min(face.length, std::min(w.at_begin, w.at_end) - w.weight);
     if (ray < w.begin - slack) {
         reach_bent(face, w.at_begin, w.begin, w.error);
     } else if (ray > w.end + slack) {
@@ -563,15 +563,19 @@ void WindowFront::pass_right(const Face& face) {
         };
         const double begin = part.is_apex ? 0.0 : std::max(seen_at(part.limit), 0.0);
         const double end = w.end == face.length ? length : std::min(seen_at(w.end), length);
-        const double at_begin = w.weight + std::sqrt((begin - x) * (begin - x) + y * y);
-        const double at_end = w.weight + std::sqrt((end - x) * (end - x) + y * y);
+        const double to_begin = std::sqrt((begin - x) * (begin - x) + y * y);
+        const double to_end = std::sqrt((end - x) * (end - x) + y * y);
+        const double at_begin = w.weight + to_begin;
+        const double at_end = w.weight + to_end;
         const double spare = at_end - face.tail_bound;
         const double to_tail = (tail_x - end) * (tail_x - end) + tail_y * tail_y;
         const double at = meeting_point(face.apex_bound, face.head_bound, length, begin, end);
         const double around =
             std::min(face.apex_bound + at, face.head_bound + length - at) - w.weight;
-        const bool lives = (y < -negligible * length) & (end - begin > negligible * length) &
-                           (around >= 0) & (around * around >= (at - x) * (at - x) + y * y) &
+        const bool is_wide = ((begin - end) * y > negligible * to_begin * to_end) |
+                             ((begin < x) & (x < end) & (y < 0));
+        const bool lives = is_wide & (around >= 0) &
+                           (around * around >= (at - x) * (at - x) + y * y) &
                            ((spare <= 0) | (to_tail >= spare * spare));
         children_[count] = {x, y, w.weight, begin, end, at_begin, at_end, w.error};
         count += lives ? 1 : 0;
@@ -596,15 +600,19 @@ void WindowFront::pass_left(const Face& face) {
         };
         const double begin = w.begin == 0 ? 0.0 : std::max(seen_at(w.begin), 0.0);
         const double end = part.is_apex ? length : std::min(seen_at(part.limit), length);
-        const double at_begin = w.weight + std::sqrt((begin - x) * (begin - x) + y * y);
-        const double at_end = w.weight + std::sqrt((end - x) * (end - x) + y * y);
+        const double to_begin = std::sqrt((begin - x) * (begin - x) + y * y);
+        const double to_end = std::sqrt((end - x) * (end - x) + y * y);
+        const double at_begin = w.weight + to_begin;
+        const double at_end = w.weight + to_end;
         const double spare = at_begin - face.head_bound;
         const double to_head = (head_x - begin) * (head_x - begin) + head_y * head_y;
         const double at = meeting_point(face.tail_bound, face.apex_bound, length, begin, end);
         const double around =
             std::min(face.tail_bound + at, face.apex_bound + length - at) - w.weight;
-        const bool lives = (y < -negligible * length) & (end - begin > negligible * length) &
-                           (around >= 0) & (around * around >= (at - x) * (at - x) + y * y) &
+        const bool is_wide = ((begin - end) * y > negligible * to_begin * to_end) |
+                             ((begin < x) & (x < end) & (y < 0));
+        const bool lives = is_wide & (around >= 0) &
+                           (around * around >= (at - x) * (at - x) + y * y) &
                            ((spare <= 0) | (to_head >= spare * spare));
         children_[count] = {x, y, w.weight, begin, end, at_begin, at_end, w.error};
         count += lives ? 1 : 0;

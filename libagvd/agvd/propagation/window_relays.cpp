@@ -46,8 +46,7 @@ std::vector<std::uint8_t> faces_near_borders(const Surface& surface,
     const std::vector<Triangle>& triangles = surface.mesh.triangles;
     std::vector<std::uint8_t> ring(surface.num_vertices(), 0);  // 1: at a border, 2: next to one.
     for (const auto& [a, b, c] : triangles) {
-        const bool is_border =
-            vertex_site[a] != vertex_site[b] || vertex_site[b] != vertex_site[c];
+        const bool is_border = vertex_site[a] != vertex_site[b] || vertex_site[b] != vertex_site[c];
         if (is_border) ring[a] = ring[b] = ring[c] = 1;
     }
     for (const auto& [a, b, c] : triangles) {
