@@ -102,6 +102,13 @@ std::span<const PlacedSite> SitePlacement::in_face(Index face) const {
     return {first, last};
 }
 
+bool SitePlacement::repeats_another(Index site, const SurfacePoint& point) const {
+    const auto others = in_face(point.face.value());
+    return std::any_of(others.begin(), others.end(), [&](const PlacedSite& other) {
+        return other.site < site && other.point.barycentric == point.barycentric;
+    });
+}
+
 const SurfacePoint& SitePlacement::seen_from(Index face, Index site) const {
     const PlacedSite key{site, {FaceId(face), {}}};
     const auto found = std::lower_bound(placed_.begin(), placed_.end(), key, by_face);

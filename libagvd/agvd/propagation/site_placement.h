@@ -40,6 +40,9 @@ public:
     //! All sites lie at vertices.
     [[nodiscard]] bool is_empty() const { return placed_.empty(); }
     [[nodiscard]] std::span<const PlacedSite> in_face(Index face) const;
+    //! Another site of lower index lies at the very same point of a face or edge, so that this one
+    //! is nowhere the nearest.
+    [[nodiscard]] bool repeats_another(Index site, const SurfacePoint& point) const;
     //! The site as seen from `face`, which must hold it.
     [[nodiscard]] const SurfacePoint& seen_from(Index face, Index site) const;
 

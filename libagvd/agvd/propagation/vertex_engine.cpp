@@ -67,7 +67,9 @@ public:
 
     Propagation run() {
         poll(options_.progress, 0);
-        for (Index s = 0; s < sites_.size(); ++s) start(s);
+        for (Index s = 0; s < sites_.size(); ++s) {
+            if (!placement_.repeats_another(s, sites_[s])) start(s);
+        }
         std::size_t served = 0;
         for (Index v = queue_.pop(); v != no_index; v = queue_.pop()) {
             prefetch();

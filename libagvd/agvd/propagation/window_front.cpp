@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <bit>
 
-#include "agvd/propagation/site_placement.h"
 #include "agvd/propagation/window_envelope.h"
+#include "agvd/propagation/window_rays.h"
 
 namespace agvd {
 namespace {
@@ -16,15 +16,6 @@ namespace {
 // Sine of the angle of a beam: a narrower one carries nothing but rounding. What it would have
 // reached is reached along the beams beside it, longer by the square of this.
 constexpr double negligible = 1e-13;
-
-// A ray this close to a window's end (relative to the edge, or to the image where that is nearer)
-// is not bent.
-constexpr double grazing = 1e-10;
-
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-// A vector in the frame whose x axis is the unit vector `axis`, and back.
-Vec2 into(const Vec2& axis, const Vec2& v) { return {axis.dot(v), cross(axis, v)}; }
 
 // |v| < limit, without a root.
 bool is_within(const Vec2& v, double limit) { return limit > 0 && v.squaredNorm() < limit * limit; }
@@ -205,147 +196,6 @@ void WindowFront::bound_vertex(Index record, double distance) {
     VertexRecord& v = vertices_[record];
     v.upper = std::min(v.upper, distance);
     v.bound = std::min(v.bound, v.upper);
-}
-
-void WindowFront::start(const SurfacePoint& site) {
-    if (const auto vertex = vertex_of(surface_, site)) {
-        const Index record = vertex_record(*vertex);
-        VertexRecord& v = vertices_[record];
-        v.low = v.upper = v.bound = v.emitted = 0;
-        Index h = surface_.outgoing[*vertex];
-        if (h == no_index) return;
-        do {
-            emit_into(h, 0, 0, nullptr, nullptr);
-            h = surface_.twin[Surface::previous(h)];
-        } while (h != no_index && h != surface_.outgoing[*vertex]);
-        return;
-    }
-    const auto spread = [&](const SurfacePoint& point, Index skipped) {
-        for (Index k = 0; k < 3; ++k) {
-            const Index h = 3 * point.face.value() + k;
-            const Vec2 p = position_in_frame(surface_, point, h);
-            reach_vertex(vertex_record(surface_.tail(h)), p.norm(), 0, h, p);
-            if (h == skipped || surface_.twin[h] == no_index) continue;
-            const double length = surface_.length_of(h);
-            const Vec2 image(length - p.x(), -p.y());
-            if (!(image.y() < 0)) continue;
-            const Window window{
-                image.x(), image.y(), 0, 0, length, image.norm(), (image - Vec2(length, 0)).norm()};
-            send(surface_.twin[h], vertex_record(surface_.head(h)), vertex_record(surface_.tail(h)),
-                 {&window, 1});
-        }
-    };
-    const auto half_edge = half_edge_of(site);
-    spread(site, half_edge.value_or(no_index));
-    if (half_edge && surface_.twin[*half_edge] != no_index) {
-        spread(across_edge(surface_, site, *half_edge), surface_.twin[*half_edge]);
-    }
-}
-
-// Windows from the tail of `half_edge` onto the opposite edge of its face; `from` and `to`, if
-// given, are rays that bound the fan, in the frame of the half-edge.
-void WindowFront::emit_into(Index half_edge, double weight, float error, const Vec2* from,
-                            const Vec2* to) {
-    const Corner& first = corners_[half_edge];
-    const Corner& opposite = corners_[Surface::next(half_edge)];
-    const Corner& last = corners_[Surface::previous(half_edge)];
-    const Vec2 vertex = corners_.apex(Surface::next(half_edge));
-    const double length = opposite.length;
-    // The frame beyond starts at the apex of `half_edge` and runs clockwise around the vertex.
-    const Vec2 image(length - vertex.x(), -vertex.y());
-    Window window{
-        image.x(), image.y(), weight, 0, length, weight + last.length, weight + first.length,
-        error};
-    const Vec2 axis = (Vec2(first.length, 0) - corners_.apex(half_edge)) / length;
-    const auto meets_at = [&](const Vec2& ray) {
-        const Vec2 direction = into(axis, ray);
-        if (direction.y() > 0) return image.x() - image.y() * direction.x() / direction.y();
-        return direction.x() > 0 ? infinity : -infinity;
-    };
-    // The fan lies to the left of `from`: nearer the apex.
-    const double slack = grazing * length;
-    const double end = from ? std::min(meets_at(*from) + slack, length) : length;
-    const double begin = to ? std::max(meets_at(*to) - slack, 0.0) : 0;
-
-    const Index head = vertex_record(opposite.tail);
-    const Index apex = vertex_record(last.tail);
-    if (end == length) {
-        reach_vertex(head, window.at_end, error, Surface::next(half_edge), vertex);
-    } else {
-        bound_vertex(head, window.at_end + error);
-    }
-    if (begin == 0) {
-        reach_vertex(apex, window.at_begin, error, Surface::previous(half_edge), {last.length, 0});
-    } else {
-        bound_vertex(apex, window.at_begin + error);
-    }
-    if (opposite.twin == no_index || !(begin < end)) return;
-    window = window.part(begin, end);
-    send(opposite.twin, apex, head, {&window, 1});
-}
-
-// The shadow behind a saddle or boundary vertex: the directions that make an angle of pi or more
-// with the arrival on both sides. Faces are unfolded around the vertex one after the other.
-void WindowFront::emit(Index record) {
-    const VertexRecord v = vertices_[record];
-    if (v.emitted == v.low || !(v.low <= v.bound * (1 + grazing))) return;
-    vertices_[record].emitted = v.low;
-    const Index start = surface_.outgoing[v.vertex];
-    if (v.arrival_half_edge == no_index) {
-        emit_fan(start, nullptr, no_index, nullptr, v);
-        return;
-    }
-
-    // Counter-clockwise: the arrival in the frame of each next half-edge turns clockwise, and has
-    // turned by pi where it comes up again.
-    Index first = no_index;
-    Vec2 from = v.arrival;
-    for (Index h = v.arrival_half_edge; h != no_index;) {
-        const Vec2 turned = into(corners_[h].turn, from);
-        if (h != v.arrival_half_edge && from.y() <= 0 && turned.y() > 0) {
-            first = h;
-            break;
-        }
-        from = turned;
-        h = corners_.twin(Surface::previous(h));
-        if (h == v.arrival_half_edge) break;
-    }
-    // Clockwise, the other way round.
-    Index last = no_index;
-    Vec2 to = v.arrival;
-    for (Index twin = corners_[v.arrival_half_edge].twin; twin != no_index;) {
-        const Index h = Surface::next(twin);
-        if (h == v.arrival_half_edge) break;
-        const Vec2& turn = corners_[h].turn;
-        const Vec2 turned(turn.x() * to.x() - turn.y() * to.y(),
-                          turn.x() * to.y() + turn.y() * to.x());
-        const bool is_behind = to.y() >= 0 && turned.y() < 0;
-        to = turned;
-        if (is_behind) {
-            last = h;
-            break;
-        }
-        twin = corners_[h].twin;
-    }
-    from = -from;
-    to = -to;
-    const bool is_boundary = surface_.is_boundary_vertex(v.vertex);
-    if (last != no_index && (is_boundary || first == no_index)) {
-        emit_fan(is_boundary ? start : last, nullptr, last, &to, v);
-    }
-    if (first != no_index) {
-        emit_fan(first, &from, is_boundary ? no_index : last, &to, v);
-    }
-}
-
-void WindowFront::emit_fan(Index first, const Vec2* from, Index last, const Vec2* to,
-                           const VertexRecord& v) {
-    Index h = first;
-    do {
-        emit_into(h, v.low, v.error, h == first ? from : nullptr, h == last ? to : nullptr);
-        if (h == last) return;
-        h = corners_.twin(Surface::previous(h));
-    } while (h != no_index && h != first);
 }
 
 // --- Half-edges --------------------------------------------------------------------------------

@@ -1,0 +1,18 @@
+//! \file
+//! Small geometry that windows share.
+#pragma once
+
+#include "agvd/core/types.h"
+
+namespace agvd {
+
+//! A ray this close to a window's end (relative to the edge, or to the image where that is nearer)
+//! is not bent.
+inline constexpr double grazing = 1e-10;
+
+//! A vector in the frame whose x axis is the unit vector `axis`.
+[[nodiscard]] inline Vec2 into(const Vec2& axis, const Vec2& v) {
+    return {axis.x() * v.x() + axis.y() * v.y(), axis.x() * v.y() - axis.y() * v.x()};
+}
+
+}  // namespace agvd
