@@ -1,0 +1,203 @@
+// The window engine against formulas, against itself in another order, and its bookkeeping.
+#include "agvd/propagation/window_engine.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "agvd/core/error.h"
+#include "support/points.h"
+#include "support/shapes.h"
+
+using namespace agvd;
+
+namespace {
+
+Propagation exact(const Surface& surface, std::span<const SurfacePoint> sites) {
+    return propagate(surface, sites, {.engine = Engine::Window, .max_error = 0.0});
+}
+
+void expect_same_bytes(const Propagation& a, const Propagation& b) {
+    EXPECT_EQ(a.vertex_site, b.vertex_site);
+    EXPECT_EQ(a.vertex_distance, b.vertex_distance);
+    EXPECT_EQ(a.mixed_faces, b.mixed_faces);
+    EXPECT_EQ(a.relay_offsets, b.relay_offsets);
+    ASSERT_EQ(a.relays.size(), b.relays.size());
+    for (std::size_t i = 0; i < a.relays.size(); ++i) {
+        const Relay& r = a.relays[i];
+        const Relay& s = b.relays[i];
+        ASSERT_TRUE(r.x == s.x && r.y == s.y && r.weight == s.weight && r.begin == s.begin &&
+                    r.end == s.end && r.site == s.site && r.half_edge == s.half_edge)
+            << "relay " << i;
+    }
+}
+
+}  // namespace
+
+TEST(WindowEngine, PlaneHasEuclideanDistances) {
+    const TriangleMesh mesh = shapes::grid(20);
+    const Surface plane = build_surface(mesh.view());
+    const auto sites = points::scattered(plane, 12, 3);
+    const Propagation p = exact(plane, sites);
+    for (Index v = 0; v < plane.num_vertices(); ++v) {
+        double least = 10;
+        for (const SurfacePoint& site : sites) {
+            least = std::min(least, (mesh.positions[v] - position(mesh.view(), site)).norm());
+        }
+        EXPECT_NEAR(p.vertex_distance[v], least, 1e-12) << "vertex " << v;
+    }
+}
+
+// Behind a reflex corner paths bend: around the inner corner of an L.
+TEST(WindowEngine, PathsTurnAtReflexCorners) {
+    TriangleMesh mesh = shapes::grid(20);
+    std::erase_if(mesh.triangles, [&](const Triangle& t) {
+        const Vec3 middle =
+            (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3;
+        return middle.x() > 0.5 && middle.y() > 0.5;
+    });
+    const Surface s = build_surface(mesh.view());
+    const auto at = [](int i, int j) { return static_cast<Index>(i * 21 + j); };
+    const std::vector<SurfacePoint> site{points::at_vertex(s, at(4, 20))};
+    const Vec3 from = s.mesh.positions[at(4, 20)];
+    const Vec3 corner = s.mesh.positions[at(10, 10)];
+    const Propagation p = exact(s, site);
+    int turned = 0;
+    for (Index v = 0; v < s.num_vertices(); ++v) {
+        if (s.outgoing[v] == no_index) continue;
+        const Vec3 to = s.mesh.positions[v];
+        // Left of the line from the site through the corner the corner is in the way.
+        const bool is_behind =
+            (corner - from).cross(to - from).z() * (from.x() < from.y() ? 1 : -1) > 1e-12 &&
+            (to - corner).dot(corner - from) > -1e-12;
+        const double straight = (to - from).norm();
+        const double bent = (corner - from).norm() + (to - corner).norm();
+        if (is_behind) ++turned;
+        EXPECT_NEAR(p.vertex_distance[v], is_behind ? bent : straight, 1e-12) << to.transpose();
+    }
+    EXPECT_GT(turned, 10);
+}
+
+// Several sites in each face: more sites than faces.
+TEST(WindowEngine, MoreSitesThanFaces) {
+    const Surface s = build_surface(shapes::cube().view());
+    const auto sites = points::scattered(s, 60, 8);
+    ASSERT_GT(sites.size(), s.num_faces());
+    const Propagation p = exact(s, sites);
+    EXPECT_EQ(p.mixed_faces.size(), s.num_faces());
+    std::vector<bool> has_relay(sites.size(), false);
+    for (const Relay& r : p.relays) has_relay[r.site.value()] = true;
+    for (std::size_t i = 0; i < sites.size(); ++i) EXPECT_TRUE(has_relay[i]) << "site " << i;
+}
+
+TEST(WindowEngine, ComponentsWithoutASiteAreOutOfReach) {
+    const Surface s = build_surface(shapes::join(shapes::grid(3), shapes::sphere(1)).view());
+    const std::vector<SurfacePoint> site{points::at_vertex(s, 0)};
+    const Propagation p = exact(s, site);
+    for (Index v = 0; v < s.num_vertices(); ++v) {
+        EXPECT_EQ(std::isfinite(p.vertex_distance[v]), v < 16) << "vertex " << v;
+        EXPECT_EQ(p.vertex_site[v].is_valid(), v < 16) << "vertex " << v;
+    }
+    EXPECT_TRUE(p.mixed_faces.empty());
+}
+
+// Behind a common saddle two sites tie over a whole region: the lower one owns it.
+TEST(WindowEngine, TheLowerSiteOwnsATieBehindACorner) {
+    TriangleMesh mesh = shapes::grid(20);
+    std::erase_if(mesh.triangles, [&](const Triangle& t) {
+        const Vec3 middle =
+            (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3;
+        return middle.x() > 0.5 && middle.y() > 0.5;
+    });
+    const Surface s = build_surface(mesh.view());
+    const Vec3 corner = s.mesh.positions[10 * 21 + 10];
+    // Both at the same distance from the corner, in directions that see the same region by it only.
+    std::vector<SurfacePoint> sites{points::at_vertex(s, 6 * 21 + 13),
+                                    points::at_vertex(s, 7 * 21 + 14)};
+    for (const auto& site : sites) {
+        ASSERT_NEAR((position(s.mesh.view(), site) - corner).norm(), 0.25, 1e-12);
+    }
+    for (int turn = 0; turn < 2; ++turn) {
+        const Propagation p = exact(s, sites);
+        for (Index v = 0; v < s.num_vertices(); ++v) {
+            if (s.outgoing[v] == no_index || s.mesh.positions[v].x() < 0.8 ||
+                s.mesh.positions[v].y() > 0.3) {
+                continue;
+            }
+            const double at_corner = (s.mesh.positions[v] - corner).norm() + 0.25;
+            if (std::abs(p.vertex_distance[v] - at_corner) > 1e-12) continue;
+            EXPECT_EQ(p.vertex_site[v].value(), 0u) << s.mesh.positions[v].transpose();
+        }
+        std::swap(sites[0], sites[1]);
+    }
+}
+
+TEST(WindowEngine, SameBytesForAnyThreadCount) {
+    const Surface s = build_surface(shapes::jitter(shapes::torus(60, 30), 0.01, 3).view());
+    const auto sites = points::scattered(s, 150, 2);
+    for (const double max_error : {0.0, 1e-3}) {
+        PropagationOptions options{.max_error = max_error, .num_threads = 1};
+        const Propagation one = propagate(s, sites, options);
+        for (const int threads : {2, 3, 8}) {
+            options.num_threads = threads;
+            expect_same_bytes(one, propagate(s, sites, options));
+        }
+    }
+}
+
+// A cap of nothing sends every site the slow way.
+TEST(WindowEngine, PastTheWorkCapDistancesAreTheSame) {
+    const Surface s = build_surface(shapes::jitter(shapes::torus(40, 20), 0.02, 7).view());
+    const auto sites = points::scattered(s, 9, 4);
+    const Propagation quick = exact(s, sites);
+    const Propagation slow = propagate_windows(s, sites, {.max_error = 0.0, .num_threads = 1}, 0);
+    EXPECT_EQ(quick.vertex_site, slow.vertex_site);
+    EXPECT_EQ(quick.mixed_faces, slow.mixed_faces);
+    for (Index v = 0; v < s.num_vertices(); ++v) {
+        EXPECT_NEAR(quick.vertex_distance[v], slow.vertex_distance[v], 1e-13);
+    }
+}
+
+TEST(WindowEngine, ErrorsStayBelowWhatIsCertified) {
+    const Surface s = build_surface(shapes::jitter(shapes::sphere(5), 0.003, 3).view());
+    const auto sites = points::scattered(s, 5, 6);
+    const Propagation best = exact(s, sites);
+    EXPECT_EQ(best.certified_error, 0);
+    std::size_t last = best.num_nodes;
+    for (const double max_error : {1e-4, 1e-3, 1e-2}) {
+        const Propagation p = propagate(s, sites, {.max_error = max_error});
+        EXPECT_GT(p.certified_error, 0);
+        EXPECT_LE(p.certified_error, max_error);
+        EXPECT_LT(p.num_nodes, last) << "fewer windows with a larger error";
+        last = p.num_nodes;
+        for (Index v = 0; v < s.num_vertices(); ++v) {
+            EXPECT_GE(p.vertex_distance[v], best.vertex_distance[v] * (1 - 1e-12));
+            EXPECT_LE(p.vertex_distance[v],
+                      best.vertex_distance[v] * (1 + p.certified_error + 1e-12));
+        }
+    }
+}
+
+TEST(WindowEngine, KeepsRelaysOnlyWhereLabelsMeet) {
+    const Surface s = build_surface(shapes::sphere(5).view());
+    const Propagation alone = exact(s, points::scattered(s, 1, 1));
+    EXPECT_TRUE(alone.mixed_faces.empty());
+    EXPECT_TRUE(alone.relays.empty());
+    const Propagation few = exact(s, points::scattered(s, 4, 1));
+    EXPECT_LT(few.mixed_faces.size(), s.num_faces() / 4);
+}
+
+TEST(WindowEngine, RefusesErrorsOutOfRange) {
+    const Surface s = build_surface(shapes::cube().view());
+    const auto sites = points::scattered(s, 2, 1);
+    for (const double bad : {-1e-9, 1.0, 7.0, std::nan("")}) {
+        EXPECT_THROW((void)propagate(s, sites, {.max_error = bad}), InvalidOption) << bad;
+    }
+}
+
+TEST(WindowEngine, AStoppedRunThrows) {
+    const Surface s = build_surface(shapes::sphere(3).view());
+    const auto sites = points::scattered(s, 40, 1);
+    EXPECT_THROW((void)propagate(s, sites, {.progress = [](double f) { return f < 0.3; }}),
+                 Cancelled);
+}
