@@ -206,11 +206,14 @@ void insert_window(const Window& window, std::vector<Window>& scratch,
 std::optional<Window> merge_windows(const Window& left, const Window& right, double max_error) {
     if (left.end != right.begin) return std::nullopt;
     const double begin = left.begin;
-    const double middle = left.end;
+    const double joint = left.end;
     const double end = right.end;
     const double slope_begin = (begin - left.x) / -left.y;
     const double slope_end = (end - right.x) / -right.y;
     if (!(slope_begin < slope_end)) return std::nullopt;
+    // The inner end rays must stay inside the beam, too.
+    if ((joint - left.x) / -left.y > slope_end) return std::nullopt;
+    if ((joint - right.x) / -right.y < slope_begin) return std::nullopt;
     Window merged = left;
     merged.y = (begin - end) / (slope_end - slope_begin);
     merged.x = begin + slope_begin * merged.y;
@@ -223,9 +226,9 @@ std::optional<Window> merge_windows(const Window& left, const Window& right, dou
     if (!(run_begin < farthest * left.at_begin && run_end < farthest * right.at_end)) {
         return std::nullopt;
     }
-    const double run_middle = merged.distance(middle);
-    const std::array gaps{run_begin - left.at_begin, run_middle - left.at_end,
-                          run_middle - right.at_begin, run_end - right.at_end};
+    const double run_joint = merged.distance(joint);
+    const std::array gaps{run_begin - left.at_begin, run_joint - left.at_end,
+                          run_joint - right.at_begin, run_end - right.at_end};
     const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
     constexpr float round_up = 1 + 0x1p-20F;
     merged.error =

@@ -10,18 +10,18 @@
 
 namespace agvd {
 
-//! Adds a window to an envelope. Where two windows give the same distance up to rounding, one that
-//! is served keeps its ground, else the one that came first.
+//! Adds a window to an envelope: disjoint windows, in order. Where two windows give the same
+//! distance up to rounding, one that is served keeps its ground, else the one that came first.
 //!
-//! \param scratch      any content; reused memory.
+//! \param scratch  any content; reused memory.
 //! Cost: O(windows that end behind its begin): constant for windows that come in order.
 void insert_window(const Window& window, std::vector<Window>& scratch,
                    std::vector<Window>& envelope);
 
 //! One window in place of two that touch, if it stays within the error: its outermost rays are
-//! theirs, so that its beam holds both beams, and its distances lie below theirs by at most the
-//! error it adds. The difference to either is monotone over its interval, since the directions
-//! agree at the outer end and nowhere else; so the three end points bound it.
+//! theirs and hold both beams, and its distances lie below theirs by at most the error it adds. The
+//! difference to either is monotone over its interval, since the directions agree at the outer end
+//! and nowhere else; so the ends of the intervals bound it.
 //!
 //! \param max_error  relative to the least distance over the interval.
 [[nodiscard]] std::optional<Window> merge_windows(const Window& left, const Window& right,

@@ -27,7 +27,7 @@ double meeting_point(double tail_bound, double head_bound, double length, double
     return std::min(std::max(begin, (head_bound + length - tail_bound) / 2), end);
 }
 
-constexpr Index vertex_item(Index record) { return 2 * record + 1; }
+constexpr Index turn_item(Index turn) { return 2 * turn + 1; }
 constexpr Index edge_item(Index record) { return 2 * record; }
 
 }  // namespace
@@ -77,6 +77,7 @@ bool WindowFront::run(const SurfacePoint& site, std::span<const float> bounds, F
     queue_order_ = order;
     vertices_.clear();
     edges_.clear();
+    turns_.clear();
     runs_.clear();
     waiting_.clear();
     free_runs_.assign(free_runs_.size(), no_index);
@@ -93,7 +94,7 @@ bool WindowFront::run(const SurfacePoint& site, std::span<const float> bounds, F
     Index item = 0;
     while (next_item(item)) {
         if (item % 2 == 1) {
-            emit(item / 2);
+            emit(Turn(turns_[item / 2]));  // A copy: it may cause others.
         } else {
             serve_edge(item / 2);
             if (edges_[item / 2].num_served > work_cap) return false;
@@ -105,9 +106,9 @@ bool WindowFront::run(const SurfacePoint& site, std::span<const float> bounds, F
 std::size_t WindowFront::bytes() const {
     std::size_t sum = (vertex_slot_.capacity() + edge_slot_.capacity()) * sizeof(Index) +
                       vertices_.capacity() * sizeof(VertexRecord) +
-                      edges_.capacity() * sizeof(EdgeRecord) + runs_.capacity() * sizeof(Run) +
-                      waiting_.capacity() * sizeof(Window) + pool_.capacity() * sizeof(Window) +
-                      heap_.capacity() * sizeof(heap_[0]);
+                      turns_.capacity() * sizeof(Turn) + edges_.capacity() * sizeof(EdgeRecord) +
+                      runs_.capacity() * sizeof(Run) + waiting_.capacity() * sizeof(Window) +
+                      pool_.capacity() * sizeof(Window) + heap_.capacity() * sizeof(heap_[0]);
     for (const auto& bucket : buckets_) sum += bucket.capacity() * sizeof(Index);
     return sum;
 }
@@ -117,7 +118,7 @@ Index WindowFront::vertex_record(Index vertex) {
     if (slot < vertices_.size() && vertices_[slot].vertex == vertex) return slot;
     slot = static_cast<Index>(vertices_.size());
     const double bound = bounds_[vertex];
-    vertices_.push_back({vertex, no_index, {0, 0}, bound, bound});
+    vertices_.push_back({vertex, bound, bound});
     return slot;
 }
 
@@ -165,7 +166,8 @@ bool WindowFront::next_item(Index& item) {
         item = bucket.back();
         bucket.pop_back();
         --num_waiting_;
-        Index& waits_in = item % 2 == 1 ? vertices_[item / 2].bucket : edges_[item / 2].bucket;
+        if (item % 2 == 1) return true;
+        Index& waits_in = edges_[item / 2].bucket;
         if (waits_in != current_bucket_) continue;  // Served from an earlier bucket.
         waits_in = no_index;
         return true;
@@ -181,14 +183,15 @@ void WindowFront::reach_vertex(Index record, double distance, float error, Index
                                const Vec2& arrival) {
     bound_vertex(record, distance + error);
     VertexRecord& v = vertices_[record];
-    if (!(distance < v.low)) return;
-    v.low = distance;
-    v.error = error;
-    v.arrival_half_edge = half_edge;
-    v.arrival = arrival;
-    if (surface_.can_turn[v.vertex] && v.low <= v.bound * (1 + grazing)) {
-        schedule(vertex_item(record), v.bucket, v.low);
-    }
+    const bool is_nearest = distance < v.low;
+    if (is_nearest) v.low = distance;
+    if (surface_.can_turn[v.vertex] == 0 || !(distance <= v.bound * (1 + grazing))) return;
+    // Of exact arrivals the nearest tells where the shadow lies; of others any may.
+    if (!is_nearest && (max_error_ == 0 || distance == v.last_arrival)) return;
+    v.last_arrival = distance;
+    Index bucket = no_index;
+    schedule(turn_item(static_cast<Index>(turns_.size())), bucket, distance);
+    turns_.push_back({record, half_edge, arrival, distance});
 }
 
 // By any path on the surface.
@@ -357,7 +360,8 @@ void WindowFront::divide_window(const Window& w, EdgeRecord& edge, const Face& f
         // A merged window's end ray touches the apex on one side only, and others go past it on
         // the other side in other directions.
         const bool touches = w.error > 0 && !(w.begin < ray && ray < w.end);
-        if (at_apex < vertices_[face.apex_record].low) {
+        const VertexRecord& apex = vertices_[face.apex_record];
+        if (at_apex < apex.low || max_error_ > 0) {
             reach_vertex(face.apex_record, at_apex, w.error,
                          touches ? no_index : Surface::previous(face.half_edge),
                          into(Vec2(-face.left_x, -face.left_y), to_image));
@@ -370,8 +374,10 @@ void WindowFront::divide_window(const Window& w, EdgeRecord& edge, const Face& f
             // One angle, one split: rays that cross the best one on its way to the apex lead
             // nowhere.
             if (at_apex < edge.apex_distance) {
-                edge.apex_distance = at_apex;
-                edge.apex_ray = ray;
+                if (at_apex + w.error < edge.apex_distance) {
+                    edge.apex_distance = at_apex + w.error;
+                    edge.apex_ray = ray;
+                }
             } else if (ray < edge.apex_ray) {
                 right = {&w, edge.apex_ray, false};
             } else {

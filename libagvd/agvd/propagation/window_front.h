@@ -82,15 +82,11 @@ private:
     };
     struct VertexRecord {
         Index vertex;
-        Index arrival_half_edge = no_index;  // Leaves the vertex; the arrival is in its frame.
-        Vec2 arrival;                        // Towards the image that `low` came from.
-        double bound;                        // The lower of the two that follow.
-        double outer_bound;                  // Given by the caller.
-        double upper = infinity;             // Of a path from this site.
-        double low = infinity;               // Least that a window gives,
-        float error = 0;                     // and its error.
-        double emitted = infinity;           // `low` when it last became a pseudo-source.
-        Index bucket = no_index;             // Where it waits to become one.
+        double bound;                    // The lower of the two that follow.
+        double outer_bound;              // Given by the caller.
+        double upper = infinity;         // Of a path from this site.
+        double low = infinity;           // Least that a window gives.
+        double last_arrival = infinity;  // The last one that may turn here.
     };
     // Windows that wait for their half-edge, in ascending order along it.
     struct Run {
@@ -103,6 +99,13 @@ private:
         const Window* window;
         double limit;
         bool is_apex;
+    };
+    // Paths that arrive at a vertex around which they may turn.
+    struct Turn {
+        Index vertex;     // Its record.
+        Index half_edge;  // Leaves the vertex; no_index: the direction is not known.
+        Vec2 arrival;     // Towards where they come from, in the frame of the half-edge.
+        double distance;
     };
     struct Face;
 
@@ -124,7 +127,7 @@ private:
     void divide_window(const Window& window, EdgeRecord& edge, const Face& face);
     void pass_right(const Face& face);
     void pass_left(const Face& face);
-    void emit(Index record);
+    void emit(const Turn& turn);
     void emit_fan(Index first, const Vec2* from, Index last, const Vec2* to, const VertexRecord& v);
     void emit_into(Index half_edge, double weight, float error, const Vec2* from, const Vec2* to);
 
@@ -139,6 +142,7 @@ private:
     std::vector<Index> edge_slot_;
     std::vector<VertexRecord> vertices_;
     std::vector<EdgeRecord> edges_;
+    std::vector<Turn> turns_;
     std::vector<Run> runs_;
     std::vector<Window> waiting_;
     std::vector<Index> free_runs_;  // By size class: list of runs.

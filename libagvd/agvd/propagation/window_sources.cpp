@@ -12,7 +12,7 @@ void WindowFront::start(const SurfacePoint& site) {
     if (const auto vertex = vertex_of(surface_, site)) {
         const Index record = vertex_record(*vertex);
         VertexRecord& v = vertices_[record];
-        v.low = v.upper = v.bound = v.emitted = 0;
+        v.low = v.upper = v.bound = 0;
         Index h = surface_.outgoing[*vertex];
         if (h == no_index) return;
         do {
@@ -87,12 +87,12 @@ void WindowFront::emit_into(Index half_edge, double weight, float error, const V
 
 // The shadow behind a saddle or boundary vertex: the directions that make an angle of pi or more
 // with the arrival on both sides. Faces are unfolded around the vertex one after the other.
-void WindowFront::emit(Index record) {
-    const VertexRecord v = vertices_[record];
-    if (v.emitted == v.low || !(v.low <= v.bound * (1 + grazing))) return;
-    vertices_[record].emitted = v.low;
+void WindowFront::emit(const Turn& turn) {
+    const VertexRecord v = vertices_[turn.vertex];
+    if (!(turn.distance <= v.bound * (1 + grazing))) return;
+    if (max_error_ == 0 && turn.distance > v.low) return;
     const Index start = surface_.outgoing[v.vertex];
-    if (v.arrival_half_edge == no_index) {
+    if (turn.half_edge == no_index) {
         emit_fan(start, nullptr, no_index, nullptr, v);
         return;
     }
@@ -100,26 +100,26 @@ void WindowFront::emit(Index record) {
     // Counter-clockwise: the arrival in the frame of each next half-edge turns clockwise, and has
     // turned by pi where it comes up again.
     Index first = no_index;
-    Vec2 from = v.arrival;
-    for (Index h = v.arrival_half_edge; h != no_index;) {
+    Vec2 from = turn.arrival;
+    for (Index h = turn.half_edge; h != no_index;) {
         const Vec2 turned = into(corners_[h].turn, from);
-        if (h != v.arrival_half_edge && from.y() <= 0 && turned.y() > 0) {
+        if (h != turn.half_edge && from.y() <= 0 && turned.y() > 0) {
             first = h;
             break;
         }
         from = turned;
         h = corners_.twin(Surface::previous(h));
-        if (h == v.arrival_half_edge) break;
+        if (h == turn.half_edge) break;
     }
     // Clockwise, the other way round.
     Index last = no_index;
-    Vec2 to = v.arrival;
-    for (Index twin = corners_[v.arrival_half_edge].twin; twin != no_index;) {
+    Vec2 to = turn.arrival;
+    for (Index twin = corners_[turn.half_edge].twin; twin != no_index;) {
         const Index h = Surface::next(twin);
-        if (h == v.arrival_half_edge) break;
-        const Vec2& turn = corners_[h].turn;
-        const Vec2 turned(turn.x() * to.x() - turn.y() * to.y(),
-                          turn.x() * to.y() + turn.y() * to.x());
+        if (h == turn.half_edge) break;
+        const Vec2& corner = corners_[h].turn;
+        const Vec2 turned(corner.x() * to.x() - corner.y() * to.y(),
+                          corner.x() * to.y() + corner.y() * to.x());
         const bool is_behind = to.y() >= 0 && turned.y() < 0;
         to = turned;
         if (is_behind) {
@@ -141,9 +141,10 @@ void WindowFront::emit(Index record) {
 
 void WindowFront::emit_fan(Index first, const Vec2* from, Index last, const Vec2* to,
                            const VertexRecord& v) {
+    const auto error = static_cast<float>(std::max(v.upper - v.low, 0.0) * (1 + 1e-6));
     Index h = first;
     do {
-        emit_into(h, v.low, v.error, h == first ? from : nullptr, h == last ? to : nullptr);
+        emit_into(h, v.low, error, h == first ? from : nullptr, h == last ? to : nullptr);
         if (h == last) return;
         h = corners_.twin(Surface::previous(h));
     } while (h != no_index && h != first);
