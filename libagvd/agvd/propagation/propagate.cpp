@@ -1,6 +1,5 @@
 #include "agvd/propagation/propagate.h"
 
-#include <cmath>
 #include <string>
 
 #include "agvd/propagation/steiner_engine.h"
@@ -23,10 +22,7 @@ void check_steiner_options(const Surface& surface, const PropagationOptions& opt
         throw InvalidOption("lambda is " + std::to_string(options.lambda) +
                             "; use a number above 0");
     }
-    const auto points = static_cast<Index>(options.steiner_points);
-    const double nodes = static_cast<double>(surface.num_vertices()) +
-                         std::ldexp(static_cast<double>(surface.num_edges()), edge_shift(points));
-    if (nodes >= static_cast<double>(no_index)) {
+    if (!NodeNumbers::suffice(surface, static_cast<Index>(options.steiner_points))) {
         throw InvalidOption("this mesh with " + std::to_string(options.steiner_points) +
                             " Steiner points per edge needs more than 2^32 nodes; use fewer");
     }
