@@ -102,6 +102,13 @@ Propagation SteinerFront::finish() {
     return result;
 }
 
+const SteinerNode& SteinerFront::node(Index half_edge, Index j) const {
+    if (j == 0) return vertices_[surface_.tail(half_edge)];
+    const Index edge = surface_.edge[half_edge];
+    const bool forward = surface_.edge_half[edge] == half_edge;
+    return pool_.nodes(edge)[forward ? j - 1 : counts_[edge] - j];
+}
+
 bool SteinerFront::refill() {
     return queue_.refill([this](Index id, Index bucket) -> std::optional<FrontEntry> {
         const SteinerNode* node = nullptr;

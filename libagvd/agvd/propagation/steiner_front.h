@@ -30,8 +30,9 @@ public:
     [[nodiscard]] Propagation finish();
 
     [[nodiscard]] const std::vector<SteinerNode>& vertices() const { return vertices_; }
-    //! \param edge  has points, and a face that has not retired.
-    [[nodiscard]] const SteinerNode& point(Index edge, Index k) { return pool_.nodes(edge)[k]; }
+    //! Node j of a half-edge: 0 its tail, otherwise a point, counted from there. The half-edge has
+    //! a face, on either side, that has not retired.
+    [[nodiscard]] const SteinerNode& node(Index half_edge, Index j) const;
 
 private:
     [[nodiscard]] bool refill();

@@ -32,6 +32,8 @@ struct SteinerNode {
 };
 static_assert(sizeof(SteinerNode) == 24);
 
+inline constexpr int max_steiner_points = 1000;  //!< On an edge.
+
 //! How many Steiner points each edge has: one number for all, or one for each.
 class SteinerCounts {
 public:
@@ -105,6 +107,11 @@ public:
     static constexpr Index side_of(Index slot) { return slot >> side_shift; }
     static constexpr Index number_of(Index slot) { return slot & ((Index{1} << side_shift) - 1); }
 
+    //! The side of a slot other than site_slot.
+    static constexpr Index half_edge(Index h, Index slot) {
+        if (side_of(slot) == 0) return h;
+        return side_of(slot) == 1 ? Surface::next(h) : Surface::previous(h);
+    }
     //! Where a slot other than site_slot lies, in the frame of h.
     [[nodiscard]] static Vec2 position(const Surface& surface, const SteinerCounts& counts, Index h,
                                        Index slot) {
@@ -151,6 +158,9 @@ public:
         return node_at(first_[edge]);
     }
 
+    //! The same of an edge that has been used.
+    [[nodiscard]] const SteinerNode* nodes(Index edge) const { return node_at(first_[edge]); }
+
     void retire(Index edge) {
         if (first_[edge] < retired) free_[counts_[edge]].push_back(first_[edge]);
         first_[edge] = retired;
@@ -174,7 +184,7 @@ private:
     static constexpr Index retired = no_index - 1;
     static constexpr Index blocks_per_chunk = 256;
 
-    [[nodiscard]] SteinerNode* node_at(Index i) {
+    [[nodiscard]] SteinerNode* node_at(Index i) const {
         return chunks_[i >> chunk_shift_].get() + (i & ((Index{1} << chunk_shift_) - 1));
     }
 

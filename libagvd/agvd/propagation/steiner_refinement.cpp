@@ -1,0 +1,188 @@
+#include "agvd/propagation/steiner_refinement.h"
+
+#include <cmath>
+#include <sstream>
+
+#include "agvd/propagation/steiner_front.h"
+#include "agvd/propagation/window_engine.h"
+
+namespace agvd {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Distances are sums of some thousand lengths in double.
+constexpr double rounding = 1e-12;
+
+constexpr int max_rounds = 20;
+
+// Numbers of points per edge that grow along paths.
+class PointPlan {
+public:
+    PointPlan(const Surface& surface, int points)
+        : surface_(surface),
+          points_(surface.num_edges(), static_cast<std::uint16_t>(points)),
+          is_marked_(surface.num_edges(), false) {}
+
+    [[nodiscard]] const std::vector<std::uint16_t>& points() const { return points_; }
+
+    // Marks the edges of the faces that the path to a vertex crosses, and of the vertices it
+    // passes. If `widely`, of all vertices of those faces: a shorter path runs beside this one.
+    void mark_path(const SteinerFront& front, Index vertex, bool widely) {
+        Index h = surface_.outgoing[vertex];
+        Index j = 0;
+        for (bool is_end = true;; is_end = false) {
+            const SteinerNode& node = front.node(h, j);
+            if (j == 0 && !is_end) mark_around(surface_.tail(h));
+            if (node.from == no_index) return;
+            const Index face = Surface::face(node.from);
+            for (Index side = 3 * face; side < 3 * face + 3; ++side) {
+                is_marked_[surface_.edge[side]] = true;
+                if (widely) mark_around(surface_.tail(side));
+            }
+            if (node.parent_slot == FaceRing::site_slot) return;
+            h = FaceRing::half_edge(node.from, node.parent_slot);
+            j = FaceRing::number_of(node.parent_slot);
+        }
+    }
+
+    // Halves the spacing on the marked edges, as far as there is room; false if there is none.
+    bool grow() {
+        bool has_grown = false;
+        for (Index e = 0; e < points_.size(); ++e) {
+            if (!is_marked_[e] || points_[e] == max_steiner_points) continue;
+            points_[e] =
+                static_cast<std::uint16_t>(std::min(2 * points_[e] + 1, max_steiner_points));
+            has_grown = true;
+        }
+        is_marked_.assign(is_marked_.size(), false);
+        return has_grown;
+    }
+
+    [[nodiscard]] std::size_t bytes() const {
+        return points_.capacity() * sizeof(points_[0]) + is_marked_.capacity() / 8;
+    }
+
+private:
+    void mark_around(Index vertex) {
+        Index h = surface_.outgoing[vertex];
+        do {
+            const Index previous = Surface::previous(h);
+            is_marked_[surface_.edge[h]] = true;
+            is_marked_[surface_.edge[previous]] = true;  // The last one on a boundary.
+            h = surface_.twin[previous];
+        } while (h != no_index && h != surface_.outgoing[vertex]);
+    }
+
+    const Surface& surface_;
+    std::vector<std::uint16_t> points_;  // #E
+    std::vector<bool> is_marked_;        // #E
+};
+
+// Relative errors of the vertices in a round, and in the one before.
+class VertexErrors {
+public:
+    explicit VertexErrors(std::vector<double> exact)
+        : exact_(std::move(exact)), error_(exact_.size(), infinity), before_(exact_.size()) {}
+
+    void update(const std::vector<SteinerNode>& vertices) {
+        error_.swap(before_);
+        worst_ = 0;
+        for (Index v = 0; v < exact_.size(); ++v) {
+            const bool is_measured = exact_[v] > 0 && exact_[v] < infinity;
+            error_[v] = is_measured ? vertices[v].distance / exact_[v] - 1 + rounding : rounding;
+            if (error_[v] > error_[worst_]) worst_ = v;
+        }
+    }
+
+    [[nodiscard]] double operator[](Index v) const { return error_[v]; }
+    [[nodiscard]] Index worst() const { return worst_; }
+    // More points along its path were little use.
+    [[nodiscard]] bool is_stuck(Index v) const {
+        constexpr double share = 0.9;
+        return error_[v] > share * before_[v];
+    }
+    [[nodiscard]] std::size_t bytes() const { return 3 * exact_.capacity() * sizeof(double); }
+
+private:
+    std::vector<double> exact_;  // #V, as the others.
+    std::vector<double> error_;
+    std::vector<double> before_;
+    Index worst_ = 0;
+};
+
+// Errors fall with the square of the spacing at most, but for luck with where points lie.
+bool is_in_reach(double error, double max_error, Index most_points) {
+    constexpr double luck = 10;
+    const double finer = (most_points + 1.0) / (max_steiner_points + 1.0);
+    return error * finer * finer <= luck * max_error;
+}
+
+[[noreturn]] void refuse(double max_error, const VertexErrors& errors, int rounds,
+                         const SteinerCounts& counts, Index num_edges, const char* reason) {
+    std::ostringstream text;
+    text << "the Steiner engine cannot meet a maximal error of " << max_error
+         << " here: after round " << rounds << ", with up to " << counts.most()
+         << " Steiner points on an edge (" << counts.total(num_edges) / num_edges
+         << " on average), the distance of vertex " << errors.worst() << " is off by "
+         << errors[errors.worst()] << ", and " << reason
+         << "; allow a larger error, or use the window engine";
+    throw ConstraintUnmet(text.str());
+}
+
+// Progress of a part of the work.
+Progress within(const Progress& progress, double begin, double end) {
+    if (!progress) return {};
+    return [&progress, begin, end](double x) { return progress(begin + x * (end - begin)); };
+}
+
+}  // namespace
+
+Propagation propagate_steiner_within(const Surface& surface, std::span<const SurfacePoint> sites,
+                                     const PropagationOptions& options) {
+    const double max_error = options.max_error.value();
+    double done = 0.1;
+    PropagationOptions exactly = options;
+    exactly.max_error = 0;
+    exactly.progress = within(options.progress, 0, done);
+    Propagation exact = propagate_windows(surface, sites, exactly);
+    const std::size_t exact_bytes = exact.peak_bytes;
+    VertexErrors errors(std::move(exact.vertex_distance));
+    exact = {};
+
+    PointPlan plan(surface, options.steiner_points);
+    for (int round = 1;; ++round) {
+        const SteinerCounts counts(plan.points());
+        SteinerFront front(surface, sites, counts);
+        const double next = done + (1 - done) / 3;
+        front.run(infinity, within(options.progress, done, next));
+        done = next;
+
+        errors.update(front.vertices());
+        const double worst = errors[errors.worst()];
+        if (worst <= max_error) {
+            Propagation result = front.finish();
+            result.certified_error = worst;
+            result.peak_bytes =
+                std::max(exact_bytes, result.peak_bytes + errors.bytes() + plan.bytes());
+            poll(options.progress, 1);
+            return result;
+        }
+        for (Index v = 0; v < surface.num_vertices(); ++v) {
+            if (errors[v] > max_error) plan.mark_path(front, v, errors.is_stuck(v));
+        }
+        const char* reason = nullptr;
+        if (round == max_rounds) {
+            reason = "more rounds are not tried";
+        } else if (!is_in_reach(worst, max_error, counts.most())) {
+            reason = "1000 points, the most there may be, would not do";
+        } else if (!plan.grow()) {
+            reason = "the edges along its path hold 1000 points, the most there may be";
+        } else if (!NodeNumbers::suffice(surface, SteinerCounts(plan.points()).most())) {
+            reason = "more points would need more than 2^32 nodes";
+        }
+        if (reason) refuse(max_error, errors, round, counts, surface.num_edges(), reason);
+    }
+}
+
+}  // namespace agvd
