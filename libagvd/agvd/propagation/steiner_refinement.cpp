@@ -26,24 +26,45 @@ public:
 
     [[nodiscard]] const std::vector<std::uint16_t>& points() const { return points_; }
 
-    // Marks the edges of the faces that the path to a vertex crosses, and of the vertices it
-    // passes. If `widely`, of all vertices of those faces: a shorter path runs beside this one.
-    void mark_path(const SteinerFront& front, Index vertex, bool widely) {
+    // The edges of the faces that the path to a vertex crosses, and of the vertices it passes.
+    void mark_path(const SteinerFront& front, Index vertex) {
         Index h = surface_.outgoing[vertex];
         Index j = 0;
         for (bool is_end = true;; is_end = false) {
             const SteinerNode& node = front.node(h, j);
             if (j == 0 && !is_end) mark_around(surface_.tail(h));
             if (node.from == no_index) return;
-            const Index face = Surface::face(node.from);
-            for (Index side = 3 * face; side < 3 * face + 3; ++side) {
-                is_marked_[surface_.edge[side]] = true;
-                if (widely) mark_around(surface_.tail(side));
-            }
+            mark_face(Surface::face(node.from));
             if (node.parent_slot == FaceRing::site_slot) return;
             h = FaceRing::half_edge(node.from, node.parent_slot);
             j = FaceRing::number_of(node.parent_slot);
         }
+    }
+
+    // The edges beside the shortest path from `site` to a vertex: around a descent over vertices
+    // nearer to the site, each the least of a detour from the one before.
+    void mark_descent(const std::vector<double>& exact, const SurfacePoint& site, Index vertex) {
+        for (Index v = vertex; v != no_index;) {
+            mark_around(v);
+            Index nearer = no_index;
+            double least = infinity;
+            Index h = surface_.outgoing[v];
+            do {
+                mark_face(Surface::face(h));
+                const Index previous = Surface::previous(h);
+                for (const Index side : {Surface::next(h), previous}) {
+                    const Index u = surface_.tail(side);
+                    const double length = surface_.length_of(side == previous ? previous : h);
+                    if (exact[u] < exact[v] && exact[u] + length < least) {
+                        least = exact[u] + length;
+                        nearer = u;
+                    }
+                }
+                h = surface_.twin[previous];
+            } while (h != no_index && h != surface_.outgoing[v]);
+            v = nearer;
+        }
+        for (const Index v : surface_.mesh.triangles[site.face.value()]) mark_around(v);
     }
 
     // Halves the spacing on the marked edges, as far as there is room; false if there is none.
@@ -64,6 +85,10 @@ public:
     }
 
 private:
+    void mark_face(Index face) {
+        for (Index h = 3 * face; h < 3 * face + 3; ++h) is_marked_[surface_.edge[h]] = true;
+    }
+
     void mark_around(Index vertex) {
         Index h = surface_.outgoing[vertex];
         do {
@@ -82,32 +107,31 @@ private:
 // Relative errors of the vertices in a round, and in the one before.
 class VertexErrors {
 public:
-    explicit VertexErrors(std::vector<double> exact)
-        : exact_(std::move(exact)), error_(exact_.size(), infinity), before_(exact_.size()) {}
+    explicit VertexErrors(Index num_vertices) : error_(num_vertices, infinity), before_(error_) {}
 
-    void update(const std::vector<SteinerNode>& vertices) {
+    void update(const std::vector<double>& exact, const std::vector<SteinerNode>& vertices) {
         error_.swap(before_);
         worst_ = 0;
-        for (Index v = 0; v < exact_.size(); ++v) {
-            const bool is_measured = exact_[v] > 0 && exact_[v] < infinity;
-            error_[v] = is_measured ? vertices[v].distance / exact_[v] - 1 + rounding : rounding;
+        for (Index v = 0; v < exact.size(); ++v) {
+            const bool is_measured = exact[v] > 0 && exact[v] < infinity;
+            error_[v] = rounding;
+            if (is_measured) error_[v] += std::max(vertices[v].distance / exact[v] - 1, 0.0);
             if (error_[v] > error_[worst_]) worst_ = v;
         }
     }
 
     [[nodiscard]] double operator[](Index v) const { return error_[v]; }
     [[nodiscard]] Index worst() const { return worst_; }
-    // More points along its path were little use.
+    // More points along its path were of little use.
     [[nodiscard]] bool is_stuck(Index v) const {
         constexpr double share = 0.9;
         return error_[v] > share * before_[v];
     }
-    [[nodiscard]] std::size_t bytes() const { return 3 * exact_.capacity() * sizeof(double); }
+    [[nodiscard]] std::size_t bytes() const { return 2 * error_.capacity() * sizeof(double); }
 
 private:
-    std::vector<double> exact_;  // #V, as the others.
-    std::vector<double> error_;
-    std::vector<double> before_;
+    std::vector<double> error_;   // #V
+    std::vector<double> before_;  // #V
     Index worst_ = 0;
 };
 
@@ -146,11 +170,14 @@ Propagation propagate_steiner_within(const Surface& surface, std::span<const Sur
     exactly.max_error = 0;
     exactly.progress = within(options.progress, 0, done);
     Propagation exact = propagate_windows(surface, sites, exactly);
-    const std::size_t exact_bytes = exact.peak_bytes;
-    VertexErrors errors(std::move(exact.vertex_distance));
-    exact = {};
+    const std::size_t bytes_of_exact = exact.peak_bytes;
+    std::vector<Relay>().swap(exact.relays);
 
+    VertexErrors errors(surface.num_vertices());
     PointPlan plan(surface, options.steiner_points);
+    const std::size_t own_bytes =
+        plan.bytes() + errors.bytes() +
+        surface.num_vertices() * (sizeof(exact.vertex_distance[0]) + sizeof(exact.vertex_site[0]));
     for (int round = 1;; ++round) {
         const SteinerCounts counts(plan.points());
         SteinerFront front(surface, sites, counts);
@@ -158,18 +185,23 @@ Propagation propagate_steiner_within(const Surface& surface, std::span<const Sur
         front.run(infinity, within(options.progress, done, next));
         done = next;
 
-        errors.update(front.vertices());
+        errors.update(exact.vertex_distance, front.vertices());
         const double worst = errors[errors.worst()];
         if (worst <= max_error) {
             Propagation result = front.finish();
             result.certified_error = worst;
-            result.peak_bytes =
-                std::max(exact_bytes, result.peak_bytes + errors.bytes() + plan.bytes());
+            result.peak_bytes = std::max(bytes_of_exact, result.peak_bytes + own_bytes);
             poll(options.progress, 1);
             return result;
         }
         for (Index v = 0; v < surface.num_vertices(); ++v) {
-            if (errors[v] > max_error) plan.mark_path(front, v, errors.is_stuck(v));
+            if (errors[v] <= max_error) continue;
+            plan.mark_path(front, v);
+            // Another site's path, or one over other faces, may be the shortest.
+            if (errors.is_stuck(v)) {
+                const SurfacePoint& site = sites[exact.vertex_site[v].value()];
+                plan.mark_descent(exact.vertex_distance, site, v);
+            }
         }
         const char* reason = nullptr;
         if (round == max_rounds) {

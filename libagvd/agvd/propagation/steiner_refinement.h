@@ -10,10 +10,9 @@ namespace agvd {
 //!
 //! The window engine gives the exact distances of the vertices. Then each round propagates over the
 //! Steiner points and inserts more along the paths of the vertices whose distance is off by more
-//! than max_error, until there is none. lambda has no effect: all points are kept until a round
-//! ends, for the paths back.
-//! \throw ConstraintUnmet  the next round would need more than max_steiner_points on an edge.
-//! Cost: the window engine once, and one propagation a round.
+//! than max_error, until there is none. All points are kept until a round ends, for the paths back.
+//! \throw ConstraintUnmet  1000 points on an edge do not do, or would foreseeably not.
+//! Cost: the window engine once, and one propagation a round; there are at most 20.
 [[nodiscard]] Propagation propagate_steiner_within(const Surface& surface,
                                                    std::span<const SurfacePoint> sites,
                                                    const PropagationOptions& options);
