@@ -22,7 +22,8 @@ public:
     PointPlan(const Surface& surface, int points)
         : surface_(surface),
           points_(surface.num_edges(), static_cast<std::uint16_t>(points)),
-          is_marked_(surface.num_edges(), false) {}
+          is_marked_(surface.num_edges(), false),
+          visited_for_(surface.num_faces(), no_index) {}
 
     [[nodiscard]] const std::vector<std::uint16_t>& points() const { return points_; }
 
@@ -41,30 +42,38 @@ public:
         }
     }
 
-    // The edges beside the shortest path from `site` to a vertex: around a descent over vertices
-    // nearer to the site, each the least of a detour from the one before.
-    void mark_descent(const std::vector<double>& exact, const SurfacePoint& site, Index vertex) {
-        for (Index v = vertex; v != no_index;) {
-            mark_around(v);
-            Index nearer = no_index;
+    // The edges of all faces that a path of this length from `site` to a vertex can cross: a point
+    // x of it has |x - site| + |x - vertex| <= length, and a corner of its face is nearer to x than
+    // reach times the longest side.
+    void mark_between(const SurfacePoint& site, Index vertex, double length) {
+        constexpr double reach =
+            0.58;  // 1 / sqrt(3), rounded up: an equilateral triangle's middle.
+        const std::vector<Vec3>& positions = surface_.mesh.positions;
+        const Vec3 start = position(surface_.mesh.view(), site);
+        const auto may_be_crossed = [&](Index face) {
             double least = infinity;
-            Index h = surface_.outgoing[v];
-            do {
-                mark_face(Surface::face(h));
-                const Index previous = Surface::previous(h);
-                for (const Index side : {Surface::next(h), previous}) {
-                    const Index u = surface_.tail(side);
-                    const double length = surface_.length_of(side == previous ? previous : h);
-                    if (exact[u] < exact[v] && exact[u] + length < least) {
-                        least = exact[u] + length;
-                        nearer = u;
-                    }
-                }
-                h = surface_.twin[previous];
-            } while (h != no_index && h != surface_.outgoing[v]);
-            v = nearer;
+            double longest = 0;
+            for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+                const Vec3& p = positions[surface_.tail(h)];
+                least = std::min(least, (p - start).norm() + (p - positions[vertex]).norm());
+                longest = std::max(longest, surface_.length_of(h));
+            }
+            return least <= length + 2 * reach * longest;
+        };
+        std::vector<Index> waiting{Surface::face(surface_.outgoing[vertex])};
+        visited_for_[waiting[0]] = vertex;
+        while (!waiting.empty()) {
+            const Index face = waiting.back();
+            waiting.pop_back();
+            if (!may_be_crossed(face)) continue;
+            mark_face(face);
+            for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+                const Index twin = surface_.twin[h];
+                if (twin == no_index || visited_for_[Surface::face(twin)] == vertex) continue;
+                visited_for_[Surface::face(twin)] = vertex;
+                waiting.push_back(Surface::face(twin));
+            }
         }
-        for (const Index v : surface_.mesh.triangles[site.face.value()]) mark_around(v);
     }
 
     // Halves the spacing on the marked edges, as far as there is room; false if there is none.
@@ -77,11 +86,13 @@ public:
             has_grown = true;
         }
         is_marked_.assign(is_marked_.size(), false);
+        visited_for_.assign(visited_for_.size(), no_index);
         return has_grown;
     }
 
     [[nodiscard]] std::size_t bytes() const {
-        return points_.capacity() * sizeof(points_[0]) + is_marked_.capacity() / 8;
+        return points_.capacity() * sizeof(points_[0]) + is_marked_.capacity() / 8 +
+               visited_for_.capacity() * sizeof(Index);
     }
 
 private:
@@ -102,6 +113,7 @@ private:
     const Surface& surface_;
     std::vector<std::uint16_t> points_;  // #E
     std::vector<bool> is_marked_;        // #E
+    std::vector<Index> visited_for_;     // #F: the last vertex whose paths were looked for here.
 };
 
 // Relative errors of the vertices in a round, and in the one before.
@@ -200,7 +212,7 @@ Propagation propagate_steiner_within(const Surface& surface, std::span<const Sur
             // Another site's path, or one over other faces, may be the shortest.
             if (errors.is_stuck(v)) {
                 const SurfacePoint& site = sites[exact.vertex_site[v].value()];
-                plan.mark_descent(exact.vertex_distance, site, v);
+                plan.mark_between(site, v, exact.vertex_distance[v]);
             }
         }
         const char* reason = nullptr;
