@@ -7,7 +7,7 @@
 #include "agvd/propagation/front_queue.h"
 #include "agvd/propagation/propagate.h"
 #include "agvd/propagation/site_placement.h"
-#include "agvd/propagation/steiner_points.h"
+#include "agvd/propagation/steiner_pool.h"
 #include "agvd/propagation/steiner_retirement.h"
 
 namespace agvd {

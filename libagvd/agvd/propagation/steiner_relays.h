@@ -8,7 +8,7 @@
 
 #include "agvd/propagation/relays.h"
 #include "agvd/propagation/site_placement.h"
-#include "agvd/propagation/steiner_points.h"
+#include "agvd/propagation/steiner_pool.h"
 
 namespace agvd {
 
