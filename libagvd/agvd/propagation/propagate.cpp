@@ -1,6 +1,5 @@
 #include "agvd/propagation/propagate.h"
 
-#include <cmath>
 #include <string>
 
 #include "agvd/propagation/steiner_engine.h"
@@ -13,20 +12,20 @@ namespace agvd {
 namespace {
 
 void check_steiner_options(const Surface& surface, const PropagationOptions& options) {
-    constexpr int max_points = 1000;
-    if (options.steiner_points < 0 || options.steiner_points > max_points) {
+    if (options.steiner_points < 0 || options.steiner_points > max_steiner_points) {
         throw InvalidOption("the number of Steiner points per edge is " +
                             std::to_string(options.steiner_points) + "; use 0 to " +
-                            std::to_string(max_points));
+                            std::to_string(max_steiner_points));
     }
     if (!(options.lambda > 0)) {
         throw InvalidOption("lambda is " + std::to_string(options.lambda) +
                             "; use a number above 0");
     }
-    const auto points = static_cast<Index>(options.steiner_points);
-    const double nodes = static_cast<double>(surface.num_vertices()) +
-                         std::ldexp(static_cast<double>(surface.num_edges()), edge_shift(points));
-    if (nodes >= static_cast<double>(no_index)) {
+    if (options.max_error && *options.max_error == 0) {
+        throw InvalidOption(
+            "the Steiner engine cannot be exact; use the window engine or an error above 0");
+    }
+    if (!NodeNumbers::suffice(surface, static_cast<Index>(options.steiner_points))) {
         throw InvalidOption("this mesh with " + std::to_string(options.steiner_points) +
                             " Steiner points per edge needs more than 2^32 nodes; use fewer");
     }

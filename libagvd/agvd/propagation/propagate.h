@@ -25,11 +25,16 @@ struct PropagationOptions {
     Engine engine = Engine::Window;
     //! Relative distance error, in [0, 1); 0: exact in double. Certified: see
     //! Propagation::certified_error. Unset: the window engine takes default_max_error, the Steiner
-    //! engine certifies nothing. The vertex engine knows no bound and refuses one.
+    //! engine certifies nothing. If set, the Steiner engine inserts points where they are needed
+    //! until the bound holds at every vertex, up to 1000 on an edge; it cannot be exact and refuses
+    //! 0. The vertex engine knows no bound and refuses one.
     std::optional<double> max_error = {};
-    int steiner_points = 8;  //!< Steiner engine, m: Steiner points on each edge, in [0, 1000].
-    double lambda = 1;       //!< Steiner engine: triangles are retired every lambda * #F pops, > 0.
-    int num_threads = 0;     //!< >= 0; 0: all cores. The same bytes for any number.
+    //! Steiner engine, m: Steiner points on each edge, in [0, 1000]; the first ones with max_error.
+    int steiner_points = 8;
+    //! Steiner engine: triangles are retired every lambda * #F pops, > 0. With max_error they all
+    //! stay until the end.
+    double lambda = 1;
+    int num_threads = 0;  //!< >= 0; 0: all cores. The same bytes for any number.
     Progress progress = {};
 };
 

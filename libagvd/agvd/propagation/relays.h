@@ -45,11 +45,13 @@ struct Propagation {
     std::vector<Relay> relays;         //!< relays[relay_offsets[i] .. relay_offsets[i + 1]).
 
     //! Certified: no distance, at a vertex or through the relays, exceeds the exact one by more
-    //! than this share of it (rounding in double apart). Infinity: the engine certifies nothing.
+    //! than this share of it (rounding in double apart). The Steiner engine's bound holds at the
+    //! vertices only. Infinity: nothing is certified.
     double certified_error = std::numeric_limits<double>::infinity();
 
     std::size_t peak_bytes = 0;  //!< Most bytes held at once beyond the mesh, result included.
-    std::size_t num_nodes = 0;   //!< Work done: graph nodes reached, or windows served.
+    //! Work done: graph nodes reached (in the last round of insertions), or windows served.
+    std::size_t num_nodes = 0;
 };
 
 }  // namespace agvd

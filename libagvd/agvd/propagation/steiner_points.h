@@ -1,11 +1,12 @@
 //! \file
-//! The nodes of the Steiner graph: vertices and m points on each edge. Points live in blocks of one
-//! edge each, taken from a pool when the front arrives and given back when both faces are done.
+//! The nodes of the Steiner graph: vertices, and on each edge its number of evenly spaced points.
 #pragma once
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <limits>
-#include <memory>
+#include <numeric>
 #include <vector>
 
 #include "agvd/mesh/surface.h"
@@ -28,11 +29,69 @@ struct SteinerNode {
 };
 static_assert(sizeof(SteinerNode) == 24);
 
-//! Nodes are numbered vertices first, then edges in steps of 2^shift >= m, so that a node's edge is
-//! a shift and not a division.
-[[nodiscard]] constexpr int edge_shift(Index points_per_edge) {
-    return static_cast<int>(std::bit_width(points_per_edge > 0 ? points_per_edge - 1 : 0u));
-}
+inline constexpr int max_steiner_points = 1000;  //!< On an edge.
+
+//! How many Steiner points each edge has: one number for all, or one for each.
+class SteinerCounts {
+public:
+    explicit SteinerCounts(Index uniform)
+        : uniform_(uniform), uniform_step_(1.0 / (uniform + 1)), most_(uniform) {}
+    //! \param of_edge  #E
+    explicit SteinerCounts(std::vector<std::uint16_t> of_edge)
+        : of_edge_(std::move(of_edge)),
+          most_(of_edge_.empty() ? 0 : *std::max_element(of_edge_.begin(), of_edge_.end())) {}
+
+    [[nodiscard]] Index operator[](Index edge) const {
+        return of_edge_.empty() ? uniform_ : of_edge_[edge];
+    }
+    //! The spacing of an edge's points as a share of its length: 1 / (m + 1).
+    [[nodiscard]] double step(Index edge) const {
+        return of_edge_.empty() ? uniform_step_ : 1.0 / (of_edge_[edge] + 1);
+    }
+    [[nodiscard]] Index most() const { return most_; }
+    [[nodiscard]] double total(Index num_edges) const {
+        if (of_edge_.empty()) return static_cast<double>(num_edges) * uniform_;
+        return std::accumulate(of_edge_.begin(), of_edge_.end(), 0.0);
+    }
+
+private:
+    std::vector<std::uint16_t> of_edge_;  // #E; empty: uniform.
+    Index uniform_ = 0;
+    double uniform_step_ = 1;
+    Index most_;
+};
+
+//! Nodes are numbered vertices first, then edges in steps of 2^shift >= most, so that a node's edge
+//! is a shift and not a division.
+class NodeNumbers {
+public:
+    NodeNumbers(const Surface& surface, Index most_points)
+        : num_vertices_(surface.num_vertices()), shift_(shift_for(most_points)) {}
+
+    //! All numbers are below no_index, and a few below it are free.
+    [[nodiscard]] static bool suffice(const Surface& surface, Index most_points) {
+        return static_cast<double>(surface.num_vertices()) +
+                   std::ldexp(static_cast<double>(surface.num_edges()), shift_for(most_points)) <
+               static_cast<double>(no_index);
+    }
+
+    [[nodiscard]] bool is_vertex(Index node) const { return node < num_vertices_; }
+    [[nodiscard]] Index of_point(Index edge, Index point) const {
+        return num_vertices_ + (edge << shift_) + point;
+    }
+    [[nodiscard]] Index edge(Index node) const { return (node - num_vertices_) >> shift_; }
+    [[nodiscard]] Index point(Index node) const {
+        return (node - num_vertices_) & ((Index{1} << shift_) - 1);
+    }
+
+private:
+    [[nodiscard]] static int shift_for(Index most_points) {
+        return static_cast<int>(std::bit_width(most_points > 0 ? most_points - 1 : 0u));
+    }
+
+    Index num_vertices_;
+    int shift_;
+};
 
 //! The nodes on a face's boundary, numbered counter-clockwise from the tail of one of its
 //! half-edges h: a slot is a side (0: h, 1: next, 2: previous) and the number j of the node on it;
@@ -45,21 +104,28 @@ public:
     static constexpr Index side_of(Index slot) { return slot >> side_shift; }
     static constexpr Index number_of(Index slot) { return slot & ((Index{1} << side_shift) - 1); }
 
-    FaceRing(const Surface& surface, Index half_edge, double inverse_step)
-        : length_(surface.length_of(half_edge)),
-          apex_(surface.apex[half_edge]),
-          inverse_step_(inverse_step) {}
-
-    //! Position of a slot in the frame of h.
-    [[nodiscard]] Vec2 position(Index slot) const {
-        const double t = number_of(slot) * inverse_step_;
+    //! The side of a slot other than site_slot.
+    static constexpr Index half_edge(Index h, Index slot) {
+        if (side_of(slot) == 0) return h;
+        return side_of(slot) == 1 ? Surface::next(h) : Surface::previous(h);
+    }
+    //! Where a slot other than site_slot lies, in the frame of h.
+    [[nodiscard]] static Vec2 position(const Surface& surface, const SteinerCounts& counts, Index h,
+                                       Index slot) {
+        const Index j = number_of(slot);
+        const Vec2& apex = surface.apex[h];
         switch (side_of(slot)) {
-            case 0:
-                return {t * length_, 0};
-            case 1:
-                return {length_ + t * (apex_.x() - length_), t * apex_.y()};
+            case 0: {
+                const Index edge = surface.edge[h];
+                return {j * counts.step(edge) * surface.length[edge], 0};
+            }
+            case 1: {
+                const double t = j * counts.step(surface.edge[Surface::next(h)]);
+                const double length = surface.length_of(h);
+                return {length + t * (apex.x() - length), t * apex.y()};
+            }
             default:
-                return (1 - t) * apex_;
+                return (1 - j * counts.step(surface.edge[Surface::previous(h)])) * apex;
         }
     }
     //! True for the nodes of h itself, both ends included.
@@ -69,68 +135,6 @@ public:
 
 private:
     static constexpr Index side_shift = 12;  // m < 2^12.
-
-    double length_;
-    Vec2 apex_;
-    double inverse_step_;  // 1 / (m + 1)
-};
-
-//! Blocks of m nodes, one per live edge.
-class SteinerPool {
-public:
-    SteinerPool(Index num_edges, Index points_per_edge)
-        : points_per_edge_(points_per_edge), block_(num_edges, never_used) {}
-
-    [[nodiscard]] bool is_retired(Index edge) const { return block_[edge] == retired; }
-
-    //! The m nodes of a live edge, in the direction of its edge_half; created on first use.
-    [[nodiscard]] SteinerNode* nodes(Index edge) {
-        if (block_[edge] == never_used) block_[edge] = take_block();
-        return block_nodes(block_[edge]);
-    }
-
-    void retire(Index edge) {
-        if (block_[edge] < retired) free_.push_back(block_[edge]);
-        block_[edge] = retired;
-    }
-
-    [[nodiscard]] std::size_t peak_bytes() const {
-        return block_.capacity() * sizeof(Index) + free_.capacity() * sizeof(Index) +
-               chunks_.size() * blocks_per_chunk * points_per_edge_ * sizeof(SteinerNode);
-    }
-    [[nodiscard]] std::size_t blocks_taken() const { return blocks_taken_; }
-
-private:
-    static constexpr Index never_used = no_index;
-    static constexpr Index retired = no_index - 1;
-    static constexpr Index blocks_per_chunk = 256;
-
-    [[nodiscard]] SteinerNode* block_nodes(Index block) {
-        return chunks_[block / blocks_per_chunk].get() +
-               static_cast<std::size_t>(block % blocks_per_chunk) * points_per_edge_;
-    }
-
-    Index take_block() {
-        ++blocks_taken_;
-        if (!free_.empty()) {
-            const Index block = free_.back();
-            free_.pop_back();
-            std::fill_n(block_nodes(block), points_per_edge_, SteinerNode{});
-            return block;
-        }
-        if (next_ % blocks_per_chunk == 0) {
-            chunks_.push_back(std::make_unique<SteinerNode[]>(
-                static_cast<std::size_t>(blocks_per_chunk) * points_per_edge_));
-        }
-        return next_++;
-    }
-
-    Index points_per_edge_;
-    Index next_ = 0;
-    std::size_t blocks_taken_ = 0;
-    std::vector<Index> block_;  // #E
-    std::vector<Index> free_;
-    std::vector<std::unique_ptr<SteinerNode[]>> chunks_;
 };
 
 }  // namespace agvd

@@ -6,8 +6,11 @@ namespace agvd {
 
 bool SteinerRelays::are_all_from(Index half_edge, Index site) {
     if (vertices_[surface_.tail(half_edge)].site != site) return false;
-    const SteinerNode* nodes = m_ > 0 ? pool_.nodes(surface_.edge[half_edge]) : nullptr;
-    return std::all_of(nodes, nodes + m_,
+    const Index edge = surface_.edge[half_edge];
+    const Index m = counts_[edge];
+    if (m == 0) return true;
+    const SteinerNode* const nodes = pool_.nodes(edge);
+    return std::all_of(nodes, nodes + m,
                        [site](const SteinerNode& node) { return node.site == site; });
 }
 
@@ -57,11 +60,13 @@ void SteinerRelays::collect_across(Index h, Index twin, std::vector<Relay>& out)
         const Vec2 image = mirrored(position_in_frame(surface_, placed.point, twin));
         if (image.y() < 0) add_relay(h, image, 0, placed.site, out);  // Edge sites: in_face(face).
     }
-    if (m_ == 0) return;
-    const FaceRing ring(surface_, twin, inverse_step_);
-    const SteinerNode* const nodes = pool_.nodes(surface_.edge[h]);
+    const Index edge = surface_.edge[h];
+    const Index m = counts_[edge];
+    if (m == 0) return;
+    const double step = counts_.step(edge);
+    const SteinerNode* const nodes = pool_.nodes(edge);
     seen_slots_.clear();
-    for (Index k = 0; k < m_; ++k) {
+    for (Index k = 0; k < m; ++k) {
         const SteinerNode& node = nodes[k];
         if (node.from != twin || node.parent_slot == FaceRing::site_slot ||
             FaceRing::is_on_base(node.parent_slot)) {
@@ -72,9 +77,9 @@ void SteinerRelays::collect_across(Index h, Index twin, std::vector<Relay>& out)
             continue;
         }
         seen_slots_.push_back(key);
-        const Vec2 p = ring.position(node.parent_slot);
-        const Index j = surface_.edge_half[surface_.edge[h]] == twin ? k + 1 : m_ - k;
-        const double chord = (p - Vec2(length * j * inverse_step_, 0)).norm();
+        const Vec2 p = FaceRing::position(surface_, counts_, twin, node.parent_slot);
+        const Index j = surface_.edge_half[edge] == twin ? k + 1 : m - k;
+        const double chord = (p - Vec2(length * j * step, 0)).norm();
         add_relay(h, mirrored(p), node.distance - chord, node.site, out);
     }
 }

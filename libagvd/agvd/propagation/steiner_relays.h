@@ -8,7 +8,7 @@
 
 #include "agvd/propagation/relays.h"
 #include "agvd/propagation/site_placement.h"
-#include "agvd/propagation/steiner_points.h"
+#include "agvd/propagation/steiner_pool.h"
 
 namespace agvd {
 
@@ -21,14 +21,13 @@ namespace agvd {
 class SteinerRelays {
 public:
     SteinerRelays(const Surface& surface, const SitePlacement& placement,
-                  const std::vector<SteinerNode>& vertices, SteinerPool& pool,
-                  Index points_per_edge)
+                  const SteinerCounts& counts, const std::vector<SteinerNode>& vertices,
+                  SteinerPool& pool)
         : surface_(surface),
           placement_(placement),
+          counts_(counts),
           vertices_(vertices),
-          pool_(pool),
-          m_(points_per_edge),
-          inverse_step_(1.0 / (points_per_edge + 1)) {}
+          pool_(pool) {}
 
     //! Not redundant (Sec. 4.3): more than one site on the face's boundary; or a site inside, or
     //! inside a neighbour, may have a cell that slips between the nodes.
@@ -45,10 +44,9 @@ private:
 
     const Surface& surface_;
     const SitePlacement& placement_;
+    const SteinerCounts& counts_;
     const std::vector<SteinerNode>& vertices_;
     SteinerPool& pool_;
-    Index m_;
-    double inverse_step_;                              // 1 / (m + 1)
     std::vector<std::pair<Index, Index>> seen_slots_;  // Scratch: (slot, site).
 };
 

@@ -1,0 +1,64 @@
+//! \file
+//! The wavefront of the Steiner engine.
+#pragma once
+
+#include <span>
+
+#include "agvd/propagation/front_queue.h"
+#include "agvd/propagation/propagate.h"
+#include "agvd/propagation/site_placement.h"
+#include "agvd/propagation/steiner_pool.h"
+#include "agvd/propagation/steiner_retirement.h"
+
+namespace agvd {
+
+//! One propagation over given Steiner points: run(), then finish(). A node knows the face its path
+//! came through and the previous node on that face's boundary (its parent); between the two calls
+//! the nodes of faces that have not retired can be read.
+class SteinerFront {
+public:
+    //! \param counts  outlives the front, as the others do; NodeNumbers suffice for it.
+    SteinerFront(const Surface& surface, std::span<const SurfacePoint> sites,
+                 const SteinerCounts& counts);
+
+    //! Settles all nodes.
+    //! \param retirement_interval  pops from one retirement to the next, > 0; infinity keeps all
+    //!                             nodes.
+    //! \throw Cancelled
+    void run(double retirement_interval, const Progress& progress);
+    //! Retires what is left. No point can be read afterwards.
+    [[nodiscard]] Propagation finish();
+
+    [[nodiscard]] const std::vector<SteinerNode>& vertices() const { return vertices_; }
+    //! Node j of a half-edge: 0 its tail, otherwise a point, counted from there. The half-edge has
+    //! a face, on either side, that has not retired.
+    [[nodiscard]] const SteinerNode& node(Index half_edge, Index j) const;
+
+private:
+    [[nodiscard]] bool refill();
+    void relax(SteinerNode& node, Index id, double distance, Index site, Index from, Index slot);
+    void relax_vertex(Index from, double distance, Index site, Index slot);
+    void relax_points(Index from, Index begin, Index end, const Vec2& tail, const Vec2& along,
+                      const Vec2& source, double base, Index site, Index slot);
+    void relax_side(Index from, const Vec2& tail, const Vec2& along, const Vec2& source,
+                    double base, Index site, Index slot);
+    void start(Index s);
+    void serve_face(Index face, Index site, const SurfacePoint& point);
+    void serve_one_ring(Index vertex);
+    void serve_onward(Index edge, Index point);
+    [[nodiscard]] Vec2 slot_position(const SteinerNode& node) const;
+    [[nodiscard]] Vec2 parent_spacing(const SteinerNode& node) const;
+
+    const Surface& surface_;
+    std::span<const SurfacePoint> sites_;
+    const SteinerCounts& counts_;
+    SitePlacement placement_;
+    NodeNumbers numbers_;
+    std::vector<SteinerNode> vertices_;
+    SteinerPool pool_;
+    FrontQueue queue_;
+    SteinerRetirement retirement_;
+    std::size_t num_pops_ = 0;
+};
+
+}  // namespace agvd

@@ -1,0 +1,49 @@
+//! \file
+//! Where the Steiner engine inserts points.
+#pragma once
+
+#include <vector>
+
+#include "agvd/propagation/steiner_front.h"
+
+namespace agvd {
+
+//! A number of points for each edge, which grows on the edges marked.
+class SteinerInsertion {
+public:
+    //! \param points  on every edge at first.
+    SteinerInsertion(const Surface& surface, int points);
+
+    //! #E
+    [[nodiscard]] const std::vector<std::uint16_t>& points() const { return points_; }
+
+    //! Marks the edges of the faces that the path to a vertex crosses, and of the vertices it
+    //! passes.
+    //! \param front  has run and kept all nodes.
+    void mark_path(const SteinerFront& front, Index vertex);
+
+    //! Marks the edges of all faces that a path of this length from `site` to a vertex can cross.
+    void mark_between(const SurfacePoint& site, Index vertex, double length);
+
+    //! Halves the spacing on the marked edges, as far as there is room, and takes the marks away;
+    //! false if there was no room.
+    [[nodiscard]] bool insert();
+
+    [[nodiscard]] std::size_t bytes() const {
+        return points_.capacity() * sizeof(points_[0]) + is_marked_.capacity() / 8 +
+               visited_for_.capacity() * sizeof(Index);
+    }
+
+private:
+    void mark_face(Index face);
+    void mark_around(Index vertex);
+    [[nodiscard]] bool may_be_crossed(Index face, const Vec3& start, const Vec3& end,
+                                      double length) const;
+
+    const Surface& surface_;
+    std::vector<std::uint16_t> points_;  // #E
+    std::vector<bool> is_marked_;        // #E
+    std::vector<Index> visited_for_;     // #F: the last vertex whose paths were looked for here.
+};
+
+}  // namespace agvd
