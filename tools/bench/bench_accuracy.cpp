@@ -2,6 +2,7 @@
 
 #include "agvd/metrics/compare.h"
 #include "agvd/propagation/propagate.h"
+#include "bench/method.h"
 #include "bench/report.h"
 #include "cli.h"
 
@@ -13,7 +14,8 @@ const std::vector<bench::Column> columns{
     {"mesh", "mesh", 0},
     {"faces", "faces", 0},
     {"sites", "sites", 0},
-    {"steiner_points", "m", 0},
+    {"method", "method", 0},
+    {"certified_error", "certified", -1},
     {"wrong_label_percent", "wrong %", 3},
     {"mean_bisector_error", "|dA-dB|", -2},
     {"p95_bisector_error", "95 %", -2},
@@ -23,15 +25,15 @@ const std::vector<bench::Column> columns{
     {"bisector_points", "points", 0},
 };
 
-// One row for each number of Steiner points; all share the exact distances.
+// One row for each method; all share the exact distances.
 nlohmann::ordered_json measure(const std::string& mesh, const Surface& surface,
-                               const std::vector<SurfacePoint>& sites,
-                               const bench::Options& options, const CompareOptions& compare) {
+                               const std::vector<SurfacePoint>& sites, std::uint64_t seed,
+                               const std::vector<bench::Method>& methods,
+                               const CompareOptions& compare) {
     std::vector<Propagation> propagations;
     std::vector<Diagram> diagrams;
-    for (const int m : options.steiner_points) {
-        propagations.push_back(
-            propagate(surface, sites, {.engine = Engine::Steiner, .steiner_points = m}));
+    for (const bench::Method& method : methods) {
+        propagations.push_back(propagate(surface, sites, method.options));
         diagrams.push_back(build_diagram(surface, sites, propagations.back(),
                                          {.num_threads = compare.num_threads}));
     }
@@ -45,8 +47,9 @@ nlohmann::ordered_json measure(const std::string& mesh, const Surface& surface,
         rows.push_back({{"mesh", mesh},
                         {"faces", surface.num_faces()},
                         {"sites", sites.size()},
-                        {"seed", options.seed},
-                        {"steiner_points", options.steiner_points[i]},
+                        {"seed", seed},
+                        {"method", methods[i].name},
+                        {"certified_error", propagations[i].certified_error},
                         {"wrong_label_percent", 100 * errors[i].wrong_label_area},
                         {"mean_bisector_error", errors[i].mean_bisector_error},
                         {"p95_bisector_error", errors[i].p95_bisector_error},
@@ -67,6 +70,9 @@ int main(int argc, char** argv) {
     options.sites = {30, 100};
     options.steiner_points = {2, 5, 8, 12};
     bench::add_options(app, options);
+    std::vector<double> max_errors{0, agvd::default_max_error, 1e-3};
+    app.add_option("--max-error", max_errors, "Window engine: errors to ask for; 0: exact")
+        ->capture_default_str();
     CompareOptions compare;
     app.add_option("--threads", compare.num_threads, "Threads; 0: all cores")
         ->capture_default_str();
@@ -75,13 +81,18 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     return cli::run(app, argc, argv, [&] {
         nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+        const auto methods = bench::methods({{Engine::Window, Engine::Steiner, Engine::Vertex},
+                                             max_errors,
+                                             options.steiner_points,
+                                             {1}});
         bench::print_heading(columns);
         for (const auto& path : options.meshes) {
             const Surface surface = bench::load(path, 0);
             for (const Index count : options.sites) {
                 cli::stop_if_interrupted();
                 const auto sites = bench::random_sites(surface, count, options.place, options.seed);
-                for (const auto& row : measure(path.stem(), surface, sites, options, compare)) {
+                for (const auto& row :
+                     measure(path.stem(), surface, sites, options.seed, methods, compare)) {
                     bench::print_row(columns, row);
                     rows.push_back(row);
                 }

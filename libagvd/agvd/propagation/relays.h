@@ -15,7 +15,9 @@ namespace agvd {
 //! (convex) face itself and sees all of it.
 struct Relay {
     double x = 0, y = 0;
-    double weight = 0;          //!< Distance from the site to the image.
+    //! Distance from the site to the image. An image that stands for several may lie farther off
+    //! than the site, with a weight below 0.
+    double weight = 0;
     double begin = 0, end = 0;  //!< Visible interval on the half-edge, 0 <= begin <= end <= length.
     SiteId site;
     Index half_edge = no_index;
