@@ -18,51 +18,9 @@ namespace {
 // Above every rounding of a distance, so that ties never cut a site off.
 constexpr double bound_slack = 1 + 1e-6;
 
-constexpr Index grain = 2;  // Sites of one task.
+constexpr Index tasks_of_a_batch = 32;
 constexpr Index least_batch = 6;
 constexpr Index most_batches = 16;
-
-// Fronts that no task holds; each is as large as the mesh's index arrays.
-class FrontPool {
-public:
-    FrontPool(const Surface& surface, const Corners& corners, double bucket_width, double max_error)
-        : surface_(surface),
-          corners_(corners),
-          bucket_width_(bucket_width),
-          max_error_(max_error) {}
-
-    std::unique_ptr<WindowFront> take() {
-        const std::scoped_lock lock(mutex_);
-        if (free_.empty()) {
-            return std::make_unique<WindowFront>(surface_, corners_, bucket_width_, max_error_);
-        }
-        auto front = std::move(free_.back());
-        free_.pop_back();
-        return front;
-    }
-    void give_back(std::unique_ptr<WindowFront> front) {
-        const std::scoped_lock lock(mutex_);
-        free_.push_back(std::move(front));
-    }
-    [[nodiscard]] std::size_t bytes() const {
-        std::size_t sum = 0;
-        for (const auto& front : free_) sum += front->bytes();
-        return sum;
-    }
-    [[nodiscard]] double relative_error() const {
-        double most = 0;
-        for (const auto& front : free_) most = std::max(most, front->relative_error());
-        return most;
-    }
-
-private:
-    const Surface& surface_;
-    const Corners& corners_;
-    double bucket_width_;
-    double max_error_;
-    std::mutex mutex_;
-    std::vector<std::unique_ptr<WindowFront>> free_;
-};
 
 // What the sites of one task hand over.
 struct TaskResult {
@@ -75,6 +33,69 @@ struct TaskResult {
     std::vector<Relay> relays;           // In faces near borders.
     std::vector<FaceVisit> late_visits;  // Elsewhere, in faces that another site has visited.
     std::size_t num_windows = 0;
+
+    void clear() {
+        vertices.clear();
+        relays.clear();
+        late_visits.clear();
+        num_windows = 0;
+    }
+    [[nodiscard]] std::size_t bytes() const {
+        return vertices.capacity() * sizeof(Reached) + relays.capacity() * sizeof(Relay) +
+               late_visits.capacity() * sizeof(FaceVisit);
+    }
+};
+
+// What one task at a time works with; as large as the mesh's index arrays.
+struct Worker {
+    WindowFront front;
+    TaskResult result;  // Grows here; what is handed over has no spare room.
+};
+
+// Workers that no task holds.
+class WorkerPool {
+public:
+    WorkerPool(const Surface& surface, const Corners& corners, double bucket_width,
+               double max_error)
+        : surface_(surface),
+          corners_(corners),
+          bucket_width_(bucket_width),
+          max_error_(max_error) {}
+
+    std::unique_ptr<Worker> take() {
+        const std::scoped_lock lock(mutex_);
+        if (free_.empty()) {
+            return std::make_unique<Worker>(
+                Worker{WindowFront(surface_, corners_, bucket_width_, max_error_), {}});
+        }
+        auto worker = std::move(free_.back());
+        free_.pop_back();
+        return worker;
+    }
+    void give_back(std::unique_ptr<Worker> worker) {
+        const std::scoped_lock lock(mutex_);
+        free_.push_back(std::move(worker));
+    }
+    [[nodiscard]] std::size_t bytes() const {
+        std::size_t sum = 0;
+        for (const auto& worker : free_) {
+            sum += worker->front.bytes() + worker->result.bytes();
+        }
+        return sum;
+    }
+    [[nodiscard]] double relative_error() const {
+        double most = 0;
+        for (const auto& worker : free_) most = std::max(most, worker->front.relative_error());
+        return most;
+    }
+
+private:
+    const Surface& surface_;
+    const Corners& corners_;
+    double bucket_width_;
+    double max_error_;
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<Worker>> free_;
 };
 
 class WindowEngine {
@@ -100,14 +121,14 @@ public:
             first_visitor_ = std::vector<std::atomic<Index>>(surface_.num_faces());
             for (auto& visitor : first_visitor_) visitor.store(no_index, relaxed);
 
-            FrontPool fronts(surface_, corners, bucket_width(), max_error_);
+            WorkerPool workers(surface_, corners, bucket_width(), max_error_);
             result_.vertex_distance.assign(surface_.num_vertices(),
                                            std::numeric_limits<double>::infinity());
             result_.vertex_site.assign(surface_.num_vertices(), SiteId());
-            propagate_all(fronts);
-            propagate_late(fronts);
-            result_.certified_error = fronts.relative_error();
-            result_.peak_bytes = corners.bytes() + fronts.bytes() +
+            propagate_all(workers);
+            propagate_late(workers);
+            result_.certified_error = workers.relative_error();
+            result_.peak_bytes = corners.bytes() + workers.bytes() +
                                  bounds_.capacity() * sizeof(float) + common_bytes();
         }
         std::vector<float>().swap(bounds_);
@@ -146,7 +167,7 @@ private:
         return order;
     }
 
-    void propagate_all(FrontPool& fronts) {
+    void propagate_all(WorkerPool& workers) {
         const std::vector<Index> order = site_order();
         const auto count = static_cast<Index>(order.size());
         const Index num_batches = std::clamp(count / least_batch, Index{1}, most_batches);
@@ -156,7 +177,7 @@ private:
             batch.clear();
             for (Index i = first; i < count; i += num_batches) batch.push_back(order[i]);
             const auto tasks = run_tasks(
-                batch, fronts, [&](Index site, const WindowFront& front, TaskResult& task) {
+                batch, workers, [&](Index site, const WindowFront& front, TaskResult& task) {
                     collect(site, front, task);
                 });
             for (const TaskResult& task : tasks) take_vertices(task);
@@ -164,22 +185,24 @@ private:
         }
     }
 
-    // Runs sites in tasks of `grain`, and keeps the relays and late visits of each.
+    // Runs sites in tasks of equal size, and keeps the relays and late visits of each.
     template <typename Collect>
-    std::vector<TaskResult> run_tasks(std::span<const Index> order, FrontPool& fronts,
+    std::vector<TaskResult> run_tasks(std::span<const Index> order, WorkerPool& workers,
                                       const Collect& collect) {
         const auto count = static_cast<Index>(order.size());
+        const Index grain = std::max(count / tasks_of_a_batch, Index{1});
         std::vector<TaskResult> tasks(num_chunks(count, grain));
         parallel_chunks(count, grain, options_.num_threads,
                         [&](Index chunk, Index begin, Index end) {
-                            auto front = fronts.take();
+                            auto worker = workers.take();
+                            worker->result.clear();
                             for (Index i = begin; i < end; ++i) {
-                                run_site(*front, order[i]);
-                                tasks[chunk].num_windows += front->num_windows();
-                                collect(order[i], *front, tasks[chunk]);
+                                run_site(worker->front, order[i]);
+                                worker->result.num_windows += worker->front.num_windows();
+                                collect(order[i], worker->front, worker->result);
                             }
-                            tasks[chunk].relays.shrink_to_fit();
-                            fronts.give_back(std::move(front));
+                            tasks[chunk] = worker->result;
+                            workers.give_back(std::move(worker));
                         });
         for (TaskResult& task : tasks) {
             result_.num_nodes += task.num_windows;
@@ -227,7 +250,7 @@ private:
     }
 
     // Sites that came to a face where the bounds showed no border, and others did, too.
-    void propagate_late(FrontPool& fronts) {
+    void propagate_late(WorkerPool& workers) {
         for (Index face = 0; face < surface_.num_faces(); ++face) {
             if (borders_[face] != 0 || has_one_site(face)) continue;
             const Index visitor = first_visitor_[face].load(relaxed);
@@ -242,12 +265,14 @@ private:
         again.erase(std::unique(again.begin(), again.end()), again.end());
         std::vector<bool> is_late(surface_.num_faces(), false);
         for (const FaceVisit& visit : late_visits_) is_late[visit.face] = true;
-        (void)run_tasks(again, fronts, [&](Index site, const WindowFront& front, TaskResult& task) {
-            front.for_each_half_edge([&](Index half_edge, std::span<const Window> windows) {
-                if (!is_late[Surface::face(half_edge)]) return;
-                for (const Window& w : windows) task.relays.push_back(to_relay(w, site, half_edge));
+        (void)run_tasks(
+            again, workers, [&](Index site, const WindowFront& front, TaskResult& task) {
+                front.for_each_half_edge([&](Index half_edge, std::span<const Window> windows) {
+                    if (!is_late[Surface::face(half_edge)]) return;
+                    for (const Window& w : windows)
+                        task.relays.push_back(to_relay(w, site, half_edge));
+                });
             });
-        });
     }
 
     [[nodiscard]] bool has_one_site(Index face) const {

@@ -361,7 +361,8 @@ void WindowFront::divide_window(const Window& w, EdgeRecord& edge, const Face& f
         // the other side in other directions.
         const bool touches = w.error > 0 && !(w.begin < ray && ray < w.end);
         const VertexRecord& apex = vertices_[face.apex_record];
-        if (at_apex < apex.low || max_error_ > 0) {
+        const bool may_turn = max_error_ > 0 && surface_.can_turn[apex.vertex] != 0;
+        if (at_apex < apex.low || may_turn) {
             reach_vertex(face.apex_record, at_apex, w.error,
                          touches ? no_index : Surface::previous(face.half_edge),
                          into(Vec2(-face.left_x, -face.left_y), to_image));
