@@ -18,6 +18,17 @@ Propagation exact(const Surface& surface, std::span<const SurfacePoint> sites) {
     return propagate(surface, sites, {.engine = Engine::Window, .max_error = 0.0});
 }
 
+// The unit square without its upper right quarter; vertex (i, j) is 21 i + j.
+TriangleMesh l_shape() {
+    TriangleMesh mesh = shapes::grid(20);
+    std::erase_if(mesh.triangles, [&](const Triangle& t) {
+        const Vec3 middle =
+            (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3;
+        return middle.x() > 0.5 && middle.y() > 0.5;
+    });
+    return mesh;
+}
+
 void expect_same_bytes(const Propagation& a, const Propagation& b) {
     EXPECT_EQ(a.vertex_site, b.vertex_site);
     EXPECT_EQ(a.vertex_distance, b.vertex_distance);
@@ -51,13 +62,7 @@ TEST(WindowEngine, PlaneHasEuclideanDistances) {
 
 // Behind a reflex corner paths bend: around the inner corner of an L.
 TEST(WindowEngine, PathsTurnAtReflexCorners) {
-    TriangleMesh mesh = shapes::grid(20);
-    std::erase_if(mesh.triangles, [&](const Triangle& t) {
-        const Vec3 middle =
-            (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3;
-        return middle.x() > 0.5 && middle.y() > 0.5;
-    });
-    const Surface s = build_surface(mesh.view());
+    const Surface s = build_surface(l_shape().view());
     const auto at = [](int i, int j) { return static_cast<Index>(i * 21 + j); };
     const std::vector<SurfacePoint> site{points::at_vertex(s, at(4, 20))};
     const Vec3 from = s.mesh.positions[at(4, 20)];
@@ -109,13 +114,7 @@ TEST(WindowEngine, ComponentsWithoutASiteAreOutOfReach) {
 
 // Behind a common saddle two sites tie over a whole region: the lower one owns it.
 TEST(WindowEngine, TheLowerSiteOwnsATieBehindACorner) {
-    TriangleMesh mesh = shapes::grid(20);
-    std::erase_if(mesh.triangles, [&](const Triangle& t) {
-        const Vec3 middle =
-            (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3;
-        return middle.x() > 0.5 && middle.y() > 0.5;
-    });
-    const Surface s = build_surface(mesh.view());
+    const Surface s = build_surface(l_shape().view());
     const Vec3 corner = s.mesh.positions[10 * 21 + 10];
     // Both at the same distance from the corner, in directions that see the same region by it only.
     std::vector<SurfacePoint> sites{points::at_vertex(s, 6 * 21 + 13),

@@ -102,20 +102,14 @@ private:
         }
         const Index v = queue_.peek(look_ahead / 2);
         if (v == no_index || views_[v].half_edge == no_index) return;
-        const Index face = Surface::face(views_[v].half_edge);
-        __builtin_prefetch(&corners_[3 * face]);
-        __builtin_prefetch(&corners_[3 * face + 2]);
+        corners_.prefetch(Surface::face(views_[v].half_edge));
     }
 
     // --- Wedges --------------------------------------------------------------------------------
 
     [[nodiscard]] bool improve(Index v, double distance, Index site) {
         VertexReach& reach = reach_[v];
-        const double slack = tie_tolerance * distance;
-        if (!(distance < reach.distance - slack ||
-              (distance <= reach.distance + slack && site < reach.site))) {
-            return false;
-        }
+        if (!is_nearer(distance, site, reach.distance, reach.site)) return false;
         reach.distance = distance;
         reach.site = site;
         queue_.push(v, distance, reach.queued_in);

@@ -1,7 +1,6 @@
 #include "agvd/propagation/window_relays.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "agvd/core/parallel.h"
 

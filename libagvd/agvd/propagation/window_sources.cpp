@@ -13,12 +13,8 @@ void WindowFront::start(const SurfacePoint& site) {
         const Index record = vertex_record(*vertex);
         VertexRecord& v = vertices_[record];
         v.low = v.upper = v.bound = 0;
-        Index h = surface_.outgoing[*vertex];
-        if (h == no_index) return;
-        do {
-            emit_into(h, 0, 0, nullptr, nullptr);
-            h = surface_.twin[Surface::previous(h)];
-        } while (h != no_index && h != surface_.outgoing[*vertex]);
+        const Index first = surface_.outgoing[*vertex];
+        if (first != no_index) emit_fan(first, nullptr, no_index, nullptr, VertexRecord(v));
         return;
     }
     const auto spread = [&](const SurfacePoint& point, Index skipped) {
