@@ -41,6 +41,10 @@ struct ArcGraph {
     void add(Index tail, Index head, double length) {
         arcs[ends[tail]++] = {head, static_cast<float>(length) * round_up};
     }
+    void prefetch(Index tail) const {
+        __builtin_prefetch(&arcs[offsets[tail]]);
+        __builtin_prefetch(&arcs[offsets[tail] + 8]);
+    }
 };
 
 // The straight line from the apex of a half-edge's face to the apex across it; below 0 where it
@@ -68,6 +72,10 @@ ArcGraph build_graph(const Surface& surface, const Corners& corners) {
     graph.ends.assign(graph.offsets.begin(), graph.offsets.end() - 1);
     graph.arcs.resize(graph.offsets.back());
     for (Index h = 0; h < num_half_edges; ++h) {
+        if (h + 30 < num_half_edges) {
+            const Index ahead = corners.twin(h + 30);
+            if (ahead != no_index) corners.prefetch(Surface::face(ahead));
+        }
         const Index tail = corners.tail(h);
         const Index head = corners.head(h);
         const Index twin = corners.twin(h);
@@ -122,8 +130,10 @@ public:
                 parallel_chunks(count, grain, num_threads_,
                                 [&](Index chunk, Index begin, Index end) {
                                     changed[chunk].clear();
-                                    for (Index i = begin; i < end; ++i)
+                                    for (Index i = begin; i < end; ++i) {
+                                        if (i + 4 < end) graph_.prefetch(bucket[i + 4]);
                                         relax_arcs(bucket[i], changed[chunk]);
+                                    }
                                 });
                 for (const auto& part : changed) {
                     for (const Index v : part) queue(v);

@@ -55,9 +55,7 @@ public:
     template <typename Each>
     void for_each_half_edge(const Each& each) const {
         for (const EdgeRecord& e : edges_) {
-            if (e.num_windows > 0) {
-                each(e.half_edge, std::span(pool_).subspan(e.first_window, e.num_windows));
-            }
+            if (e.windows != no_index) each(e.half_edge, windows_of(e.windows));
         }
     }
     //! Largest error of a merged window over its least distance; 0 if none was merged.
@@ -72,9 +70,8 @@ private:
     struct EdgeRecord {
         Index half_edge;
         Index tail, head;        // Records of its ends.
-        Index runs = no_index;   // List of the runs of windows that wait.
-        Index first_window = 0;  // In the pool: the envelope of those that came.
-        Index num_windows = 0;
+        Index waiting = no_index;         // List of runs of windows.
+        Index windows = no_index;         // Run: the envelope of those that came.
         Index bucket = no_index;          // Where the half-edge waits.
         Index num_served = 0;             // Windows, against the cap.
         double apex_distance = infinity;  // Best distance of the opposite corner through this edge,
@@ -88,15 +85,16 @@ private:
         double low = infinity;           // Least that a window gives.
         double last_arrival = infinity;  // The last one that may turn here.
     };
-    // Windows that wait for their half-edge, in ascending order along it.
+    // Windows of a half-edge in ascending order along it. Their place has room for the next power
+    // of two.
     struct Run {
-        Index first;  // In waiting_.
+        Index first;  // In pool_.
         Index count;
         Index next;
     };
     // The part of a window up to or from a limit, which may be the ray to the apex.
     struct Part {
-        const Window* window;
+        Index window;  // In pool_.
         double limit;
         bool is_apex;
     };
@@ -116,6 +114,9 @@ private:
                       const Vec2& arrival);
     void bound_vertex(Index record, double distance);
     void send(Index half_edge, Index tail, Index head, std::span<const Window> windows);
+    [[nodiscard]] std::span<const Window> windows_of(Index run) const {
+        return std::span(pool_).subspan(runs_[run].first, runs_[run].count);
+    }
     [[nodiscard]] Index take_run(Index count);
     void give_back(Index run);
     void schedule(Index item, Index& bucket, double distance);
@@ -124,7 +125,7 @@ private:
     void take_in(EdgeRecord& edge, const Face& face);
     void merge_neighbours();
     void reach_bent(const Face& face, double distance, double at, float error);
-    void divide_window(const Window& window, EdgeRecord& edge, const Face& face);
+    void divide_window(Index window, EdgeRecord& edge, const Face& face);
     void pass_right(const Face& face);
     void pass_left(const Face& face);
     void emit(const Turn& turn);
@@ -143,10 +144,9 @@ private:
     std::vector<VertexRecord> vertices_;
     std::vector<EdgeRecord> edges_;
     std::vector<Turn> turns_;
-    std::vector<Run> runs_;
-    std::vector<Window> waiting_;
-    std::vector<Index> free_runs_;  // By size class: list of runs.
     std::vector<Window> pool_;
+    std::vector<Run> runs_;
+    std::vector<Index> free_runs_;  // By size class: list of runs.
     std::vector<Window> envelope_, scratch_;
     std::vector<const Window*> order_;
     std::vector<Part> right_, left_;
