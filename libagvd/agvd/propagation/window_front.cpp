@@ -87,6 +87,7 @@ bool WindowFront::run(const SurfacePoint& site, std::span<const float> bounds, F
     }
     heap_.clear();
     current_bucket_ = 0;
+    next_in_bucket_ = 0;
     num_waiting_ = 0;
     num_served_ = 0;
 
@@ -105,9 +106,8 @@ bool WindowFront::run(const SurfacePoint& site, std::span<const float> bounds, F
 
 std::size_t WindowFront::bytes() const {
     std::size_t sum = (vertex_slot_.capacity() + edge_slot_.capacity()) * sizeof(Index) +
-                      vertices_.capacity() * sizeof(VertexRecord) +
-                      turns_.capacity() * sizeof(Turn) + edges_.capacity() * sizeof(EdgeRecord) +
-                      runs_.capacity() * sizeof(Run) + pool_.capacity() * sizeof(Window) + heap_.capacity() * sizeof(heap_[0]);
+                      vertices_.bytes() + edges_.bytes() + turns_.bytes() + runs_.bytes() +
+                      pool_.bytes() + heap_.capacity() * sizeof(heap_[0]);
     for (const auto& bucket : buckets_) sum += bucket.capacity() * sizeof(Index);
     return sum;
 }
@@ -115,19 +115,15 @@ std::size_t WindowFront::bytes() const {
 Index WindowFront::vertex_record(Index vertex) {
     Index& slot = vertex_slot_[vertex];
     if (slot < vertices_.size() && vertices_[slot].vertex == vertex) return slot;
-    slot = static_cast<Index>(vertices_.size());
     const double bound = bounds_[vertex];
-    vertices_.push_back({vertex, bound, bound});
-    return slot;
+    return slot = vertices_.push({vertex, bound, bound});
 }
 
 Index WindowFront::edge_record(Index half_edge, Index tail, Index head) {
     Index& slot = edge_slot_[half_edge];
     if (slot < edges_.size() && edges_[slot].half_edge == half_edge) return slot;
-    slot = static_cast<Index>(edges_.size());
-    edges_.push_back({half_edge, tail, head});
     corners_.prefetch(Surface::face(half_edge));
-    return slot;
+    return slot = edges_.push({half_edge, tail, head});
 }
 
 // --- Queue -----------------------------------------------------------------------------------
@@ -162,9 +158,14 @@ bool WindowFront::next_item(Index& item) {
             ++current_bucket_;
             continue;
         }
-        item = bucket.back();
-        bucket.pop_back();
+        item = bucket[next_in_bucket_++];
         --num_waiting_;
+        if (next_in_bucket_ < bucket.size()) {
+            prefetch(bucket[next_in_bucket_]);
+        } else {
+            bucket.clear();
+            next_in_bucket_ = 0;
+        }
         if (item % 2 == 1) return true;
         Index& waits_in = edges_[item / 2].bucket;
         if (waits_in != current_bucket_) continue;  // Served from an earlier bucket.
@@ -172,6 +173,18 @@ bool WindowFront::next_item(Index& item) {
         return true;
     }
     return false;
+}
+
+// What an item needs after its corners, and what is seldom in the cache.
+void WindowFront::prefetch(Index item) const {
+    if (item % 2 == 1) return;
+    const Index half_edge = edges_[item / 2].half_edge;
+    const Corner& next = corners_[Surface::next(half_edge)];
+    const Corner& previous = corners_[Surface::previous(half_edge)];
+    __builtin_prefetch(&vertex_slot_[previous.tail]);
+    __builtin_prefetch(&bounds_[previous.tail]);
+    if (next.twin != no_index) __builtin_prefetch(&edge_slot_[next.twin]);
+    if (previous.twin != no_index) __builtin_prefetch(&edge_slot_[previous.twin]);
 }
 
 // --- Vertices ----------------------------------------------------------------------------------
@@ -189,8 +202,7 @@ void WindowFront::reach_vertex(Index record, double distance, float error, Index
     if (!is_nearest && (max_error_ == 0 || distance == v.last_arrival)) return;
     v.last_arrival = distance;
     Index bucket = no_index;
-    schedule(turn_item(static_cast<Index>(turns_.size())), bucket, distance);
-    turns_.push_back({record, half_edge, arrival, distance});
+    schedule(turn_item(turns_.push({record, half_edge, arrival, distance})), bucket, distance);
 }
 
 // By any path on the surface.
@@ -211,7 +223,7 @@ void WindowFront::send(Index half_edge, Index tail, Index head, std::span<const 
     runs_[run].next = edge.waiting;
     edge.waiting = run;
     double nearest = infinity;
-    Window* const to = pool_.data() + runs_[run].first;
+    Window* const to = &pool_[runs_[run].first];
     for (Index i = 0; i < count; ++i) {
         nearest = std::min(nearest, windows[i].nearest());
         to[i] = windows[i];
@@ -222,16 +234,13 @@ void WindowFront::send(Index half_edge, Index tail, Index head, std::span<const 
 Index WindowFront::take_run(Index count) {
     const auto size_class = static_cast<std::size_t>(std::bit_width(count - 1));
     if (size_class >= free_runs_.size()) free_runs_.resize(size_class + 1, no_index);
-    Index run = free_runs_[size_class];
+    const Index run = free_runs_[size_class];
     if (run != no_index) {
         free_runs_[size_class] = runs_[run].next;
         runs_[run].count = count;
         return run;
     }
-    run = static_cast<Index>(runs_.size());
-    runs_.push_back({static_cast<Index>(pool_.size()), count, no_index});
-    pool_.resize(pool_.size() + (std::size_t{1} << size_class));
-    return run;
+    return runs_.push({pool_.extend(Index{1} << size_class), count, no_index});
 }
 
 void WindowFront::give_back(Index run) {
@@ -283,7 +292,7 @@ void WindowFront::take_in(EdgeRecord& edge, const Face& face) {
     edge.windows = no_index;
     if (envelope_.empty()) return;
     edge.windows = take_run(static_cast<Index>(envelope_.size()));
-    std::copy(envelope_.begin(), envelope_.end(), pool_.begin() + runs_[edge.windows].first);
+    std::copy(envelope_.begin(), envelope_.end(), &pool_[runs_[edge.windows].first]);
 }
 
 // Takes in the windows that wait, and sends on what has not been sent on.
@@ -294,12 +303,6 @@ void WindowFront::serve_edge(Index record) {
     face.head_record = edges_[record].head;
     face.tail_bound = vertices_[face.tail_record].bound;
     face.head_bound = vertices_[face.head_record].bound;
-    // Needed after the windows that wait are sorted out, and seldom in the cache.
-    __builtin_prefetch(&vertex_slot_[face.previous.tail]);
-    __builtin_prefetch(&bounds_[face.previous.tail]);
-    if (face.next.twin != no_index) __builtin_prefetch(&edge_slot_[face.next.twin]);
-    if (face.previous.twin != no_index) __builtin_prefetch(&edge_slot_[face.previous.twin]);
-
     EdgeRecord& edge = edges_[record];
     take_in(edge, face);
     if (edge.windows == no_index) return;

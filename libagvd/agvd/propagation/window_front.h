@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "agvd/core/run_array.h"
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_point.h"
 #include "agvd/propagation/corners.h"
@@ -115,12 +116,13 @@ private:
     void bound_vertex(Index record, double distance);
     void send(Index half_edge, Index tail, Index head, std::span<const Window> windows);
     [[nodiscard]] std::span<const Window> windows_of(Index run) const {
-        return std::span(pool_).subspan(runs_[run].first, runs_[run].count);
+        return {&pool_[runs_[run].first], runs_[run].count};
     }
     [[nodiscard]] Index take_run(Index count);
     void give_back(Index run);
     void schedule(Index item, Index& bucket, double distance);
     [[nodiscard]] bool next_item(Index& item);
+    void prefetch(Index item) const;
     void serve_edge(Index record);
     void take_in(EdgeRecord& edge, const Face& face);
     void merge_neighbours();
@@ -141,11 +143,11 @@ private:
 
     std::vector<Index> vertex_slot_;  // #V, #H: the record, if that record names it.
     std::vector<Index> edge_slot_;
-    std::vector<VertexRecord> vertices_;
-    std::vector<EdgeRecord> edges_;
-    std::vector<Turn> turns_;
-    std::vector<Window> pool_;
-    std::vector<Run> runs_;
+    RunArray<VertexRecord> vertices_;
+    RunArray<EdgeRecord> edges_;
+    RunArray<Turn> turns_;
+    RunArray<Window> pool_;
+    RunArray<Run> runs_;
     std::vector<Index> free_runs_;  // By size class: list of runs.
     std::vector<Window> envelope_, scratch_;
     std::vector<const Window*> order_;
@@ -154,6 +156,7 @@ private:
     std::vector<std::vector<Index>> buckets_;
     std::vector<std::pair<double, Index>> heap_;  // FrontOrder::Nearest.
     Index current_bucket_ = 0;
+    Index next_in_bucket_ = 0;
     std::size_t num_waiting_ = 0;
     double relative_error_ = 0;
     std::size_t num_served_ = 0;
