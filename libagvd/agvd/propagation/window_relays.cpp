@@ -8,6 +8,7 @@ namespace agvd {
 namespace {
 
 constexpr Index grain = 4096;
+constexpr Index several = no_index - 1;  // Sites.
 
 // A corner that is a site or turns paths is itself the image of what comes by it.
 bool is_source(const Surface& surface, const Propagation& result, Index vertex) {
@@ -35,6 +36,32 @@ void write_inner_relays(const Surface& surface, std::span<const PlacedSite> plac
         if (!is_source(surface, result, v)) continue;
         *out++ = {0, 0, result.vertex_distance[v], 0, surface.length_of(h), result.vertex_site[v],
                   h};
+    }
+}
+
+// The relays that came into a face, and whose they are.
+struct FaceRelays {
+    Index count = 0;
+    Index site = no_index;  // Or `several`.
+
+    void add_site(Index other) {
+        if (site == no_index) {
+            site = other;
+        } else if (other != no_index && other != site) {
+            site = several;
+        }
+    }
+};
+
+// Calls each(relay, place of its face). The places are seldom in the cache, so that each one is
+// loaded ahead.
+template <typename Place, typename Load, typename Each>
+void for_each_relay(const std::vector<Relay>& log, std::vector<Place>& places, const Load& load,
+                    const Each& each) {
+    constexpr std::size_t ahead = 12;
+    for (std::size_t i = 0; i < log.size(); ++i) {
+        if (i + ahead < log.size()) load(places[Surface::face(log[i + ahead].half_edge)]);
+        each(log[i], places[Surface::face(log[i].half_edge)]);
     }
 }
 
@@ -70,50 +97,44 @@ Relay to_relay(const Window& window, Index site, Index half_edge) {
 void write_relays(const Surface& surface, const SitePlacement& placement,
                   std::vector<std::vector<Relay>> logs, int num_threads, Propagation& result) {
     const Index num_faces = surface.num_faces();
-    std::vector<Index> counts(num_faces, 0);
-    std::vector<bool> is_mixed(num_faces, false);
-    {
-        std::vector<SiteId> first_site(num_faces);
-        for (const auto& log : logs) {
-            for (const Relay& r : log) {
-                const Index f = Surface::face(r.half_edge);
-                ++counts[f];
-                if (!first_site[f].is_valid()) first_site[f] = r.site;
-                if (first_site[f] != r.site) is_mixed[f] = true;
-            }
-        }
-        for (Index f = 0; f < num_faces; ++f) {
-            SiteId site = first_site[f];
-            bool has_another = is_mixed[f];
-            const auto add_site = [&](SiteId other) {
-                if (!other.is_valid()) return;
-                if (!site.is_valid()) site = other;
-                has_another |= other != site;
-            };
-            for (const Index v : surface.mesh.triangles[f]) add_site(result.vertex_site[v]);
-            const auto placed = placement.in_face(f);
-            for (const PlacedSite& p : placed) add_site(SiteId(p.site));
-            is_mixed[f] = has_another;
-            if (has_another) counts[f] += count_inner_relays(surface, placed, result, f);
-        }
+    std::vector<FaceRelays> faces(num_faces);
+    for (const auto& log : logs) {
+        for_each_relay(
+            log, faces, [](const FaceRelays& face) { __builtin_prefetch(&face, 1); },
+            [](const Relay& r, FaceRelays& face) {
+                ++face.count;
+                face.add_site(r.site.value());
+            });
     }
-    std::vector<Index>& next = counts;  // Where the next relay of a face goes.
+    std::vector<Index> next(num_faces);  // Where the next relay of a face goes.
     Index total = 0;
     for (Index f = 0; f < num_faces; ++f) {
-        const Index count = counts[f];
+        FaceRelays& face = faces[f];
+        for (const Index v : surface.mesh.triangles[f]) {
+            face.add_site(result.vertex_site[v].value());
+        }
+        const auto placed = placement.in_face(f);
+        for (const PlacedSite& p : placed) face.add_site(p.site);
+        if (face.site != several) {
+            next[f] = no_index;
+            continue;
+        }
         next[f] = total;
-        if (!is_mixed[f]) continue;
         result.mixed_faces.push_back(f);
         result.relay_offsets.push_back(total);
-        total += count;
+        total += face.count + count_inner_relays(surface, placed, result, f);
     }
     result.relay_offsets.push_back(total);
     result.relays.resize(total);
     for (auto& log : logs) {
-        for (const Relay& r : log) {
-            const Index f = Surface::face(r.half_edge);
-            if (is_mixed[f]) result.relays[next[f]++] = r;
-        }
+        for_each_relay(
+            log, next,
+            [&](Index place) {
+                if (place != no_index) __builtin_prefetch(&result.relays[place], 1);
+            },
+            [&](const Relay& r, Index& place) {
+                if (place != no_index) result.relays[place++] = r;
+            });
         std::vector<Relay>().swap(log);
     }
     const auto num_mixed = static_cast<Index>(result.mixed_faces.size());
