@@ -63,23 +63,22 @@ std::vector<bench::Column> columns_for(const Arguments& arguments) {
     return columns;
 }
 
-// Seconds of the repetitions, in P0 of the sweeps before and after each of them.
+// Seconds of the repetitions. The quickest of them counts, as with the sweep: what else runs on the
+// machine only ever adds.
 struct Timings {
-    std::vector<double> cpu, wall, cpu_p0, wall_p0;
+    std::vector<double> cpu, wall;
 
-    void add(const bench::Seconds& taken, double p0) {
+    void add(const bench::Seconds& taken) {
         cpu.push_back(taken.cpu);
         wall.push_back(taken.wall);
-        cpu_p0.push_back(taken.cpu / p0);
-        wall_p0.push_back(taken.wall / p0);
     }
-    void tell(const std::string& stage, double faces, Json& row) const {
-        row[stage + "_ms"] = 1e3 * bench::median(cpu);
-        row[stage + "_wall_ms"] = 1e3 * bench::median(wall);
-        row[stage + "_p0"] = bench::median(cpu_p0);
-        row[stage + "_wall_p0"] = bench::median(wall_p0);
-        row[stage + "_spread"] = bench::spread(cpu_p0);
-        row[stage + "_ns_per_face"] = 1e9 * bench::median(cpu) / faces;
+    void tell(const std::string& stage, double p0, double faces, Json& row) const {
+        row[stage + "_ms"] = 1e3 * bench::quickest(cpu);
+        row[stage + "_wall_ms"] = 1e3 * bench::quickest(wall);
+        row[stage + "_p0"] = bench::quickest(cpu) / p0;
+        row[stage + "_wall_p0"] = bench::quickest(wall) / p0;
+        row[stage + "_spread"] = bench::spread(cpu);
+        row[stage + "_ns_per_face"] = 1e9 * bench::quickest(cpu) / faces;
     }
 };
 
@@ -87,7 +86,6 @@ struct Timings {
 struct Contestant {
     const bench::Method& method;
     int threads;
-    std::vector<double> p0 = {};
     Timings propagate = {}, diagram = {};
     Json result = {};  // What does not depend on the run.
 };
@@ -114,9 +112,9 @@ Json describe(const Case& c, const Propagation& propagation,
     return result;
 }
 
-// Adds one repetition. Returns P0 after it.
-double run(const Case& c, const std::optional<bench::ExactRun>& exact, bool with_diagram,
-           bench::P0& p0, double p0_before, Contestant& contestant) {
+// Adds one repetition.
+void run(const Case& c, const std::optional<bench::ExactRun>& exact, bool with_diagram,
+         Contestant& contestant) {
     PropagationOptions options = contestant.method.options;
     options.num_threads = contestant.threads;
     Propagation propagation;
@@ -131,23 +129,15 @@ double run(const Case& c, const std::optional<bench::ExactRun>& exact, bool with
         });
     }
     if (contestant.result.empty()) contestant.result = describe(c, propagation, exact);
-    const double p0_after = p0.seconds();
-    const double beside = std::min(p0_before, p0_after);
-    contestant.p0.push_back(beside);
-    contestant.propagate.add(propagating, beside);
-    if (with_diagram) contestant.diagram.add(building, beside);
-    return p0_after;
+    contestant.propagate.add(propagating);
+    if (with_diagram) contestant.diagram.add(building);
 }
 
-// Wall time over that of one thread, repetition by repetition; null without a run on one thread.
+// Wall time over that of one thread; null without a run on one thread.
 Json speedup(const Contestant& contestant, std::span<const Contestant> all) {
     for (const Contestant& other : all) {
         if (&other.method != &contestant.method || other.threads != 1) continue;
-        std::vector<double> ratios;
-        for (std::size_t i = 0; i < other.propagate.wall.size(); ++i) {
-            ratios.push_back(other.propagate.wall[i] / contestant.propagate.wall[i]);
-        }
-        return bench::median(ratios);
+        return bench::quickest(other.propagate.wall) / bench::quickest(contestant.propagate.wall);
     }
     return nullptr;
 }
@@ -160,7 +150,8 @@ Json heading_of(const Case& c, const std::string& method, int threads) {
             {"threads", threads}};
 }
 
-Json row_of(const Case& c, const Contestant& contestant, std::span<const Contestant> all) {
+Json row_of(const Case& c, const Contestant& contestant, double p0,
+            std::span<const Contestant> all) {
     const PropagationOptions& options = contestant.method.options;
     Json row = heading_of(c, contestant.method.name, contestant.threads);
     row["engine"] = engine_name(options.engine);
@@ -168,12 +159,12 @@ Json row_of(const Case& c, const Contestant& contestant, std::span<const Contest
     const bool is_steiner = options.engine == Engine::Steiner;
     row["steiner_points"] = is_steiner ? Json(options.steiner_points) : Json();
     row["lambda"] = is_steiner ? Json(options.lambda) : Json();
-    row["repetitions"] = contestant.p0.size();
-    row["p0_ms"] = 1e3 * bench::median(contestant.p0);
+    row["repetitions"] = contestant.propagate.cpu.size();
+    row["p0_ms"] = 1e3 * p0;
     const double faces = c.surface.num_faces();
-    contestant.propagate.tell("propagate", faces, row);
+    contestant.propagate.tell("propagate", p0, faces, row);
     row["speedup"] = speedup(contestant, all);
-    if (!contestant.diagram.cpu.empty()) contestant.diagram.tell("diagram", faces, row);
+    if (!contestant.diagram.cpu.empty()) contestant.diagram.tell("diagram", p0, faces, row);
     row.update(contestant.result);
     return row;
 }
@@ -181,19 +172,11 @@ Json row_of(const Case& c, const Contestant& contestant, std::span<const Contest
 // All contestants in turn, with the sweep between them, so that all meet the same disturbances.
 std::vector<Json> measure(const Case& c, const std::vector<bench::Method>& methods,
                           const Arguments& arguments) {
-    std::vector<Json> rows;
-    bench::P0 p0(c.surface, c.sites);
-    double last_p0 = p0.seconds();
+    bench::P0 sweep(c.surface, c.sites);
+    double p0 = sweep.seconds();
     std::optional<bench::ExactRun> exact;
     if (c.surface.num_faces() <= arguments.exact_limit) {
         exact = bench::run_exact(c.surface, c.sites);
-        const double beside = std::min(last_p0, p0.seconds());
-        Timings timings;
-        timings.add(exact->taken, beside);
-        rows.push_back(heading_of(c, "CGAL exact", 1));
-        rows.back()["repetitions"] = 1;
-        rows.back()["p0_ms"] = 1e3 * beside;
-        timings.tell("propagate", c.surface.num_faces(), rows.back());
     }
     std::vector<Contestant> contestants;
     for (const bench::Method& method : methods) {
@@ -202,11 +185,21 @@ std::vector<Json> measure(const Case& c, const std::vector<bench::Method>& metho
     for (int i = 0; i < arguments.repetitions; ++i) {
         for (Contestant& contestant : contestants) {
             cli::stop_if_interrupted();
-            last_p0 = run(c, exact, arguments.diagram, p0, last_p0, contestant);
+            run(c, exact, arguments.diagram, contestant);
+            p0 = std::min(p0, sweep.seconds());
         }
     }
+    std::vector<Json> rows;
+    if (exact) {
+        Timings timings;
+        timings.add(exact->taken);
+        rows.push_back(heading_of(c, "CGAL exact", 1));
+        rows.back()["repetitions"] = 1;
+        rows.back()["p0_ms"] = 1e3 * p0;
+        timings.tell("propagate", p0, c.surface.num_faces(), rows.back());
+    }
     for (const Contestant& contestant : contestants) {
-        rows.push_back(row_of(c, contestant, contestants));
+        rows.push_back(row_of(c, contestant, p0, contestants));
     }
     return rows;
 }
@@ -235,7 +228,7 @@ void add_options(CLI::App& app, Arguments& arguments) {
     app.add_option("--exact-limit", arguments.exact_limit,
                    "Also run CGAL's exact method on meshes of up to this many faces, once, and "
                    "measure the error of the vertex distances; slow");
-    app.add_option("--repetitions", arguments.repetitions, "Runs of each case; medians are shown")
+    app.add_option("--repetitions", arguments.repetitions, "Runs of each case; the quickest is shown")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     app.add_flag("--diagram", arguments.diagram, "Also build the diagram");

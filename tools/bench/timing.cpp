@@ -14,6 +14,10 @@ Seconds time(const std::function<void()>& job) {
     return {taken.count(), static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC};
 }
 
+double quickest(const std::vector<double>& values) {
+    return *std::min_element(values.begin(), values.end());
+}
+
 double median(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     const std::size_t half = values.size() / 2;

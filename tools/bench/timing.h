@@ -14,6 +14,9 @@ struct Seconds {
 };
 [[nodiscard]] Seconds time(const std::function<void()>& job);
 
+//! The least value. \pre not empty.
+[[nodiscard]] double quickest(const std::vector<double>& values);
+
 //! The middle value, or the mean of the middle two. \pre not empty.
 [[nodiscard]] double median(std::vector<double> values);
 

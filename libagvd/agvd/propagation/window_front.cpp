@@ -81,7 +81,7 @@ bool WindowFront::run(const SurfacePoint& site, std::span<const float> bounds, F
     turns_.clear();
     pool_.clear();
     runs_.clear();
-    free_runs_.assign(free_runs_.size(), no_index);
+    free_runs_.fill(no_index);
     if (num_waiting_ > 0) {  // The last run was broken off.
         for (auto& bucket : buckets_) bucket.clear();
     }
@@ -119,7 +119,7 @@ Index WindowFront::vertex_record(Index vertex) {
     return slot = vertices_.push({vertex, bound, bound});
 }
 
-Index WindowFront::edge_record(Index half_edge, Index tail, Index head) {
+inline Index WindowFront::edge_record(Index half_edge, Index tail, Index head) {
     Index& slot = edge_slot_[half_edge];
     if (slot < edges_.size() && edges_[slot].half_edge == half_edge) return slot;
     corners_.prefetch(Surface::face(half_edge));
@@ -128,7 +128,7 @@ Index WindowFront::edge_record(Index half_edge, Index tail, Index head) {
 
 // --- Queue -----------------------------------------------------------------------------------
 
-void WindowFront::schedule(Index item, Index& bucket, double distance) {
+inline void WindowFront::schedule(Index item, Index& bucket, double distance) {
     if (queue_order_ == FrontOrder::Nearest) {
         heap_.emplace_back(distance, item);
         std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
@@ -214,6 +214,26 @@ void WindowFront::bound_vertex(Index record, double distance) {
 
 // --- Half-edges --------------------------------------------------------------------------------
 
+// Memory for a run: its size is a power of two, and runs of that size that were given back come
+// first.
+inline Index WindowFront::take_run(Index count) {
+    const int size_class = std::bit_width(count - 1);
+    Index& free_run = free_runs_[static_cast<std::size_t>(size_class)];
+    if (free_run == no_index) {
+        return runs_.push({pool_.extend(Index{1} << size_class), count, no_index});
+    }
+    const Index run = free_run;
+    free_run = runs_[run].next;
+    runs_[run].count = count;
+    return run;
+}
+
+void WindowFront::give_back(Index run) {
+    Index& free_run = free_runs_[static_cast<std::size_t>(std::bit_width(runs_[run].count - 1))];
+    runs_[run].next = free_run;
+    free_run = run;
+}
+
 void WindowFront::send(Index half_edge, Index tail, Index head, std::span<const Window> windows) {
     if (windows.empty()) return;
     const Index record = edge_record(half_edge, tail, head);
@@ -229,24 +249,6 @@ void WindowFront::send(Index half_edge, Index tail, Index head, std::span<const 
         to[i] = windows[i];
     }
     schedule(edge_item(record), edge.bucket, nearest);
-}
-
-Index WindowFront::take_run(Index count) {
-    const auto size_class = static_cast<std::size_t>(std::bit_width(count - 1));
-    if (size_class >= free_runs_.size()) free_runs_.resize(size_class + 1, no_index);
-    const Index run = free_runs_[size_class];
-    if (run != no_index) {
-        free_runs_[size_class] = runs_[run].next;
-        runs_[run].count = count;
-        return run;
-    }
-    return runs_.push({pool_.extend(Index{1} << size_class), count, no_index});
-}
-
-void WindowFront::give_back(Index run) {
-    Index& free_run = free_runs_[static_cast<std::size_t>(std::bit_width(runs_[run].count - 1))];
-    runs_[run].next = free_run;
-    free_run = run;
 }
 
 // Merges the windows that wait, which come in ascending runs, into the envelope of the half-edge.
@@ -271,13 +273,12 @@ void WindowFront::take_in(EdgeRecord& edge, const Face& face) {
     }
     order_.clear();
     if (edge.windows != no_index) {
-        for (const Window& window : windows_of(edge.windows)) order_.push_back(&window);
+        for (const Window& window : windows_of(edge.windows)) order_.push(&window);
     }
     for (Index run = only; run != no_index; run = runs_[run].next) {
         for (const Window& window : windows_of(run)) {
             if (is_beaten(window)) continue;
-            std::size_t place = order_.size();
-            order_.push_back(nullptr);
+            Index place = order_.extend(1);
             for (; place > 0 && window.begin < order_[place - 1]->begin; --place) {
                 order_[place] = order_[place - 1];
             }
@@ -385,15 +386,15 @@ void WindowFront::divide_window(Index window, EdgeRecord& edge, const Face& face
             } else {
                 left = {window, edge.apex_ray, false};
             }
-            if (w.begin < left.limit) left_.push_back(left);
-            if (right.limit < w.end) right_.push_back(right);
+            if (w.begin < left.limit) left_.push(left);
+            if (right.limit < w.end) right_.push(right);
             return;
         }
     }
     if (ray <= w.begin) {
-        right_.push_back({window, w.begin, false});
+        right_.push({window, w.begin, false});
     } else {
-        left_.push_back({window, w.end, false});
+        left_.push({window, w.end, false});
     }
 }
 
@@ -402,12 +403,13 @@ void WindowFront::divide_window(Index window, EdgeRecord& edge, const Face& face
 // branches but the last, since whether a window dies cannot be predicted.
 void WindowFront::pass_right(const Face& face) {
     if (right_.empty() || face.next.twin == no_index) return;
-    if (children_.size() < right_.size()) children_.resize(right_.size());
+    children_.clear();
+    children_.extend(right_.size());
     const double length = face.next.length;
     const double sine = face.apex_y / length;  // Of the angle at the head.
     const double tail_x = length - face.length * face.right_x;
     const double tail_y = -face.length * sine;
-    std::size_t count = 0;
+    Index count = 0;
     for (const Part& part : right_) {
         const Window& w = pool_[part.window];
         const double dx = w.x - face.apex_x;
@@ -438,17 +440,18 @@ void WindowFront::pass_right(const Face& face) {
         children_[count] = {x, y, w.weight, begin, end, at_begin, at_end, w.error};
         count += lives ? 1 : 0;
     }
-    send(face.next.twin, face.apex_record, face.head_record, std::span(children_).first(count));
+    send(face.next.twin, face.apex_record, face.head_record, {&children_[0], count});
 }
 
 // The same through the previous half-edge: the tail at 0, the apex at `length`.
 void WindowFront::pass_left(const Face& face) {
     if (left_.empty() || face.previous.twin == no_index) return;
-    if (children_.size() < left_.size()) children_.resize(left_.size());
+    children_.clear();
+    children_.extend(left_.size());
     const double length = face.previous.length;
     const double head_x = face.length * face.left_x;
     const double head_y = -face.length * face.left_y;
-    std::size_t count = 0;
+    Index count = 0;
     for (const Part& part : left_) {
         const Window& w = pool_[part.window];
         const double x = w.x * face.left_x + w.y * face.left_y;
@@ -475,7 +478,7 @@ void WindowFront::pass_left(const Face& face) {
         children_[count] = {x, y, w.weight, begin, end, at_begin, at_end, w.error};
         count += lives ? 1 : 0;
     }
-    send(face.previous.twin, face.tail_record, face.apex_record, std::span(children_).first(count));
+    send(face.previous.twin, face.tail_record, face.apex_record, {&children_[0], count});
 }
 
 }  // namespace agvd

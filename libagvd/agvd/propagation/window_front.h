@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <span>
 #include <vector>
@@ -148,11 +149,11 @@ private:
     RunArray<Turn> turns_;
     RunArray<Window> pool_;
     RunArray<Run> runs_;
-    std::vector<Index> free_runs_;  // By size class: list of runs.
+    std::array<Index, 33> free_runs_;  // By size class: list of runs.
     std::vector<Window> envelope_, scratch_;
-    std::vector<const Window*> order_;
-    std::vector<Part> right_, left_;
-    std::vector<Window> children_;
+    RunArray<const Window*> order_;
+    RunArray<Part> right_, left_;
+    RunArray<Window> children_;
     std::vector<std::vector<Index>> buckets_;
     std::vector<std::pair<double, Index>> heap_;  // FrontOrder::Nearest.
     Index current_bucket_ = 0;
