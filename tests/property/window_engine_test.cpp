@@ -150,12 +150,28 @@ TEST(WindowEngine, SameBytesForAnyThreadCount) {
     }
 }
 
+TEST(WindowEngine, ALayoutAtHandChangesNothing) {
+    const Surface s = build_surface(shapes::jitter(shapes::torus(40, 20), 0.02, 7).view());
+    const SurfaceLayout layout(s);
+    for (const Engine engine : {Engine::Window, Engine::Steiner, Engine::Vertex}) {
+        for (const Index count : {1, 9}) {
+            const auto sites = points::scattered(s, count, 4);
+            expect_same_bytes(propagate(s, sites, {.engine = engine}),
+                              propagate(s, layout, sites, {.engine = engine}));
+        }
+    }
+}
+
 // A cap of nothing sends every site the slow way.
 TEST(WindowEngine, PastTheWorkCapDistancesAreTheSame) {
     const Surface s = build_surface(shapes::jitter(shapes::torus(40, 20), 0.02, 7).view());
     const auto sites = points::scattered(s, 9, 4);
     const Propagation quick = exact(s, sites);
-    const Propagation slow = propagate_windows(s, sites, {.max_error = 0.0, .num_threads = 1}, 0);
+    const SurfaceLayout layout(s);
+    const Corners& corners = layout.corners();
+    const Propagation slow = propagate_windows(
+        s, corners, distance_bounds(s, layout.arcs(), corners.mean_length(), sites, 1), sites,
+        {.max_error = 0.0, .num_threads = 1}, 0);
     EXPECT_EQ(quick.vertex_site, slow.vertex_site);
     EXPECT_EQ(quick.mixed_faces, slow.mixed_faces);
     for (Index v = 0; v < s.num_vertices(); ++v) {

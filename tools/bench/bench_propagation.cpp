@@ -31,6 +31,7 @@ struct Arguments {
 struct Case {
     std::string mesh;
     const Surface& surface;
+    const SurfaceLayout& layout;
     const std::vector<SurfacePoint>& sites;
 };
 
@@ -43,6 +44,7 @@ std::vector<bench::Column> columns_for(const Arguments& arguments) {
                                        {"p0_ms", "P0 ms", 2, 8},
                                        {"propagate_ms", "cpu ms", 1, 9},
                                        {"propagate_p0", "cpu P0", 2, 7},
+                                       {"layout_p0", "layout", 2, 6},
                                        {"propagate_spread", "spread", 2, 6},
                                        {"propagate_ns_per_face", "ns/face", 0, 7},
                                        {"propagate_wall_p0", "wall P0", 2, 7},
@@ -119,7 +121,7 @@ void run(const Case& c, const std::optional<bench::ExactRun>& exact, bool with_d
     options.num_threads = contestant.threads;
     Propagation propagation;
     const bench::Seconds propagating =
-        bench::time([&] { propagation = propagate(c.surface, c.sites, options); });
+        bench::time([&] { propagation = propagate(c.surface, c.layout, c.sites, options); });
     bench::Seconds building;
     if (with_diagram) {
         Diagram diagram;
@@ -182,12 +184,14 @@ std::vector<Json> measure(const Case& c, const std::vector<bench::Method>& metho
     for (const bench::Method& method : methods) {
         for (const int threads : arguments.threads) contestants.push_back({method, threads});
     }
+    Timings layout;
     for (int i = 0; i < arguments.repetitions; ++i) {
         for (Contestant& contestant : contestants) {
             cli::stop_if_interrupted();
             run(c, exact, arguments.diagram, contestant);
             p0 = std::min(p0, sweep.seconds());
         }
+        layout.add(bench::time([&] { (void)SurfaceLayout(c.surface, 1); }));
     }
     std::vector<Json> rows;
     if (exact) {
@@ -200,6 +204,7 @@ std::vector<Json> measure(const Case& c, const std::vector<bench::Method>& metho
     }
     for (const Contestant& contestant : contestants) {
         rows.push_back(row_of(c, contestant, p0, contestants));
+        rows.back()["layout_p0"] = bench::quickest(layout.cpu) / p0;
     }
     return rows;
 }
@@ -251,9 +256,10 @@ int main(int argc, char** argv) {
         bench::print_heading(columns);
         for (const auto& path : common.meshes) {
             const Surface surface = bench::load(path, arguments.min_faces);
+            const SurfaceLayout layout(surface);
             for (const Index count : common.sites) {
                 const auto sites = bench::random_sites(surface, count, common.place, common.seed);
-                for (const Json& row : measure({path.stem(), surface, sites}, methods, arguments)) {
+                for (const Json& row : measure({path.stem(), surface, layout, sites}, methods, arguments)) {
                     rows.push_back(row);
                     bench::print_row(columns, row);
                 }

@@ -27,6 +27,8 @@ public:
     [[nodiscard]] Index head(Index h) const { return corners_[Surface::next(h)].tail; }
     [[nodiscard]] Index twin(Index h) const { return corners_[h].twin; }
     [[nodiscard]] double length(Index h) const { return corners_[h].length; }
+    //! Mean length of the half-edges.
+    [[nodiscard]] double mean_length() const { return mean_length_; }
     //! In the frame of h.
     [[nodiscard]] Vec2 apex(Index h) const { return corners_[h].turn * corners_[h].length; }
     [[nodiscard]] Index apex_vertex(Index h) const { return corners_[Surface::previous(h)].tail; }
@@ -41,6 +43,7 @@ public:
 
 private:
     std::size_t num_half_edges_;
+    double mean_length_ = 0;
     std::unique_ptr<Corner[]> corners_;  // Not a vector: that would write everything twice.
 };
 

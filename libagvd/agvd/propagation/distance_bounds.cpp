@@ -5,7 +5,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <numeric>
 
 #include "agvd/core/parallel.h"
 #include "agvd/propagation/site_placement.h"
@@ -27,83 +26,15 @@ Key to_key(float distance, Index site) {
 float distance_of(Key key) { return std::bit_cast<float>(static_cast<std::uint32_t>(key >> 32)); }
 Index site_of(Key key) { return static_cast<Index>(key); }
 
-struct Arc {
-    Index head;
-    float length;
-};
-
-// Arcs of each vertex side by side.
-struct ArcGraph {
-    std::vector<Index> offsets;  // #V + 1
-    std::vector<Index> ends;     // #V: some places stay empty.
-    std::vector<Arc> arcs;
-
-    void add(Index tail, Index head, double length) {
-        arcs[ends[tail]++] = {head, static_cast<float>(length) * round_up};
-    }
-    void prefetch(Index tail) const {
-        __builtin_prefetch(&arcs[offsets[tail]]);
-        __builtin_prefetch(&arcs[offsets[tail] + 8]);
-    }
-};
-
-// The straight line from the apex of a half-edge's face to the apex across it; below 0 where it
-// misses the edge.
-double flip_length(const Corners& corners, Index half_edge) {
-    const double length = corners.length(half_edge);
-    const Vec2 above = corners.apex(half_edge);
-    const Vec2 across = corners.apex(corners.twin(half_edge));
-    const Vec2 below(length - across.x(), -across.y());
-    const double crossed = below.x() * above.y() - above.x() * below.y();
-    if (crossed < 0 || crossed > length * (above.y() - below.y())) return -1;
-    return (above - below).norm();
-}
-
-ArcGraph build_graph(const Surface& surface, const Corners& corners) {
-    ArcGraph graph;
-    graph.offsets.assign(surface.num_vertices() + 1, 0);
-    const auto num_half_edges = static_cast<Index>(surface.twin.size());
-    // An edge and a flip for each half-edge that leaves, and the last edge on the boundary.
-    for (Index h = 0; h < num_half_edges; ++h) {
-        graph.offsets[corners.tail(h) + 1] += 2;
-        if (corners.twin(h) == no_index) ++graph.offsets[corners.head(h) + 1];
-    }
-    for (Index v = 0; v < surface.num_vertices(); ++v) graph.offsets[v + 1] += graph.offsets[v];
-    graph.ends.assign(graph.offsets.begin(), graph.offsets.end() - 1);
-    graph.arcs.resize(graph.offsets.back());
-    for (Index h = 0; h < num_half_edges; ++h) {
-        if (h + 30 < num_half_edges) {
-            const Index ahead = corners.twin(h + 30);
-            if (ahead != no_index) corners.prefetch(Surface::face(ahead));
-        }
-        const Index tail = corners.tail(h);
-        const Index head = corners.head(h);
-        const Index twin = corners.twin(h);
-        graph.add(tail, head, corners.length(h));
-        if (twin == no_index) {
-            graph.add(head, tail, corners.length(h));
-        } else if (h < twin) {
-            const double length = flip_length(corners, h);
-            if (!(length > 0)) continue;
-            graph.add(corners.apex_vertex(h), corners.apex_vertex(twin), length);
-            graph.add(corners.apex_vertex(twin), corners.apex_vertex(h), length);
-        }
-    }
-    return graph;
-}
-
 // Label-correcting in buckets of distance; the vertices of a bucket are relaxed side by side.
 class BoundsFront {
 public:
-    BoundsFront(const Surface& surface, const Corners& corners, int num_threads)
-        : graph_(build_graph(surface, corners)),
+    BoundsFront(const ArcGraph& graph, double mean_edge, int num_threads)
+        : graph_(graph),
           num_threads_(num_threads),
-          keys_(surface.num_vertices(), to_key(infinity, no_index)),
-          queued_in_(surface.num_vertices(), no_index) {
-        const double sum = std::accumulate(surface.length.begin(), surface.length.end(), 0.0);
-        constexpr double share = 0.5;  // Of the mean edge.
-        per_bucket_ = static_cast<float>(surface.num_edges() / (share * sum));
-    }
+          per_bucket_(static_cast<float>(2 / mean_edge)),
+          keys_(graph.ends.size(), to_key(infinity, no_index)),
+          queued_in_(keys_.size(), no_index) {}
 
     void start(Index vertex, double distance, Index site) {
         const Key key = to_key(static_cast<float>(distance) * round_up, site);
@@ -151,8 +82,7 @@ public:
             bounds.distance.push_back(distance_of(key));
             bounds.site.push_back(site_of(key));
         }
-        bounds.peak_bytes = graph_.arcs.capacity() * sizeof(Arc) +
-                            keys_.size() * (5 * sizeof(Index) + sizeof(Key) + sizeof(float));
+        bounds.peak_bytes = keys_.size() * (3 * sizeof(Index) + sizeof(Key) + sizeof(float));
         return bounds;
     }
 
@@ -171,7 +101,7 @@ private:
         constexpr auto relaxed = std::memory_order_relaxed;
         const Key from = std::atomic_ref(keys_[vertex]).load(relaxed);
         for (Index i = graph_.offsets[vertex]; i < graph_.ends[vertex]; ++i) {
-            const Arc& arc = graph_.arcs[i];
+            const ArcGraph::Arc& arc = graph_.arcs[i];
             const Key key = to_key(distance_of(from) + arc.length, site_of(from));
             std::atomic_ref best(keys_[arc.head]);
             Key old = best.load(relaxed);
@@ -184,7 +114,7 @@ private:
         }
     }
 
-    ArcGraph graph_;
+    const ArcGraph& graph_;
     int num_threads_;
     float per_bucket_;
     std::vector<Key> keys_;         // #V
@@ -195,9 +125,9 @@ private:
 
 }  // namespace
 
-DistanceBounds distance_bounds(const Surface& surface, const Corners& corners,
+DistanceBounds distance_bounds(const Surface& surface, const ArcGraph& graph, double mean_edge,
                                std::span<const SurfacePoint> sites, int num_threads) {
-    BoundsFront front(surface, corners, num_threads);
+    BoundsFront front(graph, mean_edge, num_threads);
     for (Index s = 0; s < sites.size(); ++s) {
         if (const auto vertex = vertex_of(surface, sites[s])) {
             front.start(*vertex, 0, s);

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "agvd/mesh/surface_point.h"
-#include "agvd/propagation/corners.h"
+#include "agvd/propagation/arc_graph.h"
 
 namespace agvd {
 
@@ -15,13 +15,14 @@ struct DistanceBounds {
     std::size_t peak_bytes = 0;   //!< Most bytes held at once, result included.
 };
 
-//! Shortest paths along edges and along the straight lines between the apexes of two neighbouring
-//! faces, where those cross the shared edge. Rounded up, so that no rounding of an exact distance
+//! Shortest paths along the arcs of a graph. Rounded up, so that no rounding of an exact distance
 //! lies above. Unique, so that the order in which threads relax does not matter.
 //!
-//! \param corners  Corners(surface).
+//! \param graph      ArcGraph of the surface.
+//! \param mean_edge  > 0, mesh units; a matter of speed only.
 //! Cost: about that of one Dijkstra sweep over the edges.
-[[nodiscard]] DistanceBounds distance_bounds(const Surface& surface, const Corners& corners,
-                                             std::span<const SurfacePoint> sites, int num_threads);
+[[nodiscard]] DistanceBounds distance_bounds(const Surface& surface, const ArcGraph& graph,
+                                             double mean_edge, std::span<const SurfacePoint> sites,
+                                             int num_threads);
 
 }  // namespace agvd

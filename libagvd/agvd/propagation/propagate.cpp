@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "agvd/propagation/site_placement.h"
 #include "agvd/propagation/steiner_engine.h"
 #include "agvd/propagation/steiner_points.h"
 #include "agvd/propagation/vertex_engine.h"
@@ -31,6 +32,32 @@ void check_steiner_options(const Surface& surface, const PropagationOptions& opt
     }
 }
 
+void check(const Surface& surface, std::span<const SurfacePoint> sites,
+           const PropagationOptions& options) {
+    check_sites(surface, sites);
+    if (options.max_error && !(*options.max_error >= 0 && *options.max_error < 1)) {
+        throw InvalidOption("the maximal error is " + std::to_string(*options.max_error) +
+                            "; use a number from 0 (exact) to below 1");
+    }
+    if (options.engine == Engine::Steiner) check_steiner_options(surface, options);
+    if (options.engine == Engine::Vertex && options.max_error) {
+        throw InvalidOption(
+            "the vertex engine knows no error bound; leave max_error unset, or use the window or "
+            "the Steiner engine");
+    }
+}
+
+// \param bounds  gives the DistanceBounds, which only windows want.
+template <typename Bounds>
+Propagation carry(const Surface& surface, const Corners& corners, const Bounds& bounds,
+                  std::span<const SurfacePoint> sites, const PropagationOptions& options) {
+    poll(options.progress, 0);
+    if (options.engine == Engine::Vertex) {
+        return propagate_vertices(surface, corners, sites, options);
+    }
+    return propagate_windows(surface, corners, bounds(), sites, options);
+}
+
 }  // namespace
 
 const char* engine_name(Engine engine) {
@@ -47,25 +74,26 @@ const char* engine_name(Engine engine) {
 
 Propagation propagate(const Surface& surface, std::span<const SurfacePoint> sites,
                       const PropagationOptions& options) {
-    if (options.max_error && !(*options.max_error >= 0 && *options.max_error < 1)) {
-        throw InvalidOption("the maximal error is " + std::to_string(*options.max_error) +
-                            "; use a number from 0 (exact) to below 1");
-    }
-    switch (options.engine) {
-        case Engine::Window:
-            return propagate_windows(surface, sites, options);
-        case Engine::Steiner:
-            check_steiner_options(surface, options);
-            return propagate_steiner(surface, sites, options);
-        case Engine::Vertex:
-            if (options.max_error) {
-                throw InvalidOption(
-                    "the vertex engine knows no error bound; leave max_error unset, or use the "
-                    "window or the Steiner engine");
-            }
-            return propagate_vertices(surface, sites, options);
-    }
-    throw InvalidOption("unknown engine");
+    check(surface, sites, options);
+    if (options.engine == Engine::Steiner) return propagate_steiner(surface, sites, options);
+    const Corners corners(surface, options.num_threads);
+    const auto bounds = [&] {  // The arcs go before the windows come.
+        return distance_bounds(surface, ArcGraph(surface, corners), corners.mean_length(), sites,
+                               options.num_threads);
+    };
+    return carry(surface, corners, bounds, sites, options);
+}
+
+Propagation propagate(const Surface& surface, const SurfaceLayout& layout,
+                      std::span<const SurfacePoint> sites, const PropagationOptions& options) {
+    check(surface, sites, options);
+    if (options.engine == Engine::Steiner) return propagate_steiner(surface, sites, options);
+    const Corners& corners = layout.corners();
+    const auto bounds = [&] {
+        return distance_bounds(surface, layout.arcs(), corners.mean_length(), sites,
+                               options.num_threads);
+    };
+    return carry(surface, corners, bounds, sites, options);
 }
 
 }  // namespace agvd

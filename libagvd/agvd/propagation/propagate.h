@@ -7,6 +7,7 @@
 
 #include "agvd/core/progress.h"
 #include "agvd/propagation/relays.h"
+#include "agvd/propagation/surface_layout.h"
 
 namespace agvd {
 
@@ -51,6 +52,12 @@ inline constexpr double default_max_error = 1e-4;
 //! \throw Cancelled        the progress callback returned false.
 //! Re-entrant.
 [[nodiscard]] Propagation propagate(const Surface& surface, std::span<const SurfacePoint> sites,
+                                    const PropagationOptions& options = {});
+
+//! The same with the layout of the surface at hand, which it would make otherwise. The Steiner
+//! engine has no use for it.
+[[nodiscard]] Propagation propagate(const Surface& surface, const SurfaceLayout& layout,
+                                    std::span<const SurfacePoint> sites,
                                     const PropagationOptions& options = {});
 
 }  // namespace agvd

@@ -77,9 +77,13 @@ SurfacePoint across_edge(const Surface& surface, const SurfacePoint& point, Inde
     return result;
 }
 
+void check_sites(const Surface& surface, std::span<const SurfacePoint> sites) {
+    for (Index s = 0; s < sites.size(); ++s) check_site(surface, sites[s], s);
+}
+
 SitePlacement::SitePlacement(const Surface& surface, std::span<const SurfacePoint> sites) {
+    check_sites(surface, sites);
     for (Index s = 0; s < sites.size(); ++s) {
-        check_site(surface, sites[s], s);
         if (vertex_of(surface, sites[s])) continue;
         placed_.push_back({s, sites[s]});
         const std::optional<Index> half_edge = half_edge_of(sites[s]);

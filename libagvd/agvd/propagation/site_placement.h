@@ -25,6 +25,9 @@ namespace agvd {
 [[nodiscard]] SurfacePoint across_edge(const Surface& surface, const SurfacePoint& point,
                                        Index half_edge);
 
+//! \throw InvalidInput naming the site when its face does not exist or it is off the face.
+void check_sites(const Surface& surface, std::span<const SurfacePoint> sites);
+
 //! A site that lies in a face or on one of its edges (not at a corner), seen from that face.
 struct PlacedSite {
     Index site;
@@ -34,7 +37,7 @@ struct PlacedSite {
 //! The placed sites of each face that has any; an edge site is listed in both faces.
 class SitePlacement {
 public:
-    //! \throw InvalidInput naming the site when its face does not exist or it is off the face.
+    //! \throw InvalidInput as check_sites.
     SitePlacement(const Surface& surface, std::span<const SurfacePoint> sites);
 
     //! All sites lie at vertices.

@@ -54,19 +54,18 @@ struct Wedge {
 
 class VertexFront {
 public:
-    VertexFront(const Surface& surface, std::span<const SurfacePoint> sites,
-                const PropagationOptions& options)
+    VertexFront(const Surface& surface, const Corners& corners,
+                std::span<const SurfacePoint> sites, const PropagationOptions& options)
         : surface_(surface),
           sites_(sites),
           options_(options),
           placement_(surface, sites),
-          corners_(surface, options.num_threads),
+          corners_(corners),
           reach_(surface.num_vertices()),
           views_(surface.num_vertices()),
-          queue_(bucket_width(surface)) {}
+          queue_(bucket_width(surface, corners)) {}
 
     Propagation run() {
-        poll(options_.progress, 0);
         for (Index s = 0; s < sites_.size(); ++s) {
             if (!placement_.repeats_another(s, sites_[s])) start(s);
         }
@@ -87,11 +86,10 @@ public:
 private:
     static constexpr std::size_t poll_interval = 1 << 16;
 
-    static double bucket_width(const Surface& surface) {
-        double sum = 0;
-        for (const double length : surface.length) sum += length;
-        const double mean = sum / std::max<double>(surface.num_edges(), 1);
-        return std::max({bucket_share * mean, sum * 0x1p-24, std::numeric_limits<double>::min()});
+    static double bucket_width(const Surface& surface, const Corners& corners) {
+        const double mean = corners.mean_length();
+        return std::max({bucket_share * mean, mean * surface.num_edges() * 0x1p-24,
+                         std::numeric_limits<double>::min()});
     }
 
     // The nodes to come are known, and lie anywhere in memory.
@@ -419,7 +417,7 @@ private:
     std::span<const SurfacePoint> sites_;
     const PropagationOptions& options_;
     SitePlacement placement_;
-    Corners corners_;
+    const Corners& corners_;
     std::vector<VertexReach> reach_;  // #V
     std::vector<VertexView> views_;   // #V
     BucketQueue queue_;
@@ -427,9 +425,10 @@ private:
 
 }  // namespace
 
-Propagation propagate_vertices(const Surface& surface, std::span<const SurfacePoint> sites,
+Propagation propagate_vertices(const Surface& surface, const Corners& corners,
+                               std::span<const SurfacePoint> sites,
                                const PropagationOptions& options) {
-    return VertexFront(surface, sites, options).run();
+    return VertexFront(surface, corners, sites, options).run();
 }
 
 }  // namespace agvd

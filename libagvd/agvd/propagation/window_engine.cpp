@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "agvd/core/parallel.h"
-#include "agvd/propagation/distance_bounds.h"
 #include "agvd/propagation/site_placement.h"
 #include "agvd/propagation/window_front.h"
 #include "agvd/propagation/window_relays.h"
@@ -100,35 +99,34 @@ private:
 
 class WindowEngine {
 public:
-    WindowEngine(const Surface& surface, std::span<const SurfacePoint> sites,
-                 const PropagationOptions& options, Index work_cap)
+    WindowEngine(const Surface& surface, const Corners& corners, DistanceBounds bounds,
+                 std::span<const SurfacePoint> sites, const PropagationOptions& options,
+                 Index work_cap)
         : surface_(surface),
+          corners_(corners),
           sites_(sites),
           options_(options),
           max_error_(options.max_error.value_or(default_max_error)),
           work_cap_(work_cap),
-          placement_(surface, sites) {}
+          placement_(surface, sites),
+          bounds_(std::move(bounds.distance)),
+          borders_(faces_near_borders(surface, bounds.site)) {}
 
     Propagation run() {
-        poll(options_.progress, 0);
         {
-            const Corners corners(surface_, options_.num_threads);
-            DistanceBounds bounds =
-                distance_bounds(surface_, corners, sites_, options_.num_threads);
-            borders_ = faces_near_borders(surface_, bounds.site);
-            bounds_ = std::move(bounds.distance);
-            std::vector<Index>().swap(bounds.site);
             first_visitor_ = std::vector<std::atomic<Index>>(surface_.num_faces());
             for (auto& visitor : first_visitor_) visitor.store(no_index, relaxed);
 
-            WorkerPool workers(surface_, corners, bucket_width(), max_error_);
+            constexpr double bucket_share = 0.5;  // Of the mean edge.
+            WorkerPool workers(surface_, corners_, bucket_share * corners_.mean_length(),
+                               max_error_);
             result_.vertex_distance.assign(surface_.num_vertices(),
                                            std::numeric_limits<double>::infinity());
             result_.vertex_site.assign(surface_.num_vertices(), SiteId());
             propagate_all(workers);
             propagate_late(workers);
             result_.certified_error = workers.relative_error();
-            result_.peak_bytes = corners.bytes() + workers.bytes() +
+            result_.peak_bytes = corners_.bytes() + workers.bytes() +
                                  bounds_.capacity() * sizeof(float) + common_bytes();
         }
         std::vector<float>().swap(bounds_);
@@ -144,11 +142,6 @@ public:
 
 private:
     static constexpr auto relaxed = std::memory_order_relaxed;
-
-    [[nodiscard]] double bucket_width() const {
-        const double sum = std::accumulate(surface_.length.begin(), surface_.length.end(), 0.0);
-        return 0.5 * sum / surface_.num_edges();
-    }
 
     [[nodiscard]] std::size_t common_bytes() const {
         std::size_t sum = result_.vertex_distance.capacity() * sizeof(double) +
@@ -290,6 +283,7 @@ private:
     }
 
     const Surface& surface_;
+    const Corners& corners_;
     std::span<const SurfacePoint> sites_;
     const PropagationOptions& options_;
     double max_error_;
@@ -305,9 +299,10 @@ private:
 
 }  // namespace
 
-Propagation propagate_windows(const Surface& surface, std::span<const SurfacePoint> sites,
+Propagation propagate_windows(const Surface& surface, const Corners& corners, DistanceBounds bounds,
+                              std::span<const SurfacePoint> sites,
                               const PropagationOptions& options, Index work_cap) {
-    return WindowEngine(surface, sites, options, work_cap).run();
+    return WindowEngine(surface, corners, std::move(bounds), sites, options, work_cap).run();
 }
 
 }  // namespace agvd

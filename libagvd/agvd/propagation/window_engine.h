@@ -2,6 +2,7 @@
 //! The window engine: exact or error-bounded propagation.
 #pragma once
 
+#include "agvd/propagation/distance_bounds.h"
 #include "agvd/propagation/propagate.h"
 
 namespace agvd {
@@ -12,12 +13,15 @@ inline constexpr Index default_work_cap = 1 << 16;
 
 //! propagate() with Engine::Window, its options checked.
 //!
+//! \param corners  Corners(surface).
+//! \param bounds   distance_bounds of the sites.
 //! Sites are propagated one by one, each as far as quick upper bounds for the nearest site allow,
 //! in batches of a fixed size; sites of a batch run side by side, and their distances tighten the
 //! bounds of the next. Windows are kept as relays near the borders that the bounds show; where that
 //! misses a border the sites concerned run once more.
 //! Cost: about O(n sqrt(n / t)) time for exact distances, O(n) for error-bounded ones, O(n) space.
-[[nodiscard]] Propagation propagate_windows(const Surface& surface,
+[[nodiscard]] Propagation propagate_windows(const Surface& surface, const Corners& corners,
+                                            DistanceBounds bounds,
                                             std::span<const SurfacePoint> sites,
                                             const PropagationOptions& options,
                                             Index work_cap = default_work_cap);

@@ -1,0 +1,37 @@
+//! \file
+//! The graph on which quick upper bounds of distances run.
+#pragma once
+
+#include <vector>
+
+#include "agvd/propagation/corners.h"
+
+namespace agvd {
+
+//! The edges of a surface, and the straight lines between the apexes of two neighbouring faces where
+//! those cross the shared edge (flips); the arcs of each vertex side by side. In float, rounded up
+//! by more than the rounding of any path along them.
+struct ArcGraph {
+    struct Arc {
+        Index head;
+        float length;
+    };
+    std::vector<Index> offsets;  //!< #V + 1
+    std::vector<Index> ends;     //!< #V: the arcs of v are [offsets[v], ends[v]); the rest is empty.
+    std::vector<Arc> arcs;
+
+    //! Cost: O(#H) time and space.
+    ArcGraph(const Surface& surface, const Corners& corners);
+
+    //! Starts to load the arcs of a vertex, which will be read soon.
+    void prefetch(Index tail) const {
+        __builtin_prefetch(arcs.data() + offsets[tail]);
+        __builtin_prefetch(arcs.data() + offsets[tail] + 8);
+    }
+    [[nodiscard]] std::size_t bytes() const {
+        return arcs.capacity() * sizeof(Arc) +
+               (offsets.capacity() + ends.capacity()) * sizeof(Index);
+    }
+};
+
+}  // namespace agvd

@@ -1,0 +1,34 @@
+//! \file
+//! What propagation needs of a surface besides it: made once, used with any sites.
+#pragma once
+
+#include <memory>
+
+#include "agvd/mesh/surface.h"
+
+namespace agvd {
+
+struct ArcGraph;
+class Corners;
+
+//! For callers that propagate on one surface again and again. About 160 bytes per face, beyond the
+//! surface. Immutable, so that threads may share it.
+class SurfaceLayout {
+public:
+    //! \param num_threads  >= 0; 0: all cores.
+    //! Cost: O(#H), about that of one Dijkstra sweep over the edges.
+    explicit SurfaceLayout(const Surface& surface, int num_threads = 0);
+    SurfaceLayout(SurfaceLayout&&) noexcept;
+    SurfaceLayout& operator=(SurfaceLayout&&) noexcept;
+    ~SurfaceLayout();
+
+    [[nodiscard]] const Corners& corners() const { return *corners_; }
+    [[nodiscard]] const ArcGraph& arcs() const { return *arcs_; }
+    [[nodiscard]] std::size_t bytes() const;
+
+private:
+    std::unique_ptr<Corners> corners_;
+    std::unique_ptr<ArcGraph> arcs_;
+};
+
+}  // namespace agvd
