@@ -233,7 +233,8 @@ void add_options(CLI::App& app, Arguments& arguments) {
     app.add_option("--exact-limit", arguments.exact_limit,
                    "Also run CGAL's exact method on meshes of up to this many faces, once, and "
                    "measure the error of the vertex distances; slow");
-    app.add_option("--repetitions", arguments.repetitions, "Runs of each case; the quickest is shown")
+    app.add_option("--repetitions", arguments.repetitions,
+                   "Runs of each case; the quickest is shown")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     app.add_flag("--diagram", arguments.diagram, "Also build the diagram");
@@ -259,7 +260,8 @@ int main(int argc, char** argv) {
             const SurfaceLayout layout(surface);
             for (const Index count : common.sites) {
                 const auto sites = bench::random_sites(surface, count, common.place, common.seed);
-                for (const Json& row : measure({path.stem(), surface, layout, sites}, methods, arguments)) {
+                for (const Json& row :
+                     measure({path.stem(), surface, layout, sites}, methods, arguments)) {
                     rows.push_back(row);
                     bench::print_row(columns, row);
                 }

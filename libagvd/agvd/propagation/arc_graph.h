@@ -8,16 +8,16 @@
 
 namespace agvd {
 
-//! The edges of a surface, and the straight lines between the apexes of two neighbouring faces where
-//! those cross the shared edge (flips); the arcs of each vertex side by side. In float, rounded up
-//! by more than the rounding of any path along them.
+//! The edges of a surface, and the straight lines between the apexes of two neighbouring faces
+//! where those cross the shared edge (flips); the arcs of each vertex side by side. In float,
+//! rounded up by more than the rounding of any path along them.
 struct ArcGraph {
     struct Arc {
         Index head;
         float length;
     };
     std::vector<Index> offsets;  //!< #V + 1
-    std::vector<Index> ends;     //!< #V: the arcs of v are [offsets[v], ends[v]); the rest is empty.
+    std::vector<Index> ends;  //!< #V: the arcs of v are [offsets[v], ends[v]); the rest is empty.
     std::vector<Arc> arcs;
 
     //! Cost: O(#H) time and space.

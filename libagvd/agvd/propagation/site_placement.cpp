@@ -96,8 +96,7 @@ SitePlacement::SitePlacement(const Surface& surface, std::span<const SurfacePoin
     for (const PlacedSite& placed : placed_) holds_site_[placed.point.face.value()] = true;
 }
 
-std::span<const PlacedSite> SitePlacement::in_face(Index face) const {
-    if (!holds_site_[face]) return {};
+std::span<const PlacedSite> SitePlacement::find_in_face(Index face) const {
     const auto first =
         std::lower_bound(placed_.begin(), placed_.end(), face,
                          [](const PlacedSite& p, Index f) { return p.point.face.value() < f; });

@@ -42,7 +42,10 @@ public:
 
     //! All sites lie at vertices.
     [[nodiscard]] bool is_empty() const { return placed_.empty(); }
-    [[nodiscard]] std::span<const PlacedSite> in_face(Index face) const;
+    [[nodiscard]] std::span<const PlacedSite> in_face(Index face) const {
+        if (!holds_site_[face]) return {};
+        return find_in_face(face);
+    }
     //! Another site of lower index lies at the very same point of a face or edge, so that this one
     //! is nowhere the nearest.
     [[nodiscard]] bool repeats_another(Index site, const SurfacePoint& point) const;
@@ -50,6 +53,8 @@ public:
     [[nodiscard]] const SurfacePoint& seen_from(Index face, Index site) const;
 
 private:
+    [[nodiscard]] std::span<const PlacedSite> find_in_face(Index face) const;
+
     std::vector<PlacedSite> placed_;  // By (face, site).
     std::vector<bool> holds_site_;    // #F: most faces hold none, and every face is asked.
 };

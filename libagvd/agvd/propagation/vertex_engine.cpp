@@ -54,8 +54,8 @@ struct Wedge {
 
 class VertexFront {
 public:
-    VertexFront(const Surface& surface, const Corners& corners,
-                std::span<const SurfacePoint> sites, const PropagationOptions& options)
+    VertexFront(const Surface& surface, const Corners& corners, std::span<const SurfacePoint> sites,
+                const PropagationOptions& options)
         : surface_(surface),
           sites_(sites),
           options_(options),

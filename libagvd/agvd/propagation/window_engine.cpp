@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <atomic>
+#include <iterator>
 #include <memory>
 #include <mutex>
 #include <numeric>
+#include <utility>
 
 #include "agvd/core/parallel.h"
 #include "agvd/propagation/site_placement.h"
@@ -19,7 +21,9 @@ constexpr double bound_slack = 1 + 1e-6;
 
 constexpr Index tasks_of_a_batch = 32;
 constexpr Index least_batch = 6;
-constexpr Index most_batches = 16;
+// More would save a hundredth of the windows, and cost more than that in the cache: the sites of a
+// batch lie far apart.
+constexpr Index most_batches = 4;
 
 // What the sites of one task hand over.
 struct TaskResult {
@@ -29,10 +33,15 @@ struct TaskResult {
         Index site;
     };
     std::vector<Reached> vertices;
-    std::vector<Relay> relays;           // In faces near borders.
-    std::vector<FaceVisit> late_visits;  // Elsewhere, in faces that another site has visited.
+    std::vector<std::vector<Relay>> relays;  // In faces near borders; in blocks, never copied.
+    std::vector<FaceVisit> late_visits;      // Elsewhere, in faces that another site has visited.
     std::size_t num_windows = 0;
 
+    void add(const Relay& relay) {
+        constexpr std::size_t block = 512;
+        if (relays.empty() || relays.back().size() == block) relays.emplace_back().reserve(block);
+        relays.back().push_back(relay);
+    }
     void clear() {
         vertices.clear();
         relays.clear();
@@ -40,8 +49,7 @@ struct TaskResult {
         num_windows = 0;
     }
     [[nodiscard]] std::size_t bytes() const {
-        return vertices.capacity() * sizeof(Reached) + relays.capacity() * sizeof(Relay) +
-               late_visits.capacity() * sizeof(FaceVisit);
+        return vertices.capacity() * sizeof(Reached) + late_visits.capacity() * sizeof(FaceVisit);
     }
 };
 
@@ -178,6 +186,14 @@ private:
         }
     }
 
+    // Without spare room, but for the last block of relays.
+    [[nodiscard]] static TaskResult hand_over(TaskResult& grown) {
+        auto relays = std::exchange(grown.relays, {});
+        TaskResult result = grown;
+        result.relays = std::move(relays);
+        return result;
+    }
+
     // Runs sites in tasks of equal size, and keeps the relays and late visits of each.
     template <typename Collect>
     std::vector<TaskResult> run_tasks(std::span<const Index> order, WorkerPool& workers,
@@ -194,12 +210,12 @@ private:
                                 worker->result.num_windows += worker->front.num_windows();
                                 collect(order[i], worker->front, worker->result);
                             }
-                            tasks[chunk] = worker->result;
+                            tasks[chunk] = hand_over(worker->result);
                             workers.give_back(std::move(worker));
                         });
         for (TaskResult& task : tasks) {
             result_.num_nodes += task.num_windows;
-            if (!task.relays.empty()) logs_.push_back(std::move(task.relays));
+            std::move(task.relays.begin(), task.relays.end(), std::back_inserter(logs_));
             late_visits_.insert(late_visits_.end(), task.late_visits.begin(),
                                 task.late_visits.end());
         }
@@ -218,7 +234,7 @@ private:
         front.for_each_half_edge([&](Index half_edge, std::span<const Window> windows) {
             const Index face = Surface::face(half_edge);
             if (borders_[face] != 0) {
-                for (const Window& w : windows) task.relays.push_back(to_relay(w, site, half_edge));
+                for (const Window& w : windows) task.add(to_relay(w, site, half_edge));
                 return;
             }
             Index visitor = no_index;
@@ -262,8 +278,7 @@ private:
             again, workers, [&](Index site, const WindowFront& front, TaskResult& task) {
                 front.for_each_half_edge([&](Index half_edge, std::span<const Window> windows) {
                     if (!is_late[Surface::face(half_edge)]) return;
-                    for (const Window& w : windows)
-                        task.relays.push_back(to_relay(w, site, half_edge));
+                    for (const Window& w : windows) task.add(to_relay(w, site, half_edge));
                 });
             });
     }

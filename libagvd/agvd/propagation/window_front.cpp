@@ -60,7 +60,7 @@ struct WindowFront::Face {
     double right_x, right_y;  // Unit vector from the apex to the head.
     double left_x, left_y;    // From the tail to the apex.
     double tail_bound = 0, head_bound = 0, apex_bound = 0;
-    Index tail_record = no_index, head_record = no_index, apex_record = no_index;
+    Index apex_record = no_index;
 };
 
 WindowFront::WindowFront(const Surface& surface, const Corners& corners, double bucket_width,
@@ -252,7 +252,7 @@ void WindowFront::send(Index half_edge, Index tail, Index head, std::span<const 
 }
 
 // Merges the windows that wait, which come in ascending runs, into the envelope of the half-edge.
-void WindowFront::take_in(EdgeRecord& edge, const Face& face) {
+inline void WindowFront::take_in(EdgeRecord& edge, const Face& face) {
     const auto is_beaten = [&](const Window& w) {
         const double at =
             meeting_point(face.tail_bound, face.head_bound, face.length, w.begin, w.end);
@@ -296,33 +296,6 @@ void WindowFront::take_in(EdgeRecord& edge, const Face& face) {
     std::copy(envelope_.begin(), envelope_.end(), &pool_[runs_[edge.windows].first]);
 }
 
-// Takes in the windows that wait, and sends on what has not been sent on.
-void WindowFront::serve_edge(Index record) {
-    if (edges_[record].waiting == no_index) return;
-    Face face(corners_, edges_[record].half_edge);
-    face.tail_record = edges_[record].tail;
-    face.head_record = edges_[record].head;
-    face.tail_bound = vertices_[face.tail_record].bound;
-    face.head_bound = vertices_[face.head_record].bound;
-    EdgeRecord& edge = edges_[record];
-    take_in(edge, face);
-    if (edge.windows == no_index) return;
-    face.apex_record = vertex_record(face.previous.tail);
-    right_.clear();
-    left_.clear();
-    const Run& run = runs_[edge.windows];
-    for (Index window = run.first; window < run.first + run.count; ++window) {
-        if (pool_[window].is_served) continue;
-        pool_[window].is_served = true;
-        ++num_served_;
-        ++edge.num_served;
-        divide_window(window, edge, face);
-    }
-    face.apex_bound = vertices_[face.apex_record].bound;
-    pass_right(face);
-    pass_left(face);
-}
-
 void WindowFront::merge_neighbours() {
     std::size_t kept = 0;
     for (std::size_t i = 1; i < envelope_.size(); ++i) {
@@ -348,8 +321,10 @@ void WindowFront::reach_bent(const Face& face, double distance, double at, float
 }
 
 // Reaches the apex, and decides which part of the window goes on to the right and to the left.
-void WindowFront::divide_window(Index window, EdgeRecord& edge, const Face& face) {
-    const Window& w = pool_[window];
+inline WindowFront::Division WindowFront::divide(Window& w, EdgeRecord& edge, const Face& face) {
+    w.is_served = true;
+    ++num_served_;
+    ++edge.num_served;
     const double ray = (w.x * face.apex_y - w.y * face.apex_x) / (face.apex_y - w.y);
     const double slack = grazing * std::min(face.length, std::min(w.at_begin, w.at_end) - w.weight);
     if (ray < w.begin - slack) {
@@ -372,8 +347,7 @@ void WindowFront::divide_window(Index window, EdgeRecord& edge, const Face& face
             bound_vertex(face.apex_record, at_apex + w.error);
         }
         if (w.begin < ray && ray < w.end) {
-            Part left{window, ray, true};
-            Part right{window, ray, true};
+            Division division{{&w, ray, true}, {&w, ray, true}};
             // One angle, one split: rays that cross the best one on its way to the apex lead
             // nowhere.
             if (at_apex < edge.apex_distance) {
@@ -382,103 +356,131 @@ void WindowFront::divide_window(Index window, EdgeRecord& edge, const Face& face
                     edge.apex_ray = ray;
                 }
             } else if (ray < edge.apex_ray) {
-                right = {window, edge.apex_ray, false};
+                division.right = {&w, edge.apex_ray, false};
+                if (!(edge.apex_ray < w.end)) division.right.window = nullptr;
             } else {
-                left = {window, edge.apex_ray, false};
+                division.left = {&w, edge.apex_ray, false};
+                if (!(w.begin < edge.apex_ray)) division.left.window = nullptr;
             }
-            if (w.begin < left.limit) left_.push(left);
-            if (right.limit < w.end) right_.push(right);
-            return;
+            return division;
         }
     }
-    if (ray <= w.begin) {
-        right_.push({window, w.begin, false});
-    } else {
-        left_.push({window, w.end, false});
-    }
+    if (ray <= w.begin) return {{&w, w.begin, false}, {}};
+    return {{}, {&w, w.end, false}};
 }
 
-// Sends the parts on through the next half-edge. In the frame beyond, the apex is at 0, and a point
-// of the base at a distance s before the head is at (length, 0) - s (right_x, sine). Without
-// branches but the last, since whether a window dies cannot be predicted.
-void WindowFront::pass_right(const Face& face) {
-    if (right_.empty() || face.next.twin == no_index) return;
-    children_.clear();
-    children_.extend(right_.size());
+// Whether a child may matter: it is wide enough, and no path around the ends of its edge or past
+// the corner behind it is shorter.
+inline bool WindowFront::lives(const Window& child, double begin_bound, double end_bound,
+                               double length, double spare, double to_corner) {
+    const double to_begin = child.at_begin - child.weight;
+    const double to_end = child.at_end - child.weight;
+    const double at = meeting_point(begin_bound, end_bound, length, child.begin, child.end);
+    const double around = std::min(begin_bound + at, end_bound + length - at) - child.weight;
+    const bool is_wide = ((child.begin - child.end) * child.y > negligible * to_begin * to_end) |
+                         ((child.begin < child.x) & (child.x < child.end) & (child.y < 0));
+    return is_wide & (around >= 0) &
+           (around * around >= (at - child.x) * (at - child.x) + child.y * child.y) &
+           ((spare <= 0) | (to_corner >= spare * spare));
+}
+
+// The part that goes on through the next half-edge. In the frame beyond, the apex is at 0, and a
+// point of the base at a distance s before the head is at (length, 0) - s (right_x, sine). False if
+// it dies; found without branches, since that cannot be predicted.
+inline bool WindowFront::pass_right(const Part& part, const Face& face, Window& child) {
+    const Window& w = *part.window;
     const double length = face.next.length;
     const double sine = face.apex_y / length;  // Of the angle at the head.
+    const double dx = w.x - face.apex_x;
+    const double dy = w.y - face.apex_y;
+    const double x = dx * face.right_x + dy * face.right_y;
+    const double y = dy * face.right_x - dx * face.right_y;
+    const auto seen_at = [&](double at) {
+        const double s = face.length - at;
+        const double from_x = length - s * face.right_x;
+        return x + (from_x - x) * y / (y + s * sine);
+    };
+    const double begin = part.is_apex ? 0.0 : std::max(seen_at(part.limit), 0.0);
+    const double end = w.end == face.length ? length : std::min(seen_at(w.end), length);
+    child = {x,
+             y,
+             w.weight,
+             begin,
+             end,
+             w.weight + std::sqrt((begin - x) * (begin - x) + y * y),
+             w.weight + std::sqrt((end - x) * (end - x) + y * y),
+             w.error};
     const double tail_x = length - face.length * face.right_x;
     const double tail_y = -face.length * sine;
-    Index count = 0;
-    for (const Part& part : right_) {
-        const Window& w = pool_[part.window];
-        const double dx = w.x - face.apex_x;
-        const double dy = w.y - face.apex_y;
-        const double x = dx * face.right_x + dy * face.right_y;
-        const double y = dy * face.right_x - dx * face.right_y;
-        const auto seen_at = [&](double at) {
-            const double s = face.length - at;
-            const double from_x = length - s * face.right_x;
-            return x + (from_x - x) * y / (y + s * sine);
-        };
-        const double begin = part.is_apex ? 0.0 : std::max(seen_at(part.limit), 0.0);
-        const double end = w.end == face.length ? length : std::min(seen_at(w.end), length);
-        const double to_begin = std::sqrt((begin - x) * (begin - x) + y * y);
-        const double to_end = std::sqrt((end - x) * (end - x) + y * y);
-        const double at_begin = w.weight + to_begin;
-        const double at_end = w.weight + to_end;
-        const double spare = at_end - face.tail_bound;
-        const double to_tail = (tail_x - end) * (tail_x - end) + tail_y * tail_y;
-        const double at = meeting_point(face.apex_bound, face.head_bound, length, begin, end);
-        const double around =
-            std::min(face.apex_bound + at, face.head_bound + length - at) - w.weight;
-        const bool is_wide = ((begin - end) * y > negligible * to_begin * to_end) |
-                             ((begin < x) & (x < end) & (y < 0));
-        const bool lives = is_wide & (around >= 0) &
-                           (around * around >= (at - x) * (at - x) + y * y) &
-                           ((spare <= 0) | (to_tail >= spare * spare));
-        children_[count] = {x, y, w.weight, begin, end, at_begin, at_end, w.error};
-        count += lives ? 1 : 0;
-    }
-    send(face.next.twin, face.apex_record, face.head_record, {&children_[0], count});
+    const double to_tail = (tail_x - end) * (tail_x - end) + tail_y * tail_y;
+    return lives(child, face.apex_bound, face.head_bound, length, child.at_end - face.tail_bound,
+                 to_tail);
 }
 
 // The same through the previous half-edge: the tail at 0, the apex at `length`.
-void WindowFront::pass_left(const Face& face) {
-    if (left_.empty() || face.previous.twin == no_index) return;
-    children_.clear();
-    children_.extend(left_.size());
+inline bool WindowFront::pass_left(const Part& part, const Face& face, Window& child) {
+    const Window& w = *part.window;
     const double length = face.previous.length;
+    const double x = w.x * face.left_x + w.y * face.left_y;
+    const double y = w.y * face.left_x - w.x * face.left_y;
+    const auto seen_at = [&](double at) {
+        return x + (at * face.left_x - x) * y / (y + at * face.left_y);
+    };
+    const double begin = w.begin == 0 ? 0.0 : std::max(seen_at(w.begin), 0.0);
+    const double end = part.is_apex ? length : std::min(seen_at(part.limit), length);
+    child = {x,
+             y,
+             w.weight,
+             begin,
+             end,
+             w.weight + std::sqrt((begin - x) * (begin - x) + y * y),
+             w.weight + std::sqrt((end - x) * (end - x) + y * y),
+             w.error};
     const double head_x = face.length * face.left_x;
     const double head_y = -face.length * face.left_y;
-    Index count = 0;
-    for (const Part& part : left_) {
-        const Window& w = pool_[part.window];
-        const double x = w.x * face.left_x + w.y * face.left_y;
-        const double y = w.y * face.left_x - w.x * face.left_y;
-        const auto seen_at = [&](double at) {
-            return x + (at * face.left_x - x) * y / (y + at * face.left_y);
-        };
-        const double begin = w.begin == 0 ? 0.0 : std::max(seen_at(w.begin), 0.0);
-        const double end = part.is_apex ? length : std::min(seen_at(part.limit), length);
-        const double to_begin = std::sqrt((begin - x) * (begin - x) + y * y);
-        const double to_end = std::sqrt((end - x) * (end - x) + y * y);
-        const double at_begin = w.weight + to_begin;
-        const double at_end = w.weight + to_end;
-        const double spare = at_begin - face.head_bound;
-        const double to_head = (head_x - begin) * (head_x - begin) + head_y * head_y;
-        const double at = meeting_point(face.tail_bound, face.apex_bound, length, begin, end);
-        const double around =
-            std::min(face.tail_bound + at, face.apex_bound + length - at) - w.weight;
-        const bool is_wide = ((begin - end) * y > negligible * to_begin * to_end) |
-                             ((begin < x) & (x < end) & (y < 0));
-        const bool lives = is_wide & (around >= 0) &
-                           (around * around >= (at - x) * (at - x) + y * y) &
-                           ((spare <= 0) | (to_head >= spare * spare));
-        children_[count] = {x, y, w.weight, begin, end, at_begin, at_end, w.error};
-        count += lives ? 1 : 0;
+    const double to_head = (head_x - begin) * (head_x - begin) + head_y * head_y;
+    return lives(child, face.tail_bound, face.apex_bound, length, child.at_begin - face.head_bound,
+                 to_head);
+}
+
+// Takes in the windows that wait, and sends on what has not been sent on.
+void WindowFront::serve_edge(Index record) {
+    EdgeRecord& edge = edges_[record];
+    if (edge.waiting == no_index) return;
+    Face face(corners_, edge.half_edge);
+    face.tail_bound = vertices_[edge.tail].bound;
+    face.head_bound = vertices_[edge.head].bound;
+    take_in(edge, face);
+    if (edge.windows == no_index) return;
+    face.apex_record = vertex_record(face.previous.tail);
+
+    const Run run = runs_[edge.windows];
+    divisions_.clear();
+    for (Index i = run.first; i < run.first + run.count; ++i) {
+        if (!pool_[i].is_served) divisions_.push(divide(pool_[i], edge, face));
     }
-    send(face.previous.twin, face.tail_record, face.apex_record, {&children_[0], count});
+    face.apex_bound = vertices_[face.apex_record].bound;
+    children_.clear();
+    children_.extend(2 * divisions_.size());
+    Index num_right = 0;
+    if (face.next.twin != no_index) {
+        for (const auto& [right, left] : divisions_) {
+            if (right.window == nullptr) continue;
+            num_right += pass_right(right, face, children_[num_right]) ? 1 : 0;
+        }
+    }
+    Index count = num_right;
+    if (face.previous.twin != no_index) {
+        for (const auto& [right, left] : divisions_) {
+            if (left.window == nullptr) continue;
+            count += pass_left(left, face, children_[count]) ? 1 : 0;
+        }
+    }
+    const Index tail = edge.tail;
+    const Index head = edge.head;
+    const std::span<const Window> children{&children_[0], count};
+    send(face.next.twin, face.apex_record, head, children.first(num_right));
+    send(face.previous.twin, tail, face.apex_record, children.subspan(num_right));
 }
 
 }  // namespace agvd

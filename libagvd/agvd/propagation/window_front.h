@@ -71,7 +71,7 @@ private:
 
     struct EdgeRecord {
         Index half_edge;
-        Index tail, head;        // Records of its ends.
+        Index tail, head;                 // Records of its ends.
         Index waiting = no_index;         // List of runs of windows.
         Index windows = no_index;         // Run: the envelope of those that came.
         Index bucket = no_index;          // Where the half-edge waits.
@@ -96,9 +96,13 @@ private:
     };
     // The part of a window up to or from a limit, which may be the ray to the apex.
     struct Part {
-        Index window;  // In pool_.
-        double limit;
-        bool is_apex;
+        const Window* window = nullptr;  // In pool_.
+        double limit = 0;
+        bool is_apex = false;
+    };
+    // What of a window goes on through the other two half-edges.
+    struct Division {
+        Part right, left;
     };
     // Paths that arrive at a vertex around which they may turn.
     struct Turn {
@@ -128,9 +132,11 @@ private:
     void take_in(EdgeRecord& edge, const Face& face);
     void merge_neighbours();
     void reach_bent(const Face& face, double distance, double at, float error);
-    void divide_window(Index window, EdgeRecord& edge, const Face& face);
-    void pass_right(const Face& face);
-    void pass_left(const Face& face);
+    [[nodiscard]] Division divide(Window& window, EdgeRecord& edge, const Face& face);
+    [[nodiscard]] static bool lives(const Window& child, double begin_bound, double end_bound,
+                                    double length, double spare, double to_corner);
+    [[nodiscard]] static bool pass_right(const Part& part, const Face& face, Window& child);
+    [[nodiscard]] static bool pass_left(const Part& part, const Face& face, Window& child);
     void emit(const Turn& turn);
     void emit_fan(Index first, const Vec2* from, Index last, const Vec2* to, const VertexRecord& v);
     void emit_into(Index half_edge, double weight, float error, const Vec2* from, const Vec2* to);
@@ -152,7 +158,7 @@ private:
     std::array<Index, 33> free_runs_;  // By size class: list of runs.
     std::vector<Window> envelope_, scratch_;
     RunArray<const Window*> order_;
-    RunArray<Part> right_, left_;
+    RunArray<Division> divisions_;
     RunArray<Window> children_;
     std::vector<std::vector<Index>> buckets_;
     std::vector<std::pair<double, Index>> heap_;  // FrontOrder::Nearest.
