@@ -46,8 +46,8 @@ struct TwoSites {
 TEST(Compare, TheTrueBisectorHasNoError) {
     const TwoSites two;
     const DiagramError error = two.compare(two.straight_edge(0));
-    EXPECT_EQ(error.bisector_points, 15u);  // Eight and the seven middles.
-    EXPECT_NEAR(error.max_bisector_error, 0, 1e-14);
+    EXPECT_EQ(error.bisectors.num_points, 15u);  // Eight and the seven middles.
+    EXPECT_NEAR(error.bisectors.max, 0, 1e-14);
     EXPECT_LT(error.wrong_label_area, 1e-3);
 }
 
@@ -68,9 +68,9 @@ TEST(Compare, AMovedBisectorErrsByItsDistances) {
         mean += e / static_cast<double>(heights.size());
         worst = std::max(worst, e);
     }
-    EXPECT_NEAR(error.mean_bisector_error, mean, 1e-13);
-    EXPECT_NEAR(error.max_bisector_error, worst, 1e-13);
-    EXPECT_LT(error.p95_bisector_error, worst);
+    EXPECT_NEAR(error.bisectors.mean, mean, 1e-13);
+    EXPECT_NEAR(error.bisectors.max, worst, 1e-13);
+    EXPECT_LT(error.bisectors.p95, worst);
 }
 
 TEST(Compare, WrongLabelsAreCountedByArea) {
