@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "agvd/metrics/compare_diagrams.h"
 #include "agvd/propagation/propagate.h"
 #include "support/points.h"
 #include "support/shapes.h"
@@ -32,6 +33,7 @@ struct TwoSites {
         }
         diagram.edges = {{SiteId(0), SiteId(1), 0, 1}};
         diagram.edge_points = {0, 8};
+        diagram.point_distance.assign(8, 0.3);
         return diagram;
     }
 
@@ -105,4 +107,22 @@ TEST(Compare, AVertexTheExactSearchDoesNotReachIsAnInfiniteError) {
     EXPECT_TRUE(std::isfinite(two.compare(diagram).mean_relative_distance));
     two.propagation.vertex_distance.back() = 1;
     EXPECT_TRUE(std::isinf(two.compare(diagram).min_relative_distance));
+}
+
+// The window engine on the surroundings of each site, and CGAL on as much as it needs.
+TEST(Compare, BothWaysToExactDistancesMeasureTheSameErrors) {
+    const Surface surface = build_surface(shapes::jitter(shapes::torus(40, 20), 0.02, 4).view());
+    const auto sites = points::scattered(surface, 20, 5);
+    for (const Engine engine : {Engine::Vertex, Engine::Steiner, Engine::Window}) {
+        const Propagation propagation = propagate(surface, sites, {.engine = engine});
+        const Diagram diagram = build_diagram(surface, sites, propagation);
+        const Approximation approximation{propagation, diagram};
+        const auto by_cgal = compare_with_exact(surface, sites, {&approximation, 1})[0];
+        const Diagram* const pointer = &diagram;
+        const auto by_windows = exact_bisector_errors(surface, sites, {&pointer, 1})[0];
+        EXPECT_EQ(by_windows.num_points, by_cgal.bisectors.num_points);
+        EXPECT_NEAR(by_windows.mean, by_cgal.bisectors.mean, 1e-6);
+        EXPECT_NEAR(by_windows.p95, by_cgal.bisectors.p95, 1e-6);
+        EXPECT_NEAR(by_windows.max, by_cgal.bisectors.max, 1e-6);
+    }
 }
