@@ -111,6 +111,7 @@ struct CompareArguments {
     std::string b;  // Path, or "exact".
     fs::path json;  // Empty: none; "-": stdout, and no text.
     agvd::DiagramCompareOptions options;
+    agvd::BisectorErrorOptions bisectors;
     cli::CommonOptions common;
 };
 
@@ -178,8 +179,9 @@ void run_compare(const CompareArguments& arguments) {
     comparison.difference = agvd::compare_diagrams(surface, a.diagram, b, options);
     cli::stop_if_interrupted();
     const std::array<const agvd::Diagram*, 2> diagrams{&a.diagram, &b};
-    const auto errors =
-        agvd::exact_bisector_errors(surface, a.sites, diagrams, {.num_threads = threads});
+    agvd::BisectorErrorOptions for_bisectors = arguments.bisectors;
+    for_bisectors.num_threads = threads;
+    const auto errors = agvd::exact_bisector_errors(surface, a.sites, diagrams, for_bisectors);
     comparison.bisectors_a = errors[0];
     comparison.bisectors_b = errors[1];
     cli::stop_if_interrupted();
@@ -217,6 +219,13 @@ void add_compare(CLI::App& app, CompareArguments& arguments) {
     command
         ->add_option("--samples", arguments.options.area_samples,
                      "Points at which cells are compared")
+        ->check(CLI::Range(agvd::Index{1}, agvd::Index{1'000'000'000}).description(""))
+        ->type_name("N")
+        ->capture_default_str();
+    command
+        ->add_option("--points", arguments.bisectors.max_points,
+                     "Points of each diagram's bisectors at which |dA - dB| is measured, at "
+                     "most; fewer where long thin triangles make that slow")
         ->check(CLI::Range(agvd::Index{1}, agvd::Index{1'000'000'000}).description(""))
         ->type_name("N")
         ->capture_default_str();

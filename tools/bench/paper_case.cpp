@@ -61,10 +61,11 @@ double moved_area(const Diagram& diagram, const Diagram& exact) {
 }
 
 void add_errors(const PaperCase& c, const std::vector<Contestant>& contestants,
-                const Diagram& exact, std::vector<Json>& rows) {
+                const Diagram& exact, Index bisector_points, std::vector<Json>& rows) {
     std::vector<const Diagram*> diagrams;
     for (const Contestant& contestant : contestants) diagrams.push_back(&contestant.result);
-    const auto errors = exact_bisector_errors(c.surface, c.sites, diagrams, {.max_points = 50'000});
+    const auto errors =
+        exact_bisector_errors(c.surface, c.sites, diagrams, {.max_points = bisector_points});
     for (std::size_t i = 0; i < rows.size(); ++i) {
         cli::stop_if_interrupted();
         const DiagramDifference difference = compare_diagrams(c.surface, *diagrams[i], exact);
@@ -124,7 +125,7 @@ std::vector<Json> measure(const PaperCase& c, const std::vector<Method>& methods
             found == methods.end()
                 ? exact_diagram(c)
                 : contestants[static_cast<std::size_t>(found - methods.begin())].result;
-        add_errors(c, contestants, exact, rows);
+        add_errors(c, contestants, exact, options.bisector_points, rows);
     }
     return rows;
 }

@@ -16,9 +16,10 @@ struct PaperCase {
 };
 
 struct PaperOptions {
-    int repetitions = 3;      //!< >= 1; the quickest counts.
-    bool with_errors = true;  //!< Against the exact diagram.
-    bool with_dual = false;   //!< The dual is built, too, and counts as part of the whole.
+    int repetitions = 3;                   //!< >= 1; the quickest counts.
+    bool with_errors = true;               //!< Against the exact diagram.
+    agvd::Index bisector_points = 50'000;  //!< At most so many are measured of each diagram.
+    bool with_dual = false;  //!< The dual is built, too, and counts as part of the whole.
 };
 
 //! A row for each method, all on one thread. Times are in P0 of the same run: the quickest of the

@@ -63,7 +63,7 @@ struct LoopCurves {
 
 struct BisectorErrorOptions {
     //! >= 1; of more points that a diagram has, every k-th is measured.
-    Index max_points = 200'000;
+    Index max_points = 20'000;
     int num_threads = 0;  //!< >= 0; 0: all cores. Same result for any number.
 };
 
@@ -72,7 +72,9 @@ struct BisectorErrorOptions {
 //! reach counts as infinitely wrong.
 //!
 //! \param diagrams  of the same surface and sites; they share the searches.
-//! Cost: site_distances; with random sites, together some 3 to 6 exact propagations of one thread.
+//! Cost: for each site one exact search as far as its bisectors, in a mesh with their points as
+//! vertices; with random sites, together some 3 to 6 exact propagations. Far more on meshes of
+//! long slivers, where windows are many: measure fewer points there.
 [[nodiscard]] std::vector<BisectorError> exact_bisector_errors(
     const Surface& surface, std::span<const SurfacePoint> sites,
     std::span<const Diagram* const> diagrams, const BisectorErrorOptions& options = {});
