@@ -73,7 +73,7 @@ private:
 
 std::string text_of(double value) {
     std::ostringstream text;
-    text.precision(3);
+    text.precision(4);
     text << value;
     return text.str();
 }
@@ -123,13 +123,14 @@ void add_legend(std::ostringstream& svg, std::size_t i, const std::string& name)
 
 std::string draw(const Plot& plot) {
     Axis x(plot.is_log_x, left, width - right), y(plot.is_log_y, height - bottom, top);
-    const auto shows = [&](const std::pair<double, double>& point) {
-        return x.shows(point.first) && y.shows(point.second);
+    const auto is_level = [](const Series& series) { return series.points.size() == 1; };
+    const auto shows = [&](const Series& series, const std::pair<double, double>& point) {
+        return (is_level(series) || x.shows(point.first)) && y.shows(point.second);
     };
     for (const Series& series : plot.series) {
         for (const auto& point : series.points) {
-            if (!shows(point)) continue;
-            if (series.points.size() > 1) x.include(point.first);
+            if (!shows(series, point)) continue;
+            if (!is_level(series)) x.include(point.first);
             y.include(point.second);
         }
     }
@@ -142,8 +143,8 @@ std::string draw(const Plot& plot) {
         const char* const colour = colours[i % colours.size()];
         std::ostringstream path, dots;
         for (const auto& point : series.points) {
-            if (!shows(point)) continue;
-            if (series.points.size() == 1) {
+            if (!shows(series, point)) continue;
+            if (is_level(series)) {
                 path << 'M' << left << ' ' << y.pixel(point.second) << 'H' << width - right;
                 break;
             }
@@ -152,7 +153,7 @@ std::string draw(const Plot& plot) {
             dots << "<circle cx=\"" << px << "\" cy=\"" << py << "\" r=\"2.5\" fill=\"" << colour
                  << "\"/>\n";
         }
-        const char* const dash = series.points.size() == 1 ? " stroke-dasharray=\"6 4\"" : "";
+        const char* const dash = is_level(series) ? " stroke-dasharray=\"6 4\"" : "";
         svg << "<path d=\"" << path.str() << "\" fill=\"none\" stroke=\"" << colour
             << "\" stroke-width=\"1.8\"" << dash << "/>\n"
             << dots.str();
