@@ -111,7 +111,7 @@ struct CompareArguments {
     std::string b;  // Path, or "exact".
     fs::path json;  // Empty: none; "-": stdout, and no text.
     agvd::DiagramCompareOptions options;
-    agvd::BisectorErrorOptions bisectors;
+    agvd::Index points = agvd::BisectorErrorOptions().max_points;
     cli::CommonOptions common;
 };
 
@@ -178,13 +178,14 @@ void run_compare(const CompareArguments& arguments) {
     comparison.sites = a.diagram.num_sites;
     comparison.difference = agvd::compare_diagrams(surface, a.diagram, b, options);
     cli::stop_if_interrupted();
-    const std::array<const agvd::Diagram*, 2> diagrams{&a.diagram, &b};
-    agvd::BisectorErrorOptions for_bisectors = arguments.bisectors;
-    for_bisectors.num_threads = threads;
-    const auto errors = agvd::exact_bisector_errors(surface, a.sites, diagrams, for_bisectors);
-    comparison.bisectors_a = errors[0];
-    comparison.bisectors_b = errors[1];
-    cli::stop_if_interrupted();
+    if (arguments.points > 0) {
+        const std::array<const agvd::Diagram*, 2> diagrams{&a.diagram, &b};
+        const auto errors = agvd::exact_bisector_errors(
+            surface, a.sites, diagrams, {.max_points = arguments.points, .num_threads = threads});
+        comparison.bisectors_a = errors[0];
+        comparison.bisectors_b = errors[1];
+        cli::stop_if_interrupted();
+    }
     const remesh::ComparisonInfo info{
         .version = REMESH_VERSION, .a = arguments.a.string(), .b = arguments.b};
     if (!arguments.json.empty()) cli::write_text(arguments.json, to_json(comparison, info));
@@ -223,10 +224,11 @@ void add_compare(CLI::App& app, CompareArguments& arguments) {
         ->type_name("N")
         ->capture_default_str();
     command
-        ->add_option("--points", arguments.bisectors.max_points,
-                     "Points of each diagram's bisectors at which |dA - dB| is measured, at "
-                     "most; fewer where long thin triangles make that slow")
-        ->check(CLI::Range(agvd::Index{1}, agvd::Index{1'000'000'000}).description(""))
+        ->add_option("--points", arguments.points,
+                     "Points of each diagram's bisectors at which |dA - dB| is measured, at most; "
+                     "fewer, or 0, on meshes of extreme slivers, where that takes long and "
+                     "gigabytes")
+        ->check(CLI::Range(agvd::Index{0}, agvd::Index{1'000'000'000}).description(""))
         ->type_name("N")
         ->capture_default_str();
     cli::add_common_options(*command, arguments.common);

@@ -122,6 +122,9 @@ TEST_F(AgvdCompare, PrintsATableOrWritesAFile) {
         EXPECT_NE(outcome.out.find(word), std::string::npos) << word << " in\n" << outcome.out;
     }
     EXPECT_EQ(nlohmann::json::parse(bytes("out.json"))["program"], "agvd compare");
+    const auto quick = compare({a, "exact", "-q", "--points", "0"});
+    EXPECT_EQ(quick.exit_code, 0) << quick.err;
+    EXPECT_NE(quick.out.find("not measured"), std::string::npos) << quick.out;
 }
 
 TEST_F(AgvdCompare, OtherMeshesAndSitesAreRefused) {

@@ -127,7 +127,7 @@ TEST(ComparisonReport, GivesEveryFigureAsJsonAndText) {
                             .unmatched_loops = 1};
     c.difference.wrong_label_area = 0.125;
     c.difference.hausdorff = std::numeric_limits<double>::infinity();
-    c.bisectors_a = {.mean = 0.5, .p95 = 0.75, .max = 1.5, .num_points = 7};
+    c.bisectors_a = agvd::BisectorError{.mean = 0.5, .p95 = 0.75, .max = 1.5, .num_points = 7};
     const json report = json::parse(remesh::to_json(c, {.a = "a.ply", .b = "exact"}));
     EXPECT_EQ(report["a"], "a.ply");
     EXPECT_EQ(report["sites"], 30);
@@ -136,9 +136,11 @@ TEST(ComparisonReport, GivesEveryFigureAsJsonAndText) {
     EXPECT_EQ(report["wrong_label_percent"], 12.5);
     EXPECT_TRUE(report["hausdorff_mesh_units"].is_null());
     EXPECT_EQ(report["bisector_error_a"]["p95"], 0.75);
-    EXPECT_EQ(report["bisector_error_b"]["points"], 0);
+    EXPECT_EQ(report["bisector_error_a"]["points"], 7);
+    EXPECT_TRUE(report["bisector_error_b"].is_null());
     const std::string text = to_text(c, {.a = "a.ply", .b = "exact"});
-    for (const char* part : {"30 sites", "1.9800 %", "12.5000 %", "29 pairs", "1 loop unmatched"}) {
+    for (const char* part :
+         {"30 sites", "1.9800 %", "12.5000 %", "29 pairs", "1 loop unmatched", "not measured"}) {
         EXPECT_NE(text.find(part), std::string::npos) << part << " is not in\n" << text;
     }
 }

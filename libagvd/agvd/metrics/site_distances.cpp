@@ -13,6 +13,8 @@ namespace agvd {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+// Of one search: windows, and their memory, grow with the vertices, worst in long slivers.
+constexpr std::size_t most_points = 200;
 
 // Exact distances of the patch's vertices from one of them.
 std::vector<double> distances_from(const TriangleMesh& mesh, Index vertex) {
@@ -51,18 +53,19 @@ std::vector<double> site_distances(const Surface& surface, std::span<const Surfa
     for (Index q = 0; q < queries.size(); ++q) of_site[queries[q].site.value()].push_back(q);
     std::vector<double> distance(queries.size());
     parallel_chunks(static_cast<Index>(sites.size()), 1, num_threads, [&](Index, Index s, Index) {
-        if (of_site[s].empty()) return;
         // A guess from a sampled curve falls short of it by the height of a chord.
         constexpr double slack = 1.02;
-        std::vector<SurfacePoint> points{sites[s]};
-        double radius = 0;
-        for (const Index q : of_site[s]) {
-            points.push_back(queries[q].point);
-            radius = std::max(radius, slack * queries[q].guess);
-        }
-        const std::vector<double> found = search(surface, points, radius);
-        for (std::size_t i = 0; i < of_site[s].size(); ++i) {
-            distance[of_site[s][i]] = found[i + 1];
+        for (std::size_t begin = 0; begin < of_site[s].size(); begin += most_points) {
+            const std::size_t count = std::min(most_points, of_site[s].size() - begin);
+            const std::span part = std::span(of_site[s]).subspan(begin, count);
+            std::vector<SurfacePoint> points{sites[s]};
+            double radius = 0;
+            for (const Index q : part) {
+                points.push_back(queries[q].point);
+                radius = std::max(radius, slack * queries[q].guess);
+            }
+            const std::vector<double> found = search(surface, points, radius);
+            for (std::size_t i = 0; i < count; ++i) distance[part[i]] = found[i + 1];
         }
     });
     return distance;

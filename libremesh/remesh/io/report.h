@@ -2,6 +2,7 @@
 //! Results as JSON for programs and as text for people.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "agvd/metrics/compare_diagrams.h"
@@ -29,8 +30,8 @@ struct EvaluationInfo {
 struct Comparison {
     agvd::Index sites = 0;
     agvd::DiagramDifference difference = {};
-    agvd::BisectorError bisectors_a = {};  //!< Against exact distances, of either diagram.
-    agvd::BisectorError bisectors_b = {};
+    //! Of either diagram against exact distances; none: not measured.
+    std::optional<agvd::BisectorError> bisectors_a = {}, bisectors_b = {};
 };
 
 //! What the caller of compare_diagrams() knows about its diagrams.

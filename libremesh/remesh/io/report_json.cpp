@@ -153,11 +153,12 @@ std::string to_json(const Evaluation& evaluation, const EvaluationInfo& info) {
 std::string to_json(const Comparison& comparison, const ComparisonInfo& info) {
     const agvd::DiagramDifference& difference = comparison.difference;
     const agvd::FrechetError& frechet = difference.frechet;
-    const auto bisectors = [](const agvd::BisectorError& error) {
-        return Json{{"mean", error.mean},
-                    {"p95", error.p95},
-                    {"max", error.max},
-                    {"points", error.num_points}};
+    const auto bisectors = [](const std::optional<agvd::BisectorError>& error) {
+        if (!error) return Json();
+        return Json{{"mean", error->mean},
+                    {"p95", error->p95},
+                    {"max", error->max},
+                    {"points", error->num_points}};
     };
     Json object;
     object["program"] = "agvd compare";

@@ -183,8 +183,12 @@ std::string to_text(const Comparison& comparison, const ComparisonInfo& info) {
         << counted(frechet.unmatched_loops, "loop") << " unmatched; points " << frechet.spacing
         << " mesh units apart\n\n";
     table.row("|dA - dB| / cell radius", "mean", "95 %", "max");
-    const auto bisectors = [&](const char* name, const agvd::BisectorError& error) {
-        table.row(name, error.mean, error.p95, error.max);
+    const auto bisectors = [&](const char* name, const std::optional<agvd::BisectorError>& error) {
+        if (error) {
+            table.row(name, error->mean, error->p95, error->max);
+        } else {
+            table.row(name, "not measured");
+        }
     };
     bisectors("bisectors of A", comparison.bisectors_a);
     bisectors("bisectors of B", comparison.bisectors_b);
