@@ -29,25 +29,26 @@ void for_each_piece(const Diagram& diagram, const Visit& visit) {
 
 CellLocator::CellLocator(const Surface& surface, const Diagram& diagram)
     : surface_(surface), diagram_(diagram), offsets_(surface.num_faces() + 1, 0) {
-    const auto for_each_face = [&](const auto& visit) {
+    // Shorter ones, left by ties at vertices, have no direction that could be trusted.
+    constexpr double least_length = 1e-8;  // Of the face's sides.
+    const auto for_each_piece_of_face = [&](const auto& visit) {
         for_each_piece(diagram, [&](const VoronoiEdge& edge, Index i, Index next) {
             const SurfacePoint& a = diagram.points[i];
             const SurfacePoint& b = diagram.points[next];
             const CommonFaces faces = common_faces(surface, a, b);
             for (const Index face : {faces.first, faces.second}) {
-                if (face != no_index) visit(face, edge, a, b);
+                if (face == no_index) continue;
+                const Piece piece{in_frame(*seen_from(surface, a, face)),
+                                  in_frame(*seen_from(surface, b, face)), edge.left, edge.right};
+                if ((piece.to - piece.from).norm() > least_length) visit(face, piece);
             }
         });
     };
-    for_each_face([&](Index face, auto&&...) { ++offsets_[face + 1]; });
+    for_each_piece_of_face([&](Index face, const Piece&) { ++offsets_[face + 1]; });
     for (Index f = 0; f < surface.num_faces(); ++f) offsets_[f + 1] += offsets_[f];
     pieces_.resize(offsets_.back());
     std::vector<Index> next(offsets_.begin(), offsets_.end() - 1);
-    for_each_face(
-        [&](Index face, const VoronoiEdge& edge, const SurfacePoint& a, const SurfacePoint& b) {
-            pieces_[next[face]++] = {in_frame(*seen_from(surface, a, face)),
-                                     in_frame(*seen_from(surface, b, face)), edge.left, edge.right};
-        });
+    for_each_piece_of_face([&](Index face, const Piece& piece) { pieces_[next[face]++] = piece; });
 }
 
 SiteId CellLocator::operator()(const SurfacePoint& point) const {
