@@ -68,13 +68,14 @@ TEST(CellLocator, KnowsCellsThatMeetAlongEdges) {
 }
 
 TEST(CellLocator, CurvesThatOnlyTouchACornerLeaveTheFaceWhole) {
-    // The corner (0, 0) is a cell of its own; its border is shorter than a rounding shows.
+    // The corner (0, 0) is a cell of its own; its border is too short to
+    // show on which side the rest lies.
     const Surface surface = build_surface(shapes::grid(1).view());
     Diagram diagram;
     diagram.num_sites = 2;
     diagram.points = {{FaceId(0), {1, 0, 0}}, {FaceId(0), {1 - 1e-12, 1e-12, 0}}};
     diagram.edge_points = {0, 2};
-    diagram.edges = {{SiteId(0), SiteId(1), 0, 1}};
+    diagram.edges = {{SiteId(1), SiteId(0), 0, 1}};
     const Index touched = surface.mesh.triangles[0][0];
     diagram.nearest_site.assign(surface.num_vertices(), SiteId(0));
     diagram.nearest_site[touched] = SiteId(1);
