@@ -1,9 +1,10 @@
-// Geodesic Voronoi diagrams as files: `agvd diagram`.
+// Geodesic Voronoi diagrams as files: `agvd diagram`, and how far they are apart: `agvd compare`.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "agvd/diagram/diagram.h"
+#include "agvd/metrics/compare_diagrams.h"
 #include "arguments.h"
+#include "remesh/io/read_diagram.h"
 #include "remesh/io/read_mesh.h"
 #include "remesh/io/read_sites.h"
 #include "remesh/io/report.h"
@@ -14,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* footer =
+constexpr const char* diagram_footer =
     "Examples:\n"
     "  agvd diagram bunny.ply -n 100 -o cells.vtp -o labels.ply\n"
     "  agvd diagram bunny.ply --sites sites.txt -o edges.obj\n\n"
@@ -22,13 +23,15 @@ constexpr const char* footer =
     "  .vtp  VTK PolyData: Voronoi edges and boundary arcs as polylines with the cell data\n"
     "        site_left, site_right (-1: outside) and the point data distance\n"
     "  .obj  the same polylines as v and l lines\n"
-    "  .ply  the cleaned mesh with the vertex properties site (-1: none reaches) and distance\n\n";
+    "  .ply  the cleaned mesh with the vertex properties site (-1: none reaches) and distance, "
+    "and\n"
+    "        as further elements the sites and the diagram: what `agvd compare` reads\n\n";
 
-struct Arguments : cli::DiagramArguments {
+struct DiagramArguments : cli::DiagramArguments {
     std::vector<fs::path> outputs;
 };
 
-void check_outputs(const Arguments& arguments) {
+void check_outputs(const DiagramArguments& arguments) {
     for (const fs::path& output : arguments.outputs) {
         if (!remesh::is_known_diagram_extension(output)) {
             throw agvd::IoError(output.string() + ": unknown extension; use .vtp, .obj or .ply");
@@ -37,7 +40,7 @@ void check_outputs(const Arguments& arguments) {
     }
 }
 
-void run_diagram(const Arguments& arguments) {
+void run_diagram(const DiagramArguments& arguments) {
     cli::Console console(arguments.common);
     check_outputs(arguments);
     const remesh::MeshFile input = remesh::read_mesh(arguments.input);
@@ -68,7 +71,7 @@ void run_diagram(const Arguments& arguments) {
 
     cli::stop_if_interrupted();
     for (const fs::path& output : arguments.outputs) {
-        remesh::write_diagram(output, surface, propagation, diagram);
+        remesh::write_diagram(output, surface, sites, diagram);
     }
     const auto unreached =
         std::count_if(propagation.vertex_site.begin(), propagation.vertex_site.end(),
@@ -83,19 +86,170 @@ void run_diagram(const Arguments& arguments) {
                  std::to_string(diagram.edges.size()) + " edges");
 }
 
+constexpr const char* compare_footer =
+    "Examples:\n"
+    "  agvd diagram bunny.ply -n 100 --engine steiner -o a.ply\n"
+    "  agvd compare a.ply exact\n"
+    "  agvd compare a.ply b.ply --json - | jq .frechet.delta\n\n"
+    "Both diagrams must be of the same mesh and sites: write them with the same IN and --sites "
+    "(or\n"
+    "--samples, --init, --seed). `exact` builds the exact diagram of A's mesh and sites; a file "
+    "of\n"
+    "that name is ./exact.\n\n"
+    "Figures:\n"
+    "  Frechet sum  over all cells and their boundary loops, the discrete Frechet distance of A's\n"
+    "               and B's loop, measured in space; loops of a cell are matched nearest first, "
+    "one\n"
+    "               without partner is charged its diameter\n"
+    "  delta        1 - exp(-F / 10^2), F being that sum in mean cell radii sqrt(area / (pi "
+    "sites))\n"
+    "  |dA - dB|    at points of the bisectors, difference of the exact distances from the two\n"
+    "               sites that they are said to be between\n\n";
+
+struct CompareArguments {
+    fs::path a;
+    std::string b;  // Path, or "exact".
+    fs::path json;  // Empty: none; "-": stdout, and no text.
+    agvd::DiagramCompareOptions options;
+    agvd::Index points = agvd::BisectorErrorOptions().max_points;
+    cli::CommonOptions common;
+};
+
+// \throw agvd::InvalidInput  b is not of the same mesh and sites.
+void check_same_input(const CompareArguments& arguments, const remesh::DiagramFile& a,
+                      const remesh::DiagramFile& b) {
+    const std::string both = arguments.a.string() + " and " + arguments.b;
+    if (a.mesh.positions != b.mesh.positions || a.mesh.triangles != b.mesh.triangles) {
+        throw agvd::InvalidInput(
+            both + " have different meshes (" + std::to_string(a.mesh.triangles.size()) + " and " +
+            std::to_string(b.mesh.triangles.size()) + " faces); compare diagrams of one mesh");
+    }
+    const auto [in_a, in_b] =
+        std::mismatch(a.sites.begin(), a.sites.end(), b.sites.begin(), b.sites.end(),
+                      [](const agvd::SurfacePoint& x, const agvd::SurfacePoint& y) {
+                          return x.face == y.face && x.barycentric == y.barycentric;
+                      });
+    if (in_a != a.sites.end() || in_b != b.sites.end()) {
+        throw agvd::InvalidInput(both + " have different sites (" + std::to_string(a.sites.size()) +
+                                 " and " + std::to_string(b.sites.size()) +
+                                 ", first difference at " + std::to_string(in_a - a.sites.begin()) +
+                                 "); write both with the same --sites, or the same --samples, "
+                                 "--init and --seed");
+    }
+}
+
+agvd::Diagram exact_diagram(const agvd::Surface& surface,
+                            const std::vector<agvd::SurfacePoint>& sites, int threads,
+                            cli::Console& console) {
+    const auto progress_of = [&](const char* stage) {
+        return [&console, stage](double fraction) { return console.progress(stage, fraction); };
+    };
+    const agvd::Propagation propagation = agvd::propagate(
+        surface, sites,
+        {.max_error = 0, .num_threads = threads, .progress = progress_of("propagate")});
+    return agvd::build_diagram(surface, sites, propagation,
+                               {.num_threads = threads, .progress = progress_of("diagram")});
+}
+
+void run_compare(const CompareArguments& arguments) {
+    cli::Console console(arguments.common);
+    const bool is_json_on_stdout = arguments.json == "-";
+    const bool is_exact = arguments.b == "exact";
+    if (!arguments.json.empty() && !is_json_on_stdout) {
+        cli::check_output(arguments.json,
+                          {arguments.a, is_exact ? fs::path() : fs::path(arguments.b)}, false);
+    }
+    const remesh::DiagramFile a = remesh::read_diagram(arguments.a);
+    const agvd::Surface surface =
+        cli::naming_file(arguments.a, [&] { return agvd::build_surface(a.mesh.view()); });
+    const int threads = arguments.common.threads;
+    agvd::Diagram b;
+    if (is_exact) {
+        b = cli::naming_file(arguments.a,
+                             [&] { return exact_diagram(surface, a.sites, threads, console); });
+    } else {
+        remesh::DiagramFile file = remesh::read_diagram(arguments.b);
+        check_same_input(arguments, a, file);
+        b = std::move(file.diagram);
+    }
+    agvd::DiagramCompareOptions options = arguments.options;
+    options.num_threads = threads;
+    remesh::Comparison comparison;
+    comparison.sites = a.diagram.num_sites;
+    comparison.difference = agvd::compare_diagrams(surface, a.diagram, b, options);
+    cli::stop_if_interrupted();
+    if (arguments.points > 0) {
+        const std::array<const agvd::Diagram*, 2> diagrams{&a.diagram, &b};
+        const auto errors = agvd::exact_bisector_errors(
+            surface, a.sites, diagrams, {.max_points = arguments.points, .num_threads = threads});
+        comparison.bisectors_a = errors[0];
+        comparison.bisectors_b = errors[1];
+        cli::stop_if_interrupted();
+    }
+    const remesh::ComparisonInfo info{
+        .version = REMESH_VERSION, .a = arguments.a.string(), .b = arguments.b};
+    if (!arguments.json.empty()) cli::write_text(arguments.json, to_json(comparison, info));
+    if (!is_json_on_stdout) cli::print(to_text(comparison, info) + '\n');
+}
+
+CLI::App* add_diagram(CLI::App& app, DiagramArguments& arguments) {
+    CLI::App* command = app.add_subcommand("diagram", "Diagram of sites on a mesh, as files");
+    cli::add_diagram_options(*command, arguments);
+    command->add_option("-o,--output", arguments.outputs, "File to write; may be repeated")
+        ->required()
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    command->footer(std::string(diagram_footer) + cli::exit_code_help);
+    return command;
+}
+
+void add_compare(CLI::App& app, CompareArguments& arguments) {
+    CLI::App* command =
+        app.add_subcommand("compare", "How far a diagram is from another, or from the exact one");
+    command->add_option("A", arguments.a, "Diagram to judge: a .ply of `agvd diagram`")->required();
+    command->add_option("B", arguments.b, "Diagram to compare it with, or `exact`")->required();
+    command
+        ->add_option("--json", arguments.json, "Write the figures as JSON; - writes them to stdout")
+        ->type_name("FILE|-");
+    command
+        ->add_option("--spacing", arguments.options.spacing,
+                     "Between points of a loop, in mean cell radii; cost grows as it shrinks")
+        ->check(CLI::Range(1e-6, 10.0).description(""))
+        ->type_name("H")
+        ->capture_default_str();
+    command
+        ->add_option("--samples", arguments.options.area_samples,
+                     "Points at which cells are compared")
+        ->check(CLI::Range(agvd::Index{1}, agvd::Index{1'000'000'000}).description(""))
+        ->type_name("N")
+        ->capture_default_str();
+    command
+        ->add_option("--points", arguments.points,
+                     "Points of each diagram's bisectors at which |dA - dB| is measured, at most; "
+                     "fewer, or 0, on meshes of extreme slivers, where that takes long and "
+                     "gigabytes")
+        ->check(CLI::Range(agvd::Index{0}, agvd::Index{1'000'000'000}).description(""))
+        ->type_name("N")
+        ->capture_default_str();
+    cli::add_common_options(*command, arguments.common);
+    command->footer(std::string(compare_footer) + cli::exit_code_help);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
     CLI::App app("Geodesic Voronoi diagrams of triangle meshes.", "agvd");
     app.require_subcommand(1);
     app.footer(cli::exit_code_help);
-    CLI::App* diagram = app.add_subcommand("diagram", "Diagram of sites on a mesh, as files");
-    Arguments arguments;
-    cli::add_diagram_options(*diagram, arguments);
-    diagram->add_option("-o,--output", arguments.outputs, "File to write; may be repeated")
-        ->required()
-        ->type_name("FILE")
-        ->allow_extra_args(false);
-    diagram->footer(std::string(footer) + cli::exit_code_help);
-    return cli::run(app, argc, argv, [&] { run_diagram(arguments); });
+    DiagramArguments for_diagram;
+    CompareArguments for_compare;
+    const CLI::App* diagram = add_diagram(app, for_diagram);
+    add_compare(app, for_compare);
+    return cli::run(app, argc, argv, [&] {
+        if (diagram->parsed()) {
+            run_diagram(for_diagram);
+        } else {
+            run_compare(for_compare);
+        }
+    });
 }

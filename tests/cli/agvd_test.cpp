@@ -1,4 +1,6 @@
 // The program `agvd` as a process.
+#include <nlohmann/json.hpp>
+
 #include "remesh/io/read_mesh.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
@@ -65,6 +67,101 @@ TEST_F(AgvdDiagram, ExitCodes) {
     EXPECT_EQ(diagram({in, "-o", at("no/d.vtp")}).exit_code, 3);
     EXPECT_EQ(diagram({at("missing.off"), "-o", at("d.vtp")}).exit_code, 3);
     EXPECT_EQ(diagram({in, "--sites", at("missing"), "-o", at("d.vtp")}).exit_code, 3);
+}
+
+class AgvdCompare : public AgvdDiagram {
+protected:
+    [[nodiscard]] static process::Outcome compare(std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), "compare");
+        return run(AGVD_PROGRAM, std::move(arguments));
+    }
+    // A diagram of the mesh, as a file.
+    [[nodiscard]] std::string diagram_file(const std::string& name, const std::string& mesh,
+                                           std::vector<std::string> options) const {
+        options.insert(options.begin(), {mesh, "-q", "-o", at(name)});
+        const auto outcome = diagram(std::move(options));
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return at(name);
+    }
+    [[nodiscard]] static nlohmann::json figures(const std::string& a, const std::string& b) {
+        const auto outcome = compare({a, b, "--json", "-", "-q"});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        EXPECT_EQ(outcome.err, "");
+        return nlohmann::json::parse(outcome.out);
+    }
+
+    std::string mesh_ = put("in.off", shapes::jitter(shapes::sphere(3), 0.01, 3));
+};
+
+TEST_F(AgvdCompare, JudgesADiagramByAnotherAndByTheExactOne) {
+    const std::string coarse = diagram_file("coarse.ply", mesh_, {"-n", "12", "--engine=vertex"});
+    const std::string exact = diagram_file("exact.ply", mesh_, {"-n", "12", "--max-error", "0"});
+    const auto by_file = figures(coarse, exact);
+    EXPECT_EQ(by_file["sites"], 12);
+    EXPECT_EQ(by_file["frechet"]["matched_loops"], 12);
+    EXPECT_GT(by_file["frechet"]["sum_mesh_units"], 0);
+    EXPECT_GT(by_file["frechet"]["delta"], 0);
+    EXPECT_LT(by_file["frechet"]["delta"], 1);
+    EXPECT_GT(by_file["bisector_error_a"]["mean"],
+              10 * by_file["bisector_error_b"]["mean"].get<double>());
+    auto by_exact = figures(coarse, "exact");
+    EXPECT_EQ(by_exact["b"], "exact");
+    by_exact["b"] = exact;
+    EXPECT_EQ(by_exact, by_file);
+    const auto none = figures(exact, "exact");
+    EXPECT_EQ(none["frechet"]["sum_mesh_units"], 0);
+    EXPECT_EQ(none["wrong_label_percent"], 0);
+    EXPECT_LT(none["hausdorff_mesh_units"], 1e-12);
+}
+
+TEST_F(AgvdCompare, PrintsATableOrWritesAFile) {
+    const std::string a = diagram_file("a.ply", mesh_, {"-n", "5"});
+    const auto outcome = compare({a, "exact", "--json", at("out.json")});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    for (const char* word : {"Frechet sum", "delta", "Hausdorff", "|dA - dB|", "5 sites"}) {
+        EXPECT_NE(outcome.out.find(word), std::string::npos) << word << " in\n" << outcome.out;
+    }
+    EXPECT_EQ(nlohmann::json::parse(bytes("out.json"))["program"], "agvd compare");
+    const auto quick = compare({a, "exact", "-q", "--points", "0"});
+    EXPECT_EQ(quick.exit_code, 0) << quick.err;
+    EXPECT_NE(quick.out.find("not measured"), std::string::npos) << quick.out;
+}
+
+TEST_F(AgvdCompare, OtherMeshesAndSitesAreRefused) {
+    const std::string a = diagram_file("a.ply", mesh_, {"-n", "5"});
+    const std::string other_mesh =
+        diagram_file("b.ply", put("other.off", shapes::sphere(3)), {"-n", "5"});
+    const std::string more_sites = diagram_file("c.ply", mesh_, {"-n", "6"});
+    const std::string other_sites = diagram_file("d.ply", mesh_, {"-n", "5", "--seed", "2"});
+    const auto expect_refused = [&](const std::string& b, const char* why) {
+        const auto outcome = compare({a, b});
+        EXPECT_EQ(outcome.exit_code, 4);
+        EXPECT_EQ(outcome.out, "");
+        EXPECT_NE(outcome.err.find(why), std::string::npos) << outcome.err;
+    };
+    expect_refused(other_mesh, "different meshes");
+    expect_refused(more_sites, "different sites (5 and 6");
+    expect_refused(other_sites, "different sites (5 and 5");
+}
+
+TEST_F(AgvdCompare, ExitCodes) {
+    const std::string a = diagram_file("a.ply", mesh_, {"-n", "5"});
+    EXPECT_EQ(compare({"--help"}).exit_code, 0);
+    EXPECT_EQ(compare({a}).exit_code, 2);
+    EXPECT_EQ(compare({a, "exact", "--spacing", "0"}).exit_code, 2);
+    EXPECT_EQ(compare({a, "exact", "--samples", "0"}).exit_code, 2);
+    EXPECT_EQ(compare({at("missing.ply"), "exact"}).exit_code, 3);
+    EXPECT_EQ(compare({a, at("missing.ply")}).exit_code, 3);
+    EXPECT_EQ(compare({a, "exact", "--json", at("no/out.json")}).exit_code, 3);
+    // A mesh without a diagram, and what is no PLY at all.
+    const auto outcome = compare({put("mesh.ply", shapes::sphere(1)), "exact"});
+    EXPECT_EQ(outcome.exit_code, 3);
+    EXPECT_NE(outcome.err.find("agvd diagram"), std::string::npos) << outcome.err;
+    EXPECT_EQ(compare({mesh_, "exact"}).exit_code, 3);
+    // An input is never overwritten.
+    const std::string before = bytes("a.ply");
+    EXPECT_EQ(compare({a, "exact", "--json", a}).exit_code, 2);
+    EXPECT_EQ(bytes("a.ply"), before);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "agvd/metrics/compare_diagrams.h"
 #include "agvd/propagation/propagate.h"
 #include "support/points.h"
 #include "support/shapes.h"
@@ -32,6 +33,7 @@ struct TwoSites {
         }
         diagram.edges = {{SiteId(0), SiteId(1), 0, 1}};
         diagram.edge_points = {0, 8};
+        diagram.point_distance.assign(8, 0.3);
         return diagram;
     }
 
@@ -46,8 +48,8 @@ struct TwoSites {
 TEST(Compare, TheTrueBisectorHasNoError) {
     const TwoSites two;
     const DiagramError error = two.compare(two.straight_edge(0));
-    EXPECT_EQ(error.bisector_points, 15u);  // Eight and the seven middles.
-    EXPECT_NEAR(error.max_bisector_error, 0, 1e-14);
+    EXPECT_EQ(error.bisectors.num_points, 15u);  // Eight and the seven middles.
+    EXPECT_NEAR(error.bisectors.max, 0, 1e-14);
     EXPECT_LT(error.wrong_label_area, 1e-3);
 }
 
@@ -68,9 +70,9 @@ TEST(Compare, AMovedBisectorErrsByItsDistances) {
         mean += e / static_cast<double>(heights.size());
         worst = std::max(worst, e);
     }
-    EXPECT_NEAR(error.mean_bisector_error, mean, 1e-13);
-    EXPECT_NEAR(error.max_bisector_error, worst, 1e-13);
-    EXPECT_LT(error.p95_bisector_error, worst);
+    EXPECT_NEAR(error.bisectors.mean, mean, 1e-13);
+    EXPECT_NEAR(error.bisectors.max, worst, 1e-13);
+    EXPECT_LT(error.bisectors.p95, worst);
 }
 
 TEST(Compare, WrongLabelsAreCountedByArea) {
@@ -105,4 +107,22 @@ TEST(Compare, AVertexTheExactSearchDoesNotReachIsAnInfiniteError) {
     EXPECT_TRUE(std::isfinite(two.compare(diagram).mean_relative_distance));
     two.propagation.vertex_distance.back() = 1;
     EXPECT_TRUE(std::isinf(two.compare(diagram).min_relative_distance));
+}
+
+// The window engine on the surroundings of each site, and CGAL on as much as it needs.
+TEST(Compare, BothWaysToExactDistancesMeasureTheSameErrors) {
+    const Surface surface = build_surface(shapes::jitter(shapes::torus(40, 20), 0.02, 4).view());
+    const auto sites = points::scattered(surface, 20, 5);
+    for (const Engine engine : {Engine::Vertex, Engine::Steiner, Engine::Window}) {
+        const Propagation propagation = propagate(surface, sites, {.engine = engine});
+        const Diagram diagram = build_diagram(surface, sites, propagation);
+        const Approximation approximation{propagation, diagram};
+        const auto by_cgal = compare_with_exact(surface, sites, {&approximation, 1})[0];
+        const Diagram* const pointer = &diagram;
+        const auto by_windows = exact_bisector_errors(surface, sites, {&pointer, 1})[0];
+        EXPECT_EQ(by_windows.num_points, by_cgal.bisectors.num_points);
+        EXPECT_NEAR(by_windows.mean, by_cgal.bisectors.mean, 1e-6);
+        EXPECT_NEAR(by_windows.p95, by_cgal.bisectors.p95, 1e-6);
+        EXPECT_NEAR(by_windows.max, by_cgal.bisectors.max, 1e-6);
+    }
 }

@@ -76,7 +76,7 @@ TEST_P(SmallMeshes, DistancesAreNeverBelowTheExactOnes) {
 TEST_P(SmallMeshes, ErrorsFallWithMoreSteinerPoints) {
     const auto errors = errors_of(surface, points::scattered(surface, 15, 7), {2, 6, 18});
     for (std::size_t i = 1; i < errors.size(); ++i) {
-        EXPECT_LT(errors[i].mean_bisector_error, errors[i - 1].mean_bisector_error);
+        EXPECT_LT(errors[i].bisectors.mean, errors[i - 1].bisectors.mean);
         EXPECT_LT(errors[i].mean_relative_distance, errors[i - 1].mean_relative_distance);
         EXPECT_LE(errors[i].wrong_label_area, errors[i - 1].wrong_label_area);
     }
@@ -85,8 +85,8 @@ TEST_P(SmallMeshes, ErrorsFallWithMoreSteinerPoints) {
 TEST_P(SmallMeshes, EightSteinerPointsKeepTheBisectorErrorBelowFourThousandths) {
     surface = build_surface(shapes::subdivide(surface.mesh).view());
     const DiagramError error = errors_of(surface, points::scattered(surface, 12, 4), {8})[0];
-    EXPECT_GT(error.bisector_points, 50u);
-    EXPECT_LT(error.mean_bisector_error, 4e-3);
+    EXPECT_GT(error.bisectors.num_points, 50u);
+    EXPECT_LT(error.bisectors.mean, 4e-3);
     EXPECT_LT(error.wrong_label_area, 1e-2);
 }
 
@@ -119,8 +119,8 @@ TEST_P(RealMeshes, DiagramsAreCloseToTheExactOne) {
     }
     const auto errors = errors_of(surface, sites, {2, 8});
     for (const DiagramError& error : errors) EXPECT_GE(error.min_relative_distance, -rounding);
-    EXPECT_LT(errors[1].mean_bisector_error, errors[0].mean_bisector_error);
-    EXPECT_LT(errors[1].p95_bisector_error, errors[0].p95_bisector_error);
+    EXPECT_LT(errors[1].bisectors.mean, errors[0].bisectors.mean);
+    EXPECT_LT(errors[1].bisectors.p95, errors[0].bisectors.p95);
     EXPECT_LT(errors[1].wrong_label_area, errors[0].wrong_label_area);
-    EXPECT_LT(errors[1].mean_bisector_error, 4e-3);
+    EXPECT_LT(errors[1].bisectors.mean, 4e-3);
 }

@@ -114,3 +114,33 @@ TEST(RepairText, SaysWhenThereWasNothingToDo) {
     EXPECT_EQ(remesh::to_text(remesh::CleanCounts{.duplicate_faces = 1, .split_vertices = 2}),
               "repaired: 1 duplicate face, 2 split vertices");
 }
+
+TEST(ComparisonReport, GivesEveryFigureAsJsonAndText) {
+    remesh::Comparison c{.sites = 30};
+    c.difference.cell_radius = 2;
+    c.difference.frechet = {.sum = 4,
+                            .largest = 1,
+                            .delta = 0.0198,
+                            .unit = 2,
+                            .spacing = 0.02,
+                            .matched_loops = 29,
+                            .unmatched_loops = 1};
+    c.difference.wrong_label_area = 0.125;
+    c.difference.hausdorff = std::numeric_limits<double>::infinity();
+    c.bisectors_a = agvd::BisectorError{.mean = 0.5, .p95 = 0.75, .max = 1.5, .num_points = 7};
+    const json report = json::parse(remesh::to_json(c, {.a = "a.ply", .b = "exact"}));
+    EXPECT_EQ(report["a"], "a.ply");
+    EXPECT_EQ(report["sites"], 30);
+    EXPECT_EQ(report["frechet"]["sum_mesh_units"], 4);
+    EXPECT_EQ(report["frechet"]["unmatched_loops"], 1);
+    EXPECT_EQ(report["wrong_label_percent"], 12.5);
+    EXPECT_TRUE(report["hausdorff_mesh_units"].is_null());
+    EXPECT_EQ(report["bisector_error_a"]["p95"], 0.75);
+    EXPECT_EQ(report["bisector_error_a"]["points"], 7);
+    EXPECT_TRUE(report["bisector_error_b"].is_null());
+    const std::string text = to_text(c, {.a = "a.ply", .b = "exact"});
+    for (const char* part :
+         {"30 sites", "1.9800 %", "12.5000 %", "29 pairs", "1 loop unmatched", "not measured"}) {
+        EXPECT_NE(text.find(part), std::string::npos) << part << " is not in\n" << text;
+    }
+}

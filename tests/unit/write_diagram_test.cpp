@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "agvd/core/error.h"
+#include "remesh/io/read_diagram.h"
 #include "remesh/io/read_mesh.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
@@ -25,16 +26,24 @@ protected:
         diagram_.edge_points = {0, 2, 5, 7};
         diagram_.edges = {
             {SiteId(0), SiteId(1), 0, 1}, {SiteId(1), SiteId(2)}, {SiteId(0), SiteId(), 1, 0}};
-        propagation_.vertex_site = {SiteId(2), SiteId(0), SiteId(1), SiteId()};
-        propagation_.vertex_distance = {0.5, 1, 2, INFINITY};
+        sites_.assign(3, {FaceId(1), {0.5, 0.25, 0.25}});
+        diagram_.cell_area = {0.5, 0.25, 0.25};
+        diagram_.cell_euler = {1, 0, 1};
+        diagram_.vertices = {{FaceId(0), {1, 0, 0}}, {FaceId(0), {0, 0.5, 0.5}}};
+        diagram_.vertex_distance = {0, 0.25};
+        diagram_.vertex_offsets = {0, 2, 4};
+        diagram_.vertex_ends = {{0, true}, {2, false}, {2, true}, {0, false}};
+        diagram_.vertex_sites = {SiteId(0), SiteId(), SiteId(0), SiteId(1)};
+        diagram_.nearest_site = {SiteId(2), SiteId(0), SiteId(1), SiteId()};
+        diagram_.nearest_distance = {0.5, 1, 2, INFINITY};
     }
     [[nodiscard]] std::string written(const std::string& name) const {
-        remesh::write_diagram(at(name), surface_, propagation_, diagram_);
+        remesh::write_diagram(at(name), surface_, sites_, diagram_);
         return bytes(name);
     }
 
     Surface surface_ = build_surface(shapes::grid(1).view());
-    Propagation propagation_;
+    std::vector<SurfacePoint> sites_;
     Diagram diagram_;
 };
 
@@ -67,9 +76,48 @@ TEST_F(WriteDiagram, PlyReadsBackAsTheMeshAndHoldsLabelsAndDistances) {
         double distance = 0;
         text.copy(reinterpret_cast<char*>(&site), sizeof site, body + v * stride + 24);
         text.copy(reinterpret_cast<char*>(&distance), sizeof distance, body + v * stride + 28);
-        EXPECT_EQ(site, v == 3 ? -1 : static_cast<int>(propagation_.vertex_site[v].value()));
-        EXPECT_EQ(distance, propagation_.vertex_distance[v]);
+        EXPECT_EQ(site, v == 3 ? -1 : static_cast<int>(diagram_.nearest_site[v].value()));
+        EXPECT_EQ(distance, diagram_.nearest_distance[v]);
     }
+}
+
+// Compares all bytes by writing again.
+TEST_F(WriteDiagram, PlyGivesEverythingBack) {
+    const std::string text = written("d.ply");
+    const remesh::DiagramFile back = remesh::read_diagram(at("d.ply"));
+    EXPECT_EQ(back.diagram.num_sites, 3u);
+    EXPECT_EQ(back.diagram.edge_points, diagram_.edge_points);
+    EXPECT_EQ(back.diagram.vertex_offsets, diagram_.vertex_offsets);
+    EXPECT_EQ(back.diagram.edges[1].tail, no_index);
+    EXPECT_FALSE(back.diagram.edges[2].right.is_valid());
+    EXPECT_EQ(back.diagram.vertex_ends[1].edge, 2u);
+    EXPECT_FALSE(back.diagram.vertex_ends[1].is_tail);
+    remesh::write_diagram(at("again.ply"), build_surface(back.mesh.view()), back.sites,
+                          back.diagram);
+    EXPECT_EQ(bytes("again.ply"), text);
+}
+
+TEST_F(WriteDiagram, DamagedDiagramsAreRefused) {
+    const std::string text = written("d.ply");
+    for (const std::size_t size : {text.size() - 1, text.size() - 100, text.size() / 2}) {
+        EXPECT_THROW((void)remesh::read_diagram(put("cut.ply", text.substr(0, size))), IoError);
+    }
+    put("mesh.ply", shapes::grid(1));
+    EXPECT_THROW((void)remesh::read_diagram(at("mesh.ply")), IoError);
+    EXPECT_THROW((void)remesh::read_diagram(at("missing.ply")), IoError);
+    // Any four bytes of the last two elements that hold an index, made absurd.
+    const std::size_t body = text.find("end_header\n") + 11;
+    int refused = 0;
+    for (std::size_t at_byte = body; at_byte + 4 <= text.size(); ++at_byte) {
+        std::string damaged = text;
+        damaged.replace(at_byte, 4, "\x7f\x7f\x7f\x7f");
+        try {
+            (void)remesh::read_diagram(put("damaged.ply", damaged));
+        } catch (const Error&) {
+            ++refused;
+        }
+    }
+    EXPECT_GT(refused, 100);
 }
 
 TEST_F(WriteDiagram, OtherExtensionsAreRefused) {

@@ -51,12 +51,12 @@ nlohmann::ordered_json measure(const std::string& mesh, const Surface& surface,
                         {"method", methods[i].name},
                         {"certified_error", propagations[i].certified_error},
                         {"wrong_label_percent", 100 * errors[i].wrong_label_area},
-                        {"mean_bisector_error", errors[i].mean_bisector_error},
-                        {"p95_bisector_error", errors[i].p95_bisector_error},
-                        {"max_bisector_error", errors[i].max_bisector_error},
+                        {"mean_bisector_error", errors[i].bisectors.mean},
+                        {"p95_bisector_error", errors[i].bisectors.p95},
+                        {"max_bisector_error", errors[i].bisectors.max},
                         {"mean_relative_distance", errors[i].mean_relative_distance},
                         {"min_relative_distance", errors[i].min_relative_distance},
-                        {"bisector_points", errors[i].bisector_points}});
+                        {"bisector_points", errors[i].bisectors.num_points}});
     }
     return rows;
 }

@@ -9,8 +9,11 @@
 namespace bench {
 namespace {
 
-std::string cell(const nlohmann::ordered_json& value, int digits) {
-    if (value.is_null()) return "-";
+std::string cell(const nlohmann::ordered_json& row, const Column& column) {
+    const auto found = row.find(column.key);
+    if (found == row.end() || found->is_null()) return "-";
+    const nlohmann::ordered_json& value = *found;
+    const int digits = column.digits;
     if (value.is_string()) return value.get<std::string>();
     std::ostringstream text;
     if (digits < 0) {
@@ -44,20 +47,36 @@ void print_heading(const std::vector<Column>& columns) {
 
 void print_row(const std::vector<Column>& columns, const nlohmann::ordered_json& row) {
     std::ostringstream line;
-    for (const auto& [key, heading, digits, width] : columns) {
-        const auto found = row.find(key);
-        const nlohmann::ordered_json value = found == row.end() ? nlohmann::ordered_json() : *found;
-        line << std::setw(width) << cell(value, digits) << ' ';
+    for (const Column& column : columns) {
+        line << std::setw(column.width) << cell(row, column) << ' ';
     }
     cli::print(line.str() + '\n');
 }
 
+std::string markdown(const std::vector<Column>& columns, const nlohmann::ordered_json& rows) {
+    std::string heading = "|", rule = "|", body;
+    for (const Column& column : columns) {
+        heading += ' ' + column.heading + " |";
+        rule += "---|";
+    }
+    for (const nlohmann::ordered_json& row : rows) {
+        body += '|';
+        for (const Column& column : columns) body += ' ' + cell(row, column) + " |";
+        body += '\n';
+    }
+    return heading + '\n' + rule + '\n' + body;
+}
+
 void write_json(const Options& options, const std::string& benchmark,
                 const nlohmann::ordered_json& rows) {
-    if (options.json.empty()) return;
+    if (!options.json.empty()) write_json(options.json, benchmark, rows);
+}
+
+void write_json(const std::filesystem::path& path, const std::string& benchmark,
+                const nlohmann::ordered_json& rows) {
     const nlohmann::ordered_json report{
         {"benchmark", benchmark}, {"commit", AGVD_GIT_COMMIT}, {"rows", rows}};
-    cli::write_text(options.json, report.dump(2) + '\n');
+    cli::write_text(path, report.dump(2) + '\n');
 }
 
 }  // namespace bench

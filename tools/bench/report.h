@@ -37,8 +37,15 @@ struct Column {
 void print_heading(const std::vector<Column>& columns);
 void print_row(const std::vector<Column>& columns, const nlohmann::ordered_json& row);
 
-//! Writes {"benchmark", "commit", "rows"} to options.json, if given.
+//! The rows as a Markdown table.
+[[nodiscard]] std::string markdown(const std::vector<Column>& columns,
+                                   const nlohmann::ordered_json& rows);
+
+//! Writes {"benchmark", "commit", "rows"} to the file; of options: options.json, if
+//! given.
 void write_json(const Options& options, const std::string& benchmark,
+                const nlohmann::ordered_json& rows);
+void write_json(const std::filesystem::path& path, const std::string& benchmark,
                 const nlohmann::ordered_json& rows);
 
 }  // namespace bench

@@ -10,8 +10,7 @@ namespace {
 
 using namespace agvd;
 
-Surface subdivided_once(const Surface& surface) {
-    constexpr double jitter = 0.1;
+Surface subdivided_once(const Surface& surface, double jitter) {
     TriangleMesh fine{surface.mesh.positions, {}};
     const Index first = surface.num_vertices();  // The vertex on edge e is first + e.
     for (Index e = 0; e < surface.num_edges(); ++e) {
@@ -52,8 +51,8 @@ std::vector<SurfacePoint> random_vertices(const Surface& surface, Index count, s
 
 }  // namespace
 
-Surface subdivided(Surface surface, Index min_faces) {
-    while (surface.num_faces() < min_faces) surface = subdivided_once(surface);
+Surface subdivided(Surface surface, Index min_faces, double jitter) {
+    while (surface.num_faces() < min_faces) surface = subdivided_once(surface, jitter);
     return surface;
 }
 

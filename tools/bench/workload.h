@@ -12,8 +12,10 @@
 namespace bench {
 
 //! Every face split in four until there are at least `min_faces`. The new vertices lie on the old
-//! edges, off their middles by up to a tenth of the length: the same surface, but no regular grid.
-[[nodiscard]] agvd::Surface subdivided(agvd::Surface surface, agvd::Index min_faces);
+//! edges, off their middles by up to `jitter` of the length (below 1/2): the same surface, but no
+//! regular grid, and the worse faces the larger it is.
+[[nodiscard]] agvd::Surface subdivided(agvd::Surface surface, agvd::Index min_faces,
+                                       double jitter = 0.1);
 
 //! Reads a mesh and subdivides it. \throw agvd::IoError, agvd::InvalidInput
 [[nodiscard]] agvd::Surface load(const std::filesystem::path& path, agvd::Index min_faces);

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
-#include <optional>
 
 #include "agvd/diagram/point_label.h"
 #include "agvd/mesh/uniform_points.h"
@@ -56,60 +54,11 @@ struct Open {
     Index wrong_labels = 0;
 };
 
-std::optional<SurfacePoint> seen_from(const Surface& surface, const SurfacePoint& point,
-                                      Index face) {
-    SurfacePoint seen{FaceId(face), {0, 0, 0}};
-    const Triangle& from = surface.mesh.triangles[point.face.value()];
-    const Triangle& to = surface.mesh.triangles[face];
-    for (std::size_t k = 0; k < 3; ++k) {
-        if (point.barycentric[k] == 0) continue;
-        const auto corner = std::find(to.begin(), to.end(), from[k]) - to.begin();
-        if (corner == 3) return std::nullopt;
-        seen.barycentric[static_cast<std::size_t>(corner)] = point.barycentric[k];
-    }
-    return seen;
-}
-
-// In the face that both points see; none if they name faces without a common edge.
-std::optional<SurfacePoint> middle(const Surface& surface, const SurfacePoint& a,
-                                   const SurfacePoint& b) {
-    const auto middle_in = [&](Index face) -> std::optional<SurfacePoint> {
-        auto p = seen_from(surface, a, face);
-        const auto q = seen_from(surface, b, face);
-        if (!p || !q) return std::nullopt;
-        for (std::size_t k = 0; k < 3; ++k) {
-            p->barycentric[k] = (p->barycentric[k] + q->barycentric[k]) / 2;
-        }
-        return p;
-    };
-    for (const Index face : {a.face.value(), b.face.value()}) {
-        if (const auto found = middle_in(face)) return found;
-        for (Index h = 3 * face; h < 3 * face + 3; ++h) {
-            if (surface.twin[h] == no_index) continue;
-            if (const auto found = middle_in(Surface::face(surface.twin[h]))) return found;
-        }
-    }
-    return std::nullopt;
-}
-
 void ask_bisectors(const Surface& surface, const Diagram& diagram, Questions& questions,
                    Open& open) {
-    for (Index e = 0; e < diagram.edges.size(); ++e) {
-        const VoronoiEdge& edge = diagram.edges[e];
-        if (!edge.left.is_valid() || !edge.right.is_valid()) continue;
-        const auto ask = [&](const SurfacePoint& point) {
-            open.bisectors.push_back(
-                {questions.ask(edge.left, point), questions.ask(edge.right, point)});
-        };
-        const Index begin = diagram.edge_points[e];
-        const Index end = diagram.edge_points[e + 1];
-        for (Index i = begin; i < end; ++i) {
-            ask(diagram.points[i]);
-            const bool is_last = i + 1 == end;
-            if (is_last && edge.tail != no_index) break;
-            const SurfacePoint& next = diagram.points[is_last ? begin : i + 1];
-            if (const auto between = middle(surface, diagram.points[i], next)) ask(*between);
-        }
+    for (const BisectorSample& sample : bisector_samples(surface, diagram)) {
+        open.bisectors.push_back(
+            {questions.ask(sample.left, sample.point), questions.ask(sample.right, sample.point)});
     }
 }
 
@@ -128,20 +77,12 @@ void ask_labels(const Surface& surface, const Propagation& propagation,
     }
 }
 
-void measure_bisectors(const Questions& exact, const Open& open, double cell_radius,
-                       DiagramError& error) {
+BisectorError measure_bisectors(const Questions& exact, const Open& open, double cell_radius) {
     std::vector<double> errors;
     for (const auto& [left, right] : open.bisectors) {
         errors.push_back(std::abs(exact[left] - exact[right]) / cell_radius);
     }
-    error.bisector_points = static_cast<Index>(errors.size());
-    if (errors.empty()) return;
-    std::sort(errors.begin(), errors.end());
-    double sum = 0;
-    for (const double e : errors) sum += e;
-    error.mean_bisector_error = sum / static_cast<double>(errors.size());
-    error.p95_bisector_error = errors[(errors.size() - 1) * 95 / 100];
-    error.max_bisector_error = errors.back();
+    return summarize(std::move(errors));
 }
 
 double relative_excess(double ours, double exact) {
@@ -160,14 +101,6 @@ void measure_distances(std::span<const Index> vertices, std::span<const double> 
         error.min_relative_distance = std::min(error.min_relative_distance, excess);
         error.mean_relative_distance += excess / static_cast<double>(vertices.size());
     }
-}
-
-double area_of(const Surface& surface) {
-    double area = 0;
-    for (Index h = 0; h < surface.twin.size(); h += 3) {
-        area += surface.length_of(h) * surface.apex[h].y() / 2;
-    }
-    return area;
 }
 
 }  // namespace
@@ -199,11 +132,10 @@ std::vector<DiagramError> compare_with_exact(const Surface& surface,
     }
     questions.answer(surface, sites, options.num_threads);
 
-    const double cell_radius =
-        std::sqrt(area_of(surface) / (std::numbers::pi * static_cast<double>(sites.size())));
+    const double cell_radius = mean_cell_radius(surface, sites.size());
     std::vector<DiagramError> errors(approximations.size());
     for (std::size_t i = 0; i < approximations.size(); ++i) {
-        measure_bisectors(questions, open[i], cell_radius, errors[i]);
+        errors[i].bisectors = measure_bisectors(questions, open[i], cell_radius);
         for (const auto& [ours, nearest] : open[i].doubtful_labels) {
             open[i].wrong_labels += questions[ours] > nearest * (1 + tie);
         }

@@ -3,22 +3,17 @@
 //! distances.
 #pragma once
 
-#include "agvd/diagram/diagram.h"
+#include "agvd/metrics/bisector_error.h"
 
 namespace agvd {
 
-//! Scale-free error of an approximate diagram. Bisector errors are |dA - dB| over the mean cell
-//! radius sqrt(area / (pi t)), where dA and dB are the exact distances of a point of the diagram's
-//! edges from the two sites it is said to be between.
+//! Scale-free error of an approximate diagram.
 struct DiagramError {
     double wrong_label_area = 0;  //!< Share of the surface's area with a wrong label.
-    double mean_bisector_error = 0;
-    double p95_bisector_error = 0;  //!< 95th percentile.
-    double max_bisector_error = 0;
+    BisectorError bisectors;
     double min_relative_distance = 0;   //!< Lowest (ours - exact) / exact at the vertices; never
                                         //!< below rounding, since distances are of real paths.
     double mean_relative_distance = 0;  //!< Mean of the same.
-    Index bisector_points = 0;          //!< Points measured.
 };
 
 //! What is judged; both belong to the same sites.

@@ -16,14 +16,10 @@
 namespace agvd {
 namespace {
 
-// Above every rounding of a distance, so that ties never cut a site off.
-constexpr double bound_slack = 1 + 1e-6;
-
+// The results of a batch are taken in, and progress is told, before the next one starts.
+constexpr Index most_batches = 8;
+constexpr Index least_batch = 64;
 constexpr Index tasks_of_a_batch = 32;
-constexpr Index least_batch = 6;
-// More would save a hundredth of the windows, and cost more than that in the cache: the sites of a
-// batch lie far apart.
-constexpr Index most_batches = 4;
 
 // What the sites of one task hand over.
 struct TaskResult {
@@ -171,24 +167,22 @@ private:
     void propagate_all(WorkerPool& workers) {
         const std::vector<Index> order = site_order();
         const auto count = static_cast<Index>(order.size());
-        const Index num_batches = std::clamp(count / least_batch, Index{1}, most_batches);
-        std::vector<Index> batch;
-        for (Index first = 0; first < num_batches; ++first) {
-            // Every num_batches-th, so that half the neighbours of a site have run before it.
-            batch.clear();
-            for (Index i = first; i < count; i += num_batches) batch.push_back(order[i]);
-            const auto tasks = run_tasks(
-                batch, workers, [&](Index site, const WindowFront& front, TaskResult& task) {
-                    collect(site, front, task);
-                });
+        const Index batch = std::max(count / most_batches, least_batch);
+        for (Index first = 0; first < count; first += batch) {
+            const auto tasks =
+                run_tasks(std::span(order).subspan(first, std::min(batch, count - first)), workers,
+                          [&](Index site, const WindowFront& front, TaskResult& task) {
+                              collect(site, front, task);
+                          });
             for (const TaskResult& task : tasks) take_vertices(task);
-            poll(options_.progress, static_cast<double>(first + 1) / (num_batches + 1));
+            poll(options_.progress, static_cast<double>(first + 1) / (count + 1));
         }
     }
 
-    // Without spare room, but for the last block of relays.
+    // Without spare room.
     [[nodiscard]] static TaskResult hand_over(TaskResult& grown) {
         auto relays = std::exchange(grown.relays, {});
+        if (!relays.empty()) relays.back().shrink_to_fit();
         TaskResult result = grown;
         result.relays = std::move(relays);
         return result;
@@ -254,7 +248,6 @@ private:
             if (!is_nearer(distance, site, best, best_site.value())) continue;
             best = distance;
             best_site = SiteId(site);
-            bounds_[vertex] = std::min(bounds_[vertex], static_cast<float>(distance * bound_slack));
         }
     }
 

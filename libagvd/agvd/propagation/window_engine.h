@@ -15,10 +15,9 @@ inline constexpr Index default_work_cap = 1 << 16;
 //!
 //! \param corners  Corners(surface).
 //! \param bounds   distance_bounds of the sites.
-//! Sites are propagated one by one, each as far as quick upper bounds for the nearest site allow,
-//! in batches of a fixed size; sites of a batch run side by side, and their distances tighten the
-//! bounds of the next. Windows are kept as relays near the borders that the bounds show; where that
-//! misses a border the sites concerned run once more.
+//! Sites are propagated one by one, each as far as the bounds allow, and side by side: what a site
+//! gives depends on nothing but itself and the bounds. Windows are kept as relays near the borders
+//! that the bounds show; where that misses a border the sites concerned run once more.
 //! Cost: about O(n sqrt(n / t)) time for exact distances, O(n) for error-bounded ones, O(n) space.
 [[nodiscard]] Propagation propagate_windows(const Surface& surface, const Corners& corners,
                                             DistanceBounds bounds,

@@ -2,8 +2,10 @@
 //! Results as JSON for programs and as text for people.
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "agvd/metrics/compare_diagrams.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/quality/evaluate.h"
 
@@ -24,16 +26,33 @@ struct EvaluationInfo {
     std::string result_path = {};    //!< Likewise.
 };
 
+//! A diagram set against another one or the exact one.
+struct Comparison {
+    agvd::Index sites = 0;
+    agvd::DiagramDifference difference = {};
+    //! Of either diagram against exact distances; none: not measured.
+    std::optional<agvd::BisectorError> bisectors_a = {}, bisectors_b = {};
+};
+
+//! What the caller of compare_diagrams() knows about its diagrams.
+struct ComparisonInfo {
+    std::string version = {};  //!< Of the program.
+    std::string a = {};        //!< Path.
+    std::string b = {};        //!< Path, or "exact".
+};
+
 //! A JSON object over several lines. Keys are snake_case and always present; units are in the key
 //! (_s, _bytes, _deg, _percent, _percent_of_diagonal). A number that is not finite and a value that
 //! was not measured (e.g. without CGAL) are null; the self-intersecting pairs and the components
 //! are listed in full.
 [[nodiscard]] std::string to_json(const RemeshResult& result, const RunInfo& info = {});
 [[nodiscard]] std::string to_json(const Evaluation& evaluation, const EvaluationInfo& info = {});
+[[nodiscard]] std::string to_json(const Comparison& comparison, const ComparisonInfo& info = {});
 
 //! The same for people, several lines without a last line end; details left to the JSON.
 [[nodiscard]] std::string to_text(const RemeshResult& result, const RunInfo& info = {});
 [[nodiscard]] std::string to_text(const Evaluation& evaluation, const EvaluationInfo& info = {});
+[[nodiscard]] std::string to_text(const Comparison& comparison, const ComparisonInfo& info = {});
 
 //! One line on where distances come from, e.g. "distances: window engine, at most 0.0712 % above
 //! exact".

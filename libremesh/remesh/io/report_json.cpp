@@ -150,4 +150,35 @@ std::string to_json(const Evaluation& evaluation, const EvaluationInfo& info) {
     return dump(object);
 }
 
+std::string to_json(const Comparison& comparison, const ComparisonInfo& info) {
+    const agvd::DiagramDifference& difference = comparison.difference;
+    const agvd::FrechetError& frechet = difference.frechet;
+    const auto bisectors = [](const std::optional<agvd::BisectorError>& error) {
+        if (!error) return Json();
+        return Json{{"mean", error->mean},
+                    {"p95", error->p95},
+                    {"max", error->max},
+                    {"points", error->num_points}};
+    };
+    Json object;
+    object["program"] = "agvd compare";
+    object["version"] = text_or_null(info.version);
+    object["a"] = text_or_null(info.a);
+    object["b"] = text_or_null(info.b);
+    object["sites"] = comparison.sites;
+    object["mean_cell_radius_mesh_units"] = difference.cell_radius;
+    object["frechet"] = {{"sum_mesh_units", frechet.sum},
+                         {"largest_mesh_units", frechet.largest},
+                         {"delta", frechet.delta},
+                         {"delta_unit_mesh_units", frechet.unit},
+                         {"spacing_mesh_units", frechet.spacing},
+                         {"matched_loops", frechet.matched_loops},
+                         {"unmatched_loops", frechet.unmatched_loops}};
+    object["wrong_label_percent"] = 100 * difference.wrong_label_area;
+    object["hausdorff_mesh_units"] = difference.hausdorff;
+    object["bisector_error_a"] = bisectors(comparison.bisectors_a);
+    object["bisector_error_b"] = bisectors(comparison.bisectors_b);
+    return dump(object);
+}
+
 }  // namespace remesh

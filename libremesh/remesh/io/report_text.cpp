@@ -158,4 +158,43 @@ std::string to_text(const Evaluation& evaluation, const EvaluationInfo& info) {
     return out.str();
 }
 
+std::string to_text(const Comparison& comparison, const ComparisonInfo& info) {
+    const agvd::DiagramDifference& difference = comparison.difference;
+    const agvd::FrechetError& frechet = difference.frechet;
+    const auto in_radii = [&](double length) { return length / difference.cell_radius; };
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out << std::setprecision(4);
+    Table table(out);
+    if (!info.a.empty()) out << "A: " << info.a << '\n';
+    if (!info.b.empty()) out << "B: " << info.b << '\n';
+    out << counted(comparison.sites, "site") << ", mean cell radius " << difference.cell_radius
+        << " mesh units\n\n";
+    table.row("", "mesh units", "cell radii");
+    const auto length = [&](const char* name, double value) {
+        table.row(name, value, in_radii(value));
+    };
+    length("Frechet sum (Eq. 8)", frechet.sum);
+    length("largest of a loop", frechet.largest);
+    length("Hausdorff of bisectors", difference.hausdorff);
+    table.row("delta (Eq. 9)", "", fixed(100 * frechet.delta, 4) + " %");
+    table.row("area in other cells", "", fixed(100 * difference.wrong_label_area, 4) + " %");
+    out << counted(frechet.matched_loops, "pair") << " of loops, "
+        << counted(frechet.unmatched_loops, "loop") << " unmatched; points " << frechet.spacing
+        << " mesh units apart\n\n";
+    table.row("|dA - dB| / cell radius", "mean", "95 %", "max");
+    const auto bisectors = [&](const char* name, const std::optional<agvd::BisectorError>& error) {
+        if (error) {
+            table.row(name, error->mean, error->p95, error->max);
+        } else {
+            table.row(name, "not measured");
+        }
+    };
+    bisectors("bisectors of A", comparison.bisectors_a);
+    bisectors("bisectors of B", comparison.bisectors_b);
+    std::string text = out.str();
+    text.pop_back();
+    return text;
+}
+
 }  // namespace remesh

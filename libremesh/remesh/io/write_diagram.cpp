@@ -87,25 +87,84 @@ std::string format_obj_lines(const Surface& surface, const Diagram& diagram) {
     return bytes;
 }
 
-std::string format_labels(const Surface& surface, const agvd::Propagation& propagation) {
-    std::string bytes =
-        "ply\nformat binary_little_endian 1.0\n"
-        "comment site: nearest site (-1: none reaches); distance: geodesic, to that site\n"
-        "element vertex " +
-        std::to_string(surface.num_vertices()) +
-        "\nproperty double x\nproperty double y\nproperty double z\n"
-        "property int site\nproperty double distance\n"
-        "element face " +
-        std::to_string(surface.num_faces()) +
-        "\nproperty list uchar int vertex_indices\nend_header\n";
+void append_point(std::string& bytes, const agvd::SurfacePoint& point) {
+    append(bytes, point.face.value());
+    for (const double b : point.barycentric) append(bytes, b);
+}
+
+template <typename Items, typename NumberOf>
+void append_list(std::string& bytes, const Items& items, const NumberOf& number_of) {
+    append(bytes, static_cast<std::uint32_t>(items.size()));
+    for (const auto& item : items) append(bytes, number_of(item));
+}
+
+std::string ply_header(const Surface& surface, const Diagram& diagram) {
+    const auto element = [](const char* name, std::size_t count) {
+        return std::string("element ") + name + ' ' + std::to_string(count) + '\n';
+    };
+    const std::string point =
+        "property int face\nproperty double b0\nproperty double b1\nproperty double b2\n";
+    return "ply\nformat binary_little_endian 1.0\n"
+           "comment geodesic Voronoi diagram; -1 stands for none\n"
+           "comment vertex: site whose cell holds it, and geodesic distance from that\n" +
+           element("vertex", surface.num_vertices()) +
+           "property double x\nproperty double y\nproperty double z\n"
+           "property int site\nproperty double distance\n" +
+           element("face", surface.num_faces()) +
+           "property list uchar int vertex_indices\n"
+           "comment points lie in a face at barycentric coordinates of its corners\n" +
+           element("site", diagram.num_sites) + point +
+           "property double cell_area\nproperty int cell_euler\n"
+           "comment points of the voronoi edges in turn\n" +
+           element("curve_point", diagram.points.size()) + point + "property double distance\n" +
+           "comment tail and head: voronoi vertices, -1 for a closed curve\n" +
+           element("voronoi_edge", diagram.edges.size()) +
+           "property int site_left\nproperty int site_right\nproperty int tail\n"
+           "property int head\nproperty int num_points\n"
+           "comment ends, counter-clockwise: 2 * edge, + 1 for its head; sites: the cells after "
+           "them\n" +
+           element("voronoi_vertex", diagram.vertices.size()) + point +
+           "property double distance\nproperty list uint int ends\n"
+           "property list uint int sites\nend_header\n";
+}
+
+std::string format_ply_diagram(const Surface& surface, std::span<const agvd::SurfacePoint> sites,
+                               const Diagram& diagram) {
+    std::string bytes = ply_header(surface, diagram);
     for (Index v = 0; v < surface.num_vertices(); ++v) {
         for (const double coordinate : surface.mesh.positions[v]) append(bytes, coordinate);
-        append(bytes, site_number(propagation.vertex_site[v]));
-        append(bytes, propagation.vertex_distance[v]);
+        append(bytes, site_number(diagram.nearest_site[v]));
+        append(bytes, diagram.nearest_distance[v]);
     }
     for (const agvd::Triangle& t : surface.mesh.triangles) {
         append(bytes, std::uint8_t{3});
         for (const Index v : t) append(bytes, v);
+    }
+    for (Index s = 0; s < diagram.num_sites; ++s) {
+        append_point(bytes, sites[s]);
+        append(bytes, diagram.cell_area[s]);
+        append(bytes, std::int32_t{diagram.cell_euler[s]});
+    }
+    for (std::size_t p = 0; p < diagram.points.size(); ++p) {
+        append_point(bytes, diagram.points[p]);
+        append(bytes, diagram.point_distance[p]);
+    }
+    for (Index e = 0; e < num_edges(diagram); ++e) {
+        const auto& [left, right, tail, head] = diagram.edges[e];
+        append(bytes, site_number(left));
+        append(bytes, site_number(right));
+        append(bytes, tail);  // no_index has the bits of -1.
+        append(bytes, head);
+        append(bytes, diagram.edge_points[e + 1] - diagram.edge_points[e]);
+    }
+    for (std::size_t v = 0; v < diagram.vertices.size(); ++v) {
+        append_point(bytes, diagram.vertices[v]);
+        append(bytes, diagram.vertex_distance[v]);
+        const Index begin = diagram.vertex_offsets[v];
+        const Index degree = diagram.vertex_offsets[v + 1] - begin;
+        append_list(bytes, std::span(diagram.vertex_ends).subspan(begin, degree),
+                    [](const agvd::EdgeEnd& end) { return 2 * end.edge + (end.is_tail ? 0 : 1); });
+        append_list(bytes, std::span(diagram.vertex_sites).subspan(begin, degree), site_number);
     }
     return bytes;
 }
@@ -113,14 +172,14 @@ std::string format_labels(const Surface& surface, const agvd::Propagation& propa
 }  // namespace
 
 void write_diagram(const std::filesystem::path& path, const Surface& surface,
-                   const agvd::Propagation& propagation, const Diagram& diagram) {
+                   std::span<const agvd::SurfacePoint> sites, const Diagram& diagram) {
     const std::string extension = lower_extension(path);
     if (extension == ".vtp") {
         write_file_atomically(path, format_vtp(surface, diagram));
     } else if (extension == ".obj") {
         write_file_atomically(path, format_obj_lines(surface, diagram));
     } else if (extension == ".ply") {
-        write_file_atomically(path, format_labels(surface, propagation));
+        write_file_atomically(path, format_ply_diagram(surface, sites, diagram));
     } else {
         throw agvd::IoError(path.string() + ": unknown extension; use .vtp, .obj or .ply");
     }

@@ -1,0 +1,132 @@
+//! \file
+//! The values of a PLY file's elements, in any of its encodings. Private to the readers.
+#pragma once
+
+#include "remesh/io/byte_order.h"
+#include "remesh/io/ply_header.h"
+#include "remesh/io/text_scanner.h"
+
+namespace remesh {
+
+[[nodiscard]] inline std::string name_of(const PlyElement& element, std::uint64_t index) {
+    return element.name + " " + std::to_string(index) + " of " + std::to_string(element.count);
+}
+
+//! The values of an ascii file, one after the other. Offers the same as BinaryValues, so that
+//! readers of elements are written once: begin an element, its values, end.
+class AsciiValues {
+public:
+    AsciiValues(const SourceFile& file, const PlyHeader& header) : scan_(file, header.size, {}) {}
+
+    void begin(const PlyElement& element, std::uint64_t index) {
+        if (scan_.find_word()) return;
+        scan_.fail_malformed("the file ends before " + name_of(element, index) +
+                             "; it is truncated: export it again");
+    }
+    double real(PlyType) { return scan_.number("a number"); }
+    std::int64_t integer(PlyType) { return scan_.integer("a whole number"); }
+    void skip(PlyType, std::int64_t count) {
+        for (; count > 0; --count) {
+            if (scan_.word().empty()) scan_.fail_expecting("a number");
+        }
+    }
+    void end() {
+        if (scan_.has_word()) {
+            scan_.fail_malformed(
+                "more values on the line than the header announces; write one "
+                "element on each line");
+        }
+    }
+    [[nodiscard]] std::size_t offset() const { return scan_.offset(); }
+
+private:
+    TextScanner scan_;
+};
+
+//! The values of a binary file.
+class BinaryValues {
+public:
+    BinaryValues(const SourceFile& file, const PlyHeader& header)
+        : file_(file), at_(header.size), order_(*header.byte_order) {}
+
+    void begin(const PlyElement& element, std::uint64_t index) {
+        element_ = &element;
+        index_ = index;
+    }
+    double real(PlyType type) { return next<double>(type); }
+    std::int64_t integer(PlyType type) { return next<std::int64_t>(type); }
+    void skip(PlyType type, std::int64_t count) {
+        constexpr std::array<std::size_t, 8> sizes = {1, 1, 2, 2, 4, 4, 4, 8};
+        // A length has 32 bits at most: the product cannot overflow.
+        take(sizes[static_cast<std::size_t>(type)] * static_cast<std::size_t>(count));
+    }
+    void end() {}
+    [[nodiscard]] std::size_t offset() const { return at_; }
+
+private:
+    const char* take(std::size_t size) {
+        if (file_.bytes.size() - at_ < size) {
+            file_.fail_malformed(file_.bytes.size(), "the file ends within " +
+                                                         name_of(*element_, index_) +
+                                                         "; it is truncated: export it again");
+        }
+        at_ += size;
+        return file_.bytes.data() + at_ - size;
+    }
+
+    template <typename Result>
+    Result next(PlyType type) {
+        const auto get = [&]<typename Stored>(Stored) {
+            return static_cast<Result>(load<Stored>(take(sizeof(Stored)), order_));
+        };
+        switch (type) {
+            case PlyType::Int8:
+                return get(std::int8_t{});
+            case PlyType::UInt8:
+                return get(std::uint8_t{});
+            case PlyType::Int16:
+                return get(std::int16_t{});
+            case PlyType::UInt16:
+                return get(std::uint16_t{});
+            case PlyType::Int32:
+                return get(std::int32_t{});
+            case PlyType::UInt32:
+                return get(std::uint32_t{});
+            case PlyType::Float32:
+                return get(float{});
+            case PlyType::Float64:
+                break;
+        }
+        return get(double{});
+    }
+
+    const SourceFile& file_;
+    std::size_t at_;
+    std::endian order_;
+    const PlyElement* element_ = nullptr;
+    std::uint64_t index_ = 0;
+};
+
+template <typename Values>
+std::int64_t read_length(Values& values, const PlyProperty& list, const SourceFile& file) {
+    const std::size_t start = values.offset();
+    const std::int64_t length = values.integer(*list.size_type);
+    if (length < 0) file.fail_malformed(start, "a list of negative length; export the mesh again");
+    return length;
+}
+
+template <typename Values>
+void skip_property(Values& values, const PlyProperty& property, const SourceFile& file) {
+    values.skip(property.type, property.size_type ? read_length(values, property, file) : 1);
+}
+
+//! Passes over a whole element. \param index  which one, for errors.
+template <typename Values>
+void skip_element(Values& values, const PlyElement& element, std::uint64_t index,
+                  const SourceFile& file) {
+    values.begin(element, index);
+    for (const PlyProperty& property : element.properties) skip_property(values, property, file);
+    values.end();
+}
+
+}  // namespace remesh

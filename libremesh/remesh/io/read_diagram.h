@@ -1,0 +1,26 @@
+//! \file
+//! Reads a geodesic Voronoi diagram that write_diagram wrote as PLY.
+#pragma once
+
+#include <filesystem>
+
+#include "agvd/diagram/diagram.h"
+
+namespace remesh {
+
+struct DiagramFile {
+    agvd::TriangleMesh mesh;
+    std::vector<agvd::SurfacePoint> sites;
+    agvd::Diagram diagram;
+};
+
+//! Gives back what write_diagram got, bit for bit. Every index is in range; that the curves make a
+//! complex is not checked.
+//!
+//! \throw agvd::IoError       the file is missing, truncated or malformed, no PLY, or a PLY without
+//!                            a diagram; the text names the file, the place and the remedy.
+//! \throw agvd::InvalidInput  the file reads well but an index is out of range, a point is off its
+//!                            face, or counts contradict each other.
+[[nodiscard]] DiagramFile read_diagram(const std::filesystem::path& path);
+
+}  // namespace remesh
