@@ -1,0 +1,53 @@
+//! \file
+//! The relays that matter on one mesh edge.
+#pragma once
+
+#include "agvd/diagram/edge_labels.h"
+
+namespace agvd {
+
+//! Distances of all corners through all relays. Parallel; O(relays).
+[[nodiscard]] CornerDistances find_corner_distances(const Surface& surface,
+                                                    const Propagation& propagation,
+                                                    int num_threads);
+
+//! Gathers the relays of both faces of an edge and its ends in the frame of the edge_half. Keeps
+//! references; one for each thread.
+class EdgeRelays {
+public:
+    EdgeRelays(const Surface& surface, const Propagation& propagation,
+               const CornerDistances& corner_distances, const EdgeLabels& labels)
+        : surface_(surface),
+          propagation_(propagation),
+          corner_distances_(corner_distances),
+          labels_(labels) {}
+
+    //! Whether labels may change on an edge, all of whose faces are listed. Then `relays` holds
+    //! those that could be the nearest somewhere on it. Distances grow no faster than the point
+    //! moves, and are convex along the edge: most relays lose by their values at its ends.
+    [[nodiscard]] bool may_change(Index edge, std::vector<PlanarRelay>& relays);
+
+    //! The same relays of any such edge.
+    void gather(Index edge, std::vector<PlanarRelay>& relays);
+
+private:
+    struct Candidate {
+        double lo, hi;  // Distances of the two ends.
+        Index relay;
+        Index site;
+    };
+
+    void scan(Index edge);
+    void scan_side(Index half_edge, std::size_t tail, std::size_t head);
+    void append_all(Index edge, std::vector<PlanarRelay>& relays) const;
+
+    const Surface& surface_;
+    const Propagation& propagation_;
+    const CornerDistances& corner_distances_;
+    const EdgeLabels& labels_;
+    std::vector<Candidate> candidates_;
+    // The end itself is nearer to its site than any relay says.
+    bool needs_tail_ = false, needs_head_ = false;
+};
+
+}  // namespace agvd
