@@ -13,6 +13,9 @@ constexpr Index grain = 1024;
 // A relay stands for the end of an edge itself if it is no worse there by more than this share of
 // the edge.
 constexpr double same_distance = 1e-4;
+// Relays of one site and weight whose distances at both ends differ by less (share of the edge) are
+// one, seen from two faces.
+constexpr double same_relay = 1e-6;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Tail, head and apex of the relay's half-edge, straight or bent at an end of its interval.
@@ -67,12 +70,62 @@ CornerDistances find_corner_distances(const Surface& surface, const Propagation&
     return result;
 }
 
-void EdgeRelays::scan_side(Index half_edge, std::size_t tail, std::size_t head) {
+// Relays whose image lies across the edge: their slopes are known.
+void EdgeRelays::scan_through(Index edge, Index half_edge) {
+    const bool forward = surface_.edge_half[edge] == half_edge;
+    const double length = surface_.length[edge];
+    const Index face = Surface::face(half_edge);
+    const std::size_t tail = half_edge % 3;
+    const std::size_t head = (half_edge + 1) % 3;
+    const Index mixed = labels_.mixed_index[face];
+    const Index end = propagation_.relay_offsets[mixed + 1];
+    for (Index r = propagation_.relay_offsets[mixed]; r < end; ++r) {
+        const Relay& relay = propagation_.relays[r];
+        if (relay.half_edge != half_edge || relay.y >= 0) continue;
+        const double at_tail = corner_distances_[r][tail];
+        const double at_head = corner_distances_[r][head];
+        // From its own side; bent paths run along the edge.
+        const double from_tail = at_tail - relay.weight;
+        const double from_head = at_head - relay.weight;
+        const double slope_tail =
+            relay.begin > 0 || !(from_tail > 0) ? -1 : std::max(-1.0, -relay.x / from_tail);
+        const double slope_head = relay.end < length || !(from_head > 0)
+                                      ? 1
+                                      : std::min(1.0, (length - relay.x) / from_head);
+        const Index site = relay.site.value();
+        if (forward) {
+            candidates_.push_back(
+                {at_tail, at_head, slope_tail, slope_head, relay.weight, r, site});
+        } else {
+            candidates_.push_back(
+                {at_head, at_tail, -slope_head, -slope_tail, relay.weight, r, site});
+        }
+    }
+}
+
+// The face's other relays, but for those that went on through the edge: the neighbour has them.
+void EdgeRelays::scan_others(Index edge, Index half_edge) {
+    const bool forward = surface_.edge_half[edge] == half_edge;
+    const std::size_t tail = (half_edge + (forward ? 0 : 1)) % 3;
+    const std::size_t head = (half_edge + (forward ? 1 : 0)) % 3;
+    const double near = same_relay * surface_.length[edge];
     const Index mixed = labels_.mixed_index[Surface::face(half_edge)];
-    for (Index r = propagation_.relay_offsets[mixed]; r < propagation_.relay_offsets[mixed + 1];
-         ++r) {
-        const auto& at = corner_distances_[r];
-        candidates_.push_back({at[tail], at[head], r, propagation_.relays[r].site.value()});
+    const Index end = propagation_.relay_offsets[mixed + 1];
+    for (Index r = propagation_.relay_offsets[mixed]; r < end; ++r) {
+        const Relay& relay = propagation_.relays[r];
+        if (relay.half_edge == half_edge && relay.y < 0) continue;
+        const Candidate c{corner_distances_[r][tail],
+                          corner_distances_[r][head],
+                          -1,
+                          1,
+                          relay.weight,
+                          r,
+                          relay.site.value()};
+        const auto is_same = [&](const Candidate& other) {
+            return std::abs(other.lo - c.lo) <= near && std::abs(other.hi - c.hi) <= near &&
+                   std::abs(other.weight - c.weight) <= near && other.site == c.site;
+        };
+        if (std::none_of(candidates_.begin(), candidates_.end(), is_same)) candidates_.push_back(c);
     }
 }
 
@@ -82,12 +135,14 @@ void EdgeRelays::scan(Index edge) {
     const Index twin = surface_.twin[h];
     const double length = surface_.length[edge];
     candidates_.clear();
-    scan_side(h, h % 3, (h + 1) % 3);
-    if (twin != no_index) scan_side(twin, (twin + 1) % 3, twin % 3);
+    scan_through(edge, h);
+    if (twin != no_index) scan_through(edge, twin);
+    scan_others(edge, h);
+    if (twin != no_index) scan_others(edge, twin);
 
     const double at_tail = labels_.vertex_distance[surface_.tail(h)];
     const double at_head = labels_.vertex_distance[surface_.head(h)];
-    Candidate first{infinity, infinity, 0, no_index};
+    Candidate first{infinity, infinity, 0, 0, 0, 0, no_index};
     Candidate last = first;
     for (const Candidate& c : candidates_) {
         if (c.lo < first.lo) first = c;
@@ -98,19 +153,24 @@ void EdgeRelays::scan(Index edge) {
     needs_tail_ = first.site != labels_.point_site[surface_.tail(h)] || first.lo > at_tail + enough;
     needs_head_ = last.site != labels_.point_site[surface_.head(h)] || last.hi > at_head + enough;
     if (candidates_.empty()) {
-        first = {at_tail, at_tail + length, 0, 0};
-        last = {at_head + length, at_head, 0, 0};
+        first.lo = at_tail;
+        first.hi = at_tail + length;
+        last.lo = at_head + length;
+        last.hi = at_head;
     }
 
-    // c is at least max(lo - x, hi - (length - x)), with its least value where these meet; the
+    // c lies above its tangents at the ends, which come closest to a chord where they meet; the
     // others lie below their chords.
     const double rise_first = (first.hi - first.lo) / length;
     const double rise_last = (last.hi - last.lo) / length;
     const auto loses = [&](const Candidate& c) {
-        const double least = (c.lo + c.hi - length) / 2;
-        const double where = (c.lo - c.hi + length) / 2;
-        return least - slack > first.lo + rise_first * where ||
-               least - slack > last.lo + rise_last * where;
+        const double bend = c.slope_hi - c.slope_lo;
+        double where = bend > 0 ? (c.lo - c.hi + c.slope_hi * length) / bend : 0;
+        where = std::clamp(where, 0.0, length);
+        const double least =
+            std::max(c.lo + c.slope_lo * where, c.hi - c.slope_hi * (length - where)) - slack;
+        return (least > first.lo + rise_first * where && c.lo > first.lo && c.hi > first.hi) ||
+               (least > last.lo + rise_last * where && c.lo > last.lo && c.hi > last.hi);
     };
     std::erase_if(candidates_, loses);
 }

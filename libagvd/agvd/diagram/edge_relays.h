@@ -24,7 +24,7 @@ public:
 
     //! Whether labels may change on an edge, all of whose faces are listed. Then `relays` holds
     //! those that could be the nearest somewhere on it. Distances grow no faster than the point
-    //! moves, and are convex along the edge: most relays lose by their values at its ends.
+    //! moves, and are convex along the edge: most relays lose by what they say at its ends.
     [[nodiscard]] bool may_change(Index edge, std::vector<PlanarRelay>& relays);
 
     //! The same relays of any such edge.
@@ -32,13 +32,16 @@ public:
 
 private:
     struct Candidate {
-        double lo, hi;  // Distances of the two ends.
+        double lo, hi;  // Distances of the two ends,
+        double slope_lo, slope_hi;  // and bounds of their derivatives along the edge.
+        double weight;
         Index relay;
         Index site;
     };
 
     void scan(Index edge);
-    void scan_side(Index half_edge, std::size_t tail, std::size_t head);
+    void scan_through(Index edge, Index half_edge);
+    void scan_others(Index edge, Index half_edge);
     void append_all(Index edge, std::vector<PlanarRelay>& relays) const;
 
     const Surface& surface_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace agvd {
 namespace {
@@ -12,11 +13,13 @@ using Candidate = EnvelopeScratch::Candidate;
 constexpr double shortest_interval = 1e-9;
 constexpr int max_root_steps = 60;
 
+// Of two relays of one site that differ by less (share of the segment) one is enough.
+constexpr double same_relay = 1e-6;
 // Images closer than this share of the segment are one.
 constexpr double same_image = 1e-12;
 // Ties over a whole stretch that escape the tests would bisect for ever: past this many pieces the
 // ends of a piece decide.
-constexpr int max_splits = 2000;
+constexpr int max_splits = 200;
 
 struct Sample {
     double value, slope;
@@ -31,6 +34,8 @@ public:
           length_((q - p).norm()),
           along_((q - p) / length_),
           stack_(scratch.candidates),
+          left_(scratch.left),
+          right_(scratch.right),
           out_(out),
           pieces_(pieces) {}
 
@@ -76,10 +81,15 @@ private:
         return (a - b).squaredNorm() <= same_image * same_image * length_ * length_;
     }
 
-    // True if c cannot be below b anywhere on [lo, hi] by more than a tie.
-    [[nodiscard]] bool is_above(const Candidate& c, const Candidate& b, double lo,
-                                double hi) const {
-        const double slack = tolerance(std::max(b.value_lo, b.value_hi));
+    [[nodiscard]] double slack_between(const Candidate& c, const Candidate& b) const {
+        return c.relay->site == b.relay->site
+                   ? same_relay * length_
+                   : tolerance(std::max(b.value_lo, b.value_hi));
+    }
+
+    // True if c cannot be below b anywhere on [lo, hi] by more than the slack.
+    [[nodiscard]] bool is_above(const Candidate& c, const Candidate& b, double lo, double hi,
+                                double slack) const {
         if (c.value_lo < b.value_lo - slack || c.value_hi < b.value_hi - slack) return false;
         const double width = hi - lo;
         if (are_one(c.from_lo, c.from_hi) && are_one(b.from_lo, b.from_hi)) {
@@ -147,26 +157,110 @@ private:
         pieces_->push_back({from, weight, begin, end, c.relay->site});
     }
 
-    [[nodiscard]] double crossing(const PlanarRelay& a, const PlanarRelay& b, double lo,
-                                  double hi) const {
-        const auto gap = [&](double x) { return sample(a, x, 1).value - sample(b, x, 1).value; };
-        double gap_lo = gap(lo);
-        double gap_hi = gap(hi);
+    void meet(const Candidate& below, const Candidate& above, double lo, double x, double hi) {
+        emit(x, below.relay->site);
+        emit(hi, above.relay->site);
+        emit_pieces(below, lo, x);
+        emit_pieces(above, x, hi);
+    }
+
+    // Least distance of one of two sites: over the candidates from `first` on.
+    [[nodiscard]] Sample least(Index site, std::size_t first, double x) const {
+        Sample best{std::numeric_limits<double>::infinity(), 0, p_};
+        for (std::size_t i = first; i < stack_.size(); ++i) {
+            if (stack_[i].relay->site != site) continue;
+            const Sample s = sample(*stack_[i].relay, x, 1);
+            if (s.value < best.value) best = s;
+        }
+        return best;
+    }
+
+    // A point where the distances from two sites are equal; a is nearer at lo, b at hi.
+    [[nodiscard]] double crossing(const Candidate& a, const Candidate& b, std::size_t first,
+                                  double lo, double hi) const {
+        const auto least_value = [&](const Candidate& c, auto value) {
+            double result = value(c);
+            for (std::size_t i = first; i < stack_.size(); ++i) {
+                if (stack_[i].relay->site == c.relay->site) {
+                    result = std::min(result, value(stack_[i]));
+                }
+            }
+            return result;
+        };
+        const auto at_lo = [](const Candidate& c) { return c.value_lo; };
+        const auto at_hi = [](const Candidate& c) { return c.value_hi; };
+        double gap_lo = a.value_lo - least_value(b, at_lo);
+        double gap_hi = least_value(a, at_hi) - b.value_hi;
+        double x = lo + (hi - lo) * gap_lo / (gap_lo - gap_hi);
         for (int i = 0; i < max_root_steps && hi - lo > shortest_interval * length_; ++i) {
-            // Secant inside the bracket, halving every third step so that it always shrinks.
-            double x = lo + (hi - lo) * gap_lo / (gap_lo - gap_hi);
-            if (i % 3 == 2 || !(x > lo && x < hi)) x = (lo + hi) / 2;
-            const double value = gap(x);
-            if (std::abs(value) <= tolerance(0)) return x;
-            if ((value < 0) == (gap_lo < 0)) {
+            if (!(x > lo && x < hi)) x = (lo + hi) / 2;
+            const Sample on_a = least(a.relay->site, first, x);
+            const Sample on_b = least(b.relay->site, first, x);
+            const double gap = on_a.value - on_b.value;
+            if (std::abs(gap) <= tolerance(on_a.value)) return x;
+            if (gap < 0) {
                 lo = x;
-                gap_lo = value;
+                gap_lo = gap;
             } else {
                 hi = x;
-                gap_hi = value;
+                gap_hi = gap;
             }
+            // Newton, but halving every fourth step so that the bracket always shrinks.
+            x = i % 4 == 3 ? (lo + hi) / 2 : x - gap / (on_a.slope - on_b.slope);
         }
         return (lo + hi) / 2;
+    }
+
+    // Whether nothing but `site` wins on [lo, hi]: every other candidate lies above one of two.
+    [[nodiscard]] bool is_alone(const std::vector<Candidate>& candidates, Index site, double lo,
+                                double hi) const {
+        const Candidate* at_lo = nullptr;
+        const Candidate* at_hi = nullptr;
+        for (const Candidate& c : candidates) {
+            if (c.relay->site != site) continue;
+            if (at_lo == nullptr || c.value_lo < at_lo->value_lo) at_lo = &c;
+            if (at_hi == nullptr || c.value_hi < at_hi->value_hi) at_hi = &c;
+        }
+        const double slack = 2 * shortest_interval * length_ + tolerance(at_hi->value_hi);
+        return std::all_of(candidates.begin(), candidates.end(), [&](const Candidate& c) {
+            return c.relay->site == site || is_above(c, *at_lo, lo, hi, slack) ||
+                   is_above(c, *at_hi, lo, hi, slack);
+        });
+    }
+
+    // Labels [lo, hi] by one crossing of two sites, unless there are more.
+    bool cross_once(const Candidate& below, const Candidate& above, std::size_t first, double lo,
+                    double hi) {
+        const double x = crossing(below, above, first, lo, hi);
+        if (stack_.size() - first > 2) {
+            left_.assign(stack_.begin() + static_cast<std::ptrdiff_t>(first), stack_.end());
+            right_ = left_;
+            for (std::size_t i = 0; i < left_.size(); ++i) {
+                const Sample before = sample(*left_[i].relay, x, -1);
+                const Sample after = sample(*left_[i].relay, x, 1);
+                left_[i].value_hi = before.value;
+                left_[i].slope_hi = before.slope;
+                left_[i].from_hi = before.from;
+                right_[i].value_lo = after.value;
+                right_[i].slope_lo = after.slope;
+                right_[i].from_lo = after.from;
+            }
+            if (!is_alone(left_, below.relay->site, lo, x) ||
+                !is_alone(right_, above.relay->site, x, hi)) {
+                return false;
+            }
+            emit(x, below.relay->site);
+            emit(hi, above.relay->site);
+            for (const Candidate& c : left_) {
+                if (c.relay->site == below.relay->site) emit_pieces(c, lo, x);
+            }
+            for (const Candidate& c : right_) {
+                if (c.relay->site == above.relay->site) emit_pieces(c, x, hi);
+            }
+            return true;
+        }
+        meet(below, above, lo, x, hi);
+        return true;
     }
 
     // Labels [lo, hi] by the candidates from `first` to the top of the stack, which it consumes.
@@ -174,36 +268,31 @@ private:
         const Candidate best_lo = best(first, [](const Candidate& c) { return c.value_lo; });
         const Candidate best_hi = best(first, [](const Candidate& c) { return c.value_hi; });
         const auto loses = [&](const Candidate& c) {
-            return (c.relay != best_lo.relay && c.relay != best_hi.relay &&
-                    (is_above(c, best_lo, lo, hi) || is_above(c, best_hi, lo, hi)));
+            return c.relay != best_lo.relay && c.relay != best_hi.relay &&
+                   (is_above(c, best_lo, lo, hi, slack_between(c, best_lo)) ||
+                    is_above(c, best_hi, lo, hi, slack_between(c, best_hi)));
         };
         stack_.erase(std::remove_if(stack_.begin() + static_cast<std::ptrdiff_t>(first),
                                     stack_.end(), loses),
                      stack_.end());
         const Index site_lo = best_lo.relay->site;
         const Index site_hi = best_hi.relay->site;
-        const bool one_site =
-            std::all_of(stack_.begin() + static_cast<std::ptrdiff_t>(first), stack_.end(),
-                        [&](const Candidate& c) { return c.relay->site == site_lo; });
-        const std::size_t count = stack_.size() - first;
-        if (one_site) {
+        bool has_one_site = true;
+        bool has_two_sites = site_lo != site_hi;
+        for (std::size_t i = first; i < stack_.size(); ++i) {
+            const Index site = stack_[i].relay->site;
+            has_one_site = has_one_site && site == site_lo;
+            has_two_sites = has_two_sites && (site == site_lo || site == site_hi);
+        }
+        if (has_one_site) {
             emit(hi, site_lo);
             for (std::size_t i = first; i < stack_.size(); ++i) emit_pieces(stack_[i], lo, hi);
         } else if (hi - lo <= shortest_interval * length_ || ++splits_ > max_splits) {
             meet(best_lo, best_hi, lo, (lo + hi) / 2, hi);
-        } else if (count == 2 && site_lo != site_hi) {
-            meet(best_lo, best_hi, lo, crossing(*best_lo.relay, *best_hi.relay, lo, hi), hi);
-        } else {
+        } else if (!has_two_sites || !cross_once(best_lo, best_hi, first, lo, hi)) {
             bisect(lo, hi, first);
         }
         stack_.resize(first);
-    }
-
-    void meet(const Candidate& below, const Candidate& above, double lo, double x, double hi) {
-        emit(x, below.relay->site);
-        emit(hi, above.relay->site);
-        emit_pieces(below, lo, x);
-        emit_pieces(above, x, hi);
     }
 
     void bisect(double lo, double hi, std::size_t first) {
@@ -229,6 +318,8 @@ private:
     double length_;
     Vec2 along_;
     std::vector<Candidate>& stack_;
+    std::vector<Candidate>& left_;
+    std::vector<Candidate>& right_;
     std::vector<LabelInterval>& out_;
     std::vector<EnvelopePiece>* pieces_;
     int splits_ = 0;

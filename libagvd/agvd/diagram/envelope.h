@@ -30,7 +30,7 @@ struct EnvelopeScratch {
         double value_hi, slope_hi;
         Vec2 from_lo, from_hi;  // Where the last straight piece begins, at both ends.
     };
-    std::vector<Candidate> candidates;
+    std::vector<Candidate> candidates, left, right;
 };
 
 //! Replaces `out` by the intervals from p to q, in order: neighbours differ, the last end is 1.
