@@ -13,9 +13,6 @@ constexpr Index grain = 1024;
 // A relay stands for the end of an edge itself if it is no worse there by more than this share of
 // the edge.
 constexpr double same_distance = 1e-4;
-// Relays of one site and weight whose distances at both ends differ by less (share of the edge) are
-// one, seen from two faces.
-constexpr double same_relay = 1e-6;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Tail, head and apex of the relay's half-edge, straight or bent at an end of its interval.
@@ -95,38 +92,42 @@ void EdgeRelays::scan_through(Index edge, Index half_edge) {
         const Index site = relay.site.value();
         if (forward) {
             candidates_.push_back(
-                {at_tail, at_head, slope_tail, slope_head, relay.weight, r, site});
+                {at_tail, at_head, slope_tail, slope_head, r, site});
         } else {
             candidates_.push_back(
-                {at_head, at_tail, -slope_head, -slope_tail, relay.weight, r, site});
+                {at_head, at_tail, -slope_head, -slope_tail, r, site});
         }
     }
 }
 
-// The face's other relays, but for those that went on through the edge: the neighbour has them.
-void EdgeRelays::scan_others(Index edge, Index half_edge) {
+// Relays that lie in the face, or that come through its other edges.
+void EdgeRelays::scan_others(Index edge, Index half_edge, bool inside) {
     const bool forward = surface_.edge_half[edge] == half_edge;
     const std::size_t tail = (half_edge + (forward ? 0 : 1)) % 3;
     const std::size_t head = (half_edge + (forward ? 1 : 0)) % 3;
-    const double near = same_relay * surface_.length[edge];
     const Index mixed = labels_.mixed_index[Surface::face(half_edge)];
     const Index end = propagation_.relay_offsets[mixed + 1];
     for (Index r = propagation_.relay_offsets[mixed]; r < end; ++r) {
         const Relay& relay = propagation_.relays[r];
-        if (relay.half_edge == half_edge && relay.y < 0) continue;
-        const Candidate c{corner_distances_[r][tail],
-                          corner_distances_[r][head],
-                          -1,
-                          1,
-                          relay.weight,
-                          r,
-                          relay.site.value()};
-        const auto is_same = [&](const Candidate& other) {
-            return std::abs(other.lo - c.lo) <= near && std::abs(other.hi - c.hi) <= near &&
-                   std::abs(other.weight - c.weight) <= near && other.site == c.site;
-        };
-        if (std::none_of(candidates_.begin(), candidates_.end(), is_same)) candidates_.push_back(c);
+        if ((relay.y >= 0) != inside || (relay.half_edge == half_edge && !inside)) continue;
+        candidates_.push_back({corner_distances_[r][tail], corner_distances_[r][head], -1, 1, r,
+                               relay.site.value()});
     }
+}
+
+// Whether the distances of both ends are those of candidates.
+bool EdgeRelays::explain_ends(Index edge) const {
+    const Index h = surface_.edge_half[edge];
+    const double slack = same_distance * surface_.length[edge];
+    const double at_tail = labels_.vertex_distance[surface_.tail(h)] + slack;
+    const double at_head = labels_.vertex_distance[surface_.head(h)] + slack;
+    bool has_tail = false;
+    bool has_head = false;
+    for (const Candidate& c : candidates_) {
+        has_tail = has_tail || c.lo <= at_tail;
+        has_head = has_head || c.hi <= at_head;
+    }
+    return has_tail && has_head;
 }
 
 // Leaves the candidates that could win somewhere.
@@ -137,12 +138,18 @@ void EdgeRelays::scan(Index edge) {
     candidates_.clear();
     scan_through(edge, h);
     if (twin != no_index) scan_through(edge, twin);
-    scan_others(edge, h);
-    if (twin != no_index) scan_others(edge, twin);
+    scan_others(edge, h, true);
+    if (twin != no_index) scan_others(edge, twin, true);
+    // What reaches the edge through one face is a relay of the other. An engine that leaves some of
+    // those out shows it at the ends.
+    if (twin == no_index || !explain_ends(edge)) {
+        scan_others(edge, h, false);
+        if (twin != no_index) scan_others(edge, twin, false);
+    }
 
     const double at_tail = labels_.vertex_distance[surface_.tail(h)];
     const double at_head = labels_.vertex_distance[surface_.head(h)];
-    Candidate first{infinity, infinity, 0, 0, 0, 0, no_index};
+    Candidate first{infinity, infinity, 0, 0, 0, no_index};
     Candidate last = first;
     for (const Candidate& c : candidates_) {
         if (c.lo < first.lo) first = c;

@@ -34,14 +34,14 @@ private:
     struct Candidate {
         double lo, hi;  // Distances of the two ends,
         double slope_lo, slope_hi;  // and bounds of their derivatives along the edge.
-        double weight;
         Index relay;
         Index site;
     };
 
     void scan(Index edge);
     void scan_through(Index edge, Index half_edge);
-    void scan_others(Index edge, Index half_edge);
+    void scan_others(Index edge, Index half_edge, bool inside);
+    [[nodiscard]] bool explain_ends(Index edge) const;
     void append_all(Index edge, std::vector<PlanarRelay>& relays) const;
 
     const Surface& surface_;
