@@ -100,8 +100,14 @@ private:
     }
 
     void label_cut(Index name, const Point& from, const Point& to) {
-        label_envelope(relays_, from.position, to.position, labels_.point_site[from.name],
-                       labels_.point_site[to.name], scratch_, intervals_);
+        const Vec2 chord = to.position - from.position;
+        const double length = chord.norm();
+        on_cut_.clear();
+        for (const PlanarRelay& relay : relays_) {
+            on_cut_.push_back(on_line(relay, from.position, chord / length, length));
+        }
+        label_envelope(on_cut_, length, labels_.point_site[from.name], labels_.point_site[to.name],
+                       scratch_, intervals_);
         const auto count = static_cast<Index>(intervals_.size()) - 1;
         const Index row = count == 0 ? no_index : static_cast<Index>(labels_.rows.size());
         labels_.cuts.push_back({face_, from.name, to.name, row});
@@ -111,10 +117,9 @@ private:
             const Index before = intervals_[i].site;
             const Index after = intervals_[i + 1].site;
             const double at = intervals_[i].end;
-            const Vec2 p = from.position + at * (to.position - from.position);
             labels_.crossings.push_back({at,
-                                         std::max(reach_from(relays_, before, p).distance,
-                                                  reach_from(relays_, after, p).distance),
+                                         std::max(distance_on_line(on_cut_, before, at * length),
+                                                  distance_on_line(on_cut_, after, at * length)),
                                          before, after});
         }
     }
@@ -127,6 +132,7 @@ private:
     // The face at hand.
     Index face_ = 0;
     std::vector<PlanarRelay> relays_;
+    std::vector<LineRelay> on_cut_;
     std::vector<Point> points_;
     std::vector<Triangle> triangles_;
     std::vector<Side> sides_;

@@ -68,7 +68,7 @@ public:
         const Index edge = surface_.edge[half_edge];
         if (!edge_relays_.may_change(edge, relays_)) return;
         const double length = surface_.length[edge];
-        label_envelope(relays_, {0, 0}, {length, 0}, labels_.point_site[surface_.tail(half_edge)],
+        label_envelope(relays_, length, labels_.point_site[surface_.tail(half_edge)],
                        labels_.point_site[surface_.head(half_edge)], scratch_, intervals_);
         const auto count = static_cast<Index>(intervals_.size()) - 1;
         if (count == 0) return;
@@ -76,9 +76,9 @@ public:
         for (Index k = 0; k < count; ++k) {
             const Index before = intervals_[k].site;
             const Index after = intervals_[k + 1].site;
-            const Vec2 p(intervals_[k].end * length, 0);
-            const double distance = std::max(reach_from(relays_, before, p).distance,
-                                             reach_from(relays_, after, p).distance);
+            const double x = intervals_[k].end * length;
+            const double distance = std::max(distance_on_line(relays_, before, x),
+                                             distance_on_line(relays_, after, x));
             out_.crossings.push_back({intervals_[k].end, distance, before, after});
         }
     }
@@ -88,7 +88,7 @@ private:
     const EdgeLabels& labels_;
     EdgeRelays edge_relays_;
     FoundRows& out_;
-    std::vector<PlanarRelay> relays_;
+    std::vector<LineRelay> relays_;
     std::vector<LabelInterval> intervals_;
     EnvelopeScratch scratch_;
 };

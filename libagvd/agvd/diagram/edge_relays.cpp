@@ -40,6 +40,23 @@ std::array<double, 3> distances_of_corners(const Relay& r, double length, const 
     return {to_begin + r.begin, to_end + (length - r.end), at_apex};
 }
 
+// A relay whose image lies across the edge, in the frame of one half-edge or the other.
+LineRelay through_edge(const Relay& r, bool forward, double length) {
+    const auto root = [](double x, double y) { return std::sqrt(x * x + y * y); };
+    const double at_begin = r.weight + root(r.begin - r.x, r.y);
+    const double at_end = r.weight + root(r.end - r.x, r.y);
+    if (forward) {
+        return {{r.begin, r.x, r.end}, {0, r.y, 0}, {at_begin, r.weight, at_end},
+                r.begin,               r.end,       r.site.value()};
+    }
+    return {{length - r.end, length - r.x, length - r.begin},
+            {0, -r.y, 0},
+            {at_end, r.weight, at_begin},
+            length - r.end,
+            length - r.begin,
+            r.site.value()};
+}
+
 // From the frame of another half-edge of the same face into that of `h`.
 Motion between_half_edges(const Surface& surface, Index from, Index h) {
     const Vec2& apex = surface.apex[h];
@@ -182,7 +199,7 @@ void EdgeRelays::scan(Index edge) {
     std::erase_if(candidates_, loses);
 }
 
-bool EdgeRelays::may_change(Index edge, std::vector<PlanarRelay>& relays) {
+bool EdgeRelays::may_change(Index edge, std::vector<LineRelay>& relays) {
     const Index h = surface_.edge_half[edge];
     const Index site = labels_.point_site[surface_.tail(h)];
     scan(edge);
@@ -195,38 +212,43 @@ bool EdgeRelays::may_change(Index edge, std::vector<PlanarRelay>& relays) {
     return true;
 }
 
-void EdgeRelays::gather(Index edge, std::vector<PlanarRelay>& relays) {
+void EdgeRelays::gather(Index edge, std::vector<LineRelay>& relays) {
     scan(edge);
     append_all(edge, relays);
 }
 
-void EdgeRelays::append_all(Index edge, std::vector<PlanarRelay>& relays) const {
+void EdgeRelays::append_all(Index edge, std::vector<LineRelay>& relays) const {
     relays.clear();
     const Index h = surface_.edge_half[edge];
+    const Index twin = surface_.twin[h];
     const double length = surface_.length[edge];
-    const Motion turn{{-1, 0}, {length, 0}};
-    Index half_edge = no_index;
-    Motion motion;
     for (const Candidate& c : candidates_) {
         const Relay& relay = propagation_.relays[c.relay];
-        if (relay.half_edge != half_edge) {
-            half_edge = relay.half_edge;
-            const bool is_here = Surface::face(half_edge) == Surface::face(h);
-            const Index base = is_here ? h : surface_.twin[h];
-            motion = half_edge == base ? Motion{} : between_half_edges(surface_, half_edge, base);
-            if (!is_here) motion = compose(turn, motion);
-        }
-        relays.push_back(to_planar(relay, motion));
+        const bool is_straight = relay.y < 0 && (relay.half_edge == h || relay.half_edge == twin);
+        relays.push_back(is_straight ? through_edge(relay, relay.half_edge == h, length)
+                                     : through_face(edge, relay));
     }
     const Index a = surface_.tail(h);
     const Index b = surface_.head(h);
     if (needs_tail_) {
-        relays.push_back(point_relay({0, 0}, labels_.vertex_distance[a], labels_.point_site[a]));
+        relays.push_back(point_on_line(0, labels_.vertex_distance[a], labels_.point_site[a]));
     }
     if (needs_head_) {
-        relays.push_back(
-            point_relay({length, 0}, labels_.vertex_distance[b], labels_.point_site[b]));
+        relays.push_back(point_on_line(length, labels_.vertex_distance[b], labels_.point_site[b]));
     }
+}
+
+LineRelay EdgeRelays::through_face(Index edge, const Relay& relay) const {
+    const Index h = surface_.edge_half[edge];
+    const double length = surface_.length[edge];
+    const bool is_here = Surface::face(relay.half_edge) == Surface::face(h);
+    const Index base = is_here ? h : surface_.twin[h];
+    const Motion motion = relay.half_edge == base
+                              ? Motion{}
+                              : between_half_edges(surface_, relay.half_edge, base);
+    const Motion turn{{-1, 0}, {length, 0}};
+    return on_line(to_planar(relay, is_here ? motion : compose(turn, motion)), {0, 0}, {1, 0},
+                   length);
 }
 
 }  // namespace agvd

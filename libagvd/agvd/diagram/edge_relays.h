@@ -3,6 +3,7 @@
 #pragma once
 
 #include "agvd/diagram/edge_labels.h"
+#include "agvd/diagram/envelope.h"
 
 namespace agvd {
 
@@ -25,10 +26,10 @@ public:
     //! Whether labels may change on an edge, all of whose faces are listed. Then `relays` holds
     //! those that could be the nearest somewhere on it. Distances grow no faster than the point
     //! moves, and are convex along the edge: most relays lose by what they say at its ends.
-    [[nodiscard]] bool may_change(Index edge, std::vector<PlanarRelay>& relays);
+    [[nodiscard]] bool may_change(Index edge, std::vector<LineRelay>& relays);
 
     //! The same relays of any such edge.
-    void gather(Index edge, std::vector<PlanarRelay>& relays);
+    void gather(Index edge, std::vector<LineRelay>& relays);
 
 private:
     struct Candidate {
@@ -42,7 +43,8 @@ private:
     void scan_through(Index edge, Index half_edge);
     void scan_others(Index edge, Index half_edge, bool inside);
     [[nodiscard]] bool explain_ends(Index edge) const;
-    void append_all(Index edge, std::vector<PlanarRelay>& relays) const;
+    [[nodiscard]] LineRelay through_face(Index edge, const Relay& relay) const;
+    void append_all(Index edge, std::vector<LineRelay>& relays) const;
 
     const Surface& surface_;
     const Propagation& propagation_;

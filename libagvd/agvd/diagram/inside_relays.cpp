@@ -52,7 +52,7 @@ void InsideRelays::append_winners(Index half_edge, std::vector<PlanarRelay>& out
     const Index along = surface_.edge_half[edge];
     const double length = surface_.length[edge];
     edge_relays_.gather(edge, on_edge_);
-    label_envelope(on_edge_, {0, 0}, {length, 0}, labels_.point_site[surface_.tail(along)],
+    label_envelope(on_edge_, length, labels_.point_site[surface_.tail(along)],
                    labels_.point_site[surface_.head(along)], scratch_, intervals_, &pieces_);
     const bool forward = along == half_edge;
     const Motion to = to_face_frame(surface_, half_edge);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "agvd/diagram/edge_relays.h"
-#include "agvd/diagram/envelope.h"
 
 namespace agvd {
 
@@ -34,7 +33,7 @@ private:
     const Propagation& propagation_;
     const EdgeLabels& labels_;
     EdgeRelays edge_relays_;
-    std::vector<PlanarRelay> on_edge_;
+    std::vector<LineRelay> on_edge_;
     std::vector<LabelInterval> intervals_;
     std::vector<EnvelopePiece> pieces_;
     EnvelopeScratch scratch_;
