@@ -74,9 +74,9 @@ TEST_P(Complex, IsValid) {
 // Cases in which nearly tied labels made islands, or arcs between them.
 TEST(Complex, IsValidWhereSitesNearlyTie) {
     const std::pair<const char*, std::uint64_t> cases[] = {
-        {"stacked", 29},     {"stacked", 89},     {"stacked", 163},        {"stacked", 269},
-        {"components", 93},  {"components", 460}, {"components", 682},     {"prism", 543},
-        {"prism", 597},      {"saddle", 612},     {"reflex_boundary", 183}, {"solid", 528}};
+        {"stacked", 29},    {"stacked", 89},     {"stacked", 163},         {"stacked", 269},
+        {"components", 93}, {"components", 460}, {"components", 682},      {"prism", 543},
+        {"prism", 597},     {"saddle", 612},     {"reflex_boundary", 183}, {"solid", 528}};
     for (const auto& [family, seed] : cases) expect_valid_case(family, seed);
 }
 
@@ -107,10 +107,9 @@ TriangleMesh prism() {
     mesh.positions.emplace_back(0, 0, 1);
     for (Index i = 0; i < n; ++i) {
         const Index j = (i + 1) % n;
-        mesh.triangles.insert(mesh.triangles.end(), {{i, j, n + j},
-                                                     {i, n + j, n + i},
-                                                     {j, i, 2 * n},
-                                                     {n + i, n + j, 2 * n + 1}});
+        mesh.triangles.insert(
+            mesh.triangles.end(),
+            {{i, j, n + j}, {i, n + j, n + i}, {j, i, 2 * n}, {n + i, n + j, 2 * n + 1}});
     }
     return mesh;
 }

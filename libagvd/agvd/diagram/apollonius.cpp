@@ -66,9 +66,9 @@ void TriangleSolver::set_relays(Relays relays) {
 void TriangleSolver::set_triangle(Index face, const std::array<Vec2, 3>& corners) {
     face_ = face;
     corners_ = corners;
-    size_ = std::sqrt(std::max({(corners[1] - corners[0]).squaredNorm(),
-                                (corners[2] - corners[1]).squaredNorm(),
-                                (corners[0] - corners[2]).squaredNorm()}));
+    size_ = std::sqrt(
+        std::max({(corners[1] - corners[0]).squaredNorm(), (corners[2] - corners[1]).squaredNorm(),
+                  (corners[0] - corners[2]).squaredNorm()}));
 }
 
 TriangleSolver::Mark TriangleSolver::mark() const {
@@ -154,20 +154,22 @@ void TriangleSolver::close_ears() {
     for (std::size_t i = 0; i < joints_.size(); ++i) ears_.push_back(judge_ear(i));
     while (joints_.size() > 3) {
         const auto best =
-            std::min_element(ears_.begin(), ears_.end(), [](const Ear& a, const Ear& b) {
-                return a.violation < b.violation;
-            });
+            std::min_element(ears_.begin(), ears_.end(),
+                             [](const Ear& a, const Ear& b) { return a.violation < b.violation; });
         const auto i = static_cast<std::size_t>(best - ears_.begin());
         const Ear ear = *best;
         const std::size_t next = after(i, joints_.size());
         close_ear(i, ear);
-        // The joints at both ends of the interval gave way to one branch, or to none.
-        ears_.erase(ears_.begin() + static_cast<std::ptrdiff_t>(std::max(i, next)));
+        // The joints at both ends of the interval gave way to one branch, which took the place of
+        // the first, or to none.
         if (ear.is_lens) {
+            ears_.erase(ears_.begin() + static_cast<std::ptrdiff_t>(std::max(i, next)));
             ears_.erase(ears_.begin() + static_cast<std::ptrdiff_t>(std::min(i, next)));
+        } else {
+            ears_.erase(ears_.begin() + static_cast<std::ptrdiff_t>(next));
         }
         const std::size_t n = joints_.size();
-        const std::size_t here = std::min(i, next) % n;
+        const std::size_t here = next < i ? n - 1 : i % n;
         for (const std::size_t k :
              {before(before(here, n), n), before(here, n), here, after(here, n)}) {
             ears_[k] = judge_ear(k);
@@ -250,8 +252,8 @@ void TriangleSolver::add_arc(const Joint& from, const Vec2& to, Index head, Inde
 // A branch that became a joint gets its third arc when that joint is used.
 void TriangleSolver::connect_open_branch(Index node, Index arc, bool at_tail) {
     if (node < LocalDiagram::first_branch) return;
-    const auto found = std::find(open_branches_.begin(), open_branches_.end(),
-                                 node - LocalDiagram::first_branch);
+    const auto found =
+        std::find(open_branches_.begin(), open_branches_.end(), node - LocalDiagram::first_branch);
     if (found == open_branches_.end()) return;
     out_.branches[*found].arcs[2] = arc;
     out_.branches[*found].at_tail[2] = at_tail;

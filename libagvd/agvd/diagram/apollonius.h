@@ -145,9 +145,9 @@ private:
     // The triangle at hand.
     Index face_ = 0;
     std::array<Vec2, 3> corners_;
-    double size_ = 0;        // Longest side.
-    bool is_safe_ = false;   // Draw all straight.
-    bool is_sound_ = true;   // Nothing drawn contradicts the distances.
+    double size_ = 0;       // Longest side.
+    bool is_safe_ = false;  // Draw all straight.
+    bool is_sound_ = true;  // Nothing drawn contradicts the distances.
     std::vector<Joint> joints_;
     std::vector<Ear> ears_;
     std::vector<Index> open_branches_;

@@ -74,8 +74,8 @@ Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> site
             num_mixed, grain, options.num_threads, [&](Index chunk, Index begin, Index end) {
                 const auto first = is_stale.begin() + begin;
                 if (std::find(first, is_stale.begin() + end, 1) == is_stale.begin() + end) return;
-                trace_faces(surface, propagation, corner_distances, labels,
-                            options.chord_tolerance, begin, end, chunks[chunk]);
+                trace_faces(surface, propagation, corner_distances, labels, options.chord_tolerance,
+                            begin, end, chunks[chunk]);
             });
         is_stale.assign(num_mixed, 0);
     } while (absorb_islands(surface, sites, chunks, labels, is_stale) > 0);

@@ -35,8 +35,8 @@ void label_vertices(const Surface& surface, const Propagation& propagation,
             for (std::size_t k = 0; k < 3; ++k) {
                 const Index v = corners[k];
                 const double distance = corner_distances[r][k];
-                if (is_fixed[v] != 0 || !is_nearer(distance, site, labels.vertex_distance[v],
-                                                   labels.point_site[v])) {
+                if (is_fixed[v] != 0 ||
+                    !is_nearer(distance, site, labels.vertex_distance[v], labels.point_site[v])) {
                     continue;
                 }
                 labels.vertex_distance[v] = distance;
@@ -77,8 +77,8 @@ public:
             const Index before = intervals_[k].site;
             const Index after = intervals_[k + 1].site;
             const double x = intervals_[k].end * length;
-            const double distance = std::max(distance_on_line(relays_, before, x),
-                                             distance_on_line(relays_, after, x));
+            const double distance =
+                std::max(distance_on_line(relays_, before, x), distance_on_line(relays_, after, x));
             out_.crossings.push_back({intervals_[k].end, distance, before, after});
         }
     }

@@ -46,8 +46,8 @@ LineRelay through_edge(const Relay& r, bool forward, double length) {
     const double at_begin = r.weight + root(r.begin - r.x, r.y);
     const double at_end = r.weight + root(r.end - r.x, r.y);
     if (forward) {
-        return {{r.begin, r.x, r.end}, {0, r.y, 0}, {at_begin, r.weight, at_end},
-                r.begin,               r.end,       r.site.value()};
+        return {{r.begin, r.x, r.end}, {0, r.y, 0}, {at_begin, r.weight, at_end}, r.begin, r.end,
+                r.site.value()};
     }
     return {{length - r.end, length - r.x, length - r.begin},
             {0, -r.y, 0},
@@ -76,8 +76,8 @@ CornerDistances find_corner_distances(const Surface& surface, const Propagation&
                         for (Index i = begin; i < end; ++i) {
                             const Relay& relay = propagation.relays[i];
                             const Index h = relay.half_edge;
-                            const auto found = distances_of_corners(relay, surface.length_of(h),
-                                                                    surface.apex[h]);
+                            const auto found =
+                                distances_of_corners(relay, surface.length_of(h), surface.apex[h]);
                             for (Index k = 0; k < 3; ++k) result[i][(h + k) % 3] = found[k];
                         }
                     });
@@ -108,11 +108,9 @@ void EdgeRelays::scan_through(Index edge, Index half_edge) {
                                       : std::min(1.0, (length - relay.x) / from_head);
         const Index site = relay.site.value();
         if (forward) {
-            candidates_.push_back(
-                {at_tail, at_head, slope_tail, slope_head, r, site});
+            candidates_.push_back({at_tail, at_head, slope_tail, slope_head, r, site});
         } else {
-            candidates_.push_back(
-                {at_head, at_tail, -slope_head, -slope_tail, r, site});
+            candidates_.push_back({at_head, at_tail, -slope_head, -slope_tail, r, site});
         }
     }
 }
@@ -127,8 +125,8 @@ void EdgeRelays::scan_others(Index edge, Index half_edge, bool inside) {
     for (Index r = propagation_.relay_offsets[mixed]; r < end; ++r) {
         const Relay& relay = propagation_.relays[r];
         if ((relay.y >= 0) != inside || (relay.half_edge == half_edge && !inside)) continue;
-        candidates_.push_back({corner_distances_[r][tail], corner_distances_[r][head], -1, 1, r,
-                               relay.site.value()});
+        candidates_.push_back(
+            {corner_distances_[r][tail], corner_distances_[r][head], -1, 1, r, relay.site.value()});
     }
 }
 
@@ -243,9 +241,8 @@ LineRelay EdgeRelays::through_face(Index edge, const Relay& relay) const {
     const double length = surface_.length[edge];
     const bool is_here = Surface::face(relay.half_edge) == Surface::face(h);
     const Index base = is_here ? h : surface_.twin[h];
-    const Motion motion = relay.half_edge == base
-                              ? Motion{}
-                              : between_half_edges(surface_, relay.half_edge, base);
+    const Motion motion =
+        relay.half_edge == base ? Motion{} : between_half_edges(surface_, relay.half_edge, base);
     const Motion turn{{-1, 0}, {length, 0}};
     return on_line(to_planar(relay, is_here ? motion : compose(turn, motion)), {0, 0}, {1, 0},
                    length);

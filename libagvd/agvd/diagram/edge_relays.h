@@ -33,7 +33,7 @@ public:
 
 private:
     struct Candidate {
-        double lo, hi;  // Distances of the two ends,
+        double lo, hi;              // Distances of the two ends,
         double slope_lo, slope_hi;  // and bounds of their derivatives along the edge.
         Index relay;
         Index site;

@@ -61,7 +61,8 @@ private:
         const double limit = value_of(stack_[least]) + tolerance(value_of(stack_[least]));
         std::size_t result = least;
         for (std::size_t i = first; i < stack_.size(); ++i) {
-            if (value_of(stack_[i]) <= limit && stack_[i].relay->site < stack_[result].relay->site) {
+            if (value_of(stack_[i]) <= limit &&
+                stack_[i].relay->site < stack_[result].relay->site) {
                 result = i;
             }
         }
@@ -96,8 +97,7 @@ private:
         const double dy = std::abs(c.relay->y[i]) - std::abs(b.relay->y[j]);
         const double apart = std::sqrt(dx * dx + dy * dy);
         const double from_lo = lo - b.relay->x[j];
-        const double range =
-            std::sqrt(from_lo * from_lo + b.relay->y[j] * b.relay->y[j]) - width;
+        const double range = std::sqrt(from_lo * from_lo + b.relay->y[j] * b.relay->y[j]) - width;
         const double gap = std::min(c.lo.value - b.lo.value, c.hi.value - b.hi.value);
         return apart == 0 || (range > 0 && gap + slack >= width * apart / range);
     }

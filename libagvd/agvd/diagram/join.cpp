@@ -87,8 +87,9 @@ private:
             return labels_.inner_points[point - surface_.num_vertices()].position;
         }
         const Triangle& triangle = surface_.mesh.triangles[face];
-        return face_corners(surface_,
-                            face)[point == triangle[0] ? 0 : point == triangle[1] ? 1 : 2];
+        return face_corners(surface_, face)[point == triangle[0]   ? 0
+                                            : point == triangle[1] ? 1
+                                                                   : 2];
     }
 
     [[nodiscard]] Index global_node(Index chunk, Index local) const {
@@ -270,7 +271,7 @@ private:
     Diagram& out_;
 
     std::vector<Node> nodes_;
-    std::vector<std::uint8_t> is_boundary_;         // Of the crossings.
+    std::vector<std::uint8_t> is_boundary_;          // Of the crossings.
     std::vector<Index> branch_offset_, arc_offset_;  // By chunk.
     Index first_branch_ = 0;
     std::vector<Arc> arcs_;
