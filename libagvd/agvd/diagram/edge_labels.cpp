@@ -68,8 +68,17 @@ public:
         const Index edge = surface_.edge[half_edge];
         if (!edge_relays_.may_change(edge, relays_)) return;
         const double length = surface_.length[edge];
-        label_envelope(relays_, length, labels_.point_site[surface_.tail(half_edge)],
-                       labels_.point_site[surface_.head(half_edge)], scratch_, intervals_);
+        const Index site_at_tail = labels_.point_site[surface_.tail(half_edge)];
+        const Index site_at_head = labels_.point_site[surface_.head(half_edge)];
+        double at, distance_there;
+        if (site_at_tail != site_at_head &&
+            find_single_crossing(relays_, length, site_at_tail, site_at_head, at,
+                                 distance_there)) {
+            out_.rows.push_back({edge, static_cast<Index>(out_.crossings.size()), 1});
+            out_.crossings.push_back({at / length, distance_there, site_at_tail, site_at_head});
+            return;
+        }
+        label_envelope(relays_, length, site_at_tail, site_at_head, scratch_, intervals_);
         const auto count = static_cast<Index>(intervals_.size()) - 1;
         if (count == 0) return;
         out_.rows.push_back({edge, static_cast<Index>(out_.crossings.size()), count});

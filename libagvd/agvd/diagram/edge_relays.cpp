@@ -13,6 +13,9 @@ constexpr Index grain = 1024;
 // A relay stands for the end of an edge itself if it is no worse there by more than this share of
 // the edge.
 constexpr double same_distance = 1e-4;
+// The ends of an edge are explained by relays if those are no worse there by more than this share
+// of the edge: a bound of errors that pays for a shorter list.
+constexpr double explained = 1e-2;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Tail, head and apex of the relay's half-edge, straight or bent at an end of its interval.
@@ -84,28 +87,35 @@ CornerDistances find_corner_distances(const Surface& surface, const Propagation&
     return result;
 }
 
-// Relays whose image lies across the edge: their slopes are known.
-void EdgeRelays::scan_through(Index edge, Index half_edge) {
+// The relays of one face: those whose image lies across the edge, with their slopes; those in the
+// face; or the others.
+void EdgeRelays::scan_face(Index edge, Index half_edge, bool others) {
     const bool forward = surface_.edge_half[edge] == half_edge;
     const double length = surface_.length[edge];
-    const Index face = Surface::face(half_edge);
     const std::size_t tail = half_edge % 3;
-    const std::size_t head = (half_edge + 1) % 3;
-    const Index mixed = labels_.mixed_index[face];
+    const std::size_t head = tail == 2 ? 0 : tail + 1;
+    const Index mixed = labels_.mixed_index[Surface::face(half_edge)];
     const Index end = propagation_.relay_offsets[mixed + 1];
     for (Index r = propagation_.relay_offsets[mixed]; r < end; ++r) {
         const Relay& relay = propagation_.relays[r];
-        if (relay.half_edge != half_edge || relay.y >= 0) continue;
+        const bool is_inside = relay.y >= 0;
+        const bool is_other = !is_inside && relay.half_edge != half_edge;
+        if (is_other != others) continue;
         const double at_tail = corner_distances_[r][tail];
         const double at_head = corner_distances_[r][head];
-        // From its own side; bent paths run along the edge.
-        const double from_tail = at_tail - relay.weight;
-        const double from_head = at_head - relay.weight;
-        const double slope_tail =
-            relay.begin > 0 || !(from_tail > 0) ? -1 : std::max(-1.0, -relay.x / from_tail);
-        const double slope_head = relay.end < length || !(from_head > 0)
-                                      ? 1
-                                      : std::min(1.0, (length - relay.x) / from_head);
+        double slope_tail = -1;
+        double slope_head = 1;
+        if (!is_inside && !is_other) {
+            // Bent paths run along the edge.
+            const double from_tail = at_tail - relay.weight;
+            const double from_head = at_head - relay.weight;
+            if (relay.begin <= 0 && from_tail > 0) {
+                slope_tail = std::max(-1.0, -relay.x / from_tail);
+            }
+            if (relay.end >= length && from_head > 0) {
+                slope_head = std::min(1.0, (length - relay.x) / from_head);
+            }
+        }
         const Index site = relay.site.value();
         if (forward) {
             candidates_.push_back({at_tail, at_head, slope_tail, slope_head, r, site});
@@ -115,25 +125,10 @@ void EdgeRelays::scan_through(Index edge, Index half_edge) {
     }
 }
 
-// Relays that lie in the face, or that come through its other edges.
-void EdgeRelays::scan_others(Index edge, Index half_edge, bool inside) {
-    const bool forward = surface_.edge_half[edge] == half_edge;
-    const std::size_t tail = (half_edge + (forward ? 0 : 1)) % 3;
-    const std::size_t head = (half_edge + (forward ? 1 : 0)) % 3;
-    const Index mixed = labels_.mixed_index[Surface::face(half_edge)];
-    const Index end = propagation_.relay_offsets[mixed + 1];
-    for (Index r = propagation_.relay_offsets[mixed]; r < end; ++r) {
-        const Relay& relay = propagation_.relays[r];
-        if ((relay.y >= 0) != inside || (relay.half_edge == half_edge && !inside)) continue;
-        candidates_.push_back(
-            {corner_distances_[r][tail], corner_distances_[r][head], -1, 1, r, relay.site.value()});
-    }
-}
-
 // Whether the distances of both ends are those of candidates.
 bool EdgeRelays::explain_ends(Index edge) const {
     const Index h = surface_.edge_half[edge];
-    const double slack = same_distance * surface_.length[edge];
+    const double slack = explained * surface_.length[edge];
     const double at_tail = labels_.vertex_distance[surface_.tail(h)] + slack;
     const double at_head = labels_.vertex_distance[surface_.head(h)] + slack;
     bool has_tail = false;
@@ -151,15 +146,13 @@ void EdgeRelays::scan(Index edge) {
     const Index twin = surface_.twin[h];
     const double length = surface_.length[edge];
     candidates_.clear();
-    scan_through(edge, h);
-    if (twin != no_index) scan_through(edge, twin);
-    scan_others(edge, h, true);
-    if (twin != no_index) scan_others(edge, twin, true);
+    scan_face(edge, h, false);
+    if (twin != no_index) scan_face(edge, twin, false);
     // What reaches the edge through one face is a relay of the other. An engine that leaves some of
     // those out shows it at the ends.
     if (twin == no_index || !explain_ends(edge)) {
-        scan_others(edge, h, false);
-        if (twin != no_index) scan_others(edge, twin, false);
+        scan_face(edge, h, true);
+        if (twin != no_index) scan_face(edge, twin, true);
     }
 
     const double at_tail = labels_.vertex_distance[surface_.tail(h)];

@@ -40,8 +40,7 @@ private:
     };
 
     void scan(Index edge);
-    void scan_through(Index edge, Index half_edge);
-    void scan_others(Index edge, Index half_edge, bool inside);
+    void scan_face(Index edge, Index half_edge, bool others);
     [[nodiscard]] bool explain_ends(Index edge) const;
     [[nodiscard]] LineRelay through_face(Index edge, const Relay& relay) const;
     void append_all(Index edge, std::vector<LineRelay>& relays) const;

@@ -21,6 +21,12 @@ constexpr double same_relay = 1e-6;
 // ends of a piece decide.
 constexpr int max_splits = 200;
 
+double value_at(const LineRelay& relay, double x) {
+    const std::size_t k = x < relay.first ? 0 : x > relay.last ? 2 : 1;
+    const double dx = x - relay.x[k];
+    return relay.weight[k] + std::sqrt(dx * dx + relay.y[k] * relay.y[k]);
+}
+
 class Envelope {
 public:
     Envelope(double length, EnvelopeScratch& scratch, std::vector<LabelInterval>& out,
@@ -359,6 +365,81 @@ double distance_on_line(std::span<const LineRelay> relays, Index site, double x)
         if (relay.site == site) least = std::min(least, sample(relay, x).value);
     }
     return least;
+}
+
+bool find_single_crossing(std::span<const LineRelay> relays, double length, Index a, Index b,
+                          double& at, double& distance) {
+    double a_lo = infinity, a_hi = infinity, b_lo = infinity, b_hi = infinity;
+    for (const LineRelay& relay : relays) {
+        const double lo = value_at(relay, 0);
+        const double hi = value_at(relay, length);
+        if (relay.site == a) {
+            a_lo = std::min(a_lo, lo);
+            a_hi = std::min(a_hi, hi);
+        } else if (relay.site == b) {
+            b_lo = std::min(b_lo, lo);
+            b_hi = std::min(b_hi, hi);
+        } else {
+            return false;
+        }
+    }
+    const double gap_lo = b_lo - a_lo;
+    const double gap_hi = a_hi - b_hi;
+    const double clear = shortest_interval * (length + a_lo);
+    if (!(gap_lo > clear && gap_hi > clear)) return false;
+    double x = length * gap_lo / (gap_lo + gap_hi);
+    if (!(x > 0 && x < length)) x = length / 2;  // Sites that no relay reaches, or rounding.
+
+    // Newton, relay against relay, until no other relay is nearer at the root.
+    const double tolerance = equality * (length + a_lo);
+    double lo = 0, hi = length;
+    const LineRelay* on_a = nullptr;
+    const LineRelay* on_b = nullptr;
+    bool is_root = false;
+    for (int round = 0; round < 6 && !is_root; ++round) {
+        double value_a = infinity, value_b = infinity;
+        const LineRelay* best_a = nullptr;
+        const LineRelay* best_b = nullptr;
+        for (const LineRelay& relay : relays) {
+            const double value = value_at(relay, x);
+            if (relay.site == a) {
+                if (value < value_a) {
+                    value_a = value;
+                    best_a = &relay;
+                }
+            } else if (value < value_b) {
+                value_b = value;
+                best_b = &relay;
+            }
+        }
+        if (best_a == nullptr || best_b == nullptr) return false;
+        is_root = std::abs(value_a - value_b) <= tolerance;
+        on_a = best_a;
+        on_b = best_b;
+        distance = std::max(value_a, value_b);
+        if (is_root) break;
+        (value_a < value_b ? lo : hi) = x;
+        for (int step = 0; step < 4; ++step) {
+            const LineSample at_a = sample(*on_a, x);
+            const LineSample at_b = sample(*on_b, x);
+            const double gap = at_a.value - at_b.value;
+            if (std::abs(gap) <= tolerance / 2) break;
+            x -= gap / (at_a.slope - at_b.slope);
+            if (x > lo && x < hi) continue;
+            x = (lo + hi) / 2;
+            break;
+        }
+    }
+    if (!is_root) return false;
+    // Tangents at the root against chords to the ends: nothing changes sides again.
+    for (const LineRelay& relay : relays) {
+        const LineSample s = sample(relay, x);
+        const bool is_above = relay.site == b ? s.value - s.slope * x >= a_lo - clear
+                                              : s.value + s.slope * (length - x) >= b_hi - clear;
+        if (!is_above) return false;
+    }
+    at = x;
+    return true;
 }
 
 void label_envelope(std::span<const LineRelay> relays, double length, Index site_at_start,

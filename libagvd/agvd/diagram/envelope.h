@@ -70,6 +70,12 @@ struct EnvelopeScratch {
     std::vector<Candidate> candidates, left, right;
 };
 
+//! Where the label changes from site a, at the start of a segment, to b, if that is certain: no
+//! other site has relays, and tangents show that there is one change only. A cheap answer for most
+//! segments; false: ask label_envelope.
+[[nodiscard]] bool find_single_crossing(std::span<const LineRelay> relays, double length, Index a,
+                                        Index b, double& at, double& distance);
+
 //! Replaces `out` by the intervals of a segment, in order: neighbours differ, the last end is 1.
 //!
 //! Distances along a straight segment are convex, so a relay whose tangents stay above the chord of
