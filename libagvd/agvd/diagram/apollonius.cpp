@@ -11,12 +11,17 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int max_newton_steps = 25;
 // Equalities are met to this share of the triangle's size: below it lies rounding.
-constexpr double convergence = 1e-12;
+constexpr double convergence = 1e-11;
 // A branch point this far outside (share of the size) still counts as inside.
 constexpr double inside_tolerance = 1e-9;
 // A step that the distances contradict by more (share of the size) is drawn straight, so that arcs
 // do not cross.
 constexpr double largest_violation = 1e-3;
+// Distances at a joint that differ by more (share of the size) are not those of its labels.
+constexpr double largest_disagreement = 1e-2;
+// Relays chosen at one point of a bisector stand for their sites this far along (share of the
+// chord).
+constexpr double near_enough = 0.02;
 constexpr int max_arc_depth = 4;  // At most 2^4 pieces an arc and face.
 
 // Interval i lies between joint i and joint i + 1. At a joint, looking inwards, the interval
@@ -35,6 +40,19 @@ Reach least_reach(std::span<const PlanarRelay> relays, const Vec2& p) {
     for (const PlanarRelay& relay : relays) {
         const Reach r = reach(relay, p);
         if (r.distance < best.distance) best = r;
+    }
+    return best;
+}
+
+const PlanarRelay* nearest_relay(std::span<const PlanarRelay> relays, const Vec2& p) {
+    const PlanarRelay* best = nullptr;
+    double least = infinity;
+    for (const PlanarRelay& relay : relays) {
+        const double distance = reach(relay, p).distance;
+        if (distance < least) {
+            least = distance;
+            best = &relay;
+        }
     }
     return best;
 }
@@ -126,7 +144,7 @@ void TriangleSolver::draw(std::span<const Joint> joints) {
 bool TriangleSolver::agrees(const Joint& at, Index site_before) const {
     const double a = least_reach(relays_of_site(site_before), at.position).distance;
     const double b = least_reach(relays_of_site(at.site_after), at.position).distance;
-    return std::abs(a - b) <= largest_violation * size_;
+    return std::abs(a - b) <= largest_disagreement * size_;
 }
 
 bool TriangleSolver::is_accepted(double violation) const {
@@ -434,16 +452,28 @@ bool TriangleSolver::project(Relays a, Relays b, const Vec2& from, const Vec2& t
     if (!(length > inside_tolerance * size_)) return false;
     const Vec2 normal(-chord.y() / length, chord.x() / length);
     const Vec2 middle = (from + to) / 2;
+    const PlanarRelay* on_a = nullptr;  // The relays that are nearest at `chosen_at`.
+    const PlanarRelay* on_b = nullptr;
+    double chosen_at = 0;
     double s = 0;
     for (int i = 0; i < max_newton_steps; ++i) {
         p = middle + s * normal;
-        const Reach ra = least_reach(a, p);
-        const Reach rb = least_reach(b, p);
+        if (on_a == nullptr) {
+            on_a = nearest_relay(a, p);
+            on_b = nearest_relay(b, p);
+            chosen_at = s;
+            if (on_a == nullptr || on_b == nullptr) return false;
+        }
+        const Reach ra = reach(*on_a, p);
+        const Reach rb = reach(*on_b, p);
         const double gap = ra.distance - rb.distance;
         distance = std::max(ra.distance, rb.distance);
-        if (!std::isfinite(gap)) return false;
         if (std::abs(gap) <= convergence * (size_ + distance)) {
-            return outside(p) <= inside_tolerance * size_;
+            if (std::abs(s - chosen_at) <= near_enough * length) {
+                return outside(p) <= inside_tolerance * size_;
+            }
+            on_a = nullptr;  // Others may be nearer here.
+            continue;
         }
         const double slope = (direction(p, ra) - direction(p, rb)).dot(normal);
         if (!(std::abs(slope) > convergence)) return false;

@@ -72,8 +72,7 @@ public:
         const Index site_at_head = labels_.point_site[surface_.head(half_edge)];
         double at, distance_there;
         if (site_at_tail != site_at_head &&
-            find_single_crossing(relays_, length, site_at_tail, site_at_head, at,
-                                 distance_there)) {
+            find_single_crossing(relays_, length, site_at_tail, site_at_head, at, distance_there)) {
             out_.rows.push_back({edge, static_cast<Index>(out_.crossings.size()), 1});
             out_.crossings.push_back({at / length, distance_there, site_at_tail, site_at_head});
             return;

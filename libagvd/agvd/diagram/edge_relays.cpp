@@ -87,8 +87,8 @@ CornerDistances find_corner_distances(const Surface& surface, const Propagation&
     return result;
 }
 
-// The relays of one face: those whose image lies across the edge, with their slopes; those in the
-// face; or the others.
+// The relays of one face: those whose image lies across the edge, with their slopes, and those in
+// the face; or the others, and its corner opposite. The ends of the edge stand for themselves.
 void EdgeRelays::scan_face(Index edge, Index half_edge, bool others) {
     const bool forward = surface_.edge_half[edge] == half_edge;
     const double length = surface_.length[edge];
@@ -99,7 +99,9 @@ void EdgeRelays::scan_face(Index edge, Index half_edge, bool others) {
     for (Index r = propagation_.relay_offsets[mixed]; r < end; ++r) {
         const Relay& relay = propagation_.relays[r];
         const bool is_inside = relay.y >= 0;
-        const bool is_other = !is_inside && relay.half_edge != half_edge;
+        const bool is_corner = is_inside && relay.x == 0 && relay.y == 0;
+        if (is_corner && relay.half_edge != Surface::previous(half_edge)) continue;
+        const bool is_other = is_inside ? is_corner : relay.half_edge != half_edge;
         if (is_other != others) continue;
         const double at_tail = corner_distances_[r][tail];
         const double at_head = corner_distances_[r][head];

@@ -20,10 +20,14 @@ void InsideRelays::gather_own(Index mixed_index, std::span<const Index> sites,
                               std::vector<PlanarRelay>& out) {
     out.clear();
     const auto relays = relays_of(propagation_, mixed_index);
+    const Index first = 3 * propagation_.mixed_faces[mixed_index];
+    std::array<Motion, 3> motions;
+    for (Index k = 0; k < 3; ++k) motions[k] = to_face_frame(surface_, first + k);
     for (const Index site : sites) {
         for (const Relay& relay : relays) {
-            if (relay.site.value() != site) continue;
-            out.push_back(to_planar(relay, to_face_frame(surface_, relay.half_edge)));
+            if (relay.site.value() == site) {
+                out.push_back(to_planar(relay, motions[relay.half_edge - first]));
+            }
         }
     }
 }

@@ -22,10 +22,15 @@ public:
     }
 
     void connect(std::span<const FaceArcs> chunks) {
-        for (Index e = 0; e < surface_.num_edges(); ++e) {
-            if (!labels_.on_edge(e).empty()) continue;
-            const Index h = surface_.edge_half[e];
-            unite(surface_.tail(h), surface_.head(h));
+        for (Index f = 0; f < surface_.num_faces(); ++f) {
+            const Triangle& t = surface_.mesh.triangles[f];
+            for (Index k = 0; k < 3; ++k) {
+                const Index twin = surface_.twin[3 * f + k];
+                if (twin < 3 * f + k) continue;  // Each edge once.
+                const Index row = labels_.edge_row[surface_.edge[3 * f + k]];
+                if (row != no_index && labels_.rows[row].count > 0) continue;
+                unite(t[k], t[k == 2 ? 0 : k + 1]);
+            }
         }
         for (const Cut& cut : labels_.cuts) {
             if (labels_.in_row(cut.row).empty()) unite(cut.from, cut.to);
@@ -72,6 +77,7 @@ private:
         return i;
     }
     void unite(Index a, Index b) {
+        if (parent_[a] == parent_[b]) return;
         a = root(a);
         b = root(b);
         parent_[std::max(a, b)] = std::min(a, b);
