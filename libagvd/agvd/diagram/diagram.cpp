@@ -61,9 +61,9 @@ Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> site
                       const Propagation& propagation, const DiagramOptions& options) {
     poll(options.progress, 0);
     const SitePlacement placement(surface, sites);
-    CornerDistances corner_distances;
-    EdgeLabels labels = label_edges(surface, propagation, options.num_threads, corner_distances);
-    cut_faces(surface, propagation, placement, corner_distances, labels);
+    std::vector<RelayReach> reaches;
+    EdgeLabels labels = label_edges(surface, propagation, options.num_threads, reaches);
+    cut_faces(surface, propagation, placement, reaches, labels);
     poll(options.progress, 0.5);
 
     const auto num_mixed = static_cast<Index>(propagation.mixed_faces.size());
@@ -74,7 +74,7 @@ Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> site
             num_mixed, grain, options.num_threads, [&](Index chunk, Index begin, Index end) {
                 const auto first = is_stale.begin() + begin;
                 if (std::find(first, is_stale.begin() + end, 1) == is_stale.begin() + end) return;
-                trace_faces(surface, propagation, corner_distances, labels, options.chord_tolerance,
+                trace_faces(surface, propagation, reaches, labels, options.chord_tolerance,
                             begin, end, chunks[chunk]);
             });
         is_stale.assign(num_mixed, 0);

@@ -19,7 +19,7 @@ void list_mixed_faces(const Surface& surface, const Propagation& propagation, Ed
 }
 
 void label_vertices(const Surface& surface, const Propagation& propagation,
-                    const CornerDistances& corner_distances, EdgeLabels& labels) {
+                    std::span<const RelayReach> reaches, EdgeLabels& labels) {
     labels.vertex_distance = propagation.vertex_distance;
     labels.point_site.reserve(surface.num_vertices());
     for (const SiteId site : propagation.vertex_site) labels.point_site.push_back(site.value());
@@ -28,21 +28,19 @@ void label_vertices(const Surface& surface, const Propagation& propagation,
         if (labels.mixed_index[f] != no_index) continue;
         for (const Index v : surface.mesh.triangles[f]) is_fixed[v] = 1;
     }
-    for (Index i = 0; i < propagation.mixed_faces.size(); ++i) {
-        const Triangle& corners = surface.mesh.triangles[propagation.mixed_faces[i]];
-        for (Index r = propagation.relay_offsets[i]; r < propagation.relay_offsets[i + 1]; ++r) {
-            const Index site = propagation.relays[r].site.value();
-            for (std::size_t k = 0; k < 3; ++k) {
-                const Index v = corners[k];
-                const double distance = corner_distances[r][k];
-                if (is_fixed[v] != 0 ||
-                    !is_nearer(distance, site, labels.vertex_distance[v], labels.point_site[v])) {
-                    continue;
-                }
-                labels.vertex_distance[v] = distance;
-                labels.point_site[v] = site;
+    for (const RelayReach& reach : reaches) {
+        const Index next = Surface::next(reach.half_edge);
+        const auto offer = [&](Index v, double distance) {
+            if (is_fixed[v] != 0 || !is_nearer(distance, reach.site, labels.vertex_distance[v],
+                                               labels.point_site[v])) {
+                return;
             }
-        }
+            labels.vertex_distance[v] = distance;
+            labels.point_site[v] = reach.site;
+        };
+        offer(surface.tail(reach.half_edge), reach.tail);
+        offer(surface.tail(next), reach.head);
+        offer(surface.tail(Surface::next(next)), reach.apex);
     }
 }
 
@@ -117,17 +115,17 @@ void append_rows(const std::vector<FoundRows>& found, EdgeLabels& labels) {
 }  // namespace
 
 EdgeLabels label_edges(const Surface& surface, const Propagation& propagation, int num_threads,
-                       CornerDistances& corner_distances) {
+                       std::vector<RelayReach>& reaches) {
     EdgeLabels labels;
     list_mixed_faces(surface, propagation, labels);
-    corner_distances = find_corner_distances(surface, propagation, num_threads);
-    label_vertices(surface, propagation, corner_distances, labels);
+    reaches = find_reaches(surface, propagation, num_threads);
+    label_vertices(surface, propagation, reaches, labels);
     labels.edge_row.assign(surface.num_edges(), no_index);
 
     const auto num_mixed = static_cast<Index>(propagation.mixed_faces.size());
     std::vector<FoundRows> found(num_chunks(num_mixed, grain));
     parallel_chunks(num_mixed, grain, num_threads, [&](Index chunk, Index begin, Index end) {
-        EdgeLabeller labeller(surface, labels, {surface, propagation, corner_distances, labels},
+        EdgeLabeller labeller(surface, labels, {surface, propagation, reaches, labels},
                               found[chunk]);
         for (Index i = begin; i < end; ++i) {
             const Index face = propagation.mixed_faces[i];

@@ -82,15 +82,24 @@ struct EdgeLabels {
         .subspan(begin, propagation.relay_offsets[mixed_index + 1] - begin);
 }
 
-//! Distances of the three corners of a face through each relay of the propagation.
-using CornerDistances = std::vector<std::array<double, 3>>;
+//! What scanning edges needs of a relay, in the frame of its half-edge: distances of the face's
+//! corners through it, and bounds of its derivative along the half-edge at the ends.
+struct RelayReach {
+    enum Kind : Index { Across, Corner, Inside };
+
+    double tail, head, apex;
+    float slope_tail, slope_head;
+    Index site;
+    Index half_edge;
+    Kind kind;  //!< Where the image lies: across the half-edge, at its tail, or in the face.
+};
 
 //! A vertex all of whose faces are listed takes the nearest site over the relays of those faces
 //! (which may be nearer than the engine's graph knows); an edge all of whose faces are listed gets
-//! the envelope of the relays of both sides and of its ends. No cuts yet. `corner_distances` is
-//! filled for whoever looks at edges later.
+//! the envelope of the relays of both sides and of its ends. No cuts yet. `reaches` is filled,
+//! relay by relay, for whoever looks at edges later.
 //! Cost: O(relays) a listed face, O(relays) and a few square roots a crossing.
 [[nodiscard]] EdgeLabels label_edges(const Surface& surface, const Propagation& propagation,
-                                     int num_threads, CornerDistances& corner_distances);
+                                     int num_threads, std::vector<RelayReach>& reaches);
 
 }  // namespace agvd

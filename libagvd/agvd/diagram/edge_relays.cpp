@@ -18,29 +18,42 @@ constexpr double same_distance = 1e-4;
 constexpr double explained = 1e-2;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Tail, head and apex of the relay's half-edge, straight or bent at an end of its interval.
-std::array<double, 3> distances_of_corners(const Relay& r, double length, const Vec2& apex) {
+// Straight, or bent at an end of the interval.
+RelayReach reach_of(const Relay& r, double length, const Vec2& apex) {
     const auto root = [](double x, double y) { return std::sqrt(x * x + y * y); };
     const double cx = apex.x();
     const double cy = apex.y();
+    RelayReach reach{0, 0, 0, -1, 1, r.site.value(), r.half_edge, RelayReach::Across};
     if (r.y >= 0) {
-        return {r.weight + root(r.x, r.y), r.weight + root(length - r.x, r.y),
-                r.weight + root(cx - r.x, cy - r.y)};
+        reach.kind = r.x == 0 && r.y == 0 ? RelayReach::Corner : RelayReach::Inside;
+        reach.tail = r.weight + root(r.x, r.y);
+        reach.head = r.weight + root(length - r.x, r.y);
+        reach.apex = r.weight + root(cx - r.x, cy - r.y);
+        return reach;
     }
-    const double to_begin = r.weight + root(r.begin - r.x, r.y);
-    const double to_end = r.weight + root(r.end - r.x, r.y);
+    const double begin = root(r.begin - r.x, r.y);
+    const double end = root(r.end - r.x, r.y);
+    reach.tail = r.weight + begin + r.begin;
+    reach.head = r.weight + end + (length - r.end);
     // The chord to the apex meets the edge at x + (cx - x) (-y) / (cy - y).
     const double height = cy - r.y;
     const double hit = (cx - r.x) * -r.y;
-    double at_apex;
     if (hit < (r.begin - r.x) * height) {
-        at_apex = to_begin + root(cx - r.begin, cy);
+        reach.apex = r.weight + begin + root(cx - r.begin, cy);
     } else if (hit > (r.end - r.x) * height) {
-        at_apex = to_end + root(cx - r.end, cy);
+        reach.apex = r.weight + end + root(cx - r.end, cy);
     } else {
-        at_apex = r.weight + root(cx - r.x, height);
+        reach.apex = r.weight + root(cx - r.x, height);
     }
-    return {to_begin + r.begin, to_end + (length - r.end), at_apex};
+    // Bent paths run along the edge.
+    constexpr double rounding = 1e-6;
+    if (r.begin <= 0 && begin > 0) {
+        reach.slope_tail = static_cast<float>(std::max(-1.0, -r.x / begin - rounding));
+    }
+    if (r.end >= length && end > 0) {
+        reach.slope_head = static_cast<float>(std::min(1.0, (length - r.x) / end + rounding));
+    }
+    return reach;
 }
 
 // A relay whose image lies across the edge, in the frame of one half-edge or the other.
@@ -71,17 +84,15 @@ Motion between_half_edges(const Surface& surface, Index from, Index h) {
 
 }  // namespace
 
-CornerDistances find_corner_distances(const Surface& surface, const Propagation& propagation,
-                                      int num_threads) {
-    CornerDistances result(propagation.relays.size());
+std::vector<RelayReach> find_reaches(const Surface& surface, const Propagation& propagation,
+                                     int num_threads) {
+    std::vector<RelayReach> result(propagation.relays.size());
     parallel_chunks(static_cast<Index>(result.size()), grain, num_threads,
                     [&](Index, Index begin, Index end) {
                         for (Index i = begin; i < end; ++i) {
                             const Relay& relay = propagation.relays[i];
                             const Index h = relay.half_edge;
-                            const auto found =
-                                distances_of_corners(relay, surface.length_of(h), surface.apex[h]);
-                            for (Index k = 0; k < 3; ++k) result[i][(h + k) % 3] = found[k];
+                            result[i] = reach_of(relay, surface.length_of(h), surface.apex[h]);
                         }
                     });
     return result;
@@ -91,38 +102,32 @@ CornerDistances find_corner_distances(const Surface& surface, const Propagation&
 // the face; or the others, and its corner opposite. The ends of the edge stand for themselves.
 void EdgeRelays::scan_face(Index edge, Index half_edge, bool others) {
     const bool forward = surface_.edge_half[edge] == half_edge;
-    const double length = surface_.length[edge];
-    const std::size_t tail = half_edge % 3;
-    const std::size_t head = tail == 2 ? 0 : tail + 1;
+    const Index next = Surface::next(half_edge);
     const Index mixed = labels_.mixed_index[Surface::face(half_edge)];
     const Index end = propagation_.relay_offsets[mixed + 1];
-    for (Index r = propagation_.relay_offsets[mixed]; r < end; ++r) {
-        const Relay& relay = propagation_.relays[r];
-        const bool is_inside = relay.y >= 0;
-        const bool is_corner = is_inside && relay.x == 0 && relay.y == 0;
-        if (is_corner && relay.half_edge != Surface::previous(half_edge)) continue;
-        const bool is_other = is_inside ? is_corner : relay.half_edge != half_edge;
-        if (is_other != others) continue;
-        const double at_tail = corner_distances_[r][tail];
-        const double at_head = corner_distances_[r][head];
-        double slope_tail = -1;
-        double slope_head = 1;
-        if (!is_inside && !is_other) {
-            // Bent paths run along the edge.
-            const double from_tail = at_tail - relay.weight;
-            const double from_head = at_head - relay.weight;
-            if (relay.begin <= 0 && from_tail > 0) {
-                slope_tail = std::max(-1.0, -relay.x / from_tail);
-            }
-            if (relay.end >= length && from_head > 0) {
-                slope_head = std::min(1.0, (length - relay.x) / from_head);
-            }
-        }
-        const Index site = relay.site.value();
+    const auto add = [&](double tail, double head, double slope_tail, double slope_head, Index r) {
+        const Index site = reaches_[r].site;
         if (forward) {
-            candidates_.push_back({at_tail, at_head, slope_tail, slope_head, r, site});
+            candidates_.push_back({tail, head, slope_tail, slope_head, r, site});
         } else {
-            candidates_.push_back({at_head, at_tail, -slope_head, -slope_tail, r, site});
+            candidates_.push_back({head, tail, -slope_head, -slope_tail, r, site});
+        }
+    };
+    for (Index r = propagation_.relay_offsets[mixed]; r < end; ++r) {
+        const RelayReach& reach = reaches_[r];
+        if (reach.half_edge == half_edge && reach.kind == RelayReach::Across) {
+            if (!others) add(reach.tail, reach.head, reach.slope_tail, reach.slope_head, r);
+            continue;
+        }
+        const bool is_corner = reach.kind == RelayReach::Corner;
+        if (is_corner && Surface::next(reach.half_edge) != half_edge) continue;
+        if ((reach.kind == RelayReach::Inside) == others) continue;
+        if (reach.half_edge == half_edge) {
+            add(reach.tail, reach.head, -1, 1, r);
+        } else if (reach.half_edge == next) {
+            add(reach.apex, reach.tail, -1, 1, r);
+        } else {
+            add(reach.head, reach.apex, -1, 1, r);
         }
     }
 }

@@ -7,20 +7,20 @@
 
 namespace agvd {
 
-//! Distances of all corners through all relays. Parallel; O(relays).
-[[nodiscard]] CornerDistances find_corner_distances(const Surface& surface,
-                                                    const Propagation& propagation,
-                                                    int num_threads);
+//! All relays of the propagation. Parallel; O(relays).
+[[nodiscard]] std::vector<RelayReach> find_reaches(const Surface& surface,
+                                                   const Propagation& propagation,
+                                                   int num_threads);
 
 //! Gathers the relays of both faces of an edge and its ends in the frame of the edge_half. Keeps
 //! references; one for each thread.
 class EdgeRelays {
 public:
     EdgeRelays(const Surface& surface, const Propagation& propagation,
-               const CornerDistances& corner_distances, const EdgeLabels& labels)
+               std::span<const RelayReach> reaches, const EdgeLabels& labels)
         : surface_(surface),
           propagation_(propagation),
-          corner_distances_(corner_distances),
+          reaches_(reaches),
           labels_(labels) {}
 
     //! Whether labels may change on an edge, all of whose faces are listed. Then `relays` holds
@@ -47,7 +47,7 @@ private:
 
     const Surface& surface_;
     const Propagation& propagation_;
-    const CornerDistances& corner_distances_;
+    std::span<const RelayReach> reaches_;
     const EdgeLabels& labels_;
     std::vector<Candidate> candidates_;
     // The end itself is nearer to its site than any relay says.

@@ -16,12 +16,12 @@ struct Side {
 class FaceTracer {
 public:
     FaceTracer(const Surface& surface, const Propagation& propagation,
-               const CornerDistances& corner_distances, const EdgeLabels& labels,
+               std::span<const RelayReach> reaches, const EdgeLabels& labels,
                double chord_tolerance, FaceArcs& out)
         : surface_(surface),
           propagation_(propagation),
           labels_(labels),
-          inside_relays_(surface, propagation, corner_distances, labels),
+          inside_relays_(surface, propagation, reaches, labels),
           solver_(chord_tolerance, out.local),
           out_(out) {}
 
@@ -213,10 +213,10 @@ private:
 }  // namespace
 
 void trace_faces(const Surface& surface, const Propagation& propagation,
-                 const CornerDistances& corner_distances, const EdgeLabels& labels,
+                 std::span<const RelayReach> reaches, const EdgeLabels& labels,
                  double chord_tolerance, Index begin, Index end, FaceArcs& out) {
     out = {};
-    FaceTracer tracer(surface, propagation, corner_distances, labels, chord_tolerance, out);
+    FaceTracer tracer(surface, propagation, reaches, labels, chord_tolerance, out);
     auto cut = std::lower_bound(labels.cut_faces.begin(), labels.cut_faces.end(), begin,
                                 [](const CutFace& c, Index i) { return c.mixed_index < i; });
     for (Index i = begin; i < end; ++i) {

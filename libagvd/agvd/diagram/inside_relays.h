@@ -10,11 +10,11 @@ namespace agvd {
 class InsideRelays {
 public:
     InsideRelays(const Surface& surface, const Propagation& propagation,
-                 const CornerDistances& corner_distances, const EdgeLabels& labels)
+                 std::span<const RelayReach> reaches, const EdgeLabels& labels)
         : surface_(surface),
           propagation_(propagation),
           labels_(labels),
-          edge_relays_(surface, propagation, corner_distances, labels) {}
+          edge_relays_(surface, propagation, reaches, labels) {}
 
     //! The face's own relays of some sites, in their order.
     void gather_own(Index mixed_index, std::span<const Index> sites, std::vector<PlanarRelay>& out);
