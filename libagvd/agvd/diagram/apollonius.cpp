@@ -141,10 +141,15 @@ void TriangleSolver::draw(std::span<const Joint> joints) {
     }
 }
 
+// Whether both sites are as near as the edge says.
 bool TriangleSolver::agrees(const Joint& at, Index site_before) const {
-    const double a = least_reach(relays_of_site(site_before), at.position).distance;
-    const double b = least_reach(relays_of_site(at.site_after), at.position).distance;
-    return std::abs(a - b) <= largest_disagreement * size_;
+    const double limit = at.distance + largest_disagreement * size_;
+    const auto reaches = [&](const PlanarRelay& relay) {
+        return reach(relay, at.position).distance <= limit;
+    };
+    const Relays a = relays_of_site(site_before);
+    const Relays b = relays_of_site(at.site_after);
+    return std::any_of(a.begin(), a.end(), reaches) && std::any_of(b.begin(), b.end(), reaches);
 }
 
 bool TriangleSolver::is_accepted(double violation) const {
@@ -248,7 +253,7 @@ void TriangleSolver::close_with_branch(std::size_t i, BranchPoint branch) {
         return;
     }
     open_branches_.push_back(static_cast<Index>(out_.branches.size()) - 1);
-    joints_[i] = {branch.position, node, site_after, joints_[next].interval};
+    joints_[i] = {branch.position, branch.distance, node, site_after, joints_[next].interval};
     joints_.erase(joints_.begin() + static_cast<std::ptrdiff_t>(next));
 }
 

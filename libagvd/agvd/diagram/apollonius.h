@@ -11,6 +11,7 @@ namespace agvd {
 //! joint i + 1 (cyclic) the boundary has label joints[i].site_after.
 struct Joint {
     Vec2 position;
+    double distance;  //!< From both sites.
     Index node;  //!< Caller's name of the point.
     Index site_after;
     Index interval;  //!< Caller's name of the interval after it.
@@ -63,7 +64,7 @@ public:
     void set_relays(std::span<const PlanarRelay> relays);
 
     //! Appends the diagram if the relays agree with the joints and with each other: equal
-    //! distances at every joint, branch points where they should be, no arcs that cross.
+    //! joints no farther than they say, branch points where they should be, no arcs that cross.
     //! \param joints  at least 2, neighbours differ in site_after.
     //! \return false: nothing was appended.
     [[nodiscard]] bool try_solve(Index face, const std::array<Vec2, 3>& corners,

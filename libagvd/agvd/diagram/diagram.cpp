@@ -10,7 +10,8 @@
 namespace agvd {
 namespace {
 
-constexpr Index grain = 512;
+// Small, since a chunk is traced again as a whole where an island was absorbed.
+constexpr Index grain = 128;
 
 double face_area(const Surface& surface, Index face) {
     return surface.length_of(3 * face) * surface.apex[3 * face].y() / 2;

@@ -121,7 +121,7 @@ private:
                 const bool is_last = j + 1 == crossings.size();
                 const Index interval =
                     is_last ? side.to_point : num_points + (side.forward ? node : node - 1);
-                joints_.push_back({p, node, site, interval});
+                joints_.push_back({p, c.distance, node, site, interval});
                 last = p;
             }
             // Without a joint the area is that of the triangle.

@@ -32,6 +32,10 @@ public:
     void run() {
         number_nodes();
         collect_arcs();
+        std::size_t num_points = arcs_.size() + arcs_.size() / 4;  // A node an arc, and the ends.
+        for (const FaceArcs& chunk : chunks_) num_points += chunk.local.points.size();
+        out_.points.reserve(num_points);
+        out_.point_distance.reserve(num_points);
         edge_end_.assign(2 * arcs_.size(), {});
         is_used_.assign(arcs_.size(), false);
         out_.edge_points.assign(1, 0);
@@ -99,6 +103,9 @@ private:
     }
 
     void collect_arcs() {
+        std::size_t count = 0;
+        for (const FaceArcs& chunk : chunks_) count += chunk.local.arcs.size();
+        arcs_.reserve(count);
         for (Index chunk = 0; chunk < chunks_.size(); ++chunk) {
             arc_offset_.push_back(static_cast<Index>(arcs_.size()));
             const auto& local_arcs = chunks_[chunk].local.arcs;
