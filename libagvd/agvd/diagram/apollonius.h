@@ -12,7 +12,7 @@ namespace agvd {
 struct Joint {
     Vec2 position;
     double distance;  //!< From both sites.
-    Index node;  //!< Caller's name of the point.
+    Index node;       //!< Caller's name of the point.
     Index site_after;
     Index interval;  //!< Caller's name of the interval after it.
 };

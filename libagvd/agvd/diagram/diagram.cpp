@@ -4,6 +4,7 @@
 
 #include "agvd/core/parallel.h"
 #include "agvd/diagram/cuts.h"
+#include "agvd/diagram/edge_relays.h"
 #include "agvd/diagram/islands.h"
 #include "agvd/diagram/join.h"
 
@@ -62,8 +63,9 @@ Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> site
                       const Propagation& propagation, const DiagramOptions& options) {
     poll(options.progress, 0);
     const SitePlacement placement(surface, sites);
-    std::vector<RelayReach> reaches;
-    EdgeLabels labels = label_edges(surface, propagation, options.num_threads, reaches);
+    const auto stored = find_reaches(surface, propagation, options.num_threads);
+    const std::span<const RelayReach> reaches(stored.get(), propagation.relays.size());
+    EdgeLabels labels = label_edges(surface, propagation, reaches, options.num_threads);
     cut_faces(surface, propagation, placement, reaches, labels);
     poll(options.progress, 0.5);
 
@@ -75,8 +77,8 @@ Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> site
             num_mixed, grain, options.num_threads, [&](Index chunk, Index begin, Index end) {
                 const auto first = is_stale.begin() + begin;
                 if (std::find(first, is_stale.begin() + end, 1) == is_stale.begin() + end) return;
-                trace_faces(surface, propagation, reaches, labels, options.chord_tolerance,
-                            begin, end, chunks[chunk]);
+                trace_faces(surface, propagation, reaches, labels, options.chord_tolerance, begin,
+                            end, chunks[chunk]);
             });
         is_stale.assign(num_mixed, 0);
     } while (absorb_islands(surface, sites, chunks, labels, is_stale) > 0);

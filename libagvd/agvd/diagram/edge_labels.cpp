@@ -31,8 +31,8 @@ void label_vertices(const Surface& surface, const Propagation& propagation,
     for (const RelayReach& reach : reaches) {
         const Index next = Surface::next(reach.half_edge);
         const auto offer = [&](Index v, double distance) {
-            if (is_fixed[v] != 0 || !is_nearer(distance, reach.site, labels.vertex_distance[v],
-                                               labels.point_site[v])) {
+            if (is_fixed[v] != 0 ||
+                !is_nearer(distance, reach.site, labels.vertex_distance[v], labels.point_site[v])) {
                 return;
             }
             labels.vertex_distance[v] = distance;
@@ -114,11 +114,10 @@ void append_rows(const std::vector<FoundRows>& found, EdgeLabels& labels) {
 
 }  // namespace
 
-EdgeLabels label_edges(const Surface& surface, const Propagation& propagation, int num_threads,
-                       std::vector<RelayReach>& reaches) {
+EdgeLabels label_edges(const Surface& surface, const Propagation& propagation,
+                       std::span<const RelayReach> reaches, int num_threads) {
     EdgeLabels labels;
     list_mixed_faces(surface, propagation, labels);
-    reaches = find_reaches(surface, propagation, num_threads);
     label_vertices(surface, propagation, reaches, labels);
     labels.edge_row.assign(surface.num_edges(), no_index);
 

@@ -96,10 +96,9 @@ struct RelayReach {
 
 //! A vertex all of whose faces are listed takes the nearest site over the relays of those faces
 //! (which may be nearer than the engine's graph knows); an edge all of whose faces are listed gets
-//! the envelope of the relays of both sides and of its ends. No cuts yet. `reaches` is filled,
-//! relay by relay, for whoever looks at edges later.
+//! the envelope of the relays of both sides and of its ends. No cuts yet.
 //! Cost: O(relays) a listed face, O(relays) and a few square roots a crossing.
 [[nodiscard]] EdgeLabels label_edges(const Surface& surface, const Propagation& propagation,
-                                     int num_threads, std::vector<RelayReach>& reaches);
+                                     std::span<const RelayReach> reaches, int num_threads);
 
 }  // namespace agvd

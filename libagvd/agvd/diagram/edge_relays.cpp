@@ -57,10 +57,9 @@ RelayReach reach_of(const Relay& r, double length, const Vec2& apex) {
 }
 
 // A relay whose image lies across the edge, in the frame of one half-edge or the other.
-LineRelay through_edge(const Relay& r, bool forward, double length) {
-    const auto root = [](double x, double y) { return std::sqrt(x * x + y * y); };
-    const double at_begin = r.weight + root(r.begin - r.x, r.y);
-    const double at_end = r.weight + root(r.end - r.x, r.y);
+LineRelay through_edge(const Relay& r, const RelayReach& reach, bool forward, double length) {
+    const double at_begin = reach.tail - r.begin;
+    const double at_end = reach.head - (length - r.end);
     if (forward) {
         return {{r.begin, r.x, r.end}, {0, r.y, 0}, {at_begin, r.weight, at_end}, r.begin, r.end,
                 r.site.value()};
@@ -84,17 +83,17 @@ Motion between_half_edges(const Surface& surface, Index from, Index h) {
 
 }  // namespace
 
-std::vector<RelayReach> find_reaches(const Surface& surface, const Propagation& propagation,
-                                     int num_threads) {
-    std::vector<RelayReach> result(propagation.relays.size());
-    parallel_chunks(static_cast<Index>(result.size()), grain, num_threads,
-                    [&](Index, Index begin, Index end) {
-                        for (Index i = begin; i < end; ++i) {
-                            const Relay& relay = propagation.relays[i];
-                            const Index h = relay.half_edge;
-                            result[i] = reach_of(relay, surface.length_of(h), surface.apex[h]);
-                        }
-                    });
+std::unique_ptr<RelayReach[]> find_reaches(const Surface& surface, const Propagation& propagation,
+                                           int num_threads) {
+    const auto count = static_cast<Index>(propagation.relays.size());
+    auto result = std::make_unique_for_overwrite<RelayReach[]>(count);
+    parallel_chunks(count, grain, num_threads, [&](Index, Index begin, Index end) {
+        for (Index i = begin; i < end; ++i) {
+            const Relay& relay = propagation.relays[i];
+            const Index h = relay.half_edge;
+            result[i] = reach_of(relay, surface.length_of(h), surface.apex[h]);
+        }
+    });
     return result;
 }
 
@@ -223,8 +222,9 @@ void EdgeRelays::append_all(Index edge, std::vector<LineRelay>& relays) const {
     for (const Candidate& c : candidates_) {
         const Relay& relay = propagation_.relays[c.relay];
         const bool is_straight = relay.y < 0 && (relay.half_edge == h || relay.half_edge == twin);
-        relays.push_back(is_straight ? through_edge(relay, relay.half_edge == h, length)
-                                     : through_face(edge, relay));
+        relays.push_back(is_straight
+                             ? through_edge(relay, reaches_[c.relay], relay.half_edge == h, length)
+                             : through_face(edge, relay));
     }
     const Index a = surface_.tail(h);
     const Index b = surface_.head(h);

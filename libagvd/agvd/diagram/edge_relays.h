@@ -2,15 +2,17 @@
 //! The relays that matter on one mesh edge.
 #pragma once
 
+#include <memory>
+
 #include "agvd/diagram/edge_labels.h"
 #include "agvd/diagram/envelope.h"
 
 namespace agvd {
 
 //! All relays of the propagation. Parallel; O(relays).
-[[nodiscard]] std::vector<RelayReach> find_reaches(const Surface& surface,
-                                                   const Propagation& propagation,
-                                                   int num_threads);
+[[nodiscard]] std::unique_ptr<RelayReach[]> find_reaches(const Surface& surface,
+                                                         const Propagation& propagation,
+                                                         int num_threads);
 
 //! Gathers the relays of both faces of an edge and its ends in the frame of the edge_half. Keeps
 //! references; one for each thread.
@@ -18,10 +20,7 @@ class EdgeRelays {
 public:
     EdgeRelays(const Surface& surface, const Propagation& propagation,
                std::span<const RelayReach> reaches, const EdgeLabels& labels)
-        : surface_(surface),
-          propagation_(propagation),
-          reaches_(reaches),
-          labels_(labels) {}
+        : surface_(surface), propagation_(propagation), reaches_(reaches), labels_(labels) {}
 
     //! Whether labels may change on an edge, all of whose faces are listed. Then `relays` holds
     //! those that could be the nearest somewhere on it. Distances grow no faster than the point

@@ -19,17 +19,29 @@ bool is_listed(const Surface& surface, const EdgeLabels& labels, Index half_edge
 void InsideRelays::gather_own(Index mixed_index, std::span<const Index> sites,
                               std::vector<PlanarRelay>& out) {
     out.clear();
-    const auto relays = relays_of(propagation_, mixed_index);
     const Index first = 3 * propagation_.mixed_faces[mixed_index];
     std::array<Motion, 3> motions;
     for (Index k = 0; k < 3; ++k) motions[k] = to_face_frame(surface_, first + k);
+    const Index end = propagation_.relay_offsets[mixed_index + 1];
     for (const Index site : sites) {
-        for (const Relay& relay : relays) {
-            if (relay.site.value() == site) {
-                out.push_back(to_planar(relay, motions[relay.half_edge - first]));
-            }
+        for (Index r = propagation_.relay_offsets[mixed_index]; r < end; ++r) {
+            if (reaches_[r].site == site) out.push_back(moved(r, motions));
         }
     }
+}
+
+PlanarRelay InsideRelays::moved(Index relay, const std::array<Motion, 3>& motions) const {
+    const Relay& r = propagation_.relays[relay];
+    const Motion& motion = motions[r.half_edge % 3];
+    const double length = surface_.length_of(r.half_edge);
+    return {motion({r.x, r.y}),
+            motion({r.begin, 0}),
+            motion({r.end, 0}),
+            r.weight,
+            reaches_[relay].tail - r.begin,
+            reaches_[relay].head - (length - r.end),
+            r.site.value(),
+            r.y >= 0};
 }
 
 void InsideRelays::gather_all(Index mixed_index, std::vector<PlanarRelay>& out) {

@@ -13,6 +13,7 @@ public:
                  std::span<const RelayReach> reaches, const EdgeLabels& labels)
         : surface_(surface),
           propagation_(propagation),
+          reaches_(reaches),
           labels_(labels),
           edge_relays_(surface, propagation, reaches, labels) {}
 
@@ -26,11 +27,13 @@ public:
     void gather_all(Index mixed_index, std::vector<PlanarRelay>& out);
 
 private:
+    [[nodiscard]] PlanarRelay moved(Index relay, const std::array<Motion, 3>& motions) const;
     void append_winners(Index half_edge, std::vector<PlanarRelay>& out);
     void append_crossings(Index half_edge, std::vector<PlanarRelay>& out) const;
 
     const Surface& surface_;
     const Propagation& propagation_;
+    std::span<const RelayReach> reaches_;
     const EdgeLabels& labels_;
     EdgeRelays edge_relays_;
     std::vector<LineRelay> on_edge_;
