@@ -165,7 +165,10 @@ TriangleSolver::Ear TriangleSolver::judge_ear(std::size_t i) const {
         ear.violation = lens_violation(joints_[i], next);
     } else {
         ear.branch = find_branch(previous, joints_[i], next);
-        ear.violation = ear.branch.violation;
+        const Vec2& p = ear.branch.position;
+        ear.violation =
+            std::max({ear.branch.violation, arc_undercut(previous.site_after, joints_[i], p),
+                      arc_undercut(joints_[i].site_after, next, p)});
     }
     return ear;
 }
@@ -369,34 +372,27 @@ double TriangleSolver::undercut(const Vec2& p, double distance, Index a, Index b
     return distance - least;
 }
 
-// Newton on equal distances from the sites before, at and after an interval.
-TriangleSolver::BranchPoint TriangleSolver::find_branch(const Joint& before, const Joint& at,
-                                                        const Joint& after) const {
-    const Index sites[] = {before.site_after, at.site_after, after.site_after};
-    const Relays a = relays_of_site(sites[0]);
-    const Relays b = relays_of_site(sites[1]);
-    const Relays c = relays_of_site(sites[2]);
-    const Vec2 start = (at.position + after.position + before.position) / 3;
-    Vec2 p = start;
-    bool has_converged = false;
-    double distance = 0;
+// Newton on equal distances from three sites. Two points may have them: `turn` is positive at the
+// one around which the sites lie counter-clockwise.
+bool TriangleSolver::find_equal(Relays a, Relays b, Relays c, Vec2& p, double& distance,
+                                double& turn) const {
     for (int i = 0; i < max_newton_steps; ++i) {
         const Reach ra = least_reach(a, p);
         const Reach rb = least_reach(b, p);
         const Reach rc = least_reach(c, p);
         distance = std::max({ra.distance, rb.distance, rc.distance});
+        if (!std::isfinite(distance)) return false;
         const Vec2 residual(ra.distance - rb.distance, rb.distance - rc.distance);
-        if (!std::isfinite(distance)) break;
-        if (std::max(std::abs(residual.x()), std::abs(residual.y())) <=
-            convergence * (size_ + distance)) {
-            has_converged = true;
-            break;
-        }
         const Vec2 at_b = direction(p, rb);
         const Vec2 first = direction(p, ra) - at_b;
         const Vec2 second = at_b - direction(p, rc);
         const double determinant = cross(first, second);
-        if (!(std::abs(determinant) > convergence)) break;
+        if (std::max(std::abs(residual.x()), std::abs(residual.y())) <=
+            convergence * (size_ + distance)) {
+            turn = determinant;
+            return true;
+        }
+        if (!(std::abs(determinant) > convergence)) return false;
         Vec2 step(second.y() * residual.x() - first.y() * residual.y(),
                   first.x() * residual.y() - second.x() * residual.x());
         step /= determinant;
@@ -404,8 +400,26 @@ TriangleSolver::BranchPoint TriangleSolver::find_branch(const Joint& before, con
         if (norm > size_ / 2) step *= size_ / (2 * norm);
         p -= step;
     }
-    const double gap = outside(p);
-    if (has_converged && gap <= inside_tolerance * size_) {
+    return false;
+}
+
+// Where the sites before, at and after an interval meet.
+TriangleSolver::BranchPoint TriangleSolver::find_branch(const Joint& before, const Joint& at,
+                                                        const Joint& after) const {
+    const Index sites[] = {before.site_after, at.site_after, after.site_after};
+    const Relays a = relays_of_site(sites[0]);
+    const Relays b = relays_of_site(sites[1]);
+    const Relays c = relays_of_site(sites[2]);
+    const Vec2 centroid = (at.position + after.position + before.position) / 3;
+    const Vec2 starts[] = {centroid, (at.position + after.position) / 2};
+    for (const Vec2& start : starts) {
+        Vec2 p = start;
+        double distance;
+        double turn = 0;
+        if (!find_equal(a, b, c, p, distance, turn)) break;
+        if (!(turn > 0)) continue;  // The other one: from elsewhere.
+        const double gap = outside(p);
+        if (gap > inside_tolerance * size_) break;
         return {gap > 0 ? inside(p) : p, distance,
                 undercut(p, distance, sites[0], sites[1], sites[2])};
     }
@@ -413,8 +427,7 @@ TriangleSolver::BranchPoint TriangleSolver::find_branch(const Joint& before, con
     const Vec2 places[] = {at.position, after.position, before.position};
     const BranchPoint at_joint = least_unequal(places, sites[0], sites[1], sites[2]);
     if (at_joint.violation <= inside_tolerance * size_) return at_joint;
-    // Not a vertex of the diagram in here.
-    return {start, least_reach(b, start).distance, has_converged ? size_ + gap : 2 * size_};
+    return {centroid, least_reach(b, centroid).distance, 2 * size_};
 }
 
 // Where three distances differ least; by how much is the violation.
@@ -432,6 +445,16 @@ TriangleSolver::BranchPoint TriangleSolver::least_unequal(std::span<const Vec2> 
         }
     }
     return best;
+}
+
+// By how much some other site is nearer in the middle of an arc.
+double TriangleSolver::arc_undercut(Index site_before, const Joint& from, const Vec2& to) const {
+    Vec2 p;
+    double distance;
+    return project(relays_of_site(site_before), relays_of_site(from.site_after), from.position, to,
+                   p, distance)
+               ? undercut(p, distance, site_before, from.site_after, no_index)
+               : 0;
 }
 
 // Closing off an interval by one arc from its joint to the next: wrong where a third site is

@@ -130,10 +130,13 @@ private:
     [[nodiscard]] double outside(const Vec2& p) const;
     [[nodiscard]] Vec2 inside(const Vec2& p) const;
     [[nodiscard]] double undercut(const Vec2& p, double distance, Index a, Index b, Index c) const;
+    [[nodiscard]] bool find_equal(Relays a, Relays b, Relays c, Vec2& p, double& distance,
+                                  double& turn) const;
     [[nodiscard]] BranchPoint find_branch(const Joint& before, const Joint& at,
                                           const Joint& after) const;
     [[nodiscard]] BranchPoint least_unequal(std::span<const Vec2> places, Index a, Index b,
                                             Index c) const;
+    [[nodiscard]] double arc_undercut(Index site_before, const Joint& from, const Vec2& to) const;
     [[nodiscard]] double lens_violation(const Joint& from, const Joint& to) const;
     [[nodiscard]] bool project(Relays a, Relays b, const Vec2& from, const Vec2& to, Vec2& p,
                                double& distance) const;
