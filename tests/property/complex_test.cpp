@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <numbers>
 
@@ -191,6 +192,26 @@ TEST_P(Ties, OfTwoSitesAreValid) {
     for (Index v = stride; v < surface.num_vertices() && !HasFailure(); v += stride) {
         SCOPED_TRACE("vertices 0 and " + std::to_string(v));
         expect_valid(surface, {points::at_vertex(surface, 0), points::at_vertex(surface, v)});
+    }
+}
+
+// Three cells meet at a mesh vertex that each reaches at the same distance: the Voronoi vertex lies
+// there, not somewhere in a face.
+TEST(TiesAtVertices, OfThreeSitesAtAMeshVertexMeetThere) {
+    const Surface surface = build_surface(octahedron().view());
+    const std::vector<SurfacePoint> sites{points::at_vertex(surface, 0),
+                                          points::at_vertex(surface, 2),
+                                          points::at_vertex(surface, 1)};
+    const Vec3 poles[] = {surface.mesh.positions[4], surface.mesh.positions[5]};
+    for (const PropagationOptions& options : settings()) {
+        const Diagram diagram = build_diagram(surface, sites, propagate(surface, sites, options));
+        for (const Vec3& pole : poles) {
+            const auto lies_there = [&](const SurfacePoint& vertex) {
+                return (position(surface.mesh.view(), vertex) - pole).norm() < 1e-9;
+            };
+            EXPECT_TRUE(std::any_of(diagram.vertices.begin(), diagram.vertices.end(), lies_there))
+                << engine_name(options.engine);
+        }
     }
 }
 
