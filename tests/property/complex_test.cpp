@@ -135,7 +135,7 @@ protected:
 
     // Tests sets of points, each tied with others by some symmetry.
     void expect_valid_from(const std::vector<SurfacePoint>& points) {
-        for (const std::size_t step : {1, 2, 3, 5, 11}) {
+        for (const std::size_t step : {1u, 2u, 3u, 5u, 11u}) {
             std::vector<SurfacePoint> sites;
             for (std::size_t i = 0; i < points.size(); i += step) sites.push_back(points[i]);
             SCOPED_TRACE(std::to_string(sites.size()) + " sites");
