@@ -285,46 +285,6 @@ void check_engines(Case c, int other_threads) {
     }
 }
 
-// Anywhere on a face: inside, on an edge, at a vertex, or close to one of these.
-SurfacePoint random_point(Dice& dice, Index face) {
-    SurfacePoint point{FaceId(face), {}};
-    for (double& b : point.barycentric) b = dice.number(0.01, 1);
-    const Index corner = dice.count(0, 2);
-    const double little = dice.one_in(4) ? dice.magnitude(1e-6, 1e-2) : 0;
-    const Index kind = dice.count(0, 2);
-    if (kind >= 1) point.barycentric[corner] *= little;
-    if (kind == 2) point.barycentric[(corner + 1) % 3] *= little;
-    const double sum = point.barycentric[0] + point.barycentric[1] + point.barycentric[2];
-    for (double& b : point.barycentric) b /= sum;
-    return point;
-}
-
-std::vector<SurfacePoint> random_sites(Dice& dice, Index num_faces) {
-    constexpr Index most_sites = 120;
-    Index count = 1;
-    switch (dice.count(0, 4)) {
-        case 0:
-            break;
-        case 1:
-            count = dice.count(2, 4);
-            break;
-        case 2:
-        case 3:
-            count = dice.count(4, 20);
-            break;
-        default:  // More than faces, on small meshes.
-            count = std::min(most_sites, num_faces + dice.count(1, 9));
-    }
-    std::vector<SurfacePoint> sites;
-    while (sites.size() < count) {
-        const Index face = !sites.empty() && dice.one_in(4) ? sites.back().face.value()
-                                                            : dice.count(0, num_faces - 1);
-        sites.push_back(random_point(dice, face));
-        if (sites.size() < count && dice.one_in(10)) sites.push_back(sites.back());
-    }
-    return sites;
-}
-
 bool is_long() { return std::getenv("AGVD_LONG") != nullptr; }
 
 class Engines : public testing::TestWithParam<const char*> {};
@@ -342,10 +302,10 @@ TEST_P(Engines, AreRight) {
         const TriangleMesh mesh = random_meshes::make(GetParam(), seed);
         Dice dice(seed + (std::uint64_t{1} << 32));  // Other rolls than the mesh's.
         const auto num_faces = static_cast<Index>(mesh.triangles.size());
-        const auto sites = random_sites(dice, num_faces);
+        const auto sites = points::random_sites(dice, num_faces);
         std::vector<SurfacePoint> targets;
         for (int i = 0; i < 40; ++i) {
-            targets.push_back(random_point(dice, dice.count(0, num_faces - 1)));
+            targets.push_back(points::anywhere(dice, dice.count(0, num_faces - 1)));
         }
         SCOPED_TRACE(std::string(GetParam()) + " AGVD_SEED=" + std::to_string(seed) + ", " +
                      std::to_string(num_faces) + " faces, " + std::to_string(sites.size()) +
@@ -364,10 +324,10 @@ void check_real_mesh(const std::filesystem::path& path, Index num_sites) {
     ASSERT_LT(num_faces, 100000u);
     std::vector<SurfacePoint> sites, targets;
     while (sites.size() < num_sites) {
-        sites.push_back(random_point(dice, dice.count(0, num_faces - 1)));
+        sites.push_back(points::anywhere(dice, dice.count(0, num_faces - 1)));
     }
     for (int i = 0; i < 1000; ++i) {
-        targets.push_back(random_point(dice, dice.count(0, num_faces - 1)));
+        targets.push_back(points::anywhere(dice, dice.count(0, num_faces - 1)));
     }
     // CGAL takes seconds here, an hour on some larger ones.
     const Judge judge = num_faces < 13000 ? Judge::Oracle : Judge::Arbiter;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace checks {
@@ -63,12 +64,131 @@ void expect_loops_close(const Diagram& d) {
     }
 }
 
+// A connected cell of genus g with b loops has Euler characteristic 2 - 2 g - b.
+void expect_cells_fit(const Diagram& d) {
+    const Cells cells = build_cells(d);
+    for (Index s = 0; s < d.num_sites; ++s) {
+        const auto num_loops = static_cast<int>(cells.cell_loops[s + 1] - cells.cell_loops[s]);
+        if (num_loops == 0 && d.cell_area[s] == 0) {
+            EXPECT_EQ(d.cell_euler[s], 0) << "cell " << s;
+            continue;
+        }
+        const int twice_genus = 2 - num_loops - d.cell_euler[s];
+        EXPECT_TRUE(twice_genus >= 0 && twice_genus % 2 == 0)
+            << "cell " << s << ": " << num_loops << " loops, Euler characteristic "
+            << d.cell_euler[s];
+    }
+}
+
+// --- Segments of the polylines, face by face -----------------------------------------------------
+
+// A point in the barycentric coordinates of one face.
+struct PointInFace {
+    Index face;
+    std::array<double, 3> at;
+};
+
+// The point as seen from every face that it lies on.
+std::vector<PointInFace> views(const Surface& surface, const SurfacePoint& point) {
+    const Index face = point.face.value();
+    std::vector<PointInFace> result{{face, point.barycentric}};
+    const auto corner = [&](Index v) {
+        for (Index k = 0; k < 3; ++k) {
+            if (surface.mesh.triangles[face][k] == v) return k;
+        }
+        return no_index;
+    };
+    const auto add = [&](Index other) {
+        PointInFace view{other, {0, 0, 0}};
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index here = corner(surface.mesh.triangles[other][k]);
+            if (here != no_index) view.at[k] = point.barycentric[here];
+        }
+        result.push_back(view);
+    };
+    const auto zeros = std::count(point.barycentric.begin(), point.barycentric.end(), 0.0);
+    for (Index k = 0; k < 3; ++k) {
+        const Index h = 3 * face + (k + 1) % 3;  // Opposite corner k.
+        if (zeros == 1 && point.barycentric[k] == 0 && surface.twin[h] != no_index) {
+            add(Surface::face(surface.twin[h]));
+        }
+        if (zeros == 2 && point.barycentric[k] != 0) {
+            const Index first = surface.outgoing[surface.mesh.triangles[face][k]];
+            Index around = first;
+            do {
+                if (Surface::face(around) != face) add(Surface::face(around));
+                around = surface.twin[Surface::previous(around)];
+            } while (around != no_index && around != first);
+        }
+    }
+    return result;
+}
+
+struct Segment {
+    Index face;
+    Index edge;
+    std::array<double, 2> from, to;
+};
+
+void collect_segments(const Surface& surface, const Diagram& d, Index edge,
+                      std::vector<Segment>& out) {
+    const auto add = [&](const SurfacePoint& p, const SurfacePoint& q) {
+        const auto at_q = views(surface, q);
+        for (const PointInFace& a : views(surface, p)) {
+            for (const PointInFace& b : at_q) {
+                if (a.face != b.face) continue;
+                out.push_back({a.face, edge, {a.at[1], a.at[2]}, {b.at[1], b.at[2]}});
+                return;
+            }
+        }
+        ADD_FAILURE() << "edge " << edge << " leaps from face " << p.face.value() << " to face "
+                      << q.face.value();
+    };
+    const Index end = d.edge_points[edge + 1];
+    for (Index i = d.edge_points[edge]; i + 1 < end; ++i) add(d.points[i], d.points[i + 1]);
+    if (d.edges[edge].tail == no_index) add(d.points[end - 1], d.points[d.edge_points[edge]]);
+}
+
+// The least of the four heights of one segment's ends over the other: positive where they cross.
+double crossing_depth(const Segment& s, const Segment& t) {
+    const auto height = [](const Segment& base, const std::array<double, 2>& p) {
+        const double x = base.to[0] - base.from[0], y = base.to[1] - base.from[1];
+        const double length = std::hypot(x, y);
+        return length > 0 ? (x * (p[1] - base.from[1]) - y * (p[0] - base.from[0])) / length : 0;
+    };
+    const auto apart = [](double a, double b) {
+        return (a < 0) == (b < 0) ? 0 : std::min(std::abs(a), std::abs(b));
+    };
+    return std::min(apart(height(s, t.from), height(s, t.to)),
+                    apart(height(t, s.from), height(t, s.to)));
+}
+
+void expect_arcs_do_not_cross(const Surface& surface, const Diagram& d) {
+    std::vector<Segment> segments;
+    for (Index e = 0; e < d.edges.size(); ++e) {
+        if (d.edges[e].right.is_valid()) collect_segments(surface, d, e, segments);
+    }
+    std::stable_sort(segments.begin(), segments.end(),
+                     [](const Segment& a, const Segment& b) { return a.face < b.face; });
+    constexpr double rounding = 1e-9;  // In barycentric coordinates.
+    for (std::size_t i = 0; i < segments.size(); ++i) {
+        for (std::size_t j = i + 1; j < segments.size() && segments[j].face == segments[i].face;
+             ++j) {
+            EXPECT_LE(crossing_depth(segments[i], segments[j]), rounding)
+                << "in face " << segments[i].face << " of edges " << segments[i].edge << " and "
+                << segments[j].edge;
+        }
+    }
+}
+
 }  // namespace
 
 void expect_valid_complex(const Surface& surface, const Diagram& d) {
     expect_edges_fit(d);
     expect_vertices_fit(d);
     expect_loops_close(d);
+    expect_cells_fit(d);
+    expect_arcs_do_not_cross(surface, d);
 
     double surface_area = 0;
     int surface_euler = 0;

@@ -9,6 +9,8 @@ namespace checks {
 //! Every edge has two distinct sides and two ends or none; ends, sites and loops around vertices
 //! fit together; areas sum to the surface's (of the components with a site); and the Euler
 //! characteristics of cells, edges and vertices sum to the surface's.
+//! Cells are connected, and their Euler characteristics are those that their loops give.
+//! Polylines run from face to face, and inside a face no two of their segments cross.
 void expect_valid_complex(const agvd::Surface& surface, const agvd::Diagram& diagram);
 
 }  // namespace checks

@@ -1,6 +1,5 @@
 #include "agvd/diagram/apollonius.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -9,329 +8,517 @@
 namespace agvd {
 namespace {
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int max_newton_steps = 25;
 // Equalities are met to this share of the triangle's size: below it lies rounding.
-constexpr double convergence = 1e-12;
+constexpr double convergence = 1e-11;
 // A branch point this far outside (share of the size) still counts as inside.
 constexpr double inside_tolerance = 1e-9;
 // A step that the distances contradict by more (share of the size) is drawn straight, so that arcs
 // do not cross.
 constexpr double largest_violation = 1e-3;
+// Distances at a joint that differ by more (share of the size) are not those of its labels.
+constexpr double largest_disagreement = 1e-2;
+// Relays chosen at one point of a bisector stand for their sites this far along (share of the
+// chord).
+constexpr double near_enough = 0.02;
 constexpr int max_arc_depth = 4;  // At most 2^4 pieces an arc and face.
-constexpr double never = std::numeric_limits<double>::infinity();
 
-struct BranchPoint {
-    Vec2 position = Vec2::Zero();
-    double distance = 0;
-    double violation =
-        never;  // How badly the distances contradict it, in length units; 0: not at all.
-};
+// Interval i lies between joint i and joint i + 1. At a joint, looking inwards, the interval
+// before lies on the left.
+std::size_t after(std::size_t i, std::size_t n) { return i + 1 == n ? 0 : i + 1; }
+std::size_t before(std::size_t i, std::size_t n) { return i == 0 ? n - 1 : i - 1; }
 
-struct Ear {
-    double violation = never;
-    BranchPoint branch;
-    bool is_lens = false;
-};
+Vec2 direction(const Vec2& p, const Reach& r) {
+    const Vec2 d = p - r.from;
+    const double norm = d.norm();
+    return norm > 0 ? Vec2(d / norm) : Vec2(0, 0);
+}
 
-class TriangleSolver {
-public:
-    TriangleSolver(std::span<const PlanarRelay> relays, const std::array<Vec2, 3>& corners,
-                   double chord_tolerance, LocalDiagram& out)
-        : relays_(relays), corners_(corners), chord_tolerance_(chord_tolerance), out_(out) {
-        size_ = std::max({(corners[1] - corners[0]).norm(), (corners[2] - corners[1]).norm(),
-                          (corners[0] - corners[2]).norm()});
+Reach least_reach(std::span<const PlanarRelay> relays, const Vec2& p) {
+    Reach best{infinity, p};
+    for (const PlanarRelay& relay : relays) {
+        const Reach r = reach(relay, p);
+        if (r.distance < best.distance) best = r;
     }
+    return best;
+}
 
-    void run(std::vector<Joint>& joints, Index first_branch_node) {
-        first_branch_node_ = first_branch_node;
-        for (const Joint& joint : joints) out_.pieces.emplace_back(joint.site_after, 1);
-        if (joints.size() > 3) close_ears(joints);
-        if (joints.size() == 3) {
-            BranchPoint branch = find_branch(joints[2], joints[0], joints[1]);
-            const bool is_sound = is_accepted(branch.violation);
-            if (!is_sound) {
-                branch.position =
-                    (joints[0].position + joints[1].position + joints[2].position) / 3;
-            }
-            close_with_branch(joints, 0, branch, is_sound);
-        } else {
-            assert(joints.size() == 2);
-            add_arc(joints[0], joints[1].position, joints[1].node, joints[1].site_after, true);
+const PlanarRelay* nearest_relay(std::span<const PlanarRelay> relays, const Vec2& p) {
+    const PlanarRelay* best = nullptr;
+    double least = infinity;
+    for (const PlanarRelay& relay : relays) {
+        const double distance = reach(relay, p).distance;
+        if (distance < least) {
+            least = distance;
+            best = &relay;
         }
     }
+    return best;
+}
 
-private:
-    // Interval i lies between joint i and joint i + 1. At a joint, looking inwards, the interval
-    // before lies on the left.
-    static std::size_t after(std::size_t i, std::size_t n) { return i + 1 == n ? 0 : i + 1; }
-    static std::size_t before(std::size_t i, std::size_t n) { return i == 0 ? n - 1 : i - 1; }
-
-    [[nodiscard]] Ear judge_ear(const std::vector<Joint>& joints, std::size_t i) const {
-        const Joint& previous = joints[before(i, joints.size())];
-        const Joint& next = joints[after(i, joints.size())];
-        Ear ear;
-        ear.is_lens = previous.site_after == next.site_after;
-        if (ear.is_lens) {
-            ear.violation = lens_violation(joints[i], next);
-        } else {
-            ear.branch = find_branch(previous, joints[i], next);
-            ear.violation = ear.branch.violation;
-        }
-        return ear;
-    }
-
-    // Closes ears, the best first, until at most three joints are left. Closing one changes the
-    // judgement of its two neighbours only.
-    void close_ears(std::vector<Joint>& joints) {
-        std::vector<Ear> ears;
-        for (std::size_t i = 0; i < joints.size(); ++i) ears.push_back(judge_ear(joints, i));
-        while (joints.size() > 3) {
-            const auto best = std::min_element(
-                ears.begin(), ears.end(),
-                [](const Ear& a, const Ear& b) { return a.violation < b.violation; });
-            const auto i = static_cast<std::size_t>(best - ears.begin());
-            const Ear ear = *best;
-            const std::size_t next = after(i, joints.size());
-            close_ear(joints, i, ear);
-            // The joints at both ends of the interval gave way to one branch, or to none.
-            ears.erase(ears.begin() + static_cast<std::ptrdiff_t>(std::max(i, next)));
-            if (ear.is_lens)
-                ears.erase(ears.begin() + static_cast<std::ptrdiff_t>(std::min(i, next)));
-            const std::size_t n = joints.size();
-            const std::size_t here = std::min(i, next) % n;
-            for (const std::size_t k :
-                 {before(before(here, n), n), before(here, n), here, after(here, n)}) {
-                ears[k] = judge_ear(joints, k);
-            }
-        }
-    }
-
-    [[nodiscard]] bool is_accepted(double violation) const {
-        return violation <= largest_violation * size_;
-    }
-
-    void close_ear(std::vector<Joint>& joints, std::size_t i, const Ear& ear) {
-        const bool is_sound = is_accepted(ear.violation);
-        if (!ear.is_lens) {
-            BranchPoint branch = ear.branch;
-            if (!is_sound) {
-                // On the chord that cuts the ear off what is left stays convex.
-                branch.position =
-                    (joints[i].position + joints[after(i, joints.size())].position) / 2;
-            }
-            close_with_branch(joints, i, branch, is_sound);
-            return;
-        }
-        // The interval is cut off by one arc; its two neighbours are one piece.
-        const std::size_t next = after(i, joints.size());
-        const Joint from = joints[i];
-        const Joint to = joints[next];
-        add_arc(from, to.position, to.node, to.site_after, is_sound);
-        out_.pieces.emplace_back(to.site_after, -1);
-        out_.connected.emplace_back(joints[before(i, joints.size())].interval, to.interval);
-        // The interval before the ear now reaches to the end of the one after it.
-        const std::size_t low = std::min(i, next);
-        const std::size_t high = std::max(i, next);
-        joints.erase(joints.begin() + static_cast<std::ptrdiff_t>(high));
-        joints.erase(joints.begin() + static_cast<std::ptrdiff_t>(low));
-    }
-
-    // Two arcs run from the interval's joints to the branch; with three joints left, all three do.
-    void close_with_branch(std::vector<Joint>& joints, std::size_t i, const BranchPoint& branch,
-                           bool is_sound) {
-        const std::size_t n = joints.size();
-        const std::size_t next = after(i, n);
-        const Index site_before = joints[before(i, n)].site_after;
-        const Index site = joints[i].site_after;
-        const Index site_after = joints[next].site_after;
-        const Index node = first_branch_node_ + static_cast<Index>(out_.branches.size());
-        const auto first_arc = static_cast<Index>(out_.arcs.size());
-        out_.branches.push_back({branch.position,
-                                 branch.distance,
-                                 {first_arc, first_arc + 1, first_arc + 2},
-                                 {false, false, false},
-                                 {site, site_after, site_before}});
-        add_arc(joints[i], branch.position, node, site_before, is_sound);
-        add_arc(joints[next], branch.position, node, site, is_sound);
-        if (n == 3) {
-            add_arc(joints[before(i, n)], branch.position, node, site_after, is_sound);
-            return;
-        }
-        open_branches_.push_back(static_cast<Index>(out_.branches.size()) - 1);
-        joints[i] = {branch.position, node, site_after, joints[next].interval};
-        joints.erase(joints.begin() + static_cast<std::ptrdiff_t>(next));
-    }
-
-    // An arc inwards from a joint; `left` is the site before the joint.
-    void add_arc(const Joint& from, const Vec2& to, Index head, Index left, bool is_curved) {
-        const auto arc = static_cast<Index>(out_.arcs.size());
-        const auto first_point = static_cast<Index>(out_.points.size());
-        if (is_curved) sample_arc(left, from.site_after, from.position, to, 0);
-        out_.arcs.push_back({from.node, head, left, from.site_after, first_point,
-                             static_cast<Index>(out_.points.size()) - first_point});
-        connect_open_branch(from.node, arc, true);
-        connect_open_branch(head, arc, false);
-    }
-
-    // A branch that became a joint gets its third arc when that joint is used.
-    void connect_open_branch(Index node, Index arc, bool at_tail) {
-        const auto is_node = [&](Index branch) { return first_branch_node_ + branch == node; };
-        const auto found = std::find_if(open_branches_.begin(), open_branches_.end(), is_node);
-        if (found == open_branches_.end()) return;
-        out_.branches[*found].arcs[2] = arc;
-        out_.branches[*found].at_tail[2] = at_tail;
-        open_branches_.erase(found);
-    }
-
-    // --- Geometry ------------------------------------------------------------------------------
-
-    [[nodiscard]] Vec2 inside(const Vec2& p) const {
-        // Towards the centroid until inside; only fallbacks come here.
-        const Vec2 centroid = (corners_[0] + corners_[1] + corners_[2]) / 3;
-        double keep = 1;
-        for (int k = 0; k < 3; ++k) {
-            const double at_p = signed_height(p, k);
-            const double at_centroid = signed_height(centroid, k);
-            if (at_p < 0 && at_centroid > 0)
-                keep = std::min(keep, at_centroid / (at_centroid - at_p));
-        }
-        return centroid + keep * (p - centroid);
-    }
-
-    [[nodiscard]] double signed_height(const Vec2& p, int k) const {
-        const Vec2& a = corners_[static_cast<std::size_t>(k)];
-        const Vec2& b = corners_[static_cast<std::size_t>((k + 1) % 3)];
-        const double length = (b - a).norm();
-        return length > 0 ? cross(b - a, p - a) / length : 0;
-    }
-
-    [[nodiscard]] double outside(const Vec2& p) const {
-        return std::max({0.0, -signed_height(p, 0), -signed_height(p, 1), -signed_height(p, 2)});
-    }
-
-    // By how much some other site than these is nearer at p.
-    [[nodiscard]] double undercut(const Vec2& p, double distance, Index a, Index b, Index c) const {
-        double least = distance;
-        for (const PlanarRelay& relay : relays_) {
-            if (relay.site == a || relay.site == b || relay.site == c) continue;
-            least = std::min(least, reach(relay, p).distance);
-        }
-        return distance - least;
-    }
-
-    // Newton on equal distances from the sites before, at and after an interval.
-    [[nodiscard]] BranchPoint find_branch(const Joint& before, const Joint& at,
-                                          const Joint& after) const {
-        const Index a = before.site_after;
-        const Index b = at.site_after;
-        const Index c = after.site_after;
-        const Vec2 start = (at.position + after.position + before.position) / 3;
-        Vec2 p = start;
-        bool converged = false;
-        double distance = 0;
-        for (int i = 0; i < max_newton_steps; ++i) {
-            const Reach ra = reach_from(relays_, a, p);
-            const Reach rb = reach_from(relays_, b, p);
-            const Reach rc = reach_from(relays_, c, p);
-            distance = std::max({ra.distance, rb.distance, rc.distance});
-            const Vec2 residual(ra.distance - rb.distance, rb.distance - rc.distance);
-            if (!std::isfinite(distance)) break;
-            if (residual.lpNorm<Eigen::Infinity>() <= convergence * (size_ + distance)) {
-                converged = true;
-                break;
-            }
-            Eigen::Matrix2d jacobian;
-            jacobian.row(0) = (direction(p, ra) - direction(p, rb)).transpose();
-            jacobian.row(1) = (direction(p, rb) - direction(p, rc)).transpose();
-            const double determinant = jacobian.determinant();
-            if (!(std::abs(determinant) > convergence)) break;
-            Vec2 step = jacobian.inverse() * residual;
-            const double norm = step.norm();
-            if (norm > size_ / 2) step *= size_ / (2 * norm);
-            p -= step;
-        }
-        const double gap = outside(p);
-        if (!converged || gap > inside_tolerance * size_) {
-            // Not a vertex of the diagram in here.
-            return {start, reach_from(relays_, b, start).distance,
-                    converged ? size_ + gap : 2 * size_};
-        }
-        return {gap > 0 ? inside(p) : p, distance, undercut(p, distance, a, b, c)};
-    }
-
-    [[nodiscard]] static Vec2 direction(const Vec2& p, const Reach& r) {
-        const Vec2 d = p - r.from;
-        const double norm = d.norm();
-        return norm > 0 ? Vec2(d / norm) : Vec2(0, 0);
-    }
-
-    // Closing off an interval by one arc from its joint to the next: wrong where a third site is
-    // nearer on the arc, and the less likely the farther the arc strays from its chord.
-    [[nodiscard]] double lens_violation(const Joint& from, const Joint& to) const {
-        const Vec2 middle = (from.position + to.position) / 2;
-        Vec2 p;
-        double distance;
-        if (!project(from.site_after, to.site_after, from.position, to.position, p, distance)) {
-            return 2 * size_;
-        }
-        constexpr double stray_weight = 1e-3;
-        return undercut(p, distance, from.site_after, to.site_after, no_index) +
-               stray_weight * (p - middle).norm();
-    }
-
-    // The point of the bisector of a and b opposite the middle of a chord; false where there is
-    // none near. 1D Newton across the chord.
-    [[nodiscard]] bool project(Index a, Index b, const Vec2& from, const Vec2& to, Vec2& p,
-                               double& distance) const {
-        const Vec2 chord = to - from;
-        const double length = chord.norm();
-        if (!(length > inside_tolerance * size_)) return false;
-        const Vec2 normal(-chord.y() / length, chord.x() / length);
-        const Vec2 middle = (from + to) / 2;
-        double s = 0;
-        for (int i = 0; i < max_newton_steps; ++i) {
-            p = middle + s * normal;
-            const Reach ra = reach_from(relays_, a, p);
-            const Reach rb = reach_from(relays_, b, p);
-            const double gap = ra.distance - rb.distance;
-            distance = std::max(ra.distance, rb.distance);
-            if (!std::isfinite(gap)) return false;
-            if (std::abs(gap) <= convergence * (size_ + distance)) {
-                return outside(p) <= inside_tolerance * size_;
-            }
-            const double slope = (direction(p, ra) - direction(p, rb)).dot(normal);
-            if (!(std::abs(slope) > convergence)) return false;
-            s = std::clamp(s - gap / slope, -length / 2, length / 2);
-        }
-        return false;
-    }
-
-    void sample_arc(Index a, Index b, const Vec2& from, const Vec2& to, int depth) {
-        Vec2 p;
-        double distance;
-        if (depth == max_arc_depth || !project(a, b, from, to, p, distance)) return;
-        if ((p - (from + to) / 2).norm() <= chord_tolerance_ * (to - from).norm()) return;
-        sample_arc(a, b, from, p, depth + 1);
-        out_.points.push_back(p);
-        out_.point_distance.push_back(distance);
-        sample_arc(a, b, p, to, depth + 1);
-    }
-
-    std::span<const PlanarRelay> relays_;
-    const std::array<Vec2, 3>& corners_;
-    double chord_tolerance_;
-    LocalDiagram& out_;
-    double size_;
-    Index first_branch_node_ = 0;
-    std::vector<Index> open_branches_;
-};
+// Whether the ends of each segment lie on different sides of the other.
+bool do_cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
+    const Vec2 ab = b - a;
+    const double at_c = cross(ab, c - a);
+    const double at_d = cross(ab, d - a);
+    if (!((at_c < 0 && at_d > 0) || (at_c > 0 && at_d < 0))) return false;
+    const Vec2 cd = d - c;
+    const double at_a = cross(cd, a - c);
+    const double at_b = cross(cd, b - c);
+    return (at_a < 0 && at_b > 0) || (at_a > 0 && at_b < 0);
+}
 
 }  // namespace
 
-void solve_triangle(std::span<const PlanarRelay> relays, const std::array<Vec2, 3>& corners,
-                    std::vector<Joint>& joints, Index first_branch_node, double chord_tolerance,
-                    LocalDiagram& out) {
-    TriangleSolver(relays, corners, chord_tolerance, out).run(joints, first_branch_node);
+void TriangleSolver::set_relays(Relays relays) {
+    groups_.clear();
+    for (std::size_t i = 0; i < relays.size();) {
+        std::size_t end = i + 1;
+        while (end < relays.size() && relays[end].site == relays[i].site) ++end;
+        groups_.push_back({relays[i].site, relays.subspan(i, end - i)});
+        i = end;
+    }
+}
+
+void TriangleSolver::set_triangle(Index face, const std::array<Vec2, 3>& corners) {
+    face_ = face;
+    corners_ = corners;
+    size_ = std::sqrt(
+        std::max({(corners[1] - corners[0]).squaredNorm(), (corners[2] - corners[1]).squaredNorm(),
+                  (corners[0] - corners[2]).squaredNorm()}));
+}
+
+TriangleSolver::Mark TriangleSolver::mark() const {
+    return {out_.points.size(), out_.arcs.size(), out_.branches.size(), out_.connections.size()};
+}
+
+void TriangleSolver::go_back(const Mark& mark) {
+    out_.points.resize(mark.points);
+    out_.point_distance.resize(mark.points);
+    out_.arcs.resize(mark.arcs);
+    out_.branches.resize(mark.branches);
+    out_.connections.resize(mark.connections);
+}
+
+bool TriangleSolver::try_solve(Index face, const std::array<Vec2, 3>& corners,
+                               std::span<const Joint> joints) {
+    set_triangle(face, corners);
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+        if (!agrees(joints[i], joints[before(i, joints.size())].site_after)) return false;
+    }
+    const Mark start = mark();
+    is_safe_ = false;
+    draw(joints);
+    if (is_sound_ && !straighten_crossing_arcs(start)) return true;
+    go_back(start);
+    return false;
+}
+
+void TriangleSolver::solve(Index face, const std::array<Vec2, 3>& corners,
+                           std::span<const Joint> joints) {
+    set_triangle(face, corners);
+    const Mark start = mark();
+    is_safe_ = false;
+    draw(joints);
+    if (!straighten_crossing_arcs(start) || !straighten_crossing_arcs(start)) return;
+    go_back(start);
+    is_safe_ = true;
+    draw(joints);
+}
+
+void TriangleSolver::draw(std::span<const Joint> joints) {
+    joints_.assign(joints.begin(), joints.end());
+    ends_.clear();
+    open_branches_.clear();
+    is_sound_ = true;
+    if (joints_.size() > 3) close_ears();
+    if (joints_.size() == 3) {
+        close_with_branch(0, find_branch(joints_[2], joints_[0], joints_[1]));
+    } else {
+        assert(joints_.size() == 2);
+        add_arc(joints_[0], joints_[1].position, joints_[1].node, joints_[1].site_after, true);
+    }
+}
+
+// Whether both sites are as near as the edge says.
+bool TriangleSolver::agrees(const Joint& at, Index site_before) const {
+    const double limit = at.distance + largest_disagreement * size_;
+    const auto reaches = [&](const PlanarRelay& relay) {
+        return reach(relay, at.position).distance <= limit;
+    };
+    const Relays a = relays_of_site(site_before);
+    const Relays b = relays_of_site(at.site_after);
+    return std::any_of(a.begin(), a.end(), reaches) && std::any_of(b.begin(), b.end(), reaches);
+}
+
+bool TriangleSolver::is_accepted(double violation) const {
+    return !is_safe_ && violation <= largest_violation * size_;
+}
+
+TriangleSolver::Ear TriangleSolver::judge_ear(std::size_t i) const {
+    const Joint& previous = joints_[before(i, joints_.size())];
+    const Joint& next = joints_[after(i, joints_.size())];
+    Ear ear{};
+    ear.is_lens = previous.site_after == next.site_after;
+    if (ear.is_lens) {
+        ear.violation = lens_violation(joints_[i], next);
+    } else {
+        ear.branch = find_branch(previous, joints_[i], next);
+        const Vec2& p = ear.branch.position;
+        ear.violation =
+            std::max({ear.branch.violation, arc_undercut(previous.site_after, joints_[i], p),
+                      arc_undercut(joints_[i].site_after, next, p)});
+    }
+    return ear;
+}
+
+// Closes ears, the best first, until at most three joints are left. Closing one changes the
+// judgement of its two neighbours only.
+void TriangleSolver::close_ears() {
+    ears_.clear();
+    for (std::size_t i = 0; i < joints_.size(); ++i) ears_.push_back(judge_ear(i));
+    while (joints_.size() > 3) {
+        const auto best =
+            std::min_element(ears_.begin(), ears_.end(),
+                             [](const Ear& a, const Ear& b) { return a.violation < b.violation; });
+        const auto i = static_cast<std::size_t>(best - ears_.begin());
+        const Ear ear = *best;
+        const std::size_t next = after(i, joints_.size());
+        close_ear(i, ear);
+        // The joints at both ends of the interval gave way to one branch, which took the place of
+        // the first, or to none.
+        if (ear.is_lens) {
+            ears_.erase(ears_.begin() + static_cast<std::ptrdiff_t>(std::max(i, next)));
+            ears_.erase(ears_.begin() + static_cast<std::ptrdiff_t>(std::min(i, next)));
+        } else {
+            ears_.erase(ears_.begin() + static_cast<std::ptrdiff_t>(next));
+        }
+        const std::size_t n = joints_.size();
+        const std::size_t here = next < i ? n - 1 : i % n;
+        for (const std::size_t k :
+             {before(before(here, n), n), before(here, n), here, after(here, n)}) {
+            ears_[k] = judge_ear(k);
+        }
+    }
+}
+
+void TriangleSolver::close_ear(std::size_t i, const Ear& ear) {
+    if (!ear.is_lens) {
+        close_with_branch(i, ear.branch);
+        return;
+    }
+    // The interval is cut off by one arc; its two neighbours are one piece.
+    const bool is_sound = is_accepted(ear.violation);
+    is_sound_ = is_sound_ && is_sound;
+    const std::size_t next = after(i, joints_.size());
+    const Joint from = joints_[i];
+    const Joint to = joints_[next];
+    add_arc(from, to.position, to.node, to.site_after, is_sound);
+    out_.connections.push_back(
+        {joints_[before(i, joints_.size())].interval, to.interval, to.site_after});
+    // The interval before the ear now reaches to the end of the one after it.
+    joints_.erase(joints_.begin() + static_cast<std::ptrdiff_t>(std::max(i, next)));
+    joints_.erase(joints_.begin() + static_cast<std::ptrdiff_t>(std::min(i, next)));
+}
+
+// Two arcs run from the interval's joints to the branch; with three joints left, all three do.
+void TriangleSolver::close_with_branch(std::size_t i, BranchPoint branch) {
+    const std::size_t n = joints_.size();
+    const std::size_t next = after(i, n);
+    const Joint& previous = joints_[before(i, n)];
+    const Index site_before = previous.site_after;
+    const Index site = joints_[i].site_after;
+    const Index site_after = joints_[next].site_after;
+    const bool is_sound = is_accepted(branch.violation);
+    is_sound_ = is_sound_ && is_sound;
+    if (!is_sound) {
+        // On the chord that cuts the ear off what is left stays convex.
+        const Vec2& p = joints_[i].position;
+        const Vec2& q = joints_[next].position;
+        const Vec2& r = previous.position;
+        const Vec2 places[] = {(p + q) / 2, p, q, (p + q + r) / 3, r, (q + r) / 2, (r + p) / 2};
+        const std::size_t count = n == 3 ? 7 : 3;
+        branch = least_unequal({places, count}, site_before, site, site_after);
+    }
+    const Index node = LocalDiagram::first_branch + static_cast<Index>(out_.branches.size());
+    const auto first_arc = static_cast<Index>(out_.arcs.size());
+    out_.branches.push_back({face_,
+                             branch.position,
+                             branch.distance,
+                             {first_arc, first_arc + 1, first_arc + 2},
+                             {false, false, false},
+                             {site, site_after, site_before}});
+    add_arc(joints_[i], branch.position, node, site_before, is_sound);
+    add_arc(joints_[next], branch.position, node, site, is_sound);
+    if (n == 3) {
+        add_arc(previous, branch.position, node, site_after, is_sound);
+        return;
+    }
+    open_branches_.push_back(static_cast<Index>(out_.branches.size()) - 1);
+    joints_[i] = {branch.position, branch.distance, node, site_after, joints_[next].interval};
+    joints_.erase(joints_.begin() + static_cast<std::ptrdiff_t>(next));
+}
+
+// An arc inwards from a joint; `left` is the site before the joint.
+void TriangleSolver::add_arc(const Joint& from, const Vec2& to, Index head, Index left,
+                             bool is_curved) {
+    const auto arc = static_cast<Index>(out_.arcs.size());
+    const auto first_point = static_cast<Index>(out_.points.size());
+    if (is_curved && !is_safe_) {
+        sample_arc(relays_of_site(left), relays_of_site(from.site_after), from.position, to, 0);
+    }
+    out_.arcs.push_back({face_, from.node, head, left, from.site_after, first_point,
+                         static_cast<Index>(out_.points.size()) - first_point});
+    ends_.push_back({from.position, to});
+    connect_open_branch(from.node, arc, true);
+    connect_open_branch(head, arc, false);
+}
+
+// A branch that became a joint gets its third arc when that joint is used.
+void TriangleSolver::connect_open_branch(Index node, Index arc, bool at_tail) {
+    if (node < LocalDiagram::first_branch) return;
+    const auto found =
+        std::find(open_branches_.begin(), open_branches_.end(), node - LocalDiagram::first_branch);
+    if (found == open_branches_.end()) return;
+    out_.branches[*found].arcs[2] = arc;
+    out_.branches[*found].at_tail[2] = at_tail;
+    open_branches_.erase(found);
+}
+
+// --- Crossings -------------------------------------------------------------------------------
+
+void TriangleSolver::collect_segments(const Mark& since) {
+    segments_.clear();
+    for (std::size_t i = since.arcs; i < out_.arcs.size(); ++i) {
+        const LocalArc& arc = out_.arcs[i];
+        const Ends& ends = ends_[i - since.arcs];
+        Vec2 last = ends.tail;
+        for (Index j = arc.first_point; j < arc.first_point + arc.num_points; ++j) {
+            segments_.push_back({static_cast<Index>(i), last, out_.points[j]});
+            last = out_.points[j];
+        }
+        segments_.push_back({static_cast<Index>(i), last, ends.head});
+    }
+}
+
+// Arcs that cross others, or themselves, lose their inner points. False: none did.
+bool TriangleSolver::straighten_crossing_arcs(const Mark& since) {
+    const std::size_t num_arcs = out_.arcs.size() - since.arcs;
+    if (num_arcs + out_.points.size() - since.points < 3) return false;
+    collect_segments(since);
+    crossing_.clear();
+    for (std::size_t i = 0; i < segments_.size(); ++i) {
+        for (std::size_t j = i + 1; j < segments_.size(); ++j) {
+            if (!do_cross(segments_[i].from, segments_[i].to, segments_[j].from, segments_[j].to)) {
+                continue;
+            }
+            crossing_.push_back(segments_[i].arc);
+            crossing_.push_back(segments_[j].arc);
+        }
+    }
+    for (const Index arc : crossing_) out_.arcs[arc].num_points = 0;
+    return !crossing_.empty();
+}
+
+// --- Geometry --------------------------------------------------------------------------------
+
+TriangleSolver::Relays TriangleSolver::relays_of_site(Index site) const {
+    for (const Group& group : groups_) {
+        if (group.site == site) return group.relays;
+    }
+    return {};
+}
+
+double TriangleSolver::signed_height(const Vec2& p, std::size_t k) const {
+    const Vec2& a = corners_[k];
+    const Vec2& b = corners_[(k + 1) % 3];
+    const double length = (b - a).norm();
+    return length > 0 ? cross(b - a, p - a) / length : 0;
+}
+
+double TriangleSolver::outside(const Vec2& p) const {
+    double least = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec2& a = corners_[k];
+        if (cross(corners_[(k + 1) % 3] - a, p - a) < 0) {
+            least = std::min(least, signed_height(p, k));
+        }
+    }
+    return -least;
+}
+
+// Towards the centroid until inside: rounding only.
+Vec2 TriangleSolver::inside(const Vec2& p) const {
+    const Vec2 centroid = (corners_[0] + corners_[1] + corners_[2]) / 3;
+    double keep = 1;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double at_p = signed_height(p, k);
+        const double at_centroid = signed_height(centroid, k);
+        if (at_p < 0 && at_centroid > 0) {
+            keep = std::min(keep, at_centroid / (at_centroid - at_p));
+        }
+    }
+    return centroid + keep * (p - centroid);
+}
+
+// By how much some other site than these is nearer at p.
+double TriangleSolver::undercut(const Vec2& p, double distance, Index a, Index b, Index c) const {
+    double least = distance;
+    for (const Group& group : groups_) {
+        if (group.site == a || group.site == b || group.site == c) continue;
+        least = std::min(least, least_reach(group.relays, p).distance);
+    }
+    return distance - least;
+}
+
+// Newton on equal distances from three sites. Two points may have them: `turn` is positive at the
+// one around which the sites lie counter-clockwise.
+bool TriangleSolver::find_equal(Relays a, Relays b, Relays c, Vec2& p, double& distance,
+                                double& turn) const {
+    for (int i = 0; i < max_newton_steps; ++i) {
+        const Reach ra = least_reach(a, p);
+        const Reach rb = least_reach(b, p);
+        const Reach rc = least_reach(c, p);
+        distance = std::max({ra.distance, rb.distance, rc.distance});
+        if (!std::isfinite(distance)) return false;
+        const Vec2 residual(ra.distance - rb.distance, rb.distance - rc.distance);
+        const Vec2 at_b = direction(p, rb);
+        const Vec2 first = direction(p, ra) - at_b;
+        const Vec2 second = at_b - direction(p, rc);
+        const double determinant = cross(first, second);
+        if (std::max(std::abs(residual.x()), std::abs(residual.y())) <=
+            convergence * (size_ + distance)) {
+            turn = determinant;
+            return true;
+        }
+        if (!(std::abs(determinant) > convergence)) return false;
+        Vec2 step(second.y() * residual.x() - first.y() * residual.y(),
+                  first.x() * residual.y() - second.x() * residual.x());
+        step /= determinant;
+        const double norm = step.norm();
+        if (norm > size_ / 2) step *= size_ / (2 * norm);
+        p -= step;
+    }
+    return false;
+}
+
+// Where the sites before, at and after an interval meet.
+TriangleSolver::BranchPoint TriangleSolver::find_branch(const Joint& before, const Joint& at,
+                                                        const Joint& after) const {
+    const Index sites[] = {before.site_after, at.site_after, after.site_after};
+    const Relays a = relays_of_site(sites[0]);
+    const Relays b = relays_of_site(sites[1]);
+    const Relays c = relays_of_site(sites[2]);
+    const Vec2 centroid = (at.position + after.position + before.position) / 3;
+    const Vec2 starts[] = {centroid, (at.position + after.position) / 2};
+    for (const Vec2& start : starts) {
+        Vec2 p = start;
+        double distance;
+        double turn = 0;
+        if (!find_equal(a, b, c, p, distance, turn)) break;
+        if (!(turn > 0)) continue;  // The other one: from elsewhere.
+        const double gap = outside(p);
+        if (gap > inside_tolerance * size_) break;
+        return {gap > 0 ? inside(p) : p, distance,
+                undercut(p, distance, sites[0], sites[1], sites[2])};
+    }
+    // Cells may meet at the very end of an interval, where distances have no derivative.
+    const Vec2 places[] = {at.position, after.position, before.position};
+    const BranchPoint at_joint = least_unequal(places, sites[0], sites[1], sites[2]);
+    if (at_joint.violation <= inside_tolerance * size_) return at_joint;
+    return {centroid, least_reach(b, centroid).distance, 2 * size_};
+}
+
+// Where three distances differ least; by how much is the violation.
+TriangleSolver::BranchPoint TriangleSolver::least_unequal(std::span<const Vec2> places, Index a,
+                                                          Index b, Index c) const {
+    BranchPoint best{places[0], 0, infinity};
+    for (const Vec2& p : places) {
+        const double da = least_reach(relays_of_site(a), p).distance;
+        const double db = least_reach(relays_of_site(b), p).distance;
+        const double dc = least_reach(relays_of_site(c), p).distance;
+        const double most = std::max({da, db, dc});
+        const double violation = most - std::min({da, db, dc});
+        if (violation < best.violation || (&p == places.data())) {
+            best = {p, most, std::isfinite(most) ? violation : infinity};
+        }
+    }
+    return best;
+}
+
+// By how much some other site is nearer in the middle of an arc.
+double TriangleSolver::arc_undercut(Index site_before, const Joint& from, const Vec2& to) const {
+    Vec2 p;
+    double distance;
+    return project(relays_of_site(site_before), relays_of_site(from.site_after), from.position, to,
+                   p, distance)
+               ? undercut(p, distance, site_before, from.site_after, no_index)
+               : 0;
+}
+
+// Closing off an interval by one arc from its joint to the next: wrong where a third site is
+// nearer on the arc, and the less likely the farther the arc strays from its chord.
+double TriangleSolver::lens_violation(const Joint& from, const Joint& to) const {
+    Vec2 p;
+    double distance;
+    if (!project(relays_of_site(from.site_after), relays_of_site(to.site_after), from.position,
+                 to.position, p, distance)) {
+        return 2 * size_;
+    }
+    constexpr double stray_weight = 1e-3;
+    return undercut(p, distance, from.site_after, to.site_after, no_index) +
+           stray_weight * (p - (from.position + to.position) / 2).norm();
+}
+
+// The point of the bisector of a and b opposite the middle of a chord; false where there is
+// none near. 1D Newton across the chord.
+bool TriangleSolver::project(Relays a, Relays b, const Vec2& from, const Vec2& to, Vec2& p,
+                             double& distance) const {
+    const Vec2 chord = to - from;
+    const double length = chord.norm();
+    if (!(length > inside_tolerance * size_)) return false;
+    const Vec2 normal(-chord.y() / length, chord.x() / length);
+    const Vec2 middle = (from + to) / 2;
+    const PlanarRelay* on_a = nullptr;  // The relays that are nearest at `chosen_at`.
+    const PlanarRelay* on_b = nullptr;
+    double chosen_at = 0;
+    double s = 0;
+    for (int i = 0; i < max_newton_steps; ++i) {
+        p = middle + s * normal;
+        if (on_a == nullptr) {
+            on_a = nearest_relay(a, p);
+            on_b = nearest_relay(b, p);
+            chosen_at = s;
+            if (on_a == nullptr || on_b == nullptr) return false;
+        }
+        const Reach ra = reach(*on_a, p);
+        const Reach rb = reach(*on_b, p);
+        const double gap = ra.distance - rb.distance;
+        distance = std::max(ra.distance, rb.distance);
+        if (std::abs(gap) <= convergence * (size_ + distance)) {
+            if (std::abs(s - chosen_at) <= near_enough * length) {
+                return outside(p) <= inside_tolerance * size_;
+            }
+            on_a = nullptr;  // Others may be nearer here.
+            continue;
+        }
+        const double slope = (direction(p, ra) - direction(p, rb)).dot(normal);
+        if (!(std::abs(slope) > convergence)) return false;
+        s = std::clamp(s - gap / slope, -length / 2, length / 2);
+    }
+    return false;
+}
+
+void TriangleSolver::sample_arc(Relays a, Relays b, const Vec2& from, const Vec2& to, int depth) {
+    Vec2 p;
+    double distance;
+    if (depth == max_arc_depth || !project(a, b, from, to, p, distance)) return;
+    if ((p - (from + to) / 2).norm() <= chord_tolerance_ * (to - from).norm()) return;
+    sample_arc(a, b, from, p, depth + 1);
+    out_.points.push_back(p);
+    out_.point_distance.push_back(distance);
+    sample_arc(a, b, p, to, depth + 1);
 }
 
 }  // namespace agvd

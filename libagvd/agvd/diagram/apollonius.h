@@ -11,13 +11,15 @@ namespace agvd {
 //! joint i + 1 (cyclic) the boundary has label joints[i].site_after.
 struct Joint {
     Vec2 position;
-    Index node;  //!< Caller's name of the point.
+    double distance;  //!< From both sites.
+    Index node;       //!< Caller's name of the point.
     Index site_after;
     Index interval;  //!< Caller's name of the interval after it.
 };
 
 //! A piece of bisector between two nodes.
 struct LocalArc {
+    Index face;
     Index tail, head;   //!< Nodes.
     Index left, right;  //!< Sites, walking from tail to head.
     Index first_point;  //!< Its inner polyline points in LocalDiagram::points.
@@ -26,6 +28,7 @@ struct LocalArc {
 
 //! A point where three cells meet. Counter-clockwise around it: arc_ends[i], then sites[i].
 struct LocalBranch {
+    Index face;
     Vec2 position;
     double distance;
     std::array<Index, 3> arcs;    //!< Indices into arcs.
@@ -33,28 +36,128 @@ struct LocalBranch {
     std::array<Index, 3> sites;
 };
 
-struct LocalDiagram {
-    std::vector<Vec2> points;
-    std::vector<double> point_distance;
-    std::vector<LocalArc> arcs;
-    std::vector<LocalBranch> branches;  //!< Branch b is node first_branch_node + b.
-    //! (site, change): their sum over a site is the number of connected pieces of its cell.
-    std::vector<std::pair<Index, int>> pieces;
-    //! Boundary intervals that hang together inside.
-    std::vector<std::pair<Index, Index>> connected;
+//! Two boundary intervals of a site that hang together inside.
+struct Connection {
+    Index a, b;  //!< Names of intervals.
+    Index site;
 };
 
-//! Appends to `out`. The result is a planar forest whatever the distances are: the boundary's
-//! intervals are closed off one after the other, each by the arc or branch that fits the distances
-//! best, and each step leaves a shorter cycle. Where the distances are those of a true Apollonius
-//! diagram it is that diagram.
-//!
-//! \param joints            at least 2, neighbours differ in site_after; consumed.
-//! \param first_branch_node node number of out.branches[0].
-//! \param chord_tolerance   arcs are sampled until they stray less than this share of a chord.
-//! Cost: O(k) branch points for k joints, each O(relays), and O(k^2) comparisons.
-void solve_triangle(std::span<const PlanarRelay> relays, const std::array<Vec2, 3>& corners,
-                    std::vector<Joint>& joints, Index first_branch_node, double chord_tolerance,
-                    LocalDiagram& out);
+//! What the faces of one chunk contribute.
+struct LocalDiagram {
+    static constexpr Index first_branch = Index{1} << 31;
+
+    std::vector<Vec2> points;  //!< In the own frame of the face concerned.
+    std::vector<double> point_distance;
+    std::vector<LocalArc> arcs;
+    std::vector<LocalBranch> branches;  //!< Branch b is node first_branch + b.
+    std::vector<Connection> connections;
+};
+
+//! Draws diagrams into `out`. Scratch memory is kept from triangle to triangle.
+class TriangleSolver {
+public:
+    //! \param chord_tolerance  arcs are sampled until they stray less than this share of a chord.
+    TriangleSolver(double chord_tolerance, LocalDiagram& out)
+        : chord_tolerance_(chord_tolerance), out_(out) {}
+
+    //! \param relays  site by site; kept by reference until the next call.
+    void set_relays(std::span<const PlanarRelay> relays);
+
+    //! Appends the diagram if the relays agree with the joints and with each other: equal
+    //! joints no farther than they say, branch points where they should be, no arcs that cross.
+    //! \param joints  at least 2, neighbours differ in site_after.
+    //! \return false: nothing was appended.
+    [[nodiscard]] bool try_solve(Index face, const std::array<Vec2, 3>& corners,
+                                 std::span<const Joint> joints);
+
+    //! The same for any relays. The result is a planar forest whatever the distances are: the
+    //! boundary's intervals are closed off one after the other, each by the arc or branch that fits
+    //! the distances best, and each step leaves a shorter cycle. Where the distances are those of a
+    //! true Apollonius diagram it is that diagram. Arcs that would cross others are drawn straight,
+    //! and if that is not enough all are, with branches on the chords that cut intervals off.
+    //! Cost: O(k) branch points for k joints, each O(relays), and O(k^2) comparisons.
+    void solve(Index face, const std::array<Vec2, 3>& corners, std::span<const Joint> joints);
+
+private:
+    using Relays = std::span<const PlanarRelay>;
+
+    struct BranchPoint {
+        Vec2 position;
+        double distance;
+        double violation;  // How badly the distances contradict it; 0: not at all.
+    };
+    // A way to close off an interval.
+    struct Ear {
+        double violation;
+        BranchPoint branch;
+        bool is_lens;
+    };
+    struct Group {
+        Index site;
+        Relays relays;
+    };
+    struct Ends {
+        Vec2 tail, head;
+    };
+    // Sizes of `out_`, to go back to.
+    struct Mark {
+        std::size_t points, arcs, branches, connections;
+    };
+    struct Segment {
+        Index arc;
+        Vec2 from, to;
+    };
+
+    void set_triangle(Index face, const std::array<Vec2, 3>& corners);
+    void draw(std::span<const Joint> joints);
+    [[nodiscard]] Mark mark() const;
+    void go_back(const Mark& mark);
+
+    [[nodiscard]] bool agrees(const Joint& at, Index site_before) const;
+    [[nodiscard]] bool is_accepted(double violation) const;
+    [[nodiscard]] Ear judge_ear(std::size_t i) const;
+    void close_ears();
+    void close_ear(std::size_t i, const Ear& ear);
+    void close_with_branch(std::size_t i, BranchPoint branch);
+    void add_arc(const Joint& from, const Vec2& to, Index head, Index left, bool is_curved);
+    void connect_open_branch(Index node, Index arc, bool at_tail);
+
+    [[nodiscard]] bool straighten_crossing_arcs(const Mark& since);
+    void collect_segments(const Mark& since);
+
+    [[nodiscard]] Relays relays_of_site(Index site) const;
+    [[nodiscard]] double signed_height(const Vec2& p, std::size_t k) const;
+    [[nodiscard]] double outside(const Vec2& p) const;
+    [[nodiscard]] Vec2 inside(const Vec2& p) const;
+    [[nodiscard]] double undercut(const Vec2& p, double distance, Index a, Index b, Index c) const;
+    [[nodiscard]] bool find_equal(Relays a, Relays b, Relays c, Vec2& p, double& distance,
+                                  double& turn) const;
+    [[nodiscard]] BranchPoint find_branch(const Joint& before, const Joint& at,
+                                          const Joint& after) const;
+    [[nodiscard]] BranchPoint least_unequal(std::span<const Vec2> places, Index a, Index b,
+                                            Index c) const;
+    [[nodiscard]] double arc_undercut(Index site_before, const Joint& from, const Vec2& to) const;
+    [[nodiscard]] double lens_violation(const Joint& from, const Joint& to) const;
+    [[nodiscard]] bool project(Relays a, Relays b, const Vec2& from, const Vec2& to, Vec2& p,
+                               double& distance) const;
+    void sample_arc(Relays a, Relays b, const Vec2& from, const Vec2& to, int depth);
+
+    double chord_tolerance_;
+    LocalDiagram& out_;
+    std::vector<Group> groups_;
+
+    // The triangle at hand.
+    Index face_ = 0;
+    std::array<Vec2, 3> corners_;
+    double size_ = 0;       // Longest side.
+    bool is_safe_ = false;  // Draw all straight.
+    bool is_sound_ = true;  // Nothing drawn contradicts the distances.
+    std::vector<Joint> joints_;
+    std::vector<Ear> ears_;
+    std::vector<Index> open_branches_;
+    std::vector<Ends> ends_;  // Of the arcs drawn.
+    std::vector<Segment> segments_;
+    std::vector<Index> crossing_;  // Arcs.
+};
 
 }  // namespace agvd

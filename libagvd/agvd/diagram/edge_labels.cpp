@@ -3,11 +3,13 @@
 #include <algorithm>
 
 #include "agvd/core/parallel.h"
+#include "agvd/diagram/edge_relays.h"
+#include "agvd/diagram/envelope.h"
 
 namespace agvd {
 namespace {
 
-constexpr Index grain = 256;
+constexpr Index grain = 512;
 
 void list_mixed_faces(const Surface& surface, const Propagation& propagation, EdgeLabels& labels) {
     labels.mixed_index.assign(surface.num_faces(), no_index);
@@ -16,133 +18,122 @@ void list_mixed_faces(const Surface& surface, const Propagation& propagation, Ed
     }
 }
 
-void label_vertices(const Surface& surface, const Propagation& propagation, int num_threads,
-                    EdgeLabels& labels) {
-    const auto num_mixed = static_cast<Index>(propagation.mixed_faces.size());
-    std::vector<std::array<Nearest, 3>> at_corner(num_mixed);
-    parallel_chunks(num_mixed, grain, num_threads, [&](Index, Index begin, Index end) {
-        std::vector<PlanarRelay> relays;
-        for (Index i = begin; i < end; ++i) {
-            relays.clear();
-            append_planar(surface, relays_of(propagation, i), {}, relays);
-            const auto corners = face_corners(surface, propagation.mixed_faces[i]);
-            for (std::size_t k = 0; k < 3; ++k) at_corner[i][k] = nearest(relays, corners[k]);
-        }
-    });
-
+void label_vertices(const Surface& surface, const Propagation& propagation,
+                    std::span<const RelayReach> reaches, EdgeLabels& labels) {
     labels.vertex_distance = propagation.vertex_distance;
-    labels.vertex_site.reserve(surface.num_vertices());
-    for (const SiteId site : propagation.vertex_site) labels.vertex_site.push_back(site.value());
-    std::vector<bool> is_fixed(surface.num_vertices(), false);
+    labels.point_site.reserve(surface.num_vertices());
+    for (const SiteId site : propagation.vertex_site) labels.point_site.push_back(site.value());
+    std::vector<std::uint8_t> is_fixed(surface.num_vertices(), 0);
     for (Index f = 0; f < surface.num_faces(); ++f) {
         if (labels.mixed_index[f] != no_index) continue;
-        for (const Index v : surface.mesh.triangles[f]) is_fixed[v] = true;
+        for (const Index v : surface.mesh.triangles[f]) is_fixed[v] = 1;
     }
-    for (Index i = 0; i < num_mixed; ++i) {
-        const Triangle& corners = surface.mesh.triangles[propagation.mixed_faces[i]];
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Index v = corners[k];
-            const Nearest& found = at_corner[i][k];
-            if (is_fixed[v] || found.site == no_index) continue;
-            if (is_nearer(found.distance, found.site, labels.vertex_distance[v],
-                          labels.vertex_site[v])) {
-                labels.vertex_distance[v] = found.distance;
-                labels.vertex_site[v] = found.site;
+    for (const RelayReach& reach : reaches) {
+        const Index next = Surface::next(reach.half_edge);
+        const auto offer = [&](Index v, double distance) {
+            if (is_fixed[v] != 0 ||
+                !is_nearer(distance, reach.site, labels.vertex_distance[v], labels.point_site[v])) {
+                return;
             }
+            labels.vertex_distance[v] = distance;
+            labels.point_site[v] = reach.site;
+        };
+        offer(surface.tail(reach.half_edge), reach.tail);
+        offer(surface.tail(next), reach.head);
+        offer(surface.tail(Surface::next(next)), reach.apex);
+    }
+}
+
+// Whether this half-edge speaks for an edge all of whose faces are listed.
+bool is_labelled(const Surface& surface, const EdgeLabels& labels, Index half_edge) {
+    const Index twin = surface.twin[half_edge];
+    return twin == no_index ||
+           (half_edge < twin && labels.mixed_index[Surface::face(twin)] != no_index);
+}
+
+struct FoundRows {
+    std::vector<CrossingRow> rows;
+    std::vector<Crossing> crossings;
+};
+
+class EdgeLabeller {
+public:
+    EdgeLabeller(const Surface& surface, const EdgeLabels& labels, EdgeRelays relays,
+                 FoundRows& out)
+        : surface_(surface), labels_(labels), edge_relays_(std::move(relays)), out_(out) {}
+
+    void label(Index half_edge) {
+        const Index edge = surface_.edge[half_edge];
+        if (!edge_relays_.may_change(edge, relays_)) return;
+        const double length = surface_.length[edge];
+        const Index site_at_tail = labels_.point_site[surface_.tail(half_edge)];
+        const Index site_at_head = labels_.point_site[surface_.head(half_edge)];
+        double at, distance_there;
+        if (site_at_tail != site_at_head &&
+            find_single_crossing(relays_, length, site_at_tail, site_at_head, at, distance_there)) {
+            out_.rows.push_back({edge, static_cast<Index>(out_.crossings.size()), 1});
+            out_.crossings.push_back({at / length, distance_there, site_at_tail, site_at_head});
+            return;
+        }
+        label_envelope(relays_, length, site_at_tail, site_at_head, scratch_, intervals_);
+        const auto count = static_cast<Index>(intervals_.size()) - 1;
+        if (count == 0) return;
+        out_.rows.push_back({edge, static_cast<Index>(out_.crossings.size()), count});
+        for (Index k = 0; k < count; ++k) {
+            const Index before = intervals_[k].site;
+            const Index after = intervals_[k + 1].site;
+            const double x = intervals_[k].end * length;
+            const double distance =
+                std::max(distance_on_line(relays_, before, x), distance_on_line(relays_, after, x));
+            out_.crossings.push_back({intervals_[k].end, distance, before, after});
         }
     }
-}
 
-void list_edges(const Surface& surface, EdgeLabels& labels) {
-    labels.edge_index.assign(surface.num_edges(), no_index);
-    for (Index e = 0; e < surface.num_edges(); ++e) {
-        const Index h = surface.edge_half[e];
-        const Index twin = surface.twin[h];
-        const bool all_listed =
-            labels.mixed_index[Surface::face(h)] != no_index &&
-            (twin == no_index || labels.mixed_index[Surface::face(twin)] != no_index);
-        if (!all_listed) continue;
-        labels.edge_index[e] = static_cast<Index>(labels.edges.size());
-        labels.edges.push_back(e);
-    }
-}
+private:
+    const Surface& surface_;
+    const EdgeLabels& labels_;
+    EdgeRelays edge_relays_;
+    FoundRows& out_;
+    std::vector<LineRelay> relays_;
+    std::vector<LabelInterval> intervals_;
+    EnvelopeScratch scratch_;
+};
 
-// The relays of both faces and of the two ends, in the frame of the edge's edge_half.
-void gather_relays(const Surface& surface, const Propagation& propagation, const EdgeLabels& labels,
-                   Index edge, std::vector<PlanarRelay>& relays) {
-    relays.clear();
-    const Index h = surface.edge_half[edge];
-    const Index twin = surface.twin[h];
-    const double length = surface.length[edge];
-    append_planar(surface, relays_of(propagation, labels.mixed_index[Surface::face(h)]),
-                  from_face_frame(surface, h), relays);
-    if (twin != no_index) {
-        const Motion turn{{-1, 0}, {length, 0}};
-        append_planar(surface, relays_of(propagation, labels.mixed_index[Surface::face(twin)]),
-                      compose(turn, from_face_frame(surface, twin)), relays);
+void append_rows(const std::vector<FoundRows>& found, EdgeLabels& labels) {
+    for (const FoundRows& part : found) {
+        const auto offset = static_cast<Index>(labels.crossings.size());
+        for (CrossingRow row : part.rows) {
+            labels.edge_row[row.edge] = static_cast<Index>(labels.rows.size());
+            row.begin += offset;
+            labels.rows.push_back(row);
+        }
+        labels.crossings.insert(labels.crossings.end(), part.crossings.begin(),
+                                part.crossings.end());
     }
-    const Index a = surface.tail(h);
-    const Index b = surface.head(h);
-    relays.push_back(point_relay({0, 0}, labels.vertex_distance[a], labels.vertex_site[a]));
-    relays.push_back(point_relay({length, 0}, labels.vertex_distance[b], labels.vertex_site[b]));
 }
 
 }  // namespace
 
-EdgeLabels label_edges(const Surface& surface, const Propagation& propagation, int num_threads) {
+EdgeLabels label_edges(const Surface& surface, const Propagation& propagation,
+                       std::span<const RelayReach> reaches, int num_threads) {
     EdgeLabels labels;
     list_mixed_faces(surface, propagation, labels);
-    label_vertices(surface, propagation, num_threads, labels);
-    list_edges(surface, labels);
+    label_vertices(surface, propagation, reaches, labels);
+    labels.edge_row.assign(surface.num_edges(), no_index);
 
-    const auto num_edges = static_cast<Index>(labels.edges.size());
-    std::vector<std::vector<Crossing>> found(num_chunks(num_edges, grain));
-    std::vector<std::vector<EdgeRelay>> won(found.size());
-    std::vector<Index> num_won(num_edges);
-    labels.crossing_counts.resize(num_edges);
-    parallel_chunks(num_edges, grain, num_threads, [&](Index chunk, Index begin, Index end) {
-        EnvelopeScratch scratch;
-        std::vector<PlanarRelay> relays;
-        std::vector<LabelInterval> intervals;
-        std::vector<EnvelopePiece> pieces;
+    const auto num_mixed = static_cast<Index>(propagation.mixed_faces.size());
+    std::vector<FoundRows> found(num_chunks(num_mixed, grain));
+    parallel_chunks(num_mixed, grain, num_threads, [&](Index chunk, Index begin, Index end) {
+        EdgeLabeller labeller(surface, labels, {surface, propagation, reaches, labels},
+                              found[chunk]);
         for (Index i = begin; i < end; ++i) {
-            const Index e = labels.edges[i];
-            const Index h = surface.edge_half[e];
-            gather_relays(surface, propagation, labels, e, relays);
-            const Vec2 head(surface.length[e], 0);
-            label_envelope(relays, {0, 0}, head, labels.vertex_site[surface.tail(h)],
-                           labels.vertex_site[surface.head(h)], scratch, intervals, &pieces);
-            num_won[i] = static_cast<Index>(pieces.size());
-            for (const EnvelopePiece& piece : pieces) {
-                won[chunk].push_back(
-                    {piece.from, piece.weight, piece.begin, piece.end, piece.site});
-            }
-            labels.crossing_counts[i] = static_cast<Index>(intervals.size()) - 1;
-            for (std::size_t k = 0; k + 1 < intervals.size(); ++k) {
-                const Vec2 p = intervals[k].end * head;
-                const double distance =
-                    std::max(reach_from(relays, intervals[k].site, p).distance,
-                             reach_from(relays, intervals[k + 1].site, p).distance);
-                found[chunk].push_back(
-                    {intervals[k].end, distance, intervals[k].site, intervals[k + 1].site});
+            const Index face = propagation.mixed_faces[i];
+            for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+                if (is_labelled(surface, labels, h)) labeller.label(h);
             }
         }
     });
-    Index offset = 0;
-    for (const Index count : labels.crossing_counts) {
-        labels.crossing_offsets.push_back(offset);
-        offset += count;
-    }
-    labels.relay_offsets.assign(1, 0);
-    for (const Index count : num_won) {
-        labels.relay_offsets.push_back(labels.relay_offsets.back() + count);
-    }
-    for (const auto& part : won) {
-        labels.relays.insert(labels.relays.end(), part.begin(), part.end());
-    }
-    for (const auto& part : found) {
-        labels.crossings.insert(labels.crossings.end(), part.begin(), part.end());
-    }
+    append_rows(found, labels);
     return labels;
 }
 

@@ -3,51 +3,75 @@
 //! the faces around them, so that neighbouring faces cannot disagree.
 #pragma once
 
-#include "agvd/diagram/diagram.h"
-#include "agvd/diagram/envelope.h"
+#include "agvd/diagram/face_relays.h"
 
 namespace agvd {
 
-//! A change of label on a mesh edge.
+//! A change of label on a mesh edge or a cut.
 struct Crossing {
-    double at;        //!< In [0, 1] along the edge's edge_half.
+    double at;        //!< In [0, 1] along the edge's edge_half, or along the cut.
     double distance;  //!< From both sites.
     Index site_before;
     Index site_after;
 };
 
-//! A relay that won on an edge: what the edge hands on to the face on its far side. Through [begin,
-//! end] of the edge and nowhere else, so that inside a face every label hangs together with an
-//! interval of its own on the boundary.
-struct EdgeRelay {
-    Vec2 image;  //!< In the frame of the edge_half; y < 0: serves its face, y > 0: the other one.
-    double weight;
-    double begin, end;
+//! The crossings of one edge that has any: `count` of EdgeLabels::crossings from `begin`.
+struct CrossingRow {
+    Index edge;  //!< Mesh edge; first_cut + c: cut c.
+    Index begin;
+    Index count;
+
+    static constexpr Index first_cut = Index{1} << 31;
+};
+
+//! A site inside a face that owns its place: a point of the complex like a mesh vertex.
+struct InnerPoint {
+    Index face;
+    Vec2 position;  //!< In the face's own frame.
     Index site;
 };
 
+//! A straight line inside a face between two points, labelled like a mesh edge.
+struct Cut {
+    Index face;
+    Index from, to;  //!< Points.
+    Index row;       //!< no_index: one label.
+};
+
+//! A face with inner points is cut into triangles at them, so that every cell in it reaches the
+//! boundary of some triangle.
+struct CutTriangle {
+    std::array<Index, 3> points;
+    std::array<Index, 3> sides;  //!< From point k to k + 1: a half-edge, or first_cut + c.
+};
+
+struct CutFace {
+    Index mixed_index;
+    Index first_triangle, num_triangles;
+};
+
+//! Points are the mesh vertices, then the inner points. An edge that has no row has one label, that
+//! of its ends.
 struct EdgeLabels {
-    std::vector<Index> vertex_site;       //!< #V; no_index where no site reaches.
+    std::vector<Index> point_site;        //!< By point; no_index where no site reaches.
     std::vector<double> vertex_distance;  //!< #V.
     std::vector<Index> mixed_index;       //!< #F: position in mixed_faces; no_index: unlisted.
 
-    std::vector<Index> edges;             //!< Edges whose faces are all listed, ascending.
-    std::vector<Index> edge_index;        //!< #E: position in `edges`; no_index: one label.
-    std::vector<Index> crossing_offsets;  //!< #edges: where the edge's crossings begin.
-    std::vector<Index> crossing_counts;   //!< #edges.
-    std::vector<Crossing> crossings;      //!< Edge after edge, along each edge_half; may have gaps.
+    std::vector<Index> edge_row;  //!< #E; no_index: one label.
+    std::vector<CrossingRow> rows;
+    std::vector<Crossing> crossings;  //!< Row after row; may have gaps.
 
-    std::vector<Index> relay_offsets;  //!< #edges + 1 offsets into relays.
-    std::vector<EdgeRelay> relays;
+    std::vector<InnerPoint> inner_points;
+    std::vector<Cut> cuts;
+    std::vector<CutTriangle> cut_triangles;
+    std::vector<CutFace> cut_faces;  //!< Ascending.
 
-    [[nodiscard]] std::span<const EdgeRelay> relays_on(Index labelled_edge) const {
-        const Index begin = relay_offsets[labelled_edge];
-        return std::span(relays).subspan(begin, relay_offsets[labelled_edge + 1] - begin);
+    [[nodiscard]] std::span<const Crossing> in_row(Index row) const {
+        if (row == no_index) return {};
+        return std::span(crossings).subspan(rows[row].begin, rows[row].count);
     }
     [[nodiscard]] std::span<const Crossing> on_edge(Index edge) const {
-        const Index i = edge_index[edge];
-        if (i == no_index) return {};
-        return std::span(crossings).subspan(crossing_offsets[i], crossing_counts[i]);
+        return in_row(edge_row[edge]);
     }
 };
 
@@ -58,11 +82,23 @@ struct EdgeLabels {
         .subspan(begin, propagation.relay_offsets[mixed_index + 1] - begin);
 }
 
+//! What scanning edges needs of a relay, in the frame of its half-edge: distances of the face's
+//! corners through it, and bounds of its derivative along the half-edge at the ends.
+struct RelayReach {
+    enum Kind : Index { Across, Corner, Inside };
+
+    double tail, head, apex;
+    float slope_tail, slope_head;
+    Index site;
+    Index half_edge;
+    Kind kind;  //!< Where the image lies: across the half-edge, at its tail, or in the face.
+};
+
 //! A vertex all of whose faces are listed takes the nearest site over the relays of those faces
 //! (which may be nearer than the engine's graph knows); an edge all of whose faces are listed gets
-//! the envelope of the relays of both sides and of its ends.
-//! Cost: O(relays) a listed face and a crossing.
+//! the envelope of the relays of both sides and of its ends. No cuts yet.
+//! Cost: O(relays) a listed face, O(relays) and a few square roots a crossing.
 [[nodiscard]] EdgeLabels label_edges(const Surface& surface, const Propagation& propagation,
-                                     int num_threads);
+                                     std::span<const RelayReach> reaches, int num_threads);
 
 }  // namespace agvd

@@ -8,98 +8,109 @@ namespace {
 
 using Candidate = EnvelopeScratch::Candidate;
 
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
 // Crossings are separated down to this share of the segment; below, the ends decide.
 constexpr double shortest_interval = 1e-9;
+// At a crossing distances are equal up to this share of the segment.
+constexpr double equality = 1e-11;
 constexpr int max_root_steps = 60;
-
-// Images closer than this share of the segment are one.
-constexpr double same_image = 1e-12;
+// Of two relays of one site that differ by less (share of the segment) one is enough.
+constexpr double same_relay = 1e-6;
 // Ties over a whole stretch that escape the tests would bisect for ever: past this many pieces the
 // ends of a piece decide.
-constexpr int max_splits = 2000;
+constexpr int max_splits = 200;
 
-struct Sample {
-    double value, slope;
-    Vec2 from;
-};
+double value_at(const LineRelay& relay, double x) {
+    const std::size_t k = x < relay.first ? 0 : x > relay.last ? 2 : 1;
+    const double dx = x - relay.x[k];
+    return relay.weight[k] + std::sqrt(dx * dx + relay.y[k] * relay.y[k]);
+}
 
 class Envelope {
 public:
-    Envelope(const Vec2& p, const Vec2& q, EnvelopeScratch& scratch,
-             std::vector<LabelInterval>& out, std::vector<EnvelopePiece>* pieces)
-        : p_(p),
-          length_((q - p).norm()),
-          along_((q - p) / length_),
+    Envelope(double length, EnvelopeScratch& scratch, std::vector<LabelInterval>& out,
+             std::vector<EnvelopePiece>* pieces)
+        : length_(length),
           stack_(scratch.candidates),
+          left_(scratch.left),
+          right_(scratch.right),
           out_(out),
           pieces_(pieces) {}
 
-    void run(std::span<const PlanarRelay> relays) {
+    void run(std::span<const LineRelay> relays) {
         stack_.clear();
-        for (const PlanarRelay& relay : relays) {
-            const Sample lo = sample(relay, 0, 1);
-            const Sample hi = sample(relay, length_, -1);
-            stack_.push_back({&relay, lo.value, lo.slope, hi.value, hi.slope, lo.from, hi.from});
+        for (const LineRelay& relay : relays) {
+            stack_.push_back({&relay, sample(relay, 0), at_right_end(relay, length_)});
         }
         split(0, length_, 0);
     }
 
 private:
-    // `side` chooses the one-sided slope where the segment passes through the relay itself.
-    [[nodiscard]] Sample sample(const PlanarRelay& relay, double x, double side) const {
-        const Vec2 at = p_ + x * along_;
-        const Reach r = reach(relay, at);
-        const Vec2 step = at - r.from;
-        const double norm = step.norm();
-        return {r.distance, norm > 0 ? step.dot(along_) / norm : side, r.from};
+    // The segment may pass through the source itself: then the slope changes there.
+    static LineSample at_right_end(const LineRelay& relay, double x) {
+        LineSample s = sample(relay, x);
+        const auto k = static_cast<std::size_t>(s.source);
+        if (relay.y[k] == 0 && relay.x[k] == x) s.slope = -1;
+        return s;
     }
 
     [[nodiscard]] double tolerance(double value) const { return tie_tolerance * (value + length_); }
 
     // Best value at one end; among ties the lowest site.
     template <typename ValueOf>
-    [[nodiscard]] const Candidate& best(std::size_t first, const ValueOf& value_of) const {
-        const auto by_value = [&](const Candidate& a, const Candidate& b) {
-            return value_of(a) < value_of(b);
-        };
-        const auto begin = stack_.begin() + static_cast<std::ptrdiff_t>(first);
-        const auto least = std::min_element(begin, stack_.end(), by_value);
-        const double limit = value_of(*least) + tolerance(value_of(*least));
-        auto result = least;
-        for (auto c = begin; c != stack_.end(); ++c) {
-            if (value_of(*c) <= limit && c->relay->site < result->relay->site) result = c;
+    [[nodiscard]] Candidate best(std::size_t first, const ValueOf& value_of) const {
+        std::size_t least = first;
+        for (std::size_t i = first + 1; i < stack_.size(); ++i) {
+            if (value_of(stack_[i]) < value_of(stack_[least])) least = i;
         }
-        return *result;
+        const double limit = value_of(stack_[least]) + tolerance(value_of(stack_[least]));
+        std::size_t result = least;
+        for (std::size_t i = first; i < stack_.size(); ++i) {
+            if (value_of(stack_[i]) <= limit &&
+                stack_[i].relay->site < stack_[result].relay->site) {
+                result = i;
+            }
+        }
+        return stack_[result];
     }
 
-    [[nodiscard]] bool are_one(const Vec2& a, const Vec2& b) const {
-        return (a - b).squaredNorm() <= same_image * same_image * length_ * length_;
-    }
-
-    // True if c cannot be below b anywhere on [lo, hi] by more than a tie.
-    [[nodiscard]] bool is_above(const Candidate& c, const Candidate& b, double lo,
-                                double hi) const {
-        const double slack = tolerance(std::max(b.value_lo, b.value_hi));
-        if (c.value_lo < b.value_lo - slack || c.value_hi < b.value_hi - slack) return false;
+    // True if c cannot be below b anywhere on [lo, hi] by more than the slack.
+    [[nodiscard]] bool is_above(const Candidate& c, const Candidate& b, double lo, double hi,
+                                double slack) const {
+        if (c.lo.value < b.lo.value - slack || c.hi.value < b.hi.value - slack) return false;
         const double width = hi - lo;
-        if (are_one(c.from_lo, c.from_hi) && are_one(b.from_lo, b.from_hi)) {
-            // Seen from x, two images differ in direction by at most their distance over either's
-            // distance, so near images have nearly parallel distances: told apart without
-            // bisecting.
-            const double apart = (c.from_lo - b.from_lo).norm();
-            const double range = (p_ + lo * along_ - b.from_lo).norm() - width;
-            const double gap = std::min(c.value_lo - b.value_lo, c.value_hi - b.value_hi);
-            if (apart == 0 || (range > 0 && gap + slack >= width * apart / range)) return true;
-        }
-        const double chord = (b.value_hi - b.value_lo) / width;
+        const double chord = (b.hi.value - b.lo.value) / width;
         // The tangents at both ends meet at lo + t; above the chord there means above it
         // everywhere.
-        const double bend = c.slope_hi - c.slope_lo;
-        double t = bend > 0 ? (c.value_lo - c.value_hi + c.slope_hi * width) / bend : 0;
+        const double bend = c.hi.slope - c.lo.slope;
+        double t = bend > 0 ? (c.lo.value - c.hi.value + c.hi.slope * width) / bend : 0;
         t = std::clamp(t, 0.0, width);
         const double tangent =
-            std::max(c.value_lo + c.slope_lo * t, c.value_hi - c.slope_hi * (width - t));
-        return tangent >= b.value_lo + chord * t - slack;
+            std::max(c.lo.value + c.lo.slope * t, c.hi.value - c.hi.slope * (width - t));
+        return tangent >= b.lo.value + chord * t - slack || are_parallel(c, b, lo, width, slack);
+    }
+
+    // Seen from x, two images differ in direction by at most their distance over either's distance,
+    // so near images have nearly parallel distances: told apart without bisecting.
+    [[nodiscard]] static bool are_parallel(const Candidate& c, const Candidate& b, double lo,
+                                           double width, double slack) {
+        if (c.lo.source != c.hi.source || b.lo.source != b.hi.source) return false;
+        const auto i = static_cast<std::size_t>(c.lo.source);
+        const auto j = static_cast<std::size_t>(b.lo.source);
+        const double dx = c.relay->x[i] - b.relay->x[j];
+        // Along the segment only the distance from its line matters, not the side.
+        const double dy = std::abs(c.relay->y[i]) - std::abs(b.relay->y[j]);
+        const double apart = std::sqrt(dx * dx + dy * dy);
+        const double from_lo = lo - b.relay->x[j];
+        const double range = std::sqrt(from_lo * from_lo + b.relay->y[j] * b.relay->y[j]) - width;
+        const double gap = std::min(c.lo.value - b.lo.value, c.hi.value - b.hi.value);
+        return apart == 0 || (range > 0 && gap + slack >= width * apart / range);
+    }
+
+    [[nodiscard]] double slack_between(const Candidate& c, const Candidate& b) const {
+        return c.relay->site == b.relay->site ? same_relay * length_
+                                              : tolerance(std::max(b.lo.value, b.hi.value));
     }
 
     void emit(double end, Index site) {
@@ -110,100 +121,170 @@ private:
         }
     }
 
-    // Where the line from a relay's image past a bend meets the segment.
-    [[nodiscard]] double line_hit(const Vec2& image, const Vec2& bend) const {
-        const Vec2 ray = bend - image;
-        const double slope = cross(ray, along_);
-        return slope != 0 ? cross(image - p_, ray) / -slope : 0;
-    }
-
     // Splits a candidate's stretch [lo, hi] where its path begins or ceases to bend.
-    void emit_pieces(const Candidate& c, double lo, double hi) {
+    void emit_pieces(const LineRelay& relay, double lo, double hi) {
         if (pieces_ == nullptr) return;
-        const Vec2& image = c.relay->image;
-        const bool bends_lo = c.from_lo != image;
-        const bool bends_hi = c.from_hi != image;
-        if (bends_lo && bends_hi && c.from_lo == c.from_hi) {
-            emit_piece(c, c.from_lo, lo, hi);
-            return;
-        }
-        const double begin = bends_lo ? std::clamp(line_hit(image, c.from_lo), lo, hi) : lo;
-        const double end = bends_hi ? std::clamp(line_hit(image, c.from_hi), begin, hi) : hi;
-        if (bends_lo) emit_piece(c, c.from_lo, lo, begin);
-        emit_piece(c, image, begin, end);
-        if (bends_hi) emit_piece(c, c.from_hi, end, hi);
+        const double begin = std::clamp(relay.first, lo, hi);
+        const double end = std::clamp(relay.last, begin, hi);
+        emit_piece(relay, 0, lo, begin);
+        emit_piece(relay, 1, begin, end);
+        emit_piece(relay, 2, end, hi);
     }
 
-    void emit_piece(const Candidate& c, const Vec2& from, double begin, double end) {
+    void emit_piece(const LineRelay& relay, std::size_t source, double begin, double end) {
         if (!(end > begin)) return;
+        const Vec2 from(relay.x[source], relay.y[source]);
         for (auto piece = pieces_->rbegin(); piece != pieces_->rend() && piece->end >= begin;
              ++piece) {
-            if (piece->end == begin && piece->from == from && piece->site == c.relay->site) {
+            if (piece->end == begin && piece->from == from && piece->site == relay.site) {
                 piece->end = end;
                 return;
             }
         }
-        const double weight = c.relay->weight + (from - c.relay->image).norm();
-        pieces_->push_back({from, weight, begin, end, c.relay->site});
+        pieces_->push_back({from, relay.weight[source], begin, end, relay.site});
     }
 
-    [[nodiscard]] double crossing(const PlanarRelay& a, const PlanarRelay& b, double lo,
-                                  double hi) const {
-        const auto gap = [&](double x) { return sample(a, x, 1).value - sample(b, x, 1).value; };
-        double gap_lo = gap(lo);
-        double gap_hi = gap(hi);
-        for (int i = 0; i < max_root_steps && hi - lo > shortest_interval * length_; ++i) {
-            // Secant inside the bracket, halving every third step so that it always shrinks.
-            double x = lo + (hi - lo) * gap_lo / (gap_lo - gap_hi);
-            if (i % 3 == 2 || !(x > lo && x < hi)) x = (lo + hi) / 2;
-            const double value = gap(x);
-            if (std::abs(value) <= tolerance(0)) return x;
-            if ((value < 0) == (gap_lo < 0)) {
-                lo = x;
-                gap_lo = value;
-            } else {
-                hi = x;
-                gap_hi = value;
+    void meet(const LineRelay& below, const LineRelay& above, double lo, double x, double hi) {
+        emit(x, below.site);
+        emit(hi, above.site);
+        emit_pieces(below, lo, x);
+        emit_pieces(above, x, hi);
+    }
+
+    // The relay of one site, among the candidates from `first` on, that is the nearest at x.
+    [[nodiscard]] const LineRelay* nearest_of(Index site, std::size_t first, double x) const {
+        const LineRelay* result = nullptr;
+        double least = infinity;
+        for (std::size_t i = first; i < stack_.size(); ++i) {
+            if (stack_[i].relay->site != site) continue;
+            const double value = sample(*stack_[i].relay, x).value;
+            if (value < least) {
+                least = value;
+                result = stack_[i].relay;
             }
+        }
+        return result;
+    }
+
+    // A point where the distances from two sites are equal; a is nearer at lo, b at hi. Newton,
+    // relay against relay, until no other relay of the two sites is nearer at the root.
+    [[nodiscard]] double crossing(const Candidate& a, const Candidate& b, std::size_t first,
+                                  double lo, double hi) const {
+        const LineRelay* on_a = a.relay;
+        const LineRelay* on_b = b.relay;
+        const double gap_lo = a.lo.value - b.lo.value;
+        const double gap_hi = a.hi.value - b.hi.value;
+        double x = lo + (hi - lo) * gap_lo / (gap_lo - gap_hi);
+        const bool is_pair = stack_.size() - first == 2;
+        for (int i = 0; i < max_root_steps && hi - lo > shortest_interval * length_; ++i) {
+            if (!(x > lo && x < hi)) x = (lo + hi) / 2;
+            const LineSample at_a = sample(*on_a, x);
+            const LineSample at_b = sample(*on_b, x);
+            const double gap = at_a.value - at_b.value;
+            const bool is_root = std::abs(gap) <= equality * length_ + tolerance(at_a.value);
+            if (!is_pair && (is_root || i % 4 == 0)) {
+                const LineRelay* const best_a = nearest_of(a.relay->site, first, x);
+                const LineRelay* const best_b = nearest_of(b.relay->site, first, x);
+                if (best_a != on_a || best_b != on_b) {
+                    on_a = best_a;
+                    on_b = best_b;
+                    const double true_gap = sample(*on_a, x).value - sample(*on_b, x).value;
+                    if (std::abs(true_gap) <= equality * length_) return x;
+                    (true_gap < 0 ? lo : hi) = x;
+                    // From here with the new pair; halving now and then, so that it ends.
+                    if (i % 4 == 3) x = (lo + hi) / 2;
+                    const LineSample new_a = sample(*on_a, x);
+                    const LineSample new_b = sample(*on_b, x);
+                    x -= (new_a.value - new_b.value) / (new_a.slope - new_b.slope);
+                    continue;
+                }
+            }
+            if (is_root) return x;
+            if (is_pair || i % 4 == 0) (gap < 0 ? lo : hi) = x;
+            x = i % 4 == 3 ? (lo + hi) / 2 : x - gap / (at_a.slope - at_b.slope);
         }
         return (lo + hi) / 2;
     }
 
+    // Whether nothing but `site` wins on [lo, hi]: every other candidate lies above one of two.
+    [[nodiscard]] bool is_alone(const std::vector<Candidate>& candidates, Index site, double lo,
+                                double hi) const {
+        const Candidate* at_lo = nullptr;
+        const Candidate* at_hi = nullptr;
+        for (const Candidate& c : candidates) {
+            if (c.relay->site != site) continue;
+            if (at_lo == nullptr || c.lo.value < at_lo->lo.value) at_lo = &c;
+            if (at_hi == nullptr || c.hi.value < at_hi->hi.value) at_hi = &c;
+        }
+        const double slack = 2 * shortest_interval * length_ + tolerance(at_hi->hi.value);
+        return std::all_of(candidates.begin(), candidates.end(), [&](const Candidate& c) {
+            return c.relay->site == site || is_above(c, *at_lo, lo, hi, slack) ||
+                   is_above(c, *at_hi, lo, hi, slack);
+        });
+    }
+
+    // Labels [lo, hi] by one crossing of two sites, unless there are more.
+    bool cross_once(const Candidate& below, const Candidate& above, std::size_t first, double lo,
+                    double hi) {
+        const double x = crossing(below, above, first, lo, hi);
+        if (stack_.size() - first == 2) {
+            meet(*below.relay, *above.relay, lo, x, hi);
+            return true;
+        }
+        if (!(x > lo && x < hi)) return false;
+        left_.assign(stack_.begin() + static_cast<std::ptrdiff_t>(first), stack_.end());
+        right_ = left_;
+        for (std::size_t i = 0; i < left_.size(); ++i) {
+            left_[i].hi = at_right_end(*left_[i].relay, x);
+            right_[i].lo = sample(*left_[i].relay, x);
+        }
+        if (!is_alone(left_, below.relay->site, lo, x) ||
+            !is_alone(right_, above.relay->site, x, hi)) {
+            return false;
+        }
+        emit(x, below.relay->site);
+        emit(hi, above.relay->site);
+        for (const Candidate& c : left_) {
+            if (c.relay->site == below.relay->site) emit_pieces(*c.relay, lo, x);
+        }
+        for (const Candidate& c : right_) {
+            if (c.relay->site == above.relay->site) emit_pieces(*c.relay, x, hi);
+        }
+        return true;
+    }
+
     // Labels [lo, hi] by the candidates from `first` to the top of the stack, which it consumes.
     void split(double lo, double hi, std::size_t first) {
-        const Candidate best_lo = best(first, [](const Candidate& c) { return c.value_lo; });
-        const Candidate best_hi = best(first, [](const Candidate& c) { return c.value_hi; });
+        const Candidate best_lo = best(first, [](const Candidate& c) { return c.lo.value; });
+        const Candidate best_hi = best(first, [](const Candidate& c) { return c.hi.value; });
         const auto loses = [&](const Candidate& c) {
-            return (c.relay != best_lo.relay && c.relay != best_hi.relay &&
-                    (is_above(c, best_lo, lo, hi) || is_above(c, best_hi, lo, hi)));
+            return c.relay != best_lo.relay && c.relay != best_hi.relay &&
+                   (is_above(c, best_lo, lo, hi, slack_between(c, best_lo)) ||
+                    is_above(c, best_hi, lo, hi, slack_between(c, best_hi)));
         };
         stack_.erase(std::remove_if(stack_.begin() + static_cast<std::ptrdiff_t>(first),
                                     stack_.end(), loses),
                      stack_.end());
         const Index site_lo = best_lo.relay->site;
         const Index site_hi = best_hi.relay->site;
-        const bool one_site =
-            std::all_of(stack_.begin() + static_cast<std::ptrdiff_t>(first), stack_.end(),
-                        [&](const Candidate& c) { return c.relay->site == site_lo; });
-        const std::size_t count = stack_.size() - first;
-        if (one_site) {
+        bool has_one_site = true;
+        bool has_two_sites = site_lo != site_hi;
+        for (std::size_t i = first; i < stack_.size(); ++i) {
+            const Index site = stack_[i].relay->site;
+            has_one_site = has_one_site && site == site_lo;
+            has_two_sites = has_two_sites && (site == site_lo || site == site_hi);
+        }
+        if (has_one_site) {
             emit(hi, site_lo);
-            for (std::size_t i = first; i < stack_.size(); ++i) emit_pieces(stack_[i], lo, hi);
+            for (std::size_t i = first; i < stack_.size(); ++i) {
+                emit_pieces(*stack_[i].relay, lo, hi);
+            }
         } else if (hi - lo <= shortest_interval * length_ || ++splits_ > max_splits) {
-            meet(best_lo, best_hi, lo, (lo + hi) / 2, hi);
-        } else if (count == 2 && site_lo != site_hi) {
-            meet(best_lo, best_hi, lo, crossing(*best_lo.relay, *best_hi.relay, lo, hi), hi);
-        } else {
+            meet(*best_lo.relay, *best_hi.relay, lo, (lo + hi) / 2, hi);
+        } else if (!has_two_sites || !cross_once(best_lo, best_hi, first, lo, hi)) {
             bisect(lo, hi, first);
         }
         stack_.resize(first);
-    }
-
-    void meet(const Candidate& below, const Candidate& above, double lo, double x, double hi) {
-        emit(x, below.relay->site);
-        emit(hi, above.relay->site);
-        emit_pieces(below, lo, x);
-        emit_pieces(above, x, hi);
     }
 
     void bisect(double lo, double hi, std::size_t first) {
@@ -211,24 +292,18 @@ private:
         const std::size_t last = stack_.size();
         for (std::size_t i = first; i < last; ++i) {
             Candidate c = stack_[i];
-            const Sample below = sample(*c.relay, mid, -1);
-            const Sample above = sample(*c.relay, mid, 1);
-            stack_[i].value_lo = above.value;  // This entry goes on as the upper half.
-            stack_[i].slope_lo = above.slope;
-            stack_[i].from_lo = above.from;
-            c.value_hi = below.value;
-            c.slope_hi = below.slope;
-            c.from_hi = below.from;
+            stack_[i].lo = sample(*c.relay, mid);  // This entry goes on as the upper half.
+            c.hi = at_right_end(*c.relay, mid);
             stack_.push_back(c);
         }
         split(lo, mid, last);
         split(mid, hi, first);
     }
 
-    Vec2 p_;
     double length_;
-    Vec2 along_;
     std::vector<Candidate>& stack_;
+    std::vector<Candidate>& left_;
+    std::vector<Candidate>& right_;
     std::vector<LabelInterval>& out_;
     std::vector<EnvelopePiece>* pieces_;
     int splits_ = 0;
@@ -252,15 +327,130 @@ void drop_slivers(std::vector<LabelInterval>& intervals) {
 
 }  // namespace
 
-void label_envelope(std::span<const PlanarRelay> relays, const Vec2& p, const Vec2& q,
-                    Index site_at_p, Index site_at_q, EnvelopeScratch& scratch,
-                    std::vector<LabelInterval>& out, std::vector<EnvelopePiece>* pieces) {
+LineRelay on_line(const PlanarRelay& relay, const Vec2& start, const Vec2& along, double length) {
+    LineRelay line{};
+    line.first = -infinity;
+    line.last = infinity;
+    line.site = relay.site;
+    const auto set = [&](std::size_t source, const Vec2& p, double weight) {
+        const Vec2 d = p - start;
+        line.x[source] = d.dot(along);
+        line.y[source] = cross(along, d);
+        line.weight[source] = weight;
+    };
+    set(1, relay.image, relay.weight);
+    if (relay.sees_all) return line;
+    // Out of sight beyond `begin` where behind(x) = at_start + rise * x > 0, and beyond `end` where
+    // the same with the sign turned. Only one of them can apply on one side of the segment.
+    const auto hide = [&](const Vec2& end, double weight, double sign) {
+        const Vec2 ray = end - relay.image;
+        const double at_start = sign * cross(ray, start - relay.image);
+        const double rise = sign * cross(ray, along);
+        if (rise < 0 ? at_start > 0 : rise == 0 && at_start > 0) {
+            line.first = rise < 0 ? -at_start / rise : infinity;
+            set(0, end, weight);
+        } else if (rise > 0 && at_start + rise * length > 0) {
+            line.last = -at_start / rise;
+            set(2, end, weight);
+        }
+    };
+    hide(relay.begin, relay.at_begin, 1);
+    hide(relay.end, relay.at_end, -1);
+    return line;
+}
+
+double distance_on_line(std::span<const LineRelay> relays, Index site, double x) {
+    double least = infinity;
+    for (const LineRelay& relay : relays) {
+        if (relay.site == site) least = std::min(least, sample(relay, x).value);
+    }
+    return least;
+}
+
+bool find_single_crossing(std::span<const LineRelay> relays, double length, Index a, Index b,
+                          double& at, double& distance) {
+    double a_lo = infinity, a_hi = infinity, b_lo = infinity, b_hi = infinity;
+    for (const LineRelay& relay : relays) {
+        const double lo = value_at(relay, 0);
+        const double hi = value_at(relay, length);
+        if (relay.site == a) {
+            a_lo = std::min(a_lo, lo);
+            a_hi = std::min(a_hi, hi);
+        } else if (relay.site == b) {
+            b_lo = std::min(b_lo, lo);
+            b_hi = std::min(b_hi, hi);
+        } else {
+            return false;
+        }
+    }
+    const double gap_lo = b_lo - a_lo;
+    const double gap_hi = a_hi - b_hi;
+    const double clear = shortest_interval * (length + a_lo);
+    if (!(gap_lo > clear && gap_hi > clear)) return false;
+    double x = length * gap_lo / (gap_lo + gap_hi);
+    if (!(x > 0 && x < length)) x = length / 2;  // Sites that no relay reaches, or rounding.
+
+    // Newton, relay against relay, until no other relay is nearer at the root.
+    const double tolerance = equality * (length + a_lo);
+    double lo = 0, hi = length;
+    const LineRelay* on_a = nullptr;
+    const LineRelay* on_b = nullptr;
+    bool is_root = false;
+    for (int round = 0; round < 6 && !is_root; ++round) {
+        double value_a = infinity, value_b = infinity;
+        const LineRelay* best_a = nullptr;
+        const LineRelay* best_b = nullptr;
+        for (const LineRelay& relay : relays) {
+            const double value = value_at(relay, x);
+            if (relay.site == a) {
+                if (value < value_a) {
+                    value_a = value;
+                    best_a = &relay;
+                }
+            } else if (value < value_b) {
+                value_b = value;
+                best_b = &relay;
+            }
+        }
+        if (best_a == nullptr || best_b == nullptr) return false;
+        is_root = std::abs(value_a - value_b) <= tolerance;
+        on_a = best_a;
+        on_b = best_b;
+        distance = std::max(value_a, value_b);
+        if (is_root) break;
+        (value_a < value_b ? lo : hi) = x;
+        for (int step = 0; step < 4; ++step) {
+            const LineSample at_a = sample(*on_a, x);
+            const LineSample at_b = sample(*on_b, x);
+            const double gap = at_a.value - at_b.value;
+            if (std::abs(gap) <= tolerance / 2) break;
+            x -= gap / (at_a.slope - at_b.slope);
+            if (x > lo && x < hi) continue;
+            x = (lo + hi) / 2;
+            break;
+        }
+    }
+    if (!is_root) return false;
+    // Tangents at the root against chords to the ends: nothing changes sides again.
+    for (const LineRelay& relay : relays) {
+        const LineSample s = sample(relay, x);
+        const bool is_above = relay.site == b ? s.value - s.slope * x >= a_lo - clear
+                                              : s.value + s.slope * (length - x) >= b_hi - clear;
+        if (!is_above) return false;
+    }
+    at = x;
+    return true;
+}
+
+void label_envelope(std::span<const LineRelay> relays, double length, Index site_at_start,
+                    Index site_at_end, EnvelopeScratch& scratch, std::vector<LabelInterval>& out,
+                    std::vector<EnvelopePiece>* pieces) {
     out.clear();
     if (pieces != nullptr) pieces->clear();
-    Envelope(p, q, scratch, out, pieces).run(relays);
+    Envelope(length, scratch, out, pieces).run(relays);
     drop_slivers(out);
-    if (out.front().site != site_at_p) out.insert(out.begin(), {0, site_at_p});
-    if (out.back().site != site_at_q) out.push_back({1, site_at_q});
+    if (out.front().site != site_at_start) out.insert(out.begin(), {0, site_at_start});
+    if (out.back().site != site_at_end) out.push_back({1, site_at_end});
 }
 
 }  // namespace agvd

@@ -41,14 +41,9 @@ void append_planar(const Surface& surface, std::span<const Relay> relays, const 
     for (const Relay& relay : relays) {
         if (relay.half_edge != half_edge) {
             half_edge = relay.half_edge;
-            to = to_face_frame(surface, half_edge);
+            to = compose(motion, to_face_frame(surface, half_edge));
         }
-        const Vec2 image(relay.x, relay.y);
-        const Vec2 begin(relay.begin, 0);
-        const Vec2 end(relay.end, 0);
-        out.push_back({motion(to(image)), motion(to(begin)), motion(to(end)), relay.weight,
-                       relay.weight + (begin - image).norm(), relay.weight + (end - image).norm(),
-                       relay.site.value(), relay.y >= 0});
+        out.push_back(to_planar(relay, to));
     }
 }
 

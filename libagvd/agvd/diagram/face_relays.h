@@ -2,6 +2,7 @@
 //! The relays of one face in one plane, and distances through them.
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <vector>
 
@@ -74,6 +75,19 @@ struct Motion {
 //! From the frame of a half-edge into the frame of its face's first half-edge, and back.
 [[nodiscard]] Motion to_face_frame(const Surface& surface, Index half_edge);
 [[nodiscard]] Motion from_face_frame(const Surface& surface, Index half_edge);
+
+//! A relay, moved from its half-edge's frame.
+[[nodiscard]] inline PlanarRelay to_planar(const Relay& relay, const Motion& motion) {
+    const auto root = [](double x, double y) { return std::sqrt(x * x + y * y); };
+    return {motion({relay.x, relay.y}),
+            motion({relay.begin, 0}),
+            motion({relay.end, 0}),
+            relay.weight,
+            relay.weight + root(relay.begin - relay.x, relay.y),
+            relay.weight + root(relay.end - relay.x, relay.y),
+            relay.site.value(),
+            relay.y >= 0};
+}
 
 //! Appends relays, moved from their half-edges' frames by to_face_frame and then by `motion`.
 void append_planar(const Surface& surface, std::span<const Relay> relays, const Motion& motion,

@@ -4,170 +4,143 @@
 #include <map>
 #include <numeric>
 
+#include "agvd/propagation/site_placement.h"
+
 namespace agvd {
 namespace {
 
+// Nodes are points, then the intervals after crossings that end at no point.
 class IslandFinder {
 public:
-    IslandFinder(const Surface& surface, std::span<const SurfacePoint> sites,
-                 std::span<const FaceArcs> chunks, EdgeLabels& labels)
-        : surface_(surface), sites_(sites), chunks_(chunks), labels_(labels) {
-        Index next = surface.num_vertices() + static_cast<Index>(labels.crossings.size());
-        for (const FaceArcs& chunk : chunks) {
-            inner_offset_.push_back(next);
-            next += static_cast<Index>(chunk.inner.size());
-        }
-        first_site_ = next;
-        parent_.resize(next + sites.size());
+    IslandFinder(const Surface& surface, std::span<const SurfacePoint> sites, EdgeLabels& labels)
+        : surface_(surface),
+          sites_(sites),
+          labels_(labels),
+          num_points_(static_cast<Index>(labels.point_site.size())) {
+        parent_.resize(labels.point_site.size() + labels.crossings.size());
         std::iota(parent_.begin(), parent_.end(), Index{0});
     }
 
-    void connect() {
-        for (Index e = 0; e < surface_.num_edges(); ++e) {
-            const Index h = surface_.edge_half[e];
-            if (labels_.on_edge(e).empty()) unite(surface_.tail(h), surface_.head(h));
-        }
-        for (Index chunk = 0; chunk < chunks_.size(); ++chunk) {
-            for (const auto& [a, b] : chunks_[chunk].local.connected) {
-                unite(node(chunk, a), node(chunk, b));
+    void connect(std::span<const FaceArcs> chunks) {
+        for (Index f = 0; f < surface_.num_faces(); ++f) {
+            const Triangle& t = surface_.mesh.triangles[f];
+            for (Index k = 0; k < 3; ++k) {
+                const Index twin = surface_.twin[3 * f + k];
+                if (twin < 3 * f + k) continue;  // Each edge once.
+                const Index row = labels_.edge_row[surface_.edge[3 * f + k]];
+                if (row != no_index && labels_.rows[row].count > 0) continue;
+                unite(t[k], t[k == 2 ? 0 : k + 1]);
             }
         }
-        for (Index s = 0; s < sites_.size(); ++s) connect_site(s);
+        for (const Cut& cut : labels_.cuts) {
+            if (labels_.in_row(cut.row).empty()) unite(cut.from, cut.to);
+        }
+        for (const FaceArcs& chunk : chunks) {
+            for (const Connection& c : chunk.local.connections) unite(c.a, c.b);
+        }
+        mainland_.assign(sites_.size(), no_index);
+        for (Index i = 0; i < labels_.inner_points.size(); ++i) {
+            mainland_[labels_.inner_points[i].site] = root(surface_.num_vertices() + i);
+        }
+        for (Index s = 0; s < sites_.size(); ++s) {
+            const Index node = holder_of(s);
+            if (node != no_index) mainland_[s] = root(node);
+        }
     }
 
     // Islands border on other cells at crossings. Each goes to the lowest-numbered cell that it
     // borders on and that hangs together with its site there.
     void choose_new_sites() {
-        for (const Index e : labels_.edges) {
-            for_each_interval(e, [&](Index, Index a, Index site_a, Index b, Index site_b) {
+        for (Index row = 0; row < labels_.rows.size(); ++row) {
+            for_each_crossing(row, [&](Index, Index a, Index site_a, Index b, Index site_b) {
                 consider(a, site_a, b, site_b);
                 consider(b, site_b, a, site_a);
             });
         }
     }
 
-    Index bar(std::vector<BarredSite>& barred, std::vector<bool>& is_stale) {
-        const std::size_t before = barred.size();
-        for (Index chunk = 0; chunk < chunks_.size(); ++chunk) {
-            for (Index i = 0; i < chunks_[chunk].inner.size(); ++i) {
-                const Index site = chunks_[chunk].inner[i].site_after;
-                const Index interval = inner_offset_[chunk] + i;
-                if (!is_island(interval, site) || new_site_.contains(root(interval))) continue;
-                const Index mixed = labels_.mixed_index[chunks_[chunk].inner_face[i]];
-                barred.push_back({mixed, site});
-                is_stale[mixed] = true;
-            }
-        }
-        const auto count = static_cast<Index>(barred.size() - before);
-        std::sort(barred.begin(), barred.end());
-        return count;
-    }
-
-    Index relabel(std::vector<bool>& is_stale) {
+    Index relabel(std::vector<std::uint8_t>& is_stale) {
         if (new_site_.empty()) return 0;
-        for (Index i = 0; i < labels_.edges.size(); ++i) {
-            bool is_changed = false;
-            std::vector<Crossing> kept;
-            for_each_interval(labels_.edges[i],
-                              [&](Index c, Index a, Index site_a, Index b, Index site_b) {
-                                  Crossing crossing = labels_.crossings[c];
-                                  crossing.site_before = site_of(a, site_a);
-                                  crossing.site_after = site_of(b, site_b);
-                                  is_changed = is_changed || crossing.site_before != site_a ||
-                                               crossing.site_after != site_b;
-                                  if (crossing.site_before != crossing.site_after)
-                                      kept.push_back(crossing);
-                              });
-            if (!is_changed) continue;
-            std::copy(kept.begin(), kept.end(),
-                      labels_.crossings.begin() + labels_.crossing_offsets[i]);
-            labels_.crossing_counts[i] = static_cast<Index>(kept.size());
-            mark_faces(surface_.edge_half[labels_.edges[i]], is_stale);
-        }
-        for (Index v = 0; v < surface_.num_vertices(); ++v) {
-            const Index site = site_of(v, labels_.vertex_site[v]);
-            if (site == labels_.vertex_site[v]) continue;
-            labels_.vertex_site[v] = site;
-            mark_one_ring(v, is_stale);
+        for (CrossingRow& row : labels_.rows) relabel_row(row, is_stale);
+        for (Index v = 0; v < num_points_; ++v) {
+            const Index site = site_of(v, labels_.point_site[v]);
+            if (site == labels_.point_site[v]) continue;
+            labels_.point_site[v] = site;
+            if (v < surface_.num_vertices()) mark_one_ring(v, is_stale);
         }
         return static_cast<Index>(new_site_.size());
     }
 
 private:
-    [[nodiscard]] Index node(Index chunk, Index name) const {
-        const Index index = IntervalName::index(name);
-        switch (IntervalName::kind(name)) {
-            case IntervalName::Vertex:
-                return index;
-            case IntervalName::Crossing:
-                return surface_.num_vertices() + index;
-            case IntervalName::Inner:
-                return inner_offset_[chunk] + index;
-            default:
-                return first_site_ + index;
-        }
-    }
-
     [[nodiscard]] Index root(Index i) {
         while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
         return i;
     }
     void unite(Index a, Index b) {
+        if (parent_[a] == parent_[b]) return;
         a = root(a);
         b = root(b);
         parent_[std::max(a, b)] = std::min(a, b);
     }
 
-    // Calls back for each crossing of an edge with the intervals before and after it.
+    // The points at both ends of a row.
+    [[nodiscard]] std::pair<Index, Index> ends_of(const CrossingRow& row) const {
+        if (row.edge >= CrossingRow::first_cut) {
+            const Cut& cut = labels_.cuts[row.edge - CrossingRow::first_cut];
+            return {cut.from, cut.to};
+        }
+        const Index h = surface_.edge_half[row.edge];
+        return {surface_.tail(h), surface_.head(h)};
+    }
+
+    // Calls back for each crossing of a row with the intervals before and after it.
     template <typename Callback>
-    void for_each_interval(Index edge, const Callback& callback) {
-        const auto crossings = labels_.on_edge(edge);
-        if (crossings.empty()) return;
-        const auto first = static_cast<Index>(&crossings[0] - labels_.crossings.data());
-        Index before = surface_.tail(surface_.edge_half[edge]);
-        for (Index i = 0; i < crossings.size(); ++i) {
-            const Index after = i + 1 < crossings.size() ? surface_.num_vertices() + first + i
-                                                         : surface_.head(surface_.edge_half[edge]);
-            callback(first + i, before, crossings[i].site_before, after, crossings[i].site_after);
+    void for_each_crossing(Index row_index, const Callback& callback) const {
+        const CrossingRow& row = labels_.rows[row_index];
+        const auto [from, to] = ends_of(row);
+        Index before = from;
+        for (Index c = row.begin; c < row.begin + row.count; ++c) {
+            const Index after = c + 1 == row.begin + row.count ? to : num_points_ + c;
+            const Crossing& crossing = labels_.crossings[c];
+            callback(c, before, crossing.site_before, after, crossing.site_after);
             before = after;
         }
     }
 
-    void connect_site(Index s) {
+    // The node that holds a site; no_index: its place belongs to another cell, or is an inner
+    // point.
+    [[nodiscard]] Index holder_of(Index s) const {
         if (const auto vertex = vertex_of(surface_, sites_[s])) {
-            if (labels_.vertex_site[*vertex] == s) unite(*vertex, first_site_ + s);
-            return;
+            return labels_.point_site[*vertex] == s ? *vertex : no_index;
         }
         const auto half_edge = half_edge_of(sites_[s]);
-        if (!half_edge) {
-            connect_inner_site(s);
-            return;
-        }
-        // The interval of the edge that holds the site.
-        const Index e = surface_.edge[*half_edge];
-        const bool forward = surface_.edge_half[e] == *half_edge;
-        const double at = sites_[s].barycentric[(*half_edge + (forward ? 1 : 0)) % 3];
-        Index holder = surface_.tail(surface_.edge_half[e]);
-        Index site = labels_.vertex_site[holder];
-        for_each_interval(e, [&](Index c, Index, Index, Index after, Index site_after) {
-            if (labels_.crossings[c].at > at) return;
-            holder = after;
-            site = site_after;
-        });
-        if (site == s) unite(holder, first_site_ + s);
-    }
-
-    // A site inside an unlisted face owns the face; in a listed one the cuts know it.
-    void connect_inner_site(Index s) {
+        if (half_edge) return interval_of(s, *half_edge);
+        // A site inside an unlisted face owns the face.
         const Index face = sites_[s].face.value();
         const Index v = surface_.mesh.triangles[face][0];
-        if (labels_.mixed_index[face] == no_index && labels_.vertex_site[v] == s) {
-            unite(v, first_site_ + s);
-        }
+        return labels_.mixed_index[face] == no_index && labels_.point_site[v] == s ? v : no_index;
     }
 
-    [[nodiscard]] bool is_island(Index interval, Index site) {
-        return site != no_index && root(interval) != root(first_site_ + site);
+    // The interval of an edge that holds the site.
+    [[nodiscard]] Index interval_of(Index s, Index half_edge) const {
+        const Index e = surface_.edge[half_edge];
+        const bool forward = surface_.edge_half[e] == half_edge;
+        const double at = sites_[s].barycentric[(half_edge + (forward ? 1 : 0)) % 3];
+        Index holder = surface_.tail(surface_.edge_half[e]);
+        Index site = labels_.point_site[holder];
+        if (labels_.edge_row[e] != no_index) {
+            for_each_crossing(labels_.edge_row[e],
+                              [&](Index c, Index, Index, Index after, Index site_after) {
+                                  if (labels_.crossings[c].at > at) return;
+                                  holder = after;
+                                  site = site_after;
+                              });
+        }
+        return site == s ? holder : no_index;
+    }
+
+    [[nodiscard]] bool is_island(Index node, Index site) {
+        return site != no_index && root(node) != mainland_[site];
     }
 
     void consider(Index island, Index site, Index neighbour, Index neighbour_site) {
@@ -176,35 +149,64 @@ private:
         if (!is_new) found->second = std::min(found->second, neighbour_site);
     }
 
-    void mark_faces(Index half_edge, std::vector<bool>& is_stale) const {
-        for (const Index h : {half_edge, surface_.twin[half_edge]}) {
-            if (h == no_index) continue;
-            const Index mixed = labels_.mixed_index[Surface::face(h)];
-            if (mixed != no_index) is_stale[mixed] = true;
-        }
-    }
-
-    void mark_one_ring(Index vertex, std::vector<bool>& is_stale) const {
-        Index h = surface_.outgoing[vertex];
-        while (h != no_index) {
-            mark_faces(h, is_stale);
-            h = surface_.twin[Surface::previous(h)];
-            if (h == surface_.outgoing[vertex]) break;
-        }
-    }
-
-    [[nodiscard]] Index site_of(Index interval, Index site) {
-        const auto found = new_site_.find(root(interval));
+    [[nodiscard]] Index site_of(Index node, Index site) {
+        const auto found = new_site_.find(root(node));
         return found == new_site_.end() ? site : found->second;
+    }
+
+    void relabel_row(CrossingRow& row, std::vector<std::uint8_t>& is_stale) {
+        const auto [from, to] = ends_of(row);
+        const Index end = row.begin + row.count;
+        Index kept = row.begin;
+        Index before = from;
+        bool is_changed = false;
+        for (Index c = row.begin; c < end; ++c) {
+            const Index after = c + 1 == end ? to : num_points_ + c;
+            Crossing crossing = labels_.crossings[c];
+            const Index site_before = site_of(before, crossing.site_before);
+            const Index site_after = site_of(after, crossing.site_after);
+            is_changed = is_changed || site_before != crossing.site_before ||
+                         site_after != crossing.site_after;
+            crossing.site_before = site_before;
+            crossing.site_after = site_after;
+            if (site_before != site_after) labels_.crossings[kept++] = crossing;
+            before = after;
+        }
+        row.count = kept - row.begin;
+        if (!is_changed) return;
+        if (row.edge < CrossingRow::first_cut) {
+            mark_faces(surface_.edge_half[row.edge], is_stale);
+        } else {
+            mark_face(labels_.cuts[row.edge - CrossingRow::first_cut].face, is_stale);
+        }
+    }
+
+    void mark_face(Index face, std::vector<std::uint8_t>& is_stale) const {
+        const Index mixed = labels_.mixed_index[face];
+        if (mixed != no_index) is_stale[mixed] = 1;
+    }
+
+    void mark_faces(Index half_edge, std::vector<std::uint8_t>& is_stale) const {
+        mark_face(Surface::face(half_edge), is_stale);
+        const Index twin = surface_.twin[half_edge];
+        if (twin != no_index) mark_face(Surface::face(twin), is_stale);
+    }
+
+    void mark_one_ring(Index vertex, std::vector<std::uint8_t>& is_stale) const {
+        const Index first = surface_.outgoing[vertex];
+        Index h = first;
+        do {
+            mark_face(Surface::face(h), is_stale);
+            h = surface_.twin[Surface::previous(h)];
+        } while (h != no_index && h != first);
     }
 
     const Surface& surface_;
     std::span<const SurfacePoint> sites_;
-    std::span<const FaceArcs> chunks_;
     EdgeLabels& labels_;
-    std::vector<Index> inner_offset_;
-    Index first_site_ = 0;
+    Index num_points_;
     std::vector<Index> parent_;
+    std::vector<Index> mainland_;      // By site: the root of what hangs together with it.
     std::map<Index, Index> new_site_;  // By root of an island.
 };
 
@@ -212,11 +214,11 @@ private:
 
 Index absorb_islands(const Surface& surface, std::span<const SurfacePoint> sites,
                      std::span<const FaceArcs> chunks, EdgeLabels& labels,
-                     std::vector<BarredSite>& barred, std::vector<bool>& is_stale) {
-    IslandFinder finder(surface, sites, chunks, labels);
-    finder.connect();
+                     std::vector<std::uint8_t>& is_stale) {
+    IslandFinder finder(surface, sites, labels);
+    finder.connect(chunks);
     finder.choose_new_sites();
-    return finder.bar(barred, is_stale) + finder.relabel(is_stale);
+    return finder.relabel(is_stale);
 }
 
 }  // namespace agvd

@@ -12,7 +12,7 @@ constexpr ArcEnd head_of(Index arc) { return 2 * arc + 1; }
 constexpr ArcEnd other_end(ArcEnd end) { return end ^ 1; }
 
 struct Arc {
-    Index tail, head;  // Global nodes: mesh crossings, inner crossings, branches.
+    Index tail, head;  // Global nodes: crossings, then branches.
     Index left, right;
     Index chunk, local;
 };
@@ -32,6 +32,10 @@ public:
     void run() {
         number_nodes();
         collect_arcs();
+        std::size_t num_points = arcs_.size() + arcs_.size() / 4;  // A node an arc, and the ends.
+        for (const FaceArcs& chunk : chunks_) num_points += chunk.local.points.size();
+        out_.points.reserve(num_points);
+        out_.point_distance.reserve(num_points);
         edge_end_.assign(2 * arcs_.size(), {});
         is_used_.assign(arcs_.size(), false);
         out_.edge_points.assign(1, 0);
@@ -49,47 +53,59 @@ public:
 private:
     void number_nodes() {
         nodes_.resize(labels_.crossings.size());
-        is_boundary_.resize(labels_.crossings.size());
-        for (const Index edge : labels_.edges) {
-            const Index h = surface_.edge_half[edge];
-            for (const Crossing& c : labels_.on_edge(edge)) {
-                SurfacePoint point{FaceId(Surface::face(h)), {0, 0, 0}};
-                point.barycentric[h % 3] = 1 - c.at;
-                point.barycentric[(h + 1) % 3] = c.at;
-                const auto node = static_cast<std::size_t>(&c - labels_.crossings.data());
-                nodes_[node].point = point;
-                nodes_[node].distance = c.distance;
-                is_boundary_[node] = surface_.twin[h] == no_index;
-            }
-        }
-        for (const FaceArcs& chunk : chunks_) {
-            inner_offset_.push_back(static_cast<Index>(nodes_.size()));
-            for (std::size_t i = 0; i < chunk.inner.size(); ++i) {
-                nodes_.push_back(
-                    {to_surface(surface_, chunk.inner_face[i], chunk.inner[i].position),
-                     chunk.inner[i].distance});
+        is_boundary_.assign(labels_.crossings.size(), 0);
+        for (const CrossingRow& row : labels_.rows) {
+            for (Index c = row.begin; c < row.begin + row.count; ++c) {
+                const Crossing& crossing = labels_.crossings[c];
+                nodes_[c].distance = crossing.distance;
+                if (row.edge >= CrossingRow::first_cut) {
+                    nodes_[c].point =
+                        point_on_cut(labels_.cuts[row.edge - CrossingRow::first_cut], crossing.at);
+                    continue;
+                }
+                const Index h = surface_.edge_half[row.edge];
+                nodes_[c].point = {FaceId(Surface::face(h)), {0, 0, 0}};
+                nodes_[c].point.barycentric[h % 3] = 1 - crossing.at;
+                nodes_[c].point.barycentric[(h + 1) % 3] = crossing.at;
+                is_boundary_[c] = surface_.twin[h] == no_index ? 1 : 0;
             }
         }
         first_branch_ = static_cast<Index>(nodes_.size());
         for (const FaceArcs& chunk : chunks_) {
             branch_offset_.push_back(static_cast<Index>(nodes_.size()));
-            for (std::size_t i = 0; i < chunk.local.branches.size(); ++i) {
-                const LocalBranch& branch = chunk.local.branches[i];
+            for (const LocalBranch& branch : chunk.local.branches) {
                 nodes_.push_back(
-                    {to_surface(surface_, chunk.branch_face[i], branch.position), branch.distance});
+                    {to_surface(surface_, branch.face, branch.position), branch.distance});
             }
         }
     }
 
+    [[nodiscard]] SurfacePoint point_on_cut(const Cut& cut, double at) const {
+        const Vec2 from = position_of(cut.face, cut.from);
+        const Vec2 to = position_of(cut.face, cut.to);
+        return to_surface(surface_, cut.face, (1 - at) * from + at * to);
+    }
+
+    [[nodiscard]] Vec2 position_of(Index face, Index point) const {
+        if (point >= surface_.num_vertices()) {
+            return labels_.inner_points[point - surface_.num_vertices()].position;
+        }
+        const Triangle& triangle = surface_.mesh.triangles[face];
+        return face_corners(surface_, face)[point == triangle[0]   ? 0
+                                            : point == triangle[1] ? 1
+                                                                   : 2];
+    }
+
     [[nodiscard]] Index global_node(Index chunk, Index local) const {
-        if (local >= FaceArcs::branch_base)
-            return branch_offset_[chunk] + local - FaceArcs::branch_base;
-        if (local >= FaceArcs::inner_base)
-            return inner_offset_[chunk] + local - FaceArcs::inner_base;
-        return local;
+        return local < LocalDiagram::first_branch
+                   ? local
+                   : branch_offset_[chunk] + local - LocalDiagram::first_branch;
     }
 
     void collect_arcs() {
+        std::size_t count = 0;
+        for (const FaceArcs& chunk : chunks_) count += chunk.local.arcs.size();
+        arcs_.reserve(count);
         for (Index chunk = 0; chunk < chunks_.size(); ++chunk) {
             arc_offset_.push_back(static_cast<Index>(arcs_.size()));
             const auto& local_arcs = chunks_[chunk].local.arcs;
@@ -112,7 +128,7 @@ private:
         return end % 2 == 0 ? arcs_[end / 2].tail : arcs_[end / 2].head;
     }
     [[nodiscard]] bool is_vertex(Index node) const {
-        return node >= first_branch_ || (node < is_boundary_.size() && is_boundary_[node]);
+        return node >= first_branch_ || (node < is_boundary_.size() && is_boundary_[node] != 0);
     }
 
     void add_point(const SurfacePoint& point, double distance) {
@@ -125,10 +141,9 @@ private:
         const Arc& arc = arcs_[from / 2];
         const LocalDiagram& local = chunks_[arc.chunk].local;
         const LocalArc& a = local.arcs[arc.local];
-        const Index face = chunks_[arc.chunk].arc_face[arc.local];
         for (Index j = 0; j < a.num_points; ++j) {
             const Index k = a.first_point + (from % 2 == 0 ? j : a.num_points - 1 - j);
-            add_point(to_surface(surface_, face, local.points[k]), local.point_distance[k]);
+            add_point(to_surface(surface_, a.face, local.points[k]), local.point_distance[k]);
         }
     }
 
@@ -221,7 +236,7 @@ private:
     }
 
     void add_closed_boundary(const std::vector<Index>& loop) {
-        const Index site = labels_.vertex_site[surface_.tail(loop[0])];
+        const Index site = labels_.point_site[surface_.tail(loop[0])];
         if (site == no_index) return;
         for (const Index h : loop) add_mesh_vertex(h);
         out_.edges.push_back({SiteId(site), {}, no_index, no_index});
@@ -263,8 +278,8 @@ private:
     Diagram& out_;
 
     std::vector<Node> nodes_;
-    std::vector<bool> is_boundary_;                                 // Of the mesh crossings.
-    std::vector<Index> inner_offset_, branch_offset_, arc_offset_;  // By chunk.
+    std::vector<std::uint8_t> is_boundary_;          // Of the crossings.
+    std::vector<Index> branch_offset_, arc_offset_;  // By chunk.
     Index first_branch_ = 0;
     std::vector<Arc> arcs_;
     std::vector<EdgeEnd> edge_end_;  // By arc end: the end of the Voronoi edge that lies there.

@@ -2,6 +2,7 @@
 //! Joins the arcs of all faces into Voronoi edges, and the boundary into arcs between them.
 #pragma once
 
+#include "agvd/diagram/diagram.h"
 #include "agvd/diagram/face_arcs.h"
 
 namespace agvd {

@@ -1,0 +1,251 @@
+#include "agvd/diagram/edge_relays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "agvd/core/parallel.h"
+
+namespace agvd {
+namespace {
+
+constexpr Index grain = 1024;
+// A relay stands for the end of an edge itself if it is no worse there by more than this share of
+// the edge.
+constexpr double same_distance = 1e-4;
+// The ends of an edge are explained by relays if those are no worse there by more than this share
+// of the edge: a bound of errors that pays for a shorter list.
+constexpr double explained = 1e-2;
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Straight, or bent at an end of the interval.
+RelayReach reach_of(const Relay& r, double length, const Vec2& apex) {
+    const auto root = [](double x, double y) { return std::sqrt(x * x + y * y); };
+    const double cx = apex.x();
+    const double cy = apex.y();
+    RelayReach reach{0, 0, 0, -1, 1, r.site.value(), r.half_edge, RelayReach::Across};
+    if (r.y >= 0) {
+        reach.kind = r.x == 0 && r.y == 0 ? RelayReach::Corner : RelayReach::Inside;
+        reach.tail = r.weight + root(r.x, r.y);
+        reach.head = r.weight + root(length - r.x, r.y);
+        reach.apex = r.weight + root(cx - r.x, cy - r.y);
+        return reach;
+    }
+    const double begin = root(r.begin - r.x, r.y);
+    const double end = root(r.end - r.x, r.y);
+    reach.tail = r.weight + begin + r.begin;
+    reach.head = r.weight + end + (length - r.end);
+    // The chord to the apex meets the edge at x + (cx - x) (-y) / (cy - y).
+    const double height = cy - r.y;
+    const double hit = (cx - r.x) * -r.y;
+    if (hit < (r.begin - r.x) * height) {
+        reach.apex = r.weight + begin + root(cx - r.begin, cy);
+    } else if (hit > (r.end - r.x) * height) {
+        reach.apex = r.weight + end + root(cx - r.end, cy);
+    } else {
+        reach.apex = r.weight + root(cx - r.x, height);
+    }
+    // Bent paths run along the edge.
+    constexpr double rounding = 1e-6;
+    if (r.begin <= 0 && begin > 0) {
+        reach.slope_tail = static_cast<float>(std::max(-1.0, -r.x / begin - rounding));
+    }
+    if (r.end >= length && end > 0) {
+        reach.slope_head = static_cast<float>(std::min(1.0, (length - r.x) / end + rounding));
+    }
+    return reach;
+}
+
+// A relay whose image lies across the edge, in the frame of one half-edge or the other.
+LineRelay through_edge(const Relay& r, const RelayReach& reach, bool forward, double length) {
+    const double at_begin = reach.tail - r.begin;
+    const double at_end = reach.head - (length - r.end);
+    if (forward) {
+        return {{r.begin, r.x, r.end}, {0, r.y, 0}, {at_begin, r.weight, at_end}, r.begin, r.end,
+                r.site.value()};
+    }
+    return {{length - r.end, length - r.x, length - r.begin},
+            {0, -r.y, 0},
+            {at_end, r.weight, at_begin},
+            length - r.end,
+            length - r.begin,
+            r.site.value()};
+}
+
+// From the frame of another half-edge of the same face into that of `h`.
+Motion between_half_edges(const Surface& surface, Index from, Index h) {
+    const Vec2& apex = surface.apex[h];
+    const Vec2 head(surface.length_of(h), 0);
+    const double length = surface.length_of(from);
+    if (from == Surface::next(h)) return {(apex - head) / length, head};
+    return {-apex / length, apex};
+}
+
+}  // namespace
+
+std::unique_ptr<RelayReach[]> find_reaches(const Surface& surface, const Propagation& propagation,
+                                           int num_threads) {
+    const auto count = static_cast<Index>(propagation.relays.size());
+    auto result = std::make_unique_for_overwrite<RelayReach[]>(count);
+    parallel_chunks(count, grain, num_threads, [&](Index, Index begin, Index end) {
+        for (Index i = begin; i < end; ++i) {
+            const Relay& relay = propagation.relays[i];
+            const Index h = relay.half_edge;
+            result[i] = reach_of(relay, surface.length_of(h), surface.apex[h]);
+        }
+    });
+    return result;
+}
+
+// The relays of one face: those whose image lies across the edge, with their slopes, and those in
+// the face; or the others, and its corner opposite. The ends of the edge stand for themselves.
+void EdgeRelays::scan_face(Index edge, Index half_edge, bool others) {
+    const bool forward = surface_.edge_half[edge] == half_edge;
+    const Index next = Surface::next(half_edge);
+    const Index mixed = labels_.mixed_index[Surface::face(half_edge)];
+    const Index end = propagation_.relay_offsets[mixed + 1];
+    const auto add = [&](double tail, double head, double slope_tail, double slope_head, Index r) {
+        const Index site = reaches_[r].site;
+        if (forward) {
+            candidates_.push_back({tail, head, slope_tail, slope_head, r, site});
+        } else {
+            candidates_.push_back({head, tail, -slope_head, -slope_tail, r, site});
+        }
+    };
+    for (Index r = propagation_.relay_offsets[mixed]; r < end; ++r) {
+        const RelayReach& reach = reaches_[r];
+        if (reach.half_edge == half_edge && reach.kind == RelayReach::Across) {
+            if (!others) add(reach.tail, reach.head, reach.slope_tail, reach.slope_head, r);
+            continue;
+        }
+        const bool is_corner = reach.kind == RelayReach::Corner;
+        if (is_corner && Surface::next(reach.half_edge) != half_edge) continue;
+        if ((reach.kind == RelayReach::Inside) == others) continue;
+        if (reach.half_edge == half_edge) {
+            add(reach.tail, reach.head, -1, 1, r);
+        } else if (reach.half_edge == next) {
+            add(reach.apex, reach.tail, -1, 1, r);
+        } else {
+            add(reach.head, reach.apex, -1, 1, r);
+        }
+    }
+}
+
+// Whether the distances of both ends are those of candidates.
+bool EdgeRelays::explain_ends(Index edge) const {
+    const Index h = surface_.edge_half[edge];
+    const double slack = explained * surface_.length[edge];
+    const double at_tail = labels_.vertex_distance[surface_.tail(h)] + slack;
+    const double at_head = labels_.vertex_distance[surface_.head(h)] + slack;
+    bool has_tail = false;
+    bool has_head = false;
+    for (const Candidate& c : candidates_) {
+        has_tail = has_tail || c.lo <= at_tail;
+        has_head = has_head || c.hi <= at_head;
+    }
+    return has_tail && has_head;
+}
+
+// Leaves the candidates that could win somewhere.
+void EdgeRelays::scan(Index edge) {
+    const Index h = surface_.edge_half[edge];
+    const Index twin = surface_.twin[h];
+    const double length = surface_.length[edge];
+    candidates_.clear();
+    scan_face(edge, h, false);
+    if (twin != no_index) scan_face(edge, twin, false);
+    // What reaches the edge through one face is a relay of the other. An engine that leaves some of
+    // those out shows it at the ends.
+    if (twin == no_index || !explain_ends(edge)) {
+        scan_face(edge, h, true);
+        if (twin != no_index) scan_face(edge, twin, true);
+    }
+
+    const double at_tail = labels_.vertex_distance[surface_.tail(h)];
+    const double at_head = labels_.vertex_distance[surface_.head(h)];
+    Candidate first{infinity, infinity, 0, 0, 0, no_index};
+    Candidate last = first;
+    for (const Candidate& c : candidates_) {
+        if (c.lo < first.lo) first = c;
+        if (c.hi < last.hi) last = c;
+    }
+    const double slack = tie_tolerance * (at_tail + at_head + length);
+    const double enough = same_distance * length;
+    needs_tail_ = first.site != labels_.point_site[surface_.tail(h)] || first.lo > at_tail + enough;
+    needs_head_ = last.site != labels_.point_site[surface_.head(h)] || last.hi > at_head + enough;
+    if (candidates_.empty()) {
+        first.lo = at_tail;
+        first.hi = at_tail + length;
+        last.lo = at_head + length;
+        last.hi = at_head;
+    }
+
+    // c lies above its tangents at the ends, which come closest to a chord where they meet; the
+    // others lie below their chords.
+    const double rise_first = (first.hi - first.lo) / length;
+    const double rise_last = (last.hi - last.lo) / length;
+    const auto loses = [&](const Candidate& c) {
+        const double bend = c.slope_hi - c.slope_lo;
+        double where = bend > 0 ? (c.lo - c.hi + c.slope_hi * length) / bend : 0;
+        where = std::clamp(where, 0.0, length);
+        const double least =
+            std::max(c.lo + c.slope_lo * where, c.hi - c.slope_hi * (length - where)) - slack;
+        return (least > first.lo + rise_first * where && c.lo > first.lo && c.hi > first.hi) ||
+               (least > last.lo + rise_last * where && c.lo > last.lo && c.hi > last.hi);
+    };
+    std::erase_if(candidates_, loses);
+}
+
+bool EdgeRelays::may_change(Index edge, std::vector<LineRelay>& relays) {
+    const Index h = surface_.edge_half[edge];
+    const Index site = labels_.point_site[surface_.tail(h)];
+    scan(edge);
+    if (labels_.point_site[surface_.head(h)] == site &&
+        std::all_of(candidates_.begin(), candidates_.end(),
+                    [site](const Candidate& c) { return c.site == site; })) {
+        return false;
+    }
+    append_all(edge, relays);
+    return true;
+}
+
+void EdgeRelays::gather(Index edge, std::vector<LineRelay>& relays) {
+    scan(edge);
+    append_all(edge, relays);
+}
+
+void EdgeRelays::append_all(Index edge, std::vector<LineRelay>& relays) const {
+    relays.clear();
+    const Index h = surface_.edge_half[edge];
+    const Index twin = surface_.twin[h];
+    const double length = surface_.length[edge];
+    for (const Candidate& c : candidates_) {
+        const Relay& relay = propagation_.relays[c.relay];
+        const bool is_straight = relay.y < 0 && (relay.half_edge == h || relay.half_edge == twin);
+        relays.push_back(is_straight
+                             ? through_edge(relay, reaches_[c.relay], relay.half_edge == h, length)
+                             : through_face(edge, relay));
+    }
+    const Index a = surface_.tail(h);
+    const Index b = surface_.head(h);
+    if (needs_tail_) {
+        relays.push_back(point_on_line(0, labels_.vertex_distance[a], labels_.point_site[a]));
+    }
+    if (needs_head_) {
+        relays.push_back(point_on_line(length, labels_.vertex_distance[b], labels_.point_site[b]));
+    }
+}
+
+LineRelay EdgeRelays::through_face(Index edge, const Relay& relay) const {
+    const Index h = surface_.edge_half[edge];
+    const double length = surface_.length[edge];
+    const bool is_here = Surface::face(relay.half_edge) == Surface::face(h);
+    const Index base = is_here ? h : surface_.twin[h];
+    const Motion motion =
+        relay.half_edge == base ? Motion{} : between_half_edges(surface_, relay.half_edge, base);
+    const Motion turn{{-1, 0}, {length, 0}};
+    return on_line(to_planar(relay, is_here ? motion : compose(turn, motion)), {0, 0}, {1, 0},
+                   length);
+}
+
+}  // namespace agvd

@@ -1,0 +1,99 @@
+#include "agvd/diagram/inside_relays.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace agvd {
+namespace {
+
+// Images nearer to an edge (share of its length) lie on it.
+constexpr double on_edge = 1e-12;
+
+bool is_listed(const Surface& surface, const EdgeLabels& labels, Index half_edge) {
+    const Index twin = surface.twin[half_edge];
+    return twin == no_index || labels.mixed_index[Surface::face(twin)] != no_index;
+}
+
+}  // namespace
+
+void InsideRelays::gather_own(Index mixed_index, std::span<const Index> sites,
+                              std::vector<PlanarRelay>& out) {
+    out.clear();
+    const Index first = 3 * propagation_.mixed_faces[mixed_index];
+    std::array<Motion, 3> motions;
+    for (Index k = 0; k < 3; ++k) motions[k] = to_face_frame(surface_, first + k);
+    const Index end = propagation_.relay_offsets[mixed_index + 1];
+    for (const Index site : sites) {
+        for (Index r = propagation_.relay_offsets[mixed_index]; r < end; ++r) {
+            if (reaches_[r].site == site) out.push_back(moved(r, motions));
+        }
+    }
+}
+
+PlanarRelay InsideRelays::moved(Index relay, const std::array<Motion, 3>& motions) const {
+    const Relay& r = propagation_.relays[relay];
+    const Motion& motion = motions[r.half_edge % 3];
+    const double length = surface_.length_of(r.half_edge);
+    return {motion({r.x, r.y}),
+            motion({r.begin, 0}),
+            motion({r.end, 0}),
+            r.weight,
+            reaches_[relay].tail - r.begin,
+            reaches_[relay].head - (length - r.end),
+            r.site.value(),
+            r.y >= 0};
+}
+
+void InsideRelays::gather_all(Index mixed_index, std::vector<PlanarRelay>& out) {
+    out.clear();
+    const Index face = propagation_.mixed_faces[mixed_index];
+    for (const Relay& relay : relays_of(propagation_, mixed_index)) {
+        if (relay.y >= 0 || !is_listed(surface_, labels_, relay.half_edge)) {
+            out.push_back(to_planar(relay, to_face_frame(surface_, relay.half_edge)));
+        }
+    }
+    const auto corners = face_corners(surface_, face);
+    for (Index k = 0; k < 3; ++k) {
+        const Index v = surface_.mesh.triangles[face][k];
+        out.push_back(point_relay(corners[k], labels_.vertex_distance[v], labels_.point_site[v]));
+        if (is_listed(surface_, labels_, 3 * face + k)) append_winners(3 * face + k, out);
+        append_crossings(3 * face + k, out);
+    }
+    std::stable_sort(out.begin(), out.end(),
+                     [](const PlanarRelay& a, const PlanarRelay& b) { return a.site < b.site; });
+}
+
+void InsideRelays::append_winners(Index half_edge, std::vector<PlanarRelay>& out) {
+    const Index edge = surface_.edge[half_edge];
+    const Index along = surface_.edge_half[edge];
+    const double length = surface_.length[edge];
+    edge_relays_.gather(edge, on_edge_);
+    label_envelope(on_edge_, length, labels_.point_site[surface_.tail(along)],
+                   labels_.point_site[surface_.head(along)], scratch_, intervals_, &pieces_);
+    const bool forward = along == half_edge;
+    const Motion to = to_face_frame(surface_, half_edge);
+    for (const EnvelopePiece& won : pieces_) {
+        const Vec2 image = forward ? won.from : Vec2(length - won.from.x(), -won.from.y());
+        const bool is_on_edge = std::abs(image.y()) <= on_edge * length;
+        if (image.y() > 0 && !is_on_edge) continue;  // Comes from this face.
+        const Vec2 begin(forward ? won.begin : length - won.end, 0);
+        const Vec2 end(forward ? won.end : length - won.begin, 0);
+        out.push_back({to(image), to(begin), to(end), won.weight,
+                       won.weight + (begin - image).norm(), won.weight + (end - image).norm(),
+                       won.site, is_on_edge});
+    }
+}
+
+void InsideRelays::append_crossings(Index half_edge, std::vector<PlanarRelay>& out) const {
+    const Index edge = surface_.edge[half_edge];
+    const double length = surface_.length[edge];
+    const bool forward = surface_.edge_half[edge] == half_edge;
+    const Motion to = to_face_frame(surface_, half_edge);
+    for (const Crossing& c : labels_.on_edge(edge)) {
+        const Vec2 p = to({length * (forward ? c.at : 1 - c.at), 0});
+        out.push_back(point_relay(p, c.distance, c.site_before));
+        out.push_back(point_relay(p, c.distance, c.site_after));
+    }
+}
+
+}  // namespace agvd
