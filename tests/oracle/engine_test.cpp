@@ -256,20 +256,6 @@ void expect_well_formed(const Case& c, const Propagation& p) {
     }
 }
 
-void expect_same(const Propagation& a, const Propagation& b) {
-    EXPECT_EQ(a.vertex_site, b.vertex_site);
-    EXPECT_EQ(a.vertex_distance, b.vertex_distance);
-    EXPECT_EQ(a.mixed_faces, b.mixed_faces);
-    EXPECT_EQ(a.relay_offsets, b.relay_offsets);
-    EXPECT_TRUE(std::equal(a.relays.begin(), a.relays.end(), b.relays.begin(), b.relays.end(),
-                           [](const Relay& r, const Relay& s) {
-                               return r.x == s.x && r.y == s.y && r.weight == s.weight &&
-                                      r.begin == s.begin && r.end == s.end && r.site == s.site &&
-                                      r.half_edge == s.half_edge;
-                           }));
-    EXPECT_EQ(a.certified_error, b.certified_error);
-}
-
 void check_engines(Case c, int other_threads) {
     for (PropagationOptions options : settings()) {
         SCOPED_TRACE(describe(options));
@@ -281,7 +267,7 @@ void check_engines(Case c, int other_threads) {
         expect_first_of_equals(c, propagation);
         options.num_threads = other_threads;
         SCOPED_TRACE(std::to_string(other_threads) + " threads");
-        expect_same(propagation, propagate(c.surface, c.sites, options));
+        checks::expect_same(propagation, propagate(c.surface, c.sites, options));
     }
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "agvd/core/error.h"
+#include "support/checks.h"
 #include "support/points.h"
 #include "support/shapes.h"
 
@@ -27,21 +28,6 @@ TriangleMesh l_shape() {
         return middle.x() > 0.5 && middle.y() > 0.5;
     });
     return mesh;
-}
-
-void expect_same_bytes(const Propagation& a, const Propagation& b) {
-    EXPECT_EQ(a.vertex_site, b.vertex_site);
-    EXPECT_EQ(a.vertex_distance, b.vertex_distance);
-    EXPECT_EQ(a.mixed_faces, b.mixed_faces);
-    EXPECT_EQ(a.relay_offsets, b.relay_offsets);
-    ASSERT_EQ(a.relays.size(), b.relays.size());
-    for (std::size_t i = 0; i < a.relays.size(); ++i) {
-        const Relay& r = a.relays[i];
-        const Relay& s = b.relays[i];
-        ASSERT_TRUE(r.x == s.x && r.y == s.y && r.weight == s.weight && r.begin == s.begin &&
-                    r.end == s.end && r.site == s.site && r.half_edge == s.half_edge)
-            << "relay " << i;
-    }
 }
 
 }  // namespace
@@ -145,7 +131,7 @@ TEST(WindowEngine, SameBytesForAnyThreadCount) {
         const Propagation one = propagate(s, sites, options);
         for (const int threads : {2, 3, 8}) {
             options.num_threads = threads;
-            expect_same_bytes(one, propagate(s, sites, options));
+            checks::expect_same(one, propagate(s, sites, options));
         }
     }
 }
@@ -156,8 +142,8 @@ TEST(WindowEngine, ALayoutAtHandChangesNothing) {
     for (const Engine engine : {Engine::Window, Engine::Steiner, Engine::Vertex}) {
         for (const Index count : {1, 9}) {
             const auto sites = points::scattered(s, count, 4);
-            expect_same_bytes(propagate(s, sites, {.engine = engine}),
-                              propagate(s, layout, sites, {.engine = engine}));
+            checks::expect_same(propagate(s, sites, {.engine = engine}),
+                                propagate(s, layout, sites, {.engine = engine}));
         }
     }
 }

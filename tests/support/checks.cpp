@@ -225,4 +225,18 @@ void expect_valid_complex(const Surface& surface, const Diagram& d) {
     EXPECT_EQ(complex_euler, surface_euler);
 }
 
+void expect_same(const Propagation& a, const Propagation& b) {
+    EXPECT_EQ(a.vertex_site, b.vertex_site);
+    EXPECT_EQ(a.vertex_distance, b.vertex_distance);
+    EXPECT_EQ(a.mixed_faces, b.mixed_faces);
+    EXPECT_EQ(a.relay_offsets, b.relay_offsets);
+    EXPECT_TRUE(std::equal(a.relays.begin(), a.relays.end(), b.relays.begin(), b.relays.end(),
+                           [](const Relay& r, const Relay& s) {
+                               return r.x == s.x && r.y == s.y && r.weight == s.weight &&
+                                      r.begin == s.begin && r.end == s.end && r.site == s.site &&
+                                      r.half_edge == s.half_edge;
+                           }));
+    EXPECT_EQ(a.certified_error, b.certified_error);
+}
+
 }  // namespace checks

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "agvd/diagram/cells.h"
+#include "agvd/propagation/relays.h"
 
 namespace checks {
 
@@ -12,5 +13,8 @@ namespace checks {
 //! Cells are connected, and their Euler characteristics are those that their loops give.
 //! Polylines run from face to face, and inside a face no two of their segments cross.
 void expect_valid_complex(const agvd::Surface& surface, const agvd::Diagram& diagram);
+
+//! All but the work done and the memory held.
+void expect_same(const agvd::Propagation& a, const agvd::Propagation& b);
 
 }  // namespace checks

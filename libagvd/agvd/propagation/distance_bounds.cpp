@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "agvd/core/parallel.h"
 #include "agvd/propagation/site_placement.h"
@@ -26,127 +27,150 @@ Key to_key(float distance, Index site) {
 float distance_of(Key key) { return std::bit_cast<float>(static_cast<std::uint32_t>(key >> 32)); }
 Index site_of(Key key) { return static_cast<Index>(key); }
 
-// Label-correcting in buckets of distance; the vertices of a bucket are relaxed side by side.
-class BoundsFront {
-public:
-    BoundsFront(const ArcGraph& graph, double mean_edge, int num_threads)
-        : graph_(graph),
-          num_threads_(num_threads),
-          per_bucket_(static_cast<float>(2 / mean_edge)),
-          keys_(graph.ends.size(), to_key(infinity, no_index)),
-          queued_in_(keys_.size(), no_index) {}
+}  // namespace
 
-    void start(Index vertex, double distance, Index site) {
+// Label-correcting in buckets of distance; the vertices of a bucket are relaxed side by side.
+BoundsSearch::BoundsSearch(const Surface& surface, const ArcGraph& graph, double mean_edge,
+                           int num_threads)
+    : surface_(surface),
+      graph_(graph),
+      num_threads_(num_threads),
+      per_bucket_(static_cast<float>(2 / mean_edge)),
+      keys_(graph.ends.size(), to_key(infinity, no_index)),
+      queued_in_(keys_.size(), no_index) {}
+
+// Calls each(vertex, distance) for the vertices that a site reaches in its face.
+template <typename Each>
+void BoundsSearch::for_each_start(const SurfacePoint& point, const Each& each) const {
+    if (const auto vertex = vertex_of(surface_, point)) {
+        each(*vertex, 0.0);
+        return;
+    }
+    const auto start_in_face = [&](const SurfacePoint& p) {
+        for (Index k = 0; k < 3; ++k) {
+            const Index h = 3 * p.face.value() + k;
+            each(surface_.tail(h), position_in_frame(surface_, p, h).norm());
+        }
+    };
+    start_in_face(point);
+    const auto half_edge = half_edge_of(point);
+    if (half_edge && surface_.twin[*half_edge] != no_index) {
+        start_in_face(across_edge(surface_, point, *half_edge));
+    }
+}
+
+void BoundsSearch::add(const SurfacePoint& point, Index site) {
+    for_each_start(point, [&](Index vertex, double distance) {
         const Key key = to_key(static_cast<float>(distance) * round_up, site);
         if (key >= keys_[vertex]) return;
         keys_[vertex] = key;
         queue(vertex);
-    }
+        if (tracks_changes_) changes_.push_back(vertex);
+    });
+}
 
-    void run() {
-        constexpr Index grain = 512;
-        std::vector<Index> bucket;
-        std::vector<std::vector<Index>> changed;
-        for (; current_ < buckets_.size(); ++current_) {
-            while (!buckets_[current_].empty()) {
-                bucket.clear();
-                for (const Index v : buckets_[current_]) {
-                    if (queued_in_[v] != current_) continue;
-                    queued_in_[v] = no_index;
-                    bucket.push_back(v);
-                }
-                buckets_[current_].clear();
-                const auto count = static_cast<Index>(bucket.size());
-                changed.resize(num_chunks(count, grain));
-                parallel_chunks(count, grain, num_threads_,
-                                [&](Index chunk, Index begin, Index end) {
-                                    changed[chunk].clear();
-                                    for (Index i = begin; i < end; ++i) {
-                                        if (i + 4 < end) graph_.prefetch(bucket[i + 4]);
-                                        relax_arcs(bucket[i], changed[chunk]);
-                                    }
-                                });
-                for (const auto& part : changed) {
-                    for (const Index v : part) queue(v);
-                }
+void BoundsSearch::remove(const std::vector<bool>& is_removed) {
+    std::vector<Index> forgotten;
+    for (Index v = 0; v < keys_.size(); ++v) {
+        const Index site = site_of(keys_[v]);
+        if (site == no_index || !is_removed[site]) continue;
+        keys_[v] = to_key(infinity, no_index);
+        forgotten.push_back(v);
+    }
+    for (const Index v : forgotten) {
+        for (Index a = graph_.offsets[v]; a < graph_.ends[v]; ++a) {
+            const Index neighbour = graph_.arcs[a].head;
+            if (site_of(keys_[neighbour]) != no_index) queue(neighbour);
+        }
+    }
+    if (tracks_changes_) changes_.insert(changes_.end(), forgotten.begin(), forgotten.end());
+}
+
+void BoundsSearch::run() {
+    constexpr Index grain = 512;
+    std::vector<Index> bucket;
+    std::vector<std::vector<Index>> changed;
+    for (current_ = 0; current_ < buckets_.size(); ++current_) {
+        while (!buckets_[current_].empty()) {
+            bucket.clear();
+            for (const Index v : buckets_[current_]) {
+                if (queued_in_[v] != current_) continue;
+                queued_in_[v] = no_index;
+                bucket.push_back(v);
             }
-            std::vector<Index>().swap(buckets_[current_]);
-        }
-    }
-
-    [[nodiscard]] DistanceBounds result() const {
-        DistanceBounds bounds;
-        bounds.distance.reserve(keys_.size());
-        bounds.site.reserve(keys_.size());
-        for (const Key key : keys_) {
-            bounds.distance.push_back(distance_of(key));
-            bounds.site.push_back(site_of(key));
-        }
-        bounds.peak_bytes = keys_.size() * (3 * sizeof(Index) + sizeof(Key) + sizeof(float));
-        return bounds;
-    }
-
-private:
-    void queue(Index vertex) {
-        constexpr float last_bucket = 1 << 20;
-        const float place = std::min(distance_of(keys_[vertex]) * per_bucket_, last_bucket);
-        const Index bucket = std::max(static_cast<Index>(place), current_);
-        if (queued_in_[vertex] <= bucket) return;
-        queued_in_[vertex] = bucket;
-        if (bucket >= buckets_.size()) buckets_.resize(bucket + 1);
-        buckets_[bucket].push_back(vertex);
-    }
-
-    void relax_arcs(Index vertex, std::vector<Index>& changed) {
-        constexpr auto relaxed = std::memory_order_relaxed;
-        const Key from = std::atomic_ref(keys_[vertex]).load(relaxed);
-        for (Index i = graph_.offsets[vertex]; i < graph_.ends[vertex]; ++i) {
-            const ArcGraph::Arc& arc = graph_.arcs[i];
-            const Key key = to_key(distance_of(from) + arc.length, site_of(from));
-            std::atomic_ref best(keys_[arc.head]);
-            Key old = best.load(relaxed);
-            while (key < old) {
-                if (best.compare_exchange_weak(old, key, relaxed)) {
-                    changed.push_back(arc.head);
-                    break;
+            buckets_[current_].clear();
+            const auto count = static_cast<Index>(bucket.size());
+            changed.resize(num_chunks(count, grain));
+            parallel_chunks(count, grain, num_threads_, [&](Index chunk, Index begin, Index end) {
+                changed[chunk].clear();
+                for (Index i = begin; i < end; ++i) {
+                    if (i + 4 < end) graph_.prefetch(bucket[i + 4]);
+                    relax_arcs(bucket[i], changed[chunk]);
                 }
+            });
+            for (const auto& part : changed) {
+                for (const Index v : part) queue(v);
+                if (tracks_changes_) changes_.insert(changes_.end(), part.begin(), part.end());
             }
         }
+        std::vector<Index>().swap(buckets_[current_]);
     }
+    current_ = 0;
+}
 
-    const ArcGraph& graph_;
-    int num_threads_;
-    float per_bucket_;
-    std::vector<Key> keys_;         // #V
-    std::vector<Index> queued_in_;  // #V: the bucket in which a vertex waits.
-    std::vector<std::vector<Index>> buckets_;
-    Index current_ = 0;
-};
+float BoundsSearch::distance(Index vertex) const { return distance_of(keys_[vertex]); }
+Index BoundsSearch::site(Index vertex) const { return site_of(keys_[vertex]); }
 
-}  // namespace
+std::vector<Index> BoundsSearch::take_changes() {
+    tracks_changes_ = true;
+    return std::exchange(changes_, {});
+}
+
+std::size_t BoundsSearch::bytes() const {
+    return keys_.size() * (3 * sizeof(Index) + sizeof(Key) + sizeof(float));
+}
+
+void BoundsSearch::queue(Index vertex) {
+    constexpr float last_bucket = 1 << 20;
+    const float place = std::min(distance_of(keys_[vertex]) * per_bucket_, last_bucket);
+    const Index bucket = std::max(static_cast<Index>(place), current_);
+    if (queued_in_[vertex] <= bucket) return;
+    queued_in_[vertex] = bucket;
+    if (bucket >= buckets_.size()) buckets_.resize(bucket + 1);
+    buckets_[bucket].push_back(vertex);
+}
+
+void BoundsSearch::relax_arcs(Index vertex, std::vector<Index>& changed) {
+    constexpr auto relaxed = std::memory_order_relaxed;
+    const Key from = std::atomic_ref(keys_[vertex]).load(relaxed);
+    for (Index i = graph_.offsets[vertex]; i < graph_.ends[vertex]; ++i) {
+        const ArcGraph::Arc& arc = graph_.arcs[i];
+        const Key key = to_key(distance_of(from) + arc.length, site_of(from));
+        std::atomic_ref best(keys_[arc.head]);
+        Key old = best.load(relaxed);
+        while (key < old) {
+            if (best.compare_exchange_weak(old, key, relaxed)) {
+                changed.push_back(arc.head);
+                break;
+            }
+        }
+    }
+}
 
 DistanceBounds distance_bounds(const Surface& surface, const ArcGraph& graph, double mean_edge,
                                std::span<const SurfacePoint> sites, int num_threads) {
-    BoundsFront front(graph, mean_edge, num_threads);
-    for (Index s = 0; s < sites.size(); ++s) {
-        if (const auto vertex = vertex_of(surface, sites[s])) {
-            front.start(*vertex, 0, s);
-            continue;
-        }
-        const auto start_in_face = [&](const SurfacePoint& point) {
-            for (Index k = 0; k < 3; ++k) {
-                const Index h = 3 * point.face.value() + k;
-                front.start(surface.tail(h), position_in_frame(surface, point, h).norm(), s);
-            }
-        };
-        start_in_face(sites[s]);
-        const auto half_edge = half_edge_of(sites[s]);
-        if (half_edge && surface.twin[*half_edge] != no_index) {
-            start_in_face(across_edge(surface, sites[s], *half_edge));
-        }
+    BoundsSearch search(surface, graph, mean_edge, num_threads);
+    for (Index s = 0; s < sites.size(); ++s) search.add(sites[s], s);
+    search.run();
+    DistanceBounds bounds;
+    bounds.distance.reserve(surface.num_vertices());
+    bounds.site.reserve(surface.num_vertices());
+    for (Index v = 0; v < surface.num_vertices(); ++v) {
+        bounds.distance.push_back(search.distance(v));
+        bounds.site.push_back(search.site(v));
     }
-    front.run();
-    return front.result();
+    bounds.peak_bytes = search.bytes();
+    return bounds;
 }
 
 }  // namespace agvd

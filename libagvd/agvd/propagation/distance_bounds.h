@@ -16,11 +16,51 @@ struct DistanceBounds {
 };
 
 //! Shortest paths along the arcs of a graph. Rounded up, so that no rounding of an exact distance
-//! lies above. Unique, so that the order in which threads relax does not matter.
-//!
-//! \param graph      ArcGraph of the surface.
-//! \param mean_edge  > 0, mesh units; a matter of speed only.
-//! Cost: about that of one Dijkstra sweep over the edges.
+//! lies above. Unique, so that neither the order in which threads relax matters nor that in which
+//! sites come and go.
+class BoundsSearch {
+public:
+    //! \param surface, graph  outlive the search; ArcGraph of the surface.
+    //! \param mean_edge       > 0, mesh units; a matter of speed only.
+    BoundsSearch(const Surface& surface, const ArcGraph& graph, double mean_edge, int num_threads);
+
+    //! Adds a site, whose paths the next run() follows.
+    void add(const SurfacePoint& point, Index site);
+    //! Forgets all that comes from some sites; the next run() fills the gaps from outside. Sites
+    //! that may have been hidden in them must be added again, which is harmless for any other.
+    //!
+    //! \param is_removed  by site. Cost: O(#V).
+    void remove(const std::vector<bool>& is_removed);
+    //! Cost: about that of one Dijkstra sweep over the edges, where anything is new.
+    void run();
+
+    //! Infinity where no site reaches.
+    [[nodiscard]] float distance(Index vertex) const;
+    //! Whose path it is; no_index where none reaches.
+    [[nodiscard]] Index site(Index vertex) const;
+    //! Vertices whose bound may have changed since the last call, in any order.
+    [[nodiscard]] std::vector<Index> take_changes();
+    [[nodiscard]] std::size_t bytes() const;
+
+private:
+    template <typename Each>
+    void for_each_start(const SurfacePoint& point, const Each& each) const;
+    void queue(Index vertex);
+    void relax_arcs(Index vertex, std::vector<Index>& changed);
+
+    const Surface& surface_;
+    const ArcGraph& graph_;
+    int num_threads_;
+    float per_bucket_;
+    std::vector<std::uint64_t> keys_;  // #V: distance and site.
+    std::vector<Index> queued_in_;     // #V: the bucket in which a vertex waits.
+    std::vector<std::vector<Index>> buckets_;
+    Index current_ = 0;
+    bool tracks_changes_ = false;  // From the first take_changes() on.
+    std::vector<Index> changes_;
+};
+
+//! The bounds of given sites. Parameters as above.
 [[nodiscard]] DistanceBounds distance_bounds(const Surface& surface, const ArcGraph& graph,
                                              double mean_edge, std::span<const SurfacePoint> sites,
                                              int num_threads);

@@ -37,6 +37,7 @@ struct PlacedSite {
 //! The placed sites of each face that has any; an edge site is listed in both faces.
 class SitePlacement {
 public:
+    SitePlacement() = default;
     //! \throw InvalidInput as check_sites.
     SitePlacement(const Surface& surface, std::span<const SurfacePoint> sites);
 

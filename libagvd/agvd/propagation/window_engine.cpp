@@ -32,6 +32,7 @@ struct TaskResult {
     std::vector<std::vector<Relay>> relays;  // In faces near borders; in blocks, never copied.
     std::vector<FaceVisit> late_visits;      // Elsewhere, in faces that another site has visited.
     std::size_t num_windows = 0;
+    double error = 0;
 
     void add(const Relay& relay) {
         constexpr std::size_t block = 512;
@@ -43,6 +44,7 @@ struct TaskResult {
         relays.clear();
         late_visits.clear();
         num_windows = 0;
+        error = 0;
     }
     [[nodiscard]] std::size_t bytes() const {
         return vertices.capacity() * sizeof(Reached) + late_visits.capacity() * sizeof(FaceVisit);
@@ -58,18 +60,14 @@ struct Worker {
 // Workers that no task holds.
 class WorkerPool {
 public:
-    WorkerPool(const Surface& surface, const Corners& corners, double bucket_width,
-               double max_error)
-        : surface_(surface),
-          corners_(corners),
-          bucket_width_(bucket_width),
-          max_error_(max_error) {}
+    WorkerPool(const Surface& surface, const Corners& corners, double max_error)
+        : surface_(surface), corners_(corners), max_error_(max_error) {}
 
     std::unique_ptr<Worker> take() {
         const std::scoped_lock lock(mutex_);
         if (free_.empty()) {
             return std::make_unique<Worker>(
-                Worker{WindowFront(surface_, corners_, bucket_width_, max_error_), {}});
+                Worker{WindowFront(surface_, corners_, max_error_), {}});
         }
         auto worker = std::move(free_.back());
         free_.pop_back();
@@ -86,16 +84,10 @@ public:
         }
         return sum;
     }
-    [[nodiscard]] double relative_error() const {
-        double most = 0;
-        for (const auto& worker : free_) most = std::max(most, worker->front.relative_error());
-        return most;
-    }
 
 private:
     const Surface& surface_;
     const Corners& corners_;
-    double bucket_width_;
     double max_error_;
     std::mutex mutex_;
     std::vector<std::unique_ptr<Worker>> free_;
@@ -121,15 +113,13 @@ public:
             first_visitor_ = std::vector<std::atomic<Index>>(surface_.num_faces());
             for (auto& visitor : first_visitor_) visitor.store(no_index, relaxed);
 
-            constexpr double bucket_share = 0.5;  // Of the mean edge.
-            WorkerPool workers(surface_, corners_, bucket_share * corners_.mean_length(),
-                               max_error_);
+            WorkerPool workers(surface_, corners_, max_error_);
             result_.vertex_distance.assign(surface_.num_vertices(),
                                            std::numeric_limits<double>::infinity());
             result_.vertex_site.assign(surface_.num_vertices(), SiteId());
+            result_.certified_error = 0;
             propagate_all(workers);
             propagate_late(workers);
-            result_.certified_error = workers.relative_error();
             result_.peak_bytes = corners_.bytes() + workers.bytes() +
                                  bounds_.capacity() * sizeof(float) + common_bytes();
         }
@@ -156,16 +146,15 @@ private:
     }
 
     // Sites in the order of their faces: neighbours on most meshes, so that caches stay warm.
-    [[nodiscard]] std::vector<Index> site_order() const {
-        std::vector<Index> order(sites_.size());
-        std::iota(order.begin(), order.end(), Index{0});
-        std::stable_sort(order.begin(), order.end(),
+    void sort_by_face(std::vector<Index>& sites) const {
+        std::stable_sort(sites.begin(), sites.end(),
                          [&](Index a, Index b) { return sites_[a].face < sites_[b].face; });
-        return order;
     }
 
     void propagate_all(WorkerPool& workers) {
-        const std::vector<Index> order = site_order();
+        std::vector<Index> order(sites_.size());
+        std::iota(order.begin(), order.end(), Index{0});
+        sort_by_face(order);
         const auto count = static_cast<Index>(order.size());
         const Index batch = std::max(count / most_batches, least_batch);
         for (Index first = 0; first < count; first += batch) {
@@ -200,25 +189,24 @@ private:
                             auto worker = workers.take();
                             worker->result.clear();
                             for (Index i = begin; i < end; ++i) {
-                                run_site(worker->front, order[i]);
-                                worker->result.num_windows += worker->front.num_windows();
-                                collect(order[i], worker->front, worker->result);
+                                WindowFront& front = worker->front;
+                                TaskResult& result = worker->result;
+                                front.run(sites_[order[i]], bounds_, work_cap_);
+                                result.num_windows += front.num_windows();
+                                result.error = std::max(result.error, front.relative_error());
+                                collect(order[i], front, result);
                             }
                             tasks[chunk] = hand_over(worker->result);
                             workers.give_back(std::move(worker));
                         });
         for (TaskResult& task : tasks) {
             result_.num_nodes += task.num_windows;
+            result_.certified_error = std::max(result_.certified_error, task.error);
             std::move(task.relays.begin(), task.relays.end(), std::back_inserter(logs_));
             late_visits_.insert(late_visits_.end(), task.late_visits.begin(),
                                 task.late_visits.end());
         }
         return tasks;
-    }
-
-    void run_site(WindowFront& front, Index site) const {
-        if (front.run(sites_[site], bounds_, FrontOrder::Buckets, work_cap_)) return;
-        (void)front.run(sites_[site], bounds_, FrontOrder::Nearest, no_index);
     }
 
     void collect(Index site, const WindowFront& front, TaskResult& task) {
@@ -265,6 +253,7 @@ private:
         }
         std::sort(again.begin(), again.end());
         again.erase(std::unique(again.begin(), again.end()), again.end());
+        sort_by_face(again);
         std::vector<bool> is_late(surface_.num_faces(), false);
         for (const FaceVisit& visit : late_visits_) is_late[visit.face] = true;
         (void)run_tasks(

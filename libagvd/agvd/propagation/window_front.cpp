@@ -63,18 +63,22 @@ struct WindowFront::Face {
     Index apex_record = no_index;
 };
 
-WindowFront::WindowFront(const Surface& surface, const Corners& corners, double bucket_width,
-                         double max_error)
+WindowFront::WindowFront(const Surface& surface, const Corners& corners, double max_error)
     : surface_(surface),
       corners_(corners),
-      per_bucket_(1 / bucket_width),
+      per_bucket_(2 / corners.mean_length()),
       max_error_(max_error),
       vertex_slot_(surface.num_vertices(), 0),
       edge_slot_(surface.twin.size(), 0) {}
 
-bool WindowFront::run(const SurfacePoint& site, std::span<const float> bounds, FrontOrder order,
-                      Index work_cap) {
+void WindowFront::run(const SurfacePoint& site, std::span<const float> bounds, Index work_cap) {
     bounds_ = bounds;
+    if (run_in(Order::Buckets, site, work_cap)) return;
+    (void)run_in(Order::Nearest, site, no_index);
+}
+
+// False if the cap was passed; what the front then holds means nothing.
+bool WindowFront::run_in(Order order, const SurfacePoint& site, Index work_cap) {
     queue_order_ = order;
     vertices_.clear();
     edges_.clear();
@@ -90,6 +94,7 @@ bool WindowFront::run(const SurfacePoint& site, std::span<const float> bounds, F
     next_in_bucket_ = 0;
     num_waiting_ = 0;
     num_served_ = 0;
+    relative_error_ = 0;
 
     start(site);
     Index item = 0;
@@ -129,7 +134,7 @@ inline Index WindowFront::edge_record(Index half_edge, Index tail, Index head) {
 // --- Queue -----------------------------------------------------------------------------------
 
 inline void WindowFront::schedule(Index item, Index& bucket, double distance) {
-    if (queue_order_ == FrontOrder::Nearest) {
+    if (queue_order_ == Order::Nearest) {
         heap_.emplace_back(distance, item);
         std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
         return;
@@ -145,7 +150,7 @@ inline void WindowFront::schedule(Index item, Index& bucket, double distance) {
 }
 
 bool WindowFront::next_item(Index& item) {
-    if (queue_order_ == FrontOrder::Nearest) {
+    if (queue_order_ == Order::Nearest) {
         if (heap_.empty()) return false;
         std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
         item = heap_.back().second;

@@ -17,30 +17,20 @@
 
 namespace agvd {
 
-//! In which order half-edges are served. Any order gives the same distances up to rounding.
-enum class FrontOrder : std::uint8_t {
-    Buckets,  //!< By half a mean edge length: quick, but how often a half-edge is served has no
-              //!< useful bound.
-    Nearest,  //!< Nearest window first: slower, and bounded as in [mitchell1987].
-};
-
 //! The memory of one run, which the next one reuses. Not for use by two threads at once.
 class WindowFront {
 public:
     //! \param surface, corners  outlive the front; Corners(surface).
-    //! \param bucket_width  > 0, mesh units.
     //! \param max_error    relative; 0: no window is merged.
-    WindowFront(const Surface& surface, const Corners& corners, double bucket_width,
-                double max_error);
+    WindowFront(const Surface& surface, const Corners& corners, double max_error);
 
     //! Propagates from one site. Windows die where `bounds` are lower.
     //!
     //! \param bounds    #V upper bounds for the distance from the nearest of all sites, larger than
     //!                  any rounding of it.
-    //! \param work_cap  the most windows that may be served through one half-edge.
-    //! \return false if the cap was passed; what the front then holds means nothing.
-    [[nodiscard]] bool run(const SurfacePoint& site, std::span<const float> bounds,
-                           FrontOrder order, Index work_cap);
+    //! \param work_cap  the most windows that may be served through one half-edge in order of
+    //!                  buckets; if more are, the run starts again with the nearest window first.
+    void run(const SurfacePoint& site, std::span<const float> bounds, Index work_cap);
 
     struct ReachedVertex {
         Index vertex;
@@ -60,7 +50,13 @@ public:
             if (e.windows != no_index) each(e.half_edge, windows_of(e.windows));
         }
     }
-    //! Largest error of a merged window over its least distance; 0 if none was merged.
+    //! Calls each(vertex) for the vertices whose bounds mattered.
+    template <typename Each>
+    void for_each_bound(const Each& each) const {
+        for (const VertexRecord& v : vertices_) each(v.vertex);
+    }
+    //! Largest error of a window that was merged in the last run over its least distance; 0 if none
+    //! was.
     [[nodiscard]] double relative_error() const { return relative_error_; }
     //! Windows served in the last run.
     [[nodiscard]] std::size_t num_windows() const { return num_served_; }
@@ -69,6 +65,12 @@ public:
 private:
     static constexpr double infinity = std::numeric_limits<double>::infinity();
 
+    // In which order half-edges are served. Any order gives the same distances up to rounding.
+    enum class Order : std::uint8_t {
+        Buckets,  // By half a mean edge length: quick, but how often a half-edge is served has no
+                  // useful bound.
+        Nearest,  // Nearest window first: slower, and bounded as in [mitchell1987].
+    };
     struct EdgeRecord {
         Index half_edge;
         Index tail, head;                 // Records of its ends.
@@ -113,6 +115,7 @@ private:
     };
     struct Face;
 
+    [[nodiscard]] bool run_in(Order order, const SurfacePoint& site, Index work_cap);
     void start(const SurfacePoint& site);
     [[nodiscard]] Index vertex_record(Index vertex);
     [[nodiscard]] Index edge_record(Index half_edge, Index tail, Index head);
@@ -146,7 +149,7 @@ private:
     double per_bucket_;
     double max_error_;
     std::span<const float> bounds_;
-    FrontOrder queue_order_ = FrontOrder::Buckets;
+    Order queue_order_ = Order::Buckets;
 
     std::vector<Index> vertex_slot_;  // #V, #H: the record, if that record names it.
     std::vector<Index> edge_slot_;
@@ -161,7 +164,7 @@ private:
     RunArray<Division> divisions_;
     RunArray<Window> children_;
     std::vector<std::vector<Index>> buckets_;
-    std::vector<std::pair<double, Index>> heap_;  // FrontOrder::Nearest.
+    std::vector<std::pair<double, Index>> heap_;  // Order::Nearest.
     Index current_bucket_ = 0;
     Index next_in_bucket_ = 0;
     std::size_t num_waiting_ = 0;

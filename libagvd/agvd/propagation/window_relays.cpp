@@ -8,7 +8,6 @@ namespace agvd {
 namespace {
 
 constexpr Index grain = 4096;
-constexpr Index several = no_index - 1;  // Sites.
 
 // A corner that is a site or turns paths is itself the image of what comes by it.
 bool is_source(const Surface& surface, const Propagation& result, Index vertex) {
@@ -16,7 +15,20 @@ bool is_source(const Surface& surface, const Propagation& result, Index vertex) 
            (surface.can_turn[vertex] != 0 || result.vertex_distance[vertex] == 0);
 }
 
-// Relays that start in the face itself: sites in it, and corners that are sources.
+// Calls each(relay, place of its face). The places are seldom in the cache, so that each one is
+// loaded ahead.
+template <typename Place, typename Load, typename Each>
+void for_each_relay(const std::vector<Relay>& log, std::vector<Place>& places, const Load& load,
+                    const Each& each) {
+    constexpr std::size_t ahead = 12;
+    for (std::size_t i = 0; i < log.size(); ++i) {
+        if (i + ahead < log.size()) load(places[Surface::face(log[i + ahead].half_edge)]);
+        each(log[i], places[Surface::face(log[i].half_edge)]);
+    }
+}
+
+}  // namespace
+
 Index count_inner_relays(const Surface& surface, std::span<const PlacedSite> placed,
                          const Propagation& result, Index face) {
     const Triangle& corners = surface.mesh.triangles[face];
@@ -38,34 +50,6 @@ void write_inner_relays(const Surface& surface, std::span<const PlacedSite> plac
                   h};
     }
 }
-
-// The relays that came into a face, and whose they are.
-struct FaceRelays {
-    Index count = 0;
-    Index site = no_index;  // Or `several`.
-
-    void add_site(Index other) {
-        if (site == no_index) {
-            site = other;
-        } else if (other != no_index && other != site) {
-            site = several;
-        }
-    }
-};
-
-// Calls each(relay, place of its face). The places are seldom in the cache, so that each one is
-// loaded ahead.
-template <typename Place, typename Load, typename Each>
-void for_each_relay(const std::vector<Relay>& log, std::vector<Place>& places, const Load& load,
-                    const Each& each) {
-    constexpr std::size_t ahead = 12;
-    for (std::size_t i = 0; i < log.size(); ++i) {
-        if (i + ahead < log.size()) load(places[Surface::face(log[i + ahead].half_edge)]);
-        each(log[i], places[Surface::face(log[i].half_edge)]);
-    }
-}
-
-}  // namespace
 
 std::vector<std::uint8_t> faces_near_borders(const Surface& surface,
                                              std::span<const Index> vertex_site) {
@@ -115,7 +99,7 @@ void write_relays(const Surface& surface, const SitePlacement& placement,
         }
         const auto placed = placement.in_face(f);
         for (const PlacedSite& p : placed) face.add_site(p.site);
-        if (face.site != several) {
+        if (face.site != FaceRelays::several) {
             next[f] = no_index;
             continue;
         }

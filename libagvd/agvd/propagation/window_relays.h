@@ -22,6 +22,30 @@ struct FaceVisit {
 //! Weighted by the length of a real path.
 [[nodiscard]] Relay to_relay(const Window& window, Index site, Index half_edge);
 
+//! The relays that came into a face, and whose they are.
+struct FaceRelays {
+    static constexpr Index several = no_index - 1;
+
+    Index count = 0;
+    Index site = no_index;  //!< Or `several`.
+
+    void add_site(Index other) {
+        if (site == no_index) {
+            site = other;
+        } else if (other != no_index && other != site) {
+            site = several;
+        }
+    }
+};
+
+//! Relays that start in a face itself: its placed sites, and corners that are sites or turn paths,
+//! at the distances of `result`.
+[[nodiscard]] Index count_inner_relays(const Surface& surface, std::span<const PlacedSite> placed,
+                                       const Propagation& result, Index face);
+//! \param out  room for as many as count_inner_relays says.
+void write_inner_relays(const Surface& surface, std::span<const PlacedSite> placed,
+                        const Propagation& result, Index face, Relay* out);
+
 //! Writes the mixed faces and their relays into `result`, whose vertices are final: the faces with
 //! windows, corners or sites inside of more than one site.
 //!

@@ -1,0 +1,469 @@
+#include "agvd/propagation/moving_sites.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <mutex>
+#include <numeric>
+#include <string>
+
+#include "agvd/core/parallel.h"
+#include "agvd/propagation/arc_graph.h"
+#include "agvd/propagation/distance_bounds.h"
+#include "agvd/propagation/option_checks.h"
+#include "agvd/propagation/site_placement.h"
+#include "agvd/propagation/window_engine.h"
+#include "agvd/propagation/window_front.h"
+#include "agvd/propagation/window_relays.h"
+
+namespace agvd {
+namespace {
+
+// What one site has propagated.
+struct SiteRun {
+    struct Vertex {
+        Index vertex;
+        double distance;  // Infinity where only the bound was asked for.
+    };
+    struct HalfEdge {
+        Index half_edge;
+        Index first, count;  // In relays.
+    };
+    SurfacePoint point;
+    bool is_removed = false;
+    std::vector<Vertex> vertices = {};      // Ascending.
+    std::vector<HalfEdge> half_edges = {};  // Ascending.
+    std::vector<Relay> relays = {};         // In the order in which the run came to its half-edges.
+    double error = 0;
+    std::size_t num_windows = 0;
+
+    [[nodiscard]] double distance(Index vertex) const {
+        const auto found =
+            std::lower_bound(vertices.begin(), vertices.end(), vertex,
+                             [](const Vertex& v, Index wanted) { return v.vertex < wanted; });
+        return found->distance;
+    }
+    // In the order of the run.
+    void add_relays_in(Index face, Index site, std::vector<Relay>& out) const {
+        auto next =
+            std::lower_bound(half_edges.begin(), half_edges.end(), 3 * face,
+                             [](const HalfEdge& h, Index wanted) { return h.half_edge < wanted; });
+        std::array<const HalfEdge*, 3> in_face{};
+        std::size_t count = 0;
+        for (; next != half_edges.end() && next->half_edge < 3 * face + 3; ++next) {
+            std::size_t place = count++;
+            for (; place > 0 && next->first < in_face[place - 1]->first; --place) {
+                in_face[place] = in_face[place - 1];
+            }
+            in_face[place] = &*next;
+        }
+        for (std::size_t i = 0; i < count; ++i) {
+            for (Index k = 0; k < in_face[i]->count; ++k) {
+                out.push_back(relays[in_face[i]->first + k]);
+                out.back().site = SiteId(site);
+            }
+        }
+    }
+};
+
+SiteRun propagated(WindowFront& front, const SurfacePoint& point, std::span<const float> bounds) {
+    front.run(point, bounds, default_work_cap);
+    SiteRun run{point};
+    run.error = front.relative_error();
+    run.num_windows = front.num_windows();
+    front.for_each_bound([&](Index vertex) {
+        run.vertices.push_back({vertex, std::numeric_limits<double>::infinity()});
+    });
+    std::sort(run.vertices.begin(), run.vertices.end(),
+              [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
+    front.for_each_vertex([&](const WindowFront::ReachedVertex& v) {
+        const auto found = std::lower_bound(
+            run.vertices.begin(), run.vertices.end(), v.vertex,
+            [](const auto& reached, Index wanted) { return reached.vertex < wanted; });
+        found->distance = v.distance;
+    });
+    front.for_each_half_edge([&](Index half_edge, std::span<const Window> windows) {
+        run.half_edges.push_back(
+            {half_edge, static_cast<Index>(run.relays.size()), static_cast<Index>(windows.size())});
+        for (const Window& w : windows) run.relays.push_back(to_relay(w, no_index, half_edge));
+    });
+    std::sort(run.half_edges.begin(), run.half_edges.end(),
+              [](const auto& a, const auto& b) { return a.half_edge < b.half_edge; });
+    return run;
+}
+
+void keep_unique(std::vector<Index>& indices) {
+    std::sort(indices.begin(), indices.end());
+    indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+}
+
+}  // namespace
+
+// Sites are known here by numbers that never change; those of the caller are their ranks among the
+// sites that are left.
+class MovingSites::State {
+public:
+    State(const Surface& surface, const SurfaceLayout& layout, std::vector<SurfacePoint> sites,
+          const PropagationOptions& options)
+        : surface_(surface),
+          corners_(layout.corners()),
+          num_threads_(options.num_threads),
+          max_error_(options.max_error.value_or(default_max_error)),
+          search_(surface, layout.arcs(), corners_.mean_length(), options.num_threads),
+          bounds_(surface.num_vertices(), std::numeric_limits<float>::infinity()),
+          readers_(surface.num_vertices()) {
+        result_.vertex_site.assign(surface.num_vertices(), SiteId());
+        result_.vertex_distance.assign(surface.num_vertices(),
+                                       std::numeric_limits<double>::infinity());
+        result_.relay_offsets = {0};
+        (void)search_.take_changes();
+        update({.moved = {}, .removed = {}, .added = std::move(sites)});
+    }
+
+    void update(const SiteChanges& changes) {
+        std::vector<SurfacePoint> sites = changed_sites(changes);
+        SitePlacement placement(surface_, sites);
+
+        std::vector<Index> dirty = change_search(changes);  // Sites, by number.
+        const bool is_renumbered = !changes.removed.empty();
+        renumber();
+        sites_ = std::move(sites);
+        for (const Index v : search_.take_changes()) {
+            if (bounds_[v] == search_.distance(v)) continue;
+            bounds_[v] = search_.distance(v);
+            dirty.insert(dirty.end(), readers_[v].begin(), readers_[v].end());
+        }
+        keep_unique(dirty);
+
+        std::vector<Index> vertices;
+        for (const Index site : dirty) forget(site, vertices);
+        std::erase_if(dirty, [&](Index site) { return runs_[site].is_removed; });
+        propagate(dirty);
+        for (const Index site : dirty) remember(site, vertices);
+        num_propagated_ = static_cast<Index>(dirty.size());
+        keep_unique(vertices);
+
+        if (is_renumbered) renumber_result();
+        for (const Index v : vertices) settle_vertex(v);
+        std::vector<Index> faces = faces_around(vertices);
+        faces.insert(faces.end(), site_faces_.begin(), site_faces_.end());
+        keep_unique(faces);
+        placement_ = std::move(placement);
+        replace_faces(faces);
+        tell_totals();
+    }
+
+    [[nodiscard]] const std::vector<SurfacePoint>& sites() const { return sites_; }
+    [[nodiscard]] const Propagation& propagation() const { return result_; }
+    [[nodiscard]] Index num_propagated() const { return num_propagated_; }
+
+private:
+    [[nodiscard]] std::vector<SurfacePoint> changed_sites(const SiteChanges& changes) const {
+        const auto count = static_cast<Index>(sites_.size());
+        std::vector<bool> is_named(count, false);
+        const auto name = [&](Index site) {
+            if (site >= count || is_named[site]) {
+                throw InvalidInput("site " + std::to_string(site) +
+                                   (site >= count ? " does not exist; there are " +
+                                                        std::to_string(count) + " sites"
+                                                  : " is changed twice; name it once"));
+            }
+            is_named[site] = true;
+        };
+        std::vector<SurfacePoint> sites = sites_;
+        for (const auto& [site, point] : changes.moved) {
+            name(site);
+            sites[site] = point;
+        }
+        for (const Index site : changes.removed) name(site);
+        std::vector<bool> is_removed(count, false);
+        for (const Index site : changes.removed) is_removed[site] = true;
+        std::vector<SurfacePoint> result;
+        for (Index s = 0; s < count; ++s) {
+            if (!is_removed[s]) result.push_back(sites[s]);
+        }
+        result.insert(result.end(), changes.added.begin(), changes.added.end());
+        check_sites(surface_, result);
+        return result;
+    }
+
+    // Brings the bounds up to date. \return the numbers of the sites that changed.
+    std::vector<Index> change_search(const SiteChanges& changes) {
+        std::vector<Index> changed;
+        for (const auto& [site, point] : changes.moved) changed.push_back(numbers_[site]);
+        for (const Index site : changes.removed) changed.push_back(numbers_[site]);
+        site_faces_.clear();
+        std::vector<bool> is_changed(runs_.size(), false);
+        for (const Index site : changed) {
+            is_changed[site] = true;
+            add_faces_of(runs_[site].point);
+        }
+        search_.remove(is_changed);
+        for (const auto& [site, point] : changes.moved) {
+            runs_[numbers_[site]].point = point;
+            add_faces_of(point);
+        }
+        for (const Index site : changes.removed) runs_[numbers_[site]].is_removed = true;
+        for (const SurfacePoint& point : changes.added) {
+            changed.push_back(static_cast<Index>(runs_.size()));
+            add_faces_of(point);
+            runs_.push_back({point});
+        }
+        for (Index n = 0; n < runs_.size(); ++n) {  // Some may have been hidden behind others.
+            if (!runs_[n].is_removed) search_.add(runs_[n].point, n);
+        }
+        search_.run();
+        return changed;
+    }
+
+    void renumber() {
+        numbers_.clear();
+        ranks_.assign(runs_.size(), no_index);
+        for (Index n = 0; n < runs_.size(); ++n) {
+            if (runs_[n].is_removed) continue;
+            ranks_[n] = static_cast<Index>(numbers_.size());
+            numbers_.push_back(n);
+        }
+    }
+
+    // Ranks stay in order, so that a table of the old ones is enough.
+    void renumber_result() {
+        std::vector<SiteId> new_rank;
+        for (Index n = 0; n < old_ranks_.size(); ++n) {
+            if (old_ranks_[n] != no_index) new_rank.push_back(SiteId(ranks_[n]));
+        }
+        for (SiteId& site : result_.vertex_site) {
+            if (site.is_valid()) site = new_rank[site.value()];
+        }
+        for (Relay& relay : result_.relays) relay.site = new_rank[relay.site.value()];
+    }
+
+    void forget(Index site, std::vector<Index>& vertices) {
+        SiteRun& run = runs_[site];
+        for (const SiteRun::Vertex& v : run.vertices) {
+            std::erase(readers_[v.vertex], site);
+            vertices.push_back(v.vertex);
+        }
+        run = {run.point, run.is_removed};
+    }
+
+    void propagate(std::span<const Index> sites) {
+        constexpr Index grain = 4;
+        std::mutex mutex;
+        parallel_chunks(static_cast<Index>(sites.size()), grain, num_threads_,
+                        [&](Index, Index begin, Index end) {
+                            std::unique_ptr<WindowFront> front;
+                            {
+                                const std::scoped_lock lock(mutex);
+                                if (!fronts_.empty()) {
+                                    front = std::move(fronts_.back());
+                                    fronts_.pop_back();
+                                }
+                            }
+                            if (!front) {
+                                front =
+                                    std::make_unique<WindowFront>(surface_, corners_, max_error_);
+                            }
+                            for (Index i = begin; i < end; ++i) {
+                                SiteRun& run = runs_[sites[i]];
+                                run = propagated(*front, run.point, bounds_);
+                            }
+                            const std::scoped_lock lock(mutex);
+                            fronts_.push_back(std::move(front));
+                        });
+    }
+
+    void remember(Index site, std::vector<Index>& vertices) {
+        for (const SiteRun::Vertex& v : runs_[site].vertices) {
+            readers_[v.vertex].push_back(site);
+            vertices.push_back(v.vertex);
+        }
+    }
+
+    // In the order in which propagate() takes sites in.
+    [[nodiscard]] bool comes_before(Index a, Index b) const {
+        const FaceId face = runs_[a].point.face;
+        const FaceId other = runs_[b].point.face;
+        return face < other || (face == other && a < b);
+    }
+
+    void settle_vertex(Index v) {
+        std::vector<Index>& readers = readers_[v];
+        std::sort(readers.begin(), readers.end(),
+                  [&](Index a, Index b) { return comes_before(a, b); });
+        double best = std::numeric_limits<double>::infinity();
+        Index best_site = no_index;
+        for (const Index site : readers) {
+            const double distance = runs_[site].distance(v);
+            if (!(distance < std::numeric_limits<double>::infinity())) continue;
+            if (!is_nearer(distance, ranks_[site], best, best_site)) continue;
+            best = distance;
+            best_site = ranks_[site];
+        }
+        result_.vertex_distance[v] = best;
+        result_.vertex_site[v] = best_site == no_index ? SiteId() : SiteId(best_site);
+    }
+
+    [[nodiscard]] std::vector<Index> faces_around(std::span<const Index> vertices) const {
+        std::vector<Index> faces;
+        for (const Index v : vertices) {
+            const Index first = surface_.outgoing[v];
+            for (Index h = first; h != no_index;) {
+                faces.push_back(Surface::face(h));
+                h = corners_.twin(Surface::previous(h));
+                if (h == first) break;
+            }
+        }
+        return faces;
+    }
+
+    void add_faces_of(const SurfacePoint& point) {
+        site_faces_.push_back(point.face.value());
+        const auto half_edge = half_edge_of(point);
+        if (half_edge && corners_.twin(*half_edge) != no_index) {
+            site_faces_.push_back(Surface::face(corners_.twin(*half_edge)));
+        }
+    }
+
+    // Adds the relays of a face if it is mixed; else false.
+    [[nodiscard]] bool collect(Index face, std::vector<Relay>& out) const {
+        std::vector<Index> visitors;
+        for (const Index v : surface_.mesh.triangles[face]) {
+            visitors.insert(visitors.end(), readers_[v].begin(), readers_[v].end());
+        }
+        std::sort(visitors.begin(), visitors.end(),
+                  [&](Index a, Index b) { return comes_before(a, b); });
+        visitors.erase(std::unique(visitors.begin(), visitors.end()), visitors.end());
+        const std::size_t first = out.size();
+        FaceRelays all;
+        for (const Index site : visitors) {
+            const std::size_t before = out.size();
+            runs_[site].add_relays_in(face, ranks_[site], out);
+            if (out.size() > before) all.add_site(ranks_[site]);
+        }
+        for (const Index v : surface_.mesh.triangles[face]) {
+            all.add_site(result_.vertex_site[v].value());
+        }
+        const auto placed = placement_.in_face(face);
+        for (const PlacedSite& p : placed) all.add_site(p.site);
+        if (all.site != FaceRelays::several) {
+            out.resize(first);
+            return false;
+        }
+        const std::size_t windows = out.size();
+        out.resize(windows + count_inner_relays(surface_, placed, result_, face));
+        write_inner_relays(surface_, placed, result_, face, out.data() + windows);
+        return true;
+    }
+
+    // Ascending faces get new relays; the others keep theirs.
+    void replace_faces(std::span<const Index> faces) {
+        constexpr Index grain = 256;
+        struct Chunk {
+            std::vector<Relay> relays;
+            std::vector<Index> mixed_faces;
+            std::vector<Index> ends;
+        };
+        const auto count = static_cast<Index>(faces.size());
+        std::vector<Chunk> chunks(num_chunks(count, grain));
+        parallel_chunks(count, grain, num_threads_, [&](Index chunk, Index begin, Index end) {
+            for (Index i = begin; i < end; ++i) {
+                Chunk& out = chunks[chunk];
+                if (!collect(faces[i], out.relays)) continue;
+                out.mixed_faces.push_back(faces[i]);
+                out.ends.push_back(static_cast<Index>(out.relays.size()));
+            }
+        });
+
+        Propagation& old = result_;
+        spare_.mixed_faces.clear();
+        spare_.relay_offsets.clear();
+        spare_.relays.clear();
+        spare_.relays.reserve(old.relays.size());
+        const auto add = [&](Index face, std::span<const Relay> relays) {
+            spare_.mixed_faces.push_back(face);
+            spare_.relay_offsets.push_back(static_cast<Index>(spare_.relays.size()));
+            spare_.relays.insert(spare_.relays.end(), relays.begin(), relays.end());
+        };
+        std::size_t kept = 0;
+        const auto keep_before = [&](Index face) {
+            for (; kept < old.mixed_faces.size() && old.mixed_faces[kept] < face; ++kept) {
+                const Index begin = old.relay_offsets[kept];
+                add(old.mixed_faces[kept],
+                    std::span(old.relays).subspan(begin, old.relay_offsets[kept + 1] - begin));
+            }
+        };
+        std::size_t replaced = 0;
+        const auto drop_before = [&](Index face) {
+            for (; replaced < faces.size() && faces[replaced] < face; ++replaced) {
+                keep_before(faces[replaced]);
+                if (kept < old.mixed_faces.size() && old.mixed_faces[kept] == faces[replaced]) {
+                    ++kept;
+                }
+            }
+        };
+        for (const Chunk& chunk : chunks) {
+            Index begin = 0;
+            for (std::size_t i = 0; i < chunk.ends.size(); ++i) {
+                drop_before(chunk.mixed_faces[i] + 1);
+                add(chunk.mixed_faces[i],
+                    std::span(chunk.relays).subspan(begin, chunk.ends[i] - begin));
+                begin = chunk.ends[i];
+            }
+        }
+        drop_before(no_index);
+        keep_before(no_index);
+        spare_.relay_offsets.push_back(static_cast<Index>(spare_.relays.size()));
+        std::swap(old.mixed_faces, spare_.mixed_faces);
+        std::swap(old.relay_offsets, spare_.relay_offsets);
+        std::swap(old.relays, spare_.relays);
+    }
+
+    void tell_totals() {
+        old_ranks_ = ranks_;
+        result_.certified_error = 0;
+        result_.num_nodes = 0;
+        for (const SiteRun& run : runs_) {
+            result_.certified_error = std::max(result_.certified_error, run.error);
+            result_.num_nodes += run.num_windows;
+        }
+    }
+
+    const Surface& surface_;
+    const Corners& corners_;
+    int num_threads_;
+    double max_error_;
+    BoundsSearch search_;
+    std::vector<float> bounds_;                // #V
+    std::vector<std::vector<Index>> readers_;  // #V: the sites whose runs came to a vertex.
+    std::vector<SiteRun> runs_;                // By number.
+    std::vector<Index> numbers_;               // By rank.
+    std::vector<Index> ranks_, old_ranks_;     // By number; no_index: removed.
+    std::vector<SurfacePoint> sites_;          // By rank.
+    std::vector<Index> site_faces_;            // Where changed sites were and are.
+    SitePlacement placement_;
+    std::vector<std::unique_ptr<WindowFront>> fronts_;
+    Propagation result_;
+    Propagation spare_;  // Its relays are memory for the next ones.
+    Index num_propagated_ = 0;
+};
+
+MovingSites::MovingSites(const Surface& surface, const SurfaceLayout& layout,
+                         std::vector<SurfacePoint> sites, const PropagationOptions& options) {
+    if (options.engine != Engine::Window) {
+        throw InvalidOption(std::string("moving sites need the window engine, not the ") +
+                            engine_name(options.engine) + " engine");
+    }
+    check_options(surface, options);
+    state_ = std::make_unique<State>(surface, layout, std::move(sites), options);
+}
+MovingSites::MovingSites(MovingSites&&) noexcept = default;
+MovingSites& MovingSites::operator=(MovingSites&&) noexcept = default;
+MovingSites::~MovingSites() = default;
+
+void MovingSites::update(const SiteChanges& changes) { state_->update(changes); }
+const std::vector<SurfacePoint>& MovingSites::sites() const { return state_->sites(); }
+const Propagation& MovingSites::propagation() const { return state_->propagation(); }
+Index MovingSites::num_propagated() const { return state_->num_propagated(); }
+
+}  // namespace agvd

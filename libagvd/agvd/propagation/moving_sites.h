@@ -1,0 +1,50 @@
+//! \file
+//! Propagation that follows sites as they are added, removed and moved.
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "agvd/propagation/propagate.h"
+
+namespace agvd {
+
+//! What happens to a list of sites, in this order. Indices are those before the change.
+struct SiteChanges {
+    std::vector<std::pair<Index, SurfacePoint>> moved;
+    std::vector<Index> removed;       //!< Those behind move up.
+    std::vector<SurfacePoint> added;  //!< At the end.
+};
+
+//! Keeps what each site has propagated, and repeats only what a change touches: the sites that
+//! changed and those whose bounds did. The result is that of propagate() with Engine::Window on the
+//! sites at hand, byte for byte (but for peak_bytes and num_nodes). Not for use by two threads at
+//! once.
+class MovingSites {
+public:
+    //! \param surface, layout  outlive this; SurfaceLayout(surface).
+    //! \param options          engine must be Window; progress is not told.
+    //! \throw as propagate().
+    //! Space: all windows of all sites, 48 bytes each.
+    MovingSites(const Surface& surface, const SurfaceLayout& layout,
+                std::vector<SurfacePoint> sites, const PropagationOptions& options = {});
+    MovingSites(MovingSites&&) noexcept;
+    MovingSites& operator=(MovingSites&&) noexcept;
+    ~MovingSites();
+
+    //! \throw InvalidInput  an index is out of range or named twice, or a point is off its face;
+    //!                      nothing has changed then.
+    //! Cost: that of the sites that propagate again, and a pass over the relays.
+    void update(const SiteChanges& changes);
+
+    [[nodiscard]] const std::vector<SurfacePoint>& sites() const;
+    [[nodiscard]] const Propagation& propagation() const;
+    //! Sites that the last change (or the constructor) propagated.
+    [[nodiscard]] Index num_propagated() const;
+
+private:
+    class State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace agvd

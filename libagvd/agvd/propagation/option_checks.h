@@ -1,0 +1,12 @@
+//! \file
+//! Options that an engine cannot serve.
+#pragma once
+
+#include "agvd/propagation/propagate.h"
+
+namespace agvd {
+
+//! \throw InvalidOption naming the option, its value and the remedy.
+void check_options(const Surface& surface, const PropagationOptions& options);
+
+}  // namespace agvd

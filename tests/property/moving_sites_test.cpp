@@ -1,0 +1,114 @@
+// Sites that come, go and move against a fresh propagation of what is left.
+#include "agvd/propagation/moving_sites.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+#include "agvd/core/error.h"
+#include "agvd/core/random.h"
+#include "agvd/diagram/diagram.h"
+#include "agvd/propagation/propagate.h"
+#include "support/checks.h"
+#include "support/points.h"
+#include "support/random_meshes.h"
+#include "support/shapes.h"
+
+using namespace agvd;
+
+namespace {
+
+// Up to three sites moved, up to two removed, up to two added.
+SiteChanges random_changes(const Surface& surface, Index count, std::uint64_t seed) {
+    std::uint64_t drawn = 0;
+    const auto draw = [&](std::uint64_t bound) {
+        return static_cast<Index>(random_bits(seed, 0, drawn++) % bound);
+    };
+    const auto points = points::scattered(surface, 5, seed);
+    std::vector<Index> order(count);
+    std::iota(order.begin(), order.end(), Index{0});
+    for (Index i = count; i > 1; --i) std::swap(order[i - 1], order[draw(i)]);
+    const Index num_moved = std::min(count, draw(4));
+    const Index num_removed = std::min(count - num_moved, draw(3));
+    SiteChanges changes;
+    for (Index i = 0; i < num_moved; ++i) changes.moved.emplace_back(order[i], points[i]);
+    changes.removed.assign(order.begin() + num_moved, order.begin() + num_moved + num_removed);
+    changes.added.assign(points.begin() + 3, points.begin() + 3 + draw(3));
+    return changes;
+}
+
+void expect_fresh(const Surface& surface, const MovingSites& moving,
+                  const PropagationOptions& options) {
+    checks::expect_same(moving.propagation(), propagate(surface, moving.sites(), options));
+}
+
+}  // namespace
+
+class MovingSitesOn : public testing::TestWithParam<const char*> {};
+
+TEST_P(MovingSitesOn, ChangesGiveWhatAFreshRunGives) {
+    for (std::uint64_t seed = 0; seed < 4; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const Surface surface = build_surface(random_meshes::make(GetParam(), seed).view());
+        const SurfaceLayout layout(surface);
+        const auto first = points::scattered(surface, static_cast<Index>(7 * seed), seed);
+        for (const double max_error : {0.0, 1e-2}) {
+            const PropagationOptions options{.max_error = max_error,
+                                             .num_threads = static_cast<int>(seed % 3 + 1)};
+            MovingSites moving(surface, layout, first, options);
+            expect_fresh(surface, moving, options);
+            for (std::uint64_t change = 0; change < 6; ++change) {
+                SCOPED_TRACE("change " + std::to_string(change));
+                const auto count = static_cast<Index>(moving.sites().size());
+                moving.update(random_changes(surface, count, 10 * seed + change));
+                ASSERT_NO_FATAL_FAILURE(expect_fresh(surface, moving, options));
+            }
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(RandomMeshes, MovingSitesOn, testing::ValuesIn(random_meshes::families()),
+                         [](const auto& family) { return std::string(family.param); });
+
+TEST(MovingSites, OnlyNeighboursPropagateAgain) {
+    const Surface surface = build_surface(shapes::jitter(shapes::torus(60, 40), 0.01, 3).view());
+    const SurfaceLayout layout(surface);
+    MovingSites moving(surface, layout, points::scattered(surface, 100, 5));
+    EXPECT_EQ(moving.num_propagated(), 100);
+    moving.update({.moved = {{7, points::at_vertex(surface, 1)}}, .removed = {}, .added = {}});
+    EXPECT_GE(moving.num_propagated(), 2);
+    EXPECT_LE(moving.num_propagated(), 30);
+    moving.update({});
+    EXPECT_EQ(moving.num_propagated(), 0);
+    expect_fresh(surface, moving, {});
+}
+
+TEST(MovingSites, ADiagramOfThemIsTheFreshOne) {
+    const Surface surface = build_surface(shapes::torus(40, 20).view());
+    const SurfaceLayout layout(surface);
+    MovingSites moving(surface, layout, points::scattered(surface, 30, 1));
+    moving.update({.moved = {}, .removed = {3, 0}, .added = {points::at_vertex(surface, 17)}});
+    const Diagram after = build_diagram(surface, moving.sites(), moving.propagation());
+    const Diagram fresh =
+        build_diagram(surface, moving.sites(), propagate(surface, moving.sites()));
+    ASSERT_EQ(after.edges.size(), fresh.edges.size());
+    EXPECT_EQ(after.points.size(), fresh.points.size());
+}
+
+TEST(MovingSites, BadChangesAreRefusedAndNothingChanges) {
+    const Surface surface = build_surface(shapes::grid(6).view());
+    const SurfaceLayout layout(surface);
+    const auto points = points::scattered(surface, 5, 1);
+    MovingSites moving(surface, layout, points);
+    const SurfacePoint off{FaceId(100000), {1, 0, 0}};
+    EXPECT_THROW(moving.update({.moved = {{5, points[0]}}, .removed = {}, .added = {}}),
+                 InvalidInput);
+    EXPECT_THROW(moving.update({.moved = {}, .removed = {2, 2}, .added = {}}), InvalidInput);
+    EXPECT_THROW(moving.update({.moved = {{1, points[0]}}, .removed = {1}, .added = {}}),
+                 InvalidInput);
+    EXPECT_THROW(moving.update({.moved = {}, .removed = {0}, .added = {off}}), InvalidInput);
+    expect_fresh(surface, moving, {});
+    EXPECT_EQ(moving.sites().size(), 5U);
+    EXPECT_THROW(MovingSites(surface, layout, points, {.engine = Engine::Vertex}), InvalidOption);
+    EXPECT_THROW(MovingSites(surface, layout, points, {.max_error = 2.0}), InvalidOption);
+}

@@ -1,0 +1,122 @@
+// What it costs to move a few sites, beside propagating all of them afresh.
+
+#include "agvd/core/random.h"
+#include "agvd/propagation/moving_sites.h"
+#include "bench/p0.h"
+#include "bench/report.h"
+#include "bench/timing.h"
+#include "cli.h"
+
+namespace {
+
+using namespace agvd;
+
+const std::vector<bench::Column> columns{{"mesh", "mesh"},
+                                         {"faces", "faces"},
+                                         {"sites", "sites"},
+                                         {"moves", "moves"},
+                                         {"moved", "moved"},
+                                         {"propagated", "propagated", 1},
+                                         {"fresh_p0", "fresh P0", 2},
+                                         {"update_p0", "update P0", 2},
+                                         {"update_over_fresh", "ratio", 4}};
+
+struct Arguments {
+    bench::Options common;
+    double share = 0.01;
+    double max_error = 1e-3;
+    int repetitions = 20;
+};
+
+// The half-edge that leaves the vertex a site lies on.
+Index corner_of(const SurfacePoint& site) {
+    Index k = 0;
+    while (site.barycentric[k] != 1) ++k;
+    return 3 * site.face.value() + k;
+}
+
+// Different sites each time.
+SiteChanges random_moves(const Surface& surface, const std::vector<SurfacePoint>& sites,
+                         bool are_near, Index count, std::uint64_t seed) {
+    SiteChanges changes;
+    const Index step = static_cast<Index>(sites.size()) / count;
+    for (Index i = 0; i < count; ++i) {
+        const Index site =
+            i * step + static_cast<Index>(random_bits(seed, 0, i) % std::max<Index>(step, 1));
+        const std::uint64_t draw = random_bits(seed, 1, i);
+        const Index to = are_near ? surface.head(corner_of(sites[site]))
+                                  : static_cast<Index>(draw % surface.num_vertices());
+        changes.moved.emplace_back(site, bench::point_at(surface, to));
+    }
+    return changes;
+}
+
+nlohmann::ordered_json measure(const std::string& mesh, const Surface& surface,
+                               const SurfaceLayout& layout, std::vector<SurfacePoint> sites,
+                               bool are_near, const Arguments& arguments) {
+    const PropagationOptions options{.max_error = arguments.max_error, .num_threads = 1};
+    const auto count = static_cast<Index>(static_cast<double>(sites.size()) * arguments.share);
+    bench::P0 sweep(surface, sites);
+    double p0 = sweep.seconds();
+    std::vector<double> fresh, update, propagated;
+    MovingSites moving(surface, layout, std::move(sites), options);
+    for (int i = 0; i < arguments.repetitions; ++i) {
+        cli::stop_if_interrupted();
+        const SiteChanges changes =
+            random_moves(surface, moving.sites(), are_near, std::max<Index>(count, 1),
+                         arguments.common.seed + static_cast<Index>(i));
+        update.push_back(bench::time([&] { moving.update(changes); }).cpu);
+        propagated.push_back(moving.num_propagated());
+        fresh.push_back(
+            bench::time([&] { (void)propagate(surface, layout, moving.sites(), options); }).cpu);
+        p0 = std::min(p0, sweep.seconds());
+    }
+    return {{"mesh", mesh},
+            {"faces", surface.num_faces()},
+            {"sites", moving.sites().size()},
+            {"moves", are_near ? "near" : "anywhere"},
+            {"moved", std::max<Index>(count, 1)},
+            {"propagated", bench::median(propagated)},
+            {"p0_ms", 1e3 * p0},
+            {"fresh_p0", bench::quickest(fresh) / p0},
+            {"update_p0", bench::quickest(update) / p0},
+            {"update_over_fresh", bench::quickest(update) / bench::quickest(fresh)}};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Time of moving some sites, over that of propagating all of them afresh",
+                 "bench-updates");
+    Arguments arguments;
+    arguments.common.sites = {2000};
+    bench::add_options(app, arguments.common);
+    app.add_option("--share", arguments.share, "Share of the sites that move")
+        ->check(CLI::Range(0.0, 1.0))
+        ->capture_default_str();
+    app.add_option("--max-error", arguments.max_error, "Error of the distances; 0: exact")
+        ->capture_default_str();
+    app.add_option("--repetitions", arguments.repetitions,
+                   "Changes, one after the other; the "
+                   "quickest is shown")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    return cli::run(app, argc, argv, [&] {
+        nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+        bench::print_heading(columns);
+        for (const auto& path : arguments.common.meshes) {
+            const Surface surface = bench::load(path, 0);
+            const SurfaceLayout layout(surface);
+            for (const Index count : arguments.common.sites) {
+                for (const bool are_near : {true, false}) {
+                    const auto sites = bench::random_sites(surface, count, bench::Place::Vertices,
+                                                           arguments.common.seed);
+                    rows.push_back(
+                        measure(path.stem(), surface, layout, sites, are_near, arguments));
+                    bench::print_row(columns, rows.back());
+                }
+            }
+        }
+        bench::write_json(arguments.common, "updates", rows);
+    });
+}
