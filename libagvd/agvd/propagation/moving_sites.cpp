@@ -92,6 +92,30 @@ SiteRun propagated(WindowFront& front, const SurfacePoint& point, std::span<cons
     return run;
 }
 
+bool is_same_relay(const Relay& a, const Relay& b) {
+    return a.x == b.x && a.y == b.y && a.weight == b.weight && a.begin == b.begin && a.end == b.end;
+}
+
+// Calls each(key, was, is) for the keys of two ascending lists that only one has, or that both have
+// with different contents.
+template <typename Entry, typename IsSame, typename Each>
+void for_each_difference(const std::vector<Entry>& before, const std::vector<Entry>& now,
+                         Index Entry::*key, const IsSame& is_same, const Each& each) {
+    auto b = before.begin();
+    auto n = now.begin();
+    while (b != before.end() || n != now.end()) {
+        if (n == now.end() || (b != before.end() && (*b).*key < (*n).*key)) {
+            each((*b++).*key, true, false);
+        } else if (b == before.end() || (*n).*key < (*b).*key) {
+            each((*n++).*key, false, true);
+        } else {
+            if (!is_same(*b, *n)) each((*n).*key, true, true);
+            ++b;
+            ++n;
+        }
+    }
+}
+
 void keep_unique(std::vector<Index>& indices) {
     std::sort(indices.begin(), indices.end());
     indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
@@ -135,18 +159,24 @@ public:
         }
         keep_unique(dirty);
 
-        std::vector<Index> vertices;
-        for (const Index site : dirty) forget(site, vertices);
-        std::erase_if(dirty, [&](Index site) { return runs_[site].is_removed; });
+        std::vector<SiteRun> before;
+        for (const Index site : dirty) {
+            SiteRun& run = runs_[site];
+            before.push_back(std::exchange(run, {run.point, run.is_removed}));
+        }
         propagate(dirty);
-        for (const Index site : dirty) remember(site, vertices);
-        num_propagated_ = static_cast<Index>(dirty.size());
-        keep_unique(vertices);
+        num_propagated_ = static_cast<Index>(std::count_if(
+            dirty.begin(), dirty.end(), [&](Index site) { return !runs_[site].is_removed; }));
 
+        std::vector<Index> vertices;
+        std::vector<Index> faces = std::move(site_faces_);
+        for (std::size_t i = 0; i < dirty.size(); ++i) {
+            compare(before[i], dirty[i], vertices, faces);
+        }
+        keep_unique(vertices);
         if (is_renumbered) renumber_result();
-        for (const Index v : vertices) settle_vertex(v);
-        std::vector<Index> faces = faces_around(vertices);
-        faces.insert(faces.end(), site_faces_.begin(), site_faces_.end());
+        std::erase_if(vertices, [&](Index v) { return !settle_vertex(v); });
+        add_faces_around(vertices, faces);
         keep_unique(faces);
         placement_ = std::move(placement);
         replace_faces(faces);
@@ -238,15 +268,6 @@ private:
         for (Relay& relay : result_.relays) relay.site = new_rank[relay.site.value()];
     }
 
-    void forget(Index site, std::vector<Index>& vertices) {
-        SiteRun& run = runs_[site];
-        for (const SiteRun::Vertex& v : run.vertices) {
-            std::erase(readers_[v.vertex], site);
-            vertices.push_back(v.vertex);
-        }
-        run = {run.point, run.is_removed};
-    }
-
     void propagate(std::span<const Index> sites) {
         constexpr Index grain = 4;
         std::mutex mutex;
@@ -266,6 +287,7 @@ private:
                             }
                             for (Index i = begin; i < end; ++i) {
                                 SiteRun& run = runs_[sites[i]];
+                                if (run.is_removed) continue;
                                 run = propagated(*front, run.point, bounds_);
                             }
                             const std::scoped_lock lock(mutex);
@@ -273,11 +295,27 @@ private:
                         });
     }
 
-    void remember(Index site, std::vector<Index>& vertices) {
-        for (const SiteRun::Vertex& v : runs_[site].vertices) {
-            readers_[v.vertex].push_back(site);
-            vertices.push_back(v.vertex);
-        }
+    // Lists where a site's run is not what it was.
+    void compare(const SiteRun& before, Index site, std::vector<Index>& vertices,
+                 std::vector<Index>& faces) {
+        const SiteRun& now = runs_[site];
+        const auto is_same_vertex = [](const SiteRun::Vertex& a, const SiteRun::Vertex& b) {
+            return a.distance == b.distance;
+        };
+        for_each_difference(before.vertices, now.vertices, &SiteRun::Vertex::vertex, is_same_vertex,
+                            [&](Index v, bool was, bool is) {
+                                if (was && !is) std::erase(readers_[v], site);
+                                if (is && !was) readers_[v].push_back(site);
+                                vertices.push_back(v);
+                            });
+        const auto is_same_half_edge = [&](const SiteRun::HalfEdge& a, const SiteRun::HalfEdge& b) {
+            const auto of_a = before.relays.begin() + a.first;
+            const auto of_b = now.relays.begin() + b.first;
+            return std::equal(of_a, of_a + a.count, of_b, of_b + b.count, is_same_relay);
+        };
+        for_each_difference(
+            before.half_edges, now.half_edges, &SiteRun::HalfEdge::half_edge, is_same_half_edge,
+            [&](Index half_edge, bool, bool) { faces.push_back(Surface::face(half_edge)); });
     }
 
     // In the order in which propagate() takes sites in.
@@ -287,7 +325,8 @@ private:
         return face < other || (face == other && a < b);
     }
 
-    void settle_vertex(Index v) {
+    // False if nothing changes.
+    [[nodiscard]] bool settle_vertex(Index v) {
         std::vector<Index>& readers = readers_[v];
         std::sort(readers.begin(), readers.end(),
                   [&](Index a, Index b) { return comes_before(a, b); });
@@ -300,12 +339,14 @@ private:
             best = distance;
             best_site = ranks_[site];
         }
+        const SiteId site(best_site);
+        if (result_.vertex_distance[v] == best && result_.vertex_site[v] == site) return false;
         result_.vertex_distance[v] = best;
-        result_.vertex_site[v] = best_site == no_index ? SiteId() : SiteId(best_site);
+        result_.vertex_site[v] = site;
+        return true;
     }
 
-    [[nodiscard]] std::vector<Index> faces_around(std::span<const Index> vertices) const {
-        std::vector<Index> faces;
+    void add_faces_around(std::span<const Index> vertices, std::vector<Index>& faces) const {
         for (const Index v : vertices) {
             const Index first = surface_.outgoing[v];
             for (Index h = first; h != no_index;) {
@@ -314,7 +355,6 @@ private:
                 if (h == first) break;
             }
         }
-        return faces;
     }
 
     void add_faces_of(const SurfacePoint& point) {
@@ -385,13 +425,21 @@ private:
             spare_.relay_offsets.push_back(static_cast<Index>(spare_.relays.size()));
             spare_.relays.insert(spare_.relays.end(), relays.begin(), relays.end());
         };
-        std::size_t kept = 0;
+        Index kept = 0;
         const auto keep_before = [&](Index face) {
-            for (; kept < old.mixed_faces.size() && old.mixed_faces[kept] < face; ++kept) {
-                const Index begin = old.relay_offsets[kept];
-                add(old.mixed_faces[kept],
-                    std::span(old.relays).subspan(begin, old.relay_offsets[kept + 1] - begin));
+            const auto first = old.mixed_faces.begin() + kept;
+            const auto last = std::lower_bound(first, old.mixed_faces.end(), face);
+            const auto end = kept + static_cast<Index>(last - first);
+            const Index begin_of_relays = old.relay_offsets[kept];
+            // Modulo 2^32, so that it may go up or down.
+            const Index shift = static_cast<Index>(spare_.relays.size()) - begin_of_relays;
+            spare_.mixed_faces.insert(spare_.mixed_faces.end(), first, last);
+            for (Index i = kept; i < end; ++i) {
+                spare_.relay_offsets.push_back(old.relay_offsets[i] + shift);
             }
+            spare_.relays.insert(spare_.relays.end(), old.relays.begin() + begin_of_relays,
+                                 old.relays.begin() + old.relay_offsets[end]);
+            kept = end;
         };
         std::size_t replaced = 0;
         const auto drop_before = [&](Index face) {
