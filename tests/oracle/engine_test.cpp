@@ -20,6 +20,7 @@
 #include "remesh/io/read_mesh.h"
 #include "remesh/repair/clean_input.h"
 #include "support/arbiter.h"
+#include "support/checks.h"
 #include "support/dice.h"
 #include "support/files.h"
 #include "support/points.h"
