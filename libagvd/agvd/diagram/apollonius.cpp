@@ -30,13 +30,11 @@ std::size_t after(std::size_t i, std::size_t n) { return i + 1 == n ? 0 : i + 1;
 std::size_t before(std::size_t i, std::size_t n) { return i == 0 ? n - 1 : i - 1; }
 
 Vec2 direction(const Vec2& p, const Reach& r) {
-    const Vec2 d = p - r.from;
-    const double norm = d.norm();
-    return norm > 0 ? Vec2(d / norm) : Vec2(0, 0);
+    return r.last_piece > 0 ? Vec2((p - r.from) / r.last_piece) : Vec2(0, 0);
 }
 
 Reach least_reach(std::span<const PlanarRelay> relays, const Vec2& p) {
-    Reach best{infinity, p};
+    Reach best{infinity, p, 0};
     for (const PlanarRelay& relay : relays) {
         const Reach r = reach(relay, p);
         if (r.distance < best.distance) best = r;
@@ -510,10 +508,31 @@ bool TriangleSolver::project(Relays a, Relays b, const Vec2& from, const Vec2& t
     return false;
 }
 
+// Whether the bisector of a and b clearly strays from a chord by less than the tolerance, by one
+// Newton step across its middle: by Kantorovich's theorem the root lies within twice that step
+// where the slope changes by less than half of itself on the way.
+bool TriangleSolver::is_straight(Relays a, Relays b, const Vec2& from, const Vec2& to) const {
+    const Vec2 chord = to - from;
+    const Vec2 middle = (from + to) / 2;
+    const Reach ra = least_reach(a, middle);
+    const Reach rb = least_reach(b, middle);
+    const double least = std::min(ra.last_piece, rb.last_piece);
+    if (!(least > 0) || !std::isfinite(ra.distance + rb.distance)) return false;
+    // Everything times the chord's length.
+    const Vec2 turn = (middle - ra.from) / ra.last_piece - (middle - rb.from) / rb.last_piece;
+    const double slope = std::abs(cross(chord, turn));
+    const double gap = std::abs(ra.distance - rb.distance);
+    const double squared_length = chord.squaredNorm();
+    const double tolerance = std::min(chord_tolerance_, near_enough);
+    // The slope changes by at most 2 / (least - stray) a unit.
+    return 2 * gap <= tolerance * slope && 8 * gap * squared_length <= least * slope * slope;
+}
+
 void TriangleSolver::sample_arc(Relays a, Relays b, const Vec2& from, const Vec2& to, int depth) {
     Vec2 p;
     double distance;
-    if (depth == max_arc_depth || !project(a, b, from, to, p, distance)) return;
+    if (depth == max_arc_depth || is_straight(a, b, from, to)) return;
+    if (!project(a, b, from, to, p, distance)) return;
     if ((p - (from + to) / 2).norm() <= chord_tolerance_ * (to - from).norm()) return;
     sample_arc(a, b, from, p, depth + 1);
     out_.points.push_back(p);
