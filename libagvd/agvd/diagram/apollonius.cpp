@@ -17,6 +17,10 @@ constexpr double inside_tolerance = 1e-9;
 // A step that the distances contradict by more (share of the size) is drawn straight, so that arcs
 // do not cross.
 constexpr double largest_violation = 1e-3;
+// The violation (share of the size) where there is no branch at all.
+constexpr double no_branch = 2;
+// A search that strays this far (share of the size) from its start does not come back.
+constexpr double lost = 2;
 // Distances at a joint that differ by more (share of the size) are not those of its labels.
 constexpr double largest_disagreement = 1e-2;
 // Relays chosen at one point of a bisector stand for their sites this far along (share of the
@@ -164,9 +168,10 @@ TriangleSolver::Ear TriangleSolver::judge_ear(std::size_t i) const {
     } else {
         ear.branch = find_branch(previous, joints_[i], next);
         const Vec2& p = ear.branch.position;
-        ear.violation =
-            std::max({ear.branch.violation, arc_undercut(previous.site_after, joints_[i], p),
-                      arc_undercut(joints_[i].site_after, next, p)});
+        ear.violation = ear.branch.violation;
+        if (ear.violation >= no_branch * size_) return ear;
+        ear.violation = std::max({ear.violation, arc_undercut(previous.site_after, joints_[i], p),
+                                  arc_undercut(joints_[i].site_after, next, p)});
     }
     return ear;
 }
@@ -184,6 +189,7 @@ void TriangleSolver::close_ears() {
         const Ear ear = *best;
         const std::size_t next = after(i, joints_.size());
         close_ear(i, ear);
+        if (joints_.size() <= 3) return;
         // The joints at both ends of the interval gave way to one branch, which took the place of
         // the first, or to none.
         if (ear.is_lens) {
@@ -374,10 +380,22 @@ double TriangleSolver::undercut(const Vec2& p, double distance, Index a, Index b
 // one around which the sites lie counter-clockwise.
 bool TriangleSolver::find_equal(Relays a, Relays b, Relays c, Vec2& p, double& distance,
                                 double& turn) const {
+    const Vec2 start = p;
+    const PlanarRelay* on_a = nullptr;  // The relays that are nearest at `chosen_at`.
+    const PlanarRelay* on_b = nullptr;
+    const PlanarRelay* on_c = nullptr;
+    Vec2 chosen_at = p;
     for (int i = 0; i < max_newton_steps; ++i) {
-        const Reach ra = least_reach(a, p);
-        const Reach rb = least_reach(b, p);
-        const Reach rc = least_reach(c, p);
+        if (on_a == nullptr) {
+            on_a = nearest_relay(a, p);
+            on_b = nearest_relay(b, p);
+            on_c = nearest_relay(c, p);
+            chosen_at = p;
+            if (on_a == nullptr || on_b == nullptr || on_c == nullptr) return false;
+        }
+        const Reach ra = reach(*on_a, p);
+        const Reach rb = reach(*on_b, p);
+        const Reach rc = reach(*on_c, p);
         distance = std::max({ra.distance, rb.distance, rc.distance});
         if (!std::isfinite(distance)) return false;
         const Vec2 residual(ra.distance - rb.distance, rb.distance - rc.distance);
@@ -387,8 +405,12 @@ bool TriangleSolver::find_equal(Relays a, Relays b, Relays c, Vec2& p, double& d
         const double determinant = cross(first, second);
         if (std::max(std::abs(residual.x()), std::abs(residual.y())) <=
             convergence * (size_ + distance)) {
-            turn = determinant;
-            return true;
+            if (p == chosen_at) {
+                turn = determinant;
+                return true;
+            }
+            on_a = nullptr;  // Others may be nearer here.
+            continue;
         }
         if (!(std::abs(determinant) > convergence)) return false;
         Vec2 step(second.y() * residual.x() - first.y() * residual.y(),
@@ -397,6 +419,7 @@ bool TriangleSolver::find_equal(Relays a, Relays b, Relays c, Vec2& p, double& d
         const double norm = step.norm();
         if (norm > size_ / 2) step *= size_ / (2 * norm);
         p -= step;
+        if ((p - start).squaredNorm() > lost * lost * size_ * size_) return false;
     }
     return false;
 }
@@ -425,7 +448,7 @@ TriangleSolver::BranchPoint TriangleSolver::find_branch(const Joint& before, con
     const Vec2 places[] = {at.position, after.position, before.position};
     const BranchPoint at_joint = least_unequal(places, sites[0], sites[1], sites[2]);
     if (at_joint.violation <= inside_tolerance * size_) return at_joint;
-    return {centroid, least_reach(b, centroid).distance, 2 * size_};
+    return {centroid, least_reach(b, centroid).distance, no_branch * size_};
 }
 
 // Where three distances differ least; by how much is the violation.
