@@ -17,6 +17,10 @@ constexpr double inside_tolerance = 1e-9;
 // A step that the distances contradict by more (share of the size) is drawn straight, so that arcs
 // do not cross.
 constexpr double largest_violation = 1e-3;
+// The violation (share of the size) where there is no branch at all.
+constexpr double no_branch = 2;
+// A search that strays this far (share of the size) from its start does not come back.
+constexpr double lost = 2;
 // Distances at a joint that differ by more (share of the size) are not those of its labels.
 constexpr double largest_disagreement = 1e-2;
 // Relays chosen at one point of a bisector stand for their sites this far along (share of the
@@ -30,13 +34,11 @@ std::size_t after(std::size_t i, std::size_t n) { return i + 1 == n ? 0 : i + 1;
 std::size_t before(std::size_t i, std::size_t n) { return i == 0 ? n - 1 : i - 1; }
 
 Vec2 direction(const Vec2& p, const Reach& r) {
-    const Vec2 d = p - r.from;
-    const double norm = d.norm();
-    return norm > 0 ? Vec2(d / norm) : Vec2(0, 0);
+    return r.last_piece > 0 ? Vec2((p - r.from) / r.last_piece) : Vec2(0, 0);
 }
 
 Reach least_reach(std::span<const PlanarRelay> relays, const Vec2& p) {
-    Reach best{infinity, p};
+    Reach best{infinity, p, 0};
     for (const PlanarRelay& relay : relays) {
         const Reach r = reach(relay, p);
         if (r.distance < best.distance) best = r;
@@ -166,9 +168,10 @@ TriangleSolver::Ear TriangleSolver::judge_ear(std::size_t i) const {
     } else {
         ear.branch = find_branch(previous, joints_[i], next);
         const Vec2& p = ear.branch.position;
-        ear.violation =
-            std::max({ear.branch.violation, arc_undercut(previous.site_after, joints_[i], p),
-                      arc_undercut(joints_[i].site_after, next, p)});
+        ear.violation = ear.branch.violation;
+        if (ear.violation >= no_branch * size_) return ear;
+        ear.violation = std::max({ear.violation, arc_undercut(previous.site_after, joints_[i], p),
+                                  arc_undercut(joints_[i].site_after, next, p)});
     }
     return ear;
 }
@@ -186,6 +189,7 @@ void TriangleSolver::close_ears() {
         const Ear ear = *best;
         const std::size_t next = after(i, joints_.size());
         close_ear(i, ear);
+        if (joints_.size() <= 3) return;
         // The joints at both ends of the interval gave way to one branch, which took the place of
         // the first, or to none.
         if (ear.is_lens) {
@@ -376,10 +380,22 @@ double TriangleSolver::undercut(const Vec2& p, double distance, Index a, Index b
 // one around which the sites lie counter-clockwise.
 bool TriangleSolver::find_equal(Relays a, Relays b, Relays c, Vec2& p, double& distance,
                                 double& turn) const {
+    const Vec2 start = p;
+    const PlanarRelay* on_a = nullptr;  // The relays that are nearest at `chosen_at`.
+    const PlanarRelay* on_b = nullptr;
+    const PlanarRelay* on_c = nullptr;
+    Vec2 chosen_at = p;
     for (int i = 0; i < max_newton_steps; ++i) {
-        const Reach ra = least_reach(a, p);
-        const Reach rb = least_reach(b, p);
-        const Reach rc = least_reach(c, p);
+        if (on_a == nullptr) {
+            on_a = nearest_relay(a, p);
+            on_b = nearest_relay(b, p);
+            on_c = nearest_relay(c, p);
+            chosen_at = p;
+            if (on_a == nullptr || on_b == nullptr || on_c == nullptr) return false;
+        }
+        const Reach ra = reach(*on_a, p);
+        const Reach rb = reach(*on_b, p);
+        const Reach rc = reach(*on_c, p);
         distance = std::max({ra.distance, rb.distance, rc.distance});
         if (!std::isfinite(distance)) return false;
         const Vec2 residual(ra.distance - rb.distance, rb.distance - rc.distance);
@@ -389,8 +405,12 @@ bool TriangleSolver::find_equal(Relays a, Relays b, Relays c, Vec2& p, double& d
         const double determinant = cross(first, second);
         if (std::max(std::abs(residual.x()), std::abs(residual.y())) <=
             convergence * (size_ + distance)) {
-            turn = determinant;
-            return true;
+            if (p == chosen_at) {
+                turn = determinant;
+                return true;
+            }
+            on_a = nullptr;  // Others may be nearer here.
+            continue;
         }
         if (!(std::abs(determinant) > convergence)) return false;
         Vec2 step(second.y() * residual.x() - first.y() * residual.y(),
@@ -399,6 +419,7 @@ bool TriangleSolver::find_equal(Relays a, Relays b, Relays c, Vec2& p, double& d
         const double norm = step.norm();
         if (norm > size_ / 2) step *= size_ / (2 * norm);
         p -= step;
+        if ((p - start).squaredNorm() > lost * lost * size_ * size_) return false;
     }
     return false;
 }
@@ -427,7 +448,7 @@ TriangleSolver::BranchPoint TriangleSolver::find_branch(const Joint& before, con
     const Vec2 places[] = {at.position, after.position, before.position};
     const BranchPoint at_joint = least_unequal(places, sites[0], sites[1], sites[2]);
     if (at_joint.violation <= inside_tolerance * size_) return at_joint;
-    return {centroid, least_reach(b, centroid).distance, 2 * size_};
+    return {centroid, least_reach(b, centroid).distance, no_branch * size_};
 }
 
 // Where three distances differ least; by how much is the violation.
@@ -510,10 +531,31 @@ bool TriangleSolver::project(Relays a, Relays b, const Vec2& from, const Vec2& t
     return false;
 }
 
+// Whether the bisector of a and b clearly strays from a chord by less than the tolerance, by one
+// Newton step across its middle: by Kantorovich's theorem the root lies within twice that step
+// where the slope changes by less than half of itself on the way.
+bool TriangleSolver::is_straight(Relays a, Relays b, const Vec2& from, const Vec2& to) const {
+    const Vec2 chord = to - from;
+    const Vec2 middle = (from + to) / 2;
+    const Reach ra = least_reach(a, middle);
+    const Reach rb = least_reach(b, middle);
+    const double least = std::min(ra.last_piece, rb.last_piece);
+    if (!(least > 0) || !std::isfinite(ra.distance + rb.distance)) return false;
+    // Everything times the chord's length.
+    const Vec2 turn = (middle - ra.from) / ra.last_piece - (middle - rb.from) / rb.last_piece;
+    const double slope = std::abs(cross(chord, turn));
+    const double gap = std::abs(ra.distance - rb.distance);
+    const double squared_length = chord.squaredNorm();
+    const double tolerance = std::min(chord_tolerance_, near_enough);
+    // The slope changes by at most 2 / (least - stray) a unit.
+    return 2 * gap <= tolerance * slope && 8 * gap * squared_length <= least * slope * slope;
+}
+
 void TriangleSolver::sample_arc(Relays a, Relays b, const Vec2& from, const Vec2& to, int depth) {
     Vec2 p;
     double distance;
-    if (depth == max_arc_depth || !project(a, b, from, to, p, distance)) return;
+    if (depth == max_arc_depth || is_straight(a, b, from, to)) return;
+    if (!project(a, b, from, to, p, distance)) return;
     if ((p - (from + to) / 2).norm() <= chord_tolerance_ * (to - from).norm()) return;
     sample_arc(a, b, from, p, depth + 1);
     out_.points.push_back(p);

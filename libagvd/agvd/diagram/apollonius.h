@@ -140,6 +140,7 @@ private:
     [[nodiscard]] double lens_violation(const Joint& from, const Joint& to) const;
     [[nodiscard]] bool project(Relays a, Relays b, const Vec2& from, const Vec2& to, Vec2& p,
                                double& distance) const;
+    [[nodiscard]] bool is_straight(Relays a, Relays b, const Vec2& from, const Vec2& to) const;
     void sample_arc(Relays a, Relays b, const Vec2& from, const Vec2& to, int depth);
 
     double chord_tolerance_;

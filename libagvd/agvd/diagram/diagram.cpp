@@ -67,6 +67,7 @@ Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> site
     const std::span<const RelayReach> reaches(stored.get(), propagation.relays.size());
     EdgeLabels labels = label_edges(surface, propagation, reaches, options.num_threads);
     cut_faces(surface, propagation, placement, reaches, labels);
+    const std::vector<Index> joined_points = join_points(surface, labels);
     poll(options.progress, 0.5);
 
     const auto num_mixed = static_cast<Index>(propagation.mixed_faces.size());
@@ -81,7 +82,7 @@ Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> site
                             end, chunks[chunk]);
             });
         is_stale.assign(num_mixed, 0);
-    } while (absorb_islands(surface, sites, chunks, labels, is_stale) > 0);
+    } while (absorb_islands(surface, sites, chunks, joined_points, labels, is_stale) > 0);
     poll(options.progress, 0.9);
 
     Diagram diagram;

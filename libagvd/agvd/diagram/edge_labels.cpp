@@ -28,19 +28,62 @@ void label_vertices(const Surface& surface, const Propagation& propagation,
         if (labels.mixed_index[f] != no_index) continue;
         for (const Index v : surface.mesh.triangles[f]) is_fixed[v] = 1;
     }
-    for (const RelayReach& reach : reaches) {
-        const Index next = Surface::next(reach.half_edge);
-        const auto offer = [&](Index v, double distance) {
-            if (is_fixed[v] != 0 ||
-                !is_nearer(distance, reach.site, labels.vertex_distance[v], labels.point_site[v])) {
-                return;
+    for (Index i = 0; i < propagation.mixed_faces.size(); ++i) {
+        const Index face = propagation.mixed_faces[i];
+        const Triangle& corners = surface.mesh.triangles[face];
+        const auto fixed = [&](std::size_t k) { return is_fixed[corners[k]] != 0; };
+        if (fixed(0) && fixed(1) && fixed(2)) continue;
+        std::array<double, 3> distance;
+        std::array<Index, 3> site;
+        for (std::size_t k = 0; k < 3; ++k) {
+            distance[k] = labels.vertex_distance[corners[k]];
+            site[k] = labels.point_site[corners[k]];
+        }
+        const Index end = propagation.relay_offsets[i + 1];
+        for (Index r = propagation.relay_offsets[i]; r < end; ++r) {
+            const RelayReach& reach = reaches[r];
+            const auto offer = [&](Index k, double offered) {
+                if (!is_nearer(offered, reach.site, distance[k], site[k])) return;
+                distance[k] = offered;
+                site[k] = reach.site;
+            };
+            const Index k = reach.half_edge - 3 * face;
+            offer(k, reach.tail);
+            offer(k == 2 ? 0 : k + 1, reach.head);
+            offer(k == 0 ? 2 : k - 1, reach.apex);
+        }
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (fixed(k)) continue;
+            labels.vertex_distance[corners[k]] = distance[k];
+            labels.point_site[corners[k]] = site[k];
+        }
+    }
+}
+
+// Fetches what labelling the edges of a listed face reads of its neighbours: first where their
+// relays are, then, with `relays_too`, the relays. Always inline: g++ drops calls of functions that
+// do nothing but prefetch.
+[[gnu::always_inline]] inline void prefetch_neighbours(const Surface& surface,
+                                                       const Propagation& propagation,
+                                                       std::span<const RelayReach> reaches,
+                                                       const EdgeLabels& labels, Index face,
+                                                       bool relays_too) {
+    for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+        const Index twin = surface.twin[h];
+        if (twin == no_index || twin < h) continue;
+        const Index* const neighbour = &labels.mixed_index[Surface::face(twin)];
+        if (!relays_too) {
+            __builtin_prefetch(neighbour);
+            __builtin_prefetch(&surface.length[surface.edge[h]]);
+            __builtin_prefetch(&surface.edge_half[surface.edge[h]]);
+        } else if (*neighbour != no_index) {
+            const Index first = propagation.relay_offsets[*neighbour];
+            const Index end = propagation.relay_offsets[*neighbour + 1];
+            for (Index r = first; r < end; ++r) {
+                __builtin_prefetch(&reaches[r]);
+                __builtin_prefetch(&propagation.relays[r]);
             }
-            labels.vertex_distance[v] = distance;
-            labels.point_site[v] = reach.site;
-        };
-        offer(surface.tail(reach.half_edge), reach.tail);
-        offer(surface.tail(next), reach.head);
-        offer(surface.tail(Surface::next(next)), reach.apex);
+        }
     }
 }
 
@@ -127,6 +170,13 @@ EdgeLabels label_edges(const Surface& surface, const Propagation& propagation,
         EdgeLabeller labeller(surface, labels, {surface, propagation, reaches, labels},
                               found[chunk]);
         for (Index i = begin; i < end; ++i) {
+            constexpr Index ahead = 2;
+            for (const bool relays_too : {true, false}) {
+                const Index later = i + (relays_too ? ahead : 2 * ahead);
+                if (later >= end) continue;
+                prefetch_neighbours(surface, propagation, reaches, labels,
+                                    propagation.mixed_faces[later], relays_too);
+            }
             const Index face = propagation.mixed_faces[i];
             for (Index h = 3 * face; h < 3 * face + 3; ++h) {
                 if (is_labelled(surface, labels, h)) labeller.label(h);

@@ -48,7 +48,7 @@ void append_planar(const Surface& surface, std::span<const Relay> relays, const 
 }
 
 Reach reach_from(std::span<const PlanarRelay> relays, Index site, const Vec2& p) {
-    Reach best{std::numeric_limits<double>::infinity(), p};
+    Reach best{std::numeric_limits<double>::infinity(), p, 0};
     for (const PlanarRelay& relay : relays) {
         if (relay.site != site) continue;
         const Reach r = reach(relay, p);

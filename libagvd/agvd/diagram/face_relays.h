@@ -25,6 +25,7 @@ struct PlanarRelay {
 struct Reach {
     double distance;
     Vec2 from;
+    double last_piece;  //!< Length of that piece.
 };
 
 [[nodiscard]] inline double cross(const Vec2& a, const Vec2& b) {
@@ -33,16 +34,16 @@ struct Reach {
 
 //! Straight where the interval lets the chord through, else bent at its nearer end.
 [[nodiscard]] inline Reach reach(const PlanarRelay& relay, const Vec2& p) {
+    const auto from = [&p](const Vec2& source, double weight) -> Reach {
+        const double length = (p - source).norm();
+        return {weight + length, source, length};
+    };
     if (!relay.sees_all) {
         const Vec2 chord = p - relay.image;
-        if (cross(relay.begin - relay.image, chord) > 0) {
-            return {relay.at_begin + (p - relay.begin).norm(), relay.begin};
-        }
-        if (cross(relay.end - relay.image, chord) < 0) {
-            return {relay.at_end + (p - relay.end).norm(), relay.end};
-        }
+        if (cross(relay.begin - relay.image, chord) > 0) return from(relay.begin, relay.at_begin);
+        if (cross(relay.end - relay.image, chord) < 0) return from(relay.end, relay.at_end);
     }
-    return {relay.weight + (p - relay.image).norm(), relay.image};
+    return from(relay.image, relay.weight);
 }
 
 //! The relay of a point that lies in the face itself.

@@ -19,9 +19,13 @@ bool is_listed(const Surface& surface, const EdgeLabels& labels, Index half_edge
 void InsideRelays::gather_own(Index mixed_index, std::span<const Index> sites,
                               std::vector<PlanarRelay>& out) {
     out.clear();
-    const Index first = 3 * propagation_.mixed_faces[mixed_index];
-    std::array<Motion, 3> motions;
-    for (Index k = 0; k < 3; ++k) motions[k] = to_face_frame(surface_, first + k);
+    const Index face = propagation_.mixed_faces[mixed_index];
+    const auto corners = face_corners(surface_, face);
+    std::array<double, 3> lengths;
+    for (Index k = 0; k < 3; ++k) lengths[k] = surface_.length_of(3 * face + k);
+    const std::array<Motion, 3> motions{Motion{},
+                                        Motion{(corners[2] - corners[1]) / lengths[1], corners[1]},
+                                        Motion{-corners[2] / lengths[2], corners[2]}};
     const Index end = propagation_.relay_offsets[mixed_index + 1];
     for (const Index site : sites) {
         for (Index r = propagation_.relay_offsets[mixed_index]; r < end; ++r) {

@@ -9,31 +9,37 @@
 namespace agvd {
 namespace {
 
+Index find_root(std::vector<Index>& parent, Index i) {
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+}
+
+void unite_nodes(std::vector<Index>& parent, Index a, Index b) {
+    if (parent[a] == parent[b]) return;
+    a = find_root(parent, a);
+    b = find_root(parent, b);
+    parent[std::max(a, b)] = std::min(a, b);
+}
+
 // Nodes are points, then the intervals after crossings that end at no point.
 class IslandFinder {
 public:
-    IslandFinder(const Surface& surface, std::span<const SurfacePoint> sites, EdgeLabels& labels)
+    IslandFinder(const Surface& surface, std::span<const SurfacePoint> sites,
+                 const std::vector<Index>& joined_points, EdgeLabels& labels)
         : surface_(surface),
           sites_(sites),
           labels_(labels),
           num_points_(static_cast<Index>(labels.point_site.size())) {
-        parent_.resize(labels.point_site.size() + labels.crossings.size());
-        std::iota(parent_.begin(), parent_.end(), Index{0});
+        parent_.reserve(labels.point_site.size() + labels.crossings.size());
+        parent_ = joined_points;
+        for (Index i = 0; i < labels.crossings.size(); ++i) parent_.push_back(num_points_ + i);
     }
 
     void connect(std::span<const FaceArcs> chunks) {
-        for (Index f = 0; f < surface_.num_faces(); ++f) {
-            const Triangle& t = surface_.mesh.triangles[f];
-            for (Index k = 0; k < 3; ++k) {
-                const Index twin = surface_.twin[3 * f + k];
-                if (twin < 3 * f + k) continue;  // Each edge once.
-                const Index row = labels_.edge_row[surface_.edge[3 * f + k]];
-                if (row != no_index && labels_.rows[row].count > 0) continue;
-                unite(t[k], t[k == 2 ? 0 : k + 1]);
-            }
-        }
-        for (const Cut& cut : labels_.cuts) {
-            if (labels_.in_row(cut.row).empty()) unite(cut.from, cut.to);
+        for (const CrossingRow& row : labels_.rows) {
+            if (row.count > 0) continue;  // Its crossings have vanished.
+            const auto [from, to] = ends_of(row);
+            unite(from, to);
         }
         for (const FaceArcs& chunk : chunks) {
             for (const Connection& c : chunk.local.connections) unite(c.a, c.b);
@@ -72,16 +78,8 @@ public:
     }
 
 private:
-    [[nodiscard]] Index root(Index i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    void unite(Index a, Index b) {
-        if (parent_[a] == parent_[b]) return;
-        a = root(a);
-        b = root(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
+    [[nodiscard]] Index root(Index i) { return find_root(parent_, i); }
+    void unite(Index a, Index b) { unite_nodes(parent_, a, b); }
 
     // The points at both ends of a row.
     [[nodiscard]] std::pair<Index, Index> ends_of(const CrossingRow& row) const {
@@ -212,10 +210,28 @@ private:
 
 }  // namespace
 
+std::vector<Index> join_points(const Surface& surface, const EdgeLabels& labels) {
+    std::vector<Index> parent(labels.point_site.size());
+    std::iota(parent.begin(), parent.end(), Index{0});
+    for (Index f = 0; f < surface.num_faces(); ++f) {
+        const Triangle& t = surface.mesh.triangles[f];
+        for (Index k = 0; k < 3; ++k) {
+            const Index twin = surface.twin[3 * f + k];
+            if (twin < 3 * f + k) continue;  // Each edge once.
+            if (labels.edge_row[surface.edge[3 * f + k]] != no_index) continue;
+            unite_nodes(parent, t[k], t[k == 2 ? 0 : k + 1]);
+        }
+    }
+    for (const Cut& cut : labels.cuts) {
+        if (cut.row == no_index) unite_nodes(parent, cut.from, cut.to);
+    }
+    return parent;
+}
+
 Index absorb_islands(const Surface& surface, std::span<const SurfacePoint> sites,
-                     std::span<const FaceArcs> chunks, EdgeLabels& labels,
-                     std::vector<std::uint8_t>& is_stale) {
-    IslandFinder finder(surface, sites, labels);
+                     std::span<const FaceArcs> chunks, const std::vector<Index>& joined_points,
+                     EdgeLabels& labels, std::vector<std::uint8_t>& is_stale) {
+    IslandFinder finder(surface, sites, joined_points, labels);
     finder.connect(chunks);
     finder.choose_new_sites();
     return finder.relabel(is_stale);
