@@ -24,7 +24,7 @@ struct ArcGraph {
     ArcGraph(const Surface& surface, const Corners& corners);
 
     //! Starts to load the arcs of a vertex, which will be read soon.
-    void prefetch(Index tail) const {
+    [[gnu::always_inline]] void prefetch(Index tail) const {
         __builtin_prefetch(arcs.data() + offsets[tail]);
         __builtin_prefetch(arcs.data() + offsets[tail] + 8);
     }

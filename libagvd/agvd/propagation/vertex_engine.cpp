@@ -93,7 +93,7 @@ private:
     }
 
     // The nodes to come are known, and lie anywhere in memory.
-    void prefetch() const {
+    [[gnu::always_inline]] void prefetch() const {
         if (const Index v = queue_.peek(look_ahead); v != no_index) {
             __builtin_prefetch(&reach_[v]);
             __builtin_prefetch(&views_[v]);

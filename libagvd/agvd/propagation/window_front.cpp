@@ -149,6 +149,18 @@ inline void WindowFront::schedule(Index item, Index& bucket, double distance) {
     ++num_waiting_;
 }
 
+// What an item needs after its corners, and what is seldom in the cache.
+[[gnu::always_inline]] inline void WindowFront::prefetch(Index item) const {
+    if (item % 2 == 1) return;
+    const Index half_edge = edges_[item / 2].half_edge;
+    const Corner& next = corners_[Surface::next(half_edge)];
+    const Corner& previous = corners_[Surface::previous(half_edge)];
+    __builtin_prefetch(&vertex_slot_[previous.tail]);
+    __builtin_prefetch(&bounds_[previous.tail]);
+    if (next.twin != no_index) __builtin_prefetch(&edge_slot_[next.twin]);
+    if (previous.twin != no_index) __builtin_prefetch(&edge_slot_[previous.twin]);
+}
+
 bool WindowFront::next_item(Index& item) {
     if (queue_order_ == Order::Nearest) {
         if (heap_.empty()) return false;
@@ -178,18 +190,6 @@ bool WindowFront::next_item(Index& item) {
         return true;
     }
     return false;
-}
-
-// What an item needs after its corners, and what is seldom in the cache.
-void WindowFront::prefetch(Index item) const {
-    if (item % 2 == 1) return;
-    const Index half_edge = edges_[item / 2].half_edge;
-    const Corner& next = corners_[Surface::next(half_edge)];
-    const Corner& previous = corners_[Surface::previous(half_edge)];
-    __builtin_prefetch(&vertex_slot_[previous.tail]);
-    __builtin_prefetch(&bounds_[previous.tail]);
-    if (next.twin != no_index) __builtin_prefetch(&edge_slot_[next.twin]);
-    if (previous.twin != no_index) __builtin_prefetch(&edge_slot_[previous.twin]);
 }
 
 // --- Vertices ----------------------------------------------------------------------------------
