@@ -20,8 +20,6 @@
 namespace agvd {
 namespace {
 
-// Distances that differ by less, relative to their size, are tied: some hundred roundings.
-constexpr double tie_tolerance = 1e-13;
 // A chord that passes outside a wedge by no more than this angle counts as inside: it bends by no
 // more, and is short by the square of it.
 constexpr double angle_tolerance = 1e-7;
