@@ -383,6 +383,10 @@ inline WindowFront::Division WindowFront::divide(Window& w, EdgeRecord& edge, co
     return {{}, {&w, w.end, false}};
 }
 
+// Of a distance: what the two ways to compute it may differ by after thousands of faces. A path
+// along edges must not kill the straight one that it is.
+constexpr double rounding = 1e-12;
+
 // Whether a child may matter: it is wide enough, and no path around the ends of its edge or past
 // the corner behind it is shorter.
 inline bool WindowFront::lives(const Window& child, double begin_bound, double end_bound,
@@ -390,12 +394,13 @@ inline bool WindowFront::lives(const Window& child, double begin_bound, double e
     const double to_begin = child.at_begin - child.weight;
     const double to_end = child.at_end - child.weight;
     const double at = meeting_point(begin_bound, end_bound, length, child.begin, child.end);
-    const double around = std::min(begin_bound + at, end_bound + length - at) - child.weight;
+    const double around = std::min(begin_bound + at, end_bound + length - at) - child.weight +
+                          rounding * child.at_begin;
     const bool is_wide = ((child.begin - child.end) * child.y > negligible * to_begin * to_end) |
                          ((child.begin < child.x) & (child.x < child.end) & (child.y < 0));
     return is_wide & (around >= 0) &
            (around * around >= (at - child.x) * (at - child.x) + child.y * child.y) &
-           ((spare <= 0) | (to_corner >= spare * spare));
+           ((spare <= rounding * child.at_end) | (to_corner >= spare * spare * (1 - rounding)));
 }
 
 // The part that goes on through the next half-edge. In the frame beyond, the apex is at 0, and a

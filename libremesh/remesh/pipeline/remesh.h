@@ -42,7 +42,7 @@ struct RemeshOptions {
     std::optional<double> max_error = {};
     int steiner_points = 8;  //!< Steiner engine, m: Steiner points on each edge, in [0, 1000].
     double lambda = 1;       //!< Steiner engine: triangles are retired every lambda * #F pops, > 0.
-    int repair_rounds = 50;  //!< Rounds of adding sites, >= 0; then a component's own faces serve.
+    int repair_rounds = 12;  //!< Rounds of adding sites, >= 0; then a component's own faces serve.
     int num_threads = 0;     //!< >= 0; 0: all cores.
     //! Gets the stage and a fraction in [0, 1] on the caller's thread; return false to stop.
     std::function<bool(Stage, double)> progress = {};
