@@ -53,6 +53,12 @@ struct LocalDiagram {
     std::vector<Connection> connections;
 };
 
+//! Distances at a joint that differ by more (share of the triangle's longest side) are not those
+//! of its labels.
+inline constexpr double largest_disagreement = 1e-2;
+
+[[nodiscard]] double longest_side(const std::array<Vec2, 3>& corners);
+
 //! Draws diagrams into `out`. Scratch memory is kept from triangle to triangle.
 class TriangleSolver {
 public:

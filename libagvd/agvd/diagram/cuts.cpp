@@ -11,11 +11,11 @@ namespace {
 class FaceCutter {
 public:
     FaceCutter(const Surface& surface, const Propagation& propagation,
-               std::span<const RelayReach> reaches, EdgeLabels& labels)
+               const RelayGroups& groups, EdgeLabels& labels)
         : surface_(surface),
           propagation_(propagation),
           labels_(labels),
-          inside_relays_(surface, propagation, reaches, labels) {}
+          inside_relays_(surface, propagation, groups, labels) {}
 
     void cut(Index mixed_index, std::span<const PlacedSite> placed) {
         face_ = propagation_.mixed_faces[mixed_index];
@@ -143,10 +143,10 @@ private:
 }  // namespace
 
 void cut_faces(const Surface& surface, const Propagation& propagation,
-               const SitePlacement& placement, std::span<const RelayReach> reaches,
+               const SitePlacement& placement, const RelayGroups& groups,
                EdgeLabels& labels) {
     if (placement.is_empty()) return;
-    FaceCutter cutter(surface, propagation, reaches, labels);
+    FaceCutter cutter(surface, propagation, groups, labels);
     for (Index i = 0; i < propagation.mixed_faces.size(); ++i) {
         const auto placed = placement.in_face(propagation.mixed_faces[i]);
         if (!placed.empty()) cutter.cut(i, placed);

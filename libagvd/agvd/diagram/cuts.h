@@ -12,7 +12,7 @@ namespace agvd {
 //! out.
 //! Cost: O(relays) a site inside a listed face.
 void cut_faces(const Surface& surface, const Propagation& propagation,
-               const SitePlacement& placement, std::span<const RelayReach> reaches,
+               const SitePlacement& placement, const RelayGroups& groups,
                EdgeLabels& labels);
 
 }  // namespace agvd

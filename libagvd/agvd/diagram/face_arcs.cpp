@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "agvd/diagram/straight_arc.h"
+
 namespace agvd {
 namespace {
 
@@ -16,12 +18,13 @@ struct Side {
 class FaceTracer {
 public:
     FaceTracer(const Surface& surface, const Propagation& propagation,
-               std::span<const RelayReach> reaches, const EdgeLabels& labels,
+               const RelayGroups& groups, const EdgeLabels& labels,
                double chord_tolerance, FaceArcs& out)
         : surface_(surface),
           propagation_(propagation),
           labels_(labels),
-          inside_relays_(surface, propagation, reaches, labels),
+          inside_relays_(surface, propagation, groups, labels),
+          chord_tolerance_(chord_tolerance),
           solver_(chord_tolerance, out.local),
           out_(out) {}
 
@@ -88,7 +91,7 @@ private:
         }
         const auto first_arc = static_cast<Index>(out_.local.arcs.size());
         const auto first_connection = out_.local.connections.size();
-        if (has_all_relays_ || !solve_by_own_relays(corners)) {
+        if (has_all_relays_ || !(solve_by_one_arc(corners) || solve_by_own_relays(corners))) {
             gather_all_relays();
             solver_.solve(face_, corners, joints_);
         }
@@ -136,6 +139,21 @@ private:
             if (!labels_.in_row(s->row).empty()) return true;
         }
         return false;
+    }
+
+    // As most faces are.
+    [[nodiscard]] bool solve_by_one_arc(const std::array<Vec2, 3>& corners) {
+        if (joints_.size() != 2) return false;
+        const Joint& from = joints_[0];
+        const Joint& to = joints_[1];
+        if (!joins_straight(relays_of(propagation_, mixed_index_), corners_, from, to,
+                            largest_disagreement * longest_side(corners), chord_tolerance_)) {
+            return false;
+        }
+        const auto num_points = static_cast<Index>(out_.local.points.size());
+        out_.local.arcs.push_back(
+            {face_, from.node, to.node, to.site_after, from.site_after, num_points, 0});
+        return true;
     }
 
     [[nodiscard]] bool solve_by_own_relays(const std::array<Vec2, 3>& corners) {
@@ -195,6 +213,7 @@ private:
     const Propagation& propagation_;
     const EdgeLabels& labels_;
     InsideRelays inside_relays_;
+    double chord_tolerance_;
     TriangleSolver solver_;
     FaceArcs& out_;
 
@@ -213,10 +232,10 @@ private:
 }  // namespace
 
 void trace_faces(const Surface& surface, const Propagation& propagation,
-                 std::span<const RelayReach> reaches, const EdgeLabels& labels,
+                 const RelayGroups& groups, const EdgeLabels& labels,
                  double chord_tolerance, Index begin, Index end, FaceArcs& out) {
     out = {};
-    FaceTracer tracer(surface, propagation, reaches, labels, chord_tolerance, out);
+    FaceTracer tracer(surface, propagation, groups, labels, chord_tolerance, out);
     auto cut = std::lower_bound(labels.cut_faces.begin(), labels.cut_faces.end(), begin,
                                 [](const CutFace& c, Index i) { return c.mixed_index < i; });
     for (Index i = begin; i < end; ++i) {

@@ -28,7 +28,7 @@ struct FaceArcs {
 //! Most faces have two or three label changes, and there the face's own relays settle all; where
 //! they do not agree with each other, what the edges hand on does.
 void trace_faces(const Surface& surface, const Propagation& propagation,
-                 std::span<const RelayReach> reaches, const EdgeLabels& labels,
+                 const RelayGroups& groups, const EdgeLabels& labels,
                  double chord_tolerance, Index begin, Index end, FaceArcs& out);
 
 }  // namespace agvd
