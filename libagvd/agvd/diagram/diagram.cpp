@@ -89,7 +89,7 @@ Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> site
     const SitePlacement placement(surface, sites);
     const RelayGroups groups(propagation, options.num_threads);
     EdgeLabels labels = label_edges(surface, propagation, groups, options.num_threads);
-    cut_faces(surface, propagation, placement, groups, labels);
+    cut_faces(surface, propagation, placement, groups, options.num_threads, labels);
     const std::vector<Index> joined_points = join_points(surface, labels);
     poll(options.progress, 0.5);
 

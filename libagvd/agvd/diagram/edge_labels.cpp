@@ -34,13 +34,12 @@ void find_shorter_paths(const Surface& surface, const Propagation& propagation,
     if ((is_fixed[corners[0]] & is_fixed[corners[1]] & is_fixed[corners[2]]) != 0) return;
     for (const Relay& relay : relays_of(propagation, mixed_index)) {
         const Index h = relay.half_edge;
-        const CornerDistances to =
-            corner_distances(relay, surface.length_of(h), surface.apex[h]);
+        const CornerDistances to = corner_distances(relay, surface.length_of(h), surface.apex[h]);
         const auto offer = [&](Index k, double distance) {
             const Index v = corners[k];
-            const bool is_shorter = is_nearer(distance, relay.site.value(),
-                                              propagation.vertex_distance[v],
-                                              propagation.vertex_site[v].value());
+            const bool is_shorter =
+                is_nearer(distance, relay.site.value(), propagation.vertex_distance[v],
+                          propagation.vertex_site[v].value());
             if (is_shorter && is_fixed[v] == 0) out.push_back({v, relay.site.value(), distance});
         };
         const Index k = h - 3 * face;
@@ -95,7 +94,7 @@ void label_vertices(const Surface& surface, const Propagation& propagation, int 
             __builtin_prefetch(&surface.length[surface.edge[h]]);
             __builtin_prefetch(&surface.edge_half[surface.edge[h]]);
         } else if (*neighbour != no_index) {
-            __builtin_prefetch(groups.across(*neighbour, twin).data());
+            groups.prefetch(*neighbour);
             const Index first = propagation.relay_offsets[*neighbour];
             const Index end = propagation.relay_offsets[*neighbour + 1];
             for (Index r = first; r < end; ++r) __builtin_prefetch(&propagation.relays[r]);

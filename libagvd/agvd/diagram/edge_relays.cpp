@@ -105,21 +105,6 @@ void EdgeRelays::add_distances(bool forward, Index half_edge, Index i) {
     candidates_.push_back({tail, head, -1, 1, i, relay.site.value()});
 }
 
-// Whether the distances of both ends are those of candidates.
-bool EdgeRelays::explain_ends(Index edge) const {
-    const Index h = surface_.edge_half[edge];
-    const double slack = explained * surface_.length[edge];
-    const double at_tail = labels_.vertex_distance[surface_.tail(h)] + slack;
-    const double at_head = labels_.vertex_distance[surface_.head(h)] + slack;
-    bool has_tail = false;
-    bool has_head = false;
-    for (const Candidate& c : candidates_) {
-        has_tail = has_tail || c.lo <= at_tail;
-        has_head = has_head || c.hi <= at_head;
-    }
-    return has_tail && has_head;
-}
-
 // Leaves the candidates that could win somewhere.
 void EdgeRelays::scan(Index edge) {
     const Index h = surface_.edge_half[edge];
@@ -128,21 +113,26 @@ void EdgeRelays::scan(Index edge) {
     candidates_.clear();
     scan_across(edge, h);
     if (twin != no_index) scan_across(edge, twin);
-    // What reaches the edge through one face is a relay of the other. An engine that leaves some of
-    // those out shows it at the ends.
-    if (twin == no_index || !explain_ends(edge)) {
-        scan_others(edge, h);
-        if (twin != no_index) scan_others(edge, twin);
-    }
-
     const double at_tail = labels_.vertex_distance[surface_.tail(h)];
     const double at_head = labels_.vertex_distance[surface_.head(h)];
-    Candidate first{infinity, infinity, 0, 0, 0, no_index};
-    Candidate last = first;
-    for (const Candidate& c : candidates_) {
-        if (c.lo < first.lo) first = c;
-        if (c.hi < last.hi) last = c;
+    Candidate first, last;  // The nearest at the ends.
+    const auto find_nearest = [&] {
+        first = last = {infinity, infinity, 0, 0, 0, no_index};
+        for (const Candidate& c : candidates_) {
+            if (c.lo < first.lo) first = c;
+            if (c.hi < last.hi) last = c;
+        }
+    };
+    find_nearest();
+    // What reaches the edge through one face is a relay of the other. An engine that leaves some of
+    // those out shows it at the ends.
+    if (twin == no_index || first.lo > at_tail + explained * length ||
+        last.hi > at_head + explained * length) {
+        scan_others(edge, h);
+        if (twin != no_index) scan_others(edge, twin);
+        find_nearest();
     }
+
     const double slack = tie_tolerance * (at_tail + at_head + length);
     const double enough = same_distance * length;
     needs_tail_ = first.site != labels_.point_site[surface_.tail(h)] || first.lo > at_tail + enough;

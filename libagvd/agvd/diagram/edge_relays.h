@@ -12,8 +12,8 @@ namespace agvd {
 //! references; one for each thread.
 class EdgeRelays {
 public:
-    EdgeRelays(const Surface& surface, const Propagation& propagation,
-               const RelayGroups& groups, const EdgeLabels& labels)
+    EdgeRelays(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
+               const EdgeLabels& labels)
         : surface_(surface), propagation_(propagation), groups_(groups), labels_(labels) {}
 
     //! Whether labels may change on an edge, all of whose faces are listed. Then `relays` holds
@@ -36,7 +36,6 @@ private:
     void scan_across(Index edge, Index half_edge);
     void scan_others(Index edge, Index half_edge);
     void add_distances(bool forward, Index half_edge, Index relay);
-    [[nodiscard]] bool explain_ends(Index edge) const;
     [[nodiscard]] LineRelay through_face(Index edge, const Relay& relay) const;
     void append_all(Index edge, std::vector<LineRelay>& relays) const;
 

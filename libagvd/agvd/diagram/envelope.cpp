@@ -418,11 +418,11 @@ bool find_single_crossing(std::span<const LineRelay> relays, double length, Inde
                 const double at_start = s.value - s.slope * x;
                 const double at_end = s.value + s.slope * (length - x);
                 const Index site = relays[i].site;
-                const bool is_above =
-                    site == b   ? at_start >= a_lo - clear
-                    : site == a ? at_end >= b_hi - clear
-                                : s.value >= distance + clear && at_start >= a_lo + clear &&
-                                      at_end >= b_hi + clear;
+                const bool is_above = site == b ? at_start >= a_lo - clear
+                                      : site == a
+                                          ? at_end >= b_hi - clear
+                                          : s.value >= distance + clear &&
+                                                at_start >= a_lo + clear && at_end >= b_hi + clear;
                 if (!is_above) return false;
             }
             return true;

@@ -17,9 +17,8 @@ struct Side {
 
 class FaceTracer {
 public:
-    FaceTracer(const Surface& surface, const Propagation& propagation,
-               const RelayGroups& groups, const EdgeLabels& labels,
-               double chord_tolerance, FaceArcs& out)
+    FaceTracer(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
+               const EdgeLabels& labels, double chord_tolerance, FaceArcs& out)
         : surface_(surface),
           propagation_(propagation),
           labels_(labels),
@@ -231,10 +230,12 @@ private:
 
 }  // namespace
 
-void trace_faces(const Surface& surface, const Propagation& propagation,
-                 const RelayGroups& groups, const EdgeLabels& labels,
-                 double chord_tolerance, Index begin, Index end, FaceArcs& out) {
+void trace_faces(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
+                 const EdgeLabels& labels, double chord_tolerance, Index begin, Index end,
+                 FaceArcs& out) {
     out = {};
+    out.local.arcs.reserve(end - begin);
+    out.parts.reserve(2 * (end - begin));
     FaceTracer tracer(surface, propagation, groups, labels, chord_tolerance, out);
     auto cut = std::lower_bound(labels.cut_faces.begin(), labels.cut_faces.end(), begin,
                                 [](const CutFace& c, Index i) { return c.mixed_index < i; });

@@ -27,8 +27,8 @@ struct FaceArcs {
 //!
 //! Most faces have two or three label changes, and there the face's own relays settle all; where
 //! they do not agree with each other, what the edges hand on does.
-void trace_faces(const Surface& surface, const Propagation& propagation,
-                 const RelayGroups& groups, const EdgeLabels& labels,
-                 double chord_tolerance, Index begin, Index end, FaceArcs& out);
+void trace_faces(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
+                 const EdgeLabels& labels, double chord_tolerance, Index begin, Index end,
+                 FaceArcs& out);
 
 }  // namespace agvd

@@ -9,8 +9,8 @@ namespace agvd {
 //! Gathers relays in a face's own frame, site by site. Keeps references; one for each thread.
 class InsideRelays {
 public:
-    InsideRelays(const Surface& surface, const Propagation& propagation,
-                 const RelayGroups& groups, const EdgeLabels& labels)
+    InsideRelays(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
+                 const EdgeLabels& labels)
         : surface_(surface),
           propagation_(propagation),
           labels_(labels),

@@ -6,7 +6,8 @@
 
 namespace agvd {
 
-RelayGroups::RelayGroups(const Propagation& propagation, int num_threads) {
+RelayGroups::RelayGroups(const Propagation& propagation, int num_threads)
+    : offsets_(propagation.relay_offsets) {
     constexpr Index grain = 512;
     const auto num_mixed = static_cast<Index>(propagation.mixed_faces.size());
     relays_ = std::make_unique_for_overwrite<Index[]>(propagation.relays.size());

@@ -11,7 +11,7 @@ namespace agvd {
 //! Keeps nothing but indices into Propagation::relays: 4 bytes a relay.
 class RelayGroups {
 public:
-    //! Parallel; O(relays).
+    //! Parallel; O(relays). Keeps a reference.
     RelayGroups(const Propagation& propagation, int num_threads);
 
     //! The relays whose image lies across a half-edge of a mixed face. As all that follow in their
@@ -28,6 +28,12 @@ public:
         return group(mixed_index, corner_group);
     }
 
+    //! Always inline: g++ drops calls of functions that do nothing but prefetch.
+    [[gnu::always_inline]] void prefetch(Index mixed_index) const {
+        __builtin_prefetch(&begins_[num_groups * mixed_index]);
+        __builtin_prefetch(&relays_[offsets_[mixed_index]]);
+    }
+
 private:
     static constexpr Index inside_group = 3, corner_group = 4, num_groups = 5;
 
@@ -36,6 +42,7 @@ private:
         return {&relays_[begin[0]], begin[1] - begin[0]};
     }
 
+    std::span<const Index> offsets_;   // By mixed face, in relays_ as in Propagation::relays.
     std::unique_ptr<Index[]> relays_;  // Face after face, group after group.
     std::unique_ptr<Index[]> begins_;  // Of the groups, and the end of the last.
 };

@@ -29,8 +29,8 @@ Reach reach_in_frame(const Relay& r, const Vec2& p) {
 // One of two sites, as the relays know it.
 struct Known {
     Index site;
-    double at_from = std::numeric_limits<double>::infinity();
-    double at_to = std::numeric_limits<double>::infinity();
+    bool agrees_at_from = false;
+    bool agrees_at_to = false;
     Reach at_middle{std::numeric_limits<double>::infinity(), {0, 0}, 0};
     std::size_t frame = 0;  // Of at_middle.
 };
@@ -76,8 +76,10 @@ bool joins_straight(std::span<const Relay> relays, const std::array<Vec2, 3>& co
         if (site == nullptr) continue;
         const std::size_t k = relay.half_edge % 3;
         const Frame& frame = frames[k];
-        site->at_from = std::min(site->at_from, reach_in_frame(relay, frame.from).distance);
-        site->at_to = std::min(site->at_to, reach_in_frame(relay, frame.to).distance);
+        site->agrees_at_from = site->agrees_at_from ||
+                               reach_in_frame(relay, frame.from).distance <= from.distance + slack;
+        site->agrees_at_to =
+            site->agrees_at_to || reach_in_frame(relay, frame.to).distance <= to.distance + slack;
         const Reach at_middle = reach_in_frame(relay, frame.middle);
         if (at_middle.distance < site->at_middle.distance) {
             site->at_middle = at_middle;
@@ -85,13 +87,11 @@ bool joins_straight(std::span<const Relay> relays, const std::array<Vec2, 3>& co
         }
     }
     for (Known& site : known) {
-        if (!(site.at_from <= from.distance + slack && site.at_to <= to.distance + slack)) {
-            return false;
-        }
+        if (!site.agrees_at_from || !site.agrees_at_to) return false;
         const Vec2& along = frames[site.frame].along;
         const Vec2 image = site.at_middle.from;
-        site.at_middle.from = corners[site.frame] + image.x() * along +
-                              image.y() * Vec2(-along.y(), along.x());
+        site.at_middle.from =
+            corners[site.frame] + image.x() * along + image.y() * Vec2(-along.y(), along.x());
     }
     return is_nearly_straight(to.position - from.position, middle, known[0].at_middle,
                               known[1].at_middle, tolerance);

@@ -18,8 +18,8 @@ namespace agvd {
 //! \param relays    of the face.
 //! \param corners   of the face, in whose frame the joints are.
 //! \param tolerance  see is_nearly_straight().
-[[nodiscard]] bool joins_straight(std::span<const Relay> relays,
-                                  const std::array<Vec2, 3>& corners, const Joint& from,
-                                  const Joint& to, double slack, double tolerance);
+[[nodiscard]] bool joins_straight(std::span<const Relay> relays, const std::array<Vec2, 3>& corners,
+                                  const Joint& from, const Joint& to, double slack,
+                                  double tolerance);
 
 }  // namespace agvd
