@@ -104,9 +104,7 @@ TEST(Diagram, SameBytesForAnyThreadCountAndLambda) {
     }
     for (const int threads : {2, 3, 8}) {
         const auto other = build_diagram(surface, sites, propagation, {.num_threads = threads});
-        EXPECT_TRUE(same_points(diagram.points, other.points));
-        EXPECT_TRUE(same_bytes(diagram.cell_area, other.cell_area));
-        EXPECT_TRUE(same_bytes(diagram.vertex_sites, other.vertex_sites));
+        checks::expect_same(diagram, other);
     }
 }
 

@@ -4,15 +4,13 @@
 
 #include "agvd/core/parallel.h"
 #include "agvd/diagram/cuts.h"
+#include "agvd/diagram/earlier_parts.h"
 #include "agvd/diagram/edge_relays.h"
 #include "agvd/diagram/islands.h"
 #include "agvd/diagram/join.h"
 
 namespace agvd {
 namespace {
-
-// Small, since a chunk is traced again as a whole where an island was absorbed.
-constexpr Index grain = 128;
 
 double face_area(const Surface& surface, Index face) {
     return surface.length_of(3 * face) * surface.apex[3 * face].y() / 2;
@@ -84,41 +82,60 @@ private:
 }  // namespace
 
 Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> sites,
-                      const Propagation& propagation, const DiagramOptions& options) {
+                      const Propagation& propagation, const DiagramOptions& options,
+                      EarlierParts* earlier, DiagramParts& parts) {
+    constexpr Index grain = DiagramParts::grain;
     poll(options.progress, 0);
     const SitePlacement placement(surface, sites);
     const RelayGroups groups(propagation, options.num_threads);
-    EdgeLabels labels = label_edges(surface, propagation, groups, options.num_threads);
+    parts.labels = label_edges(surface, propagation, groups, earlier, options.num_threads);
+    EdgeLabels& labels = parts.labels;
+    parts.vertex_site = labels.point_site;
     cut_faces(surface, propagation, placement, groups, options.num_threads, labels);
     const std::vector<Index> joined_points = join_points(surface, labels);
     poll(options.progress, 0.5);
 
     const auto num_mixed = static_cast<Index>(propagation.mixed_faces.size());
-    std::vector<FaceArcs> chunks(num_chunks(num_mixed, grain));
+    parts.chunks = std::vector<FaceArcs>(num_chunks(num_mixed, grain));
+    parts.mended_faces.clear();
     std::vector<std::uint8_t> is_stale(num_mixed, 1);
-    do {
+    bool is_first = true;
+    while (true) {
         parallel_chunks(
             num_mixed, grain, options.num_threads, [&](Index chunk, Index begin, Index end) {
                 const auto first = is_stale.begin() + begin;
                 if (std::find(first, is_stale.begin() + end, 1) == is_stale.begin() + end) return;
-                trace_faces(surface, propagation, groups, labels, options.chord_tolerance, begin,
-                            end, chunks[chunk]);
+                trace_faces(surface, propagation, groups, labels, is_first ? earlier : nullptr,
+                            options.chord_tolerance, begin, end, parts.chunks[chunk]);
             });
+        is_first = false;
         is_stale.assign(num_mixed, 0);
-    } while (absorb_islands(surface, sites, chunks, joined_points, labels, is_stale) > 0);
+        if (absorb_islands(surface, sites, parts.chunks, joined_points, labels, is_stale) == 0) {
+            break;
+        }
+        for (Index i = 0; i < num_mixed; ++i) {
+            if (is_stale[i] != 0) parts.mended_faces.push_back(propagation.mixed_faces[i]);
+        }
+    }
     poll(options.progress, 0.9);
 
     Diagram diagram;
     diagram.num_sites = static_cast<Index>(sites.size());
-    join_arcs(surface, labels, chunks, diagram);
-    CellMeasurer(surface, labels, diagram).run(chunks);
+    join_arcs(surface, labels, parts.chunks, diagram);
+    CellMeasurer(surface, labels, diagram).run(parts.chunks);
     diagram.nearest_site.reserve(surface.num_vertices());
     for (Index v = 0; v < surface.num_vertices(); ++v) {
         diagram.nearest_site.push_back(SiteId(labels.point_site[v]));
     }
-    diagram.nearest_distance = std::move(labels.vertex_distance);
+    diagram.nearest_distance = labels.vertex_distance;
     poll(options.progress, 1);
     return diagram;
+}
+
+Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> sites,
+                      const Propagation& propagation, const DiagramOptions& options) {
+    DiagramParts parts;
+    return build_diagram(surface, sites, propagation, options, nullptr, parts);
 }
 
 }  // namespace agvd

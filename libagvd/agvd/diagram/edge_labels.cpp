@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "agvd/core/parallel.h"
+#include "agvd/diagram/earlier_parts.h"
 #include "agvd/diagram/edge_relays.h"
 #include "agvd/diagram/envelope.h"
 
@@ -49,8 +50,8 @@ void find_shorter_paths(const Surface& surface, const Propagation& propagation,
     }
 }
 
-void label_vertices(const Surface& surface, const Propagation& propagation, int num_threads,
-                    EdgeLabels& labels) {
+void label_vertices(const Surface& surface, const Propagation& propagation, EarlierParts* earlier,
+                    int num_threads, EdgeLabels& labels) {
     labels.vertex_distance = propagation.vertex_distance;
     labels.point_site.reserve(surface.num_vertices());
     for (const SiteId site : propagation.vertex_site) labels.point_site.push_back(site.value());
@@ -59,6 +60,7 @@ void label_vertices(const Surface& surface, const Propagation& propagation, int 
         if (labels.mixed_index[f] != no_index) continue;
         for (const Index v : surface.mesh.triangles[f]) is_fixed[v] = 1;
     }
+    if (earlier != nullptr) earlier->settle_vertices(labels, is_fixed);
     const auto num_mixed = static_cast<Index>(propagation.mixed_faces.size());
     std::vector<std::vector<ShorterPath>> found(num_chunks(num_mixed, grain));
     parallel_chunks(num_mixed, grain, num_threads, [&](Index chunk, Index begin, Index end) {
@@ -75,6 +77,7 @@ void label_vertices(const Surface& surface, const Propagation& propagation, int 
             site = path.site;
         }
     }
+    if (earlier != nullptr) earlier->compare_vertices(labels);
 }
 
 // Fetches what labelling the edges of a listed face reads of its neighbours: first where their
@@ -147,6 +150,16 @@ public:
         }
     }
 
+    // As it was.
+    void take_over(Index half_edge, const EarlierParts& earlier) {
+        const Index edge = surface_.edge[half_edge];
+        const std::span<const Crossing> crossings = earlier.on_edge(edge);
+        if (crossings.empty()) return;
+        out_.rows.push_back({edge, static_cast<Index>(out_.crossings.size()),
+                             static_cast<Index>(crossings.size())});
+        out_.crossings.insert(out_.crossings.end(), crossings.begin(), crossings.end());
+    }
+
 private:
     const Surface& surface_;
     const EdgeLabels& labels_;
@@ -173,10 +186,10 @@ void append_rows(const std::vector<FoundRows>& found, EdgeLabels& labels) {
 }  // namespace
 
 EdgeLabels label_edges(const Surface& surface, const Propagation& propagation,
-                       const RelayGroups& groups, int num_threads) {
+                       const RelayGroups& groups, EarlierParts* earlier, int num_threads) {
     EdgeLabels labels;
     list_mixed_faces(surface, propagation, labels);
-    label_vertices(surface, propagation, num_threads, labels);
+    label_vertices(surface, propagation, earlier, num_threads, labels);
     labels.edge_row.assign(surface.num_edges(), no_index);
 
     const auto num_mixed = static_cast<Index>(propagation.mixed_faces.size());
@@ -188,13 +201,18 @@ EdgeLabels label_edges(const Surface& surface, const Propagation& propagation,
             constexpr Index ahead = 2;
             for (const bool relays_too : {true, false}) {
                 const Index later = i + (relays_too ? ahead : 2 * ahead);
-                if (later >= end) continue;
+                if (later >= end || earlier != nullptr) continue;
                 prefetch_neighbours(surface, propagation, groups, labels,
                                     propagation.mixed_faces[later], relays_too);
             }
             const Index face = propagation.mixed_faces[i];
             for (Index h = 3 * face; h < 3 * face + 3; ++h) {
-                if (is_labelled(surface, labels, h)) labeller.label(h);
+                if (!is_labelled(surface, labels, h)) continue;
+                if (earlier != nullptr && earlier->holds_on_edge(h)) {
+                    labeller.take_over(h, *earlier);
+                } else {
+                    labeller.label(h);
+                }
             }
         }
     });

@@ -75,11 +75,15 @@ struct EdgeLabels {
     }
 };
 
+class EarlierParts;
+
 //! A vertex all of whose faces are listed takes the nearest site over the relays of those faces
 //! (which may be nearer than the engine's graph knows); an edge all of whose faces are listed gets
 //! the envelope of the relays of both sides and of its ends. No cuts yet.
 //! Cost: O(relays) a listed face, O(relays) and a few square roots a crossing.
+//! \param earlier  where it holds, its labels are taken over; may be null. Vertices are compared.
 [[nodiscard]] EdgeLabels label_edges(const Surface& surface, const Propagation& propagation,
-                                     const RelayGroups& groups, int num_threads);
+                                     const RelayGroups& groups, EarlierParts* earlier,
+                                     int num_threads);
 
 }  // namespace agvd

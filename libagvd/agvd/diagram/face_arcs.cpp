@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "agvd/diagram/earlier_parts.h"
 #include "agvd/diagram/straight_arc.h"
 
 namespace agvd {
@@ -231,17 +232,22 @@ private:
 }  // namespace
 
 void trace_faces(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
-                 const EdgeLabels& labels, double chord_tolerance, Index begin, Index end,
-                 FaceArcs& out) {
+                 const EdgeLabels& labels, const EarlierParts* earlier, double chord_tolerance,
+                 Index begin, Index end, FaceArcs& out) {
     out = {};
     out.local.arcs.reserve(end - begin);
     out.parts.reserve(2 * (end - begin));
+    out.faces.reserve(end - begin);
     FaceTracer tracer(surface, propagation, groups, labels, chord_tolerance, out);
     auto cut = std::lower_bound(labels.cut_faces.begin(), labels.cut_faces.end(), begin,
                                 [](const CutFace& c, Index i) { return c.mixed_index < i; });
     for (Index i = begin; i < end; ++i) {
+        out.faces.push_back(out.mark());
+        const Index face = propagation.mixed_faces[i];
         if (cut != labels.cut_faces.end() && cut->mixed_index == i) {
             tracer.trace_cut(*cut++);
+        } else if (earlier != nullptr && earlier->holds_in_face(face) && !earlier->is_cut(face)) {
+            earlier->append_arcs(face, labels, out);
         } else {
             tracer.trace(i);
         }

@@ -180,12 +180,14 @@ public:
         keep_unique(faces);
         placement_ = std::move(placement);
         replace_faces(faces);
+        changed_faces_ = std::move(faces);
         tell_totals();
     }
 
     [[nodiscard]] const std::vector<SurfacePoint>& sites() const { return sites_; }
     [[nodiscard]] const Propagation& propagation() const { return result_; }
     [[nodiscard]] Index num_propagated() const { return num_propagated_; }
+    [[nodiscard]] const std::vector<Index>& changed_faces() const { return changed_faces_; }
 
 private:
     [[nodiscard]] std::vector<SurfacePoint> changed_sites(const SiteChanges& changes) const {
@@ -494,6 +496,7 @@ private:
     Propagation result_;
     Propagation spare_;  // Its relays are memory for the next ones.
     Index num_propagated_ = 0;
+    std::vector<Index> changed_faces_;
 };
 
 MovingSites::MovingSites(const Surface& surface, const SurfaceLayout& layout,
@@ -513,5 +516,6 @@ void MovingSites::update(const SiteChanges& changes) { state_->update(changes); 
 const std::vector<SurfacePoint>& MovingSites::sites() const { return state_->sites(); }
 const Propagation& MovingSites::propagation() const { return state_->propagation(); }
 Index MovingSites::num_propagated() const { return state_->num_propagated(); }
+const std::vector<Index>& MovingSites::changed_faces() const { return state_->changed_faces(); }
 
 }  // namespace agvd
