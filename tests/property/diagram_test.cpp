@@ -57,13 +57,6 @@ bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
 }
 
 // SurfacePoint has padding, so its fields are compared.
-bool same_points(const std::vector<SurfacePoint>& a, const std::vector<SurfacePoint>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](const SurfacePoint& x, const SurfacePoint& y) {
-                          return x.face == y.face && x.barycentric == y.barycentric;
-                      });
-}
-
 }  // namespace
 
 TEST(Diagram, IsAValidComplexOnManyMeshesAndSiteSets) {

@@ -49,7 +49,8 @@ TEST_P(MovingDiagramOn, ChangesGiveWhatAFreshRunGives) {
         const SurfaceLayout layout(surface);
         const PropagationOptions options{.max_error = 1e-2,
                                          .num_threads = static_cast<int>(seed % 3 + 1)};
-        MovingDiagram moving(surface, layout, points::scattered(surface, 20 * (seed + 1), seed),
+        MovingDiagram moving(surface, layout,
+                             points::scattered(surface, static_cast<Index>(20 * (seed + 1)), seed),
                              options, {.num_threads = options.num_threads});
         expect_fresh(surface, moving, options);
         for (std::uint64_t change = 1; change <= 6; ++change) {
@@ -61,7 +62,8 @@ TEST_P(MovingDiagramOn, ChangesGiveWhatAFreshRunGives) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(RandomMeshes, MovingDiagramOn, testing::ValuesIn(random_meshes::families()),
+INSTANTIATE_TEST_SUITE_P(RandomMeshes, MovingDiagramOn,
+                         testing::ValuesIn(random_meshes::families()),
                          [](const auto& family) { return std::string(family.param); });
 
 TEST(MovingDiagram, SitesThatStepFromVertexToVertexGiveWhatAFreshRunGives) {
@@ -86,8 +88,7 @@ TEST(MovingDiagram, AfterACancelledUpdateTheNextOneMakesUpForIt) {
     MovingDiagram moving(surface, layout, points::scattered(surface, 20, 5), {}, options);
     is_cancelled = true;
     EXPECT_THROW(
-        moving.update(
-            {.moved = {{3, points::at_vertex(surface, 7)}}, .removed = {}, .added = {}}),
+        moving.update({.moved = {{3, points::at_vertex(surface, 7)}}, .removed = {}, .added = {}}),
         Cancelled);
     is_cancelled = false;
     moving.update({});

@@ -89,9 +89,11 @@ void TriangleSolver::set_relays(Relays relays) {
     }
 }
 
-void TriangleSolver::set_triangle(Index face, const std::array<Vec2, 3>& corners) {
+void TriangleSolver::begin(Index face, const std::array<Vec2, 3>& corners) {
     face_ = face;
     corners_ = corners;
+    start_ = mark();
+    is_safe_ = false;
     size_ = longest_side(corners);
 }
 
@@ -109,26 +111,26 @@ void TriangleSolver::go_back(const Mark& mark) {
 
 bool TriangleSolver::try_solve(Index face, const std::array<Vec2, 3>& corners,
                                std::span<const Joint> joints) {
-    set_triangle(face, corners);
+    begin(face, corners);
     for (std::size_t i = 0; i < joints.size(); ++i) {
         if (!agrees(joints[i], joints[before(i, joints.size())].site_after)) return false;
     }
-    const Mark start = mark();
-    is_safe_ = false;
     draw(joints);
-    if (is_sound_ && !straighten_crossing_arcs(start)) return true;
-    go_back(start);
+    if (is_sound_ && !straighten_crossing_arcs(start_)) return true;
+    go_back(start_);
     return false;
 }
 
 void TriangleSolver::solve(Index face, const std::array<Vec2, 3>& corners,
                            std::span<const Joint> joints) {
-    set_triangle(face, corners);
-    const Mark start = mark();
-    is_safe_ = false;
+    begin(face, corners);
     draw(joints);
-    if (!straighten_crossing_arcs(start) || !straighten_crossing_arcs(start)) return;
-    go_back(start);
+    if (!straighten_crossing_arcs(start_) || !straighten_crossing_arcs(start_)) return;
+    redraw_straight(joints);
+}
+
+void TriangleSolver::redraw_straight(std::span<const Joint> joints) {
+    go_back(start_);
     is_safe_ = true;
     draw(joints);
 }

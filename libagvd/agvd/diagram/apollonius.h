@@ -84,6 +84,9 @@ public:
     //! Cost: O(k) branch points for k joints, each O(relays), and O(k^2) comparisons.
     void solve(Index face, const std::array<Vec2, 3>& corners, std::span<const Joint> joints);
 
+    //! Draws what the last of these calls drew once more, all straight.
+    void redraw_straight(std::span<const Joint> joints);
+
 private:
     using Relays = std::span<const PlanarRelay>;
 
@@ -114,7 +117,7 @@ private:
         Vec2 from, to;
     };
 
-    void set_triangle(Index face, const std::array<Vec2, 3>& corners);
+    void begin(Index face, const std::array<Vec2, 3>& corners);
     void draw(std::span<const Joint> joints);
     [[nodiscard]] Mark mark() const;
     void go_back(const Mark& mark);
@@ -156,6 +159,7 @@ private:
     // The triangle at hand.
     Index face_ = 0;
     std::array<Vec2, 3> corners_;
+    Mark start_{};          // Before it.
     double size_ = 0;       // Longest side.
     bool is_safe_ = false;  // Draw all straight.
     bool is_sound_ = true;  // Nothing drawn contradicts the distances.

@@ -78,7 +78,8 @@ void EarlierParts::append_arcs(Index face, const EdgeLabels& labels, FaceArcs& o
         return no_index;
     };
     const auto node = [&](Index old) {
-        return old < LocalDiagram::first_branch ? crossing(old) : old - begin.branches + to.branches;
+        return old < LocalDiagram::first_branch ? crossing(old)
+                                                : old - begin.branches + to.branches;
     };
     const auto old_points = static_cast<Index>(parts_.labels.point_site.size());
     const auto new_points = static_cast<Index>(labels.point_site.size());

@@ -14,7 +14,7 @@ struct DiagramParts {
     static constexpr Index grain = 128;
 
     EdgeLabels labels;
-    std::vector<Index> vertex_site;   //!< #V: before islands were absorbed.
+    std::vector<Index> vertex_site;  //!< #V: before islands were absorbed.
     std::vector<FaceArcs> chunks;
     std::vector<Index> mended_faces;  //!< Those around labels that islands changed.
 };

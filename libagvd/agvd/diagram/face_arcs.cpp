@@ -89,17 +89,41 @@ private:
             if (site != no_index) out_.parts.push_back({site, 1, area_of(corners)});
             return;
         }
-        const auto first_arc = static_cast<Index>(out_.local.arcs.size());
-        const auto first_connection = out_.local.connections.size();
-        if (has_all_relays_ || !(solve_by_one_arc(corners) || solve_by_own_relays(corners))) {
+        boundary_parts_.assign(out_.parts.begin() + static_cast<std::ptrdiff_t>(first_part_),
+                               out_.parts.end());
+        const FaceArcs::Mark before = out_.mark();
+        const bool is_plain = !has_all_relays_ && solve_by_one_arc(corners);
+        if (!is_plain && (has_all_relays_ || !solve_by_own_relays(corners))) {
             gather_all_relays();
             solver_.solve(face_, corners, joints_);
         }
+        count_parts(before);
+        // Arcs that lie on each other, or on a side, escape a search for crossings, but turn a
+        // piece inside out.
+        if (!is_plain && has_inverted_part(corners)) {
+            solver_.redraw_straight(joints_);
+            out_.parts.resize(first_part_);
+            out_.parts.insert(out_.parts.end(), boundary_parts_.begin(), boundary_parts_.end());
+            count_parts(before);
+        }
+    }
+
+    // What the triangle's arcs, all from a mark on, add to the cells.
+    void count_parts(const FaceArcs::Mark& before) {
         for (const Joint& joint : joints_) count(joint.site_after, 1, 0);
-        for (std::size_t i = first_connection; i < out_.local.connections.size(); ++i) {
+        for (std::size_t i = before.connections; i < out_.local.connections.size(); ++i) {
             count(out_.local.connections[i].site, -1, 0);
         }
-        for (Index i = first_arc; i < out_.local.arcs.size(); ++i) add_area_beside(i);
+        for (Index i = before.arcs; i < out_.local.arcs.size(); ++i) add_area_beside(i);
+    }
+
+    [[nodiscard]] bool has_inverted_part(const std::array<Vec2, 3>& corners) const {
+        constexpr double rounding = 1e-13;
+        const double size = longest_side(corners);
+        const auto first = out_.parts.begin() + static_cast<std::ptrdiff_t>(first_part_);
+        return std::any_of(first, out_.parts.end(), [&](const FaceArcs::CellPart& part) {
+            return part.area < -rounding * size * size;
+        });
     }
 
     static double area_of(const std::array<Vec2, 3>& corners) {
@@ -224,6 +248,7 @@ private:
     bool has_all_relays_ = false;
     std::array<Side, 3> sides_;  // Of the triangle at hand.
     std::size_t first_part_ = 0;
+    std::vector<FaceArcs::CellPart> boundary_parts_;  // What the boundary alone contributes.
     std::vector<Index> sites_;
     std::vector<PlanarRelay> relays_;
     std::vector<Joint> joints_;
