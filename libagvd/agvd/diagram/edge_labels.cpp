@@ -33,20 +33,37 @@ void find_shorter_paths(const Surface& surface, const Propagation& propagation,
     const Index face = propagation.mixed_faces[mixed_index];
     const Triangle& corners = surface.mesh.triangles[face];
     if ((is_fixed[corners[0]] & is_fixed[corners[1]] & is_fixed[corners[2]]) != 0) return;
+    // No path through a relay is shorter than the straight line: most are told without roots. What
+    // is nearer by less than this share is not worth another label.
+    constexpr double least_gain = 1e-9;
+    std::array<double, 3> limits;
+    for (std::size_t k = 0; k < 3; ++k) {
+        limits[k] = (1 - least_gain) * propagation.vertex_distance[corners[k]];
+    }
     for (const Relay& relay : relays_of(propagation, mixed_index)) {
         const Index h = relay.half_edge;
-        const CornerDistances to = corner_distances(relay, surface.length_of(h), surface.apex[h]);
-        const auto offer = [&](Index k, double distance) {
-            const Index v = corners[k];
-            const bool is_shorter =
-                is_nearer(distance, relay.site.value(), propagation.vertex_distance[v],
-                          propagation.vertex_site[v].value());
-            if (is_shorter && is_fixed[v] == 0) out.push_back({v, relay.site.value(), distance});
-        };
         const Index k = h - 3 * face;
+        const double length = surface.length_of(h);
+        const Vec2& apex = surface.apex[h];
+        const auto may_gain = [&](Index corner, double dx, double dy) {
+            const double limit = limits[corner] - relay.weight;
+            return limit > 0 && dx * dx + dy * dy < limit * limit;
+        };
+        const Index at_head = k == 2 ? 0 : k + 1;
+        const Index at_apex = k == 0 ? 2 : k - 1;
+        if (!may_gain(k, relay.x, relay.y) && !may_gain(at_head, relay.x - length, relay.y) &&
+            !may_gain(at_apex, relay.x - apex.x(), relay.y - apex.y())) {
+            continue;
+        }
+        const CornerDistances to = corner_distances(relay, length, apex);
+        const auto offer = [&](Index corner, double distance) {
+            const Index v = corners[corner];
+            if (distance >= limits[corner] || is_fixed[v] != 0) return;
+            out.push_back({v, relay.site.value(), distance});
+        };
         offer(k, to.tail);
-        offer(k == 2 ? 0 : k + 1, to.head);
-        offer(k == 0 ? 2 : k - 1, to.apex);
+        offer(at_head, to.head);
+        offer(at_apex, to.apex);
     }
 }
 

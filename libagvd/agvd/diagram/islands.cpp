@@ -216,6 +216,11 @@ std::vector<Index> join_points(const Surface& surface, const EdgeLabels& labels)
     std::iota(parent.begin(), parent.end(), Index{0});
     for (Index f = 0; f < surface.num_faces(); ++f) {
         const Triangle& t = surface.mesh.triangles[f];
+        if (labels.mixed_index[f] == no_index) {
+            unite_nodes(parent, t[0], t[1]);
+            unite_nodes(parent, t[1], t[2]);
+            continue;
+        }
         for (Index k = 0; k < 3; ++k) {
             const Index twin = surface.twin[3 * f + k];
             if (twin < 3 * f + k) continue;  // Each edge once.
