@@ -32,7 +32,7 @@ SiteChanges some_changes(const Surface& surface, Index count, std::uint64_t seed
     const Index first = static_cast<Index>(random_bits(seed, 0, 0) % (count - 2));
     const Index vertex = surface.mesh.triangles[points[0].face.value()][0];
     changes.moved.emplace_back(first, points[0]);
-    changes.moved.emplace_back(first + 1, points::at_vertex(surface, vertex));
+    changes.moved.emplace_back(first + 1, point_at(surface, vertex));
     changes.added.push_back(points[2]);
     if (seed % 3 == 0) changes.removed.push_back(first + 2);
     return changes;
@@ -72,8 +72,7 @@ TEST(MovingDiagram, SitesThatStepFromVertexToVertexGiveWhatAFreshRunGives) {
     MovingDiagram moving(surface, layout, points::scattered(surface, 100, 5));
     for (Index i = 0; i < 10; ++i) {
         const Index vertex = static_cast<Index>(random_bits(7, 0, i) % surface.num_vertices());
-        moving.update(
-            {.moved = {{i, points::at_vertex(surface, vertex)}}, .removed = {}, .added = {}});
+        moving.update({.moved = {{i, point_at(surface, vertex)}}, .removed = {}, .added = {}});
         expect_fresh(surface, moving, {});
         moving.update({});
         expect_fresh(surface, moving, {});
@@ -87,9 +86,8 @@ TEST(MovingDiagram, AfterACancelledUpdateTheNextOneMakesUpForIt) {
     const DiagramOptions options{.progress = [&](double) { return !is_cancelled; }};
     MovingDiagram moving(surface, layout, points::scattered(surface, 20, 5), {}, options);
     is_cancelled = true;
-    EXPECT_THROW(
-        moving.update({.moved = {{3, points::at_vertex(surface, 7)}}, .removed = {}, .added = {}}),
-        Cancelled);
+    EXPECT_THROW(moving.update({.moved = {{3, point_at(surface, 7)}}, .removed = {}, .added = {}}),
+                 Cancelled);
     is_cancelled = false;
     moving.update({});
     expect_fresh(surface, moving, {});

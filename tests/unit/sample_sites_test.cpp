@@ -113,8 +113,7 @@ TEST(SampleSites, EveryComponentGetsWhatItsTopologyNeedsAndTheRestGoesByArea) {
     const Surface surface = make(shapes::join(shapes::join(small, grid), large));
     for (const Init init : both_inits) {
         const auto sites = sample_sites(
-            surface,
-            {.num_samples = 13 + 101, .init = init, .boundary = remesh::Boundary::Free});
+            surface, {.num_samples = 13 + 101, .init = init, .boundary = remesh::Boundary::Free});
         ASSERT_EQ(sites.size(), 114u);
         EXPECT_EQ(count_below(sites, 96), 7u);
         EXPECT_EQ(count_below(sites, 96 + 18), 7u + 3u + 20u);

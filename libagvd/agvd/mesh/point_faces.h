@@ -9,8 +9,8 @@
 
 namespace agvd {
 
-//! The vertex a point lies on, if it does: up to 1e-12 of the shorter edge of its face there. Nearer
-//! than that, rounding hides from which side the point sees the faces around the vertex.
+//! The vertex a point lies on, if it does: up to 1e-12 of the shorter edge of its face there.
+//! Nearer than that, rounding hides from which side the point sees the faces around the vertex.
 [[nodiscard]] std::optional<Index> vertex_of(const Surface& surface, const SurfacePoint& point);
 
 //! The half-edge of the point's face in whose interior the point lies, if it does.
