@@ -5,6 +5,7 @@
 
 #include "agvd/core/error.h"
 #include "agvd/core/random.h"
+#include "agvd/mesh/point_faces.h"
 #include "support/checks.h"
 #include "support/points.h"
 #include "support/random_meshes.h"
