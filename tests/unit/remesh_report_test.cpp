@@ -50,7 +50,7 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
     EXPECT_EQ(report["options"]["max_error"], 0.25);
     EXPECT_EQ(report["options"]["steiner_points_per_edge"], 8);
     EXPECT_EQ(report["options"]["lambda"], 1);
-    EXPECT_EQ(report["options"]["max_repair_rounds"], 50);
+    EXPECT_EQ(report["options"]["max_repair_rounds"], 12);
     EXPECT_EQ(report["options"]["threads"], 0);
     EXPECT_EQ(report["input_repair"]["split_edges"], 4);
     EXPECT_EQ(report["input_faces"], 8);
