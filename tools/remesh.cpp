@@ -21,7 +21,17 @@ constexpr const char* footer =
 struct Arguments : cli::DiagramArguments {
     fs::path output;
     fs::path report;  // Empty: none; "-": stdout.
+    remesh::Delaunay delaunay = remesh::RemeshOptions{}.delaunay;
 };
+
+std::map<std::string, remesh::Delaunay> delaunay_by_name() {
+    std::map<std::string, remesh::Delaunay> names;
+    for (const auto delaunay :
+         {remesh::Delaunay::Intrinsic, remesh::Delaunay::Extrinsic, remesh::Delaunay::Off}) {
+        names[remesh::delaunay_name(delaunay)] = delaunay;
+    }
+    return names;
+}
 
 void check_outputs(const Arguments& arguments) {
     if (!remesh::is_known_mesh_extension(arguments.output)) {
@@ -48,6 +58,7 @@ void run_job(const Arguments& arguments) {
                                   .max_error = arguments.propagation.max_error,
                                   .steiner_points = arguments.propagation.steiner_points,
                                   .lambda = arguments.propagation.lambda,
+                                  .delaunay = arguments.delaunay,
                                   .num_threads = arguments.common.threads,
                                   .progress = [&](remesh::Stage stage, double fraction) {
                                       return console.progress(remesh::stage_name(stage), fraction);
@@ -80,6 +91,16 @@ int main(int argc, char** argv) {
         ->required();
     app.add_option("--report", arguments.report, "Write a JSON report; - writes it to stdout")
         ->type_name("FILE|-");
+    app.add_option_function<std::string>(
+           "--delaunay",
+           [&arguments](const std::string& name) {
+               arguments.delaunay = delaunay_by_name().at(name);
+           },
+           "Flip edges that fail the Delaunay condition, by geodesic lengths (intrinsic) or by "
+           "straight ones (extrinsic); or leave them (off)")
+        ->check(CLI::IsMember(delaunay_by_name()).description(""))
+        ->type_name("NAME")
+        ->default_str(remesh::delaunay_name(arguments.delaunay));
     app.footer(std::string(footer) + cli::exit_code_help);
     return cli::run(app, argc, argv, [&] { run_job(arguments); });
 }

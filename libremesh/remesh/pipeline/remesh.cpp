@@ -64,8 +64,8 @@ class Pipeline {
 public:
     Pipeline(const agvd::MeshView& mesh, const RemeshOptions& options)
         : input_(mesh), options_(options) {
-        for (const Stage stage :
-             {Stage::Clean, Stage::Sample, Stage::Propagate, Stage::Diagram, Stage::Dual}) {
+        for (const Stage stage : {Stage::Clean, Stage::Sample, Stage::Propagate, Stage::Diagram,
+                                  Stage::Dual, Stage::Delaunay}) {
             result_.seconds.emplace_back(stage, 0.0);
         }
     }
@@ -76,6 +76,7 @@ public:
         refine();
         place_sites();
         build_valid_diagram();
+        build_triangles();
         build_mesh();
         return std::move(result_);
     }
@@ -222,10 +223,24 @@ private:
                                     std::to_string(2 * sites_.size()));
     }
 
+    void build_triangles() {
+        {
+            const StageTimer timer(Stage::Dual, result_);
+            agvd::poll(progress_of(Stage::Dual), 0);
+            result_.mesh.triangles = build_dual(surface_, diagram_);
+        }
+        const StageTimer timer(Stage::Delaunay, result_);
+        agvd::poll(progress_of(Stage::Delaunay), 0);
+        DelaunayResult delaunay =
+            make_delaunay(surface_, sites_, diagram_, result_.mesh.triangles,
+                          {.mode = options_.delaunay, .num_threads = options_.num_threads});
+        result_.mesh.triangles = std::move(delaunay.triangles);
+        result_.delaunay = delaunay.counts;
+        agvd::poll(progress_of(Stage::Delaunay), 1);
+    }
+
     void build_mesh() {
         const StageTimer timer(Stage::Dual, result_);
-        agvd::poll(progress_of(Stage::Dual), 0);
-        result_.mesh.triangles = build_dual(surface_, diagram_);
         std::vector<Index> new_index(sites_.size(), agvd::no_index);
         for (const agvd::Triangle& t : result_.mesh.triangles) {
             for (const Index s : t) new_index[s] = 0;
@@ -282,6 +297,8 @@ const char* stage_name(Stage stage) {
             return "diagram";
         case Stage::Dual:
             return "dual";
+        case Stage::Delaunay:
+            return "delaunay";
     }
     return "unknown";
 }

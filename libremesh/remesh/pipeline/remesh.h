@@ -7,13 +7,14 @@
 #include <optional>
 
 #include "agvd/propagation/propagate.h"
+#include "remesh/dual/delaunay.h"
 #include "remesh/quality/topology.h"
 #include "remesh/repair/clean_input.h"
 #include "remesh/sampling/sample_sites.h"
 
 namespace remesh {
 
-enum class Stage { Clean, Sample, Propagate, Diagram, Dual };
+enum class Stage { Clean, Sample, Propagate, Diagram, Dual, Delaunay };
 
 //! Lower-case name of a stage, for logs.
 [[nodiscard]] const char* stage_name(Stage stage);
@@ -32,7 +33,8 @@ struct RemeshOptions {
     int steiner_points = 8;  //!< Steiner engine, m: Steiner points on each edge, in [0, 1000].
     double lambda = 1;       //!< Steiner engine: triangles are retired every lambda * #F pops, > 0.
     int repair_rounds = 50;  //!< Rounds of adding sites until the topology is kept, >= 0.
-    int num_threads = 0;     //!< >= 0; 0: all cores.
+    Delaunay delaunay = Delaunay::Intrinsic;
+    int num_threads = 0;  //!< >= 0; 0: all cores.
     //! Gets the stage and a fraction in [0, 1] on the caller's thread; return false to stop.
     std::function<bool(Stage, double)> progress = {};
 };
@@ -48,6 +50,7 @@ struct RemeshResult {
     agvd::Index sites_added = 0;            //!< By topology repair.
     agvd::Index sites_dropped = 0;          //!< Given sites that own nothing (e.g. duplicates).
     int repair_rounds = 0;                  //!< Rounds that adding took.
+    DelaunayCounts delaunay;                //!< Edges that failed, were flipped, still fail.
     //! Of the last propagation: see agvd::Propagation. Infinity: nothing is certified.
     double certified_error = std::numeric_limits<double>::infinity();
     std::size_t propagation_bytes = 0;  //!< Peak of the last propagation, beyond the mesh.

@@ -1,0 +1,40 @@
+//! \file
+//! Flips edges until the Delaunay condition holds. Private to the dual.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "remesh/dual/flippable_mesh.h"
+
+namespace remesh {
+
+//! The angles opposite the edge sum to more than pi (by more than 1e-6).
+//!
+//! \param length  by edge; the edge must have two sides.
+[[nodiscard]] bool is_non_delaunay(const FlippableMesh& mesh, std::span<const double> length,
+                                   agvd::Index edge);
+
+//! How long the edge between the two corners opposite an edge would be; asked once before each
+//! flip, and `accept` after it was done.
+struct Diagonals {
+    std::function<double(agvd::Index edge)> measure;
+    std::function<void(agvd::Index edge)> accept;
+};
+
+struct FlipCounts {
+    agvd::Index flips = 0;
+    bool is_finished = true;  //!< False: stopped after 10 flips for each edge.
+};
+
+//! Flips what fails the Delaunay condition and can be flipped: the mesh stays a simplicial complex
+//! of the same boundary; the opposite angles get smaller and the sides keep the triangle
+//! inequality; and in space no edge around gets sharper than 60 degrees (or than the sharpest one
+//! there had been).
+//!
+//! \param length     by edge; follows the flips.
+//! \param positions  by vertex.
+FlipCounts flip_to_delaunay(FlippableMesh& mesh, std::vector<double>& length,
+                            std::span<const agvd::Vec3> positions, const Diagonals& diagonals);
+
+}  // namespace remesh

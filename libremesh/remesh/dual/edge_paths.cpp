@@ -1,0 +1,204 @@
+#include "remesh/dual/edge_paths.h"
+
+#include <algorithm>
+#include <deque>
+#include <tuple>
+
+#include "agvd/core/parallel.h"
+#include "remesh/dual/site_paths.h"
+
+namespace remesh {
+
+using agvd::Diagram;
+using agvd::Index;
+using agvd::no_index;
+using agvd::Surface;
+using agvd::SurfacePoint;
+
+namespace {
+
+constexpr Index grain = 32;
+// Of the longest side; lengths are sums of a few square roots.
+constexpr double length_tolerance = 1e-12;
+constexpr std::size_t max_attempts_per_edge = 10;
+
+std::uint64_t key(Index a, Index b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
+
+// Where two cells touch nearest to their sites.
+struct Gate {
+    std::uint64_t sites;
+    double distance;
+    Index point;
+
+    [[nodiscard]] bool operator<(const Gate& other) const {
+        return std::tie(sites, distance, point) <
+               std::tie(other.sites, other.distance, other.point);
+    }
+};
+
+// Sorted; the first one for two sites is the nearest.
+std::vector<Gate> find_gates(const Diagram& diagram) {
+    std::vector<Gate> gates;
+    gates.reserve(diagram.edges.size());
+    for (Index e = 0; e < diagram.edges.size(); ++e) {
+        const agvd::VoronoiEdge& edge = diagram.edges[e];
+        if (!edge.right.is_valid()) continue;
+        const auto begin = diagram.point_distance.begin() + diagram.edge_points[e];
+        const auto end = diagram.point_distance.begin() + diagram.edge_points[e + 1];
+        const auto nearest = std::min_element(begin, end);
+        gates.push_back({key(edge.left.value(), edge.right.value()), *nearest,
+                         static_cast<Index>(nearest - diagram.point_distance.begin())});
+    }
+    std::sort(gates.begin(), gates.end());
+    return gates;
+}
+
+// A triangle next to the edge whose other two edges have paths: the half-edge in it, or no_index.
+Index find_way_round(const FlippableMesh& mesh, const std::vector<EdgePath>& paths, Index edge) {
+    for (const Index h : mesh.sides(edge)) {
+        if (h == no_index) continue;
+        if (paths[mesh.edge(FlippableMesh::next(h))].from == no_index) continue;
+        if (paths[mesh.edge(FlippableMesh::previous(h))].from == no_index) continue;
+        return h;
+    }
+    return no_index;
+}
+
+FaceStrip strip_from(const Surface& surface, const EdgePath& path, Index site) {
+    return path.from == site ? path.strip : reversed(surface, path.strip);
+}
+
+// Straightened from the way along the edges of two half-edges, one after the other; either may run
+// against the way.
+EdgePath path_along(const Surface& surface, const EdgePath& first, const EdgePath& second,
+                    Index from, Index over, PathStraightener& straightener) {
+    FaceStrip strip =
+        joined(surface, strip_from(surface, first, from), strip_from(surface, second, over));
+    const GeodesicPath path = straightener.straighten(strip);
+    return {from, std::move(strip), path.length, path.is_locally_shortest};
+}
+
+// Straightened from the way along the other two edges of the half-edge's triangle.
+EdgePath path_round(const Surface& surface, const FlippableMesh& mesh,
+                    const std::vector<EdgePath>& paths, Index half_edge,
+                    PathStraightener& straightener) {
+    const Index next = FlippableMesh::next(half_edge);
+    const Index previous = FlippableMesh::previous(half_edge);
+    return path_along(surface, paths[mesh.edge(next)], paths[mesh.edge(previous)], mesh.tail(next),
+                      mesh.tail(previous), straightener);
+}
+
+}  // namespace
+
+std::vector<EdgePath> find_edge_paths(const Surface& surface, std::span<const SurfacePoint> sites,
+                                      const Diagram& diagram, const FlippableMesh& mesh,
+                                      int num_threads) {
+    const SitePaths site_paths(surface, sites, diagram);
+    const std::vector<Gate> gates = find_gates(diagram);
+    std::vector<EdgePath> paths(mesh.num_edges());
+    const auto straighten = [&](PathStraightener& straightener, Index from, FaceStrip strip) {
+        const GeodesicPath path = straightener.straighten(strip);
+        return EdgePath{from, std::move(strip), path.length, path.is_locally_shortest};
+    };
+    agvd::parallel_chunks(mesh.num_edges(), grain, num_threads, [&](Index, Index begin, Index end) {
+        PathStraightener straightener(surface);
+        for (Index e = begin; e < end; ++e) {
+            const Index a = mesh.tail(mesh.sides(e)[0]);
+            const Index b = mesh.tail(FlippableMesh::next(mesh.sides(e)[0]));
+            const auto gate = std::lower_bound(gates.begin(), gates.end(), Gate{key(a, b), -1, 0});
+            if (gate == gates.end() || gate->sites != key(a, b)) continue;
+            const Index face = diagram.points[gate->point].face.value();
+            paths[e] = straighten(straightener, a, site_paths.through(a, face, b));
+        }
+    });
+
+    std::vector<Index> missing;
+    for (Index e = 0; e < paths.size(); ++e) {
+        if (paths[e].from == no_index) missing.push_back(e);
+    }
+    bool is_stuck = false;
+    while (!missing.empty()) {
+        std::vector<EdgePath> found(missing.size());
+        const auto num_missing = static_cast<Index>(missing.size());
+        agvd::parallel_chunks(num_missing, grain, num_threads, [&](Index, Index begin, Index end) {
+            PathStraightener straightener(surface);
+            for (Index i = begin; i < end; ++i) {
+                const Index e = missing[i];
+                const Index h = find_way_round(mesh, paths, e);
+                if (h != no_index) {
+                    found[i] = path_round(surface, mesh, paths, h, straightener);
+                } else if (is_stuck) {
+                    const Index a = mesh.tail(mesh.sides(e)[0]);
+                    const Index b = mesh.tail(FlippableMesh::next(mesh.sides(e)[0]));
+                    found[i] = straighten(straightener, a, site_paths.between(a, b));
+                }
+            }
+        });
+        std::vector<Index> still_missing;
+        for (Index i = 0; i < num_missing; ++i) {
+            if (found[i].from == no_index) {
+                still_missing.push_back(missing[i]);
+            } else {
+                paths[missing[i]] = std::move(found[i]);
+            }
+        }
+        is_stuck = still_missing.size() == missing.size();
+        missing = std::move(still_missing);
+    }
+    return paths;
+}
+
+EdgePath path_across(const Surface& surface, const FlippableMesh& mesh,
+                     const std::vector<EdgePath>& paths, Index edge,
+                     PathStraightener& straightener) {
+    const auto [h, g] = mesh.sides(edge);
+    const Index c = mesh.tail(FlippableMesh::previous(h));
+    const auto path = [&](Index half_edge) -> const EdgePath& {
+        return paths[mesh.edge(half_edge)];
+    };
+    const EdgePath& ca = path(FlippableMesh::previous(h));
+    const EdgePath& ad = path(FlippableMesh::next(g));
+    const EdgePath& cb = path(FlippableMesh::next(h));
+    const EdgePath& bd = path(FlippableMesh::previous(g));
+    if (ca.length + ad.length <= cb.length + bd.length) {
+        return path_along(surface, ca, ad, c, mesh.tail(h), straightener);
+    }
+    return path_along(surface, cb, bd, c, mesh.tail(g), straightener);
+}
+
+bool is_triangle(double a, double b, double c) {
+    const double longest = std::max({a, b, c});
+    return longest <= (a + b + c - longest) + length_tolerance * longest;
+}
+
+void mend_triangles(const Surface& surface, const FlippableMesh& mesh,
+                    std::vector<EdgePath>& paths) {
+    PathStraightener straightener(surface);
+    const auto length = [&](Index half_edge) { return paths[mesh.edge(half_edge)].length; };
+    const auto is_sound = [&](Index t) {
+        return is_triangle(length(3 * t), length(3 * t + 1), length(3 * t + 2));
+    };
+    std::deque<Index> queue;
+    for (Index t = 0; t < mesh.triangles().size(); ++t) {
+        if (!is_sound(t)) queue.push_back(t);
+    }
+    std::size_t attempts = max_attempts_per_edge * paths.size();
+    for (; !queue.empty() && attempts > 0; --attempts) {
+        const Index t = queue.front();
+        queue.pop_front();
+        if (is_sound(t)) continue;
+        Index longest = 3 * t;
+        for (const Index h : {3 * t + 1, 3 * t + 2}) {
+            if (length(h) > length(longest)) longest = h;
+        }
+        const Index edge = mesh.edge(longest);
+        EdgePath shorter = path_round(surface, mesh, paths, longest, straightener);
+        if (!(shorter.length < paths[edge].length)) continue;
+        paths[edge] = std::move(shorter);
+        for (const Index h : mesh.sides(edge)) {
+            if (h != no_index) queue.push_back(h / 3);
+        }
+    }
+}
+
+}  // namespace remesh

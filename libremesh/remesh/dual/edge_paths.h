@@ -1,0 +1,47 @@
+//! \file
+//! The geodesic length of each edge between sites. Private to the dual.
+#pragma once
+
+#include <span>
+
+#include "agvd/diagram/diagram.h"
+#include "remesh/dual/flippable_mesh.h"
+#include "remesh/dual/straighten.h"
+
+namespace remesh {
+
+//! The path that an edge stands for.
+struct EdgePath {
+    agvd::Index from = agvd::no_index;  //!< The site at its source; no_index: there is no path yet.
+    FaceStrip strip{};
+    double length = 0;
+    bool is_locally_shortest = false;
+};
+
+//! For each edge of `mesh`, whose vertices are sites, a locally shortest path: straightened from
+//! the one through the nearest point of the Voronoi edge between both sites; for edges without
+//! one (diagonals, edges that someone flipped or collapsed into place) from the paths along the
+//! other two edges of a triangle.
+//!
+//! \param num_threads  >= 0; 0: all cores. Same result for any number.
+//! Cost: O(size of the complex + faces crossed).
+[[nodiscard]] std::vector<EdgePath> find_edge_paths(const agvd::Surface& surface,
+                                                    std::span<const agvd::SurfacePoint> sites,
+                                                    const agvd::Diagram& diagram,
+                                                    const FlippableMesh& mesh, int num_threads);
+
+//! The path straightened from the way along two sides of the quad around an inner edge, from the
+//! corner opposite its first side to the other one; the shorter way of the two.
+[[nodiscard]] EdgePath path_across(const agvd::Surface& surface, const FlippableMesh& mesh,
+                                   const std::vector<EdgePath>& paths, agvd::Index edge,
+                                   PathStraightener& straightener);
+
+//! No side of a triangle is longer than the other two, up to rounding.
+[[nodiscard]] bool is_triangle(double a, double b, double c);
+
+//! Replaces sides that are longer than the way along the other two of their triangle by the path
+//! straightened from that way, until there is none or too much was tried (10 times the edges).
+void mend_triangles(const agvd::Surface& surface, const FlippableMesh& mesh,
+                    std::vector<EdgePath>& paths);
+
+}  // namespace remesh

@@ -1,0 +1,156 @@
+#include "remesh/dual/site_paths.h"
+
+#include <algorithm>
+#include <limits>
+#include <queue>
+#include <unordered_map>
+
+#include "agvd/propagation/site_placement.h"
+
+namespace remesh {
+
+using agvd::Index;
+using agvd::no_index;
+using agvd::Surface;
+using agvd::SurfacePoint;
+using agvd::Vec3;
+
+namespace {
+
+// What a vertex outside of the site's cell makes a step longer in a search: the way round a handle
+// is not to be shorter than the one through the cell.
+constexpr double outside_penalty = 4;
+
+// Calls visit(half-edge, vertex) for each neighbour of `vertex`; the half-edge belongs to a face
+// between both, in turn to each face around.
+template <typename Visit>
+void for_each_neighbour(const Surface& surface, Index vertex, const Visit& visit) {
+    Index h = surface.outgoing[vertex];
+    do {
+        if (!visit(h, surface.head(h))) return;
+        const Index in = Surface::previous(h);
+        h = surface.twin[in];
+        if (h == no_index) visit(in, surface.tail(in));
+    } while (h != no_index && h != surface.outgoing[vertex]);
+}
+
+}  // namespace
+
+SitePaths::SitePaths(const Surface& surface, std::span<const SurfacePoint> sites,
+                     const agvd::Diagram& diagram)
+    : surface_(surface), sites_(sites), diagram_(diagram) {}
+
+FaceStrip SitePaths::through(Index from, Index face, Index to) const {
+    const Vertices back = way_to(face, from);
+    const Vertices forth = way_to(face, to);
+    StripBuilder builder(surface_, sites_[from]);
+    for (auto v = back.rbegin(); v != back.rend(); ++v) builder.to_vertex(*v);
+    builder.to_face(face);
+    for (const Index v : forth) builder.to_vertex(v);
+    return builder.finish(sites_[to]);
+}
+
+FaceStrip SitePaths::between(Index from, Index to) const {
+    StripBuilder builder(surface_, sites_[from]);
+    const Index face = sites_[from].face.value();
+    if (!holds_site(face, to)) {
+        for (const Index v : search(face, to)) builder.to_vertex(v);
+    }
+    return builder.finish(sites_[to]);
+}
+
+// Vertices from a corner of the face to one that shares a face with the site; none where the face
+// holds the site.
+SitePaths::Vertices SitePaths::way_to(Index face, Index site) const {
+    if (holds_site(face, site)) return {};
+    Vertices vertices = descend(face, site);
+    return vertices.empty() ? search(face, site) : vertices;
+}
+
+// Each time to the neighbour of the same cell over which the site is nearest; none if that ends
+// too early.
+SitePaths::Vertices SitePaths::descend(Index face, Index site) const {
+    const auto is_inside = [&](Index v) { return diagram_.nearest_site[v] == agvd::SiteId(site); };
+    Vertices vertices;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Index v : surface_.mesh.triangles[face]) {
+        if (!is_inside(v) || !(diagram_.nearest_distance[v] < nearest)) continue;
+        nearest = diagram_.nearest_distance[v];
+        vertices.assign(1, v);
+    }
+    while (!vertices.empty()) {
+        const Index here = vertices.back();
+        Index next = no_index;
+        double least = std::numeric_limits<double>::infinity();
+        bool is_there = false;
+        for_each_neighbour(surface_, here, [&](Index h, Index v) {
+            is_there = holds_site(Surface::face(h), site);
+            if (is_there) return false;
+            if (!is_inside(v) || !(diagram_.nearest_distance[v] < diagram_.nearest_distance[here]))
+                return true;
+            const double length = diagram_.nearest_distance[v] + surface_.length_of(h);
+            if (length < least) {
+                least = length;
+                next = v;
+            }
+            return true;
+        });
+        if (is_there) break;
+        if (next == no_index) return {};
+        vertices.push_back(next);
+    }
+    return vertices;
+}
+
+// A* over the vertices. Ties go to the lower vertex.
+SitePaths::Vertices SitePaths::search(Index face, Index site) const {
+    struct Reached {
+        double length;
+        Index from;
+        bool is_done;
+    };
+    struct Entry {
+        double estimate;
+        Index vertex;
+        bool operator>(const Entry& other) const {
+            return estimate != other.estimate ? estimate > other.estimate : vertex > other.vertex;
+        }
+    };
+    std::unordered_map<Index, Reached> reached;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    const Vec3 goal = position(surface_.mesh.view(), sites_[site]);
+    const auto reach = [&](Index v, double length, Index from) {
+        const auto [entry, is_new] = reached.try_emplace(v, Reached{length, from, false});
+        if (!is_new) {
+            if (entry->second.is_done || !(length < entry->second.length)) return;
+            entry->second = {length, from, false};
+        }
+        queue.push({length + (surface_.mesh.positions[v] - goal).norm(), v});
+    };
+    for (const Index v : surface_.mesh.triangles[face]) reach(v, 0, no_index);
+    Vertices vertices;
+    while (!queue.empty()) {
+        const Index here = queue.top().vertex;
+        queue.pop();
+        Reached& state = reached.at(here);
+        if (state.is_done) continue;
+        state.is_done = true;
+        const double length = state.length;
+        bool is_there = false;
+        for_each_neighbour(surface_, here, [&](Index h, Index v) {
+            is_there = holds_site(Surface::face(h), site);
+            if (is_there) return false;
+            const double weight =
+                diagram_.nearest_site[v] == agvd::SiteId(site) ? 1 : outside_penalty;
+            reach(v, length + weight * surface_.length_of(h), here);
+            return true;
+        });
+        if (!is_there) continue;
+        for (Index v = here; v != no_index; v = reached.at(v).from) vertices.push_back(v);
+        break;
+    }
+    std::reverse(vertices.begin(), vertices.end());
+    return vertices;
+}
+
+}  // namespace remesh

@@ -1,0 +1,42 @@
+//! \file
+//! Any path between neighbouring sites, for a start. Private to the dual.
+#pragma once
+
+#include <span>
+
+#include "agvd/diagram/diagram.h"
+#include "remesh/dual/face_strip.h"
+
+namespace remesh {
+
+//! Finds ways from sites into faces of their cells: down the distances from vertex to vertex, and
+//! where that leads nowhere by a search along the edges. Immutable once made; refers to what it was
+//! made of.
+class SitePaths {
+public:
+    SitePaths(const agvd::Surface& surface, std::span<const agvd::SurfacePoint> sites,
+              const agvd::Diagram& diagram);
+
+    //! From one site to another through `face`, by vertices of their cells where that is possible.
+    //! Cost: O(vertices on the way), or a search as far as the sites.
+    [[nodiscard]] FaceStrip through(agvd::Index from, agvd::Index face, agvd::Index to) const;
+
+    //! From one site to another; by a search. They must lie on one component.
+    [[nodiscard]] FaceStrip between(agvd::Index from, agvd::Index to) const;
+
+private:
+    using Vertices = std::vector<agvd::Index>;
+
+    [[nodiscard]] bool holds_site(agvd::Index face, agvd::Index site) const {
+        return holds(surface_, face, sites_[site]);
+    }
+    [[nodiscard]] Vertices way_to(agvd::Index face, agvd::Index site) const;
+    [[nodiscard]] Vertices descend(agvd::Index face, agvd::Index site) const;
+    [[nodiscard]] Vertices search(agvd::Index face, agvd::Index site) const;
+
+    const agvd::Surface& surface_;
+    std::span<const agvd::SurfacePoint> sites_;
+    const agvd::Diagram& diagram_;
+};
+
+}  // namespace remesh
