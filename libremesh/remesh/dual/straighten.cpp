@@ -32,6 +32,17 @@ double cross_product(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y(
 // Above 0: c lies on the left of the line from a to b.
 double side_of(const Vec2& a, const Vec2& b, const Vec2& c) { return cross_product(b - a, c - a); }
 
+// Sine of the angle below which a vertex is taken to lie on a straight line: rounding must not
+// hide that a path goes through it.
+constexpr double collinear = 1e-12;
+
+// Clearly on the left of the line from a to b, seen from a.
+bool is_left_of(const Vec2& a, const Vec2& b, const Vec2& c) {
+    const double side = side_of(a, b, c);
+    return side > 0 &&
+           side * side > collinear * collinear * (b - a).squaredNorm() * (c - a).squaredNorm();
+}
+
 // A sum of angles below pi, as far as pi.
 class AngleSum {
 public:
@@ -181,9 +192,9 @@ void PathStraightener::add_to_funnel(Index node) {
     if (nodes_[node].is_left) {
         for (; begin_ + 1 < end_; ++begin_) {
             if (begin_ < apex_) {
-                if (side_of(at(begin_ + 1), at(begin_), place) >= 0) break;
+                if (!is_left_of(at(begin_ + 1), place, at(begin_))) break;
             } else {
-                if (side_of(at(begin_), at(begin_ + 1), place) > 0) break;
+                if (is_left_of(at(begin_), at(begin_ + 1), place)) break;
                 ++apex_;
             }
         }
@@ -194,9 +205,9 @@ void PathStraightener::add_to_funnel(Index node) {
     for (; begin_ + 1 < end_; --end_) {
         const Index last = end_ - 1;
         if (last > apex_) {
-            if (side_of(at(last - 1), at(last), place) <= 0) break;
+            if (!is_left_of(at(last - 1), at(last), place)) break;
         } else {
-            if (side_of(at(last), at(last - 1), place) < 0) break;
+            if (is_left_of(at(last), place, at(last - 1))) break;
             --apex_;
         }
     }
