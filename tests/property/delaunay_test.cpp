@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <map>
 #include <set>
 
@@ -78,7 +79,9 @@ void expect_sound_lengths(const Dual& dual, const DelaunayResult& result) {
         EXPECT_LE(2 * longest, (side[0] + side[1] + side[2]) * (1 + 1e-12));
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec3 step = p[result.triangles[t][(k + 1) % 3]] - p[result.triangles[t][k]];
-            EXPECT_GE(side[k], step.norm() * (1 - 1e-9));
+            // Sites close together: their positions are rounded.
+            const double rounding = 1e-13 * p[result.triangles[t][k]].norm();
+            EXPECT_GE(side[k], step.norm() * (1 - 1e-9) - rounding);
         }
     }
     EXPECT_EQ(result.counts.broken_triangles, 0u);
@@ -110,8 +113,9 @@ void expect_same_surface(const Dual& dual, const DelaunayResult& result) {
 }  // namespace
 
 TEST(MakeDelaunay, HoldsOnRandomMeshesWhateverTheDual) {
+    const std::uint64_t num_seeds = std::getenv("AGVD_LONG") != nullptr ? 500 : 30;
     for (const char* family : random_meshes::families()) {
-        for (std::uint64_t seed = 1; seed <= 40; ++seed) {
+        for (std::uint64_t seed = 1; seed <= num_seeds; ++seed) {
             SCOPED_TRACE(std::string(family) + ' ' + std::to_string(seed));
             const TriangleMesh mesh = random_meshes::make(family, seed);
             Dice dice(seed);

@@ -1,7 +1,6 @@
 #include "remesh/dual/edge_paths.h"
 
 #include <algorithm>
-#include <deque>
 #include <tuple>
 
 #include "agvd/core/parallel.h"
@@ -20,7 +19,8 @@ namespace {
 constexpr Index grain = 32;
 // Of the longest side; lengths are sums of a few square roots.
 constexpr double length_tolerance = 1e-12;
-constexpr std::size_t max_attempts_per_edge = 10;
+// Over the triangles, while sides get shorter; 3 do nearly always.
+constexpr int max_passes = 100;
 
 std::uint64_t key(Index a, Index b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
 
@@ -178,25 +178,19 @@ void mend_triangles(const Surface& surface, const FlippableMesh& mesh,
     const auto is_sound = [&](Index t) {
         return is_triangle(length(3 * t), length(3 * t + 1), length(3 * t + 2));
     };
-    std::deque<Index> queue;
-    for (Index t = 0; t < mesh.triangles().size(); ++t) {
-        if (!is_sound(t)) queue.push_back(t);
-    }
-    std::size_t attempts = max_attempts_per_edge * paths.size();
-    for (; !queue.empty() && attempts > 0; --attempts) {
-        const Index t = queue.front();
-        queue.pop_front();
-        if (is_sound(t)) continue;
-        Index longest = 3 * t;
-        for (const Index h : {3 * t + 1, 3 * t + 2}) {
-            if (length(h) > length(longest)) longest = h;
-        }
-        const Index edge = mesh.edge(longest);
-        EdgePath shorter = path_round(surface, mesh, paths, longest, straightener);
-        if (!(shorter.length < paths[edge].length)) continue;
-        paths[edge] = std::move(shorter);
-        for (const Index h : mesh.sides(edge)) {
-            if (h != no_index) queue.push_back(h / 3);
+    bool is_changed = true;
+    for (int pass = 0; is_changed && pass < max_passes; ++pass) {
+        is_changed = false;
+        for (Index t = 0; t < mesh.triangles().size(); ++t) {
+            if (is_sound(t)) continue;
+            Index longest = 3 * t;
+            for (const Index h : {3 * t + 1, 3 * t + 2}) {
+                if (length(h) > length(longest)) longest = h;
+            }
+            EdgePath shorter = path_round(surface, mesh, paths, longest, straightener);
+            if (!(shorter.length < length(longest))) continue;
+            paths[mesh.edge(longest)] = std::move(shorter);
+            is_changed = true;
         }
     }
 }

@@ -40,7 +40,7 @@ struct EdgePath {
 [[nodiscard]] bool is_triangle(double a, double b, double c);
 
 //! Replaces sides that are longer than the way along the other two of their triangle by the path
-//! straightened from that way, until there is none or too much was tried (10 times the edges).
+//! straightened from that way, in passes over the triangles until all are sound (or 100).
 void mend_triangles(const agvd::Surface& surface, const FlippableMesh& mesh,
                     std::vector<EdgePath>& paths);
 
