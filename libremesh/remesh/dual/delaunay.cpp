@@ -21,14 +21,6 @@ std::vector<Vec3> positions_of(const Surface& surface, std::span<const SurfacePo
     return positions;
 }
 
-Index count_failing(const FlippableMesh& mesh, std::span<const double> length) {
-    Index count = 0;
-    for (Index e = 0; e < mesh.num_edges(); ++e) {
-        if (mesh.is_inner(e) && is_non_delaunay(mesh, length, e)) ++count;
-    }
-    return count;
-}
-
 Index count_inner(const FlippableMesh& mesh) {
     Index count = 0;
     for (Index e = 0; e < mesh.num_edges(); ++e) count += mesh.is_inner(e) ? 1 : 0;
@@ -38,11 +30,11 @@ Index count_inner(const FlippableMesh& mesh) {
 void flip(FlippableMesh& mesh, std::vector<double>& length, std::span<const Vec3> positions,
           const Diagonals& diagonals, DelaunayCounts& counts) {
     counts.inner_edges = count_inner(mesh);
-    counts.failing_before = count_failing(mesh, length);
     const FlipCounts flips = flip_to_delaunay(mesh, length, positions, diagonals);
+    counts.failing_before = flips.failing_before;
+    counts.failing_after = flips.failing_after;
     counts.flips = flips.flips;
     counts.is_finished = flips.is_finished;
-    counts.failing_after = count_failing(mesh, length);
 }
 
 std::vector<double> flip_in_space(FlippableMesh& mesh, std::span<const Vec3> positions,

@@ -11,6 +11,7 @@ namespace remesh {
 
 using agvd::Index;
 using agvd::Triangle;
+using agvd::Vec2;
 using agvd::Vec3;
 
 namespace {
@@ -21,25 +22,32 @@ constexpr double delaunay_tolerance = 1e-6;
 constexpr double gentle_fold = 0.5;
 constexpr std::size_t max_flips_per_edge = 10;
 
-// Opposite side a; 0 or pi where rounding leaves no triangle. The area after [kahan2014].
-double angle_opposite(double a, double b, double c) {
-    std::array<double, 3> side{a, b, c};
-    std::sort(side.begin(), side.end());
-    const auto [z, y, x] = side;
+// The angle opposite side a as (cos, sin) times a positive number; 0 or pi where rounding leaves
+// no triangle. The area after [kahan2014].
+Vec2 corner_opposite(double a, double b, double c) {
+    const double x = std::max({a, b, c}), z = std::min({a, b, c});
+    const double y = std::max(std::min(a, b), std::min(std::max(a, b), c));
     const double product = (x + (y + z)) * (z - (x - y)) * (z + (x - y)) * (x + (y - z));
-    return std::atan2(std::sqrt(std::max(product, 0.0)), (b - a) * (b + a) + c * c);
+    return {(b - a) * (b + a) + c * c, std::sqrt(std::max(product, 0.0))};
 }
 
-double opposite_angles(const FlippableMesh& mesh, std::span<const double> length, Index edge) {
-    double sum = 0;
-    for (const Index h : mesh.sides(edge)) {
-        sum += angle_opposite(length[edge], length[mesh.edge(FlippableMesh::next(h))],
-                              length[mesh.edge(FlippableMesh::previous(h))]);
-    }
-    return sum;
+double angle(const Vec2& corner) { return std::atan2(corner.y(), corner.x()); }
+
+std::array<Vec2, 2> opposite_corners(const FlippableMesh& mesh, std::span<const double> length,
+                                     Index edge) {
+    const auto corner = [&](Index h) {
+        return corner_opposite(length[edge], length[mesh.edge(FlippableMesh::next(h))],
+                               length[mesh.edge(FlippableMesh::previous(h))]);
+    };
+    return {corner(mesh.sides(edge)[0]), corner(mesh.sides(edge)[1])};
 }
 
-bool is_above_pi(double angles) { return angles > std::numbers::pi + delaunay_tolerance; }
+bool is_non_delaunay(const FlippableMesh& mesh, std::span<const double> length, Index edge) {
+    const auto [a, b] = opposite_corners(mesh, length, edge);
+    // The sine of the sum tells most apart without angles.
+    if (a.x() * b.y() + a.y() * b.x() > 0) return false;
+    return angle(a) + angle(b) > std::numbers::pi + delaunay_tolerance;
+}
 
 // The corners around an edge and the edges between them: a is the tail of its first side, c and d
 // lie opposite, as in triangles (a, b, c) and (b, a, d).
@@ -71,16 +79,27 @@ public:
           is_queued_(mesh.num_edges(), false) {}
 
     FlipCounts run() {
-        for (Index e = 0; e < mesh_.num_edges(); ++e) enqueue(e);
-        const std::size_t max_flips = max_flips_per_edge * mesh_.num_edges();
         FlipCounts counts;
+        for (Index e = 0; e < mesh_.num_edges(); ++e) {
+            if (mesh_.is_inner(e) && is_non_delaunay(mesh_, length_, e)) enqueue(e);
+        }
+        counts.failing_before = counts.failing_after = static_cast<Index>(queue_.size());
+        const std::size_t max_flips = max_flips_per_edge * mesh_.num_edges();
         while (!queue_.empty()) {
             const Index edge = queue_.front();
             queue_.pop_front();
             is_queued_[edge] = false;
             if (!is_non_delaunay(mesh_, length_, edge)) continue;
-            if (counts.flips == max_flips) return {counts.flips, false};
+            if (counts.flips == max_flips) {
+                counts.is_finished = false;
+                break;
+            }
             if (try_flip(edge)) ++counts.flips;
+        }
+        if (counts.flips == 0) return counts;
+        counts.failing_after = 0;
+        for (Index e = 0; e < mesh_.num_edges(); ++e) {
+            if (mesh_.is_inner(e) && is_non_delaunay(mesh_, length_, e)) ++counts.failing_after;
         }
         return counts;
     }
@@ -101,8 +120,10 @@ private:
         const double bc = length(quad.bc), ca = length(quad.ca), ad = length(quad.ad),
                      db = length(quad.db);
         if (!is_triangle(diagonal, ca, ad) || !is_triangle(diagonal, db, bc)) return false;
-        const double angles = angle_opposite(diagonal, ca, ad) + angle_opposite(diagonal, db, bc);
-        if (!(angles < opposite_angles(mesh_, length_, edge))) return false;
+        const double angles =
+            angle(corner_opposite(diagonal, ca, ad)) + angle(corner_opposite(diagonal, db, bc));
+        const auto [first, second] = opposite_corners(mesh_, length_, edge);
+        if (!(angles < angle(first) + angle(second))) return false;
         mesh_.flip(edge);
         length_[edge] = diagonal;
         diagonals_.accept(edge);
@@ -150,10 +171,6 @@ private:
 };
 
 }  // namespace
-
-bool is_non_delaunay(const FlippableMesh& mesh, std::span<const double> length, Index edge) {
-    return is_above_pi(opposite_angles(mesh, length, edge));
-}
 
 FlipCounts flip_to_delaunay(FlippableMesh& mesh, std::vector<double>& length,
                             std::span<const Vec3> positions, const Diagonals& diagonals) {

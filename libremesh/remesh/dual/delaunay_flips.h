@@ -9,12 +9,6 @@
 
 namespace remesh {
 
-//! The angles opposite the edge sum to more than pi (by more than 1e-6).
-//!
-//! \param length  by edge; the edge must have two sides.
-[[nodiscard]] bool is_non_delaunay(const FlippableMesh& mesh, std::span<const double> length,
-                                   agvd::Index edge);
-
 //! How long the edge between the two corners opposite an edge would be; asked once before each
 //! flip, and `accept` after it was done.
 struct Diagonals {
@@ -23,6 +17,8 @@ struct Diagonals {
 };
 
 struct FlipCounts {
+    agvd::Index failing_before = 0;  //!< Inner edges whose opposite angles sum to more than pi (by
+    agvd::Index failing_after = 0;   //!< more than 1e-6 radians).
     agvd::Index flips = 0;
     bool is_finished = true;  //!< False: stopped after 10 flips for each edge.
 };

@@ -16,7 +16,7 @@ using agvd::SurfacePoint;
 
 namespace {
 
-constexpr Index grain = 32;
+constexpr Index grain = 128;
 // Of the longest side; lengths are sums of a few square roots.
 constexpr double length_tolerance = 1e-12;
 // Over the triangles, while sides get shorter; 3 do nearly always.
@@ -93,7 +93,6 @@ EdgePath path_round(const Surface& surface, const FlippableMesh& mesh,
 std::vector<EdgePath> find_edge_paths(const Surface& surface, std::span<const SurfacePoint> sites,
                                       const Diagram& diagram, const FlippableMesh& mesh,
                                       int num_threads) {
-    const SitePaths site_paths(surface, sites, diagram);
     const std::vector<Gate> gates = find_gates(diagram);
     std::vector<EdgePath> paths(mesh.num_edges());
     const auto straighten = [&](PathStraightener& straightener, Index from, FaceStrip strip) {
@@ -102,10 +101,14 @@ std::vector<EdgePath> find_edge_paths(const Surface& surface, std::span<const Su
     };
     agvd::parallel_chunks(mesh.num_edges(), grain, num_threads, [&](Index, Index begin, Index end) {
         PathStraightener straightener(surface);
+        SitePaths site_paths(surface, sites, diagram);
+        auto gate = gates.begin();
         for (Index e = begin; e < end; ++e) {
             const Index a = mesh.tail(mesh.sides(e)[0]);
             const Index b = mesh.tail(FlippableMesh::next(mesh.sides(e)[0]));
-            const auto gate = std::lower_bound(gates.begin(), gates.end(), Gate{key(a, b), -1, 0});
+            // Both are sorted by their sites.
+            if (e == begin) gate = std::lower_bound(gate, gates.end(), Gate{key(a, b), -1, 0});
+            while (gate != gates.end() && gate->sites < key(a, b)) ++gate;
             if (gate == gates.end() || gate->sites != key(a, b)) continue;
             const Index face = diagram.points[gate->point].face.value();
             paths[e] = straighten(straightener, a, site_paths.through(a, face, b));
@@ -122,6 +125,7 @@ std::vector<EdgePath> find_edge_paths(const Surface& surface, std::span<const Su
         const auto num_missing = static_cast<Index>(missing.size());
         agvd::parallel_chunks(num_missing, grain, num_threads, [&](Index, Index begin, Index end) {
             PathStraightener straightener(surface);
+            SitePaths site_paths(surface, sites, diagram);
             for (Index i = begin; i < end; ++i) {
                 const Index e = missing[i];
                 const Index h = find_way_round(mesh, paths, e);

@@ -77,7 +77,10 @@ void trim(const Surface& surface, FaceStrip& strip) {
 }
 
 bool holds(const Surface& surface, Index face, const SurfacePoint& point) {
-    return point.face.value() == face || agvd::seen_from(surface, point, face).has_value();
+    if (point.face.value() == face) return true;
+    const auto& b = point.barycentric;
+    if (b[0] != 0 && b[1] != 0 && b[2] != 0) return false;
+    return agvd::seen_from(surface, point, face).has_value();
 }
 
 StripBuilder::StripBuilder(const Surface& surface, const SurfacePoint& source)

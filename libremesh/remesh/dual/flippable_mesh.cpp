@@ -25,7 +25,8 @@ FlippableMesh::FlippableMesh(std::span<const agvd::Triangle> triangles)
     valence_.assign(num_vertices, 0);
     is_boundary_.assign(num_vertices, false);
     const std::vector<EdgeSide> sides = sorted_edge_sides({{}, triangles_});
-    ends_.reserve(sides.size() / 2);
+    first_ends_.reserve(sides.size() / 2);
+    sides_.reserve(sides.size() / 2);
     for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
         const bool is_inner = end - begin == 2 && begin[0].forward != begin[1].forward;
         for (const EdgeSide* side = begin; side != end; ++side)
@@ -33,12 +34,18 @@ FlippableMesh::FlippableMesh(std::span<const agvd::Triangle> triangles)
         const bool is_swapped = is_inner && !begin[0].forward;
         sides_.push_back({begin[is_swapped ? 1 : 0].half_edge,
                           is_inner ? begin[is_swapped ? 0 : 1].half_edge : no_index});
-        ends_.insert(begin->ends);
+        first_ends_.push_back(begin->ends);
         for (const Index v : {begin->low(), begin->high()}) {
             ++valence_[v];
             if (!is_inner) is_boundary_[v] = true;
         }
     });
+}
+
+bool FlippableMesh::has_edge(std::uint64_t ends) const {
+    if (added_.contains(ends)) return true;
+    return std::binary_search(first_ends_.begin(), first_ends_.end(), ends) &&
+           !removed_.contains(ends);
 }
 
 bool FlippableMesh::can_flip(Index edge) const {
@@ -48,7 +55,7 @@ bool FlippableMesh::can_flip(Index edge) const {
         if (valence_[v] <= (is_boundary_[v] ? 2U : 3U)) return false;
     }
     const Index c = tail(previous(h)), d = tail(previous(g));
-    return c != d && !ends_.contains(key(c, d));
+    return c != d && !has_edge(key(c, d));
 }
 
 void FlippableMesh::flip(Index edge) {
@@ -71,8 +78,8 @@ void FlippableMesh::flip(Index edge) {
     }
     edge_[3 * first + 2] = edge_[3 * second + 2] = edge;
     sides_[edge] = {3 * second + 2, 3 * first + 2};
-    ends_.erase(key(a, b));
-    ends_.insert(key(c, d));
+    if (added_.erase(key(a, b)) == 0) removed_.insert(key(a, b));
+    if (removed_.erase(key(c, d)) == 0) added_.insert(key(c, d));
     --valence_[a];
     --valence_[b];
     ++valence_[c];

@@ -45,12 +45,16 @@ public:
     void flip(agvd::Index edge);
 
 private:
+    [[nodiscard]] bool has_edge(std::uint64_t ends) const;
+
     std::vector<agvd::Triangle> triangles_;
     std::vector<agvd::Index> edge_;                  // #H
     std::vector<std::array<agvd::Index, 2>> sides_;  // #E
     std::vector<agvd::Index> valence_;               // By vertex: edges.
     std::vector<bool> is_boundary_;                  // By vertex.
-    std::unordered_set<std::uint64_t> ends_;         // Of all edges.
+    // Ends of the edges at the start, ascending; what flips took away, and what they added.
+    std::vector<std::uint64_t> first_ends_;
+    std::unordered_set<std::uint64_t> removed_, added_;
 };
 
 }  // namespace remesh

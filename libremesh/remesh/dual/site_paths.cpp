@@ -40,38 +40,53 @@ SitePaths::SitePaths(const Surface& surface, std::span<const SurfacePoint> sites
                      const agvd::Diagram& diagram)
     : surface_(surface), sites_(sites), diagram_(diagram) {}
 
-FaceStrip SitePaths::through(Index from, Index face, Index to) const {
-    const Vertices back = way_to(face, from);
-    const Vertices forth = way_to(face, to);
+FaceStrip SitePaths::through(Index from, Index face, Index to) {
+    find_way(face, from, back_);
+    find_way(face, to, forth_);
     StripBuilder builder(surface_, sites_[from]);
-    for (auto v = back.rbegin(); v != back.rend(); ++v) builder.to_vertex(*v);
+    for (auto v = back_.rbegin(); v != back_.rend(); ++v) builder.to_vertex(*v);
     builder.to_face(face);
-    for (const Index v : forth) builder.to_vertex(v);
+    for (const Index v : forth_) builder.to_vertex(v);
     return builder.finish(sites_[to]);
 }
 
-FaceStrip SitePaths::between(Index from, Index to) const {
+FaceStrip SitePaths::between(Index from, Index to) {
     StripBuilder builder(surface_, sites_[from]);
     const Index face = sites_[from].face.value();
     if (!holds_site(face, to)) {
-        for (const Index v : search(face, to)) builder.to_vertex(v);
+        search(face, to, forth_);
+        for (const Index v : forth_) builder.to_vertex(v);
     }
     return builder.finish(sites_[to]);
 }
 
 // Vertices from a corner of the face to one that shares a face with the site; none where the face
 // holds the site.
-SitePaths::Vertices SitePaths::way_to(Index face, Index site) const {
-    if (holds_site(face, site)) return {};
-    Vertices vertices = descend(face, site);
-    return vertices.empty() ? search(face, site) : vertices;
+void SitePaths::find_way(Index face, Index site, Vertices& vertices) const {
+    vertices.clear();
+    if (holds_site(face, site)) return;
+    const Index common = common_corner(face, site);
+    if (common != no_index) {
+        vertices.push_back(common);
+        return;
+    }
+    descend(face, site, vertices);
+    if (vertices.empty()) search(face, site, vertices);
+}
+
+// A corner of both the face and the site's; no_index: none.
+Index SitePaths::common_corner(Index face, Index site) const {
+    const agvd::Triangle& corners = surface_.mesh.triangles[sites_[site].face.value()];
+    for (const Index v : surface_.mesh.triangles[face]) {
+        if (v == corners[0] || v == corners[1] || v == corners[2]) return v;
+    }
+    return no_index;
 }
 
 // Each time to the neighbour of the same cell over which the site is nearest; none if that ends
 // too early.
-SitePaths::Vertices SitePaths::descend(Index face, Index site) const {
+void SitePaths::descend(Index face, Index site, Vertices& vertices) const {
     const auto is_inside = [&](Index v) { return diagram_.nearest_site[v] == agvd::SiteId(site); };
-    Vertices vertices;
     double nearest = std::numeric_limits<double>::infinity();
     for (const Index v : surface_.mesh.triangles[face]) {
         if (!is_inside(v) || !(diagram_.nearest_distance[v] < nearest)) continue;
@@ -95,15 +110,17 @@ SitePaths::Vertices SitePaths::descend(Index face, Index site) const {
             }
             return true;
         });
-        if (is_there) break;
-        if (next == no_index) return {};
-        vertices.push_back(next);
+        if (is_there) return;
+        if (next == no_index) {
+            vertices.clear();
+        } else {
+            vertices.push_back(next);
+        }
     }
-    return vertices;
 }
 
 // A* over the vertices. Ties go to the lower vertex.
-SitePaths::Vertices SitePaths::search(Index face, Index site) const {
+void SitePaths::search(Index face, Index site, Vertices& vertices) const {
     struct Reached {
         double length;
         Index from;
@@ -128,7 +145,7 @@ SitePaths::Vertices SitePaths::search(Index face, Index site) const {
         queue.push({length + (surface_.mesh.positions[v] - goal).norm(), v});
     };
     for (const Index v : surface_.mesh.triangles[face]) reach(v, 0, no_index);
-    Vertices vertices;
+    vertices.clear();
     while (!queue.empty()) {
         const Index here = queue.top().vertex;
         queue.pop();
@@ -150,7 +167,6 @@ SitePaths::Vertices SitePaths::search(Index face, Index site) const {
         break;
     }
     std::reverse(vertices.begin(), vertices.end());
-    return vertices;
 }
 
 }  // namespace remesh
