@@ -199,8 +199,8 @@ TEST(MakeDelaunay, MendsEdgesThatAreDualToNothing) {
 }
 
 TEST(MakeDelaunay, SameBytesForAnyThreadCount) {
-    const TriangleMesh mesh = shapes::jitter(shapes::torus(60, 30), 0.02, 3);
-    const Dual dual(mesh, uniform(mesh, 500, 1));
+    const TriangleMesh mesh = shapes::jitter(shapes::torus(60, 30), 0.03, 3);
+    const Dual dual(mesh, uniform(mesh, 300, 1));
     const DelaunayResult one = dual.made(Delaunay::Intrinsic, 1);
     EXPECT_GT(one.counts.flips, 0u);
     for (const int threads : {2, 8}) {

@@ -60,14 +60,14 @@ TEST(DelaunayFlips, TurnNoTriangleOver) {
     EXPECT_EQ(quad.flip(mesh).flips, 1u);
 }
 
-TEST(DelaunayFlips, KeepTheTriangleInequalityAndTheAnglesSmaller) {
+TEST(DelaunayFlips, KeepTheTriangleInequalityAndMakeTheEdgeDelaunay) {
     Quad quad;
     FlippableMesh mesh(quad.triangles);
     quad.diagonal = 4.5;  // Longer than two sides.
     EXPECT_EQ(quad.flip(mesh).flips, 0u);
-    quad.diagonal = 4.1;  // Worse than the one that fails.
+    quad.diagonal = 3.9;  // Fails as well, as around a sharp cone.
     EXPECT_EQ(quad.flip(mesh).flips, 0u);
-    quad.diagonal = 3.9;
+    quad.diagonal = 3.1;  // Of a square it would be sqrt(10).
     EXPECT_EQ(quad.flip(mesh).flips, 1u);
 }
 

@@ -49,7 +49,8 @@ struct DelaunayResult {
 //!
 //! \param sites      where the vertices lie; one for each cell of the diagram.
 //! \param triangles  site indices, as of build_dual; edges need not be dual to Voronoi edges, and
-//!                   those with other than two sides in opposite directions are left alone.
+//!                   those with other than two sides in opposite directions are left alone. The
+//!                   sites of a triangle lie on one component.
 //! Cost: O(size of the complex + faces that the edges cross).
 [[nodiscard]] DelaunayResult make_delaunay(const agvd::Surface& surface,
                                            std::span<const agvd::SurfacePoint> sites,

@@ -31,22 +31,19 @@ Vec2 corner_opposite(double a, double b, double c) {
     return {(b - a) * (b + a) + c * c, std::sqrt(std::max(product, 0.0))};
 }
 
-double angle(const Vec2& corner) { return std::atan2(corner.y(), corner.x()); }
+bool is_above_pi(const Vec2& a, const Vec2& b) {
+    // The sine of the sum tells most apart without angles.
+    if (a.x() * b.y() + a.y() * b.x() > 0) return false;
+    return std::atan2(a.y(), a.x()) + std::atan2(b.y(), b.x()) >
+           std::numbers::pi + delaunay_tolerance;
+}
 
-std::array<Vec2, 2> opposite_corners(const FlippableMesh& mesh, std::span<const double> length,
-                                     Index edge) {
+bool is_non_delaunay(const FlippableMesh& mesh, std::span<const double> length, Index edge) {
     const auto corner = [&](Index h) {
         return corner_opposite(length[edge], length[mesh.edge(FlippableMesh::next(h))],
                                length[mesh.edge(FlippableMesh::previous(h))]);
     };
-    return {corner(mesh.sides(edge)[0]), corner(mesh.sides(edge)[1])};
-}
-
-bool is_non_delaunay(const FlippableMesh& mesh, std::span<const double> length, Index edge) {
-    const auto [a, b] = opposite_corners(mesh, length, edge);
-    // The sine of the sum tells most apart without angles.
-    if (a.x() * b.y() + a.y() * b.x() > 0) return false;
-    return angle(a) + angle(b) > std::numbers::pi + delaunay_tolerance;
+    return is_above_pi(corner(mesh.sides(edge)[0]), corner(mesh.sides(edge)[1]));
 }
 
 // The corners around an edge and the edges between them: a is the tail of its first side, c and d
@@ -120,10 +117,9 @@ private:
         const double bc = length(quad.bc), ca = length(quad.ca), ad = length(quad.ad),
                      db = length(quad.db);
         if (!is_triangle(diagonal, ca, ad) || !is_triangle(diagonal, db, bc)) return false;
-        const double angles =
-            angle(corner_opposite(diagonal, ca, ad)) + angle(corner_opposite(diagonal, db, bc));
-        const auto [first, second] = opposite_corners(mesh_, length_, edge);
-        if (!(angles < angle(first) + angle(second))) return false;
+        if (is_above_pi(corner_opposite(diagonal, ca, ad), corner_opposite(diagonal, db, bc))) {
+            return false;
+        }
         mesh_.flip(edge);
         length_[edge] = diagonal;
         diagonals_.accept(edge);

@@ -24,7 +24,7 @@ struct FlipCounts {
 };
 
 //! Flips what fails the Delaunay condition and can be flipped: the mesh stays a simplicial complex
-//! of the same boundary; the opposite angles get smaller and the sides keep the triangle
+//! of the same boundary; the new edge meets the condition and the sides keep the triangle
 //! inequality; and in space no edge around gets sharper than 60 degrees (or than the sharpest one
 //! there had been).
 //!
