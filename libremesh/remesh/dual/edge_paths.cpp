@@ -1,6 +1,7 @@
 #include "remesh/dual/edge_paths.h"
 
 #include <algorithm>
+#include <array>
 #include <tuple>
 
 #include "agvd/core/parallel.h"
@@ -19,7 +20,7 @@ namespace {
 constexpr Index grain = 128;
 // Of the longest side; lengths are sums of a few square roots.
 constexpr double length_tolerance = 1e-12;
-// Over the triangles, while sides get shorter; 3 do nearly always.
+// Over the triangles, while sides get shorter.
 constexpr int max_passes = 100;
 
 std::uint64_t key(Index a, Index b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
@@ -68,14 +69,18 @@ FaceStrip strip_from(const Surface& surface, const EdgePath& path, Index site) {
     return path.from == site ? path.strip : reversed(surface, path.strip);
 }
 
-// Straightened from the way along the edges of two half-edges, one after the other; either may run
-// against the way.
+// Straightened, from the site where the strip starts.
+EdgePath path_in(FaceStrip strip, Index from, PathStraightener& straightener) {
+    const GeodesicPath path = straightener.straighten(strip);
+    return {from, std::move(strip), path.length, path.is_locally_shortest};
+}
+
+// Straightened from the way along two edges, from one site over another.
 EdgePath path_along(const Surface& surface, const EdgePath& first, const EdgePath& second,
                     Index from, Index over, PathStraightener& straightener) {
     FaceStrip strip =
         joined(surface, strip_from(surface, first, from), strip_from(surface, second, over));
-    const GeodesicPath path = straightener.straighten(strip);
-    return {from, std::move(strip), path.length, path.is_locally_shortest};
+    return path_in(std::move(strip), from, straightener);
 }
 
 // Straightened from the way along the other two edges of the half-edge's triangle.
@@ -88,53 +93,55 @@ EdgePath path_round(const Surface& surface, const FlippableMesh& mesh,
                       mesh.tail(previous), straightener);
 }
 
-}  // namespace
+// The sites of an edge, the lower one first.
+std::array<Index, 2> ends_of(const FlippableMesh& mesh, Index edge) {
+    const Index h = mesh.sides(edge)[0];
+    return {mesh.tail(h), mesh.tail(FlippableMesh::next(h))};
+}
 
-std::vector<EdgePath> find_edge_paths(const Surface& surface, std::span<const SurfacePoint> sites,
-                                      const Diagram& diagram, const FlippableMesh& mesh,
-                                      int num_threads) {
+// Leaves out edges without a Voronoi edge.
+void find_paths_through_gates(const Surface& surface, std::span<const SurfacePoint> sites,
+                              const Diagram& diagram, const FlippableMesh& mesh, int num_threads,
+                              std::vector<EdgePath>& paths) {
     const std::vector<Gate> gates = find_gates(diagram);
-    std::vector<EdgePath> paths(mesh.num_edges());
-    const auto straighten = [&](PathStraightener& straightener, Index from, FaceStrip strip) {
-        const GeodesicPath path = straightener.straighten(strip);
-        return EdgePath{from, std::move(strip), path.length, path.is_locally_shortest};
-    };
     agvd::parallel_chunks(mesh.num_edges(), grain, num_threads, [&](Index, Index begin, Index end) {
         PathStraightener straightener(surface);
         SitePaths site_paths(surface, sites, diagram);
         auto gate = gates.begin();
         for (Index e = begin; e < end; ++e) {
-            const Index a = mesh.tail(mesh.sides(e)[0]);
-            const Index b = mesh.tail(FlippableMesh::next(mesh.sides(e)[0]));
+            const auto [a, b] = ends_of(mesh, e);
             // Both are sorted by their sites.
             if (e == begin) gate = std::lower_bound(gate, gates.end(), Gate{key(a, b), -1, 0});
             while (gate != gates.end() && gate->sites < key(a, b)) ++gate;
             if (gate == gates.end() || gate->sites != key(a, b)) continue;
             const Index face = diagram.points[gate->point].face.value();
-            paths[e] = straighten(straightener, a, site_paths.through(a, face, b));
+            paths[e] = path_in(site_paths.through(a, face, b), a, straightener);
         }
     });
+}
 
+// Rounds, each from the paths of those before: the way round a triangle, or a search for all that
+// are left when that finds no more.
+void find_missing_paths(const Surface& surface, std::span<const SurfacePoint> sites,
+                        const Diagram& diagram, const FlippableMesh& mesh, int num_threads,
+                        std::vector<EdgePath>& paths) {
     std::vector<Index> missing;
     for (Index e = 0; e < paths.size(); ++e) {
         if (paths[e].from == no_index) missing.push_back(e);
     }
-    bool is_stuck = false;
-    while (!missing.empty()) {
-        std::vector<EdgePath> found(missing.size());
+    for (bool is_stuck = false; !missing.empty();) {
         const auto num_missing = static_cast<Index>(missing.size());
+        std::vector<EdgePath> found(num_missing);
         agvd::parallel_chunks(num_missing, grain, num_threads, [&](Index, Index begin, Index end) {
             PathStraightener straightener(surface);
             SitePaths site_paths(surface, sites, diagram);
             for (Index i = begin; i < end; ++i) {
-                const Index e = missing[i];
-                const Index h = find_way_round(mesh, paths, e);
+                const Index h = find_way_round(mesh, paths, missing[i]);
                 if (h != no_index) {
                     found[i] = path_round(surface, mesh, paths, h, straightener);
                 } else if (is_stuck) {
-                    const Index a = mesh.tail(mesh.sides(e)[0]);
-                    const Index b = mesh.tail(FlippableMesh::next(mesh.sides(e)[0]));
-                    found[i] = straighten(straightener, a, site_paths.between(a, b));
+                    const auto [a, b] = ends_of(mesh, missing[i]);
+                    found[i] = path_in(site_paths.between(a, b), a, straightener);
                 }
             }
         });
@@ -149,6 +156,16 @@ std::vector<EdgePath> find_edge_paths(const Surface& surface, std::span<const Su
         is_stuck = still_missing.size() == missing.size();
         missing = std::move(still_missing);
     }
+}
+
+}  // namespace
+
+std::vector<EdgePath> find_edge_paths(const Surface& surface, std::span<const SurfacePoint> sites,
+                                      const Diagram& diagram, const FlippableMesh& mesh,
+                                      int num_threads) {
+    std::vector<EdgePath> paths(mesh.num_edges());
+    find_paths_through_gates(surface, sites, diagram, mesh, num_threads, paths);
+    find_missing_paths(surface, sites, diagram, mesh, num_threads, paths);
     return paths;
 }
 

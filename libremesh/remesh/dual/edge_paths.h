@@ -12,7 +12,7 @@ namespace remesh {
 
 //! The path that an edge stands for.
 struct EdgePath {
-    agvd::Index from = agvd::no_index;  //!< The site at its source; no_index: there is no path yet.
+    agvd::Index from = agvd::no_index;  //!< The site at its source; no_index: no path yet.
     FaceStrip strip{};
     double length = 0;
     bool is_locally_shortest = false;

@@ -20,8 +20,9 @@ namespace {
 // Radians. What a path saves by passing a vertex on a side that is narrower than pi by less is
 // beyond double: the square of it.
 constexpr double angle_tolerance = 1e-7;
-// A bound for the worst; it was never met on meshes.
-constexpr int max_rounds = 500;
+// A bound for the worst, besides one for each crossing of the start; half as many as crossings were
+// the most met on meshes.
+constexpr std::size_t more_rounds = 500;
 // Rounds in a row that may fail to shorten the path, where rounding hides what they save.
 constexpr int max_stalled_rounds = 5;
 // Of a path's length, relative.
@@ -69,8 +70,10 @@ private:
 
 GeodesicPath PathStraightener::straighten(FaceStrip& strip) {
     GeodesicPath path{std::numeric_limits<double>::infinity(), false, {}};
+    const std::size_t max_rounds = strip.crossed.size() + more_rounds;
     int stalled_rounds = 0;
-    for (int round = 0; round < max_rounds && stalled_rounds <= max_stalled_rounds; ++round) {
+    for (std::size_t round = 0; round < max_rounds && stalled_rounds <= max_stalled_rounds;
+         ++round) {
         trim(surface_, strip);
         const double length = find_shortest(strip);
         const bool is_rerouted = reroute(strip.crossed);

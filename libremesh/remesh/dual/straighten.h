@@ -30,8 +30,8 @@ public:
     //! Replaces the strip by one of a locally shortest path, never a longer one.
     //!
     //! \return without points.
-    //! Cost: O(#crossed + degrees of the vertices passed) a round, at most 500 rounds; 3 to 6 are
-    //! usual.
+    //! Cost: O(#crossed + degrees of the vertices passed) a round; one to three rounds for ten
+    //! crossings are usual, at most 500 and one for each crossing are made.
     GeodesicPath straighten(FaceStrip& strip);
 
     //! The shortest path inside the strip as it is, with its points.
