@@ -10,6 +10,7 @@
 #include "agvd/mesh/uniform_points.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/dual/build_dual.h"
+#include "remesh/dual/flippable_mesh.h"
 #include "remesh/quality/topology.h"
 #include "support/points.h"
 #include "support/random_meshes.h"
@@ -136,7 +137,7 @@ TEST(MakeDelaunay, HoldsOnRandomMeshesWhateverTheDual) {
 TEST(MakeDelaunay, InThePlaneEveryEdgeIsDelaunay) {
     TriangleMesh mesh = shapes::jitter(shapes::grid(30), 0.01, 2);
     for (Vec3& p : mesh.positions) p.z() = 0;
-    for (const std::uint64_t seed : {1, 2, 3}) {
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
         const Dual dual(mesh, uniform(mesh, 200, seed));
         for (const Delaunay mode : {Delaunay::Intrinsic, Delaunay::Extrinsic}) {
             const DelaunayResult result = dual.made(mode);
@@ -196,6 +197,24 @@ TEST(MakeDelaunay, MendsEdgesThatAreDualToNothing) {
             EXPECT_NEAR(result.side_lengths[t][k], step.norm(), 1e-12);
         }
     }
+}
+
+TEST(MakeDelaunay, MendsFlipsMadeAtRandom) {
+    const TriangleMesh mesh = shapes::jitter(shapes::torus(60, 30), 0.005, 1);
+    Dual dual(mesh, uniform(mesh, 500, 4));
+    const Index unmended = dual.made(Delaunay::Intrinsic).counts.failing_after;
+    remesh::FlippableMesh flipped(dual.triangles);
+    Dice dice(1);
+    for (int i = 0; i < 300; ++i) {
+        const Index edge = dice.count(0, flipped.num_edges() - 1);
+        if (flipped.can_flip(edge)) flipped.flip(edge);
+    }
+    dual.triangles = flipped.triangles();
+    const DelaunayResult result = dual.made(Delaunay::Intrinsic);
+    EXPECT_GT(result.counts.failing_before, 100u);
+    EXPECT_LE(result.counts.failing_after, unmended + result.counts.failing_before / 20);
+    expect_same_surface(dual, result);
+    expect_sound_lengths(dual, result);
 }
 
 TEST(MakeDelaunay, SameBytesForAnyThreadCount) {

@@ -33,7 +33,8 @@ struct RemeshOptions {
     int steiner_points = 8;  //!< Steiner engine, m: Steiner points on each edge, in [0, 1000].
     double lambda = 1;       //!< Steiner engine: triangles are retired every lambda * #F pops, > 0.
     int repair_rounds = 50;  //!< Rounds of adding sites until the topology is kept, >= 0.
-    Delaunay delaunay = Delaunay::Intrinsic;
+    //! Which edges to flip: those that fail by geodesic or by straight lengths, or none.
+    Delaunay delaunay = DelaunayOptions{}.mode;
     int num_threads = 0;  //!< >= 0; 0: all cores.
     //! Gets the stage and a fraction in [0, 1] on the caller's thread; return false to stop.
     std::function<bool(Stage, double)> progress = {};
