@@ -1,6 +1,8 @@
 // Straightened paths and the edges of the dual against exact distances.
 #include <gtest/gtest.h>
 
+#include <numeric>
+
 #include "agvd/mesh/uniform_points.h"
 #include "agvd/metrics/oracle.h"
 #include "agvd/propagation/propagate.h"
@@ -45,8 +47,10 @@ TEST(StraightenAgainstExact, DualEdgesAreShortestPathsUnlessTheSurfaceBends) {
     const Surface surface = build_surface(mesh.view());
     const std::vector<SurfacePoint> sites = uniform_points(surface, 150, 1);
     const Diagram diagram = build_diagram(surface, sites, propagate(surface, sites));
+    std::vector<Index> site(sites.size());
+    std::iota(site.begin(), site.end(), 0U);
     const remesh::DelaunayResult result =
-        remesh::make_delaunay(surface, sites, diagram, remesh::build_dual(surface, diagram));
+        remesh::make_delaunay(surface, sites, site, diagram, remesh::build_dual(surface, diagram));
     Index num_exact = 0, num_sides = 0;
     for (std::size_t t = 0; t < result.triangles.size(); ++t) {
         const auto [a, b, c] = result.triangles[t];

@@ -25,6 +25,7 @@ namespace {
 struct Dual {
     Surface surface;
     std::vector<SurfacePoint> sites;
+    std::vector<Index> site;  // Of each vertex: itself.
     Diagram diagram;
     std::vector<Triangle> triangles;
 
@@ -33,10 +34,11 @@ struct Dual {
         diagram = build_diagram(surface, sites, propagate(surface, sites, {.num_threads = 1}),
                                 {.num_threads = 1});
         triangles = remesh::build_dual(surface, diagram);
+        for (Index s = 0; s < sites.size(); ++s) site.push_back(s);
     }
 
     [[nodiscard]] DelaunayResult made(Delaunay mode, int num_threads = 1) const {
-        return remesh::make_delaunay(surface, sites, diagram, triangles,
+        return remesh::make_delaunay(surface, sites, site, diagram, triangles,
                                      {.mode = mode, .num_threads = num_threads});
     }
     [[nodiscard]] std::vector<Vec3> positions() const {

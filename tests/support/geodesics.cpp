@@ -6,7 +6,7 @@
 #include <numbers>
 #include <optional>
 
-#include "agvd/metrics/common_face.h"
+#include "agvd/mesh/point_faces.h"
 #include "support/dice.h"
 
 namespace geodesics {

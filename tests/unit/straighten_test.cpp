@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "agvd/mesh/point_faces.h"
 #include "support/geodesics.h"
 #include "support/points.h"
 #include "support/random_meshes.h"
@@ -167,12 +168,12 @@ TEST(Straighten, BothWaysRoundATubeAreKept) {
     const auto vertex = [&](Index i, Index j) { return i % sides * (layers + 1) + j; };
     for (const Index passed : {4U, 8U, 16U}) {  // The short way, the long way, a turn more.
         for (const bool is_forward : {true, false}) {
-            remesh::StripBuilder builder(surface, points::at_vertex(surface, 0));
+            remesh::StripBuilder builder(surface, point_at(surface, 0));
             const auto at = [&](Index i) { return is_forward ? i : 10 * sides - i; };
             for (Index i = 1; i <= passed; ++i) builder.to_vertex(vertex(at(i), 0));
             for (Index j = 1; j < layers; ++j) builder.to_vertex(vertex(at(passed), j));
             const GeodesicPath path = remesh::straightest_path(
-                surface, builder.finish(points::at_vertex(surface, vertex(at(passed), layers))));
+                surface, builder.finish(point_at(surface, vertex(at(passed), layers))));
             EXPECT_NEAR(path.length, std::hypot(2, passed * side), 1e-13);
             expect_locally_shortest(surface, path);
         }

@@ -12,11 +12,11 @@ using agvd::Vec3;
 
 namespace {
 
-std::vector<Vec3> positions_of(const Surface& surface, std::span<const SurfacePoint> sites) {
+std::vector<Vec3> positions_of(const Surface& surface, std::span<const SurfacePoint> points) {
     std::vector<Vec3> positions;
-    positions.reserve(sites.size());
-    for (const SurfacePoint& site : sites) {
-        positions.push_back(position(surface.mesh.view(), site));
+    positions.reserve(points.size());
+    for (const SurfacePoint& point : points) {
+        positions.push_back(position(surface.mesh.view(), point));
     }
     return positions;
 }
@@ -54,10 +54,10 @@ std::vector<double> flip_in_space(FlippableMesh& mesh, std::span<const Vec3> pos
     return length;
 }
 
-std::vector<double> flip_on_surface(const Surface& surface, std::span<const SurfacePoint> sites,
-                                    const agvd::Diagram& diagram, std::span<const Vec3> positions,
-                                    int num_threads, FlippableMesh& mesh, DelaunayCounts& counts) {
-    std::vector<EdgePath> paths = find_edge_paths(surface, sites, diagram, mesh, num_threads);
+std::vector<double> flip_on_surface(const Surface& surface, const DualVertices& vertices,
+                                    std::span<const Vec3> positions, int num_threads,
+                                    FlippableMesh& mesh, DelaunayCounts& counts) {
+    std::vector<EdgePath> paths = find_edge_paths(surface, vertices, mesh, num_threads);
     mend_triangles(surface, mesh, paths);
     std::vector<double> length(paths.size());
     for (Index e = 0; e < paths.size(); ++e) length[e] = paths[e].length;
@@ -88,8 +88,8 @@ const char* delaunay_name(Delaunay delaunay) {
     return "unknown";
 }
 
-DelaunayResult make_delaunay(const Surface& surface, std::span<const SurfacePoint> sites,
-                             const agvd::Diagram& diagram,
+DelaunayResult make_delaunay(const Surface& surface, std::span<const SurfacePoint> points,
+                             std::span<const Index> site, const agvd::Diagram& diagram,
                              std::span<const agvd::Triangle> triangles,
                              const DelaunayOptions& options) {
     DelaunayResult result;
@@ -98,12 +98,12 @@ DelaunayResult make_delaunay(const Surface& surface, std::span<const SurfacePoin
         return result;
     }
     FlippableMesh mesh(triangles);
-    const std::vector<Vec3> positions = positions_of(surface, sites);
+    const std::vector<Vec3> positions = positions_of(surface, points);
     const std::vector<double> length =
         options.mode == Delaunay::Extrinsic
             ? flip_in_space(mesh, positions, result.counts)
-            : flip_on_surface(surface, sites, diagram, positions, options.num_threads, mesh,
-                              result.counts);
+            : flip_on_surface(surface, {points, site, diagram}, positions, options.num_threads,
+                              mesh, result.counts);
     result.triangles = mesh.triangles();
     result.side_lengths.reserve(result.triangles.size());
     for (Index t = 0; t < result.triangles.size(); ++t) {

@@ -11,7 +11,7 @@ namespace remesh {
 //! By which lengths the Delaunay condition is judged.
 enum class Delaunay : std::uint8_t {
     Intrinsic,  //!< Geodesic ones: of locally shortest paths over the surface.
-    Extrinsic,  //!< Straight ones in space, between the sites.
+    Extrinsic,  //!< Straight ones in space, between the vertices.
     Off,        //!< Not at all.
 };
 
@@ -43,17 +43,19 @@ struct DelaunayResult {
     DelaunayCounts counts;
 };
 
-//! Judges the edges of a triangle mesh over sites and flips those that fail the Delaunay condition
-//! where that harms nothing: the mesh stays a simplicial complex with the same boundary, no vertex
-//! gets fewer than three edges (two on the boundary), nothing folds over in space.
+//! Judges the edges of a triangle mesh over a surface and flips those that fail the Delaunay
+//! condition where that harms nothing: the mesh stays a simplicial complex with the same boundary,
+//! no vertex gets fewer than three edges (two on the boundary), nothing folds over in space.
 //!
-//! \param sites      where the vertices lie; one for each cell of the diagram.
-//! \param triangles  site indices, as of build_dual; edges need not be dual to Voronoi edges, and
+//! \param points     where the vertices lie.
+//! \param site       by vertex: its site in the diagram, where it lies too; no_index: it is none.
+//! \param triangles  vertex indices; edges need not be dual to Voronoi edges, and
 //!                   those with other than two sides in opposite directions are left alone. The
-//!                   sites of a triangle lie on one component.
+//!                   vertices of a triangle lie on one component.
 //! Cost: O(size of the complex + faces that the edges cross).
 [[nodiscard]] DelaunayResult make_delaunay(const agvd::Surface& surface,
-                                           std::span<const agvd::SurfacePoint> sites,
+                                           std::span<const agvd::SurfacePoint> points,
+                                           std::span<const agvd::Index> site,
                                            const agvd::Diagram& diagram,
                                            std::span<const agvd::Triangle> triangles,
                                            const DelaunayOptions& options = {});

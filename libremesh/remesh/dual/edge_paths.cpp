@@ -27,28 +27,34 @@ std::uint64_t key(Index a, Index b) { return std::uint64_t{std::min(a, b)} << 32
 
 // Where two cells touch nearest to their sites.
 struct Gate {
-    std::uint64_t sites;
+    std::uint64_t ends;  // Vertices on both sides.
     double distance;
     Index point;
 
     [[nodiscard]] bool operator<(const Gate& other) const {
-        return std::tie(sites, distance, point) <
-               std::tie(other.sites, other.distance, other.point);
+        return std::tie(ends, distance, point) < std::tie(other.ends, other.distance, other.point);
     }
 };
 
-// Sorted; the first one for two sites is the nearest.
-std::vector<Gate> find_gates(const Diagram& diagram) {
+// Sorted; the first one for two vertices is the nearest.
+std::vector<Gate> find_gates(const DualVertices& vertices) {
+    const Diagram& diagram = vertices.diagram;
+    std::vector<Index> vertex(diagram.num_sites, no_index);  // By site.
+    for (Index v = 0; v < vertices.site.size(); ++v) {
+        if (vertices.site[v] != no_index) vertex[vertices.site[v]] = v;
+    }
     std::vector<Gate> gates;
     gates.reserve(diagram.edges.size());
     for (Index e = 0; e < diagram.edges.size(); ++e) {
         const agvd::VoronoiEdge& edge = diagram.edges[e];
         if (!edge.right.is_valid()) continue;
+        const Index a = vertex[edge.left.value()], b = vertex[edge.right.value()];
+        if (a == no_index || b == no_index) continue;
         const auto begin = diagram.point_distance.begin() + diagram.edge_points[e];
         const auto end = diagram.point_distance.begin() + diagram.edge_points[e + 1];
         const auto nearest = std::min_element(begin, end);
-        gates.push_back({key(edge.left.value(), edge.right.value()), *nearest,
-                         static_cast<Index>(nearest - diagram.point_distance.begin())});
+        gates.push_back(
+            {key(a, b), *nearest, static_cast<Index>(nearest - diagram.point_distance.begin())});
     }
     std::sort(gates.begin(), gates.end());
     return gates;
@@ -65,17 +71,17 @@ Index find_way_round(const FlippableMesh& mesh, const std::vector<EdgePath>& pat
     return no_index;
 }
 
-FaceStrip strip_from(const Surface& surface, const EdgePath& path, Index site) {
-    return path.from == site ? path.strip : reversed(surface, path.strip);
+FaceStrip strip_from(const Surface& surface, const EdgePath& path, Index vertex) {
+    return path.from == vertex ? path.strip : reversed(surface, path.strip);
 }
 
-// Straightened, from the site where the strip starts.
+// Straightened, from the vertex where the strip starts.
 EdgePath path_in(FaceStrip strip, Index from, PathStraightener& straightener) {
     const GeodesicPath path = straightener.straighten(strip);
     return {from, std::move(strip), path.length, path.is_locally_shortest};
 }
 
-// Straightened from the way along two edges, from one site over another.
+// Straightened from the way along two edges, from one vertex over another.
 EdgePath path_along(const Surface& surface, const EdgePath& first, const EdgePath& second,
                     Index from, Index over, PathStraightener& straightener) {
     FaceStrip strip =
@@ -93,28 +99,28 @@ EdgePath path_round(const Surface& surface, const FlippableMesh& mesh,
                       mesh.tail(previous), straightener);
 }
 
-// The sites of an edge, the lower one first.
+// The ends of an edge, the lower one first.
 std::array<Index, 2> ends_of(const FlippableMesh& mesh, Index edge) {
     const Index h = mesh.sides(edge)[0];
     return {mesh.tail(h), mesh.tail(FlippableMesh::next(h))};
 }
 
 // Leaves out edges without a Voronoi edge.
-void find_paths_through_gates(const Surface& surface, std::span<const SurfacePoint> sites,
-                              const Diagram& diagram, const FlippableMesh& mesh, int num_threads,
+void find_paths_through_gates(const Surface& surface, const DualVertices& vertices,
+                              const FlippableMesh& mesh, int num_threads,
                               std::vector<EdgePath>& paths) {
-    const std::vector<Gate> gates = find_gates(diagram);
+    const std::vector<Gate> gates = find_gates(vertices);
     agvd::parallel_chunks(mesh.num_edges(), grain, num_threads, [&](Index, Index begin, Index end) {
         PathStraightener straightener(surface);
-        SitePaths site_paths(surface, sites, diagram);
+        SitePaths site_paths(surface, vertices);
         auto gate = gates.begin();
         for (Index e = begin; e < end; ++e) {
             const auto [a, b] = ends_of(mesh, e);
-            // Both are sorted by their sites.
+            // Both are sorted by their ends.
             if (e == begin) gate = std::lower_bound(gate, gates.end(), Gate{key(a, b), -1, 0});
-            while (gate != gates.end() && gate->sites < key(a, b)) ++gate;
-            if (gate == gates.end() || gate->sites != key(a, b)) continue;
-            const Index face = diagram.points[gate->point].face.value();
+            while (gate != gates.end() && gate->ends < key(a, b)) ++gate;
+            if (gate == gates.end() || gate->ends != key(a, b)) continue;
+            const Index face = vertices.diagram.points[gate->point].face.value();
             paths[e] = path_in(site_paths.through(a, face, b), a, straightener);
         }
     });
@@ -122,9 +128,8 @@ void find_paths_through_gates(const Surface& surface, std::span<const SurfacePoi
 
 // Rounds, each from the paths of those before: the way round a triangle, or a search for all that
 // are left when that finds no more.
-void find_missing_paths(const Surface& surface, std::span<const SurfacePoint> sites,
-                        const Diagram& diagram, const FlippableMesh& mesh, int num_threads,
-                        std::vector<EdgePath>& paths) {
+void find_missing_paths(const Surface& surface, const DualVertices& vertices,
+                        const FlippableMesh& mesh, int num_threads, std::vector<EdgePath>& paths) {
     std::vector<Index> missing;
     for (Index e = 0; e < paths.size(); ++e) {
         if (paths[e].from == no_index) missing.push_back(e);
@@ -134,7 +139,7 @@ void find_missing_paths(const Surface& surface, std::span<const SurfacePoint> si
         std::vector<EdgePath> found(num_missing);
         agvd::parallel_chunks(num_missing, grain, num_threads, [&](Index, Index begin, Index end) {
             PathStraightener straightener(surface);
-            SitePaths site_paths(surface, sites, diagram);
+            SitePaths site_paths(surface, vertices);
             for (Index i = begin; i < end; ++i) {
                 const Index h = find_way_round(mesh, paths, missing[i]);
                 if (h != no_index) {
@@ -160,12 +165,11 @@ void find_missing_paths(const Surface& surface, std::span<const SurfacePoint> si
 
 }  // namespace
 
-std::vector<EdgePath> find_edge_paths(const Surface& surface, std::span<const SurfacePoint> sites,
-                                      const Diagram& diagram, const FlippableMesh& mesh,
-                                      int num_threads) {
+std::vector<EdgePath> find_edge_paths(const Surface& surface, const DualVertices& vertices,
+                                      const FlippableMesh& mesh, int num_threads) {
     std::vector<EdgePath> paths(mesh.num_edges());
-    find_paths_through_gates(surface, sites, diagram, mesh, num_threads, paths);
-    find_missing_paths(surface, sites, diagram, mesh, num_threads, paths);
+    find_paths_through_gates(surface, vertices, mesh, num_threads, paths);
+    find_missing_paths(surface, vertices, mesh, num_threads, paths);
     return paths;
 }
 

@@ -1,24 +1,22 @@
 //! \file
-//! The geodesic length of each edge between sites. Private to the dual.
+//! The geodesic length of each edge of the dual. Private to the dual.
 #pragma once
 
-#include <span>
-
-#include "agvd/diagram/diagram.h"
 #include "remesh/dual/flippable_mesh.h"
+#include "remesh/dual/site_paths.h"
 #include "remesh/dual/straighten.h"
 
 namespace remesh {
 
 //! The path that an edge stands for.
 struct EdgePath {
-    agvd::Index from = agvd::no_index;  //!< The site at its source; no_index: no path yet.
+    agvd::Index from = agvd::no_index;  //!< The vertex at its source; no_index: no path yet.
     FaceStrip strip{};
     double length = 0;
     bool is_locally_shortest = false;
 };
 
-//! For each edge of `mesh`, whose vertices are sites, a locally shortest path: straightened from
+//! For each edge of `mesh` a locally shortest path: straightened from
 //! the one through the nearest point of the Voronoi edge between both sites; for edges without
 //! one (diagonals, edges that someone flipped or collapsed into place) from the paths along the
 //! other two edges of a triangle.
@@ -26,8 +24,7 @@ struct EdgePath {
 //! \param num_threads  >= 0; 0: all cores. Same result for any number.
 //! Cost: O(size of the complex + faces crossed).
 [[nodiscard]] std::vector<EdgePath> find_edge_paths(const agvd::Surface& surface,
-                                                    std::span<const agvd::SurfacePoint> sites,
-                                                    const agvd::Diagram& diagram,
+                                                    const DualVertices& vertices,
                                                     const FlippableMesh& mesh, int num_threads);
 
 //! The path straightened from the way along two sides of the quad around an inner edge, from the

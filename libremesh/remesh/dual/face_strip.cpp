@@ -4,8 +4,7 @@
 #include <cassert>
 #include <optional>
 
-#include "agvd/metrics/common_face.h"
-#include "agvd/propagation/site_placement.h"
+#include "agvd/mesh/point_faces.h"
 
 namespace remesh {
 
@@ -15,13 +14,6 @@ using agvd::Surface;
 using agvd::SurfacePoint;
 
 namespace {
-
-SurfacePoint at_vertex(const Surface& surface, Index vertex) {
-    const Index h = surface.outgoing[vertex];
-    SurfacePoint point{agvd::FaceId(Surface::face(h)), {0, 0, 0}};
-    point.barycentric[h % 3] = 1;
-    return point;
-}
 
 bool has_corner(const Surface& surface, Index face, Index vertex) {
     const agvd::Triangle& t = surface.mesh.triangles[face];
@@ -94,7 +86,7 @@ StripBuilder::StripBuilder(const Surface& surface, FaceStrip strip)
 
 void StripBuilder::to_vertex(Index vertex) {
     turn_to([&](Index face) { return has_corner(surface_, face, vertex); });
-    pivot_ = at_vertex(surface_, vertex);
+    pivot_ = point_at(surface_, vertex);
 }
 
 void StripBuilder::to_face(Index face) {

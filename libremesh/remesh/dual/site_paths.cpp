@@ -5,8 +5,6 @@
 #include <queue>
 #include <unordered_map>
 
-#include "agvd/propagation/site_placement.h"
-
 namespace remesh {
 
 using agvd::Index;
@@ -36,47 +34,43 @@ void for_each_neighbour(const Surface& surface, Index vertex, const Visit& visit
 
 }  // namespace
 
-SitePaths::SitePaths(const Surface& surface, std::span<const SurfacePoint> sites,
-                     const agvd::Diagram& diagram)
-    : surface_(surface), sites_(sites), diagram_(diagram) {}
-
 FaceStrip SitePaths::through(Index from, Index face, Index to) {
     find_way(face, from, back_);
     find_way(face, to, forth_);
-    StripBuilder builder(surface_, sites_[from]);
+    StripBuilder builder(surface_, vertices_.points[from]);
     for (auto v = back_.rbegin(); v != back_.rend(); ++v) builder.to_vertex(*v);
     builder.to_face(face);
     for (const Index v : forth_) builder.to_vertex(v);
-    return builder.finish(sites_[to]);
+    return builder.finish(vertices_.points[to]);
 }
 
 FaceStrip SitePaths::between(Index from, Index to) {
-    StripBuilder builder(surface_, sites_[from]);
-    const Index face = sites_[from].face.value();
-    if (!holds_site(face, to)) {
+    StripBuilder builder(surface_, vertices_.points[from]);
+    const Index face = vertices_.points[from].face.value();
+    if (!holds_goal(face, to)) {
         search(face, to, forth_);
         for (const Index v : forth_) builder.to_vertex(v);
     }
-    return builder.finish(sites_[to]);
+    return builder.finish(vertices_.points[to]);
 }
 
 // Vertices from a corner of the face to one that shares a face with the site; none where the face
 // holds the site.
-void SitePaths::find_way(Index face, Index site, Vertices& vertices) const {
-    vertices.clear();
-    if (holds_site(face, site)) return;
-    const Index common = common_corner(face, site);
+void SitePaths::find_way(Index face, Index goal, Way& way) const {
+    way.clear();
+    if (holds_goal(face, goal)) return;
+    const Index common = common_corner(face, goal);
     if (common != no_index) {
-        vertices.push_back(common);
+        way.push_back(common);
         return;
     }
-    descend(face, site, vertices);
-    if (vertices.empty()) search(face, site, vertices);
+    descend(face, goal, way);
+    if (way.empty()) search(face, goal, way);
 }
 
 // A corner of both the face and the site's; no_index: none.
-Index SitePaths::common_corner(Index face, Index site) const {
-    const agvd::Triangle& corners = surface_.mesh.triangles[sites_[site].face.value()];
+Index SitePaths::common_corner(Index face, Index goal) const {
+    const agvd::Triangle& corners = surface_.mesh.triangles[vertices_.points[goal].face.value()];
     for (const Index v : surface_.mesh.triangles[face]) {
         if (v == corners[0] || v == corners[1] || v == corners[2]) return v;
     }
@@ -85,25 +79,24 @@ Index SitePaths::common_corner(Index face, Index site) const {
 
 // Each time to the neighbour of the same cell over which the site is nearest; none if that ends
 // too early.
-void SitePaths::descend(Index face, Index site, Vertices& vertices) const {
-    const auto is_inside = [&](Index v) { return diagram_.nearest_site[v] == agvd::SiteId(site); };
+void SitePaths::descend(Index face, Index goal, Way& way) const {
+    const std::vector<double>& distance = vertices_.diagram.nearest_distance;
     double nearest = std::numeric_limits<double>::infinity();
     for (const Index v : surface_.mesh.triangles[face]) {
-        if (!is_inside(v) || !(diagram_.nearest_distance[v] < nearest)) continue;
-        nearest = diagram_.nearest_distance[v];
-        vertices.assign(1, v);
+        if (!is_inside(v, goal) || !(distance[v] < nearest)) continue;
+        nearest = distance[v];
+        way.assign(1, v);
     }
-    while (!vertices.empty()) {
-        const Index here = vertices.back();
+    while (!way.empty()) {
+        const Index here = way.back();
         Index next = no_index;
         double least = std::numeric_limits<double>::infinity();
         bool is_there = false;
         for_each_neighbour(surface_, here, [&](Index h, Index v) {
-            is_there = holds_site(Surface::face(h), site);
+            is_there = holds_goal(Surface::face(h), goal);
             if (is_there) return false;
-            if (!is_inside(v) || !(diagram_.nearest_distance[v] < diagram_.nearest_distance[here]))
-                return true;
-            const double length = diagram_.nearest_distance[v] + surface_.length_of(h);
+            if (!is_inside(v, goal) || !(distance[v] < distance[here])) return true;
+            const double length = distance[v] + surface_.length_of(h);
             if (length < least) {
                 least = length;
                 next = v;
@@ -112,15 +105,15 @@ void SitePaths::descend(Index face, Index site, Vertices& vertices) const {
         });
         if (is_there) return;
         if (next == no_index) {
-            vertices.clear();
+            way.clear();
         } else {
-            vertices.push_back(next);
+            way.push_back(next);
         }
     }
 }
 
-// A* over the vertices. Ties go to the lower vertex.
-void SitePaths::search(Index face, Index site, Vertices& vertices) const {
+// A* over the way. Ties go to the lower vertex.
+void SitePaths::search(Index face, Index goal, Way& way) const {
     struct Reached {
         double length;
         Index from;
@@ -135,17 +128,17 @@ void SitePaths::search(Index face, Index site, Vertices& vertices) const {
     };
     std::unordered_map<Index, Reached> reached;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    const Vec3 goal = position(surface_.mesh.view(), sites_[site]);
+    const Vec3 place = position(surface_.mesh.view(), vertices_.points[goal]);
     const auto reach = [&](Index v, double length, Index from) {
         const auto [entry, is_new] = reached.try_emplace(v, Reached{length, from, false});
         if (!is_new) {
             if (entry->second.is_done || !(length < entry->second.length)) return;
             entry->second = {length, from, false};
         }
-        queue.push({length + (surface_.mesh.positions[v] - goal).norm(), v});
+        queue.push({length + (surface_.mesh.positions[v] - place).norm(), v});
     };
     for (const Index v : surface_.mesh.triangles[face]) reach(v, 0, no_index);
-    vertices.clear();
+    way.clear();
     while (!queue.empty()) {
         const Index here = queue.top().vertex;
         queue.pop();
@@ -155,18 +148,17 @@ void SitePaths::search(Index face, Index site, Vertices& vertices) const {
         const double length = state.length;
         bool is_there = false;
         for_each_neighbour(surface_, here, [&](Index h, Index v) {
-            is_there = holds_site(Surface::face(h), site);
+            is_there = holds_goal(Surface::face(h), goal);
             if (is_there) return false;
-            const double weight =
-                diagram_.nearest_site[v] == agvd::SiteId(site) ? 1 : outside_penalty;
+            const double weight = is_inside(v, goal) ? 1 : outside_penalty;
             reach(v, length + weight * surface_.length_of(h), here);
             return true;
         });
         if (!is_there) continue;
-        for (Index v = here; v != no_index; v = reached.at(v).from) vertices.push_back(v);
+        for (Index v = here; v != no_index; v = reached.at(v).from) way.push_back(v);
         break;
     }
-    std::reverse(vertices.begin(), vertices.end());
+    std::reverse(way.begin(), way.end());
 }
 
 }  // namespace remesh
