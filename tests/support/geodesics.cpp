@@ -25,6 +25,34 @@ Vec3 place(const Surface& surface, const SurfacePoint& point) {
     return position(surface.mesh.view(), point);
 }
 
+// Those that hold both points, by exact coordinates; no_index: none, or no second one.
+struct SharedFaces {
+    Index first = no_index, second = no_index;
+};
+
+SharedFaces shared_faces(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {
+    SharedFaces shared;
+    const auto add = [&](Index face) {
+        if (face == shared.first || shared.second != no_index) return;
+        if (!seen_from(surface, a, face) || !seen_from(surface, b, face)) return;
+        (shared.first == no_index ? shared.first : shared.second) = face;
+    };
+    add(a.face.value());
+    for (Index h = 3 * a.face.value(); h < 3 * a.face.value() + 3; ++h) {
+        if (a.barycentric[(h + 2) % 3] == 0 && surface.twin[h] != no_index) {
+            add(Surface::face(surface.twin[h]));
+        }
+        if (a.barycentric[h % 3] != 1) continue;
+        const Index first = surface.outgoing[surface.tail(h)];
+        for (Index out = first; out != no_index;) {
+            add(Surface::face(out));
+            out = surface.twin[Surface::previous(out)];
+            if (out == first) break;
+        }
+    }
+    return shared;
+}
+
 // A face around a point: from `start` counter-clockwise by `angle`.
 struct Sector {
     Index face;
@@ -83,7 +111,7 @@ bool is_closed(const Surface& surface, const SurfacePoint& point) {
 // Counter-clockwise around `point` from its first sector.
 double direction(const Surface& surface, const std::vector<Sector>& sectors,
                  const SurfacePoint& point, const SurfacePoint& to) {
-    const agvd::CommonFaces common = common_faces(surface, point, to);
+    const SharedFaces common = shared_faces(surface, point, to);
     double sum = 0;
     for (const Sector& sector : sectors) {
         if (sector.face == common.first || sector.face == common.second) {
@@ -139,7 +167,7 @@ double length(const Surface& surface, std::span<const SurfacePoint> points) {
         const double step = (place(surface, points[i + 1]) - place(surface, points[i])).norm();
         sum += step;
         if (step > 0) {
-            EXPECT_NE(common_faces(surface, points[i], points[i + 1]).first, no_index);
+            EXPECT_NE(shared_faces(surface, points[i], points[i + 1]).first, no_index);
         }
     }
     return sum;
@@ -161,8 +189,8 @@ double largest_bend(const Surface& surface, std::span<const SurfacePoint> points
     double bend = 0;
     for (std::size_t i = 1; i + 1 < path.size(); ++i) {
         // Where points were joined, neighbours may share no face any more.
-        if (common_faces(surface, path[i], path[i - 1]).first == no_index) continue;
-        if (common_faces(surface, path[i], path[i + 1]).first == no_index) continue;
+        if (shared_faces(surface, path[i], path[i - 1]).first == no_index) continue;
+        if (shared_faces(surface, path[i], path[i + 1]).first == no_index) continue;
         const std::vector<Sector> sectors = sectors_around(surface, path[i]);
         double total = 0;
         for (const Sector& sector : sectors) total += sector.angle;

@@ -57,7 +57,11 @@ std::vector<double> flip_in_space(FlippableMesh& mesh, std::span<const Vec3> pos
 std::vector<double> flip_on_surface(const Surface& surface, const DualVertices& vertices,
                                     std::span<const Vec3> positions, int num_threads,
                                     FlippableMesh& mesh, DelaunayCounts& counts) {
-    std::vector<EdgePath> paths = find_edge_paths(surface, vertices, mesh, num_threads);
+    std::vector<SurfacePoint> points;
+    points.reserve(vertices.points.size());
+    for (const SurfacePoint& point : vertices.points) points.push_back(snapped(surface, point));
+    std::vector<EdgePath> paths =
+        find_edge_paths(surface, {points, vertices.site, vertices.diagram}, mesh, num_threads);
     mend_triangles(surface, mesh, paths);
     std::vector<double> length(paths.size());
     for (Index e = 0; e < paths.size(); ++e) length[e] = paths[e].length;

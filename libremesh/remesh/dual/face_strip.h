@@ -26,6 +26,10 @@ void cross(const agvd::Surface& surface, agvd::Index half_edge, std::vector<agvd
 [[nodiscard]] FaceStrip joined(const agvd::Surface& surface, const FaceStrip& first,
                                const FaceStrip& second);
 
+//! A point that lies on a vertex or an edge up to rounding (see agvd::vertex_of), exactly there.
+[[nodiscard]] agvd::SurfacePoint snapped(const agvd::Surface& surface,
+                                         const agvd::SurfacePoint& point);
+
 //! Drops crossings of edges on which the source or the target lies.
 void trim(const agvd::Surface& surface, FaceStrip& strip);
 

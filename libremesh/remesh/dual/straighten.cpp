@@ -70,6 +70,8 @@ private:
 
 GeodesicPath PathStraightener::straighten(FaceStrip& strip) {
     GeodesicPath path{std::numeric_limits<double>::infinity(), false, {}};
+    strip.source = snapped(surface_, strip.source);
+    strip.target = snapped(surface_, strip.target);
     const std::size_t max_rounds = strip.crossed.size() + more_rounds;
     int stalled_rounds = 0;
     for (std::size_t round = 0; round < max_rounds && stalled_rounds <= max_stalled_rounds;
