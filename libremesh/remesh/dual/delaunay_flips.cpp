@@ -139,6 +139,7 @@ private:
         const auto [a, b, c, d] = std::array{quad.a, quad.b, quad.c, quad.d};
         const Vec3 old_first = normal(a, b, c), old_second = normal(b, a, d);
         const Vec3 new_first = normal(c, a, d), new_second = normal(d, b, c);
+        if (new_first.isZero() || new_second.isZero()) return true;  // No area.
         double before = old_first.dot(old_second);
         double after = new_first.dot(new_second);
         const auto compare = [&](Index half_edge, const Vec3& old_normal, const Vec3& new_normal) {
