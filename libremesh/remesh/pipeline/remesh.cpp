@@ -64,7 +64,7 @@ public:
     Pipeline(const agvd::MeshView& mesh, const RemeshOptions& options, int most_mends)
         : input_(mesh), options_(options), most_mends_(most_mends) {
         for (const Stage stage : {Stage::Clean, Stage::Sample, Stage::Propagate, Stage::Diagram,
-                                  Stage::Dual, Stage::Check}) {
+                                  Stage::Dual, Stage::Delaunay, Stage::Check}) {
             result_.seconds.emplace_back(stage, 0.0);
         }
     }
@@ -157,11 +157,13 @@ private:
                 if (mends > 0) return;
                 throw TooFewSamples{static_cast<Index>(dual.mesh.points.size())};
             }
+            const DelaunayCounts flips = flip_edges(dual);
             const CrossingFaces crossings = find_crossings(dual.mesh);
             if (mends == 0 || !crossings || crossings->size() < *result_.self_intersections) {
                 result_.mesh = {positions_of(dual.mesh), dual.mesh.triangles};
                 result_.sites = dual.mesh.points;
                 result_.sites_removed = num_removed;
+                result_.delaunay = flips;
                 if (crossings) result_.self_intersections = static_cast<Index>(crossings->size());
             }
             if (!crossings || crossings->size() <= result_.input_self_intersections ||
@@ -201,6 +203,15 @@ private:
             reduce_vertices(positions_of(dual.mesh), dual.mesh.triangles, target_, keep);
         compact(dual, gone);
         return static_cast<Index>(gone.size());
+    }
+
+    DelaunayCounts flip_edges(ValidDual& dual) {
+        const StageClock clock(Stage::Delaunay, result_);
+        DelaunayResult made =
+            make_delaunay(surface_, dual.mesh.points, dual.site, dual.diagram, dual.mesh.triangles,
+                          {.mode = options_.delaunay, .num_threads = options_.num_threads});
+        dual.mesh.triangles = std::move(made.triangles);
+        return made.counts;
     }
 
     static void compact(ValidDual& dual, const std::vector<Index>& gone) {
@@ -328,6 +339,8 @@ const char* stage_name(Stage stage) {
             return "diagram";
         case Stage::Dual:
             return "dual";
+        case Stage::Delaunay:
+            return "delaunay";
         case Stage::Check:
             return "check";
     }
