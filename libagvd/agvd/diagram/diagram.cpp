@@ -32,7 +32,7 @@ public:
         for (const FaceArcs& chunk : chunks) {
             for (const FaceArcs::CellPart& part : chunk.parts) {
                 count(part.site, part.pieces);
-                diagram_.cell_area[part.site] += part.area;
+                if (part.site != no_index) diagram_.cell_area[part.site] += part.area;
             }
         }
         for (const CrossingRow& row : labels_.rows) add_row(row);
