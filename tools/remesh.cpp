@@ -20,6 +20,8 @@ constexpr const char* footer =
 
 struct Arguments : cli::DiagramArguments {
     fs::path output;
+    int relax_steps = remesh::RemeshOptions{}.relax_steps;
+    bool keep_sites = false;
     fs::path report;  // Empty: none; "-": stdout.
 };
 
@@ -44,6 +46,8 @@ void run_job(const Arguments& arguments) {
     remesh::RemeshOptions options{.num_samples = arguments.sampling.num_samples,
                                   .init = arguments.sampling.init,
                                   .seed = arguments.sampling.seed,
+                                  .relax_steps = arguments.relax_steps,
+                                  .keep_sites = arguments.keep_sites,
                                   .engine = arguments.propagation.engine,
                                   .max_error = arguments.propagation.max_error,
                                   .steiner_points = arguments.propagation.steiner_points,
@@ -78,6 +82,13 @@ int main(int argc, char** argv) {
     app.add_option("OUT,-o,--output", arguments.output,
                    "Mesh to write: .ply, .obj, .off or .stl; an existing file is replaced")
         ->required();
+    app.add_option("--relax,--lloyd", arguments.relax_steps,
+                   "Steps of Lloyd relaxation; 0: the dual of the sites as sampled")
+        ->check(CLI::Range(0, 1'000'000).description(""))
+        ->type_name("K")
+        ->capture_default_str();
+    app.add_flag("--keep-sites", arguments.keep_sites, "Do not relax the sites of --sites")
+        ->needs("--sites");
     app.add_option("--report", arguments.report, "Write a JSON report; - writes it to stdout")
         ->type_name("FILE|-");
     app.footer(std::string(footer) + cli::exit_code_help);

@@ -21,7 +21,7 @@ struct Layer {
 
 constexpr Layer layers[] = {
     {"agvd/core", 0},      {"agvd/mesh", 1},     {"agvd/propagation", 2}, {"agvd/diagram", 3},
-    {"agvd/metrics", 3},   {"remesh/relax", 4},  {"remesh/sampling", 4},  {"remesh/dual", 5},
+    {"agvd/metrics", 3},   {"remesh/relax", 5},  {"remesh/sampling", 4},  {"remesh/dual", 5},
     {"remesh/quality", 5}, {"remesh/repair", 5}, {"remesh/pipeline", 6},  {"remesh/io", 7},
 };
 

@@ -28,6 +28,10 @@ void check_options(const RemeshOptions& options) {
         throw agvd::InvalidOption("repair_rounds is " + std::to_string(options.repair_rounds) +
                                   "; use 0 or more");
     }
+    if (options.relax_steps < 0) {
+        throw agvd::InvalidOption("relax_steps is " + std::to_string(options.relax_steps) +
+                                  "; use 0 or more");
+    }
     if (options.num_threads < 0) {
         throw agvd::InvalidOption("num_threads is " + std::to_string(options.num_threads) +
                                   "; use 0 (all cores) or more");
@@ -64,8 +68,8 @@ class Pipeline {
 public:
     Pipeline(const agvd::MeshView& mesh, const RemeshOptions& options)
         : input_(mesh), options_(options) {
-        for (const Stage stage :
-             {Stage::Clean, Stage::Sample, Stage::Propagate, Stage::Diagram, Stage::Dual}) {
+        for (const Stage stage : {Stage::Clean, Stage::Sample, Stage::Relax, Stage::Propagate,
+                                  Stage::Diagram, Stage::Dual}) {
             result_.seconds.emplace_back(stage, 0.0);
         }
     }
@@ -75,6 +79,7 @@ public:
         clean();
         refine();
         place_sites();
+        relax();
         build_valid_diagram();
         build_mesh();
         return std::move(result_);
@@ -115,19 +120,43 @@ private:
         clean_.face_origin = std::move(refined.face_origin);
         result_.refined_faces = static_cast<Index>(clean_.mesh.triangles.size());
         surface_ = agvd::build_surface(clean_.mesh.view());
+        if (options_.engine != agvd::Engine::Steiner || options_.relax_steps > 0) {
+            layout_.emplace(surface_, options_.num_threads);
+        }
     }
 
     void place_sites() {
         const StageTimer timer(Stage::Sample, result_);
         if (options_.sites) {
             sites_ = to_cleaned(*options_.sites, input_, clean_);
-        } else {
-            sites_ = sample_sites(surface_, {.num_samples = options_.num_samples,
-                                             .init = options_.init,
-                                             .seed = options_.seed,
-                                             .num_threads = options_.num_threads,
-                                             .progress = progress_of(Stage::Sample)});
+        } else if (!is_coarse_to_fine()) {
+            sites_ = sample_sites(surface_, sampling());
         }
+    }
+    [[nodiscard]] SamplingOptions sampling() const {
+        return {.num_samples = options_.num_samples,
+                .init = options_.init,
+                .seed = options_.seed,
+                .num_threads = options_.num_threads,
+                .progress = progress_of(Stage::Sample)};
+    }
+    // Relaxation samples by itself.
+    [[nodiscard]] bool is_coarse_to_fine() const {
+        return !options_.sites && options_.init == Init::BlueNoise && options_.relax_steps > 0;
+    }
+
+    void relax() {
+        const bool keeps = options_.sites && options_.keep_sites;
+        if (options_.relax_steps == 0 || keeps) return;
+        const StageTimer timer(Stage::Relax, result_);
+        const RelaxOptions relax{.steps = options_.relax_steps,
+                                 .num_threads = options_.num_threads,
+                                 .progress = progress_of(Stage::Relax)};
+        RelaxResult relaxed = is_coarse_to_fine()
+                                  ? sample_relaxed_sites(surface_, *layout_, sampling(), relax)
+                                  : relax_sites(surface_, *layout_, std::move(sites_), relax);
+        sites_ = std::move(relaxed.sites);
+        result_.relaxation = std::move(relaxed.levels);
     }
 
     // Propagates and checks the closed-ball property, adding sites until it holds.
@@ -154,13 +183,14 @@ private:
         agvd::Propagation propagation;
         {
             const StageTimer timer(Stage::Propagate, result_);
-            propagation = agvd::propagate(surface_, sites_,
-                                          {.engine = options_.engine,
-                                           .max_error = options_.max_error,
-                                           .steiner_points = options_.steiner_points,
-                                           .lambda = options_.lambda,
-                                           .num_threads = options_.num_threads,
-                                           .progress = progress_of(Stage::Propagate)});
+            const agvd::PropagationOptions options{.engine = options_.engine,
+                                                   .max_error = options_.max_error,
+                                                   .steiner_points = options_.steiner_points,
+                                                   .lambda = options_.lambda,
+                                                   .num_threads = options_.num_threads,
+                                                   .progress = progress_of(Stage::Propagate)};
+            propagation = layout_ ? agvd::propagate(surface_, *layout_, sites_, options)
+                                  : agvd::propagate(surface_, sites_, options);
             result_.certified_error = propagation.certified_error;
             result_.propagation_bytes = propagation.peak_bytes;
         }
@@ -264,6 +294,7 @@ private:
     CleanResult clean_;             // Cleaned, then refined.
     std::vector<Index> component_;  // #F of it.
     Surface surface_;
+    std::optional<agvd::SurfaceLayout> layout_;
     std::vector<SurfacePoint> sites_;
     agvd::Diagram diagram_;
 };
@@ -276,6 +307,8 @@ const char* stage_name(Stage stage) {
             return "clean";
         case Stage::Sample:
             return "sample";
+        case Stage::Relax:
+            return "relax";
         case Stage::Propagate:
             return "propagate";
         case Stage::Diagram:

@@ -8,12 +8,13 @@
 
 #include "agvd/propagation/propagate.h"
 #include "remesh/quality/topology.h"
+#include "remesh/relax/relax_sites.h"
 #include "remesh/repair/clean_input.h"
 #include "remesh/sampling/sample_sites.h"
 
 namespace remesh {
 
-enum class Stage { Clean, Sample, Propagate, Diagram, Dual };
+enum class Stage { Clean, Sample, Relax, Propagate, Diagram, Dual };
 
 //! Lower-case name of a stage, for logs.
 [[nodiscard]] const char* stage_name(Stage stage);
@@ -26,6 +27,10 @@ struct RemeshOptions {
     //! Sites to use instead of sampling, on the caller's mesh; num_samples, init and seed are then
     //! ignored. Faces are the caller's.
     std::optional<std::vector<agvd::SurfacePoint>> sites = {};
+    //! Steps of relaxation, >= 0 (0: the sites stay where they were sampled, as in the paper). With
+    //! blue noise they run coarse to fine, so many on each of two levels.
+    int relax_steps = RelaxOptions{}.steps;
+    bool keep_sites = false;  //!< Given sites are not relaxed.
     agvd::Engine engine = agvd::PropagationOptions{}.engine;
     //! Relative distance error, in [0, 1), 0: exact; unset: see agvd::PropagationOptions.
     std::optional<double> max_error = {};
@@ -48,6 +53,7 @@ struct RemeshResult {
     agvd::Index sites_added = 0;            //!< By topology repair.
     agvd::Index sites_dropped = 0;          //!< Given sites that own nothing (e.g. duplicates).
     int repair_rounds = 0;                  //!< Rounds that adding took.
+    std::vector<RelaxLevel> relaxation;     //!< Empty: the sites were not relaxed.
     //! Of the last propagation: see agvd::Propagation. Infinity: nothing is certified.
     double certified_error = std::numeric_limits<double>::infinity();
     std::size_t propagation_bytes = 0;  //!< Peak of the last propagation, beyond the mesh.

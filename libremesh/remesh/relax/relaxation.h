@@ -1,0 +1,67 @@
+//! \file
+//! Steps towards a centroidal Voronoi tessellation.
+#pragma once
+
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_point.h"
+#include "remesh/relax/cvt_energy.h"
+
+namespace remesh::detail {
+
+//! Lloyd's method with momentum, on the triangulation of the sites instead of their geodesic
+//! Voronoi diagram: that costs a few hundredths of a propagation. Cells are those of the
+//! triangulation, which is kept Delaunay by flips; sites walk on the surface itself.
+//!
+//! A triangulation knows nothing of what its triangles cut short, such as the tip of an ear, and
+//! sites would leave it. So where cells hold more of the surface than of the triangulation,
+//! they weigh more (set_areas).
+class Relaxation {
+public:
+    //! \param triangles  of the sites; those in none, and inner ones around which they do not
+    //! close, stay. \param is_fixed   #sites: 1 for sites that stay; or empty. Sites on the
+    //! boundary stay on it. \param weights    #sites: the density at the start; or empty.
+    Relaxation(const agvd::Surface& surface, std::vector<agvd::SurfacePoint> sites,
+               std::vector<agvd::Triangle> triangles, std::vector<std::uint8_t> is_fixed,
+               std::vector<double> weights, int num_threads);
+
+    //! What the cells hold of the surface.
+    void set_areas(std::span<const double> areas);
+
+    //! Takes new triangles where the old ones do not close around all sites or face against the
+    //! surface.
+    void mend(const std::vector<agvd::Triangle>& triangles);
+
+    //! Cost: O(#sites) and the faces crossed.
+    void step();
+
+    [[nodiscard]] const CvtEnergy& energy() const { return now_; }
+
+    [[nodiscard]] const std::vector<agvd::SurfacePoint>& sites() const { return sites_; }
+    [[nodiscard]] const std::vector<agvd::Triangle>& triangles() const { return mesh_.triangles; }
+    [[nodiscard]] const std::vector<double>& weights() const { return weight_; }
+
+private:
+    void take_triangles(std::vector<agvd::Triangle> triangles);
+    void locate(agvd::Index i);
+    void measure();
+    void choose_moves();
+    void walk();
+    void take_back(const std::vector<agvd::SurfacePoint>& sites_before,
+                   const std::vector<agvd::Vec3>& at_before,
+                   const std::vector<agvd::Vec3>& facing_before);
+
+    const agvd::Surface& surface_;
+    int num_threads_;
+    SiteMesh mesh_;
+    std::vector<agvd::SurfacePoint> sites_;
+    std::vector<agvd::Vec3> at_, facing_;  // #sites: positions, normals of their faces.
+    std::vector<agvd::Vec3> move_;         // #sites: the last move.
+    std::vector<double> weight_;           // #sites
+    std::vector<std::uint8_t> is_fixed_;   // #sites
+    std::vector<std::uint8_t> is_stuck_;   // #sites: the triangles around do not close.
+    std::vector<agvd::Index> boundary_;    // #sites: the boundary half-edge, or no_index.
+    agvd::Index num_stuck_ = 0;
+    CvtEnergy now_;
+};
+
+}  // namespace remesh::detail
