@@ -23,23 +23,29 @@ constexpr int most_rounds = 4;
 constexpr std::uint64_t seed = 0x5eed;
 
 // The faces of each cell, by the label of their first corner.
-struct CellFaces {
-    std::vector<Index> begin;  // #sites + 1
-    std::vector<Index> faces;
-
+class CellFaces {
+public:
     CellFaces(const agvd::Surface& surface, const agvd::DistanceBounds& labels, Index num_sites)
-        : begin(num_sites + 1, 0) {
+        : begin_(num_sites + 1, 0) {
         const auto cell = [&](Index f) { return labels.site[surface.mesh.triangles[f][0]]; };
         for (Index f = 0; f < surface.num_faces(); ++f) {
-            if (cell(f) != no_index) ++begin[cell(f) + 1];
+            if (cell(f) != no_index) ++begin_[cell(f) + 1];
         }
-        for (Index i = 0; i < num_sites; ++i) begin[i + 1] += begin[i];
-        faces.resize(begin.back());
-        std::vector<Index> next(begin.begin(), begin.end() - 1);
+        for (Index i = 0; i < num_sites; ++i) begin_[i + 1] += begin_[i];
+        faces_.resize(begin_.back());
+        std::vector<Index> next(begin_.begin(), begin_.end() - 1);
         for (Index f = 0; f < surface.num_faces(); ++f) {
-            if (cell(f) != no_index) faces[next[cell(f)]++] = f;
+            if (cell(f) != no_index) faces_[next[cell(f)]++] = f;
         }
     }
+
+    [[nodiscard]] std::span<const Index> of(Index site) const {
+        return std::span(faces_).subspan(begin_[site], begin_[site + 1] - begin_[site]);
+    }
+
+private:
+    std::vector<Index> begin_;  // #sites + 1
+    std::vector<Index> faces_;
 };
 
 class EvenOut {
@@ -53,14 +59,19 @@ public:
           is_fixed_(is_fixed),
           num_threads_(num_threads) {}
 
-    void run() {
+    Index run() {
+        Index num_moved = 0;
         for (int round = 0; round < most_rounds; ++round) {
-            if (!improve(round)) return;
+            const Index now = improve(round);
+            if (now == 0) break;
+            num_moved += now;
         }
+        return num_moved;
     }
 
 private:
-    bool improve(int round) {
+    // Returns the number of sites moved.
+    Index improve(int round) {
         const auto num_sites = static_cast<Index>(sites_.size());
         const agvd::DistanceBounds labels = label_vertices(surface_, layout_, sites_, num_threads_);
         const std::vector<double> areas = label_areas(surface_, labels, num_sites);
@@ -76,39 +87,40 @@ private:
         }
         std::sort(small.begin(), small.end());
         if (small.empty() || *std::max_element(areas.begin(), areas.end()) <= too_large * mean) {
-            return false;
+            return 0;
         }
         const CellFaces cells(surface_, labels, num_sites);
         auto next = small.begin();
+        std::vector<double> area_up_to;  // Of the faces of a cell.
         for (Index i = 0; i < num_sites; ++i) {
-            if (areas[i] <= too_large * mean) continue;
+            const std::span<const Index> faces = cells.of(i);
+            if (areas[i] <= too_large * mean || faces.empty()) continue;
+            area_up_to.clear();
+            double total = 0;
+            for (const Index f : faces) area_up_to.push_back(total += doubled_area(f));
             const double missing = std::floor(areas[i] / mean) - 1;
             for (double k = 0; k < missing && next != small.end(); ++k, ++next) {
-                sites_[next->second] = draw(cells, i, static_cast<std::uint64_t>(round),
-                                            static_cast<std::uint64_t>(next - small.begin()));
+                const auto number = static_cast<std::uint64_t>(next - small.begin());
+                sites_[next->second] =
+                    draw(faces, area_up_to, static_cast<std::uint64_t>(round), number);
             }
         }
-        return true;
+        return static_cast<Index>(next - small.begin());
     }
 
-    // A random point of a cell, by area.
-    [[nodiscard]] SurfacePoint draw(const CellFaces& cells, Index cell, std::uint64_t round,
-                                    std::uint64_t number) const {
+    // A random point of some faces, by area.
+    static SurfacePoint draw(std::span<const Index> faces, const std::vector<double>& area_up_to,
+                             std::uint64_t round, std::uint64_t number) {
         const auto unit = [&](std::uint64_t k) {
             return agvd::random_unit(seed, round, 3 * number + k);
         };
-        const Index begin = cells.begin[cell], end = cells.begin[cell + 1];
-        double sum = 0;
-        for (Index i = begin; i < end; ++i) sum += doubled_area(cells.faces[i]);
-        double pick = unit(0) * sum;
-        Index i = begin;
-        while (i + 1 < end && pick >= doubled_area(cells.faces[i])) {
-            pick -= doubled_area(cells.faces[i]);
-            ++i;
-        }
-        const double root = std::sqrt(unit(1));
+        const auto found =
+            std::upper_bound(area_up_to.begin(), area_up_to.end(), unit(0) * area_up_to.back());
+        const auto slot =
+            std::min(static_cast<std::size_t>(found - area_up_to.begin()), faces.size() - 1);
+        const double root = std::sqrt(unit(1));  // Uniform in the triangle.
         const double b1 = root * (1 - unit(2)), b2 = root * unit(2);
-        return {agvd::FaceId(cells.faces[i]), {1 - b1 - b2, b1, b2}};
+        return {agvd::FaceId(faces[slot]), {1 - b1 - b2, b1, b2}};
     }
     [[nodiscard]] double doubled_area(Index face) const {
         return surface_.length_of(3 * face) * surface_.apex[3 * face].y();
@@ -123,10 +135,10 @@ private:
 
 }  // namespace
 
-void even_out(const agvd::Surface& surface, const agvd::SurfaceLayout& layout,
-              std::vector<SurfacePoint>& sites, std::span<const std::uint8_t> is_fixed,
-              int num_threads) {
-    EvenOut(surface, layout, sites, is_fixed, num_threads).run();
+Index even_out(const agvd::Surface& surface, const agvd::SurfaceLayout& layout,
+               std::vector<SurfacePoint>& sites, std::span<const std::uint8_t> is_fixed,
+               int num_threads) {
+    return EvenOut(surface, layout, sites, is_fixed, num_threads).run();
 }
 
 }  // namespace remesh::detail

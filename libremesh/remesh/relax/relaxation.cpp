@@ -52,12 +52,7 @@ Relaxation::Relaxation(const agvd::Surface& surface, std::vector<SurfacePoint> s
 
 void Relaxation::take_triangles(std::vector<agvd::Triangle> triangles) {
     mesh_ = build_site_mesh(std::move(triangles), static_cast<Index>(sites_.size()));
-    is_stuck_.assign(sites_.size(), 0);
-    num_stuck_ = 0;
-    for (Index i = 0; i < sites_.size(); ++i) {
-        is_stuck_[i] = mesh_.is_rim[i] != 0 && boundary_[i] == no_index ? 1 : 0;
-        num_stuck_ += is_stuck_[i];
-    }
+    find_stuck();
     measure();
     for (int round = 0; round < most_flip_rounds; ++round) {
         if (flip_towards_delaunay(mesh_, at_, now_.cotangent) == 0) break;
@@ -65,8 +60,24 @@ void Relaxation::take_triangles(std::vector<agvd::Triangle> triangles) {
     }
 }
 
+void Relaxation::find_stuck() {
+    is_stuck_.assign(sites_.size(), 0);
+    num_stuck_ = 0;
+    for (Index i = 0; i < sites_.size(); ++i) {
+        is_stuck_[i] = mesh_.is_rim[i] != 0 && boundary_[i] == no_index ? 1 : 0;
+        num_stuck_ += is_stuck_[i];
+    }
+}
+
 void Relaxation::mend(const std::vector<agvd::Triangle>& triangles) {
-    if (num_stuck_ > 0 || !now_.turned.empty()) take_triangles(triangles);
+    const std::size_t flaws = num_stuck_ + now_.turned.size();
+    if (flaws == 0) return;
+    SiteMesh before = std::move(mesh_);
+    take_triangles(triangles);
+    if (num_stuck_ + now_.turned.size() < flaws) return;
+    mesh_ = std::move(before);
+    find_stuck();
+    measure();
 }
 
 void Relaxation::set_areas(std::span<const double> areas) {

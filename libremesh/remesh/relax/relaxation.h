@@ -27,8 +27,7 @@ public:
     //! What the cells hold of the surface.
     void set_areas(std::span<const double> areas);
 
-    //! Takes new triangles where the old ones do not close around all sites or face against the
-    //! surface.
+    //! Takes new triangles if they close around more sites and face with the surface more often.
     void mend(const std::vector<agvd::Triangle>& triangles);
 
     //! Cost: O(#sites) and the faces crossed.
@@ -41,6 +40,7 @@ public:
     [[nodiscard]] const std::vector<double>& weights() const { return weight_; }
 
 private:
+    void find_stuck();
     void take_triangles(std::vector<agvd::Triangle> triangles);
     void locate(agvd::Index i);
     void measure();
