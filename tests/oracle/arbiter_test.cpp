@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "agvd/mesh/point_faces.h"
 #include "agvd/metrics/oracle.h"
 #include "support/points.h"
 #include "support/shapes.h"
@@ -28,7 +29,7 @@ TEST(Arbiter, PlaneHasEuclideanDistances) {
 // Opposite corners of the unit cube; and around a slit, whose tip is a reflex corner.
 TEST(Arbiter, PathsTurnOverEdgesAndAroundCorners) {
     const Surface cube = build_surface(shapes::cube().view());
-    const auto corner = points::at_vertex(cube, 0), opposite = points::at_vertex(cube, 7);
+    const auto corner = point_at(cube, 0), opposite = point_at(cube, 7);
     EXPECT_NEAR(
         static_cast<double>(arbiter::nearest_sites(cube, {&corner, 1}, {&opposite, 1}).distance[0]),
         std::sqrt(5.0), 1e-15);
@@ -41,7 +42,7 @@ TEST(Arbiter, PathsTurnOverEdgesAndAroundCorners) {
         });
     });
     const Surface s = build_surface(slit.view());
-    const auto here = points::at_vertex(s, 8 * 21 + 16), there = points::at_vertex(s, 12 * 21 + 16);
+    const auto here = point_at(s, 8 * 21 + 16), there = point_at(s, 12 * 21 + 16);
     const double around = std::hypot(0.1, 0.75) + 0.05 + std::hypot(0.05, 0.75);
     EXPECT_NEAR(static_cast<double>(arbiter::nearest_sites(s, {&here, 1}, {&there, 1}).distance[0]),
                 around, 1e-15);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "agvd/mesh/point_faces.h"
 #include "agvd/metrics/compare_diagrams.h"
 #include "agvd/propagation/propagate.h"
 #include "support/points.h"
@@ -17,7 +18,7 @@ namespace {
 // Two sites on the middle line of the unit square, at x = 0.25 and 0.75.
 struct TwoSites {
     Surface surface = build_surface(shapes::grid(4).view());
-    std::vector<SurfacePoint> sites{points::at_vertex(surface, 7), points::at_vertex(surface, 17)};
+    std::vector<SurfacePoint> sites{point_at(surface, 7), point_at(surface, 17)};
     Propagation propagation = propagate(surface, sites);
 
     // A straight Voronoi edge through the square at x = 0.5 + shift, shift in (0, 0.25).

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "agvd/mesh/point_faces.h"
 #include "agvd/metrics/compare.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/io/read_mesh.h"
@@ -115,7 +116,7 @@ TEST_P(RealMeshes, DiagramsAreCloseToTheExactOne) {
     const Surface surface = build_surface(remesh::read_mesh(path).mesh.view());
     std::vector<SurfacePoint> sites;
     for (Index i = 0; i < 30; ++i) {
-        sites.push_back(points::at_vertex(surface, i * (surface.num_vertices() / 30)));
+        sites.push_back(point_at(surface, i * (surface.num_vertices() / 30)));
     }
     const auto errors = errors_of(surface, sites, {2, 8});
     for (const DiagramError& error : errors) EXPECT_GE(error.min_relative_distance, -rounding);

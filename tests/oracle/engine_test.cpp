@@ -15,6 +15,7 @@
 #include <sstream>
 
 #include "agvd/diagram/point_label.h"
+#include "agvd/mesh/point_faces.h"
 #include "agvd/metrics/oracle.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/io/read_mesh.h"
@@ -110,7 +111,7 @@ Case make_case(const TriangleMesh& mesh, std::vector<SurfacePoint> sites,
     for (Index v = 0; v < c.surface.num_vertices(); ++v) {
         if (c.surface.outgoing[v] == no_index) continue;
         c.vertices.push_back(v);
-        c.targets.push_back(points::at_vertex(c.surface, v));
+        c.targets.push_back(point_at(c.surface, v));
     }
     c.targets.insert(c.targets.end(), more_targets.begin(), more_targets.end());
     if (judge == Judge::Arbiter) {

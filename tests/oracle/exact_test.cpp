@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "agvd/core/error.h"
+#include "agvd/mesh/point_faces.h"
 #include "agvd/metrics/oracle.h"
 #include "support/points.h"
 #include "support/shapes.h"
@@ -45,8 +46,8 @@ TEST(Oracle, CylinderUnrolls) {
     const auto column = [](Index v) { return v / 7; };
     for (const Index from : {Index{3}, Index{20}, Index{0}}) {
         std::vector<SurfacePoint> targets;
-        for (Index v = 0; v < s.num_vertices(); ++v) targets.push_back(points::at_vertex(s, v));
-        const auto distances = exact_distances(s, points::at_vertex(s, from), targets);
+        for (Index v = 0; v < s.num_vertices(); ++v) targets.push_back(point_at(s, v));
+        const auto distances = exact_distances(s, point_at(s, from), targets);
         for (Index v = 0; v < s.num_vertices(); ++v) {
             const Index turn =
                 column(v) > column(from) ? column(v) - column(from) : column(from) - column(v);
@@ -60,8 +61,8 @@ TEST(Oracle, CylinderUnrolls) {
 // of the straight unfolding over one side, |z| gap 1, and those over two sides.
 TEST(Oracle, CubeFollowsItsNets) {
     const Surface s = build_surface(shapes::cube().view());
-    const std::vector<SurfacePoint> corner{points::at_vertex(s, 7)};
-    EXPECT_NEAR(exact_distances(s, points::at_vertex(s, 0), corner)[0], std::sqrt(5.0), 1e-14);
+    const std::vector<SurfacePoint> corner{point_at(s, 7)};
+    EXPECT_NEAR(exact_distances(s, point_at(s, 0), corner)[0], std::sqrt(5.0), 1e-14);
 
     const SurfacePoint floor = face_point(s, 0, {0.3, 0.8, 0});  // Face 0: x <= y at z = 0.
     const std::vector<SurfacePoint> roof{
@@ -92,10 +93,9 @@ TEST(Oracle, CubeFollowsItsNets) {
 TEST(Oracle, TetrahedronUnfoldsToALattice) {
     const Surface s = build_surface(shapes::tetrahedron().view());
     const double edge = std::sqrt(8.0);
-    const std::vector<SurfacePoint> targets{points::at_vertex(s, 1),
-                                            {FaceId(3), {1.0 / 3, 1.0 / 3, 1.0 / 3}},
-                                            {FaceId(3), {0.5, 0.5, 0}}};
-    const auto distances = exact_distances(s, points::at_vertex(s, 0), targets);
+    const std::vector<SurfacePoint> targets{
+        point_at(s, 1), {FaceId(3), {1.0 / 3, 1.0 / 3, 1.0 / 3}}, {FaceId(3), {0.5, 0.5, 0}}};
+    const auto distances = exact_distances(s, point_at(s, 0), targets);
     EXPECT_NEAR(distances[0], edge, 1e-14);
     EXPECT_NEAR(distances[1], edge * 2 / std::sqrt(3.0), 1e-14);
     EXPECT_NEAR(distances[2], edge * std::sqrt(3.0) / 2, 1e-14);
@@ -105,9 +105,8 @@ TEST(Oracle, TetrahedronUnfoldsToALattice) {
 TEST(Oracle, IcosahedronAntipodesAreOneStripApart) {
     const Surface s = build_surface(shapes::icosahedron().view());
     const double edge = s.length[0];
-    const std::vector<SurfacePoint> antipode{points::at_vertex(s, 3)};
-    EXPECT_NEAR(exact_distances(s, points::at_vertex(s, 0), antipode)[0], edge * std::sqrt(7.0),
-                1e-13);
+    const std::vector<SurfacePoint> antipode{point_at(s, 3)};
+    EXPECT_NEAR(exact_distances(s, point_at(s, 0), antipode)[0], edge * std::sqrt(7.0), 1e-13);
 }
 
 // A wrong window almost never errs by the same amount in both directions.
@@ -174,15 +173,15 @@ TEST(Oracle, PathsLeadAroundASlit) {
     };
     std::erase_if(mesh.triangles, is_in_slit);
     const Surface s = build_surface(mesh.view());
-    const std::vector<SurfacePoint> target{points::at_vertex(s, 12 * 21 + 16)};  // (0.6, 0.8)
+    const std::vector<SurfacePoint> target{point_at(s, 12 * 21 + 16)};  // (0.6, 0.8)
     const double around = std::hypot(0.1, 0.75) + 0.05 + std::hypot(0.05, 0.75);
-    EXPECT_NEAR(exact_distances(s, points::at_vertex(s, 8 * 21 + 16), target)[0], around, 1e-13);
+    EXPECT_NEAR(exact_distances(s, point_at(s, 8 * 21 + 16), target)[0], around, 1e-13);
 }
 
 TEST(Oracle, AnotherComponentIsOutOfReach) {
     const Surface s = build_surface(shapes::join(shapes::grid(2), shapes::sphere(1)).view());
-    const std::vector<SurfacePoint> site{points::at_vertex(s, 0)};
-    const std::vector<SurfacePoint> targets{points::at_vertex(s, 8), points::at_vertex(s, 12)};
+    const std::vector<SurfacePoint> site{point_at(s, 0)};
+    const std::vector<SurfacePoint> targets{point_at(s, 8), point_at(s, 12)};
     const NearestSites nearest = exact_nearest_sites(s, site, targets);
     EXPECT_NEAR(nearest.distance[0], std::sqrt(2.0), 1e-15);
     EXPECT_TRUE(std::isinf(nearest.distance[1]));
@@ -192,7 +191,7 @@ TEST(Oracle, AnotherComponentIsOutOfReach) {
 
 TEST(Oracle, EachSiteNeedsItsListOfTargets) {
     const Surface s = build_surface(shapes::grid(2).view());
-    const std::vector<SurfacePoint> sites{points::at_vertex(s, 0), points::at_vertex(s, 1)};
+    const std::vector<SurfacePoint> sites{point_at(s, 0), point_at(s, 1)};
     const std::vector<std::vector<SurfacePoint>> targets(1);
     EXPECT_THROW((void)exact_distances(s, sites, targets), InvalidInput);
 }

@@ -6,6 +6,7 @@
 
 #include "agvd/core/random.h"
 #include "agvd/diagram/face_relays.h"
+#include "agvd/mesh/point_faces.h"
 #include "agvd/metrics/oracle.h"
 #include "agvd/propagation/propagate.h"
 #include "support/points.h"
@@ -53,7 +54,7 @@ INSTANTIATE_TEST_SUITE_P(Oracle, VertexEngine, testing::ValuesIn(vertex_engine_m
 TEST_P(VertexEngine, DistancesAtVerticesAreNeverBelowTheExactOnes) {
     std::vector<SurfacePoint> targets;
     for (Index v = 0; v < surface.num_vertices(); ++v) {
-        targets.push_back(points::at_vertex(surface, v));
+        targets.push_back(point_at(surface, v));
     }
     for (const Index t : {1u, 5u, 30u}) {
         const auto sites = points::scattered(surface, t, t);

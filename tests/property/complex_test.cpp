@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "agvd/mesh/point_faces.h"
 #include "agvd/propagation/propagate.h"
 #include "support/checks.h"
 #include "support/points.h"
@@ -151,7 +152,7 @@ INSTANTIATE_TEST_SUITE_P(Symmetric, Ties, testing::ValuesIn(symmetric),
 TEST_P(Ties, AtVerticesAreValid) {
     std::vector<SurfacePoint> points;
     for (Index v = 0; v < surface.num_vertices(); ++v) {
-        points.push_back(points::at_vertex(surface, v));
+        points.push_back(point_at(surface, v));
     }
     expect_valid_from(points);
 }
@@ -191,7 +192,7 @@ TEST_P(Ties, OfTwoSitesAreValid) {
     const Index stride = surface.num_vertices() > 30 ? 7 : 1;
     for (Index v = stride; v < surface.num_vertices() && !HasFailure(); v += stride) {
         SCOPED_TRACE("vertices 0 and " + std::to_string(v));
-        expect_valid(surface, {points::at_vertex(surface, 0), points::at_vertex(surface, v)});
+        expect_valid(surface, {point_at(surface, 0), point_at(surface, v)});
     }
 }
 
@@ -199,9 +200,8 @@ TEST_P(Ties, OfTwoSitesAreValid) {
 // there, not somewhere in a face.
 TEST(TiesAtVertices, OfThreeSitesAtAMeshVertexMeetThere) {
     const Surface surface = build_surface(octahedron().view());
-    const std::vector<SurfacePoint> sites{points::at_vertex(surface, 0),
-                                          points::at_vertex(surface, 2),
-                                          points::at_vertex(surface, 1)};
+    const std::vector<SurfacePoint> sites{point_at(surface, 0), point_at(surface, 2),
+                                          point_at(surface, 1)};
     const Vec3 poles[] = {surface.mesh.positions[4], surface.mesh.positions[5]};
     for (const PropagationOptions& options : settings()) {
         const Diagram diagram = build_diagram(surface, sites, propagate(surface, sites, options));

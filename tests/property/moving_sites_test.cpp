@@ -8,6 +8,7 @@
 #include "agvd/core/error.h"
 #include "agvd/core/random.h"
 #include "agvd/diagram/diagram.h"
+#include "agvd/mesh/point_faces.h"
 #include "agvd/propagation/propagate.h"
 #include "support/checks.h"
 #include "support/points.h"
@@ -75,7 +76,7 @@ TEST(MovingSites, OnlyNeighboursPropagateAgain) {
     const SurfaceLayout layout(surface);
     MovingSites moving(surface, layout, points::scattered(surface, 100, 5));
     EXPECT_EQ(moving.num_propagated(), 100);
-    moving.update({.moved = {{7, points::at_vertex(surface, 1)}}, .removed = {}, .added = {}});
+    moving.update({.moved = {{7, point_at(surface, 1)}}, .removed = {}, .added = {}});
     EXPECT_GE(moving.num_propagated(), 2);
     EXPECT_LE(moving.num_propagated(), 30);
     moving.update({});
@@ -87,7 +88,7 @@ TEST(MovingSites, ADiagramOfThemIsTheFreshOne) {
     const Surface surface = build_surface(shapes::torus(40, 20).view());
     const SurfaceLayout layout(surface);
     MovingSites moving(surface, layout, points::scattered(surface, 30, 1));
-    moving.update({.moved = {}, .removed = {3, 0}, .added = {points::at_vertex(surface, 17)}});
+    moving.update({.moved = {}, .removed = {3, 0}, .added = {point_at(surface, 17)}});
     const Diagram after = build_diagram(surface, moving.sites(), moving.propagation());
     const Diagram fresh =
         build_diagram(surface, moving.sites(), propagate(surface, moving.sites()));

@@ -18,8 +18,9 @@ void expect_same_topology(const TriangleMesh& mesh, const remesh::RemeshOptions&
     EXPECT_TRUE(topology.is_manifold);
     EXPECT_TRUE(topology.is_oriented);
     EXPECT_TRUE(same_topology(topology, result.input_topology));
-    EXPECT_EQ(result.mesh.positions.size(),
-              options.num_samples + result.sites_added - result.sites_dropped);
+    EXPECT_EQ(result.mesh.positions.size(), options.vertex_count == remesh::VertexCount::Exact
+                                                ? options.num_samples
+                                                : options.num_samples + result.sites_added);
     ASSERT_EQ(result.sites.size(), result.mesh.positions.size());
     for (std::size_t i = 0; i < result.sites.size(); ++i) {
         EXPECT_LT((position(mesh.view(), result.sites[i]) - result.mesh.positions[i]).norm(), 1e-9);

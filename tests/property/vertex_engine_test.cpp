@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "agvd/diagram/face_relays.h"
+#include "agvd/mesh/point_faces.h"
 #include "agvd/propagation/propagate.h"
 #include "support/checks.h"
 #include "support/points.h"
@@ -84,9 +85,8 @@ TEST(VertexEngine, IsExactOnAFlatSheetAroundASite) {
     const TriangleMesh flat = shapes::grid(6);
     for (const TriangleMesh& mesh : {flat, folded_grid(6)}) {
         const Surface surface = build_surface(mesh.view());
-        const std::vector<SurfacePoint> starts{points::at_vertex(surface, 24),
-                                               {FaceId(40), {0.2, 0.3, 0.5}},
-                                               {FaceId(31), {0, 0.4, 0.6}}};
+        const std::vector<SurfacePoint> starts{
+            point_at(surface, 24), {FaceId(40), {0.2, 0.3, 0.5}}, {FaceId(31), {0, 0.4, 0.6}}};
         for (const SurfacePoint& site : starts) {
             const Deviation error = error_on(mesh, flat, {site});
             EXPECT_GE(error.least, -rounding);
@@ -187,8 +187,8 @@ TEST(VertexEngine, TheLowerSiteWinsTies) {
         }
         return best;
     };
-    const SurfacePoint left = points::at_vertex(surface, vertex_near({0, 0.5, 0}));
-    const SurfacePoint right = points::at_vertex(surface, vertex_near({1, 0.5, 0}));
+    const SurfacePoint left = point_at(surface, vertex_near({0, 0.5, 0}));
+    const SurfacePoint right = point_at(surface, vertex_near({1, 0.5, 0}));
     for (const auto& sites : {std::vector{left, right}, std::vector{right, left}}) {
         const Propagation p = run(surface, sites);
         EXPECT_EQ(p.vertex_site[vertex_near({0.5, 0.5, 0})], SiteId(0));
@@ -250,7 +250,7 @@ TEST(VertexEngine, BendsAroundAReflexCorner) {
             if ((mesh.positions[v] - Vec3(x, y, 0)).norm() < 1e-9) return v;
         }
     };
-    const Propagation p = run(surface, {points::at_vertex(surface, vertex_at(0.5, 1))});
+    const Propagation p = run(surface, {point_at(surface, vertex_at(0.5, 1))});
     const double bend = 0.5;
     EXPECT_NEAR(p.vertex_distance[vertex_at(0.5, 0.5)], bend, 1e-12);
     EXPECT_NEAR(p.vertex_distance[vertex_at(1, 0.5)], 2 * bend, 1e-12);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "agvd/core/error.h"
+#include "agvd/mesh/point_faces.h"
 #include "support/checks.h"
 #include "support/points.h"
 #include "support/shapes.h"
@@ -50,7 +51,7 @@ TEST(WindowEngine, PlaneHasEuclideanDistances) {
 TEST(WindowEngine, PathsTurnAtReflexCorners) {
     const Surface s = build_surface(l_shape().view());
     const auto at = [](int i, int j) { return static_cast<Index>(i * 21 + j); };
-    const std::vector<SurfacePoint> site{points::at_vertex(s, at(4, 20))};
+    const std::vector<SurfacePoint> site{point_at(s, at(4, 20))};
     const Vec3 from = s.mesh.positions[at(4, 20)];
     const Vec3 corner = s.mesh.positions[at(10, 10)];
     const Propagation p = exact(s, site);
@@ -71,6 +72,57 @@ TEST(WindowEngine, PathsTurnAtReflexCorners) {
 }
 
 // Several sites in each face: more sites than faces.
+// Where rounding hides on which side of the vertex the site lies.
+TEST(WindowEngine, ASiteBesideAVertexSeesAllAround) {
+    for (const TriangleMesh& mesh : {shapes::jitter(shapes::grid(6), 0.02, 5), shapes::sphere(2)}) {
+        const Surface s = build_surface(mesh.view());
+        for (const double beside : {1e-11, 1e-13, 1e-15, 1e-18}) {
+            for (Index f = 0; f < s.num_faces(); f += 7) {
+                const std::vector<SurfacePoint> vertex{{FaceId(f), {1, 0, 0}}};
+                const Propagation at = exact(s, vertex);
+                for (const SurfacePoint& site :
+                     {SurfacePoint{FaceId(f), {1 - 2 * beside, beside, beside}},
+                      SurfacePoint{FaceId(f), {1 - beside, beside, 0}},
+                      SurfacePoint{FaceId(f), {1 - beside, beside, beside * beside}}}) {
+                    const Propagation p = exact(s, std::vector{site});
+                    for (Index v = 0; v < s.num_vertices(); ++v) {
+                        EXPECT_NEAR(p.vertex_distance[v], at.vertex_distance[v], 1e-10) << v;
+                    }
+                }
+            }
+        }
+    }
+}
+
+// On a strip whose edges are far shorter than the error, arrivals at its reflex vertices differ by
+// less than their errors and must not send each other on for ever.
+TEST(WindowEngine, TurnsCloserThanTheErrorEnd) {
+    TriangleMesh mesh;  // A strip that bends at every vertex of its lower side, after a long face.
+    constexpr Index num_steps = 60;
+    for (Index i = 0; i <= num_steps; ++i) {
+        const double angle = 1e-4 * i;
+        for (const double radius : {1.0, 1 + 1e-4}) {
+            mesh.positions.emplace_back(radius * std::sin(angle), radius * std::cos(angle), 0);
+        }
+        if (i == 0) continue;
+        const Index k = 2 * i;
+        mesh.triangles.push_back({k - 2, k, k - 1});
+        mesh.triangles.push_back({k - 1, k, k + 1});
+    }
+    mesh.positions.emplace_back(-1, 1 + 5e-5, 0);
+    mesh.triangles.push_back({0, 1, 2 * num_steps + 2});
+    const Surface s = build_surface(mesh.view());
+    const std::vector<SurfacePoint> site{point_at(s, 2 * num_steps + 2)};
+    const Propagation truth = exact(s, site);
+    for (const double max_error : {1e-3, 1e-2, 0.1}) {
+        const Propagation p = propagate(s, site, {.max_error = max_error});
+        for (Index v = 0; v < s.num_vertices(); ++v) {
+            EXPECT_LE(p.vertex_distance[v], truth.vertex_distance[v] * (1 + max_error));
+            EXPECT_GE(p.vertex_distance[v], truth.vertex_distance[v] * (1 - 1e-12));
+        }
+    }
+}
+
 TEST(WindowEngine, MoreSitesThanFaces) {
     const Surface s = build_surface(shapes::cube().view());
     const auto sites = points::scattered(s, 60, 8);
@@ -89,7 +141,7 @@ TEST(WindowEngine, MoreSitesThanFaces) {
 
 TEST(WindowEngine, ComponentsWithoutASiteAreOutOfReach) {
     const Surface s = build_surface(shapes::join(shapes::grid(3), shapes::sphere(1)).view());
-    const std::vector<SurfacePoint> site{points::at_vertex(s, 0)};
+    const std::vector<SurfacePoint> site{point_at(s, 0)};
     const Propagation p = exact(s, site);
     for (Index v = 0; v < s.num_vertices(); ++v) {
         EXPECT_EQ(std::isfinite(p.vertex_distance[v]), v < 16) << "vertex " << v;
@@ -103,8 +155,7 @@ TEST(WindowEngine, TheLowerSiteOwnsATieBehindACorner) {
     const Surface s = build_surface(l_shape().view());
     const Vec3 corner = s.mesh.positions[10 * 21 + 10];
     // Both at the same distance from the corner, in directions that see the same region by it only.
-    std::vector<SurfacePoint> sites{points::at_vertex(s, 6 * 21 + 13),
-                                    points::at_vertex(s, 7 * 21 + 14)};
+    std::vector<SurfacePoint> sites{point_at(s, 6 * 21 + 13), point_at(s, 7 * 21 + 14)};
     for (const auto& site : sites) {
         ASSERT_NEAR((position(s.mesh.view(), site) - corner).norm(), 0.25, 1e-12);
     }

@@ -8,13 +8,6 @@ namespace points {
 
 using namespace agvd;
 
-SurfacePoint at_vertex(const Surface& surface, Index vertex) {
-    const Index h = surface.outgoing[vertex];
-    SurfacePoint point{FaceId(Surface::face(h)), {0, 0, 0}};
-    point.barycentric[h % 3] = 1;
-    return point;
-}
-
 std::vector<SurfacePoint> scattered(const Surface& surface, Index count, std::uint64_t seed) {
     std::vector<SurfacePoint> points;
     for (Index i = 0; i < count; ++i) {
@@ -34,7 +27,7 @@ SurfacePoint anywhere(Dice& dice, Index face) {
     SurfacePoint point{FaceId(face), {}};
     for (double& b : point.barycentric) b = dice.number(0.01, 1);
     const Index corner = dice.count(0, 2);
-    const double little = dice.one_in(4) ? dice.magnitude(1e-6, 1e-2) : 0;
+    const double little = dice.one_in(4) ? dice.magnitude(1e-18, 1e-2) : 0;
     const Index kind = dice.count(0, 2);
     if (kind >= 1) point.barycentric[corner] *= little;
     if (kind == 2) point.barycentric[(corner + 1) % 3] *= little;

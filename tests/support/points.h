@@ -8,8 +8,6 @@
 
 namespace points {
 
-[[nodiscard]] agvd::SurfacePoint at_vertex(const agvd::Surface& surface, agvd::Index vertex);
-
 //! Points in face interiors, inside edges and at vertices in turn, on random faces.
 [[nodiscard]] std::vector<agvd::SurfacePoint> scattered(const agvd::Surface& surface,
                                                         agvd::Index count, std::uint64_t seed);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "agvd/mesh/point_faces.h"
 #include "agvd/mesh/uniform_points.h"
 #include "agvd/propagation/propagate.h"
 #include "support/points.h"
@@ -87,7 +88,7 @@ TEST(CellLocator, CurvesThatOnlyTouchACornerLeaveTheFaceWhole) {
 
 TEST(CellLocator, WhereNoSiteReachesThereIsNone) {
     const Surface surface = build_surface(shapes::join(shapes::grid(2), shapes::sphere(0)).view());
-    const std::vector sites{points::at_vertex(surface, 0)};
+    const std::vector sites{point_at(surface, 0)};
     const Diagram diagram = build_diagram(surface, sites, propagate(surface, sites));
     const CellLocator cell(surface, diagram);
     EXPECT_EQ(cell({FaceId(0), {0.2, 0.3, 0.5}}), SiteId(0));

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <set>
 
+#include "agvd/mesh/point_faces.h"
+#include "remesh/sampling/boundary_curves.h"
 #include "support/shapes.h"
 
 using agvd::Index;
@@ -110,7 +112,8 @@ TEST(SampleSites, EveryComponentGetsWhatItsTopologyNeedsAndTheRestGoesByArea) {
     for (Vec3& p : large.positions) p = 2 * p + Vec3(5, 0, 0);  // Area 4.
     const Surface surface = make(shapes::join(shapes::join(small, grid), large));
     for (const Init init : both_inits) {
-        const auto sites = sample_sites(surface, {.num_samples = 13 + 101, .init = init});
+        const auto sites = sample_sites(
+            surface, {.num_samples = 13 + 101, .init = init, .boundary = remesh::Boundary::Free});
         ASSERT_EQ(sites.size(), 114u);
         EXPECT_EQ(count_below(sites, 96), 7u);
         EXPECT_EQ(count_below(sites, 96 + 18), 7u + 3u + 20u);
@@ -138,7 +141,8 @@ TEST(SampleSites, SpreadsByAreaOverFacesAndWithinThem) {
     for (const Init init : both_inits) {
         const Index n = 10000;
         std::array<double, 64> hits{};
-        const auto sites = sample_sites(surface, {.num_samples = n, .init = init});
+        const auto sites = sample_sites(
+            surface, {.num_samples = n, .init = init, .boundary = remesh::Boundary::Free});
         for (const Vec3& p : positions(surface, sites)) {
             ++hits[static_cast<std::size_t>(p.x() * 8) * 8 + static_cast<std::size_t>(p.y() * 8)];
         }
@@ -148,6 +152,43 @@ TEST(SampleSites, SpreadsByAreaOverFacesAndWithinThem) {
         if (init == Init::BlueNoise) {
             EXPECT_LT(chi_square, 20) << "more even than chance";
         }
+    }
+}
+
+TEST(SampleSites, TheBoundaryGetsItsCornersAndEqualSteps) {
+    const Surface surface = make(shapes::grid(30));
+    const Index n = 400;
+    const auto sites = sample_sites(surface, {.num_samples = n});
+    ASSERT_EQ(sites.size(), n);
+    std::vector<Vec3> rim;
+    Index corners = 0;
+    for (const SurfacePoint& s : sites) {
+        if (!is_on_boundary(surface, s)) continue;
+        rim.push_back(agvd::position(surface.mesh.view(), s));
+        if (agvd::vertex_of(surface, s)) {
+            const Vec3& p = rim.back();
+            corners += (p.x() == 0 || p.x() == 1) && (p.y() == 0 || p.y() == 1) ? 1 : 0;
+        }
+    }
+    EXPECT_EQ(corners, 4u);
+    // Of equilateral triangles: 400 vertices on a unit square are 0.055 apart.
+    EXPECT_NEAR(static_cast<double>(rim.size()), 4 / 0.055, 4);
+    EXPECT_GT(least_distance(rim), 0.9 * 4 / static_cast<double>(rim.size()));
+    EXPECT_GT(least_distance(positions(surface, sites)), 0.5 * 0.055);
+}
+
+// A strip narrower than the sites' distance has them all on its rim; a round hole has no corner.
+TEST(SampleSites, NarrowStripsAndRoundHoles) {
+    agvd::TriangleMesh strip = shapes::grid(20);
+    for (Vec3& p : strip.positions) p.y() *= 1e-3;
+    const Surface narrow = make(strip);
+    for (const SurfacePoint& s : sample_sites(narrow, {.num_samples = 40})) {
+        EXPECT_TRUE(is_on_boundary(narrow, s));
+    }
+    const Surface tube = make(shapes::tube(64, 20));
+    for (const std::vector<Index>& loop : agvd::boundary_loops(tube)) {
+        EXPECT_TRUE(remesh::find_corners(tube, loop, 0.5).empty());
+        EXPECT_EQ(remesh::sample_loop(tube, loop, {}, 100.0).size(), 3u);
     }
 }
 

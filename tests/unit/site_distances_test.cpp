@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "agvd/mesh/point_faces.h"
 #include "agvd/propagation/propagate.h"
 #include "support/points.h"
 #include "support/shapes.h"
@@ -42,7 +43,7 @@ TEST(SiteDistances, AreThoseOfThePropagationAtVertices) {
     const auto sites = points::scattered(surface, 5, 3);
     std::vector<SurfacePoint> vertices;
     for (Index v = 0; v < surface.num_vertices(); ++v) {
-        vertices.push_back(points::at_vertex(surface, v));
+        vertices.push_back(point_at(surface, v));
     }
     const auto found = site_distances(surface, sites, all_pairs(sites, vertices, 0.5));
     for (Index s = 0; s < sites.size(); ++s) {
@@ -75,8 +76,8 @@ TEST(SiteDistances, AreTheSameBothWaysAndForAnyGuessAndThreads) {
 TEST(SiteDistances, OtherComponentsAreNotReached) {
     const Surface surface =
         build_surface(shapes::join(shapes::sphere(1), shapes::sphere(1)).view());
-    const auto site = points::at_vertex(surface, 0);
-    const auto other = points::at_vertex(surface, surface.num_vertices() - 1);
+    const auto site = point_at(surface, 0);
+    const auto other = point_at(surface, surface.num_vertices() - 1);
     const std::vector<SiteDistanceQuery> queries{{SiteId(0), other, 1}, {SiteId(0), site, 1}};
     EXPECT_EQ(site_distances(surface, {&site, 1}, queries), (std::vector<double>{infinity, 0}));
 }

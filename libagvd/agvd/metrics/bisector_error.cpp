@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "agvd/metrics/common_face.h"
+#include "agvd/mesh/point_faces.h"
 
 namespace agvd {
 namespace {

@@ -3,7 +3,7 @@
 #include <limits>
 #include <span>
 
-#include "agvd/metrics/common_face.h"
+#include "agvd/mesh/point_faces.h"
 
 namespace agvd {
 namespace {

@@ -50,33 +50,6 @@ Vec2 position_in_frame(const Surface& surface, const SurfacePoint& point, Index 
     return apex * surface.apex[half_edge] + Vec2(head * surface.length_of(half_edge), 0);
 }
 
-std::optional<Index> vertex_of(const Surface& surface, const SurfacePoint& point) {
-    for (Index k = 0; k < 3; ++k) {
-        if (point.barycentric[(k + 1) % 3] == 0 && point.barycentric[(k + 2) % 3] == 0) {
-            return surface.mesh.triangles[point.face.value()][k];
-        }
-    }
-    return std::nullopt;
-}
-
-std::optional<Index> half_edge_of(const SurfacePoint& point) {
-    for (Index k = 0; k < 3; ++k) {
-        if (point.barycentric[(k + 2) % 3] == 0 && point.barycentric[k] != 0 &&
-            point.barycentric[(k + 1) % 3] != 0) {
-            return 3 * point.face.value() + k;
-        }
-    }
-    return std::nullopt;
-}
-
-SurfacePoint across_edge(const Surface& surface, const SurfacePoint& point, Index half_edge) {
-    const Index twin = surface.twin[half_edge];
-    SurfacePoint result{FaceId(Surface::face(twin)), {0, 0, 0}};
-    result.barycentric[twin % 3] = point.barycentric[(half_edge + 1) % 3];
-    result.barycentric[(twin + 1) % 3] = point.barycentric[half_edge % 3];
-    return result;
-}
-
 void check_sites(const Surface& surface, std::span<const SurfacePoint> sites) {
     for (Index s = 0; s < sites.size(); ++s) check_site(surface, sites[s], s);
 }

@@ -2,28 +2,16 @@
 //! Sites seen from the mesh: on which vertex, edge or face each lies, and which sites a face holds.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <vector>
 
-#include "agvd/mesh/surface.h"
-#include "agvd/mesh/surface_point.h"
+#include "agvd/mesh/point_faces.h"
 
 namespace agvd {
 
 //! Position of a surface point in the frame of one of its face's half-edges.
 [[nodiscard]] Vec2 position_in_frame(const Surface& surface, const SurfacePoint& point,
                                      Index half_edge);
-
-//! The vertex a point lies on, if it does.
-[[nodiscard]] std::optional<Index> vertex_of(const Surface& surface, const SurfacePoint& point);
-
-//! The half-edge of the point's face in whose interior the point lies, if it does.
-[[nodiscard]] std::optional<Index> half_edge_of(const SurfacePoint& point);
-
-//! The same point of an edge's interior, seen from the face across `half_edge` (which must exist).
-[[nodiscard]] SurfacePoint across_edge(const Surface& surface, const SurfacePoint& point,
-                                       Index half_edge);
 
 //! \throw InvalidInput naming the site when its face does not exist or it is off the face.
 void check_sites(const Surface& surface, std::span<const SurfacePoint> sites);

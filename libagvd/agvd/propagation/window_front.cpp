@@ -194,6 +194,11 @@ bool WindowFront::next_item(Index& item) {
 
 // --- Vertices ----------------------------------------------------------------------------------
 
+// Arrivals within each other's error may turn at a vertex one after the other, and send each other
+// back and forth between vertices that lie closer than the error. After so many the whole fan is
+// emitted, which holds all their shadows.
+constexpr Index max_turns = 32;
+
 // By a path that is straight where it arrives. It comes from `arrival` in the frame of the
 // half-edge, or from no known direction.
 void WindowFront::reach_vertex(Index record, double distance, float error, Index half_edge,
@@ -206,6 +211,10 @@ void WindowFront::reach_vertex(Index record, double distance, float error, Index
     // Of exact arrivals the nearest tells where the shadow lies; of others any may.
     if (!is_nearest && (max_error_ == 0 || distance == v.last_arrival)) return;
     v.last_arrival = distance;
+    if (++v.num_turns > max_turns) {
+        if (v.num_turns > max_turns + 1 && !is_nearest) return;
+        half_edge = no_index;
+    }
     Index bucket = no_index;
     schedule(turn_item(turns_.push({record, half_edge, arrival, distance})), bucket, distance);
 }

@@ -87,7 +87,8 @@ private:
         double outer_bound;              // Given by the caller.
         double upper = infinity;         // Of a path from this site.
         double low = infinity;           // Least that a window gives.
-        double last_arrival = infinity;  // The last one that may turn here.
+        double last_arrival = infinity;  // The last one that may turn here,
+        Index num_turns = 0;             // and how many there were.
     };
     // Windows of a half-edge in ascending order along it. Their place has room for the next power
     // of two.

@@ -1,24 +1,32 @@
 #include "remesh/pipeline/remesh.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <limits>
+#include <stdexcept>
 #include <string>
 
-#include "agvd/diagram/diagram.h"
+#include "agvd/mesh/point_faces.h"
 #include "agvd/mesh/refine.h"
-#include "remesh/dual/build_dual.h"
+#include "remesh/pipeline/stage_clock.h"
+#include "remesh/pipeline/valid_dual.h"
+#include "remesh/quality/self_intersections.h"
 #include "remesh/repair/carry_sites.h"
-#include "remesh/repair/closed_ball.h"
+#include "remesh/repair/drop_components.h"
+#include "remesh/repair/farthest_corner.h"
+#include "remesh/repair/reduce_vertices.h"
+#include "remesh/sampling/boundary_curves.h"
 
 namespace remesh {
 namespace {
 
 using agvd::Index;
+using agvd::no_index;
 using agvd::Surface;
 using agvd::SurfacePoint;
 using agvd::Vec3;
+using detail::progress_of;
+using detail::StageClock;
+using detail::ValidDual;
 
 void check_options(const RemeshOptions& options) {
     if (options.num_samples < 1) {
@@ -32,6 +40,10 @@ void check_options(const RemeshOptions& options) {
         throw agvd::InvalidOption("relax_steps is " + std::to_string(options.relax_steps) +
                                   "; use 0 or more");
     }
+    if (!(options.drop_components >= 0 && options.drop_components <= 100)) {
+        throw agvd::InvalidOption("drop_components is " + std::to_string(options.drop_components) +
+                                  "; use a percentage from 0 to 100");
+    }
     if (options.num_threads < 0) {
         throw agvd::InvalidOption("num_threads is " + std::to_string(options.num_threads) +
                                   "; use 0 (all cores) or more");
@@ -41,35 +53,22 @@ void check_options(const RemeshOptions& options) {
 // Longest edge that propagation gets to see, in mean spacings of the sites: the Steiner points of a
 // longer one resolve no cell.
 constexpr double longest_edge = 1.5;
-// Rounds without fewer violations than ever before: adding sites does not help here.
-constexpr int max_stalled_rounds = 8;
+// Rounds of new sites where the result runs through itself.
+constexpr int max_mends = 4;
 
-// Adds the time until it ends to its stage.
-class StageTimer {
-public:
-    StageTimer(Stage stage, RemeshResult& result)
-        : stage_(stage), result_(result), start_(std::chrono::steady_clock::now()) {}
-    StageTimer(const StageTimer&) = delete;
-    StageTimer& operator=(const StageTimer&) = delete;
-    ~StageTimer() {
-        const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
-        auto found = std::find_if(result_.seconds.begin(), result_.seconds.end(),
-                                  [&](const auto& entry) { return entry.first == stage_; });
-        if (found != result_.seconds.end()) found->second += spent.count();
-    }
-
-private:
-    Stage stage_;
-    RemeshResult& result_;
-    std::chrono::steady_clock::time_point start_;
+// Thrown where no vertex can go any more; never leaves this file.
+struct TooFewSamples {
+    Index reached;  // Vertices that are left.
 };
+
+using CrossingFaces = std::optional<std::vector<std::pair<Index, Index>>>;
 
 class Pipeline {
 public:
     Pipeline(const agvd::MeshView& mesh, const RemeshOptions& options)
         : input_(mesh), options_(options) {
         for (const Stage stage : {Stage::Clean, Stage::Sample, Stage::Relax, Stage::Propagate,
-                                  Stage::Diagram, Stage::Dual}) {
+                                  Stage::Diagram, Stage::Dual, Stage::Check}) {
             result_.seconds.emplace_back(stage, 0.0);
         }
     }
@@ -80,37 +79,39 @@ public:
         refine();
         place_sites();
         relax();
-        build_valid_diagram();
         build_mesh();
+        check_mesh();
+        result_.sites = to_original(result_.sites, input_, clean_);
         return std::move(result_);
     }
 
 private:
-    [[nodiscard]] agvd::Progress progress_of(Stage stage) const {
-        if (!options_.progress) return {};
-        return [this, stage](double fraction) { return options_.progress(stage, fraction); };
-    }
-
     void clean() {
-        const StageTimer timer(Stage::Clean, result_);
-        agvd::poll(progress_of(Stage::Clean), 0);
+        const StageClock clock(Stage::Clean, result_);
+        agvd::poll(progress_of(Stage::Clean, options_), 0);
         clean_ = clean_input(input_);
         result_.cleaned = clean_.counts;
         result_.input_topology = analyze_topology(clean_.mesh.view());
-        agvd::poll(progress_of(Stage::Clean), 1);
+        if (options_.drop_components > 0) {
+            result_.components_dropped =
+                drop_components(clean_, result_.input_topology, options_.drop_components);
+            if (result_.components_dropped > 0) {
+                result_.input_topology = analyze_topology(clean_.mesh.view());
+            }
+        }
+        agvd::poll(progress_of(Stage::Clean, options_), 1);
     }
 
     // Edges that span several cells are split; the surface stays what it is.
     void refine() {
-        const StageTimer timer(Stage::Clean, result_);
+        const StageClock clock(Stage::Clean, result_);
         double area = 0;
         for (const ComponentTopology& c : result_.input_topology.components) area += c.area;
         const std::size_t num_sites =
             options_.sites ? options_.sites->size() : options_.num_samples;
-        const double spacing =
-            std::sqrt(area / static_cast<double>(std::max<std::size_t>(num_sites, 1)));
+        spacing_ = std::sqrt(area / static_cast<double>(std::max<std::size_t>(num_sites, 1)));
         agvd::RefinedMesh refined =
-            agvd::split_long_edges(clean_.mesh.view(), longest_edge * spacing);
+            agvd::split_long_edges(clean_.mesh.view(), longest_edge * spacing_);
         clean_.mesh = std::move(refined.mesh);
         component_.reserve(refined.face_origin.size());
         for (Index& origin : refined.face_origin) {
@@ -120,26 +121,38 @@ private:
         clean_.face_origin = std::move(refined.face_origin);
         result_.refined_faces = static_cast<Index>(clean_.mesh.triangles.size());
         surface_ = agvd::build_surface(clean_.mesh.view());
-        if (options_.engine != agvd::Engine::Steiner || options_.relax_steps > 0) {
-            layout_.emplace(surface_, options_.num_threads);
-        }
+        layout_.emplace(surface_, options_.num_threads);
     }
 
     void place_sites() {
-        const StageTimer timer(Stage::Sample, result_);
+        const StageClock clock(Stage::Sample, result_);
         if (options_.sites) {
             sites_ = to_cleaned(*options_.sites, input_, clean_);
-        } else if (!is_coarse_to_fine()) {
-            sites_ = sample_sites(surface_, sampling());
+        } else {
+            if (!is_coarse_to_fine()) sites_ = sample_sites(surface_, sampling());
+        }
+        if (options_.boundary == Boundary::Keep) {
+            for (const std::vector<Index>& loop : agvd::boundary_loops(surface_)) {
+                const std::vector<Index> corners = find_corners(surface_, loop, spacing_);
+                corners_.insert(corners_.end(), corners.begin(), corners.end());
+            }
+            std::sort(corners_.begin(), corners_.end());
         }
     }
+
     [[nodiscard]] SamplingOptions sampling() const {
-        return {.num_samples = options_.num_samples,
+        Index needed = 0;  // Fewer are reached from there, if at all.
+        for (const ComponentTopology& c : result_.input_topology.components) {
+            needed += minimum_samples(c.genus, c.boundary_loops);
+        }
+        return {.num_samples = std::max(options_.num_samples, needed),
                 .init = options_.init,
+                .boundary = options_.boundary,
                 .seed = options_.seed,
                 .num_threads = options_.num_threads,
-                .progress = progress_of(Stage::Sample)};
+                .progress = progress_of(Stage::Sample, options_)};
     }
+
     // Relaxation samples by itself.
     [[nodiscard]] bool is_coarse_to_fine() const {
         return !options_.sites && options_.init == Init::BlueNoise && options_.relax_steps > 0;
@@ -148,10 +161,10 @@ private:
     void relax() {
         const bool keeps = options_.sites && options_.keep_sites;
         if (options_.relax_steps == 0 || keeps) return;
-        const StageTimer timer(Stage::Relax, result_);
+        const StageClock clock(Stage::Relax, result_);
         const RelaxOptions relax{.steps = options_.relax_steps,
                                  .num_threads = options_.num_threads,
-                                 .progress = progress_of(Stage::Relax)};
+                                 .progress = progress_of(Stage::Relax, options_)};
         RelaxResult relaxed = is_coarse_to_fine()
                                   ? sample_relaxed_sites(surface_, *layout_, sampling(), relax)
                                   : relax_sites(surface_, *layout_, std::move(sites_), relax);
@@ -159,132 +172,134 @@ private:
         result_.relaxation = std::move(relaxed.levels);
     }
 
-    // Propagates and checks the closed-ball property, adding sites until it holds.
-    void build_valid_diagram() {
-        std::size_t fewest = std::numeric_limits<std::size_t>::max();
-        int stalled_rounds = 0;
-        while (true) {
-            build_diagram();
-            std::vector<ClosedBallViolation> violations = find_missing_sites();
-            if (violations.empty()) violations = find_closed_ball_violations(surface_, diagram_);
-            if (violations.empty()) return;
-            stalled_rounds = violations.size() < fewest ? 0 : stalled_rounds + 1;
-            fewest = std::min(fewest, violations.size());
-            if (result_.repair_rounds == options_.repair_rounds ||
-                stalled_rounds == max_stalled_rounds) {
-                give_up(violations);
-            }
-            ++result_.repair_rounds;
-            add_sites(violations);
-        }
-    }
-
-    void build_diagram() {
-        agvd::Propagation propagation;
-        {
-            const StageTimer timer(Stage::Propagate, result_);
-            const agvd::PropagationOptions options{.engine = options_.engine,
-                                                   .max_error = options_.max_error,
-                                                   .steiner_points = options_.steiner_points,
-                                                   .lambda = options_.lambda,
-                                                   .num_threads = options_.num_threads,
-                                                   .progress = progress_of(Stage::Propagate)};
-            propagation = layout_ ? agvd::propagate(surface_, *layout_, sites_, options)
-                                  : agvd::propagate(surface_, sites_, options);
-            result_.certified_error = propagation.certified_error;
-            result_.propagation_bytes = propagation.peak_bytes;
-        }
-        const StageTimer timer(Stage::Diagram, result_);
-        diagram_ = agvd::build_diagram(
-            surface_, sites_, propagation,
-            {.num_threads = options_.num_threads, .progress = progress_of(Stage::Diagram)});
-    }
-
-    // Components that no given site reaches.
-    [[nodiscard]] std::vector<ClosedBallViolation> find_missing_sites() const {
-        std::vector<ClosedBallViolation> missing;
-        std::vector<bool> is_told(result_.input_topology.components.size(), false);
-        for (Index f = 0; f < surface_.num_faces(); ++f) {
-            const Index component = component_[f];
-            const Index v = clean_.mesh.triangles[f][0];
-            if (diagram_.nearest_site[v].is_valid() || is_told[component]) continue;
-            is_told[component] = true;
-            missing.push_back({{}, {}, "a component has no site", {agvd::FaceId(f), {1, 0, 0}}});
-        }
-        return missing;
-    }
-
-    // One site for each violation whose cells and place no other new site of this round concerns.
-    void add_sites(const std::vector<ClosedBallViolation>& violations) {
-        std::vector<bool> is_concerned(sites_.size(), false);
-        const std::size_t first_new = sites_.size();
-        for (const ClosedBallViolation& violation : violations) {
-            const Vec3 place = position(clean_.mesh.view(), violation.remedy);
-            bool is_free = std::none_of(
-                sites_.begin() + static_cast<std::ptrdiff_t>(first_new), sites_.end(),
-                [&](const SurfacePoint& s) { return position(clean_.mesh.view(), s) == place; });
-            for (const agvd::SiteId site : {violation.site, violation.other}) {
-                if (!site.is_valid()) continue;
-                is_free = is_free && !is_concerned[site.value()];
-                is_concerned[site.value()] = true;
-            }
-            if (!is_free) continue;
-            sites_.push_back(violation.remedy);
-            ++result_.sites_added;
-        }
-    }
-
-    [[noreturn]] void give_up(const std::vector<ClosedBallViolation>& violations) const {
-        constexpr std::size_t max_named = 5;
-        std::string text = "the topology was not reached in " +
-                           std::to_string(result_.repair_rounds) + " rounds of adding sites";
-        for (std::size_t i = 0; i < std::min(max_named, violations.size()); ++i) {
-            const ClosedBallViolation& v = violations[i];
-            text += i == 0 ? ": " : "; ";
-            if (v.site.is_valid()) text += "cell " + std::to_string(v.site.value()) + " ";
-            text += v.reason;
-            if (v.other.is_valid()) text += " cell " + std::to_string(v.other.value());
-        }
-        if (violations.size() > max_named) {
-            text += "; and " + std::to_string(violations.size() - max_named) + " more";
-        }
-        throw agvd::ConstraintUnmet(text + "; ask for more samples, for example " +
-                                    std::to_string(2 * sites_.size()));
-    }
-
+    // The dual with the count asked for. Where it runs through itself more often than the input, it
+    // is built again with more sites there; the best counts.
     void build_mesh() {
-        const StageTimer timer(Stage::Dual, result_);
-        agvd::poll(progress_of(Stage::Dual), 0);
-        result_.mesh.triangles = build_dual(surface_, diagram_);
-        std::vector<Index> new_index(sites_.size(), agvd::no_index);
-        for (const agvd::Triangle& t : result_.mesh.triangles) {
-            for (const Index s : t) new_index[s] = 0;
+        const detail::Ground ground{surface_, *layout_, result_.input_topology.components,
+                                    component_, corners_};
+        for (int mends = 0;; ++mends) {
+            ValidDual dual = build_valid_dual(ground, sites_, options_, result_);
+            if (mends == 0) set_target(dual.diagram);
+            const Index num_removed = reduce(dual);
+            const CrossingFaces crossings = find_crossings(dual.mesh);
+            if (mends == 0 || !crossings || crossings->size() < *result_.self_intersections) {
+                result_.mesh = {positions_of(dual.mesh), dual.mesh.triangles};
+                result_.sites = dual.mesh.points;
+                result_.sites_removed = num_removed;
+                if (crossings) result_.self_intersections = static_cast<Index>(crossings->size());
+            }
+            if (!crossings || crossings->size() <= result_.input_self_intersections ||
+                mends == max_mends) {
+                return;
+            }
+            add_sites_at(*crossings, dual);
         }
-        std::vector<SurfacePoint> kept;
-        for (Index s = 0; s < sites_.size(); ++s) {
-            if (new_index[s] == agvd::no_index) continue;
-            new_index[s] = static_cast<Index>(kept.size());
-            kept.push_back(sites_[s]);
-            result_.mesh.positions.push_back(position(clean_.mesh.view(), sites_[s]));
-        }
-        for (agvd::Triangle& t : result_.mesh.triangles) {
-            for (Index& s : t) s = new_index[s];
-        }
-        result_.sites_dropped = static_cast<Index>(sites_.size() - kept.size());
-        result_.sites = to_original(kept, input_, clean_);
-        check_mesh();
-        agvd::poll(progress_of(Stage::Dual), 1);
     }
 
-    // The closed-ball property implies this; nothing leaves unchecked all the same.
-    void check_mesh() const {
+    void set_target(const agvd::Diagram& diagram) {
+        target_ = options_.num_samples;
+        if (!options_.sites) return;
+        const auto first = diagram.cell_area.begin();
+        const auto num_given = static_cast<Index>(options_.sites->size());
+        result_.sites_dropped =
+            static_cast<Index>(std::count_if(first, first + num_given,  //
+                                             [](double area) { return !(area > 0); }));
+        target_ = num_given - result_.sites_dropped;
+    }
+
+    // Takes vertices away until the count is met; returns how many.
+    Index reduce(ValidDual& dual) {
+        const auto num_vertices = static_cast<Index>(dual.mesh.points.size());
+        if (options_.vertex_count == VertexCount::Add || num_vertices <= target_) return 0;
+        const StageClock clock(Stage::Dual, result_);
+        std::vector<bool> is_corner(surface_.num_vertices(), false);
+        for (const Index v : corners_) is_corner[v] = true;
+        std::vector<std::uint8_t> keep(num_vertices, 0);
+        for (Index i = 0; i < num_vertices; ++i) {
+            const auto v = agvd::vertex_of(surface_, dual.mesh.points[i]);
+            const Index site = dual.site[i];
+            keep[i] = (v && is_corner[*v]) ||
+                      (site != no_index && site < is_wanted_.size() && is_wanted_[site]);
+        }
+        const std::vector<Index> gone =
+            reduce_vertices(positions_of(dual.mesh), dual.mesh.triangles, target_, keep);
+        const Index reached = num_vertices - static_cast<Index>(gone.size());
+        if (reached > target_) throw TooFewSamples{reached};
+        compact(dual, gone);
+        return static_cast<Index>(gone.size());
+    }
+
+    static void compact(ValidDual& dual, const std::vector<Index>& gone) {
+        std::vector<Index> number(dual.mesh.points.size(), 0);
+        for (const Index v : gone) number[v] = no_index;
+        Index num_left = 0;
+        for (Index v = 0; v < number.size(); ++v) {
+            if (number[v] == no_index) continue;
+            dual.mesh.points[num_left] = dual.mesh.points[v];
+            dual.site[num_left] = dual.site[v];
+            number[v] = num_left++;
+        }
+        dual.mesh.points.resize(num_left);
+        dual.site.resize(num_left);
+        for (agvd::Triangle& t : dual.mesh.triangles) {
+            for (Index& v : t) v = number[v];
+        }
+    }
+
+    [[nodiscard]] std::vector<Vec3> positions_of(const SurfaceMesh& mesh) const {
+        std::vector<Vec3> positions;
+        positions.reserve(mesh.points.size());
+        for (const SurfacePoint& point : mesh.points) {
+            positions.push_back(position(surface_.mesh.view(), point));
+        }
+        return positions;
+    }
+
+    // Of the input only if the result has any.
+    CrossingFaces find_crossings(const SurfaceMesh& mesh) {
+        const StageClock clock(Stage::Check, result_);
+        const agvd::TriangleMesh placed{positions_of(mesh), mesh.triangles};
+        CrossingFaces found = find_self_intersections(placed.view(), options_.num_threads);
+        if (found && !found->empty() && !has_judged_input_) {
+            result_.input_self_intersections = static_cast<Index>(
+                find_self_intersections(clean_.mesh.view(), options_.num_threads)->size());
+            has_judged_input_ = true;
+        }
+        return found;
+    }
+
+    // Where the cells of the faces' corners reach farthest; these cells' sites then stay.
+    void add_sites_at(const std::vector<std::pair<Index, Index>>& crossings,
+                      const ValidDual& dual) {
+        const std::vector<Index> farthest = farthest_corners(dual.diagram);
+        std::vector<Index> corners;
+        is_wanted_.resize(sites_.size(), false);
+        for (const auto& [f, g] : crossings) {
+            for (const Index face : {f, g}) {
+                for (const Index v : dual.mesh.triangles[face]) {
+                    const Index site = dual.site[v];
+                    if (site == no_index || farthest[site] == no_index) continue;
+                    corners.push_back(farthest[site]);
+                    is_wanted_[site] = true;
+                }
+            }
+        }
+        std::sort(corners.begin(), corners.end());
+        corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+        for (const Index v : corners) sites_.push_back(dual.diagram.vertices[v]);
+        is_wanted_.resize(sites_.size(), true);
+        result_.sites_added += static_cast<Index>(corners.size());
+        result_.added_because["runs through another part"] += static_cast<Index>(corners.size());
+    }
+
+    // All before implies this; nothing leaves unchecked all the same.
+    void check_mesh() {
+        const StageClock clock(Stage::Check, result_);
         const Topology topology = analyze_topology(result_.mesh.view());
         if (!topology.is_manifold || !topology.is_oriented ||
             !same_topology(topology, result_.input_topology)) {
-            throw agvd::ConstraintUnmet(
-                "the dual of these sites is no manifold of the input's topology; ask for more "
-                "samples, for example " +
-                std::to_string(2 * sites_.size()));
+            throw std::logic_error(
+                "the result lost the topology of the input; please report this with the mesh");
         }
     }
 
@@ -293,11 +308,33 @@ private:
     RemeshResult result_;
     CleanResult clean_;             // Cleaned, then refined.
     std::vector<Index> component_;  // #F of it.
+    double spacing_ = 0;            // Mean distance of the sites.
     Surface surface_;
     std::optional<agvd::SurfaceLayout> layout_;
     std::vector<SurfacePoint> sites_;
-    agvd::Diagram diagram_;
+    std::vector<Index> corners_;   // Boundary vertices, ascending.
+    Index target_ = 0;             // Vertices of the result.
+    std::vector<bool> is_wanted_;  // By site: stays where vertices are taken away.
+    bool has_judged_input_ = false;
 };
+
+// The text for a run that has too few samples: with a number that was tried.
+std::string describe_too_few(const agvd::MeshView& mesh, const RemeshOptions& options,
+                             Index reached) {
+    constexpr int max_tries = 6;
+    RemeshOptions more = options;
+    more.sites.reset();
+    for (int tries = 0; tries < max_tries; ++tries) {
+        more.num_samples = reached;
+        try {
+            (void)Pipeline(mesh, more).run();
+            return std::to_string(reached) + " work";
+        } catch (const TooFewSamples& failure) {
+            reached = std::max(failure.reached, reached + reached / 4 + 1);
+        }
+    }
+    return "more than " + std::to_string(more.num_samples) + " are needed";
+}
 
 }  // namespace
 
@@ -315,12 +352,21 @@ const char* stage_name(Stage stage) {
             return "diagram";
         case Stage::Dual:
             return "dual";
+        case Stage::Check:
+            return "check";
     }
     return "unknown";
 }
 
 RemeshResult remesh(const agvd::MeshView& mesh, const RemeshOptions& options) {
-    return Pipeline(mesh, options).run();
+    try {
+        return Pipeline(mesh, options).run();
+    } catch (const TooFewSamples& failure) {
+        const auto asked = options.sites ? options.sites->size() : options.num_samples;
+        throw agvd::ConstraintUnmet(std::to_string(asked) +
+                                    " samples are too few for the topology of the mesh; " +
+                                    describe_too_few(mesh, options, failure.reached));
+    }
 }
 
 }  // namespace remesh

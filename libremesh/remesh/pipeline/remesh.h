@@ -4,7 +4,9 @@
 
 #include <functional>
 #include <limits>
+#include <map>
 #include <optional>
+#include <string>
 
 #include "agvd/propagation/propagate.h"
 #include "remesh/quality/topology.h"
@@ -14,14 +16,23 @@
 
 namespace remesh {
 
-enum class Stage { Clean, Sample, Relax, Propagate, Diagram, Dual };
+enum class Stage { Clean, Sample, Relax, Propagate, Diagram, Dual, Check };
 
 //! Lower-case name of a stage, for logs.
 [[nodiscard]] const char* stage_name(Stage stage);
 
+//! What becomes of the count where the topology asks for more sites.
+enum class VertexCount {
+    Exact,  //!< As many vertices as sites were asked for: others go where that harms nothing.
+    Add,    //!< The sites that repair adds stay.
+};
+
 //! All lengths in mesh units. `{}` gives a good result.
 struct RemeshOptions {
-    agvd::Index num_samples = 2000;  //!< Sites to place, >= 1; repair may add some.
+    agvd::Index num_samples = 2000;  //!< Sites to place, >= 1: one output vertex each.
+    VertexCount vertex_count = VertexCount::Exact;
+    Boundary boundary = Boundary::Keep;  //!< Keep: boundary vertices lie on the input's boundary.
+    double drop_components = 0;  //!< Leave out components with less than this % of the area.
     Init init = Init::BlueNoise;
     std::uint64_t seed = 1;  //!< Same seed, same bytes, any num_threads.
     //! Sites to use instead of sampling, on the caller's mesh; num_samples, init and seed are then
@@ -36,7 +47,7 @@ struct RemeshOptions {
     std::optional<double> max_error = {};
     int steiner_points = 8;  //!< Steiner engine, m: Steiner points on each edge, in [0, 1000].
     double lambda = 1;       //!< Steiner engine: triangles are retired every lambda * #F pops, > 0.
-    int repair_rounds = 50;  //!< Rounds of adding sites until the topology is kept, >= 0.
+    int repair_rounds = 50;  //!< Rounds of adding sites, >= 0; then a component's own faces serve.
     int num_threads = 0;     //!< >= 0; 0: all cores.
     //! Gets the stage and a fraction in [0, 1] on the caller's thread; return false to stop.
     std::function<bool(Stage, double)> progress = {};
@@ -50,10 +61,21 @@ struct RemeshResult {
     CleanCounts cleaned;                    //!< What was repaired on the input before.
     Topology input_topology;                //!< Of the cleaned input.
     agvd::Index refined_faces = 0;          //!< Faces that propagation saw, long edges split.
-    agvd::Index sites_added = 0;            //!< By topology repair.
-    agvd::Index sites_dropped = 0;          //!< Given sites that own nothing (e.g. duplicates).
-    int repair_rounds = 0;                  //!< Rounds that adding took.
-    std::vector<RelaxLevel> relaxation;     //!< Empty: the sites were not relaxed.
+    agvd::Index components_dropped = 0;     //!< See drop_components.
+    agvd::Index sites_added = 0;            //!< By topology repair and against self-intersections.
+    std::map<std::string, agvd::Index> added_because = {};  //!< The same by reason.
+    agvd::Index sites_moved = 0;    //!< Onto the boundary, or from where they owned nothing.
+    agvd::Index sites_removed = 0;  //!< Vertices taken away to keep the count.
+    agvd::Index sites_dropped = 0;  //!< Given sites that own nothing (e.g. duplicates).
+    int repair_rounds = 0;          //!< Rounds of moving and adding.
+    std::vector<RelaxLevel> relaxation = {};  //!< Empty: the sites were not relaxed.
+    //! Components whose cells could not be made to give their topology; their vertices are chosen
+    //! from the input's faces instead.
+    agvd::Index components_from_faces = 0;
+    //! Self-intersecting pairs of faces of the result, and, if that is not 0, of the cleaned input.
+    //! Unset: without CGAL.
+    std::optional<agvd::Index> self_intersections = {};
+    agvd::Index input_self_intersections = 0;
     //! Of the last propagation: see agvd::Propagation. Infinity: nothing is certified.
     double certified_error = std::numeric_limits<double>::infinity();
     std::size_t propagation_bytes = 0;  //!< Peak of the last propagation, beyond the mesh.
@@ -62,12 +84,15 @@ struct RemeshResult {
 
 //! Replaces a mesh by the dual of its geodesic Voronoi diagram ([meng2023] Sec. 7).
 //!
+//! The result is an oriented 2-manifold with the components of the cleaned input, each with its
+//! genus and boundary loops, and with num_samples vertices (or those of `sites` that own
+//! something): checked before it is returned. docs/algorithm.md says why this always ends well.
 //! \param mesh  #V x 3 positions, #F x 3 indices; read only during the call; may be dirty.
 //! \throw agvd::InvalidOption    an option is out of range.
 //! \throw agvd::InvalidInput     the mesh cannot be repaired (see clean_input), or a given site is
 //!        not on it.
-//! \throw agvd::ConstraintUnmet  num_samples is too small for the topology (the text gives a number
-//!        that may work), or the topology was not reached in repair_rounds (the cells are named).
+//! \throw agvd::ConstraintUnmet  num_samples is too small for the topology; the text gives a number
+//!        that was tried and works.
 //! \throw agvd::Cancelled        the progress callback returned false.
 //! Cost: O(m n log n) a round, n = #F. Re-entrant: no global state.
 [[nodiscard]] RemeshResult remesh(const agvd::MeshView& mesh, const RemeshOptions& options = {});

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "agvd/core/parallel.h"
+#include "agvd/mesh/point_faces.h"
 #include "remesh/relax/walk.h"
 
 namespace remesh::detail {
@@ -46,7 +47,11 @@ Relaxation::Relaxation(const agvd::Surface& surface, std::vector<SurfacePoint> s
       boundary_(sites_.size()) {
     weight_.resize(sites_.size(), 1);
     is_fixed_.resize(sites_.size(), 0);
-    for (Index i = 0; i < sites_.size(); ++i) locate(i);
+    for (Index i = 0; i < sites_.size(); ++i) {
+        locate(i);
+        // A corner of the boundary, or a place that is as good as any on its loop.
+        if (boundary_[i] != no_index && agvd::vertex_of(surface_, sites_[i])) is_fixed_[i] = 1;
+    }
     take_triangles(std::move(triangles));
 }
 

@@ -33,8 +33,8 @@ public:
     }
 
 private:
-    void report(SiteId site, SiteId other, const char* reason, const SurfacePoint& remedy) {
-        found_.push_back({site, other, reason, remedy});
+    void report(SiteId site, SiteId other, const char* reason, std::vector<SurfacePoint> remedies) {
+        found_.push_back({site, other, reason, std::move(remedies)});
     }
 
     // The point of an edge farthest from its sites.
@@ -70,9 +70,9 @@ private:
                 num_loops == 0 && diagram_.cell_euler[s] == 0 && !(diagram_.cell_area[s] > 0);
             if (is_empty || (num_loops == 1 && diagram_.cell_euler[s] == 1)) continue;
             if (num_loops == 0) {
-                report(SiteId(s), {}, "covers a whole component", farthest_vertex(SiteId(s)));
+                report(SiteId(s), {}, "covers a whole component", {farthest_vertex(SiteId(s))});
             } else {
-                report(SiteId(s), {}, "is not a disc", farthest_on_loops(s));
+                report(SiteId(s), {}, "is not a disc", {farthest_on_loops(s)});
             }
         }
     }
@@ -115,11 +115,12 @@ private:
             if (edge.right.is_valid()) {
                 if (edge.tail != no_index && is_on_boundary(edge.tail) &&
                     is_on_boundary(edge.head)) {
+                    // A new site between the two would meet both sides too, and so would the next.
                     report(edge.left, edge.right, "meets the boundary at both ends of its arc with",
-                           middle_point(e));
+                           {diagram_.vertices[edge.tail], diagram_.vertices[edge.head]});
                 }
             } else if (++arcs[edge.left.value()] > 1) {
-                report(edge.left, {}, "meets the boundary more than once", middle_point(e));
+                report(edge.left, {}, "meets the boundary more than once", {middle_point(e)});
             }
         }
     }
@@ -145,7 +146,7 @@ private:
             if (!edge.right.is_valid() || is_degenerate_[e]) continue;
             if (edge.tail == no_index) {
                 report(edge.left, edge.right, "meets along a closed curve",
-                       diagram_.points[farthest_point(e)]);
+                       {diagram_.points[farthest_point(e)]});
             }
             arcs.push_back(
                 {std::min(edge.left, edge.right), std::max(edge.left, edge.right), length(e), e});
@@ -157,7 +158,8 @@ private:
         });
         for (std::size_t i = 1; i < arcs.size(); ++i) {
             if (arcs[i].a != arcs[i - 1].a || arcs[i].b != arcs[i - 1].b) continue;
-            report(arcs[i].a, arcs[i].b, "meets in more than one arc", middle_point(arcs[i].edge));
+            report(arcs[i].a, arcs[i].b, "meets in more than one arc",
+                   {middle_point(arcs[i].edge)});
         }
     }
 
@@ -190,7 +192,7 @@ private:
             if (corners[i].sites != corners[i - 1].sites) continue;
             report(SiteId(corners[i].sites[0]), SiteId(corners[i].sites[1]),
                    "meets twice, each time with the same third cell,",
-                   diagram_.vertices[corners[i].vertex]);
+                   {diagram_.vertices[corners[i].vertex]});
         }
     }
 

@@ -6,12 +6,12 @@
 
 namespace remesh {
 
-//! One way in which cells break the property, and a point where one more site helps.
+//! One way in which cells break the property, and points where more sites help.
 struct ClosedBallViolation {
-    agvd::SiteId site;          //!< The cell named.
-    agvd::SiteId other;         //!< The second cell, if two are concerned.
-    const char* reason = "";    //!< A fixed text that follows the cell's name.
-    agvd::SurfacePoint remedy;  //!< Where to add a site.
+    agvd::SiteId site;                         //!< The cell named.
+    agvd::SiteId other;                        //!< The second cell, if two are concerned.
+    const char* reason = "";                   //!< A fixed text that follows the cell's name.
+    std::vector<agvd::SurfacePoint> remedies;  //!< Where to add sites.
 };
 
 //! All violations: every cell is a disc with one loop; two cells meet in nothing or one arc, and no

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
 #include "agvd/core/parallel.h"
@@ -22,12 +21,11 @@ constexpr double least_normal_cosine = -0.5;
 
 // alpha = 8, beta = 0.65, gamma = 1.5.
 struct Weight {
-    double reach;  // 2 r_max: the spacing of `keep` points packed as densely as can be.
+    double reach;  // 2 r_max: the spacing of the points packed as densely as can be.
     double floor;  // 2 r_min: closer than this is not worse; keeps dense clumps from dominating.
 
-    Weight(double area, double keep, double total)
-        : reach(2 * std::sqrt(area / (2 * std::numbers::sqrt3 * keep))),
-          floor(reach * (1 - std::pow(keep / total, 1.5)) * 0.65) {}
+    Weight(double spacing, double keep, double total)
+        : reach(spacing), floor(reach * (1 - std::pow(keep / total, 1.5)) * 0.65) {}
 
     [[nodiscard]] double operator()(double distance) const {
         const double x = 1 - std::min(1.0, std::max(distance, floor) / reach);
@@ -133,10 +131,14 @@ Neighbours find_neighbours(const Grid& grid, double reach, int num_threads) {
 // Binary heap of places, the most crowded on top, in which any place can sink.
 class CrowdedFirst {
 public:
-    CrowdedFirst(std::vector<double> crowding, const std::vector<Index>& order)
-        : crowding_(std::move(crowding)), order_(order), heap_(order.size()), slot_(order.size()) {
-        std::iota(heap_.begin(), heap_.end(), Index{0});
-        std::iota(slot_.begin(), slot_.end(), Index{0});
+    // Places of points from `first_fixed` on are not in it.
+    CrowdedFirst(std::vector<double> crowding, const std::vector<Index>& order, Index first_fixed)
+        : crowding_(std::move(crowding)), order_(order), slot_(order.size(), agvd::no_index) {
+        for (Index place = 0; place < order.size(); ++place) {
+            if (order[place] >= first_fixed) continue;
+            slot_[place] = static_cast<Index>(heap_.size());
+            heap_.push_back(place);
+        }
         for (auto i = static_cast<Index>(heap_.size() / 2); i-- > 0;) sink(i);
     }
     [[nodiscard]] bool contains(Index place) const { return slot_[place] != agvd::no_index; }
@@ -184,9 +186,10 @@ private:
 }  // namespace
 
 std::vector<agvd::SurfacePoint> eliminate(const agvd::Surface& surface,
-                                          std::span<const ScatteredPoint> points, Index keep,
-                                          double area, int num_threads) {
-    const Weight weight(area, keep, static_cast<double>(points.size()));
+                                          std::span<const ScatteredPoint> points, Index num_fixed,
+                                          Index keep, double spacing, int num_threads) {
+    const auto first_fixed = static_cast<Index>(points.size()) - num_fixed;
+    const Weight weight(spacing, keep, static_cast<double>(first_fixed));
     const Grid grid = build_grid(surface, points, weight.reach);
     const Neighbours neighbours = find_neighbours(grid, weight.reach, num_threads);
     const auto for_each_neighbour = [&](Index place, const auto& body) {
@@ -200,7 +203,7 @@ std::vector<agvd::SurfacePoint> eliminate(const agvd::Surface& surface,
     for (Index place = 0; place < crowding.size(); ++place) {
         for_each_neighbour(place, [&](Index, double w) { crowding[place] += w; });
     }
-    CrowdedFirst queue(std::move(crowding), grid.order);
+    CrowdedFirst queue(std::move(crowding), grid.order, first_fixed);
     while (queue.size() > keep) {
         for_each_neighbour(queue.pop(), [&](Index other, double w) {
             if (queue.contains(other)) queue.relieve(other, w);

@@ -13,19 +13,27 @@ enum class Init {
     BlueNoise,  //!< Area-uniform with large mutual distances, by sample elimination.
 };
 
+enum class Boundary {
+    Keep,  //!< Sites that the boundary belongs to lie on it.
+    Free,  //!< Sites are placed as if there were none.
+};
+
 struct SamplingOptions {
     agvd::Index num_samples = 2000;  //!< >= 1.
     Init init = Init::BlueNoise;
-    std::uint64_t seed = 1;  //!< Same seed, same bytes, any num_threads.
-    int num_threads = 0;     //!< >= 0; 0: all cores.
+    Boundary boundary = Boundary::Keep;  //!< Blue noise only: random sites know no boundary.
+    std::uint64_t seed = 1;              //!< Same seed, same bytes, any num_threads.
+    int num_threads = 0;                 //!< >= 0; 0: all cores.
     agvd::Progress progress = {};
 };
 
-//! Exactly num_samples points strictly inside faces, no two at one position, component by component
-//! (by lowest face). Every connected component first gets what its topology needs
-//! (minimum_samples), the rest goes by area. Blue noise is taken from five times as many
-//! area-uniform points by weighted sample elimination ([yuksel2015]); points on opposite walls of a
-//! thin part do not repel each other.
+//! Exactly num_samples points, no two at one position, component by component (by lowest face).
+//! Every connected component first gets what its topology needs (minimum_samples), the rest goes by
+//! area (and by length of boundary, where sites lie on it). Points lie strictly inside faces, but
+//! for those of Boundary::Keep, which come first: corners (find_corners), and points at equal
+//! distances between them. Blue noise is taken from five times as many area-uniform points by
+//! weighted sample elimination ([yuksel2015]); points on opposite walls of a thin part do not repel
+//! each other.
 //!
 //! \throw agvd::InvalidOption    num_samples < 1 or > 8e8, or num_threads < 0.
 //! \throw agvd::InvalidInput     the surface has no face.

@@ -1,0 +1,99 @@
+#include "agvd/mesh/point_faces.h"
+
+#include <algorithm>
+
+namespace agvd {
+namespace {
+
+// In edge lengths.
+constexpr double beside_vertex = 1e-12;
+
+// Visits the faces that hold the point: one, the two at its edge, or all around its vertex.
+template <typename Visit>
+void for_each_face(const Surface& surface, const SurfacePoint& point, const Visit& visit) {
+    if (const auto vertex = vertex_of(surface, point)) {
+        for (Index h = surface.outgoing[*vertex];;) {
+            visit(Surface::face(h));
+            h = surface.twin[Surface::previous(h)];
+            if (h == no_index || h == surface.outgoing[*vertex]) return;
+        }
+    }
+    visit(point.face.value());
+    const auto half_edge = half_edge_of(point);
+    if (!half_edge) return;
+    const Index across = surface.twin[*half_edge];
+    if (across != no_index) visit(Surface::face(across));
+}
+
+}  // namespace
+
+std::optional<Index> vertex_of(const Surface& surface, const SurfacePoint& point) {
+    const auto& b = point.barycentric;
+    for (Index k = 0; k < 3; ++k) {
+        const double to_next = b[(k + 1) % 3], to_last = b[(k + 2) % 3];
+        if (!(to_next + to_last <= beside_vertex)) continue;
+        const Index h = 3 * point.face.value() + k;
+        const double next = surface.length_of(h), last = surface.length_of(Surface::previous(h));
+        if (to_next * next + to_last * last <= beside_vertex * std::min(next, last)) {
+            return surface.tail(h);
+        }
+    }
+    return std::nullopt;
+}
+
+std::optional<Index> half_edge_of(const SurfacePoint& point) {
+    for (Index k = 0; k < 3; ++k) {
+        if (point.barycentric[(k + 2) % 3] == 0 && point.barycentric[k] != 0 &&
+            point.barycentric[(k + 1) % 3] != 0) {
+            return 3 * point.face.value() + k;
+        }
+    }
+    return std::nullopt;
+}
+
+SurfacePoint across_edge(const Surface& surface, const SurfacePoint& point, Index half_edge) {
+    const Index twin = surface.twin[half_edge];
+    SurfacePoint result{FaceId(Surface::face(twin)), {0, 0, 0}};
+    result.barycentric[twin % 3] = point.barycentric[(half_edge + 1) % 3];
+    result.barycentric[(twin + 1) % 3] = point.barycentric[half_edge % 3];
+    return result;
+}
+
+std::optional<SurfacePoint> seen_from(const Surface& surface, const SurfacePoint& point,
+                                      Index face) {
+    SurfacePoint seen{FaceId(face), {0, 0, 0}};
+    const Triangle& from = surface.mesh.triangles[point.face.value()];
+    const Triangle& to = surface.mesh.triangles[face];
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (point.barycentric[k] == 0) continue;
+        const auto corner = std::find(to.begin(), to.end(), from[k]) - to.begin();
+        if (corner == 3) return std::nullopt;
+        seen.barycentric[static_cast<std::size_t>(corner)] = point.barycentric[k];
+    }
+    return seen;
+}
+
+CommonFaces common_faces(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {
+    CommonFaces found;
+    for_each_face(surface, a, [&](Index face) {
+        if (face == found.first || found.second != no_index) return;
+        if (!seen_from(surface, a, face) || !seen_from(surface, b, face)) return;
+        (found.first == no_index ? found.first : found.second) = face;
+    });
+    return found;
+}
+
+bool is_on_boundary(const Surface& surface, const SurfacePoint& point) {
+    if (const auto vertex = vertex_of(surface, point)) return surface.is_boundary_vertex(*vertex);
+    const auto half_edge = half_edge_of(point);
+    return half_edge && surface.twin[*half_edge] == no_index;
+}
+
+SurfacePoint point_at(const Surface& surface, Index vertex) {
+    const Index h = surface.outgoing[vertex];
+    SurfacePoint point{FaceId(Surface::face(h)), {0, 0, 0}};
+    point.barycentric[h % 3] = 1;
+    return point;
+}
+
+}  // namespace agvd

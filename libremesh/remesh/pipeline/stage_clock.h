@@ -1,0 +1,37 @@
+//! \file
+//! Where the time of a run goes. Private to the pipeline.
+#pragma once
+
+#include <chrono>
+
+#include "remesh/pipeline/remesh.h"
+
+namespace remesh::detail {
+
+//! Adds the time until it ends to a stage of the result.
+class StageClock {
+public:
+    StageClock(Stage stage, RemeshResult& result)
+        : stage_(stage), result_(result), start_(std::chrono::steady_clock::now()) {}
+    StageClock(const StageClock&) = delete;
+    StageClock& operator=(const StageClock&) = delete;
+    ~StageClock() {
+        const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
+        for (auto& [stage, seconds] : result_.seconds) {
+            if (stage == stage_) seconds += spent.count();
+        }
+    }
+
+private:
+    Stage stage_;
+    RemeshResult& result_;
+    std::chrono::steady_clock::time_point start_;
+};
+
+//! The caller's callback as one of a single stage; empty if there is none.
+[[nodiscard]] inline agvd::Progress progress_of(Stage stage, const RemeshOptions& options) {
+    if (!options.progress) return {};
+    return [&options, stage](double fraction) { return options.progress(stage, fraction); };
+}
+
+}  // namespace remesh::detail

@@ -1,0 +1,38 @@
+//! \file
+//! Sites, moved and added until their cells give a mesh of the surface's topology; and that mesh.
+#pragma once
+
+#include "agvd/diagram/diagram.h"
+#include "remesh/pipeline/remesh.h"
+#include "remesh/repair/component_mesh.h"
+
+namespace remesh::detail {
+
+//! The surface with all that is worth keeping between propagations.
+struct Ground {
+    const agvd::Surface& surface;
+    const agvd::SurfaceLayout& layout;
+    std::span<const ComponentTopology> components;
+    std::span<const agvd::Index> component;  //!< #F: index into components.
+    std::span<const agvd::Index> corners;    //!< Boundary vertices that need a site.
+};
+
+struct ValidDual {
+    SurfaceMesh mesh;
+    std::vector<agvd::Index> site;  //!< Per vertex: its site; no_index: a component's own vertex.
+    agvd::Diagram diagram;          //!< Of `sites`.
+};
+
+//! Propagates, checks cells on the boundary (Boundary::Keep) and the closed-ball property, and adds
+//! or moves sites where they fail, until both hold. A component where they still fail once the
+//! rounds are over, or where that would take several times the sites, gets its own faces instead.
+//! Whatever the sites, each component of the result is an oriented manifold of its topology.
+//!
+//! \param sites   changed: moved, and new ones at the end.
+//! \param result  its counts and times are added to.
+//! Cost: a propagation and a diagram per round.
+[[nodiscard]] ValidDual build_valid_dual(const Ground& ground,
+                                         std::vector<agvd::SurfacePoint>& sites,
+                                         const RemeshOptions& options, RemeshResult& result);
+
+}  // namespace remesh::detail

@@ -1,0 +1,13 @@
+//! \file
+//! Where a cell reaches farthest.
+#pragma once
+
+#include "agvd/diagram/diagram.h"
+
+namespace remesh {
+
+//! #sites: for each cell its Voronoi vertex farthest from the site (of equals the first); no_index
+//! for cells without one. Cost: O(size of the complex).
+[[nodiscard]] std::vector<agvd::Index> farthest_corners(const agvd::Diagram& diagram);
+
+}  // namespace remesh
