@@ -22,6 +22,7 @@ struct Arguments : cli::DiagramArguments {
     fs::path output;
     int relax_steps = remesh::RemeshOptions{}.relax_steps;
     bool keep_sites = false;
+    std::optional<bool> fit;
     fs::path report;  // Empty: none; "-": stdout.
 };
 
@@ -48,6 +49,7 @@ void run_job(const Arguments& arguments) {
                                   .seed = arguments.sampling.seed,
                                   .relax_steps = arguments.relax_steps,
                                   .keep_sites = arguments.keep_sites,
+                                  .fit = arguments.fit,
                                   .engine = arguments.propagation.engine,
                                   .max_error = arguments.propagation.max_error,
                                   .steiner_points = arguments.propagation.steiner_points,
@@ -89,6 +91,10 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_flag("--keep-sites", arguments.keep_sites, "Do not relax the sites of --sites")
         ->needs("--sites");
+    app.add_flag_function(
+        "--fit,!--no-fit", [&](std::int64_t count) { arguments.fit = count > 0; },
+        "Let vertices leave the surface so that the triangles lie nearer to it; on where "
+        "sites are relaxed");
     app.add_option("--report", arguments.report, "Write a JSON report; - writes it to stdout")
         ->type_name("FILE|-");
     app.footer(std::string(footer) + cli::exit_code_help);

@@ -97,6 +97,7 @@ Json to_json(const RemeshOptions& options) {
     object["given_sites"] = options.sites ? Json(options.sites->size()) : Json();
     object["relax_steps"] = options.relax_steps;
     object["keep_sites"] = options.keep_sites;
+    object["fit"] = options.fit ? Json(*options.fit) : Json();
     object["engine"] = agvd::engine_name(options.engine);
     object["max_error"] = options.max_error ? Json(*options.max_error) : Json();
     object["steiner_points_per_edge"] = options.steiner_points;
@@ -124,6 +125,7 @@ std::string to_json(const RemeshResult& result, const RunInfo& info) {
     object["sites_added"] = result.sites_added;
     object["sites_dropped"] = result.sites_dropped;
     object["repair_rounds"] = result.repair_rounds;
+    object["unfitted_vertices"] = result.unfitted_vertices;
     Json& levels = object["relaxation"] = Json::array();
     for (const RelaxLevel& level : result.relaxation) {
         levels.push_back({{"sites", level.num_sites},

@@ -9,6 +9,8 @@
 #include "agvd/mesh/refine.h"
 #include "remesh/pipeline/stage_clock.h"
 #include "remesh/pipeline/valid_dual.h"
+#include "remesh/placement/fit_vertices.h"
+#include "remesh/placement/improve_shape.h"
 #include "remesh/quality/self_intersections.h"
 #include "remesh/repair/carry_sites.h"
 #include "remesh/repair/drop_components.h"
@@ -55,6 +57,8 @@ void check_options(const RemeshOptions& options) {
 constexpr double longest_edge = 1.5;
 // Rounds of new sites where the result runs through itself.
 constexpr int max_mends = 4;
+// Rounds of putting vertices back onto the surface there.
+constexpr int max_unfits = 4;
 
 // Thrown where no vertex can go any more; never leaves this file.
 struct TooFewSamples {
@@ -68,7 +72,7 @@ public:
     Pipeline(const agvd::MeshView& mesh, const RemeshOptions& options)
         : input_(mesh), options_(options) {
         for (const Stage stage : {Stage::Clean, Stage::Sample, Stage::Relax, Stage::Propagate,
-                                  Stage::Diagram, Stage::Dual, Stage::Check}) {
+                                  Stage::Diagram, Stage::Dual, Stage::Place, Stage::Check}) {
             result_.seconds.emplace_back(stage, 0.0);
         }
     }
@@ -159,8 +163,7 @@ private:
     }
 
     void relax() {
-        const bool keeps = options_.sites && options_.keep_sites;
-        if (options_.relax_steps == 0 || keeps) return;
+        if (!is_relaxed()) return;
         const StageClock clock(Stage::Relax, result_);
         const RelaxOptions relax{.steps = options_.relax_steps,
                                  .num_threads = options_.num_threads,
@@ -181,10 +184,11 @@ private:
             ValidDual dual = build_valid_dual(ground, sites_, options_, result_);
             if (mends == 0) set_target(dual.diagram);
             const Index num_removed = reduce(dual);
-            const CrossingFaces crossings = find_crossings(dual.mesh);
+            PlacedMesh placed = place(dual);
+            const CrossingFaces crossings = unfit_crossings(placed);
             if (mends == 0 || !crossings || crossings->size() < *result_.self_intersections) {
-                result_.mesh = {positions_of(dual.mesh), dual.mesh.triangles};
-                result_.sites = dual.mesh.points;
+                result_.mesh = {positions_of(placed), placed.triangles};
+                result_.sites = placed.points;
                 result_.sites_removed = num_removed;
                 if (crossings) result_.self_intersections = static_cast<Index>(crossings->size());
             }
@@ -255,8 +259,64 @@ private:
         return positions;
     }
 
+    [[nodiscard]] bool is_relaxed() const {
+        return options_.relax_steps > 0 && !(options_.sites && options_.keep_sites);
+    }
+
+    PlacedMesh place(const ValidDual& dual) {
+        const StageClock clock(Stage::Place, result_);
+        agvd::poll(progress_of(Stage::Place, options_), 0);
+        PlacedMesh placed{dual.mesh.points, {}, dual.mesh.triangles};
+        placed.offsets.assign(placed.points.size(), Vec3::Zero());
+        if (options_.fit.value_or(is_relaxed())) {
+            std::vector<Index> vertex(sites_.size(), no_index);
+            for (Index v = 0; v < dual.site.size(); ++v) {
+                if (dual.site[v] != no_index) vertex[dual.site[v]] = v;
+            }
+            std::vector<Index> nearest;
+            for (const agvd::SiteId site : dual.diagram.nearest_site) {
+                nearest.push_back(site.is_valid() ? vertex[site.value()] : no_index);
+            }
+            fit_vertices(surface_, nearest, placed);
+        }
+        if (is_relaxed()) improve_shape(surface_, placed);
+        agvd::poll(progress_of(Stage::Place, options_), 1);
+        return placed;
+    }
+
+    [[nodiscard]] std::vector<Vec3> positions_of(const PlacedMesh& mesh) const {
+        std::vector<Vec3> positions;
+        positions.reserve(mesh.points.size());
+        for (Index v = 0; v < mesh.points.size(); ++v) {
+            positions.push_back(mesh.position(surface_.mesh.view(), v));
+        }
+        return positions;
+    }
+
+    // Puts vertices back onto the surface where triangles run through each other.
+    CrossingFaces unfit_crossings(PlacedMesh& mesh) {
+        CrossingFaces crossings = find_crossings(mesh);
+        result_.unfitted_vertices = 0;
+        for (int round = 0; round < max_unfits && crossings && !crossings->empty(); ++round) {
+            bool is_changed = false;
+            for (const auto& [f, g] : *crossings) {
+                for (const Index face : {f, g}) {
+                    for (const Index v : mesh.triangles[face]) {
+                        if (mesh.offsets[v].isZero(0)) continue;
+                        mesh.offsets[v].setZero();
+                        ++result_.unfitted_vertices;
+                        is_changed = true;
+                    }
+                }
+            }
+            if (!is_changed) break;
+            crossings = find_crossings(mesh);
+        }
+        return crossings;
+    }
+
     // Of the input only if the result has any.
-    CrossingFaces find_crossings(const SurfaceMesh& mesh) {
+    CrossingFaces find_crossings(const PlacedMesh& mesh) {
         const StageClock clock(Stage::Check, result_);
         const agvd::TriangleMesh placed{positions_of(mesh), mesh.triangles};
         CrossingFaces found = find_self_intersections(placed.view(), options_.num_threads);
@@ -352,6 +412,8 @@ const char* stage_name(Stage stage) {
             return "diagram";
         case Stage::Dual:
             return "dual";
+        case Stage::Place:
+            return "place";
         case Stage::Check:
             return "check";
     }

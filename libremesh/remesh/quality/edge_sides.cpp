@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "agvd/core/bucket_sort.h"
+
 namespace remesh {
 
 using agvd::Index;
@@ -17,10 +19,12 @@ std::vector<EdgeSide> sorted_edge_sides(const agvd::MeshView& mesh) {
                 {std::uint64_t{std::min(a, b)} << 32 | std::max(a, b), 3 * f + k, a < b});
         }
     }
-    std::sort(sides.begin(), sides.end(), [](const EdgeSide& a, const EdgeSide& b) {
-        return a.ends != b.ends ? a.ends < b.ends : a.half_edge < b.half_edge;
-    });
-    return sides;
+    return agvd::sort_in_buckets(
+        sides, static_cast<Index>(mesh.positions.size()),
+        [](const EdgeSide& side) { return side.low(); },
+        [](const EdgeSide& a, const EdgeSide& b) {
+            return a.ends != b.ends ? a.ends < b.ends : a.half_edge < b.half_edge;
+        });
 }
 
 }  // namespace remesh

@@ -21,7 +21,7 @@ struct EdgeSide {
     [[nodiscard]] agvd::Index high() const { return static_cast<agvd::Index>(ends); }
 };
 
-//! 3 #F sides, those of one edge side by side, by face within. Cost: O(n log n).
+//! 3 #F sides, those of one edge side by side, by face within. Cost: O(n).
 [[nodiscard]] std::vector<EdgeSide> sorted_edge_sides(const agvd::MeshView& mesh);
 
 //! Calls visit(begin, end), pointers into `sides`, once for each edge.

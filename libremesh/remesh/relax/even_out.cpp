@@ -74,7 +74,7 @@ private:
     Index improve(int round) {
         const auto num_sites = static_cast<Index>(sites_.size());
         const agvd::DistanceBounds labels = label_vertices(surface_, layout_, sites_, num_threads_);
-        const std::vector<double> areas = label_areas(surface_, labels, num_sites);
+        const std::vector<double> areas = measure_cells(surface_, labels, num_sites).area;
         double sum = 0;
         for (const double a : areas) sum += a;
         const double mean = sum / num_sites;

@@ -27,8 +27,8 @@ using detail::Relaxation;
 constexpr int steps_per_sweep = 10;
 // Labels tell who neighbours whom where there are so many vertices for each site.
 constexpr std::size_t vertices_per_site = 8;
-// Areas of cells mean something where there are so many.
-constexpr std::size_t vertices_per_area = 2;
+// What is measured of cells means something where there are so many.
+constexpr std::size_t vertices_per_cell = 2;
 // Distance error of a propagation that only has to tell who neighbours whom.
 constexpr double neighbour_error = 1e-2;
 // A coarse start needs this many sites of each component: with fewer, middles are no triangulation.
@@ -79,13 +79,13 @@ public:
           options_(options),
           steps_planned_(options.steps * num_levels) {}
 
-    // \param areas  of the cells at the start; empty: the relaxation knows its weights.
-    void run(Relaxation& relaxation, const std::vector<double>& areas) {
+    // \param labels  of the sites; null: the relaxation knows its weights.
+    void run(Relaxation& relaxation, const agvd::DistanceBounds* labels) {
         const auto num_sites = static_cast<Index>(relaxation.sites().size());
         RelaxLevel& level = result_.levels.emplace_back();
         level.num_sites = num_sites;
         level.energy.push_back(relaxation.energy().energy);
-        if (!areas.empty()) relaxation.set_areas(areas);
+        if (labels != nullptr) set_density(relaxation, *labels);
         double last = relaxation.energy().weighted;
         for (int step = 1; step <= options_.steps; ++step) {
             relaxation.step();
@@ -102,32 +102,31 @@ public:
         return detail::label_vertices(surface_, layout_, sites, options_.num_threads);
     }
 
-    // Of the cells; nothing where they are too small to be measured.
-    [[nodiscard]] std::vector<double> areas(const agvd::DistanceBounds& labels,
-                                            Index num_sites) const {
-        if (!gives_areas(num_sites)) return {};
-        return detail::label_areas(surface_, labels, num_sites);
-    }
-
     RelaxResult finish(std::vector<SurfacePoint> sites) {
         result_.sites = std::move(sites);
         return std::move(result_);
     }
 
 private:
-    [[nodiscard]] bool gives_areas(Index num_sites) const {
-        return surface_.num_vertices() >= vertices_per_area * num_sites;
+    [[nodiscard]] bool gives_cells(Index num_sites) const {
+        return surface_.num_vertices() >= vertices_per_cell * num_sites;
+    }
+
+    void set_density(Relaxation& relaxation, const agvd::DistanceBounds& labels) const {
+        const auto num_sites = static_cast<Index>(relaxation.sites().size());
+        if (!gives_cells(num_sites)) return;
+        relaxation.set_density(detail::measure_cells(surface_, labels, num_sites));
     }
 
     // Looks at the surface again.
-    void sweep(Relaxation& relaxation) {
+    void sweep(Relaxation& relaxation) const {
         const auto num_sites = static_cast<Index>(relaxation.sites().size());
-        if (!gives_areas(num_sites)) return;
+        if (!gives_cells(num_sites)) return;
         const agvd::DistanceBounds labels = label(relaxation.sites());
         if (gives_neighbours(surface_, num_sites)) {
             relaxation.mend(detail::label_dual(surface_, labels).triangles);
         }
-        relaxation.set_areas(detail::label_areas(surface_, labels, num_sites));
+        set_density(relaxation, labels);
     }
 
     const Surface& surface_;
@@ -182,10 +181,9 @@ RelaxResult relax_sites(const Surface& surface, const SurfaceLayout& layout,
     }
     const agvd::DistanceBounds labels = levels.label(sites);
     detail::SiteDual dual = triangulate(surface, layout, labels, sites, options.num_threads);
-    const std::vector<double> areas = levels.areas(labels, static_cast<Index>(sites.size()));
     Relaxation relaxation(surface, std::move(sites), std::move(dual.triangles), options.is_fixed,
                           {}, options.num_threads);
-    levels.run(relaxation, areas);
+    levels.run(relaxation, &labels);
     return levels.finish(relaxation.sites());
 }
 
@@ -205,7 +203,7 @@ RelaxResult sample_relaxed_sites(const Surface& surface, const SurfaceLayout& la
     detail::SiteDual dual = detail::label_dual(surface, labels);
     Relaxation relaxation(surface, std::move(sites), std::move(dual.triangles), {}, {},
                           options.num_threads);
-    levels.run(relaxation, levels.areas(labels, *coarse));
+    levels.run(relaxation, &labels);
 
     labels = levels.label(relaxation.sites());
     dual = detail::label_dual(surface, labels);
@@ -214,7 +212,7 @@ RelaxResult sample_relaxed_sites(const Surface& surface, const SurfaceLayout& la
     if (!fine) return relax_sites(surface, layout, sample_sites(surface, sampling), options);
     Relaxation last(surface, std::move(fine->sites), std::move(fine->triangles), {},
                     std::move(fine->weights), options.num_threads);
-    levels.run(last, {});
+    levels.run(last, nullptr);
     return levels.finish(last.sites());
 }
 

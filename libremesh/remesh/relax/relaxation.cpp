@@ -26,10 +26,16 @@ constexpr int most_rounds = 3;
 constexpr int most_flip_rounds = 10;
 // Sites of a parallel chunk.
 constexpr Index grain = 256;
-// Cells with k times the area that they have in the triangulation become smaller by k if their
-// density is k^2 (cells are as the root of the density); one more power makes up for the few steps.
-constexpr double weight_power = 3;
+// Cells that hold k times as much of the surface as of the triangulation should be smaller by k in
+// area; cells are as the root of the density. Half a power more makes up for the few steps.
+constexpr double area_power = 2.5;
 constexpr double most_area_ratio = 4;
+// Distances are least where cells are as the cubic root of the radius of curvature: that is density
+// as curvature^(4/3), and curvature^2 is as bending. Half of that leaves better shapes. Below
+// `even_bending` all cells are alike.
+constexpr double bending_power = 2.0 / 3;
+constexpr double even_bending = 0.05;
+constexpr double most_weight = 64;
 
 }  // namespace
 
@@ -85,22 +91,32 @@ void Relaxation::mend(const std::vector<agvd::Triangle>& triangles) {
     measure();
 }
 
-void Relaxation::set_areas(std::span<const double> areas) {
-    // Of a site and its neighbours together: areas are rough where faces are large.
-    std::vector<double> on_surface(areas.begin(), areas.end());
-    std::vector<double> on_triangles = now_.area;
+void Relaxation::set_density(const CellMeasures& cells) {
+    // Of a site and its neighbours together: cells are rough where faces are large, and sizes must
+    // not change abruptly.
+    struct Sums {
+        double on_surface, on_triangles, bending, count;
+    };
+    std::vector<Sums> sums(sites_.size());
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        sums[i] = {cells.area[i], now_.area[i], cells.bending[i], 1};
+    }
     for (const agvd::Triangle& t : mesh_.triangles) {
         for (std::size_t k = 0; k < 3; ++k) {
             for (const Index other : {t[(k + 1) % 3], t[(k + 2) % 3]}) {  // Each comes twice.
-                on_surface[t[k]] += areas[other] / 2;
-                on_triangles[t[k]] += now_.area[other] / 2;
+                sums[t[k]].on_surface += cells.area[other] / 2;
+                sums[t[k]].on_triangles += now_.area[other] / 2;
+                sums[t[k]].bending += cells.bending[other] / 2;
+                sums[t[k]].count += 0.5;
             }
         }
     }
-    for (std::size_t i = 0; i < weight_.size(); ++i) {
-        const bool is_known = on_triangles[i] > 0;
-        const double ratio = is_known ? on_surface[i] / on_triangles[i] : 1;
-        weight_[i] = std::pow(std::clamp(ratio, 1.0, most_area_ratio), weight_power);
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        const Sums& s = sums[i];
+        const double ratio = s.on_triangles > 0 ? s.on_surface / s.on_triangles : 1;
+        const double lost = std::pow(std::clamp(ratio, 1.0, most_area_ratio), area_power);
+        const double bent = std::pow(1 + s.bending / s.count / even_bending, bending_power);
+        weight_[i] = std::min(lost * bent, most_weight);
     }
     measure();
 }

@@ -5,27 +5,30 @@
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_point.h"
 #include "remesh/relax/cvt_energy.h"
+#include "remesh/relax/site_labels.h"
 
 namespace remesh::detail {
 
 //! Lloyd's method with momentum, on the triangulation of the sites instead of their geodesic
-//! Voronoi diagram: that costs a few hundredths of a propagation. Cells are those of the
-//! triangulation, which is kept Delaunay by flips; sites walk on the surface itself.
+//! Voronoi diagram: a step costs a few hundredths of a propagation. Cells are those of the
+//! triangulation, which flips keep Delaunay; sites walk on the surface itself.
 //!
 //! A triangulation knows nothing of what its triangles cut short, such as the tip of an ear, and
-//! sites would leave it. So where cells hold more of the surface than of the triangulation,
-//! they weigh more (set_areas).
+//! sites would leave it. So where cells hold more of the surface than of the triangulation, and
+//! where they are bent, they weigh more.
 class Relaxation {
 public:
-    //! \param triangles  of the sites; those in none, and inner ones around which they do not
-    //! close, stay. \param is_fixed   #sites: 1 for sites that stay; or empty. Sites on the
-    //! boundary stay on it. \param weights    #sites: the density at the start; or empty.
+    //! Sites on the boundary stay on it, those at its vertices where they are. Sites in no triangle
+    //! stay, and inner ones around which triangles do not close.
+    //!
+    //! \param is_fixed  #sites: 1 for sites that stay; or empty.
+    //! \param weights   #sites: the density at the start; or empty.
     Relaxation(const agvd::Surface& surface, std::vector<agvd::SurfacePoint> sites,
                std::vector<agvd::Triangle> triangles, std::vector<std::uint8_t> is_fixed,
                std::vector<double> weights, int num_threads);
 
-    //! What the cells hold of the surface.
-    void set_areas(std::span<const double> areas);
+    //! By what the cells hold of the surface.
+    void set_density(const CellMeasures& cells);
 
     //! Takes new triangles if they close around more sites and face with the surface more often.
     void mend(const std::vector<agvd::Triangle>& triangles);

@@ -36,37 +36,46 @@ agvd::DistanceBounds label_vertices(const Surface& surface, const agvd::SurfaceL
                                  num_threads);
 }
 
-std::vector<double> label_areas(const Surface& surface, const agvd::DistanceBounds& labels,
-                                Index num_sites) {
-    std::vector<double> areas(num_sites, 0);
-    const auto add = [&](Index site, double area) {
-        if (site != no_index) areas[site] += area;
-    };
+CellMeasures measure_cells(const Surface& surface, const agvd::DistanceBounds& labels,
+                           Index num_sites) {
+    CellMeasures result{std::vector<double>(num_sites, 0), std::vector<double>(num_sites, 0)};
+    std::vector<agvd::Vec3> shadow(num_sites, agvd::Vec3::Zero());  // The largest is so long.
+    const auto& p = surface.mesh.positions;
     for (Index f = 0; f < surface.num_faces(); ++f) {
-        const Index h = 3 * f;
         const agvd::Triangle& t = surface.mesh.triangles[f];
+        const agvd::Vec3 vector = (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]) / 2;
+        const double area = vector.norm();
+        const auto add = [&](Index site, double share) {
+            if (site == no_index) return;
+            result.area[site] += share * area;
+            shadow[site] += share * vector;
+        };
         const std::array<Index, 3> site{labels.site[t[0]], labels.site[t[1]], labels.site[t[2]]};
-        const double area = surface.length_of(h) * surface.apex[h].y() / 2;
         if (site[0] == site[1] && site[1] == site[2]) {
-            add(site[0], area);
+            add(site[0], 1);
             continue;
         }
         // The corner across from two of one label is cut off; three labels share alike.
         std::size_t k = 0;
         while (k < 3 && site[(k + 1) % 3] != site[(k + 2) % 3]) ++k;
         if (k == 3) {
-            for (const Index s : site) add(s, area / 3);
+            for (const Index s : site) add(s, 1.0 / 3);
             continue;
         }
-        const auto corner = static_cast<Index>(k);
-        const Index left = Surface::previous(h + corner);
+        const std::size_t next = (k + 1) % 3, previous = (k + 2) % 3;
+        const auto h = 3 * f + static_cast<Index>(k);
         const double cut =
-            meeting_place(labels, t[k], t[(k + 1) % 3], surface.length_of(h + corner)) *
-            meeting_place(labels, t[k], t[(k + 2) % 3], surface.length_of(left));
-        add(site[k], area * cut);
-        add(site[(k + 1) % 3], area * (1 - cut));
+            meeting_place(labels, t[k], t[next], surface.length_of(h)) *
+            meeting_place(labels, t[k], t[previous], surface.length_of(Surface::previous(h)));
+        add(site[k], cut);
+        add(site[next], 1 - cut);
     }
-    return areas;
+    for (Index i = 0; i < num_sites; ++i) {
+        if (result.area[i] > 0) {
+            result.bending[i] = std::max(0.0, 1 - shadow[i].norm() / result.area[i]);
+        }
+    }
+    return result;
 }
 
 SiteDual label_dual(const Surface& surface, const agvd::DistanceBounds& labels) {

@@ -18,10 +18,17 @@ namespace remesh::detail {
                                                   std::span<const agvd::SurfacePoint> sites,
                                                   int num_threads);
 
-//! Area of the surface that belongs to each site. Faces of two labels are cut where these meet.
-[[nodiscard]] std::vector<double> label_areas(const agvd::Surface& surface,
-                                              const agvd::DistanceBounds& labels,
-                                              agvd::Index num_sites);
+//! What cells hold of the surface.
+struct CellMeasures {
+    std::vector<double> area;  //!< #sites, square mesh units.
+    //! #sites, in [0, 1]: the share of the area that a shadow in the best direction lacks. 0 for
+    //! what is flat, half for a hemisphere.
+    std::vector<double> bending;
+};
+
+//! Faces of two labels are cut where these meet. Cost: O(#F).
+[[nodiscard]] CellMeasures measure_cells(const agvd::Surface& surface,
+                                         const agvd::DistanceBounds& labels, agvd::Index num_sites);
 
 //! A point halfway between two sites whose labels meet.
 struct Middle {
