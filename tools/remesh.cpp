@@ -24,7 +24,70 @@ struct Arguments : cli::DiagramArguments {
     bool keep_sites = false;
     std::optional<bool> fit;
     fs::path report;  // Empty: none; "-": stdout.
+    remesh::VertexCount vertex_count = remesh::VertexCount::Exact;
+    double drop_components = 0;
+    bool strict = false;
 };
+
+void add_options(CLI::App& app, Arguments& arguments) {
+    cli::add_diagram_options(app, arguments);
+    app.add_option_function<std::string>(
+           "--topology",
+           [&arguments](const std::string& name) {
+               arguments.vertex_count =
+                   name == "add" ? remesh::VertexCount::Add : remesh::VertexCount::Exact;
+           },
+           "It is always kept. exact: with N vertices; add: with those that it needs besides")
+        ->check(CLI::IsMember({"exact", "add"}).description(""))
+        ->type_name("NAME")
+        ->default_str("exact");
+    app.add_option_function<std::string>(
+           "--boundary",
+           [&arguments](const std::string& name) {
+               arguments.sampling.boundary =
+                   name == "free" ? remesh::Boundary::Free : remesh::Boundary::Keep;
+           },
+           "keep: boundary vertices lie on the input's boundary, its corners among them; free: "
+           "they lie near it")
+        ->check(CLI::IsMember({"keep", "free"}).description(""))
+        ->type_name("NAME")
+        ->default_str("keep");
+    app.add_option("--drop-components", arguments.drop_components,
+                   "Leave out components with less than this % of the area")
+        ->check(CLI::Range(0.0, 100.0).description(""))
+        ->type_name("PERCENT")
+        ->capture_default_str();
+    app.add_flag("--strict", arguments.strict,
+                 "Fail where the result runs through itself and the input does not");
+    app.add_option("--relax,--lloyd", arguments.relax_steps,
+                   "Steps of Lloyd relaxation; 0: the dual of the sites as sampled")
+        ->check(CLI::Range(0, 1'000'000).description(""))
+        ->type_name("K")
+        ->capture_default_str();
+    app.add_flag("--keep-sites", arguments.keep_sites, "Do not relax the sites of --sites")
+        ->needs("--sites");
+    app.add_flag_function(
+        "--fit,!--no-fit", [&arguments](std::int64_t count) { arguments.fit = count > 0; },
+        "Let vertices leave the surface so that the triangles lie nearer to it; on where sites "
+        "are relaxed");
+    app.add_option("OUT,-o,--output", arguments.output,
+                   "Mesh to write: .ply, .obj, .off or .stl; an existing file is replaced")
+        ->required();
+    app.add_option("--report", arguments.report, "Write a JSON report; - writes it to stdout")
+        ->type_name("FILE|-");
+}
+
+// \throw agvd::ConstraintUnmet  with --strict.
+void judge(const remesh::RemeshResult& result, bool strict, cli::Console& console) {
+    const agvd::Index pairs = result.self_intersections.value_or(0);
+    if (pairs <= result.input_self_intersections) return;
+    const std::string text = "the result has " + std::to_string(pairs) +
+                             " pairs of faces that run through each other, the input " +
+                             std::to_string(result.input_self_intersections) +
+                             "; ask for more samples";
+    if (strict) throw agvd::ConstraintUnmet(text + ", or leave --strict out");
+    console.warn("warning: " + text);
+}
 
 void check_outputs(const Arguments& arguments) {
     if (!remesh::is_known_mesh_extension(arguments.output)) {
@@ -45,6 +108,9 @@ void run_job(const Arguments& arguments) {
     const remesh::MeshFile input = remesh::read_mesh(arguments.input);
     console.info(cli::describe(arguments.input, input.mesh.view()));
     remesh::RemeshOptions options{.num_samples = arguments.sampling.num_samples,
+                                  .vertex_count = arguments.vertex_count,
+                                  .boundary = arguments.sampling.boundary,
+                                  .drop_components = arguments.drop_components,
                                   .init = arguments.sampling.init,
                                   .seed = arguments.sampling.seed,
                                   .relax_steps = arguments.relax_steps,
@@ -63,6 +129,7 @@ void run_job(const Arguments& arguments) {
     }
     const remesh::RemeshResult result = cli::naming_file(
         arguments.input, [&] { return remesh::remesh(input.mesh.view(), options); });
+    judge(result, arguments.strict, console);
     cli::stop_if_interrupted();
     remesh::write_mesh(arguments.output, result.mesh.view());
     const remesh::RunInfo info{.version = REMESH_VERSION,
@@ -80,23 +147,7 @@ void run_job(const Arguments& arguments) {
 int main(int argc, char** argv) {
     CLI::App app("Replaces a mesh by the dual of its geodesic Voronoi diagram.", "remesh");
     Arguments arguments;
-    cli::add_diagram_options(app, arguments);
-    app.add_option("OUT,-o,--output", arguments.output,
-                   "Mesh to write: .ply, .obj, .off or .stl; an existing file is replaced")
-        ->required();
-    app.add_option("--relax,--lloyd", arguments.relax_steps,
-                   "Steps of Lloyd relaxation; 0: the dual of the sites as sampled")
-        ->check(CLI::Range(0, 1'000'000).description(""))
-        ->type_name("K")
-        ->capture_default_str();
-    app.add_flag("--keep-sites", arguments.keep_sites, "Do not relax the sites of --sites")
-        ->needs("--sites");
-    app.add_flag_function(
-        "--fit,!--no-fit", [&](std::int64_t count) { arguments.fit = count > 0; },
-        "Let vertices leave the surface so that the triangles lie nearer to it; on where "
-        "sites are relaxed");
-    app.add_option("--report", arguments.report, "Write a JSON report; - writes it to stdout")
-        ->type_name("FILE|-");
+    add_options(app, arguments);
     app.footer(std::string(footer) + cli::exit_code_help);
     return cli::run(app, argc, argv, [&] { run_job(arguments); });
 }

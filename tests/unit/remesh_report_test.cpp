@@ -99,10 +99,10 @@ TEST(RemeshReport, TextTellsTheEngineAndItsBound) {
 TEST(RemeshReport, TextTellsRepairTopologyTimeAndMemory) {
     const std::string text = remesh::to_text(
         example(), {.input_path = "in.ply", .options = {.engine = agvd::Engine::Window}});
-    for (const char* part : {"in.ply", "4 split edges", "1 component, genus 1, 0 boundary loops",
-                             "distances: window engine, at most 0.0123 %", "3 vertices, 1 face",
-                             "5 sites added in 2 rounds", "6 sites", "clean 0.25 s, dual 0.50 s",
-                             "total 0.75 s", "12.3 MB"}) {
+    for (const char* part :
+         {"in.ply", "4 split edges", "1 component, genus 1, 0 boundary loops",
+          "distances: window engine, at most 0.0123 %", "3 vertices, 1 face", "5 sites added, ",
+          "6 sites", "clean 0.25 s, dual 0.50 s", "total 0.75 s", "12.3 MB"}) {
         EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
     }
 }

@@ -5,8 +5,8 @@
 namespace agvd {
 namespace {
 
-// In edge lengths.
-constexpr double beside_vertex = 1e-12;
+constexpr double beside_vertex = 1e-12;  // In edge lengths.
+constexpr double beside_edge = 1e-12;    // In heights of the face.
 
 // Visits the faces that hold the point: one, the two at its edge, or all around its vertex.
 template <typename Visit>
@@ -42,9 +42,9 @@ std::optional<Index> vertex_of(const Surface& surface, const SurfacePoint& point
 }
 
 std::optional<Index> half_edge_of(const SurfacePoint& point) {
+    const auto& b = point.barycentric;
     for (Index k = 0; k < 3; ++k) {
-        if (point.barycentric[(k + 2) % 3] == 0 && point.barycentric[k] != 0 &&
-            point.barycentric[(k + 1) % 3] != 0) {
+        if (b[(k + 2) % 3] <= beside_edge && b[k] > beside_edge && b[(k + 1) % 3] > beside_edge) {
             return 3 * point.face.value() + k;
         }
     }

@@ -13,7 +13,8 @@ namespace agvd {
 //! Nearer than that, rounding hides from which side the point sees the faces around the vertex.
 [[nodiscard]] std::optional<Index> vertex_of(const Surface& surface, const SurfacePoint& point);
 
-//! The half-edge of the point's face in whose interior the point lies, if it does.
+//! The half-edge of the point's face in whose interior the point lies, if it does: up to 1e-12 of
+//! the face's height. Nearer than that, windows through the edge would hold nothing but rounding.
 [[nodiscard]] std::optional<Index> half_edge_of(const SurfacePoint& point);
 
 //! The same point of an edge's interior, seen from the face across `half_edge` (which must exist).

@@ -92,6 +92,9 @@ Json to_json(const std::optional<SurfaceDistance>& measured) {
 Json to_json(const RemeshOptions& options) {
     Json object;
     object["samples"] = options.num_samples;
+    object["topology"] = options.vertex_count == VertexCount::Exact ? "exact" : "add";
+    object["boundary"] = options.boundary == Boundary::Keep ? "keep" : "free";
+    object["drop_components_percent"] = options.drop_components;
     object["init"] = options.init == Init::Random ? "random" : "blue-noise";
     object["seed"] = options.seed;
     object["given_sites"] = options.sites ? Json(options.sites->size()) : Json();
@@ -122,7 +125,13 @@ std::string to_json(const RemeshResult& result, const RunInfo& info) {
     object["output_vertices"] = result.mesh.positions.size();
     object["output_faces"] = result.mesh.triangles.size();
     object["refined_faces"] = result.refined_faces;
+    object["components_dropped"] = result.components_dropped;
     object["sites_added"] = result.sites_added;
+    Json& reasons = object["sites_added_because"] = Json::object();
+    for (const auto& [reason, count] : result.added_because) reasons[reason] = count;
+    object["sites_moved"] = result.sites_moved;
+    object["sites_removed"] = result.sites_removed;
+    object["components_from_faces"] = result.components_from_faces;
     object["sites_dropped"] = result.sites_dropped;
     object["repair_rounds"] = result.repair_rounds;
     object["unfitted_vertices"] = result.unfitted_vertices;
@@ -132,6 +141,10 @@ std::string to_json(const RemeshResult& result, const RunInfo& info) {
                           {"steps", level.energy.size() - 1},
                           {"energy_mesh_units_4", level.energy}});
     }
+    object["self_intersecting_pairs"] =
+        result.self_intersections ? Json(*result.self_intersections) : Json();
+    object["input_self_intersecting_pairs"] =
+        result.self_intersections.value_or(0) > 0 ? Json(result.input_self_intersections) : Json();
     object["certified_error"] = result.certified_error;
     object["propagation_bytes"] = result.propagation_bytes;
     Json& stages = object["stage_seconds"] = Json::object();

@@ -126,11 +126,30 @@ std::string to_text(const RemeshResult& result, const RunInfo& info) {
                 fixed(100 * (1 - ratio), 1) + " %\n";
     }
     text += "result: " + counted(result.mesh.positions.size(), "vertex") + ", " +
-            counted(result.mesh.triangles.size(), "face") + "; same topology, " +
-            counted(result.sites_added, "site") + " added in " +
-            counted(static_cast<std::size_t>(result.repair_rounds), "round") + " for it";
+            counted(result.mesh.triangles.size(), "face") + "; same topology";
+    if (result.repair_rounds > 0 || result.sites_removed > 0) {
+        text += "\nfor it: " + counted(result.sites_added, "site") + " added, " +
+                counted(result.sites_moved, "site") + " moved, " +
+                counted(result.sites_removed, "site") + " removed, " +
+                counted(static_cast<std::size_t>(result.repair_rounds), "round");
+    }
+    for (const auto& [reason, count] : result.added_because) {
+        text += "\n  " + std::to_string(count) + " added: " + reason;
+    }
+    if (result.components_from_faces > 0) {
+        text += "\n" + counted(result.components_from_faces, "component") +
+                " thinned out of the input's faces, as no cells would do";
+    }
+    if (result.components_dropped > 0) {
+        text += "\n" + counted(result.components_dropped, "component") + " left out as too small";
+    }
     if (result.sites_dropped > 0) {
-        text += ", " + counted(result.sites_dropped, "site") + " that owned nothing dropped";
+        text += "\n" + counted(result.sites_dropped, "site") + " that owned nothing dropped";
+    }
+    if (result.self_intersections.value_or(0) > 0) {
+        text +=
+            "\nself-intersecting pairs of faces: " + std::to_string(*result.self_intersections) +
+            ", in the input " + std::to_string(result.input_self_intersections);
     }
     text += "\ntime:";
     for (const auto& [stage, seconds] : result.seconds) {

@@ -1,0 +1,154 @@
+// The result is a manifold of the input's topology with exactly the vertices asked for, or a number
+// is named that works.
+#include <gtest/gtest.h>
+
+#include <charconv>
+#include <cstdlib>
+
+#include "agvd/core/error.h"
+#include "agvd/mesh/closest_point.h"
+#include "remesh/pipeline/remesh.h"
+#include "support/dice.h"
+#include "support/random_surfaces.h"
+#include "support/shapes.h"
+
+using namespace agvd;
+
+namespace {
+
+// Distance from the mesh's boundary edges; 0 on them.
+double distance_from_boundary(const Surface& surface, const Vec3& p) {
+    double least = std::numeric_limits<double>::infinity();
+    for (Index h = 0; h < surface.twin.size(); ++h) {
+        if (surface.twin[h] != no_index) continue;
+        const Vec3 a = surface.mesh.positions[surface.tail(h)];
+        const Vec3 along = surface.mesh.positions[surface.head(h)] - a;
+        const double share = std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0);
+        least = std::min(least, (p - a - share * along).norm());
+    }
+    return least;
+}
+
+void expect_kept(const TriangleMesh& mesh, const remesh::RemeshOptions& options,
+                 const remesh::RemeshResult& result) {
+    const remesh::Topology topology = remesh::analyze_topology(result.mesh.view());
+    EXPECT_TRUE(topology.is_manifold);
+    EXPECT_TRUE(topology.is_oriented);
+    EXPECT_TRUE(same_topology(topology, remesh::analyze_topology(mesh.view())));
+    EXPECT_EQ(result.mesh.positions.size(), options.num_samples);
+    const Surface surface = build_surface(mesh.view());
+    const Surface output = build_surface(result.mesh.view());
+    double size = 0;
+    for (const Vec3& p : mesh.positions) size = std::max(size, p.norm());
+    for (Index v = 0; v < output.num_vertices(); ++v) {
+        if (!output.is_boundary_vertex(v)) continue;
+        EXPECT_LT(distance_from_boundary(surface, output.mesh.positions[v]), 1e-9 * size);
+    }
+}
+
+// The last number in a text.
+Index number_named(const std::string& text) {
+    const std::size_t last = text.find_last_of("0123456789");
+    const std::size_t first = text.find_last_not_of("0123456789", last) + 1;
+    Index number = 0;
+    std::from_chars(text.data() + first, text.data() + last + 1, number);
+    return number;
+}
+
+// What irreducible triangulations of closed surfaces have at most, and as much again for each loop.
+Index always_enough(const remesh::Topology& topology) {
+    Index sum = 0;
+    for (const remesh::ComponentTopology& c : topology.components) {
+        sum += static_cast<Index>(std::max(4, 26 * c.genus - 4) + 8 * c.boundary_loops);
+    }
+    return sum;
+}
+
+void expect_guarantee(const TriangleMesh& mesh, remesh::RemeshOptions options) {
+    try {
+        expect_kept(mesh, options, remesh::remesh(mesh.view(), options));
+    } catch (const ConstraintUnmet& error) {
+        const Index enough = number_named(error.what());
+        ASSERT_GT(enough, options.num_samples) << error.what();
+        EXPECT_LE(enough, always_enough(remesh::analyze_topology(mesh.view()))) << error.what();
+        options.num_samples = enough;
+        expect_kept(mesh, options, remesh::remesh(mesh.view(), options));
+    }
+}
+
+class Guarantee : public testing::TestWithParam<const char*> {};
+
+std::string name_of(const testing::TestParamInfo<const char*>& info) { return info.param; }
+
+INSTANTIATE_TEST_SUITE_P(RandomSurfaces, Guarantee,
+                         testing::ValuesIn(random_surfaces::families().begin(),
+                                           random_surfaces::families().end()),
+                         name_of);
+
+// AGVD_LONG: ten times as many; AGVD_SEED: that one alone.
+TEST_P(Guarantee, Holds) {
+    const char* only = std::getenv("AGVD_SEED");
+    const std::uint64_t first = only != nullptr ? std::strtoull(only, nullptr, 10) : 0;
+    const std::uint64_t count =
+        only != nullptr ? 1 : (std::getenv("AGVD_LONG") != nullptr ? 230 : 23);
+    for (std::uint64_t seed = first; seed < first + count; ++seed) {
+        Dice dice(seed + 1000);
+        const TriangleMesh mesh = random_surfaces::make(GetParam(), seed);
+        remesh::RemeshOptions options{.num_samples = static_cast<Index>(dice.magnitude(4, 3000))};
+        options.init = dice.one_in(2) ? remesh::Init::Random : remesh::Init::BlueNoise;
+        options.seed = seed;
+        SCOPED_TRACE(std::string(GetParam()) + " AGVD_SEED=" + std::to_string(seed) + ", " +
+                     std::to_string(mesh.triangles.size()) +
+                     " faces, N = " + std::to_string(options.num_samples));
+        expect_guarantee(mesh, options);
+        if (HasFailure()) return;
+    }
+}
+
+}  // namespace
+
+TEST(TopologyGuarantee, APlateOfAThousandthKeepsItsTwoWalls) {
+    const TriangleMesh mesh = random_surfaces::plate(40, 40, {}, 0.04);
+    const auto result = remesh::remesh(mesh.view(), {.num_samples = 200});
+    expect_kept(mesh, {.num_samples = 200}, result);
+    Index top = 0, bottom = 0;
+    for (const Vec3& p : result.mesh.positions) {
+        top += p.z() > 0.03 ? 1 : 0;
+        bottom += p.z() < 0.01 ? 1 : 0;
+    }
+    EXPECT_NEAR(top, 100, 25);
+    EXPECT_NEAR(bottom, 100, 25);
+}
+
+TEST(TopologyGuarantee, FewVerticesAreEnough) {
+    const auto works = [](const TriangleMesh& mesh, Index n) {
+        expect_kept(mesh, {.num_samples = n}, remesh::remesh(mesh.view(), {.num_samples = n}));
+    };
+    works(shapes::sphere(3), 8);
+    works(shapes::torus(40, 20), 12);
+    works(random_surfaces::torus_knot(2, 3, 120, 8, 0.2), 12);
+    works(random_surfaces::plate(9, 9, {{1, 1}, {1, 7}, {7, 1}, {7, 7}}, 1), 60);
+    works(random_surfaces::lattice(2, 2, 2), 600);
+}
+
+TEST(TopologyGuarantee, ComponentsGoOnlyWhenAsked) {
+    TriangleMesh small = shapes::sphere(1);
+    for (Vec3& p : small.positions) p = 0.01 * p + Vec3(5, 0, 0);
+    const TriangleMesh mesh = shapes::join(shapes::sphere(3), small);
+    EXPECT_EQ(remesh::remesh(mesh.view(), {.num_samples = 100}).components_dropped, 0u);
+    const auto result = remesh::remesh(mesh.view(), {.num_samples = 100, .drop_components = 0.1});
+    EXPECT_EQ(result.components_dropped, 1u);
+    EXPECT_EQ(result.input_topology.components.size(), 1u);
+    EXPECT_EQ(result.mesh.positions.size(), 100u);
+    EXPECT_THROW((void)remesh::remesh(mesh.view(), {.drop_components = 100}), InvalidOption);
+    EXPECT_THROW((void)remesh::remesh(mesh.view(), {.drop_components = -1}), InvalidOption);
+}
+
+TEST(TopologyGuarantee, AddedVerticesStayIfAsked) {
+    const TriangleMesh mesh = shapes::torus(60, 8, 0.02);
+    const auto result =
+        remesh::remesh(mesh.view(), {.num_samples = 30, .vertex_count = remesh::VertexCount::Add});
+    EXPECT_GT(result.sites_added, 0u);
+    EXPECT_EQ(result.mesh.positions.size(), 30 + result.sites_added);
+    EXPECT_TRUE(same_topology(remesh::analyze_topology(result.mesh.view()), result.input_topology));
+}
