@@ -41,6 +41,7 @@ struct Sample {
     Vec3 position;
     double area;
     Index vertex;  // Of the mesh.
+    Index triangle = no_index;
 };
 
 // Least squares over the points that are nearest to one triangle: of their barycentric coordinates.
@@ -121,25 +122,31 @@ private:
         detail::measure_energy(site_mesh_, at_, facing, even, cells_);
     }
 
+    // The triangle of a sample that lies nearest; later rounds only move a little.
+    void find_triangle(Sample& sample) const {
+        double least = std::numeric_limits<double>::infinity();
+        for (const Index i : around_.of(sample.vertex)) {
+            const double distance_sq = closest(i, sample.position).distance_sq;
+            if (distance_sq >= least) continue;
+            least = distance_sq;
+            sample.triangle = i;
+        }
+    }
+    [[nodiscard]] agvd::ClosestPoint closest(Index triangle, const Vec3& position) const {
+        const auto& [a, b, c] = mesh_.triangles[triangle];
+        return agvd::closest_point_on_triangle({at_[a], at_[b], at_[c]}, agvd::FaceId(triangle),
+                                               position);
+    }
+
     void sum_up() {
         sums_.assign(mesh_.triangles.size(), {});
-        for (const Sample& sample : samples_) {
-            double least = std::numeric_limits<double>::infinity();
-            Index nearest = no_index;
-            std::array<double, 3> b{};
-            for (const Index i : around_.of(sample.vertex)) {
-                const Triangle& t = mesh_.triangles[i];
-                const agvd::ClosestPoint closest = agvd::closest_point_on_triangle(
-                    {at_[t[0]], at_[t[1]], at_[t[2]]}, agvd::FaceId(i), sample.position);
-                if (closest.distance_sq >= least) continue;
-                least = closest.distance_sq;
-                nearest = i;
-                b = closest.point.barycentric;
-            }
-            if (nearest == no_index) continue;
-            const double gap =
-                normal_[nearest].dot(sample.position - at_[mesh_.triangles[nearest][0]]);
-            TriangleSums& sums = sums_[nearest];
+        for (Sample& sample : samples_) {
+            if (sample.triangle == no_index) find_triangle(sample);
+            if (sample.triangle == no_index) continue;
+            const Index i = sample.triangle;
+            const std::array<double, 3> b = closest(i, sample.position).point.barycentric;
+            const double gap = normal_[i].dot(sample.position - at_[mesh_.triangles[i][0]]);
+            TriangleSums& sums = sums_[i];
             for (std::size_t k = 0; k < 3; ++k) {
                 sums.squares[k] += sample.area * b[k] * b[k];
                 sums.products[k] += sample.area * b[k] * b[(k + 1) % 3];

@@ -29,6 +29,8 @@ constexpr int steps_per_sweep = 10;
 constexpr std::size_t vertices_per_site = 8;
 // What is measured of cells means something where there are so many.
 constexpr std::size_t vertices_per_cell = 2;
+// Flaws of a triangulation, as a share of the sites, that are worth a propagation.
+constexpr double most_flaws = 2e-3;
 // Distance error of a propagation that only has to tell who neighbours whom.
 constexpr double neighbour_error = 1e-2;
 // A coarse start needs this many sites of each component: with fewer, middles are no triangulation.
@@ -119,12 +121,19 @@ private:
     }
 
     // Looks at the surface again.
-    void sweep(Relaxation& relaxation) const {
+    void sweep(Relaxation& relaxation) {
         const auto num_sites = static_cast<Index>(relaxation.sites().size());
         if (!gives_cells(num_sites)) return;
         const agvd::DistanceBounds labels = label(relaxation.sites());
-        if (gives_neighbours(surface_, num_sites)) {
-            relaxation.mend(detail::label_dual(surface_, labels).triangles);
+        const Index flaws = relaxation.num_flaws();
+        const bool is_cheap = gives_neighbours(surface_, num_sites);
+        const bool is_worth_it =
+            num_mended_ < result_.levels.size() && flaws > most_flaws * num_sites;
+        if (flaws > 0 && (is_cheap || is_worth_it)) {
+            if (!is_cheap) num_mended_ = result_.levels.size();
+            relaxation.mend(
+                triangulate(surface_, layout_, labels, relaxation.sites(), options_.num_threads)
+                    .triangles);
         }
         set_density(relaxation, labels);
     }
@@ -134,6 +143,7 @@ private:
     const RelaxOptions& options_;
     int steps_planned_;
     int steps_done_ = 0;
+    std::size_t num_mended_ = 0;  // Levels up to the last one that has paid for a propagation.
     RelaxResult result_;
 };
 

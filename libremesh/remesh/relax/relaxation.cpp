@@ -81,11 +81,10 @@ void Relaxation::find_stuck() {
 }
 
 void Relaxation::mend(const std::vector<agvd::Triangle>& triangles) {
-    const std::size_t flaws = num_stuck_ + now_.turned.size();
-    if (flaws == 0) return;
+    const Index flaws = num_flaws();
     SiteMesh before = std::move(mesh_);
     take_triangles(triangles);
-    if (num_stuck_ + now_.turned.size() < flaws) return;
+    if (num_flaws() < flaws) return;
     mesh_ = std::move(before);
     find_stuck();
     measure();

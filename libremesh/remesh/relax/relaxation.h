@@ -30,6 +30,10 @@ public:
     //! By what the cells hold of the surface.
     void set_density(const CellMeasures& cells);
 
+    //! Sites around which triangles do not close, and triangles that face against the surface.
+    [[nodiscard]] agvd::Index num_flaws() const {
+        return num_stuck_ + static_cast<agvd::Index>(now_.turned.size());
+    }
     //! Takes new triangles if they close around more sites and face with the surface more often.
     void mend(const std::vector<agvd::Triangle>& triangles);
 
