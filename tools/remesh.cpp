@@ -20,6 +20,9 @@ constexpr const char* footer =
 
 struct Arguments : cli::DiagramArguments {
     fs::path output;
+    int relax_steps = remesh::RemeshOptions{}.relax_steps;
+    bool keep_sites = false;
+    std::optional<bool> fit;
     fs::path report;  // Empty: none; "-": stdout.
     remesh::VertexCount vertex_count = remesh::VertexCount::Exact;
     double drop_components = 0;
@@ -76,6 +79,17 @@ void add_options(CLI::App& app, Arguments& arguments) {
         ->capture_default_str();
     app.add_flag("--strict", arguments.strict,
                  "Fail where the result runs through itself and the input does not");
+    app.add_option("--relax,--lloyd", arguments.relax_steps,
+                   "Steps of Lloyd relaxation; 0: the dual of the sites as sampled")
+        ->check(CLI::Range(0, 1'000'000).description(""))
+        ->type_name("K")
+        ->capture_default_str();
+    app.add_flag("--keep-sites", arguments.keep_sites, "Do not relax the sites of --sites")
+        ->needs("--sites");
+    app.add_flag_function(
+        "--fit,!--no-fit", [&arguments](std::int64_t count) { arguments.fit = count > 0; },
+        "Let vertices leave the surface so that the triangles lie nearer to it; on where sites "
+        "are relaxed");
     app.add_option("OUT,-o,--output", arguments.output,
                    "Mesh to write: .ply, .obj, .off or .stl; an existing file is replaced")
         ->required();
@@ -119,6 +133,9 @@ void run_job(const Arguments& arguments) {
                                   .drop_components = arguments.drop_components,
                                   .init = arguments.sampling.init,
                                   .seed = arguments.sampling.seed,
+                                  .relax_steps = arguments.relax_steps,
+                                  .keep_sites = arguments.keep_sites,
+                                  .fit = arguments.fit,
                                   .engine = arguments.propagation.engine,
                                   .max_error = arguments.propagation.max_error,
                                   .steiner_points = arguments.propagation.steiner_points,

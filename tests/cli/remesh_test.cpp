@@ -68,7 +68,8 @@ TEST_F(Remesh, GivenSitesBecomeTheVertices) {
     std::string sites = "p 0 0 1\n";
     for (int v = 0; v < 12; ++v) sites += "v " + std::to_string(v) + "\n";
     for (int f = 0; f < 20; ++f) sites += "f " + std::to_string(f) + " 0.25 0.25 0.5\n";
-    const auto outcome = remesh({in, at("out.off"), "--sites", put("sites.txt", sites)});
+    const auto outcome =
+        remesh({in, at("out.off"), "--sites", put("sites.txt", sites), "--keep-sites"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     const auto mesh = remesh::read_mesh(at("out.off")).mesh;
     ASSERT_GE(mesh.positions.size(), 33u);
@@ -100,6 +101,8 @@ TEST_F(Remesh, WrongUsageIsTwo) {
              {in, out, "--engine", "vertex", "--max-error", "0.01"},
              {in, out, "-q", "--verbose"},
              {in, out, "--sites", at("sites"), "-n", "20"},
+             {in, out, "--keep-sites"},
+             {in, out, "--relax", "-1"},
              {in, out, "--report", out},
          }) {
         const auto outcome = remesh(arguments);

@@ -20,9 +20,10 @@ struct Layer {
 };
 
 constexpr Layer layers[] = {
-    {"agvd/core", 0},      {"agvd/mesh", 1},     {"agvd/propagation", 2}, {"agvd/diagram", 3},
-    {"agvd/metrics", 3},   {"remesh/relax", 4},  {"remesh/sampling", 4},  {"remesh/dual", 5},
-    {"remesh/quality", 5}, {"remesh/repair", 5}, {"remesh/pipeline", 6},  {"remesh/io", 7},
+    {"agvd/core", 0},      {"agvd/mesh", 1},        {"agvd/propagation", 2}, {"agvd/diagram", 3},
+    {"agvd/metrics", 3},   {"remesh/relax", 5},     {"remesh/sampling", 4},  {"remesh/dual", 5},
+    {"remesh/quality", 5}, {"remesh/placement", 5}, {"remesh/repair", 5},    {"remesh/pipeline", 6},
+    {"remesh/io", 7},
 };
 
 struct Package {
@@ -31,7 +32,7 @@ struct Package {
 };
 
 constexpr Package packages[] = {
-    {"Eigen/", R"(agvd/(core|diagram)/.*|remesh/(dual|repair|quality)/.*)"},
+    {"Eigen/", R"(agvd/(core|diagram)/.*|remesh/(dual|placement|repair|quality)/.*)"},
     {"tbb/", R"(agvd/core/parallel\.cpp)"},
     {"CGAL/", R"(agvd/metrics/oracle\.cpp|remesh/(repair|quality)/.*\.cpp)"},
     {"OpenMesh/", R"(remesh/io/(.*\.cpp|openmesh_exchange\.h))"},

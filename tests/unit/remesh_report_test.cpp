@@ -29,6 +29,7 @@ remesh::RemeshResult example() {
                        .not_locally_shortest = 1,
                        .broken_triangles = 2,
                        .is_finished = false};
+    result.relaxation = {{.num_sites = 50, .energy = {4, 3, 2}}};
     result.seconds = {{remesh::Stage::Clean, 0.25}, {remesh::Stage::Dual, 0.5}};
     return result;
 }
@@ -43,6 +44,8 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
                                                 .options = {.num_samples = 77,
                                                             .init = remesh::Init::Random,
                                                             .seed = 9,
+                                                            .relax_steps = 12,
+                                                            .keep_sites = true,
                                                             .engine = agvd::Engine::Window,
                                                             .max_error = 0.25}}));
     EXPECT_EQ(report["program"], "remesh");
@@ -53,6 +56,11 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
     EXPECT_EQ(report["options"]["init"], "random");
     EXPECT_EQ(report["options"]["seed"], 9);
     EXPECT_EQ(report["options"]["given_sites"], nullptr);
+    EXPECT_EQ(report["options"]["relax_steps"], 12);
+    EXPECT_EQ(report["options"]["keep_sites"], true);
+    EXPECT_EQ(report["relaxation"][0]["sites"], 50);
+    EXPECT_EQ(report["relaxation"][0]["steps"], 2);
+    EXPECT_EQ(report["relaxation"][0]["energy_mesh_units_4"], json({4.0, 3.0, 2.0}));
     EXPECT_EQ(report["options"]["engine"], "window");
     EXPECT_EQ(report["options"]["max_error"], 0.25);
     EXPECT_EQ(report["options"]["steiner_points_per_edge"], 8);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "agvd/core/bucket_sort.h"
 #include "agvd/core/error.h"
 
 namespace agvd {
@@ -49,9 +50,12 @@ void connect(Surface& surface) {
         const Index b = surface.head(h);
         keys[h] = {std::uint64_t{std::min(a, b)} << 32 | std::max(a, b), h};
     }
-    std::sort(keys.begin(), keys.end(), [](const Key& a, const Key& b) {
-        return a.ends != b.ends ? a.ends < b.ends : a.half_edge < b.half_edge;
-    });
+    keys = sort_in_buckets(
+        keys, surface.num_vertices(),
+        [](const Key& key) { return static_cast<Index>(key.ends >> 32); },
+        [](const Key& a, const Key& b) {
+            return a.ends != b.ends ? a.ends < b.ends : a.half_edge < b.half_edge;
+        });
     surface.twin.assign(num_half_edges, no_index);
     for (std::size_t i = 0; i < keys.size();) {
         std::size_t end = i + 1;

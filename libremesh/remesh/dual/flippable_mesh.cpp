@@ -24,7 +24,7 @@ FlippableMesh::FlippableMesh(std::span<const agvd::Triangle> triangles)
     }
     valence_.assign(num_vertices, 0);
     is_boundary_.assign(num_vertices, false);
-    const std::vector<EdgeSide> sides = sorted_edge_sides({{}, triangles_});
+    const std::vector<EdgeSide> sides = sorted_edge_sides(triangles_);
     first_ends_.reserve(sides.size() / 2);
     sides_.reserve(sides.size() / 2);
     for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {

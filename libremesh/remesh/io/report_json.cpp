@@ -113,6 +113,9 @@ Json to_json(const RemeshOptions& options) {
     object["init"] = options.init == Init::Random ? "random" : "blue-noise";
     object["seed"] = options.seed;
     object["given_sites"] = options.sites ? Json(options.sites->size()) : Json();
+    object["relax_steps"] = options.relax_steps;
+    object["keep_sites"] = options.keep_sites;
+    object["fit"] = options.fit ? Json(*options.fit) : Json();
     object["engine"] = agvd::engine_name(options.engine);
     object["max_error"] = options.max_error ? Json(*options.max_error) : Json();
     object["steiner_points_per_edge"] = options.steiner_points;
@@ -148,6 +151,13 @@ std::string to_json(const RemeshResult& result, const RunInfo& info) {
     object["sites_dropped"] = result.sites_dropped;
     object["repair_rounds"] = result.repair_rounds;
     object["delaunay"] = to_json(result.delaunay, info.options.delaunay);
+    object["unfitted_vertices"] = result.unfitted_vertices;
+    Json& levels = object["relaxation"] = Json::array();
+    for (const RelaxLevel& level : result.relaxation) {
+        levels.push_back({{"sites", level.num_sites},
+                          {"steps", level.energy.size() - 1},
+                          {"energy_mesh_units_4", level.energy}});
+    }
     object["self_intersecting_pairs"] =
         result.self_intersections ? Json(*result.self_intersections) : Json();
     object["input_self_intersecting_pairs"] =

@@ -142,6 +142,12 @@ std::string to_text(const RemeshResult& result, const RunInfo& info) {
     text += "surface: " + counted(result.input_topology.face_component.size(), "face") + ", " +
             describe(result.input_topology) + '\n';
     text += to_text(info.options.engine, result.certified_error) + '\n';
+    for (const RelaxLevel& level : result.relaxation) {
+        const double ratio = level.energy.back() / level.energy.front();
+        text += "relaxation: " + counted(level.num_sites, "site") + ", " +
+                counted(level.energy.size() - 1, "step") + ", energy lowered by " +
+                fixed(100 * (1 - ratio), 1) + " %\n";
+    }
     text += "result: " + counted(result.mesh.positions.size(), "vertex") + ", " +
             counted(result.mesh.triangles.size(), "face") + "; same topology";
     if (result.repair_rounds > 0 || result.sites_removed > 0) {

@@ -9,6 +9,8 @@
 #include "agvd/mesh/refine.h"
 #include "remesh/pipeline/stage_clock.h"
 #include "remesh/pipeline/valid_dual.h"
+#include "remesh/placement/fit_vertices.h"
+#include "remesh/placement/improve_shape.h"
 #include "remesh/quality/self_intersections.h"
 #include "remesh/repair/carry_sites.h"
 #include "remesh/repair/drop_components.h"
@@ -36,6 +38,10 @@ void check_options(const RemeshOptions& options) {
         throw agvd::InvalidOption("repair_rounds is " + std::to_string(options.repair_rounds) +
                                   "; use 0 or more");
     }
+    if (options.relax_steps < 0) {
+        throw agvd::InvalidOption("relax_steps is " + std::to_string(options.relax_steps) +
+                                  "; use 0 or more");
+    }
     if (!(options.drop_components >= 0 && options.drop_components <= 100)) {
         throw agvd::InvalidOption("drop_components is " + std::to_string(options.drop_components) +
                                   "; use a percentage from 0 to 100");
@@ -51,6 +57,8 @@ void check_options(const RemeshOptions& options) {
 constexpr double longest_edge = 1.5;
 // Rounds of new sites where the result runs through itself.
 constexpr int max_mends = 4;
+// Rounds of putting vertices back onto the surface there.
+constexpr int max_unfits = 4;
 
 // Thrown where no vertex can go any more; never leaves this file.
 struct TooFewSamples {
@@ -63,8 +71,9 @@ class Pipeline {
 public:
     Pipeline(const agvd::MeshView& mesh, const RemeshOptions& options, int most_mends)
         : input_(mesh), options_(options), most_mends_(most_mends) {
-        for (const Stage stage : {Stage::Clean, Stage::Sample, Stage::Propagate, Stage::Diagram,
-                                  Stage::Dual, Stage::Delaunay, Stage::Check}) {
+        for (const Stage stage :
+             {Stage::Clean, Stage::Sample, Stage::Relax, Stage::Propagate, Stage::Diagram,
+              Stage::Dual, Stage::Delaunay, Stage::Place, Stage::Check}) {
             result_.seconds.emplace_back(stage, 0.0);
         }
     }
@@ -74,6 +83,7 @@ public:
         clean();
         refine();
         place_sites();
+        relax();
         build_mesh();
         check_mesh();
         result_.sites = to_original(result_.sites, input_, clean_);
@@ -124,16 +134,7 @@ private:
         if (options_.sites) {
             sites_ = to_cleaned(*options_.sites, input_, clean_);
         } else {
-            Index needed = 0;  // Fewer are reached from there, if at all.
-            for (const ComponentTopology& c : result_.input_topology.components) {
-                needed += minimum_samples(c.genus, c.boundary_loops);
-            }
-            sites_ = sample_sites(surface_, {.num_samples = std::max(options_.num_samples, needed),
-                                             .init = options_.init,
-                                             .boundary = options_.boundary,
-                                             .seed = options_.seed,
-                                             .num_threads = options_.num_threads,
-                                             .progress = progress_of(Stage::Sample, options_)});
+            if (!is_coarse_to_fine()) sites_ = sample_sites(surface_, sampling());
         }
         if (options_.boundary == Boundary::Keep) {
             for (const std::vector<Index>& loop : agvd::boundary_loops(surface_)) {
@@ -142,6 +143,37 @@ private:
             }
             std::sort(corners_.begin(), corners_.end());
         }
+    }
+
+    [[nodiscard]] SamplingOptions sampling() const {
+        Index needed = 0;  // Fewer are reached from there, if at all.
+        for (const ComponentTopology& c : result_.input_topology.components) {
+            needed += minimum_samples(c.genus, c.boundary_loops);
+        }
+        return {.num_samples = std::max(options_.num_samples, needed),
+                .init = options_.init,
+                .boundary = options_.boundary,
+                .seed = options_.seed,
+                .num_threads = options_.num_threads,
+                .progress = progress_of(Stage::Sample, options_)};
+    }
+
+    // Relaxation samples by itself.
+    [[nodiscard]] bool is_coarse_to_fine() const {
+        return !options_.sites && options_.init == Init::BlueNoise && options_.relax_steps > 0;
+    }
+
+    void relax() {
+        if (!is_relaxed()) return;
+        const StageClock clock(Stage::Relax, result_);
+        const RelaxOptions relax{.steps = options_.relax_steps,
+                                 .num_threads = options_.num_threads,
+                                 .progress = progress_of(Stage::Relax, options_)};
+        RelaxResult relaxed = is_coarse_to_fine()
+                                  ? sample_relaxed_sites(surface_, *layout_, sampling(), relax)
+                                  : relax_sites(surface_, *layout_, std::move(sites_), relax);
+        sites_ = std::move(relaxed.sites);
+        result_.relaxation = std::move(relaxed.levels);
     }
 
     // The dual with the count asked for. Where it runs through itself more often than the input, it
@@ -158,10 +190,11 @@ private:
                 throw TooFewSamples{static_cast<Index>(dual.mesh.points.size())};
             }
             const DelaunayCounts flips = flip_edges(dual);
-            const CrossingFaces crossings = find_crossings(dual.mesh);
+            PlacedMesh placed = place(dual);
+            const CrossingFaces crossings = unfit_crossings(placed);
             if (mends == 0 || !crossings || crossings->size() < *result_.self_intersections) {
-                result_.mesh = {positions_of(dual.mesh), dual.mesh.triangles};
-                result_.sites = dual.mesh.points;
+                result_.mesh = {positions_of(placed), placed.triangles};
+                result_.sites = placed.points;
                 result_.sites_removed = num_removed;
                 result_.delaunay = flips;
                 if (crossings) result_.self_intersections = static_cast<Index>(crossings->size());
@@ -240,8 +273,64 @@ private:
         return positions;
     }
 
+    [[nodiscard]] bool is_relaxed() const {
+        return options_.relax_steps > 0 && !(options_.sites && options_.keep_sites);
+    }
+
+    PlacedMesh place(const ValidDual& dual) {
+        const StageClock clock(Stage::Place, result_);
+        agvd::poll(progress_of(Stage::Place, options_), 0);
+        PlacedMesh placed{dual.mesh.points, {}, dual.mesh.triangles};
+        placed.offsets.assign(placed.points.size(), Vec3::Zero());
+        if (options_.fit.value_or(is_relaxed())) {
+            std::vector<Index> vertex(sites_.size(), no_index);
+            for (Index v = 0; v < dual.site.size(); ++v) {
+                if (dual.site[v] != no_index) vertex[dual.site[v]] = v;
+            }
+            std::vector<Index> nearest;
+            for (const agvd::SiteId site : dual.diagram.nearest_site) {
+                nearest.push_back(site.is_valid() ? vertex[site.value()] : no_index);
+            }
+            fit_vertices(surface_, nearest, placed);
+        }
+        if (is_relaxed()) improve_shape(surface_, placed);
+        agvd::poll(progress_of(Stage::Place, options_), 1);
+        return placed;
+    }
+
+    [[nodiscard]] std::vector<Vec3> positions_of(const PlacedMesh& mesh) const {
+        std::vector<Vec3> positions;
+        positions.reserve(mesh.points.size());
+        for (Index v = 0; v < mesh.points.size(); ++v) {
+            positions.push_back(mesh.position(surface_.mesh.view(), v));
+        }
+        return positions;
+    }
+
+    // Puts vertices back onto the surface where triangles run through each other.
+    CrossingFaces unfit_crossings(PlacedMesh& mesh) {
+        CrossingFaces crossings = find_crossings(mesh);
+        result_.unfitted_vertices = 0;
+        for (int round = 0; round < max_unfits && crossings && !crossings->empty(); ++round) {
+            bool is_changed = false;
+            for (const auto& [f, g] : *crossings) {
+                for (const Index face : {f, g}) {
+                    for (const Index v : mesh.triangles[face]) {
+                        if (mesh.offsets[v].isZero(0)) continue;
+                        mesh.offsets[v].setZero();
+                        ++result_.unfitted_vertices;
+                        is_changed = true;
+                    }
+                }
+            }
+            if (!is_changed) break;
+            crossings = find_crossings(mesh);
+        }
+        return crossings;
+    }
+
     // Of the input only if the result has any.
-    CrossingFaces find_crossings(const SurfaceMesh& mesh) {
+    CrossingFaces find_crossings(const PlacedMesh& mesh) {
         const StageClock clock(Stage::Check, result_);
         const agvd::TriangleMesh placed{positions_of(mesh), mesh.triangles};
         CrossingFaces found = find_self_intersections(placed.view(), options_.num_threads);
@@ -333,6 +422,8 @@ const char* stage_name(Stage stage) {
             return "clean";
         case Stage::Sample:
             return "sample";
+        case Stage::Relax:
+            return "relax";
         case Stage::Propagate:
             return "propagate";
         case Stage::Diagram:
@@ -341,6 +432,8 @@ const char* stage_name(Stage stage) {
             return "dual";
         case Stage::Delaunay:
             return "delaunay";
+        case Stage::Place:
+            return "place";
         case Stage::Check:
             return "check";
     }

@@ -11,12 +11,13 @@
 #include "agvd/propagation/propagate.h"
 #include "remesh/dual/delaunay.h"
 #include "remesh/quality/topology.h"
+#include "remesh/relax/relax_sites.h"
 #include "remesh/repair/clean_input.h"
 #include "remesh/sampling/sample_sites.h"
 
 namespace remesh {
 
-enum class Stage { Clean, Sample, Propagate, Diagram, Dual, Delaunay, Check };
+enum class Stage { Clean, Sample, Relax, Propagate, Diagram, Dual, Delaunay, Place, Check };
 
 //! Lower-case name of a stage, for logs.
 [[nodiscard]] const char* stage_name(Stage stage);
@@ -38,6 +39,13 @@ struct RemeshOptions {
     //! Sites to use instead of sampling, on the caller's mesh; num_samples, init and seed are then
     //! ignored. Faces are the caller's.
     std::optional<std::vector<agvd::SurfacePoint>> sites = {};
+    //! Steps of relaxation, >= 0 (0: the sites stay where they were sampled, as in the paper). With
+    //! blue noise they run coarse to fine, so many on each of two levels.
+    int relax_steps = RelaxOptions{}.steps;
+    bool keep_sites = false;  //!< Given sites are not relaxed.
+    //! Vertices may leave the surface so that the triangles lie nearer to it. Unset: if sites are
+    //! relaxed.
+    std::optional<bool> fit = {};
     agvd::Engine engine = agvd::PropagationOptions{}.engine;
     //! Relative distance error, in [0, 1), 0: exact; unset: see agvd::PropagationOptions.
     std::optional<double> max_error = {};
@@ -62,10 +70,12 @@ struct RemeshResult {
     agvd::Index components_dropped = 0;     //!< See drop_components.
     agvd::Index sites_added = 0;            //!< By topology repair and against self-intersections.
     std::map<std::string, agvd::Index> added_because = {};  //!< The same by reason.
-    agvd::Index sites_moved = 0;    //!< Onto the boundary, or from where they owned nothing.
-    agvd::Index sites_removed = 0;  //!< Vertices taken away to keep the count.
-    agvd::Index sites_dropped = 0;  //!< Given sites that own nothing (e.g. duplicates).
-    int repair_rounds = 0;          //!< Rounds of moving and adding.
+    agvd::Index sites_moved = 0;        //!< Onto the boundary, or from where they owned nothing.
+    agvd::Index sites_removed = 0;      //!< Vertices taken away to keep the count.
+    agvd::Index sites_dropped = 0;      //!< Given sites that own nothing (e.g. duplicates).
+    int repair_rounds = 0;              //!< Rounds of moving and adding.
+    agvd::Index unfitted_vertices = 0;  //!< Back on the surface: triangles met there.
+    std::vector<RelaxLevel> relaxation = {};  //!< Empty: the sites were not relaxed.
     //! Components whose cells could not be made to give their topology; their vertices are chosen
     //! from the input's faces instead.
     agvd::Index components_from_faces = 0;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "agvd/mesh/mesh_view.h"
@@ -21,8 +22,8 @@ struct EdgeSide {
     [[nodiscard]] agvd::Index high() const { return static_cast<agvd::Index>(ends); }
 };
 
-//! 3 #F sides, those of one edge side by side, by face within. Cost: O(n log n).
-[[nodiscard]] std::vector<EdgeSide> sorted_edge_sides(const agvd::MeshView& mesh);
+//! 3 #F sides, those of one edge side by side, by face within. Cost: O(n).
+[[nodiscard]] std::vector<EdgeSide> sorted_edge_sides(std::span<const agvd::Triangle> triangles);
 
 //! Calls visit(begin, end), pointers into `sides`, once for each edge.
 template <typename Visit>

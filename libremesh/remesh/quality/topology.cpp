@@ -1,9 +1,11 @@
 #include "remesh/quality/topology.h"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <numeric>
 
+#include "agvd/core/bucket_sort.h"
 #include "remesh/quality/edge_sides.h"
 
 namespace remesh {
@@ -33,7 +35,9 @@ bool has_bad_faces(const agvd::MeshView& mesh) {
         std::sort(t.begin(), t.end());
         if (t[0] == t[1] || t[1] == t[2]) return true;
     }
-    std::sort(sorted.begin(), sorted.end());
+    sorted = agvd::sort_in_buckets(
+        sorted, static_cast<Index>(mesh.positions.size()), [](const Triangle& t) { return t[0]; },
+        std::less<>());
     return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
 }
 
@@ -76,7 +80,7 @@ int Topology::boundary_loops() const {
 
 Topology analyze_topology(const agvd::MeshView& mesh) {
     Topology result;
-    const std::vector<EdgeSide> sides = sorted_edge_sides(mesh);
+    const std::vector<EdgeSide> sides = sorted_edge_sides(mesh.triangles);
     const auto num_faces = static_cast<Index>(mesh.triangles.size());
 
     std::vector<Index> parent(num_faces);
@@ -110,14 +114,22 @@ Topology analyze_topology(const agvd::MeshView& mesh) {
                             .norm();
     }
 
-    std::vector<std::pair<Index, Index>> vertex_of;  // (component, vertex), once each
-    vertex_of.reserve(3 * num_faces);
-    for (Index f = 0; f < num_faces; ++f) {
-        for (const Index v : mesh.triangles[f]) vertex_of.emplace_back(result.face_component[f], v);
+    // A vertex counts once for each component that meets there.
+    std::vector<Index> by_component(num_faces);
+    std::iota(by_component.begin(), by_component.end(), Index{0});
+    if (result.components.size() > 1) {
+        by_component = agvd::sort_in_buckets(
+            by_component, static_cast<Index>(result.components.size()),
+            [&](Index face) { return result.face_component[face]; }, std::less<>());
     }
-    std::sort(vertex_of.begin(), vertex_of.end());
-    vertex_of.erase(std::unique(vertex_of.begin(), vertex_of.end()), vertex_of.end());
-    for (const auto& [component, vertex] : vertex_of) ++result.components[component].euler;
+    std::vector<Index> last_component(mesh.positions.size(), no_index);
+    for (const Index f : by_component) {
+        for (const Index v : mesh.triangles[f]) {
+            if (last_component[v] == result.face_component[f]) continue;
+            last_component[v] = result.face_component[f];
+            ++result.components[last_component[v]].euler;
+        }
+    }
 
     // Boundary loops: the connected pieces of the graph of boundary edges.
     std::vector<Index> boundary(mesh.positions.size());

@@ -3,25 +3,19 @@
 #include <algorithm>
 #include <tuple>
 
+#include "agvd/core/bucket_sort.h"
+
 namespace remesh::detail {
 
 using agvd::Index;
 using agvd::no_index;
 
-std::vector<EdgeUse> sort_edge_uses(std::vector<EdgeUse> uses, Index num_vertices) {
-    std::vector<Index> end(num_vertices + 1, 0);
-    for (const EdgeUse& use : uses) ++end[use.low + 1];
-    for (Index v = 0; v < num_vertices; ++v) end[v + 1] += end[v];
-    std::vector<EdgeUse> sorted(uses.size());
-    for (const EdgeUse& use : uses) sorted[end[use.low]++] = use;
-    Index begin = 0;
-    for (Index v = 0; v < num_vertices; begin = end[v++]) {  // end[v] has moved to v's last + 1.
-        std::sort(sorted.begin() + begin, sorted.begin() + end[v],
-                  [](const EdgeUse& a, const EdgeUse& b) {
-                      return std::tie(a.high, a.half_edge) < std::tie(b.high, b.half_edge);
-                  });
-    }
-    return sorted;
+std::vector<EdgeUse> sort_edge_uses(const std::vector<EdgeUse>& uses, Index num_vertices) {
+    return agvd::sort_in_buckets(
+        uses, num_vertices, [](const EdgeUse& use) { return use.low; },
+        [](const EdgeUse& a, const EdgeUse& b) {
+            return std::tie(a.high, a.half_edge) < std::tie(b.high, b.half_edge);
+        });
 }
 
 std::vector<EdgeUse> edge_uses(const Soup& soup) {
@@ -30,7 +24,7 @@ std::vector<EdgeUse> edge_uses(const Soup& soup) {
         const auto [low, high] = std::minmax({soup.tail(h), soup.head(h)});
         uses[h] = {low, high, h};
     }
-    return sort_edge_uses(std::move(uses), static_cast<Index>(soup.positions.size()));
+    return sort_edge_uses(uses, static_cast<Index>(soup.positions.size()));
 }
 
 void erase_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<Index>& twin) {

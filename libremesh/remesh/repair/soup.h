@@ -38,7 +38,7 @@ struct EdgeUse {
 };
 
 //! Sorts by (low, high, half_edge) in linear time for bounded vertex degrees.
-[[nodiscard]] std::vector<EdgeUse> sort_edge_uses(std::vector<EdgeUse> uses,
+[[nodiscard]] std::vector<EdgeUse> sort_edge_uses(const std::vector<EdgeUse>& uses,
                                                   agvd::Index num_vertices);
 //! All half-edges of the soup, sorted.
 [[nodiscard]] std::vector<EdgeUse> edge_uses(const Soup& soup);

@@ -79,7 +79,7 @@ bool weld_cracks(Soup& soup, std::span<const EdgeUse> uses) {
     for (EdgeUse& use : open) {
         std::tie(use.low, use.high) = std::minmax({place[use.low], place[use.high]});
     }
-    open = sort_edge_uses(std::move(open), static_cast<Index>(soup.positions.size()));
+    open = sort_edge_uses(open, static_cast<Index>(soup.positions.size()));
 
     Merger merger(soup.positions.size());
     for_each_edge(open, [&](std::span<const EdgeUse> edge) {

@@ -1,0 +1,285 @@
+#include "remesh/placement/fit_vertices.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "agvd/mesh/closest_point.h"
+#include "agvd/mesh/point_faces.h"
+#include "remesh/placement/vertex_triangles.h"
+#include "remesh/relax/cvt_energy.h"
+
+namespace remesh {
+namespace {
+
+using agvd::Index;
+using agvd::no_index;
+using agvd::Triangle;
+using agvd::Vec3;
+using Mat3 = Eigen::Matrix3d;
+using Field = std::vector<Vec3>;
+
+constexpr int num_rounds = 2;
+// What a move along the mesh costs, against the same move at right angles to all triangles.
+constexpr double along_cost = 0.2;
+// The same of any other move: keeps vertices of which the surface says nothing.
+constexpr double across_cost = 1e-3;
+// Longest move of a round, and longest way to the centroid, in square roots of the cell's area.
+constexpr double longest_move = 0.3;
+constexpr double longest_pull = 0.2;
+// Least cosine between the normals of a triangle before and after a round.
+constexpr double least_normal_cosine = 0.3;
+constexpr int most_guard_rounds = 10;
+// The surface's vertices will do where there are so many for each of the mesh.
+constexpr std::size_t enough_vertices = 12;
+// Conjugate gradients end there: residuals fall by that share.
+constexpr double residual_share = 1e-3;
+constexpr int most_iterations = 40;
+
+// A point of the surface and what it stands for.
+struct Sample {
+    Vec3 position;
+    double area;
+    Index vertex;  // Of the mesh.
+    Index triangle = no_index;
+};
+
+// Least squares over the points that are nearest to one triangle: of their barycentric coordinates.
+struct TriangleSums {
+    std::array<double, 3> squares{};   // b_k b_k
+    std::array<double, 3> products{};  // b_k b_(k + 1)
+    std::array<double, 3> gaps{};      // b_k times the distance from the plane.
+};
+
+double dot(const Field& a, const Field& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += a[i].dot(b[i]);
+    return sum;
+}
+
+class Fit {
+public:
+    Fit(const agvd::Surface& surface, std::span<const Index> nearest_vertex, PlacedMesh& mesh)
+        : surface_(surface),
+          mesh_(mesh),
+          around_(mesh.triangles, mesh.points.size()),
+          site_mesh_(detail::build_site_mesh(mesh.triangles, num_vertices())) {
+        for (Index v = 0; v < num_vertices(); ++v) {
+            at_.push_back(mesh.position(surface.mesh.view(), v));
+            stays_.push_back(agvd::is_on_boundary(surface, mesh.points[v]) ? 1 : 0);
+        }
+        take_samples(nearest_vertex);
+    }
+
+    void run() {
+        for (int round = 0; round < num_rounds; ++round) {
+            measure();
+            sum_up();
+            build_equations();
+            move(solve());
+        }
+        for (Index v = 0; v < num_vertices(); ++v) {
+            mesh_.offsets[v] = at_[v] - agvd::position(surface_.mesh.view(), mesh_.points[v]);
+        }
+    }
+
+private:
+    [[nodiscard]] Index num_vertices() const { return static_cast<Index>(mesh_.points.size()); }
+
+    void take_samples(std::span<const Index> nearest_vertex) {
+        const auto& p = surface_.mesh.positions;
+        const bool is_dense = p.size() >= enough_vertices * mesh_.points.size();
+        std::vector<double> area(p.size(), 0);
+        for (Index f = 0; f < surface_.num_faces(); ++f) {
+            const Triangle& t = surface_.mesh.triangles[f];
+            const double face_area = surface_.length_of(3 * f) * surface_.apex[3 * f].y() / 2;
+            // With the centroid three quarters: exact for what is quadratic on the face.
+            for (const Index v : t) area[v] += is_dense ? face_area / 3 : face_area / 12;
+            if (is_dense || nearest_vertex[t[0]] == no_index) continue;
+            samples_.push_back(
+                {(p[t[0]] + p[t[1]] + p[t[2]]) / 3, face_area * 3 / 4, nearest_vertex[t[0]]});
+        }
+        for (Index v = 0; v < p.size(); ++v) {
+            if (nearest_vertex[v] != no_index)
+                samples_.push_back({p[v], area[v], nearest_vertex[v]});
+        }
+    }
+
+    void measure() {
+        normal_.resize(mesh_.triangles.size());
+        area_.assign(at_.size(), 0);
+        Field facing(at_.size(), Vec3::Zero());
+        for (Index i = 0; i < mesh_.triangles.size(); ++i) {
+            const auto& [a, b, c] = mesh_.triangles[i];
+            normal_[i] = (at_[b] - at_[a]).cross(at_[c] - at_[a]);
+            for (const Index v : mesh_.triangles[i]) {
+                area_[v] += normal_[i].norm() / 6;
+                facing[v] += normal_[i];
+            }
+            normal_[i].normalize();
+        }
+        const std::vector<double> even(at_.size(), 1);
+        detail::measure_energy(site_mesh_, at_, facing, even, cells_);
+    }
+
+    // The triangle of a sample that lies nearest; later rounds only move a little.
+    void find_triangle(Sample& sample) const {
+        double least = std::numeric_limits<double>::infinity();
+        for (const Index i : around_.of(sample.vertex)) {
+            const double distance_sq = closest(i, sample.position).distance_sq;
+            if (distance_sq >= least) continue;
+            least = distance_sq;
+            sample.triangle = i;
+        }
+    }
+    [[nodiscard]] agvd::ClosestPoint closest(Index triangle, const Vec3& position) const {
+        const auto& [a, b, c] = mesh_.triangles[triangle];
+        return agvd::closest_point_on_triangle({at_[a], at_[b], at_[c]}, agvd::FaceId(triangle),
+                                               position);
+    }
+
+    void sum_up() {
+        sums_.assign(mesh_.triangles.size(), {});
+        for (Sample& sample : samples_) {
+            if (sample.triangle == no_index) find_triangle(sample);
+            if (sample.triangle == no_index) continue;
+            const Index i = sample.triangle;
+            const std::array<double, 3> b = closest(i, sample.position).point.barycentric;
+            const double gap = normal_[i].dot(sample.position - at_[mesh_.triangles[i][0]]);
+            TriangleSums& sums = sums_[i];
+            for (std::size_t k = 0; k < 3; ++k) {
+                sums.squares[k] += sample.area * b[k] * b[k];
+                sums.products[k] += sample.area * b[k] * b[(k + 1) % 3];
+                sums.gaps[k] += sample.area * b[k] * gap;
+            }
+        }
+    }
+
+    void build_equations() {
+        diagonal_.resize(at_.size());
+        right_.resize(at_.size());
+        for (std::size_t v = 0; v < at_.size(); ++v) {
+            const Vec3& n = cells_.normal[v];
+            const Mat3 across = n * n.transpose();
+            const Mat3 along = Mat3::Identity() - across;
+            diagonal_[v] = area_[v] * (along_cost * along + across_cost * across);
+            Vec3 pull = Vec3::Zero();
+            if (cells_.mass[v] > 0) pull = -cells_.slope[v] / (2 * cells_.mass[v]);
+            const double most = longest_pull * std::sqrt(area_[v]);
+            if (pull.norm() > most) pull *= most / pull.norm();
+            right_[v] = along_cost * area_[v] * pull;
+        }
+        for (Index i = 0; i < mesh_.triangles.size(); ++i) {
+            const Mat3 plane = normal_[i] * normal_[i].transpose();
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Index v = mesh_.triangles[i][k];
+                diagonal_[v] += sums_[i].squares[k] * plane;
+                right_[v] += sums_[i].gaps[k] * normal_[i];
+            }
+        }
+    }
+
+    void multiply(const Field& x, Field& result) const {
+        for (std::size_t v = 0; v < x.size(); ++v) result[v] = diagonal_[v] * x[v];
+        for (Index i = 0; i < mesh_.triangles.size(); ++i) {
+            const Triangle& t = mesh_.triangles[i];
+            const std::array<double, 3> up{normal_[i].dot(x[t[0]]), normal_[i].dot(x[t[1]]),
+                                           normal_[i].dot(x[t[2]])};
+            for (std::size_t k = 0; k < 3; ++k) {
+                const std::size_t next = (k + 1) % 3, previous = (k + 2) % 3;
+                result[t[k]] +=
+                    (sums_[i].products[k] * up[next] + sums_[i].products[previous] * up[previous]) *
+                    normal_[i];
+            }
+        }
+        hold(result);
+    }
+    void hold(Field& x) const {
+        for (std::size_t v = 0; v < x.size(); ++v) {
+            if (stays_[v] != 0) x[v].setZero();
+        }
+    }
+
+    // Conjugate gradients, with the vertices' own blocks as preconditioner.
+    [[nodiscard]] Field solve() const {
+        std::vector<Mat3> inverse(at_.size());
+        for (std::size_t v = 0; v < at_.size(); ++v) {
+            inverse[v] = diagonal_[v].inverse();
+            if (!inverse[v].allFinite()) inverse[v].setZero();
+        }
+        const auto precondition = [&](const Field& r, Field& z) {
+            for (std::size_t v = 0; v < r.size(); ++v) z[v] = inverse[v] * r[v];
+        };
+        Field x(at_.size(), Vec3::Zero()), residual = right_, z(at_.size()), product(at_.size());
+        hold(residual);
+        precondition(residual, z);
+        Field direction = z;
+        double now = dot(residual, z);
+        const double enough = residual_share * residual_share * now;
+        for (int i = 0; i < most_iterations && now > enough; ++i) {
+            multiply(direction, product);
+            const double curvature = dot(direction, product);
+            if (!(curvature > 0)) break;
+            for (std::size_t v = 0; v < x.size(); ++v) {
+                x[v] += now / curvature * direction[v];
+                residual[v] -= now / curvature * product[v];
+            }
+            precondition(residual, z);
+            const double next = dot(residual, z);
+            for (std::size_t v = 0; v < x.size(); ++v) {
+                direction[v] = z[v] + next / now * direction[v];
+            }
+            now = next;
+        }
+        return x;
+    }
+
+    // As far as no triangle turns over.
+    void move(const Field& moves) {
+        const Field before = at_;
+        for (std::size_t v = 0; v < at_.size(); ++v) {
+            const double most = longest_move * std::sqrt(area_[v]);
+            const double length = moves[v].norm();
+            if (std::isfinite(length)) at_[v] += std::min(1.0, most / length) * moves[v];
+        }
+        for (int round = 0; round < most_guard_rounds; ++round) {
+            bool is_done = true;
+            for (Index i = 0; i < mesh_.triangles.size(); ++i) {
+                const auto& [a, b, c] = mesh_.triangles[i];
+                const Vec3 normal = (at_[b] - at_[a]).cross(at_[c] - at_[a]);
+                if (normal.dot(normal_[i]) > least_normal_cosine * normal.norm()) continue;
+                for (const Index v : {a, b, c}) {
+                    if (at_[v] == before[v]) continue;
+                    at_[v] = before[v];
+                    is_done = false;
+                }
+            }
+            if (is_done) return;
+        }
+        at_ = before;
+    }
+
+    const agvd::Surface& surface_;
+    PlacedMesh& mesh_;
+    detail::VertexTriangles around_;
+    detail::SiteMesh site_mesh_;
+    std::vector<Sample> samples_;
+    Field at_;                         // #V
+    std::vector<std::uint8_t> stays_;  // #V
+    std::vector<double> area_;         // #V: a third of the triangles around.
+    detail::CvtEnergy cells_;
+    Field normal_;                    // #triangles, of length 1.
+    std::vector<TriangleSums> sums_;  // #triangles
+    std::vector<Mat3> diagonal_;      // #V: the equations' blocks.
+    Field right_;                     // #V: their right sides.
+};
+
+}  // namespace
+
+void fit_vertices(const agvd::Surface& surface, std::span<const Index> nearest_vertex,
+                  PlacedMesh& mesh) {
+    mesh.offsets.resize(mesh.points.size(), Vec3::Zero());
+    Fit(surface, nearest_vertex, mesh).run();
+}
+
+}  // namespace remesh

@@ -1,0 +1,24 @@
+//! \file
+//! Vertices off the surface, for a mesh that lies nearer to it.
+#pragma once
+
+#include <span>
+
+#include "agvd/mesh/surface.h"
+#include "remesh/placement/placed_mesh.h"
+
+namespace remesh {
+
+//! Moves vertices so that the triangles, not their corners, lie as near to the surface as they can:
+//! least squares of the distances of the surface's vertices (where there are few, of points inside
+//! faces too) from the planes of their triangles. Planes say nothing of moves along them: there a
+//! vertex is held near the centroid of its cell, so that shapes stay, but slides to the edge
+//! where planes meet at an angle. Vertices on the boundary stay, and no triangle turns over.
+//!
+//! \param nearest_vertex  per vertex of the surface: that of the mesh in whose cell it lies;
+//!                        agvd::no_index: none.
+//! Cost: O(#surface + #mesh), about 1 us for each vertex of the surface.
+void fit_vertices(const agvd::Surface& surface, std::span<const agvd::Index> nearest_vertex,
+                  PlacedMesh& mesh);
+
+}  // namespace remesh

@@ -1,0 +1,142 @@
+#include "remesh/placement/improve_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "agvd/mesh/point_faces.h"
+#include "remesh/placement/vertex_triangles.h"
+#include "remesh/relax/walk.h"
+
+namespace remesh {
+namespace {
+
+using agvd::Index;
+using agvd::SurfacePoint;
+using agvd::Triangle;
+using agvd::Vec3;
+
+// Triangles below are worked on (Q of [frey1999], 1 for equilateral ones).
+constexpr double low_quality = 0.65;
+constexpr int most_rounds = 8;
+// Steps tried, in mean lengths of the edges around the vertex, so often as they help.
+constexpr std::array step_lengths{0.2, 0.07, 0.02};
+constexpr int most_tries = 4;
+constexpr int num_directions = 8;
+// Less is not worth a move.
+constexpr double least_gain = 1e-4;
+
+// 6 / sqrt(3) * S / (p h): S area, p half the perimeter, h the longest edge.
+double quality(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const double ab = (b - a).norm(), bc = (c - b).norm(), ca = (a - c).norm();
+    const double doubled_area = (b - a).cross(c - a).norm();
+    if (!(doubled_area > 0)) return 0;
+    return 2 * std::numbers::sqrt3 * doubled_area / ((ab + bc + ca) * std::max({ab, bc, ca}));
+}
+
+class Improvement {
+public:
+    Improvement(const agvd::Surface& surface, PlacedMesh& mesh)
+        : surface_(surface), mesh_(mesh), around_(mesh.triangles, mesh.points.size()) {
+        at_.resize(mesh.points.size());
+        facing_.resize(mesh.points.size());
+        for (Index v = 0; v < at_.size(); ++v) locate(v);
+    }
+
+    void run() {
+        for (int round = 0; round < most_rounds; ++round) {
+            std::vector<std::pair<double, Index>> bad;
+            for (const Triangle& t : mesh_.triangles) {
+                const double q = quality(at_[t[0]], at_[t[1]], at_[t[2]]);
+                if (q >= low_quality) continue;
+                for (const Index v : t) bad.emplace_back(q, v);
+            }
+            std::sort(bad.begin(), bad.end());
+            bool is_better = false;
+            for (const auto& [q, v] : bad) is_better = improve(v) || is_better;
+            if (!is_better) return;
+        }
+    }
+
+private:
+    void locate(Index v) {
+        const auto& p = surface_.mesh.positions;
+        const Triangle& t = surface_.mesh.triangles[mesh_.points[v].face.value()];
+        facing_[v] = (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).normalized();
+        at_[v] = mesh_.position(surface_.mesh.view(), v);
+    }
+
+    // The lowest quality around a vertex; less by 1 where a triangle faces against the surface.
+    [[nodiscard]] double worst_around(Index v) const {
+        double worst = 1;
+        for (const Index i : around_.of(v)) {
+            const auto& [a, b, c] = mesh_.triangles[i];
+            const Vec3 normal = (at_[b] - at_[a]).cross(at_[c] - at_[a]);
+            const bool is_turned = !(normal.dot(facing_[a] + facing_[b] + facing_[c]) > 0);
+            worst = std::min(worst, quality(at_[a], at_[b], at_[c]) - (is_turned ? 1 : 0));
+        }
+        return worst;
+    }
+
+    // Takes a step if it helps.
+    bool try_step(Index v, const Vec3& step, double& worst) {
+        const SurfacePoint before = mesh_.points[v];
+        mesh_.points[v] = detail::walk_straight(surface_, before, step);
+        locate(v);
+        const double now = worst_around(v);
+        if (now > worst + least_gain) {
+            worst = now;
+            return true;
+        }
+        mesh_.points[v] = before;
+        locate(v);
+        return false;
+    }
+
+    bool improve(Index v) {
+        if (agvd::is_on_boundary(surface_, mesh_.points[v])) return false;
+        Vec3 normal = Vec3::Zero(), mean = Vec3::Zero();
+        double length = 0;
+        const std::span<const Index> around = around_.of(v);
+        for (const Index i : around) {
+            const auto& [a, b, c] = mesh_.triangles[i];
+            normal += (at_[b] - at_[a]).cross(at_[c] - at_[a]);
+            mean += at_[a] + at_[b] + at_[c] - at_[v];
+            for (const Index other : {a, b, c}) length += (at_[other] - at_[v]).norm();
+        }
+        const double num_others = 2.0 * static_cast<double>(around.size());
+        mean /= num_others;
+        length /= num_others;
+        if (!(normal.norm() > 0)) return false;
+        const Vec3 x = normal.unitOrthogonal(), y = normal.normalized().cross(x);
+
+        double worst = worst_around(v);
+        bool is_better = try_step(v, mean - at_[v], worst);
+        for (const double share : step_lengths) {
+            bool helps = true;
+            for (int tries = 0; tries < most_tries && helps; ++tries) {
+                helps = false;
+                for (int d = 0; d < num_directions; ++d) {
+                    const double angle = 2 * std::numbers::pi * d / num_directions;
+                    const Vec3 step = std::cos(angle) * x + std::sin(angle) * y;
+                    helps = try_step(v, share * length * step, worst) || helps;
+                }
+                is_better = is_better || helps;
+            }
+        }
+        return is_better;
+    }
+
+    const agvd::Surface& surface_;
+    PlacedMesh& mesh_;
+    detail::VertexTriangles around_;
+    std::vector<Vec3> at_, facing_;  // #V: positions, and normals of the surface.
+};
+
+}  // namespace
+
+void improve_shape(const agvd::Surface& surface, PlacedMesh& mesh) {
+    Improvement(surface, mesh).run();
+}
+
+}  // namespace remesh

@@ -1,0 +1,229 @@
+#include "remesh/relax/relax_sites.h"
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "agvd/diagram/diagram.h"
+#include "agvd/propagation/propagate.h"
+#include "agvd/propagation/site_placement.h"
+#include "remesh/dual/build_dual.h"
+#include "remesh/relax/even_out.h"
+#include "remesh/relax/relaxation.h"
+#include "remesh/relax/subdivide.h"
+#include "remesh/relax/walk.h"
+#include "remesh/sampling/components.h"
+
+namespace remesh {
+namespace {
+
+using agvd::Index;
+using agvd::Surface;
+using agvd::SurfaceLayout;
+using agvd::SurfacePoint;
+using detail::Relaxation;
+
+// Steps from one measuring of the cells to the next.
+constexpr int steps_per_sweep = 10;
+// Labels tell who neighbours whom where there are so many vertices for each site.
+constexpr std::size_t vertices_per_site = 8;
+// What is measured of cells means something where there are so many.
+constexpr std::size_t vertices_per_cell = 2;
+// Flaws of a triangulation, as a share of the sites, that are worth a propagation.
+constexpr double most_flaws = 2e-3;
+// Distance error of a propagation that only has to tell who neighbours whom.
+constexpr double neighbour_error = 1e-2;
+// A coarse start needs this many sites of each component: with fewer, middles are no triangulation.
+constexpr std::size_t least_coarse_sites = 32;
+// More coarse sites than a quarter, as some pairs may lack a middle.
+constexpr double coarse_margin = 1.002;
+
+void check_options(const RelaxOptions& options, std::size_t num_sites) {
+    if (options.steps < 0) {
+        throw agvd::InvalidOption("the number of relaxation steps is negative; use 0 or more");
+    }
+    if (!(options.tolerance >= 0)) {
+        throw agvd::InvalidOption("the tolerance of relaxation is negative; use 0 or more");
+    }
+    if (options.num_threads < 0) {
+        throw agvd::InvalidOption("the number of threads is negative; use 0 for all cores");
+    }
+    if (!options.is_fixed.empty() && options.is_fixed.size() != num_sites) {
+        throw agvd::InvalidOption("is_fixed has " + std::to_string(options.is_fixed.size()) +
+                                  " entries for " + std::to_string(num_sites) + " sites");
+    }
+}
+
+bool gives_neighbours(const Surface& surface, std::size_t num_sites) {
+    return surface.num_vertices() >= vertices_per_site * num_sites;
+}
+
+// By labels; exactly where faces are too large for those.
+detail::SiteDual triangulate(const Surface& surface, const SurfaceLayout& layout,
+                             const agvd::DistanceBounds& labels,
+                             std::span<const SurfacePoint> sites, int num_threads) {
+    if (gives_neighbours(surface, sites.size())) {
+        return detail::label_dual(surface, labels);
+    }
+    const agvd::Propagation propagation = agvd::propagate(
+        surface, layout, sites, {.max_error = neighbour_error, .num_threads = num_threads});
+    return {build_dual(surface, agvd::build_diagram(surface, sites, propagation,
+                                                    {.num_threads = num_threads})),
+            {}};
+}
+
+class Levels {
+public:
+    Levels(const Surface& surface, const SurfaceLayout& layout, const RelaxOptions& options,
+           int num_levels)
+        : surface_(surface),
+          layout_(layout),
+          options_(options),
+          steps_planned_(options.steps * num_levels) {}
+
+    // \param labels  of the sites; null: the relaxation knows its weights.
+    void run(Relaxation& relaxation, const agvd::DistanceBounds* labels) {
+        const auto num_sites = static_cast<Index>(relaxation.sites().size());
+        RelaxLevel& level = result_.levels.emplace_back();
+        level.num_sites = num_sites;
+        level.energy.push_back(relaxation.energy().energy);
+        if (labels != nullptr) set_density(relaxation, *labels);
+        double last = relaxation.energy().weighted;
+        for (int step = 1; step <= options_.steps; ++step) {
+            relaxation.step();
+            level.energy.push_back(relaxation.energy().energy);
+            agvd::poll(options_.progress, static_cast<double>(++steps_done_) / steps_planned_);
+            if (step % steps_per_sweep != 0 || step == options_.steps) continue;
+            if (last - relaxation.energy().weighted < options_.tolerance * last) break;
+            sweep(relaxation);
+            last = relaxation.energy().weighted;
+        }
+    }
+
+    [[nodiscard]] agvd::DistanceBounds label(std::span<const SurfacePoint> sites) const {
+        return detail::label_vertices(surface_, layout_, sites, options_.num_threads);
+    }
+
+    RelaxResult finish(std::vector<SurfacePoint> sites) {
+        result_.sites = std::move(sites);
+        return std::move(result_);
+    }
+
+private:
+    [[nodiscard]] bool gives_cells(Index num_sites) const {
+        return surface_.num_vertices() >= vertices_per_cell * num_sites;
+    }
+
+    void set_density(Relaxation& relaxation, const agvd::DistanceBounds& labels) const {
+        const auto num_sites = static_cast<Index>(relaxation.sites().size());
+        if (!gives_cells(num_sites)) return;
+        relaxation.set_density(detail::measure_cells(surface_, labels, num_sites));
+    }
+
+    // Looks at the surface again.
+    void sweep(Relaxation& relaxation) {
+        const auto num_sites = static_cast<Index>(relaxation.sites().size());
+        if (!gives_cells(num_sites)) return;
+        const agvd::DistanceBounds labels = label(relaxation.sites());
+        const Index flaws = relaxation.num_flaws();
+        const bool is_cheap = gives_neighbours(surface_, num_sites);
+        const bool is_worth_it =
+            num_mended_ < result_.levels.size() && flaws > most_flaws * num_sites;
+        if (flaws > 0 && (is_cheap || is_worth_it)) {
+            if (!is_cheap) num_mended_ = result_.levels.size();
+            relaxation.mend(
+                triangulate(surface_, layout_, labels, relaxation.sites(), options_.num_threads)
+                    .triangles);
+        }
+        set_density(relaxation, labels);
+    }
+
+    const Surface& surface_;
+    const SurfaceLayout& layout_;
+    const RelaxOptions& options_;
+    int steps_planned_;
+    int steps_done_ = 0;
+    std::size_t num_mended_ = 0;  // Levels up to the last one that has paid for a propagation.
+    RelaxResult result_;
+};
+
+// How many sites to begin with so that they and the middles between them are `count`; nothing if
+// these would be too few.
+std::optional<Index> coarse_count(const Surface& surface, Index count) {
+    const std::vector<detail::Component> components = detail::find_components(surface);
+    double euler = 0;
+    for (const detail::Component& c : components) euler += c.euler;
+    // V + E, with E = 3 V - 3 chi; edges on the boundary are a little fewer.
+    const double coarse = coarse_margin * (count + 3 * euler) / 4 + 1;
+    if (coarse < static_cast<double>(least_coarse_sites * components.size())) return std::nullopt;
+    const auto result = static_cast<Index>(coarse);
+    if (result > count || !gives_neighbours(surface, result)) return std::nullopt;
+    return result;
+}
+
+}  // namespace
+
+RelaxResult relax_sites(const Surface& surface, const SurfaceLayout& layout,
+                        std::vector<SurfacePoint> sites, const RelaxOptions& options) {
+    check_options(options, sites.size());
+    agvd::check_sites(surface, sites);
+    Levels levels(surface, layout, options, 1);
+    if (options.steps == 0 || sites.empty()) return levels.finish(std::move(sites));
+    const Index num_moved =
+        detail::even_out(surface, layout, sites, options.is_fixed, options.num_threads);
+    if (num_moved > sites.size() / 2) {
+        // Next to nothing is left of the start: then the best one will do.
+        const auto is_kept = [](std::uint8_t fixed) { return fixed != 0; };
+        const bool keeps_any =
+            std::any_of(options.is_fixed.begin(), options.is_fixed.end(), is_kept) ||
+            std::any_of(sites.begin(), sites.end(), [&](const SurfacePoint& site) {
+                return detail::boundary_half_edge(surface, site).has_value();
+            });
+        if (!keeps_any) {
+            RelaxOptions free = options;
+            free.is_fixed.clear();
+            const SamplingOptions sampling{.num_samples = static_cast<Index>(sites.size()),
+                                           .num_threads = options.num_threads};
+            if (coarse_count(surface, sampling.num_samples)) {
+                return sample_relaxed_sites(surface, layout, sampling, free);
+            }
+        }
+    }
+    const agvd::DistanceBounds labels = levels.label(sites);
+    detail::SiteDual dual = triangulate(surface, layout, labels, sites, options.num_threads);
+    Relaxation relaxation(surface, std::move(sites), std::move(dual.triangles), options.is_fixed,
+                          {}, options.num_threads);
+    levels.run(relaxation, &labels);
+    return levels.finish(relaxation.sites());
+}
+
+RelaxResult sample_relaxed_sites(const Surface& surface, const SurfaceLayout& layout,
+                                 const SamplingOptions& sampling, const RelaxOptions& options) {
+    check_options(options, 0);
+    const std::optional<Index> coarse = coarse_count(surface, sampling.num_samples);
+    if (!coarse || options.steps == 0) {
+        return relax_sites(surface, layout, sample_sites(surface, sampling), options);
+    }
+    SamplingOptions first = sampling;
+    first.num_samples = *coarse;
+    first.progress = {};
+    Levels levels(surface, layout, options, 2);
+    std::vector<SurfacePoint> sites = sample_sites(surface, first);
+    agvd::DistanceBounds labels = levels.label(sites);
+    detail::SiteDual dual = detail::label_dual(surface, labels);
+    Relaxation relaxation(surface, std::move(sites), std::move(dual.triangles), {}, {},
+                          options.num_threads);
+    levels.run(relaxation, &labels);
+
+    labels = levels.label(relaxation.sites());
+    dual = detail::label_dual(surface, labels);
+    std::optional<detail::TriangulatedSites> fine = detail::subdivide(
+        surface, relaxation.sites(), relaxation.weights(), dual, sampling.num_samples);
+    if (!fine) return relax_sites(surface, layout, sample_sites(surface, sampling), options);
+    Relaxation last(surface, std::move(fine->sites), std::move(fine->triangles), {},
+                    std::move(fine->weights), options.num_threads);
+    levels.run(last, nullptr);
+    return levels.finish(last.sites());
+}
+
+}  // namespace remesh

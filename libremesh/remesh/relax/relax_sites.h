@@ -1,0 +1,62 @@
+//! \file
+//! Moves sites towards a centroidal Voronoi tessellation.
+#pragma once
+
+#include <span>
+
+#include "agvd/propagation/surface_layout.h"
+#include "remesh/sampling/sample_sites.h"
+
+namespace remesh {
+
+struct RelaxOptions {
+    int steps = 40;  //!< >= 0; coarse to fine, on each level.
+    //! Stops where ten steps lower the energy by less than this share, >= 0.
+    double tolerance = 1e-4;
+    std::vector<std::uint8_t> is_fixed = {};  //!< #sites: 1 for sites that stay; or empty.
+    int num_threads = 0;  //!< >= 0; 0: all cores. The same bytes for any number.
+    agvd::Progress progress = {};
+};
+
+//! A number of sites that was relaxed.
+struct RelaxLevel {
+    agvd::Index num_sites = 0;
+    //! Before the first step and after each: the sum over the cells of the integral of the squared
+    //! distance from the site, mesh units to the fourth; on the sites' triangulation.
+    std::vector<double> energy;
+};
+
+struct RelaxResult {
+    std::vector<agvd::SurfacePoint> sites;
+    std::vector<RelaxLevel> levels;  //!< Coarse to fine.
+};
+
+//! Lloyd's method with momentum: sites move towards the centroids of their cells, along the
+//! surface. Sites on the boundary (barycentric coordinates of exactly 0) stay on it, and those at
+//! one of its vertices where they are. Starts may be
+//! as uneven as they like, all sites at one spot included: where cells are many times larger than
+//! others, sites are first moved over there; if that would be most of them, and none stays, they
+//! are sampled anew (sample_relaxed_sites).
+//!
+//! \param layout  SurfaceLayout(surface).
+//! \throw agvd::InvalidOption  an option is out of range.
+//! \throw agvd::InvalidInput   a site is not on the surface.
+//! \throw agvd::Cancelled      the progress callback returned false.
+//! Cost: O(#F) every ten steps, O(#sites) each.
+[[nodiscard]] RelaxResult relax_sites(const agvd::Surface& surface,
+                                      const agvd::SurfaceLayout& layout,
+                                      std::vector<agvd::SurfacePoint> sites,
+                                      const RelaxOptions& options = {});
+
+//! sample_sites and relax_sites in one, coarse to fine: a quarter of the sites is sampled and
+//! relaxed, the others come in the middles between neighbours, and all are relaxed. Most sites have
+//! six neighbours then. Where there are too few sites for that, or too few vertices, it is no more
+//! than one after the other.
+//!
+//! \throw as these two.
+[[nodiscard]] RelaxResult sample_relaxed_sites(const agvd::Surface& surface,
+                                               const agvd::SurfaceLayout& layout,
+                                               const SamplingOptions& sampling,
+                                               const RelaxOptions& options = {});
+
+}  // namespace remesh

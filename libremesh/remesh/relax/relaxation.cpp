@@ -1,0 +1,200 @@
+#include "remesh/relax/relaxation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "agvd/core/parallel.h"
+#include "agvd/mesh/point_faces.h"
+#include "remesh/relax/walk.h"
+
+namespace remesh::detail {
+namespace {
+
+using agvd::Index;
+using agvd::no_index;
+using agvd::SurfacePoint;
+using agvd::Vec3;
+
+// A move is this many times Lloyd's, which goes to the centroid, and this share of the last one.
+constexpr double stretch = 1.5;
+constexpr double momentum = 0.75;
+// Longest move, in square roots of the cell's area.
+constexpr double longest_move = 0.4;
+// Rounds of taking back moves.
+constexpr int most_rounds = 3;
+// Rounds of flips at the start.
+constexpr int most_flip_rounds = 10;
+// Sites of a parallel chunk.
+constexpr Index grain = 256;
+// Cells that hold k times as much of the surface as of the triangulation should be smaller by k in
+// area; cells are as the root of the density. Half a power more makes up for the few steps.
+constexpr double area_power = 2.5;
+constexpr double most_area_ratio = 4;
+// Distances are least where cells are as the cubic root of the radius of curvature: that is density
+// as curvature^(4/3), and curvature^2 is as bending. Half of that leaves better shapes. Below
+// `even_bending` all cells are alike.
+constexpr double bending_power = 2.0 / 3;
+constexpr double even_bending = 0.05;
+constexpr double most_weight = 64;
+
+}  // namespace
+
+Relaxation::Relaxation(const agvd::Surface& surface, std::vector<SurfacePoint> sites,
+                       std::vector<agvd::Triangle> triangles, std::vector<std::uint8_t> is_fixed,
+                       std::vector<double> weights, int num_threads)
+    : surface_(surface),
+      num_threads_(num_threads),
+      sites_(std::move(sites)),
+      at_(sites_.size()),
+      facing_(sites_.size()),
+      move_(sites_.size(), Vec3::Zero()),
+      weight_(std::move(weights)),
+      is_fixed_(std::move(is_fixed)),
+      boundary_(sites_.size()) {
+    weight_.resize(sites_.size(), 1);
+    is_fixed_.resize(sites_.size(), 0);
+    for (Index i = 0; i < sites_.size(); ++i) {
+        locate(i);
+        // A corner of the boundary, or a place that is as good as any on its loop.
+        if (boundary_[i] != no_index && agvd::vertex_of(surface_, sites_[i])) is_fixed_[i] = 1;
+    }
+    take_triangles(std::move(triangles));
+}
+
+void Relaxation::take_triangles(std::vector<agvd::Triangle> triangles) {
+    mesh_ = build_site_mesh(std::move(triangles), static_cast<Index>(sites_.size()));
+    find_stuck();
+    measure();
+    for (int round = 0; round < most_flip_rounds; ++round) {
+        if (flip_towards_delaunay(mesh_, at_, now_.cotangent) == 0) break;
+        measure();
+    }
+}
+
+void Relaxation::find_stuck() {
+    is_stuck_.assign(sites_.size(), 0);
+    num_stuck_ = 0;
+    for (Index i = 0; i < sites_.size(); ++i) {
+        is_stuck_[i] = mesh_.is_rim[i] != 0 && boundary_[i] == no_index ? 1 : 0;
+        num_stuck_ += is_stuck_[i];
+    }
+}
+
+void Relaxation::mend(const std::vector<agvd::Triangle>& triangles) {
+    const Index flaws = num_flaws();
+    SiteMesh before = std::move(mesh_);
+    take_triangles(triangles);
+    if (num_flaws() < flaws) return;
+    mesh_ = std::move(before);
+    find_stuck();
+    measure();
+}
+
+void Relaxation::set_density(const CellMeasures& cells) {
+    // Of a site and its neighbours together: cells are rough where faces are large, and sizes must
+    // not change abruptly.
+    struct Sums {
+        double on_surface, on_triangles, bending, count;
+    };
+    std::vector<Sums> sums(sites_.size());
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        sums[i] = {cells.area[i], now_.area[i], cells.bending[i], 1};
+    }
+    for (const agvd::Triangle& t : mesh_.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            for (const Index other : {t[(k + 1) % 3], t[(k + 2) % 3]}) {  // Each comes twice.
+                sums[t[k]].on_surface += cells.area[other] / 2;
+                sums[t[k]].on_triangles += now_.area[other] / 2;
+                sums[t[k]].bending += cells.bending[other] / 2;
+                sums[t[k]].count += 0.5;
+            }
+        }
+    }
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+        const Sums& s = sums[i];
+        const double ratio = s.on_triangles > 0 ? s.on_surface / s.on_triangles : 1;
+        const double lost = std::pow(std::clamp(ratio, 1.0, most_area_ratio), area_power);
+        const double bent = std::pow(1 + s.bending / s.count / even_bending, bending_power);
+        weight_[i] = std::min(lost * bent, most_weight);
+    }
+    measure();
+}
+
+void Relaxation::step() {
+    choose_moves();
+    const std::vector<SurfacePoint> sites_before = sites_;
+    const std::vector<Vec3> at_before = at_, facing_before = facing_;
+    walk();
+    measure();
+    take_back(sites_before, at_before, facing_before);
+    // What flips change is measured by the next step: they are few.
+    flip_towards_delaunay(mesh_, at_, now_.cotangent);
+}
+
+void Relaxation::locate(Index i) {
+    const Index f = sites_[i].face.value();
+    const auto& p = surface_.mesh.positions;
+    const agvd::Triangle& t = surface_.mesh.triangles[f];
+    facing_[i] = (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).normalized();
+    at_[i] = agvd::position(surface_.mesh.view(), sites_[i]);
+    boundary_[i] = boundary_half_edge(surface_, sites_[i]).value_or(no_index);
+}
+
+void Relaxation::measure() { measure_energy(mesh_, at_, facing_, weight_, now_); }
+
+void Relaxation::choose_moves() {
+    double uphill = 0;
+    for (std::size_t i = 0; i < move_.size(); ++i) uphill += now_.slope[i].dot(move_[i]);
+    const double keep = uphill > 0 ? 0 : momentum;
+    for (std::size_t i = 0; i < move_.size(); ++i) {
+        if (is_fixed_[i] != 0 || is_stuck_[i] != 0 || !(now_.mass[i] > 0)) {
+            move_[i].setZero();
+            continue;
+        }
+        Vec3 move = keep * move_[i] - stretch / (2 * now_.mass[i]) * now_.slope[i];
+        move -= now_.normal[i].dot(move) * now_.normal[i];
+        const double most = longest_move * std::sqrt(std::max(now_.area[i], 0.0));
+        const double length = move.norm();
+        move_[i] = length > most ? Vec3(most / length * move) : move;
+    }
+}
+
+void Relaxation::walk() {
+    const auto body = [&](Index, Index begin, Index end) {
+        for (Index i = begin; i < end; ++i) {
+            if (move_[i].isZero(0)) continue;
+            sites_[i] = boundary_[i] != no_index
+                            ? walk_boundary(surface_, sites_[i], boundary_[i], move_[i])
+                            : walk_straight(surface_, sites_[i], move_[i]);
+            locate(i);
+        }
+    };
+    agvd::parallel_chunks(static_cast<Index>(sites_.size()), grain, num_threads_, body);
+}
+
+// Takes back the moves by which triangles have turned over.
+void Relaxation::take_back(const std::vector<SurfacePoint>& sites_before,
+                           const std::vector<Vec3>& at_before,
+                           const std::vector<Vec3>& facing_before) {
+    for (int round = 0; round < most_rounds; ++round) {
+        bool is_done = true;
+        for (const Index turned : now_.turned) {
+            const agvd::Triangle& t = mesh_.triangles[turned];
+            const Vec3 normal =
+                (at_before[t[1]] - at_before[t[0]]).cross(at_before[t[2]] - at_before[t[0]]);
+            const Vec3 facing = facing_before[t[0]] + facing_before[t[1]] + facing_before[t[2]];
+            if (!(normal.dot(facing) > 0)) continue;  // It was so before.
+            for (const Index i : t) {
+                if (at_[i] == at_before[i]) continue;
+                is_done = false;
+                sites_[i] = sites_before[i];
+                locate(i);
+                move_[i].setZero();
+            }
+        }
+        if (is_done) return;
+        measure();
+    }
+}
+
+}  // namespace remesh::detail

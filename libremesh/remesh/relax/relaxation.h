@@ -1,0 +1,74 @@
+//! \file
+//! Steps towards a centroidal Voronoi tessellation.
+#pragma once
+
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_point.h"
+#include "remesh/relax/cvt_energy.h"
+#include "remesh/relax/site_labels.h"
+
+namespace remesh::detail {
+
+//! Lloyd's method with momentum, on the triangulation of the sites instead of their geodesic
+//! Voronoi diagram: a step costs a few hundredths of a propagation. Cells are those of the
+//! triangulation, which flips keep Delaunay; sites walk on the surface itself.
+//!
+//! A triangulation knows nothing of what its triangles cut short, such as the tip of an ear, and
+//! sites would leave it. So where cells hold more of the surface than of the triangulation, and
+//! where they are bent, they weigh more.
+class Relaxation {
+public:
+    //! Sites on the boundary stay on it, those at its vertices where they are. Sites in no triangle
+    //! stay, and inner ones around which triangles do not close.
+    //!
+    //! \param is_fixed  #sites: 1 for sites that stay; or empty.
+    //! \param weights   #sites: the density at the start; or empty.
+    Relaxation(const agvd::Surface& surface, std::vector<agvd::SurfacePoint> sites,
+               std::vector<agvd::Triangle> triangles, std::vector<std::uint8_t> is_fixed,
+               std::vector<double> weights, int num_threads);
+
+    //! By what the cells hold of the surface.
+    void set_density(const CellMeasures& cells);
+
+    //! Sites around which triangles do not close, and triangles that face against the surface.
+    [[nodiscard]] agvd::Index num_flaws() const {
+        return num_stuck_ + static_cast<agvd::Index>(now_.turned.size());
+    }
+    //! Takes new triangles if they close around more sites and face with the surface more often.
+    void mend(const std::vector<agvd::Triangle>& triangles);
+
+    //! Cost: O(#sites) and the faces crossed.
+    void step();
+
+    [[nodiscard]] const CvtEnergy& energy() const { return now_; }
+
+    [[nodiscard]] const std::vector<agvd::SurfacePoint>& sites() const { return sites_; }
+    [[nodiscard]] const std::vector<agvd::Triangle>& triangles() const { return mesh_.triangles; }
+    [[nodiscard]] const std::vector<double>& weights() const { return weight_; }
+
+private:
+    void find_stuck();
+    void take_triangles(std::vector<agvd::Triangle> triangles);
+    void locate(agvd::Index i);
+    void measure();
+    void choose_moves();
+    void walk();
+    void take_back(const std::vector<agvd::SurfacePoint>& sites_before,
+                   const std::vector<agvd::Vec3>& at_before,
+                   const std::vector<agvd::Vec3>& facing_before);
+
+    const agvd::Surface& surface_;
+    int num_threads_;
+    SiteMesh mesh_;
+    std::vector<agvd::SurfacePoint> sites_;
+    std::vector<agvd::Vec3> at_, facing_;  // #sites: positions, normals of their faces.
+    std::vector<agvd::Vec3> move_;         // #sites: the last move.
+    std::vector<double> weight_;           // #sites
+    std::vector<std::uint8_t> is_fixed_;   // #sites
+    std::vector<std::uint8_t> is_stuck_;   // #sites: the triangles around do not close.
+    std::vector<agvd::Index> boundary_;    // #sites: the boundary half-edge, or no_index.
+    agvd::Index num_stuck_ = 0;
+    CvtEnergy now_;
+};
+
+}  // namespace remesh::detail

@@ -1,0 +1,120 @@
+#include "remesh/relax/site_labels.h"
+
+#include <algorithm>
+
+namespace remesh::detail {
+namespace {
+
+using agvd::Index;
+using agvd::no_index;
+using agvd::Surface;
+using agvd::SurfacePoint;
+
+// How far middles keep from the ends of their edge, and from the edge: shares of it.
+constexpr double end_margin = 1e-3;
+constexpr double side_margin = 1e-6;
+
+// Where on the way from u to v the labels meet, in [0, 1].
+double meeting_place(const agvd::DistanceBounds& labels, Index u, Index v, double length) {
+    const double ahead = static_cast<double>(labels.distance[v]) - labels.distance[u];
+    return std::clamp((length + ahead) / (2 * length), 0.0, 1.0);
+}
+
+// A point of half-edge h, or just inside of it.
+SurfacePoint point_on(Index h, double along, double inside) {
+    SurfacePoint point{agvd::FaceId(Surface::face(h)), {inside, inside, inside}};
+    point.barycentric[h % 3] = (1 - along) * (1 - inside);
+    point.barycentric[Surface::next(h) % 3] = along * (1 - inside);
+    return point;
+}
+
+}  // namespace
+
+agvd::DistanceBounds label_vertices(const Surface& surface, const agvd::SurfaceLayout& layout,
+                                    std::span<const SurfacePoint> sites, int num_threads) {
+    return agvd::distance_bounds(surface, layout.arcs(), layout.corners().mean_length(), sites,
+                                 num_threads);
+}
+
+CellMeasures measure_cells(const Surface& surface, const agvd::DistanceBounds& labels,
+                           Index num_sites) {
+    CellMeasures result{std::vector<double>(num_sites, 0), std::vector<double>(num_sites, 0)};
+    std::vector<agvd::Vec3> shadow(num_sites, agvd::Vec3::Zero());  // The largest is so long.
+    const auto& p = surface.mesh.positions;
+    for (Index f = 0; f < surface.num_faces(); ++f) {
+        const agvd::Triangle& t = surface.mesh.triangles[f];
+        const agvd::Vec3 vector = (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]) / 2;
+        const double area = vector.norm();
+        const auto add = [&](Index site, double share) {
+            if (site == no_index) return;
+            result.area[site] += share * area;
+            shadow[site] += share * vector;
+        };
+        const std::array<Index, 3> site{labels.site[t[0]], labels.site[t[1]], labels.site[t[2]]};
+        if (site[0] == site[1] && site[1] == site[2]) {
+            add(site[0], 1);
+            continue;
+        }
+        // The corner across from two of one label is cut off; three labels share alike.
+        std::size_t k = 0;
+        while (k < 3 && site[(k + 1) % 3] != site[(k + 2) % 3]) ++k;
+        if (k == 3) {
+            for (const Index s : site) add(s, 1.0 / 3);
+            continue;
+        }
+        const std::size_t next = (k + 1) % 3, previous = (k + 2) % 3;
+        const auto h = 3 * f + static_cast<Index>(k);
+        const double cut =
+            meeting_place(labels, t[k], t[next], surface.length_of(h)) *
+            meeting_place(labels, t[k], t[previous], surface.length_of(Surface::previous(h)));
+        add(site[k], cut);
+        add(site[next], 1 - cut);
+    }
+    for (Index i = 0; i < num_sites; ++i) {
+        if (result.area[i] > 0) {
+            result.bending[i] = std::max(0.0, 1 - shadow[i].norm() / result.area[i]);
+        }
+    }
+    return result;
+}
+
+SiteDual label_dual(const Surface& surface, const agvd::DistanceBounds& labels) {
+    SiteDual result;
+    for (const agvd::Triangle& t : surface.mesh.triangles) {
+        const Index a = labels.site[t[0]], b = labels.site[t[1]], c = labels.site[t[2]];
+        if (a != b && b != c && c != a) result.triangles.push_back({a, b, c});
+    }
+    struct Crossing {
+        std::uint64_t pair;
+        bool is_inner;  // The boundary comes first: there the middle must lie.
+        double length;
+        Index half_edge;
+    };
+    std::vector<Crossing> crossings;
+    for (Index e = 0; e < surface.num_edges(); ++e) {
+        const Index h = surface.edge_half[e];
+        const Index u = surface.tail(h), v = surface.head(h);
+        const Index a = labels.site[u], b = labels.site[v];
+        if (a == b) continue;
+        const double length = static_cast<double>(labels.distance[u]) + labels.distance[v];
+        crossings.push_back({std::uint64_t{std::min(a, b)} << 32 | std::max(a, b),
+                             surface.twin[h] != no_index, length + surface.length[e], h});
+    }
+    std::sort(crossings.begin(), crossings.end(), [](const Crossing& x, const Crossing& y) {
+        return std::tie(x.pair, x.is_inner, x.length, x.half_edge) <
+               std::tie(y.pair, y.is_inner, y.length, y.half_edge);
+    });
+    for (std::size_t i = 0; i < crossings.size(); ++i) {
+        const Crossing& c = crossings[i];
+        if (i > 0 && crossings[i - 1].pair == c.pair) continue;
+        const Index h = c.half_edge;
+        const double along = std::clamp(
+            meeting_place(labels, surface.tail(h), surface.head(h), surface.length_of(h)),
+            end_margin, 1 - end_margin);
+        result.middles.push_back({static_cast<Index>(c.pair >> 32), static_cast<Index>(c.pair),
+                                  c.length, point_on(h, along, c.is_inner ? side_margin : 0)});
+    }
+    return result;
+}
+
+}  // namespace remesh::detail

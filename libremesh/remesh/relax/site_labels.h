@@ -1,0 +1,51 @@
+//! \file
+//! Quick labels of the vertices, and what relaxation reads off them: who neighbours whom, and how
+//! much of the surface belongs to each site.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "agvd/mesh/surface_point.h"
+#include "agvd/propagation/distance_bounds.h"
+#include "agvd/propagation/surface_layout.h"
+
+namespace remesh::detail {
+
+//! Distances along edges and across them: a few per cent too long, for two sweeps over the edges.
+[[nodiscard]] agvd::DistanceBounds label_vertices(const agvd::Surface& surface,
+                                                  const agvd::SurfaceLayout& layout,
+                                                  std::span<const agvd::SurfacePoint> sites,
+                                                  int num_threads);
+
+//! What cells hold of the surface.
+struct CellMeasures {
+    std::vector<double> area;  //!< #sites, square mesh units.
+    //! #sites, in [0, 1]: the share of the area that a shadow in the best direction lacks. 0 for
+    //! what is flat, half for a hemisphere.
+    std::vector<double> bending;
+};
+
+//! Faces of two labels are cut where these meet. Cost: O(#F).
+[[nodiscard]] CellMeasures measure_cells(const agvd::Surface& surface,
+                                         const agvd::DistanceBounds& labels, agvd::Index num_sites);
+
+//! A point halfway between two sites whose labels meet.
+struct Middle {
+    agvd::Index low = 0, high = 0;  //!< The sites.
+    double length = 0;              //!< Of a path between them.
+    agvd::SurfacePoint point;       //!< On the boundary if they meet there, else inside a face.
+};
+
+//! The sites as the vertices of a triangulation.
+struct SiteDual {
+    std::vector<agvd::Triangle> triangles;
+    std::vector<Middle> middles;  //!< By (low, high): one for each pair that meets.
+};
+
+//! A triangle for each face whose corners have three labels: the surface, the vertices of each
+//! label drawn together to one. It has the surface's topology where each label is a disc. Sites
+//! that label no vertex are in no triangle.
+[[nodiscard]] SiteDual label_dual(const agvd::Surface& surface, const agvd::DistanceBounds& labels);
+
+}  // namespace remesh::detail

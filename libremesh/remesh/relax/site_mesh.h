@@ -1,0 +1,40 @@
+//! \file
+//! A triangulation of the sites: what relaxation knows of their neighbourhoods.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "agvd/core/types.h"
+
+namespace remesh::detail {
+
+//! Half-edge h = 3 t + k runs from corner k to corner k + 1 of triangle t.
+struct SiteMesh {
+    std::vector<agvd::Triangle> triangles;
+    std::vector<agvd::Index> twin;     //!< #H; no_index where none, or where more than two meet.
+    std::vector<std::uint8_t> is_rim;  //!< #sites: 1 where the triangles around do not close.
+
+    [[nodiscard]] static constexpr agvd::Index next(agvd::Index h) {
+        return h % 3 == 2 ? h - 2 : h + 1;
+    }
+    [[nodiscard]] static constexpr agvd::Index previous(agvd::Index h) {
+        return h % 3 == 0 ? h + 2 : h - 1;
+    }
+    [[nodiscard]] agvd::Index tail(agvd::Index h) const { return triangles[h / 3][h % 3]; }
+    [[nodiscard]] agvd::Index head(agvd::Index h) const { return tail(next(h)); }
+};
+
+//! Any triangles of site indices, manifold or not. Cost: O(n log n).
+[[nodiscard]] SiteMesh build_site_mesh(std::vector<agvd::Triangle> triangles,
+                                       agvd::Index num_sites);
+
+//! Flips the edges whose opposite angles (in space) sum to more than pi, except where that would
+//! fold the mesh or join two sites twice. Edges that become such by a flip wait for the next call.
+//!
+//! \param cotangent  #H: of the angle opposite, as it is now.
+//! Returns the number of flips. Cost: O(n).
+agvd::Index flip_towards_delaunay(SiteMesh& mesh, std::span<const agvd::Vec3> positions,
+                                  std::span<const double> cotangent);
+
+}  // namespace remesh::detail

@@ -1,0 +1,135 @@
+#include "remesh/relax/subdivide.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "remesh/relax/walk.h"
+
+namespace remesh::detail {
+namespace {
+
+using agvd::Index;
+using agvd::no_index;
+using agvd::Vec3;
+
+class Subdivision {
+public:
+    Subdivision(const agvd::Surface& surface, const std::vector<agvd::SurfacePoint>& sites,
+                const std::vector<double>& weights, const SiteDual& dual)
+        : surface_(surface), dual_(dual), result_{sites, {}, weights} {}
+
+    std::optional<TriangulatedSites> run(Index count) {
+        const std::size_t room = result_.sites.size() + dual_.middles.size();
+        if (count < result_.sites.size()) return std::nullopt;
+        add_middles(std::min<std::size_t>(count, room) - result_.sites.size());
+        for (const agvd::Triangle& t : dual_.triangles) divide(t);
+        if (room < count && !add_centres(static_cast<Index>(count - room))) return std::nullopt;
+        return std::move(result_);
+    }
+
+private:
+    // The middles of the longest pairs.
+    void add_middles(std::size_t count) {
+        std::vector<Index> order(dual_.middles.size());
+        std::iota(order.begin(), order.end(), Index{0});
+        std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
+            return dual_.middles[a].length > dual_.middles[b].length;
+        });
+        new_site_.assign(dual_.middles.size(), no_index);
+        for (std::size_t i = 0; i < count; ++i) new_site_[order[i]] = 0;
+        for (Index i = 0; i < new_site_.size(); ++i) {
+            if (new_site_[i] == no_index) continue;
+            const Middle& m = dual_.middles[i];
+            new_site_[i] = static_cast<Index>(result_.sites.size());
+            result_.sites.push_back(m.point);
+            result_.weights.push_back((result_.weights[m.low] + result_.weights[m.high]) / 2);
+        }
+    }
+
+    [[nodiscard]] Index between(Index a, Index b) const {
+        const std::pair<Index, Index> pair = std::minmax({a, b});
+        const auto found = std::lower_bound(
+            dual_.middles.begin(), dual_.middles.end(), pair,
+            [](const Middle& m, const auto& p) { return std::pair(m.low, m.high) < p; });
+        return new_site_[static_cast<std::size_t>(found - dual_.middles.begin())];
+    }
+
+    // In four, three or two.
+    void divide(const agvd::Triangle& t) {
+        std::array<Index, 3> middle{};
+        std::size_t num_missing = 0, missing = 0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            middle[k] = between(t[k], t[(k + 1) % 3]);
+            if (middle[k] != no_index) continue;
+            ++num_missing;
+            missing = k;
+        }
+        auto& out = result_.triangles;
+        if (num_missing == 0) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                out.push_back({t[k], middle[k], middle[(k + 2) % 3]});
+            }
+            out.push_back(middle);
+            return;
+        }
+        // What is left is a polygon, cut into a fan around one of its middles.
+        std::vector<Index> polygon;
+        for (std::size_t i = 1; i <= 3; ++i) {
+            const std::size_t k = (missing + i) % 3;
+            polygon.push_back(t[k]);
+            if (middle[k] != no_index) polygon.push_back(middle[k]);
+        }
+        if (num_missing < 3) {
+            const auto first = std::find_if(polygon.begin(), polygon.end(), [&](Index site) {
+                return std::find(t.begin(), t.end(), site) == t.end();
+            });
+            std::rotate(polygon.begin(), first, polygon.end());
+        }
+        for (std::size_t i = 2; i < polygon.size(); ++i) {
+            out.push_back({polygon[0], polygon[i - 1], polygon[i]});
+        }
+    }
+
+    // One site each in the middles of the largest triangles; false if there are too few.
+    bool add_centres(Index count) {
+        auto& triangles = result_.triangles;
+        if (count > triangles.size()) return false;
+        const auto at = [&](Index site) {
+            return agvd::position(surface_.mesh.view(), result_.sites[site]);
+        };
+        std::vector<std::pair<double, Index>> by_size;  // (minus the area, triangle)
+        for (Index i = 0; i < triangles.size(); ++i) {
+            const auto& [a, b, c] = triangles[i];
+            by_size.emplace_back(-(at(b) - at(a)).cross(at(c) - at(a)).norm(), i);
+        }
+        std::sort(by_size.begin(), by_size.end());
+        for (Index i = 0; i < count; ++i) {
+            const auto [a, b, c] = triangles[by_size[i].second];
+            const auto site = static_cast<Index>(result_.sites.size());
+            const Vec3 centre = (at(a) + at(b) + at(c)) / 3;
+            result_.sites.push_back(walk_straight(surface_, result_.sites[a], centre - at(a)));
+            const auto& w = result_.weights;
+            result_.weights.push_back((w[a] + w[b] + w[c]) / 3);
+            triangles[by_size[i].second] = {a, b, site};
+            triangles.push_back({b, c, site});
+            triangles.push_back({c, a, site});
+        }
+        return true;
+    }
+
+    const agvd::Surface& surface_;
+    const SiteDual& dual_;
+    TriangulatedSites result_;
+    std::vector<Index> new_site_;  // By middle; no_index: left out.
+};
+
+}  // namespace
+
+std::optional<TriangulatedSites> subdivide(const agvd::Surface& surface,
+                                           const std::vector<agvd::SurfacePoint>& sites,
+                                           const std::vector<double>& weights, const SiteDual& dual,
+                                           Index count) {
+    return Subdivision(surface, sites, weights, dual).run(count);
+}
+
+}  // namespace remesh::detail

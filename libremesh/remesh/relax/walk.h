@@ -1,0 +1,36 @@
+//! \file
+//! Moves of points along the surface.
+#pragma once
+
+#include <optional>
+
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_point.h"
+
+namespace remesh::detail {
+
+//! The end of the straightest geodesic ([polthier1998]) from a point in the direction of `step`, as
+//! long as `step`: never through a wall, since it runs from face to face. It stops short of the
+//! boundary. The end lies strictly inside a face unless the point stays where it is, which it
+//! does where `step` is nearly normal to its face.
+//!
+//! \param step  mesh units; its part in the plane of the face gives the direction.
+//! Cost: O(faces crossed).
+[[nodiscard]] agvd::SurfacePoint walk_straight(const agvd::Surface& surface,
+                                               const agvd::SurfacePoint& from,
+                                               const agvd::Vec3& step);
+
+//! The boundary half-edge that a point lies on, if it does; at a vertex the one that leaves it.
+[[nodiscard]] std::optional<agvd::Index> boundary_half_edge(const agvd::Surface& surface,
+                                                            const agvd::SurfacePoint& point);
+
+//! The end of a walk along the boundary, strictly inside an edge of it: as long as the part of
+//! `step` along the half-edge, in its direction or against it.
+//!
+//! \param from  a point of boundary half-edge h.
+//! Cost: O(edges passed).
+[[nodiscard]] agvd::SurfacePoint walk_boundary(const agvd::Surface& surface,
+                                               const agvd::SurfacePoint& from, agvd::Index h,
+                                               const agvd::Vec3& step);
+
+}  // namespace remesh::detail

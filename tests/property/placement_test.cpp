@@ -1,0 +1,150 @@
+// Vertices that leave the surface bring the mesh nearer to it and harm nothing.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "agvd/diagram/diagram.h"
+#include "agvd/mesh/closest_point.h"
+#include "agvd/mesh/point_faces.h"
+#include "agvd/propagation/propagate.h"
+#include "remesh/dual/build_dual.h"
+#include "remesh/placement/fit_vertices.h"
+#include "remesh/placement/improve_shape.h"
+#include "remesh/quality/triangle_quality.h"
+#include "remesh/relax/relax_sites.h"
+#include "support/shapes.h"
+
+using namespace agvd;
+using remesh::PlacedMesh;
+
+namespace {
+
+struct Remeshed {
+    Surface surface;
+    PlacedMesh mesh;
+    std::vector<Index> nearest_vertex;
+};
+
+// The dual of `count` sites, relaxed in some steps, with its vertices at the sites.
+Remeshed remeshed(const TriangleMesh& input, Index count, int steps) {
+    Remeshed result{build_surface(input.view()), {}, {}};
+    const Surface& surface = result.surface;
+    const SurfaceLayout layout(surface);
+    result.mesh.points =
+        remesh::sample_relaxed_sites(surface, layout, {.num_samples = count}, {.steps = steps})
+            .sites;
+    const auto& sites = result.mesh.points;
+    const Diagram diagram =
+        build_diagram(surface, sites, propagate(surface, layout, sites, {.max_error = 1e-3}));
+    result.mesh.triangles = remesh::build_dual(surface, diagram);
+    result.mesh.offsets.assign(count, Vec3::Zero());
+    for (const SiteId site : diagram.nearest_site) result.nearest_vertex.push_back(site.value());
+    return result;
+}
+
+TriangleMesh shape_of(const Remeshed& r) {
+    TriangleMesh mesh{{}, r.mesh.triangles};
+    for (Index v = 0; v < r.mesh.points.size(); ++v) {
+        mesh.positions.push_back(r.mesh.position(r.surface.mesh.view(), v));
+    }
+    return mesh;
+}
+
+// Of the surface's faces, by their centroids.
+double mean_square_distance(const Remeshed& r) {
+    const ClosestPointTree tree(shape_of(r).view());
+    double sum = 0, area = 0;
+    const auto& p = r.surface.mesh.positions;
+    for (const auto& [a, b, c] : r.surface.mesh.triangles) {
+        const double doubled = (p[b] - p[a]).cross(p[c] - p[a]).norm();
+        sum += doubled * tree.query((p[a] + p[b] + p[c]) / 3).distance_sq;
+        area += doubled;
+    }
+    return sum / area;
+}
+
+std::vector<TriangleMesh> smooth_shapes() {
+    return {shapes::sphere(5), shapes::torus(90, 45), shapes::tube(80, 40)};
+}
+
+}  // namespace
+
+TEST(FitVertices, TheMeshComesNearerToTheSurface) {
+    for (const TriangleMesh& input : smooth_shapes()) {
+        Remeshed r = remeshed(input, 300, 20);
+        const double before = mean_square_distance(r);
+        remesh::fit_vertices(r.surface, r.nearest_vertex, r.mesh);
+        // Vertices on the boundary cannot help.
+        const double share = boundary_loops(r.surface).empty() ? 0.4 : 0.9;
+        EXPECT_LT(mean_square_distance(r), share * before);
+    }
+}
+
+TEST(FitVertices, AFlatMeshStaysFlatAndVerticesOnTheBoundaryStay) {
+    Remeshed r = remeshed(shapes::grid(40), 200, 20);
+    remesh::fit_vertices(r.surface, r.nearest_vertex, r.mesh);
+    int num_boundary = 0;
+    for (Index v = 0; v < r.mesh.points.size(); ++v) {
+        EXPECT_NEAR(r.mesh.offsets[v].z(), 0, 1e-9);
+        if (!is_on_boundary(r.surface, r.mesh.points[v])) continue;
+        ++num_boundary;
+        EXPECT_EQ(r.mesh.offsets[v], Vec3(Vec3::Zero()));
+    }
+    EXPECT_GT(num_boundary, 20);
+}
+
+TEST(FitVertices, ItFindsTheEdgesOfACube) {
+    TriangleMesh cube = shapes::cube();
+    for (int i = 0; i < 5; ++i) cube = shapes::subdivide(cube);
+    Remeshed r = remeshed(cube, 500, 20);
+    const double before = mean_square_distance(r);
+    remesh::fit_vertices(r.surface, r.nearest_vertex, r.mesh);
+    EXPECT_LT(mean_square_distance(r), 0.4 * before);
+}
+
+TEST(FitVertices, NoTriangleTurnsOver) {
+    for (const TriangleMesh& input :
+         {shapes::jitter(shapes::sphere(5), 0.02, 3), shapes::torus(90, 45, 0.1)}) {
+        Remeshed r = remeshed(input, 400, 5);
+        const TriangleMesh before = shape_of(r);
+        remesh::fit_vertices(r.surface, r.nearest_vertex, r.mesh);
+        const TriangleMesh after = shape_of(r);
+        for (const auto& [a, b, c] : r.mesh.triangles) {
+            const auto normal = [&](const std::vector<Vec3>& p) {
+                return Vec3((p[b] - p[a]).cross(p[c] - p[a]));
+            };
+            EXPECT_GT(normal(before.positions).dot(normal(after.positions)), 0);
+        }
+    }
+}
+
+TEST(ImproveShape, TheWorstTriangleGetsBetterAndVerticesStayOnTheSurface) {
+    for (const TriangleMesh& input : smooth_shapes()) {
+        Remeshed r = remeshed(input, 300, 0);
+        const std::vector<SurfacePoint> points = r.mesh.points;
+        const double before = remesh::measure_triangles(shape_of(r).view()).min_quality;
+        ASSERT_LT(before, 0.55);
+        remesh::improve_shape(r.surface, r.mesh);
+        EXPECT_GT(remesh::measure_triangles(shape_of(r).view()).min_quality, before + 0.05);
+        for (Index v = 0; v < points.size(); ++v) {
+            EXPECT_EQ(r.mesh.offsets[v], Vec3(Vec3::Zero()));
+            const auto& [x, y, z] = r.mesh.points[v].barycentric;
+            EXPECT_GE(std::min({x, y, z}), 0);
+            if (!is_on_boundary(r.surface, points[v])) continue;
+            EXPECT_EQ(r.mesh.points[v].face, points[v].face);
+            EXPECT_EQ(r.mesh.points[v].barycentric, points[v].barycentric);
+        }
+    }
+}
+
+TEST(ImproveShape, WhatIsGoodStays) {
+    Remeshed r = remeshed(shapes::sphere(5), 300, 100);
+    remesh::improve_shape(r.surface, r.mesh);
+    const std::vector<SurfacePoint> points = r.mesh.points;
+    ASSERT_GE(remesh::measure_triangles(shape_of(r).view()).min_quality, 0.6);
+    remesh::improve_shape(r.surface, r.mesh);
+    for (Index v = 0; v < points.size(); ++v) {
+        EXPECT_EQ(r.mesh.points[v].face, points[v].face);
+        EXPECT_EQ(r.mesh.points[v].barycentric, points[v].barycentric);
+    }
+}

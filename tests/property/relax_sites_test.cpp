@@ -1,0 +1,243 @@
+// What relaxation promises, on surfaces of all kinds.
+#include "remesh/relax/relax_sites.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "agvd/propagation/propagate.h"
+#include "remesh/io/read_mesh.h"
+#include "remesh/relax/walk.h"
+#include "support/files.h"
+#include "support/shapes.h"
+
+using agvd::Index;
+using agvd::Surface;
+using agvd::SurfaceLayout;
+using agvd::SurfacePoint;
+using agvd::Vec3;
+using remesh::Init;
+using remesh::relax_sites;
+using remesh::RelaxResult;
+using remesh::sample_relaxed_sites;
+using remesh::sample_sites;
+
+namespace {
+
+std::vector<agvd::TriangleMesh> all_shapes() {
+    return {shapes::sphere(4),
+            shapes::torus(60, 30),
+            shapes::tube(60, 30),
+            shapes::grid(40),
+            shapes::join(shapes::sphere(3), shapes::torus(40, 20)),
+            shapes::jitter(shapes::sphere(4), 0.02, 5)};
+}
+
+// A box of height 0.02 over the unit square.
+agvd::TriangleMesh thin_plate() {
+    agvd::TriangleMesh mesh = shapes::cube();
+    for (int i = 0; i < 4; ++i) mesh = shapes::subdivide(mesh);
+    for (Vec3& p : mesh.positions) p.z() *= 0.02;
+    return mesh;
+}
+
+// The integral of the squared distance from the nearest site, by exact distances.
+double energy(const Surface& surface, const std::vector<SurfacePoint>& sites) {
+    const agvd::Propagation result = agvd::propagate(surface, sites, {.max_error = 0.0});
+    double sum = 0;
+    for (Index f = 0; f < surface.num_faces(); ++f) {
+        const auto& [u, v, w] = surface.mesh.triangles[f];
+        const double a = result.vertex_distance[u], b = result.vertex_distance[v];
+        const double c = result.vertex_distance[w];
+        sum += surface.length_of(3 * f) * surface.apex[3 * f].y() / 12 *
+               (a * a + b * b + c * c + a * b + b * c + c * a);
+    }
+    return sum;
+}
+
+bool same_sites(const std::vector<SurfacePoint>& a, const std::vector<SurfacePoint>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& p, const auto& q) {
+        return p.face == q.face && p.barycentric == q.barycentric;
+    });
+}
+
+void expect_on_surface(const Surface& surface, const std::vector<SurfacePoint>& sites) {
+    for (const SurfacePoint& site : sites) {
+        ASSERT_LT(site.face.value(), surface.num_faces());
+        const auto& [x, y, z] = site.barycentric;
+        EXPECT_GE(std::min({x, y, z}), 0);
+        EXPECT_NEAR(x + y + z, 1, 1e-12);
+    }
+}
+
+}  // namespace
+
+TEST(RelaxSites, TheEnergyFallsAndHardlyEverRises) {
+    for (const agvd::TriangleMesh& mesh : all_shapes()) {
+        const Surface surface = agvd::build_surface(mesh.view());
+        const SurfaceLayout layout(surface);
+        const bool is_closed = boundary_loops(surface).empty();
+        for (const Init init : {Init::Random, Init::BlueNoise}) {
+            const auto start = sample_sites(surface, {.num_samples = 180, .init = init});
+            const RelaxResult result = relax_sites(surface, layout, start, {.steps = 60});
+            expect_on_surface(surface, result.sites);
+            ASSERT_EQ(result.levels.size(), 1u);
+            const std::vector<double>& e = result.levels[0].energy;
+            EXPECT_EQ(result.levels[0].num_sites, 180u);
+            EXPECT_LE(e.size(), 61u);
+            // Without sites on the boundary, what the triangles leave out there varies.
+            for (std::size_t i = 1; is_closed && i < e.size(); ++i) {
+                EXPECT_LE(e[i], 1.03 * e[i - 1]) << i;
+            }
+            EXPECT_LT(energy(surface, result.sites), 0.97 * energy(surface, start));
+        }
+    }
+}
+
+TEST(RelaxSites, SitesStayOnTheirComponent) {
+    const agvd::TriangleMesh mesh = shapes::join(shapes::sphere(3), shapes::torus(40, 20));
+    const Surface surface = agvd::build_surface(mesh.view());
+    const std::size_t num_sphere_faces = shapes::sphere(3).triangles.size();
+    const auto on_sphere = [&](const SurfacePoint& s) { return s.face.value() < num_sphere_faces; };
+    const auto start = sample_sites(surface, {.num_samples = 150, .init = Init::Random});
+    const auto end = relax_sites(surface, SurfaceLayout(surface), start).sites;
+    ASSERT_EQ(start.size(), end.size());
+    for (std::size_t i = 0; i < start.size(); ++i) {
+        EXPECT_EQ(on_sphere(start[i]), on_sphere(end[i])) << i;
+    }
+}
+
+TEST(RelaxSites, NoSiteCrossesAThinWall) {
+    const Surface surface = agvd::build_surface(thin_plate().view());
+    const auto start = sample_sites(surface, {.num_samples = 400});
+    const auto end = relax_sites(surface, SurfaceLayout(surface), start).sites;
+    int num_inner = 0;
+    for (std::size_t i = 0; i < start.size(); ++i) {
+        const Vec3 a = position(surface.mesh.view(), start[i]);
+        const Vec3 b = position(surface.mesh.view(), end[i]);
+        const double rim = std::min({a.x(), a.y(), 1 - a.x(), 1 - a.y()});
+        if (rim < 0.2) continue;  // May have walked around the rim.
+        ++num_inner;
+        EXPECT_EQ(a.z() > 0.01, b.z() > 0.01) << i;
+    }
+    EXPECT_GT(num_inner, 50);
+}
+
+TEST(RelaxSites, BoundarySitesStayOnTheBoundaryAndFixedOnesWhereTheyAre) {
+    const Surface surface = agvd::build_surface(shapes::grid(40).view());
+    auto start = sample_sites(surface, {.num_samples = 200});
+    Index num_boundary = 0;
+    for (Index h = 0; h < surface.twin.size(); ++h) {
+        if (surface.twin[h] != agvd::no_index || h % 4 != 0) continue;
+        SurfacePoint site{agvd::FaceId(Surface::face(h)), {0, 0, 0}};
+        site.barycentric[h % 3] = 0.7;
+        site.barycentric[Surface::next(h) % 3] = 0.3;
+        start.push_back(site);
+        ++num_boundary;
+    }
+    ASSERT_GT(num_boundary, 10u);
+    std::vector<std::uint8_t> is_fixed(start.size(), 0);
+    for (std::size_t i = 0; i < start.size(); i += 7) is_fixed[i] = 1;
+    const auto end =
+        relax_sites(surface, SurfaceLayout(surface), start, {.is_fixed = is_fixed}).sites;
+    Index num_moved_along = 0;
+    for (std::size_t i = 0; i < start.size(); ++i) {
+        const bool was = remesh::detail::boundary_half_edge(surface, start[i]).has_value();
+        EXPECT_EQ(remesh::detail::boundary_half_edge(surface, end[i]).has_value(), was) << i;
+        const bool stays = same_sites({start[i]}, {end[i]});
+        if (is_fixed[i] != 0) {
+            EXPECT_TRUE(stays) << i;
+        }
+        if (was && !stays) ++num_moved_along;
+    }
+    EXPECT_GT(num_moved_along, num_boundary / 2);
+}
+
+TEST(RelaxSites, FromOneSpotItGetsAsFarAsFromBlueNoise) {
+    std::map<std::string, agvd::TriangleMesh> meshes{{"sphere", shapes::sphere(5)}};
+    const auto bunny = files::real_mesh("bunny.off");
+    if (std::filesystem::exists(bunny)) {
+        meshes["bunny"] = remesh::read_mesh(bunny).mesh;
+    } else {
+        std::printf("%s is not there: the sphere has to do\n", bunny.c_str());
+    }
+    for (const auto& [name, mesh] : meshes) {
+        const Surface surface = agvd::build_surface(mesh.view());
+        const SurfaceLayout layout(surface);
+        const Index count = 1000;
+        const std::vector<SurfacePoint> spot(count, SurfacePoint{agvd::FaceId(7), {0.2, 0.3, 0.5}});
+        const auto from_spot = relax_sites(surface, layout, spot, {.steps = 100});
+        const auto from_noise =
+            sample_relaxed_sites(surface, layout, {.num_samples = count}, {.steps = 100});
+        EXPECT_LT(energy(surface, from_spot.sites), 1.02 * energy(surface, from_noise.sites))
+            << name;
+    }
+}
+
+TEST(RelaxSites, TheSameBytesForAnyNumberOfThreads) {
+    for (const agvd::TriangleMesh& mesh : all_shapes()) {
+        const Surface surface = agvd::build_surface(mesh.view());
+        const SurfaceLayout layout(surface);
+        const auto run = [&](int threads) {
+            return sample_relaxed_sites(surface, layout,
+                                        {.num_samples = 700, .num_threads = threads},
+                                        {.num_threads = threads})
+                .sites;
+        };
+        const auto one = run(1);
+        EXPECT_TRUE(same_sites(one, run(2)));
+        EXPECT_TRUE(same_sites(one, run(8)));
+    }
+}
+
+TEST(RelaxSites, CoarseToFineGivesTheExactCount) {
+    for (const agvd::TriangleMesh& mesh : all_shapes()) {
+        const Surface surface = agvd::build_surface(mesh.view());
+        const SurfaceLayout layout(surface);
+        bool is_coarse = false;
+        for (const Index count : {40u, 200u, 333u, 500u, 1000u}) {
+            const RelaxResult result =
+                sample_relaxed_sites(surface, layout, {.num_samples = count}, {.steps = 8});
+            EXPECT_EQ(result.sites.size(), count);
+            expect_on_surface(surface, result.sites);
+            is_coarse = is_coarse || result.levels.size() == 2;
+        }
+        EXPECT_TRUE(is_coarse);
+    }
+}
+
+TEST(RelaxSites, ManySitesOnFewFaces) {
+    for (const agvd::TriangleMesh& mesh : {shapes::cube(), shapes::grid(2), shapes::sphere(1)}) {
+        const Surface surface = agvd::build_surface(mesh.view());
+        const SurfaceLayout layout(surface);
+        const auto start = sample_sites(surface, {.num_samples = 300, .init = Init::Random});
+        const auto result = relax_sites(surface, layout, start, {.steps = 20});
+        expect_on_surface(surface, result.sites);
+        EXPECT_LT(result.levels[0].energy.back(), 0.8 * result.levels[0].energy.front());
+    }
+}
+
+TEST(RelaxSites, ZeroStepsAndNoSitesChangeNothing) {
+    const Surface surface = agvd::build_surface(shapes::sphere(2).view());
+    const SurfaceLayout layout(surface);
+    const auto start = sample_sites(surface, {.num_samples = 30});
+    EXPECT_TRUE(same_sites(relax_sites(surface, layout, start, {.steps = 0}).sites, start));
+    EXPECT_TRUE(relax_sites(surface, layout, {}).sites.empty());
+}
+
+TEST(RelaxSites, WrongOptionsAndSitesAreRefused) {
+    const Surface surface = agvd::build_surface(shapes::sphere(2).view());
+    const SurfaceLayout layout(surface);
+    const auto start = sample_sites(surface, {.num_samples = 30});
+    EXPECT_THROW((void)relax_sites(surface, layout, start, {.steps = -1}), agvd::InvalidOption);
+    EXPECT_THROW((void)relax_sites(surface, layout, start, {.tolerance = -1}), agvd::InvalidOption);
+    EXPECT_THROW((void)relax_sites(surface, layout, start, {.is_fixed = {1}}), agvd::InvalidOption);
+    EXPECT_THROW((void)relax_sites(surface, layout, start, {.num_threads = -1}),
+                 agvd::InvalidOption);
+    EXPECT_THROW((void)relax_sites(surface, layout, {{agvd::FaceId(99999), {1, 0, 0}}}),
+                 agvd::InvalidInput);
+    EXPECT_THROW(
+        (void)relax_sites(surface, layout, start, {.progress = [](double) { return false; }}),
+        agvd::Cancelled);
+}
