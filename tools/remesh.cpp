@@ -27,7 +27,17 @@ struct Arguments : cli::DiagramArguments {
     remesh::VertexCount vertex_count = remesh::VertexCount::Exact;
     double drop_components = 0;
     bool strict = false;
+    remesh::Delaunay delaunay = remesh::RemeshOptions{}.delaunay;
 };
+
+std::map<std::string, remesh::Delaunay> delaunay_by_name() {
+    std::map<std::string, remesh::Delaunay> names;
+    for (const auto delaunay :
+         {remesh::Delaunay::Intrinsic, remesh::Delaunay::Extrinsic, remesh::Delaunay::Off}) {
+        names[remesh::delaunay_name(delaunay)] = delaunay;
+    }
+    return names;
+}
 
 void add_options(CLI::App& app, Arguments& arguments) {
     cli::add_diagram_options(app, arguments);
@@ -52,6 +62,16 @@ void add_options(CLI::App& app, Arguments& arguments) {
         ->check(CLI::IsMember({"keep", "free"}).description(""))
         ->type_name("NAME")
         ->default_str("keep");
+    app.add_option_function<std::string>(
+           "--delaunay",
+           [&arguments](const std::string& name) {
+               arguments.delaunay = delaunay_by_name().at(name);
+           },
+           "Flip edges that fail the Delaunay condition, by geodesic lengths (intrinsic) or by "
+           "straight ones (extrinsic); or leave them (off)")
+        ->check(CLI::IsMember(delaunay_by_name()).description(""))
+        ->type_name("NAME")
+        ->default_str(remesh::delaunay_name(arguments.delaunay));
     app.add_option("--drop-components", arguments.drop_components,
                    "Leave out components with less than this % of the area")
         ->check(CLI::Range(0.0, 100.0).description(""))
@@ -120,6 +140,7 @@ void run_job(const Arguments& arguments) {
                                   .max_error = arguments.propagation.max_error,
                                   .steiner_points = arguments.propagation.steiner_points,
                                   .lambda = arguments.propagation.lambda,
+                                  .delaunay = arguments.delaunay,
                                   .num_threads = arguments.common.threads,
                                   .progress = [&](remesh::Stage stage, double fraction) {
                                       return console.progress(remesh::stage_name(stage), fraction);

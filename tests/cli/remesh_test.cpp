@@ -93,6 +93,7 @@ TEST_F(Remesh, WrongUsageIsTwo) {
              {in, out, "--lambda", "nan"},
              {in, out, "--engine", "magic"},
              {in, out, "--engine", "1"},
+             {in, out, "--delaunay", "magic"},
              {in, out, "--max-error", "1"},
              {in, out, "--max-error", "-0.001"},
              {in, out, "--max-error", "nan"},
@@ -256,6 +257,22 @@ TEST_F(Remesh, TellsTheEngineAndWhatItCertifies) {
     EXPECT_NE(outcome.err.find("steiner engine, error unknown"), std::string::npos) << outcome.err;
 }
 
+TEST_F(Remesh, FlipsByTheLengthsAskedFor) {
+    const std::string in = put("in.off", shapes::jitter(shapes::torus(60, 30), 0.02, 1));
+    std::vector<std::string> outputs;
+    for (const char* name : {"intrinsic", "extrinsic", "off"}) {
+        const auto outcome = remesh({in, at("out.off"), "-n", "400", "--init", "random",
+                                     "--delaunay", name, "--report", "-"});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        const auto report = nlohmann::json::parse(outcome.out);
+        EXPECT_EQ(report["options"]["delaunay"], name);
+        EXPECT_EQ(report["delaunay"].is_null(), std::string(name) == "off");
+        outputs.push_back(bytes("out.off"));
+    }
+    EXPECT_NE(outputs[0], outputs[1]);
+    EXPECT_NE(outputs[1], outputs[2]);
+}
+
 TEST_F(Remesh, KeepsBelowTheErrorAskedFor) {
     const std::string in = put("in.off", shapes::jitter(shapes::sphere(3), 0.01, 1));
     for (const char* error : {"0", "0.001", "0.2"}) {
@@ -281,7 +298,7 @@ TEST_F(Remesh, HelpAndVersionGoToStdout) {
     const auto help = remesh({"--help"});
     EXPECT_EQ(help.exit_code, 0);
     for (const char* text : {"Examples", "Exit codes", "--samples", "--report", "--engine",
-                             "--max-error", "window", "steiner", "vertex"}) {
+                             "--max-error", "--delaunay", "window", "steiner", "vertex"}) {
         EXPECT_NE(help.out.find(text), std::string::npos) << text;
     }
     EXPECT_EQ(remesh({"--version"}).out.rfind("remesh ", 0), 0u);

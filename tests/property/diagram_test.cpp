@@ -57,13 +57,6 @@ bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
 }
 
 // SurfacePoint has padding, so its fields are compared.
-bool same_points(const std::vector<SurfacePoint>& a, const std::vector<SurfacePoint>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                      [](const SurfacePoint& x, const SurfacePoint& y) {
-                          return x.face == y.face && x.barycentric == y.barycentric;
-                      });
-}
-
 }  // namespace
 
 TEST(Diagram, IsAValidComplexOnManyMeshesAndSiteSets) {
@@ -104,9 +97,7 @@ TEST(Diagram, SameBytesForAnyThreadCountAndLambda) {
     }
     for (const int threads : {2, 3, 8}) {
         const auto other = build_diagram(surface, sites, propagation, {.num_threads = threads});
-        EXPECT_TRUE(same_points(diagram.points, other.points));
-        EXPECT_TRUE(same_bytes(diagram.cell_area, other.cell_area));
-        EXPECT_TRUE(same_bytes(diagram.vertex_sites, other.vertex_sites));
+        checks::expect_same(diagram, other);
     }
 }
 

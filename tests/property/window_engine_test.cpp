@@ -123,6 +123,29 @@ TEST(WindowEngine, TurnsCloserThanTheErrorEnd) {
     }
 }
 
+// Bounds along thousands of short edges must not fall short of the way by their rounding.
+TEST(WindowEngine, LongWaysOverThinRowsArriveEverywhere) {
+    TriangleMesh mesh;
+    constexpr Index rows = 700, columns = 30;
+    for (Index i = 0; i <= columns; ++i) {
+        for (Index j = 0; j <= rows; ++j) mesh.positions.emplace_back(i / 30.0, j * 1.3e-6, 0);
+    }
+    for (Index i = 0; i < columns; ++i) {
+        for (Index j = 0; j < rows; ++j) {
+            const Index a = i * (rows + 1) + j, b = a + rows + 1;
+            mesh.triangles.insert(mesh.triangles.end(), {{a, b, b + 1}, {a, b + 1, a + 1}});
+        }
+    }
+    const Surface s = build_surface(mesh.view());
+    for (const Index v : {rows / 2, rows}) {
+        const Propagation p = propagate(s, std::vector{point_at(s, v)}, {.max_error = 1e-4});
+        for (Index w = 0; w < s.num_vertices(); ++w) {
+            const double truth = (mesh.positions[w] - mesh.positions[v]).norm();
+            ASSERT_NEAR(p.vertex_distance[w], truth, 1e-4 * truth) << w;
+        }
+    }
+}
+
 TEST(WindowEngine, MoreSitesThanFaces) {
     const Surface s = build_surface(shapes::cube().view());
     const auto sites = points::scattered(s, 60, 8);

@@ -239,4 +239,34 @@ void expect_same(const Propagation& a, const Propagation& b) {
     EXPECT_EQ(a.certified_error, b.certified_error);
 }
 
+void expect_same(const Diagram& a, const Diagram& b) {
+    const auto is_same_point = [](const SurfacePoint& p, const SurfacePoint& q) {
+        return p.face == q.face && p.barycentric == q.barycentric;
+    };
+    const auto are_same_points = [&](const auto& p, const auto& q) {
+        return std::equal(p.begin(), p.end(), q.begin(), q.end(), is_same_point);
+    };
+    EXPECT_EQ(a.num_sites, b.num_sites);
+    EXPECT_TRUE(are_same_points(a.points, b.points));
+    EXPECT_EQ(a.point_distance, b.point_distance);
+    EXPECT_EQ(a.edge_points, b.edge_points);
+    EXPECT_TRUE(std::equal(a.edges.begin(), a.edges.end(), b.edges.begin(), b.edges.end(),
+                           [](const VoronoiEdge& e, const VoronoiEdge& f) {
+                               return e.left == f.left && e.right == f.right && e.tail == f.tail &&
+                                      e.head == f.head;
+                           }));
+    EXPECT_EQ(a.vertex_offsets, b.vertex_offsets);
+    EXPECT_TRUE(std::equal(a.vertex_ends.begin(), a.vertex_ends.end(), b.vertex_ends.begin(),
+                           b.vertex_ends.end(), [](const EdgeEnd& e, const EdgeEnd& f) {
+                               return e.edge == f.edge && e.is_tail == f.is_tail;
+                           }));
+    EXPECT_EQ(a.vertex_sites, b.vertex_sites);
+    EXPECT_TRUE(are_same_points(a.vertices, b.vertices));
+    EXPECT_EQ(a.vertex_distance, b.vertex_distance);
+    EXPECT_EQ(a.nearest_site, b.nearest_site);
+    EXPECT_EQ(a.nearest_distance, b.nearest_distance);
+    EXPECT_EQ(a.cell_area, b.cell_area);
+    EXPECT_EQ(a.cell_euler, b.cell_euler);
+}
+
 }  // namespace checks

@@ -16,5 +16,6 @@ void expect_valid_complex(const agvd::Surface& surface, const agvd::Diagram& dia
 
 //! All but the work done and the memory held.
 void expect_same(const agvd::Propagation& a, const agvd::Propagation& b);
+void expect_same(const agvd::Diagram& a, const agvd::Diagram& b);
 
 }  // namespace checks

@@ -135,8 +135,9 @@ TriangleMesh sharp_cone(Dice& dice) {
 }
 
 TriangleMesh flat(Dice& dice) {
-    TriangleMesh mesh = shapes::grid(dice.count(1, 40));
-    const double narrow = dice.magnitude(1e-3, 1);
+    const bool is_strip = dice.one_in(3);
+    TriangleMesh mesh = shapes::grid(dice.count(1, is_strip ? 5 : 40));
+    const double narrow = dice.magnitude(is_strip ? 1e-3 : 0.1, 1);
     for (Vec3& p : mesh.positions) p.y() *= narrow;
     return mesh;
 }

@@ -22,6 +22,13 @@ remesh::RemeshResult example() {
     result.certified_error = 1.23e-4;
     result.propagation_bytes = 12'300'000;
     result.refined_faces = 4321;
+    result.delaunay = {.inner_edges = 200,
+                       .failing_before = 9,
+                       .failing_after = 3,
+                       .flips = 7,
+                       .not_locally_shortest = 1,
+                       .broken_triangles = 2,
+                       .is_finished = false};
     result.relaxation = {{.num_sites = 50, .energy = {4, 3, 2}}};
     result.seconds = {{remesh::Stage::Clean, 0.25}, {remesh::Stage::Dual, 0.5}};
     return result;
@@ -58,7 +65,8 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
     EXPECT_EQ(report["options"]["max_error"], 0.25);
     EXPECT_EQ(report["options"]["steiner_points_per_edge"], 8);
     EXPECT_EQ(report["options"]["lambda"], 1);
-    EXPECT_EQ(report["options"]["max_repair_rounds"], 50);
+    EXPECT_EQ(report["options"]["max_repair_rounds"], 12);
+    EXPECT_EQ(report["options"]["delaunay"], "intrinsic");
     EXPECT_EQ(report["options"]["threads"], 0);
     EXPECT_EQ(report["input_repair"]["split_edges"], 4);
     EXPECT_EQ(report["input_faces"], 8);
@@ -69,6 +77,15 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
     EXPECT_EQ(report["sites_added"], 5);
     EXPECT_EQ(report["sites_dropped"], 6);
     EXPECT_EQ(report["repair_rounds"], 2);
+    EXPECT_EQ(report["delaunay"]["inner_edges"], 200);
+    EXPECT_EQ(report["delaunay"]["failing_edges_before"], 9);
+    EXPECT_EQ(report["delaunay"]["failing_before_percent"], 4.5);
+    EXPECT_EQ(report["delaunay"]["failing_edges_after"], 3);
+    EXPECT_EQ(report["delaunay"]["failing_after_percent"], 1.5);
+    EXPECT_EQ(report["delaunay"]["flips"], 7);
+    EXPECT_EQ(report["delaunay"]["edges_not_locally_shortest"], 1);
+    EXPECT_EQ(report["delaunay"]["broken_triangles"], 2);
+    EXPECT_EQ(report["delaunay"]["finished"], false);
     EXPECT_EQ(report["certified_error"], 1.23e-4);
     EXPECT_EQ(report["propagation_bytes"], 12'300'000);
     EXPECT_EQ(report["refined_faces"], 4321);
@@ -96,13 +113,23 @@ TEST(RemeshReport, TextTellsTheEngineAndItsBound) {
               "distances: steiner engine, at most 0.0713 % above exact");
 }
 
+TEST(RemeshReport, WithoutDelaunayThereAreNoFiguresOfIt) {
+    const remesh::RunInfo info{.options = {.delaunay = remesh::Delaunay::Off}};
+    const json report = json::parse(remesh::to_json(example(), info));
+    EXPECT_EQ(report["options"]["delaunay"], "off");
+    EXPECT_EQ(report["delaunay"], nullptr);
+    EXPECT_EQ(remesh::to_text(example(), info).find("Delaunay"), std::string::npos);
+}
+
 TEST(RemeshReport, TextTellsRepairTopologyTimeAndMemory) {
     const std::string text = remesh::to_text(
         example(), {.input_path = "in.ply", .options = {.engine = agvd::Engine::Window}});
     for (const char* part :
          {"in.ply", "4 split edges", "1 component, genus 1, 0 boundary loops",
           "distances: window engine, at most 0.0123 %", "3 vertices, 1 face", "5 sites added, ",
-          "6 sites", "clean 0.25 s, dual 0.50 s", "total 0.75 s", "12.3 MB"}) {
+          "6 sites", "intrinsic Delaunay: 4.50 % of the edges failed, 1.50 % after 7 flips",
+          "stopped", "1 edge not locally shortest", "2 faces without", "clean 0.25 s, dual 0.50 s",
+          "total 0.75 s", "12.3 MB"}) {
         EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
     }
 }

@@ -1,7 +1,8 @@
-// What it costs to move a few sites, beside propagating all of them afresh.
+// What it costs to move a few sites, beside doing all afresh: the propagation alone, and with the
+// diagram.
 
 #include "agvd/core/random.h"
-#include "agvd/propagation/moving_sites.h"
+#include "agvd/diagram/moving_diagram.h"
 #include "bench/p0.h"
 #include "bench/report.h"
 #include "bench/timing.h"
@@ -19,7 +20,10 @@ const std::vector<bench::Column> columns{{"mesh", "mesh"},
                                          {"propagated", "propagated", 1},
                                          {"fresh_p0", "fresh P0", 2},
                                          {"update_p0", "update P0", 2},
-                                         {"update_over_fresh", "ratio", 4}};
+                                         {"update_over_fresh", "ratio", 4},
+                                         {"fresh_whole_p0", "whole P0", 2},
+                                         {"update_whole_p0", "update P0", 2},
+                                         {"update_over_fresh_whole", "ratio", 4}};
 
 struct Arguments {
     bench::Options common;
@@ -58,7 +62,8 @@ nlohmann::ordered_json measure(const std::string& mesh, const Surface& surface,
     const auto count = static_cast<Index>(static_cast<double>(sites.size()) * arguments.share);
     bench::P0 sweep(surface, sites);
     double p0 = sweep.seconds();
-    std::vector<double> fresh, update, propagated;
+    std::vector<double> fresh, update, propagated, fresh_diagram, update_whole;
+    MovingDiagram diagram(surface, layout, sites, options, {.num_threads = 1});
     MovingSites moving(surface, layout, std::move(sites), options);
     for (int i = 0; i < arguments.repetitions; ++i) {
         cli::stop_if_interrupted();
@@ -67,10 +72,18 @@ nlohmann::ordered_json measure(const std::string& mesh, const Surface& surface,
                          arguments.common.seed + static_cast<Index>(i));
         update.push_back(bench::time([&] { moving.update(changes); }).cpu);
         propagated.push_back(moving.num_propagated());
-        fresh.push_back(
-            bench::time([&] { (void)propagate(surface, layout, moving.sites(), options); }).cpu);
+        update_whole.push_back(bench::time([&] { diagram.update(changes); }).cpu);
+        Propagation propagation;
+        fresh.push_back(bench::time([&] {
+                            propagation = propagate(surface, layout, moving.sites(), options);
+                        }).cpu);
+        fresh_diagram.push_back(bench::time([&] {
+                                    (void)build_diagram(surface, moving.sites(), propagation,
+                                                        {.num_threads = 1});
+                                }).cpu);
         p0 = std::min(p0, sweep.seconds());
     }
+    const double whole = bench::quickest(fresh) + bench::quickest(fresh_diagram);
     return {{"mesh", mesh},
             {"faces", surface.num_faces()},
             {"sites", moving.sites().size()},
@@ -80,13 +93,16 @@ nlohmann::ordered_json measure(const std::string& mesh, const Surface& surface,
             {"p0_ms", 1e3 * p0},
             {"fresh_p0", bench::quickest(fresh) / p0},
             {"update_p0", bench::quickest(update) / p0},
-            {"update_over_fresh", bench::quickest(update) / bench::quickest(fresh)}};
+            {"update_over_fresh", bench::quickest(update) / bench::quickest(fresh)},
+            {"fresh_whole_p0", whole / p0},
+            {"update_whole_p0", bench::quickest(update_whole) / p0},
+            {"update_over_fresh_whole", bench::quickest(update_whole) / whole}};
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Time of moving some sites, over that of propagating all of them afresh",
+    CLI::App app("Time of moving some sites, over that of doing all of them afresh",
                  "bench-updates");
     Arguments arguments;
     arguments.common.sites = {2000};

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "agvd/diagram/straight_arc.h"
+
 namespace agvd {
 namespace {
 
@@ -21,8 +23,6 @@ constexpr double largest_violation = 1e-3;
 constexpr double no_branch = 2;
 // A search that strays this far (share of the size) from its start does not come back.
 constexpr double lost = 2;
-// Distances at a joint that differ by more (share of the size) are not those of its labels.
-constexpr double largest_disagreement = 1e-2;
 // Relays chosen at one point of a bisector stand for their sites this far along (share of the
 // chord).
 constexpr double near_enough = 0.02;
@@ -73,6 +73,12 @@ bool do_cross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
 
 }  // namespace
 
+double longest_side(const std::array<Vec2, 3>& corners) {
+    return std::sqrt(
+        std::max({(corners[1] - corners[0]).squaredNorm(), (corners[2] - corners[1]).squaredNorm(),
+                  (corners[0] - corners[2]).squaredNorm()}));
+}
+
 void TriangleSolver::set_relays(Relays relays) {
     groups_.clear();
     for (std::size_t i = 0; i < relays.size();) {
@@ -83,12 +89,12 @@ void TriangleSolver::set_relays(Relays relays) {
     }
 }
 
-void TriangleSolver::set_triangle(Index face, const std::array<Vec2, 3>& corners) {
+void TriangleSolver::begin(Index face, const std::array<Vec2, 3>& corners) {
     face_ = face;
     corners_ = corners;
-    size_ = std::sqrt(
-        std::max({(corners[1] - corners[0]).squaredNorm(), (corners[2] - corners[1]).squaredNorm(),
-                  (corners[0] - corners[2]).squaredNorm()}));
+    start_ = mark();
+    is_safe_ = false;
+    size_ = longest_side(corners);
 }
 
 TriangleSolver::Mark TriangleSolver::mark() const {
@@ -105,26 +111,26 @@ void TriangleSolver::go_back(const Mark& mark) {
 
 bool TriangleSolver::try_solve(Index face, const std::array<Vec2, 3>& corners,
                                std::span<const Joint> joints) {
-    set_triangle(face, corners);
+    begin(face, corners);
     for (std::size_t i = 0; i < joints.size(); ++i) {
         if (!agrees(joints[i], joints[before(i, joints.size())].site_after)) return false;
     }
-    const Mark start = mark();
-    is_safe_ = false;
     draw(joints);
-    if (is_sound_ && !straighten_crossing_arcs(start)) return true;
-    go_back(start);
+    if (is_sound_ && !straighten_crossing_arcs(start_)) return true;
+    go_back(start_);
     return false;
 }
 
 void TriangleSolver::solve(Index face, const std::array<Vec2, 3>& corners,
                            std::span<const Joint> joints) {
-    set_triangle(face, corners);
-    const Mark start = mark();
-    is_safe_ = false;
+    begin(face, corners);
     draw(joints);
-    if (!straighten_crossing_arcs(start) || !straighten_crossing_arcs(start)) return;
-    go_back(start);
+    if (!straighten_crossing_arcs(start_) || !straighten_crossing_arcs(start_)) return;
+    redraw_straight(joints);
+}
+
+void TriangleSolver::redraw_straight(std::span<const Joint> joints) {
+    go_back(start_);
     is_safe_ = true;
     draw(joints);
 }
@@ -531,24 +537,10 @@ bool TriangleSolver::project(Relays a, Relays b, const Vec2& from, const Vec2& t
     return false;
 }
 
-// Whether the bisector of a and b clearly strays from a chord by less than the tolerance, by one
-// Newton step across its middle: by Kantorovich's theorem the root lies within twice that step
-// where the slope changes by less than half of itself on the way.
 bool TriangleSolver::is_straight(Relays a, Relays b, const Vec2& from, const Vec2& to) const {
-    const Vec2 chord = to - from;
     const Vec2 middle = (from + to) / 2;
-    const Reach ra = least_reach(a, middle);
-    const Reach rb = least_reach(b, middle);
-    const double least = std::min(ra.last_piece, rb.last_piece);
-    if (!(least > 0) || !std::isfinite(ra.distance + rb.distance)) return false;
-    // Everything times the chord's length.
-    const Vec2 turn = (middle - ra.from) / ra.last_piece - (middle - rb.from) / rb.last_piece;
-    const double slope = std::abs(cross(chord, turn));
-    const double gap = std::abs(ra.distance - rb.distance);
-    const double squared_length = chord.squaredNorm();
-    const double tolerance = std::min(chord_tolerance_, near_enough);
-    // The slope changes by at most 2 / (least - stray) a unit.
-    return 2 * gap <= tolerance * slope && 8 * gap * squared_length <= least * slope * slope;
+    return is_nearly_straight(to - from, middle, least_reach(a, middle), least_reach(b, middle),
+                              chord_tolerance_);
 }
 
 void TriangleSolver::sample_arc(Relays a, Relays b, const Vec2& from, const Vec2& to, int depth) {

@@ -53,6 +53,12 @@ struct LocalDiagram {
     std::vector<Connection> connections;
 };
 
+//! Distances at a joint that differ by more (share of the triangle's longest side) are not those
+//! of its labels.
+inline constexpr double largest_disagreement = 1e-2;
+
+[[nodiscard]] double longest_side(const std::array<Vec2, 3>& corners);
+
 //! Draws diagrams into `out`. Scratch memory is kept from triangle to triangle.
 class TriangleSolver {
 public:
@@ -77,6 +83,9 @@ public:
     //! and if that is not enough all are, with branches on the chords that cut intervals off.
     //! Cost: O(k) branch points for k joints, each O(relays), and O(k^2) comparisons.
     void solve(Index face, const std::array<Vec2, 3>& corners, std::span<const Joint> joints);
+
+    //! Draws what the last of these calls drew once more, all straight.
+    void redraw_straight(std::span<const Joint> joints);
 
 private:
     using Relays = std::span<const PlanarRelay>;
@@ -108,7 +117,7 @@ private:
         Vec2 from, to;
     };
 
-    void set_triangle(Index face, const std::array<Vec2, 3>& corners);
+    void begin(Index face, const std::array<Vec2, 3>& corners);
     void draw(std::span<const Joint> joints);
     [[nodiscard]] Mark mark() const;
     void go_back(const Mark& mark);
@@ -150,6 +159,7 @@ private:
     // The triangle at hand.
     Index face_ = 0;
     std::array<Vec2, 3> corners_;
+    Mark start_{};          // Before it.
     double size_ = 0;       // Longest side.
     bool is_safe_ = false;  // Draw all straight.
     bool is_sound_ = true;  // Nothing drawn contradicts the distances.

@@ -10,9 +10,9 @@ namespace agvd {
 //! Appends inner points, cuts, cut triangles and the rows of the cuts to `labels`. Sites that lie
 //! on edges reach the boundary by themselves; a site that owns nothing at its own place is left
 //! out.
-//! Cost: O(relays) a site inside a listed face.
+//! Parallel. Cost: O(relays) a site inside a listed face.
 void cut_faces(const Surface& surface, const Propagation& propagation,
-               const SitePlacement& placement, std::span<const RelayReach> reaches,
+               const SitePlacement& placement, const RelayGroups& groups, int num_threads,
                EdgeLabels& labels);
 
 }  // namespace agvd

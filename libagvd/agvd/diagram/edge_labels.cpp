@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "agvd/core/parallel.h"
+#include "agvd/diagram/earlier_parts.h"
 #include "agvd/diagram/edge_relays.h"
 #include "agvd/diagram/envelope.h"
 
@@ -18,8 +19,56 @@ void list_mixed_faces(const Surface& surface, const Propagation& propagation, Ed
     }
 }
 
-void label_vertices(const Surface& surface, const Propagation& propagation,
-                    std::span<const RelayReach> reaches, EdgeLabels& labels) {
+// A path through the relays of one face that is shorter than what the engine found.
+struct ShorterPath {
+    Index vertex;
+    Index site;
+    double distance;
+};
+
+// Those to corners that are not fixed.
+void find_shorter_paths(const Surface& surface, const Propagation& propagation,
+                        const std::vector<std::uint8_t>& is_fixed, Index mixed_index,
+                        std::vector<ShorterPath>& out) {
+    const Index face = propagation.mixed_faces[mixed_index];
+    const Triangle& corners = surface.mesh.triangles[face];
+    if ((is_fixed[corners[0]] & is_fixed[corners[1]] & is_fixed[corners[2]]) != 0) return;
+    // No path through a relay is shorter than the straight line: most are told without roots. What
+    // is nearer by less than this share is not worth another label.
+    constexpr double least_gain = 1e-9;
+    std::array<double, 3> limits;
+    for (std::size_t k = 0; k < 3; ++k) {
+        limits[k] = (1 - least_gain) * propagation.vertex_distance[corners[k]];
+    }
+    for (const Relay& relay : relays_of(propagation, mixed_index)) {
+        const Index h = relay.half_edge;
+        const Index k = h - 3 * face;
+        const double length = surface.length_of(h);
+        const Vec2& apex = surface.apex[h];
+        const auto may_gain = [&](Index corner, double dx, double dy) {
+            const double limit = limits[corner] - relay.weight;
+            return limit > 0 && dx * dx + dy * dy < limit * limit;
+        };
+        const Index at_head = k == 2 ? 0 : k + 1;
+        const Index at_apex = k == 0 ? 2 : k - 1;
+        if (!may_gain(k, relay.x, relay.y) && !may_gain(at_head, relay.x - length, relay.y) &&
+            !may_gain(at_apex, relay.x - apex.x(), relay.y - apex.y())) {
+            continue;
+        }
+        const CornerDistances to = corner_distances(relay, length, apex);
+        const auto offer = [&](Index corner, double distance) {
+            const Index v = corners[corner];
+            if (distance >= limits[corner] || is_fixed[v] != 0) return;
+            out.push_back({v, relay.site.value(), distance});
+        };
+        offer(k, to.tail);
+        offer(at_head, to.head);
+        offer(at_apex, to.apex);
+    }
+}
+
+void label_vertices(const Surface& surface, const Propagation& propagation, EarlierParts* earlier,
+                    int num_threads, EdgeLabels& labels) {
     labels.vertex_distance = propagation.vertex_distance;
     labels.point_site.reserve(surface.num_vertices());
     for (const SiteId site : propagation.vertex_site) labels.point_site.push_back(site.value());
@@ -28,36 +77,24 @@ void label_vertices(const Surface& surface, const Propagation& propagation,
         if (labels.mixed_index[f] != no_index) continue;
         for (const Index v : surface.mesh.triangles[f]) is_fixed[v] = 1;
     }
-    for (Index i = 0; i < propagation.mixed_faces.size(); ++i) {
-        const Index face = propagation.mixed_faces[i];
-        const Triangle& corners = surface.mesh.triangles[face];
-        const auto fixed = [&](std::size_t k) { return is_fixed[corners[k]] != 0; };
-        if (fixed(0) && fixed(1) && fixed(2)) continue;
-        std::array<double, 3> distance;
-        std::array<Index, 3> site;
-        for (std::size_t k = 0; k < 3; ++k) {
-            distance[k] = labels.vertex_distance[corners[k]];
-            site[k] = labels.point_site[corners[k]];
+    if (earlier != nullptr) earlier->settle_vertices(labels, is_fixed);
+    const auto num_mixed = static_cast<Index>(propagation.mixed_faces.size());
+    std::vector<std::vector<ShorterPath>> found(num_chunks(num_mixed, grain));
+    parallel_chunks(num_mixed, grain, num_threads, [&](Index chunk, Index begin, Index end) {
+        for (Index i = begin; i < end; ++i) {
+            find_shorter_paths(surface, propagation, is_fixed, i, found[chunk]);
         }
-        const Index end = propagation.relay_offsets[i + 1];
-        for (Index r = propagation.relay_offsets[i]; r < end; ++r) {
-            const RelayReach& reach = reaches[r];
-            const auto offer = [&](Index k, double offered) {
-                if (!is_nearer(offered, reach.site, distance[k], site[k])) return;
-                distance[k] = offered;
-                site[k] = reach.site;
-            };
-            const Index k = reach.half_edge - 3 * face;
-            offer(k, reach.tail);
-            offer(k == 2 ? 0 : k + 1, reach.head);
-            offer(k == 0 ? 2 : k - 1, reach.apex);
-        }
-        for (std::size_t k = 0; k < 3; ++k) {
-            if (fixed(k)) continue;
-            labels.vertex_distance[corners[k]] = distance[k];
-            labels.point_site[corners[k]] = site[k];
+    });
+    for (const auto& paths : found) {
+        for (const ShorterPath& path : paths) {
+            double& distance = labels.vertex_distance[path.vertex];
+            Index& site = labels.point_site[path.vertex];
+            if (!is_nearer(path.distance, path.site, distance, site)) continue;
+            distance = path.distance;
+            site = path.site;
         }
     }
+    if (earlier != nullptr) earlier->compare_vertices(labels);
 }
 
 // Fetches what labelling the edges of a listed face reads of its neighbours: first where their
@@ -65,7 +102,7 @@ void label_vertices(const Surface& surface, const Propagation& propagation,
 // do nothing but prefetch.
 [[gnu::always_inline]] inline void prefetch_neighbours(const Surface& surface,
                                                        const Propagation& propagation,
-                                                       std::span<const RelayReach> reaches,
+                                                       const RelayGroups& groups,
                                                        const EdgeLabels& labels, Index face,
                                                        bool relays_too) {
     for (Index h = 3 * face; h < 3 * face + 3; ++h) {
@@ -77,12 +114,10 @@ void label_vertices(const Surface& surface, const Propagation& propagation,
             __builtin_prefetch(&surface.length[surface.edge[h]]);
             __builtin_prefetch(&surface.edge_half[surface.edge[h]]);
         } else if (*neighbour != no_index) {
+            groups.prefetch(*neighbour);
             const Index first = propagation.relay_offsets[*neighbour];
             const Index end = propagation.relay_offsets[*neighbour + 1];
-            for (Index r = first; r < end; ++r) {
-                __builtin_prefetch(&reaches[r]);
-                __builtin_prefetch(&propagation.relays[r]);
-            }
+            for (Index r = first; r < end; ++r) __builtin_prefetch(&propagation.relays[r]);
         }
     }
 }
@@ -132,6 +167,16 @@ public:
         }
     }
 
+    // As it was.
+    void take_over(Index half_edge, const EarlierParts& earlier) {
+        const Index edge = surface_.edge[half_edge];
+        const std::span<const Crossing> crossings = earlier.on_edge(edge);
+        if (crossings.empty()) return;
+        out_.rows.push_back({edge, static_cast<Index>(out_.crossings.size()),
+                             static_cast<Index>(crossings.size())});
+        out_.crossings.insert(out_.crossings.end(), crossings.begin(), crossings.end());
+    }
+
 private:
     const Surface& surface_;
     const EdgeLabels& labels_;
@@ -158,28 +203,33 @@ void append_rows(const std::vector<FoundRows>& found, EdgeLabels& labels) {
 }  // namespace
 
 EdgeLabels label_edges(const Surface& surface, const Propagation& propagation,
-                       std::span<const RelayReach> reaches, int num_threads) {
+                       const RelayGroups& groups, EarlierParts* earlier, int num_threads) {
     EdgeLabels labels;
     list_mixed_faces(surface, propagation, labels);
-    label_vertices(surface, propagation, reaches, labels);
+    label_vertices(surface, propagation, earlier, num_threads, labels);
     labels.edge_row.assign(surface.num_edges(), no_index);
 
     const auto num_mixed = static_cast<Index>(propagation.mixed_faces.size());
     std::vector<FoundRows> found(num_chunks(num_mixed, grain));
     parallel_chunks(num_mixed, grain, num_threads, [&](Index chunk, Index begin, Index end) {
-        EdgeLabeller labeller(surface, labels, {surface, propagation, reaches, labels},
+        EdgeLabeller labeller(surface, labels, {surface, propagation, groups, labels},
                               found[chunk]);
         for (Index i = begin; i < end; ++i) {
             constexpr Index ahead = 2;
             for (const bool relays_too : {true, false}) {
                 const Index later = i + (relays_too ? ahead : 2 * ahead);
-                if (later >= end) continue;
-                prefetch_neighbours(surface, propagation, reaches, labels,
+                if (later >= end || earlier != nullptr) continue;
+                prefetch_neighbours(surface, propagation, groups, labels,
                                     propagation.mixed_faces[later], relays_too);
             }
             const Index face = propagation.mixed_faces[i];
             for (Index h = 3 * face; h < 3 * face + 3; ++h) {
-                if (is_labelled(surface, labels, h)) labeller.label(h);
+                if (!is_labelled(surface, labels, h)) continue;
+                if (earlier != nullptr && earlier->holds_on_edge(h)) {
+                    labeller.take_over(h, *earlier);
+                } else {
+                    labeller.label(h);
+                }
             }
         }
     });

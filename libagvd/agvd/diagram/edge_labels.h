@@ -3,7 +3,7 @@
 //! the faces around them, so that neighbouring faces cannot disagree.
 #pragma once
 
-#include "agvd/diagram/face_relays.h"
+#include "agvd/diagram/relay_groups.h"
 
 namespace agvd {
 
@@ -75,30 +75,15 @@ struct EdgeLabels {
     }
 };
 
-[[nodiscard]] inline std::span<const Relay> relays_of(const Propagation& propagation,
-                                                      Index mixed_index) {
-    const Index begin = propagation.relay_offsets[mixed_index];
-    return std::span(propagation.relays)
-        .subspan(begin, propagation.relay_offsets[mixed_index + 1] - begin);
-}
-
-//! What scanning edges needs of a relay, in the frame of its half-edge: distances of the face's
-//! corners through it, and bounds of its derivative along the half-edge at the ends.
-struct RelayReach {
-    enum Kind : Index { Across, Corner, Inside };
-
-    double tail, head, apex;
-    float slope_tail, slope_head;
-    Index site;
-    Index half_edge;
-    Kind kind;  //!< Where the image lies: across the half-edge, at its tail, or in the face.
-};
+class EarlierParts;
 
 //! A vertex all of whose faces are listed takes the nearest site over the relays of those faces
 //! (which may be nearer than the engine's graph knows); an edge all of whose faces are listed gets
 //! the envelope of the relays of both sides and of its ends. No cuts yet.
 //! Cost: O(relays) a listed face, O(relays) and a few square roots a crossing.
+//! \param earlier  where it holds, its labels are taken over; may be null. Vertices are compared.
 [[nodiscard]] EdgeLabels label_edges(const Surface& surface, const Propagation& propagation,
-                                     std::span<const RelayReach> reaches, int num_threads);
+                                     const RelayGroups& groups, EarlierParts* earlier,
+                                     int num_threads);
 
 }  // namespace agvd

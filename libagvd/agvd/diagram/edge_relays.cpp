@@ -4,12 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "agvd/core/parallel.h"
-
 namespace agvd {
 namespace {
 
-constexpr Index grain = 1024;
 // A relay stands for the end of an edge itself if it is no worse there by more than this share of
 // the edge.
 constexpr double same_distance = 1e-4;
@@ -18,48 +15,14 @@ constexpr double same_distance = 1e-4;
 constexpr double explained = 1e-2;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// Straight, or bent at an end of the interval.
-RelayReach reach_of(const Relay& r, double length, const Vec2& apex) {
-    const auto root = [](double x, double y) { return std::sqrt(x * x + y * y); };
-    const double cx = apex.x();
-    const double cy = apex.y();
-    RelayReach reach{0, 0, 0, -1, 1, r.site.value(), r.half_edge, RelayReach::Across};
-    if (r.y >= 0) {
-        reach.kind = r.x == 0 && r.y == 0 ? RelayReach::Corner : RelayReach::Inside;
-        reach.tail = r.weight + root(r.x, r.y);
-        reach.head = r.weight + root(length - r.x, r.y);
-        reach.apex = r.weight + root(cx - r.x, cy - r.y);
-        return reach;
-    }
-    const double begin = root(r.begin - r.x, r.y);
-    const double end = root(r.end - r.x, r.y);
-    reach.tail = r.weight + begin + r.begin;
-    reach.head = r.weight + end + (length - r.end);
-    // The chord to the apex meets the edge at x + (cx - x) (-y) / (cy - y).
-    const double height = cy - r.y;
-    const double hit = (cx - r.x) * -r.y;
-    if (hit < (r.begin - r.x) * height) {
-        reach.apex = r.weight + begin + root(cx - r.begin, cy);
-    } else if (hit > (r.end - r.x) * height) {
-        reach.apex = r.weight + end + root(cx - r.end, cy);
-    } else {
-        reach.apex = r.weight + root(cx - r.x, height);
-    }
-    // Bent paths run along the edge.
-    constexpr double rounding = 1e-6;
-    if (r.begin <= 0 && begin > 0) {
-        reach.slope_tail = static_cast<float>(std::max(-1.0, -r.x / begin - rounding));
-    }
-    if (r.end >= length && end > 0) {
-        reach.slope_head = static_cast<float>(std::min(1.0, (length - r.x) / end + rounding));
-    }
-    return reach;
-}
+double root(double x, double y) { return std::sqrt(x * x + y * y); }
 
 // A relay whose image lies across the edge, in the frame of one half-edge or the other.
-LineRelay through_edge(const Relay& r, const RelayReach& reach, bool forward, double length) {
-    const double at_begin = reach.tail - r.begin;
-    const double at_end = reach.head - (length - r.end);
+// \param at_tail, at_head  distances of the half-edge's ends.
+LineRelay through_edge(const Relay& r, double at_tail, double at_head, bool forward,
+                       double length) {
+    const double at_begin = at_tail - r.begin;
+    const double at_end = at_head - (length - r.end);
     if (forward) {
         return {{r.begin, r.x, r.end}, {0, r.y, 0}, {at_begin, r.weight, at_end}, r.begin, r.end,
                 r.site.value()};
@@ -83,67 +46,63 @@ Motion between_half_edges(const Surface& surface, Index from, Index h) {
 
 }  // namespace
 
-std::unique_ptr<RelayReach[]> find_reaches(const Surface& surface, const Propagation& propagation,
-                                           int num_threads) {
-    const auto count = static_cast<Index>(propagation.relays.size());
-    auto result = std::make_unique_for_overwrite<RelayReach[]>(count);
-    parallel_chunks(count, grain, num_threads, [&](Index, Index begin, Index end) {
-        for (Index i = begin; i < end; ++i) {
-            const Relay& relay = propagation.relays[i];
-            const Index h = relay.half_edge;
-            result[i] = reach_of(relay, surface.length_of(h), surface.apex[h]);
-        }
-    });
-    return result;
-}
-
-// The relays of one face: those whose image lies across the edge, with their slopes, and those in
-// the face; or the others, and its corner opposite. The ends of the edge stand for themselves.
-void EdgeRelays::scan_face(Index edge, Index half_edge, bool others) {
+// The relays of one face whose image lies across the edge, with their slopes, and those in the
+// face. The ends of the edge stand for themselves.
+void EdgeRelays::scan_across(Index edge, Index half_edge) {
     const bool forward = surface_.edge_half[edge] == half_edge;
-    const Index next = Surface::next(half_edge);
     const Index mixed = labels_.mixed_index[Surface::face(half_edge)];
-    const Index end = propagation_.relay_offsets[mixed + 1];
-    const auto add = [&](double tail, double head, double slope_tail, double slope_head, Index r) {
-        const Index site = reaches_[r].site;
+    const double length = surface_.length[edge];
+    for (const Index i : groups_.across(mixed, half_edge)) {
+        const Relay& r = propagation_.relays[i];
+        const double begin = root(r.begin - r.x, r.y);
+        const double end = root(r.end - r.x, r.y);
+        const double tail = r.weight + begin + r.begin;
+        const double head = r.weight + end + (length - r.end);
+        // Bent paths run along the edge.
+        constexpr double rounding = 1e-6;
+        double slope_tail = -1;
+        double slope_head = 1;
+        if (r.begin <= 0 && begin > 0) slope_tail = std::max(-1.0, -r.x / begin - rounding);
+        if (r.end >= length && end > 0) slope_head = std::min(1.0, (length - r.x) / end + rounding);
         if (forward) {
-            candidates_.push_back({tail, head, slope_tail, slope_head, r, site});
+            candidates_.push_back({tail, head, slope_tail, slope_head, i, r.site.value()});
         } else {
-            candidates_.push_back({head, tail, -slope_head, -slope_tail, r, site});
+            candidates_.push_back({head, tail, -slope_head, -slope_tail, i, r.site.value()});
         }
-    };
-    for (Index r = propagation_.relay_offsets[mixed]; r < end; ++r) {
-        const RelayReach& reach = reaches_[r];
-        if (reach.half_edge == half_edge && reach.kind == RelayReach::Across) {
-            if (!others) add(reach.tail, reach.head, reach.slope_tail, reach.slope_head, r);
-            continue;
-        }
-        const bool is_corner = reach.kind == RelayReach::Corner;
-        if (is_corner && Surface::next(reach.half_edge) != half_edge) continue;
-        if ((reach.kind == RelayReach::Inside) == others) continue;
-        if (reach.half_edge == half_edge) {
-            add(reach.tail, reach.head, -1, 1, r);
-        } else if (reach.half_edge == next) {
-            add(reach.apex, reach.tail, -1, 1, r);
-        } else {
-            add(reach.head, reach.apex, -1, 1, r);
-        }
+    }
+    for (const Index i : groups_.inside(mixed)) add_distances(forward, half_edge, i);
+}
+
+// The others, and the corner opposite.
+void EdgeRelays::scan_others(Index edge, Index half_edge) {
+    const bool forward = surface_.edge_half[edge] == half_edge;
+    const Index mixed = labels_.mixed_index[Surface::face(half_edge)];
+    const Index next = Surface::next(half_edge);
+    const Index previous = Surface::previous(half_edge);
+    for (const Index other : {next, previous}) {
+        for (const Index i : groups_.across(mixed, other)) add_distances(forward, half_edge, i);
+    }
+    for (const Index i : groups_.corners(mixed)) {
+        if (propagation_.relays[i].half_edge == previous) add_distances(forward, half_edge, i);
     }
 }
 
-// Whether the distances of both ends are those of candidates.
-bool EdgeRelays::explain_ends(Index edge) const {
-    const Index h = surface_.edge_half[edge];
-    const double slack = explained * surface_.length[edge];
-    const double at_tail = labels_.vertex_distance[surface_.tail(h)] + slack;
-    const double at_head = labels_.vertex_distance[surface_.head(h)] + slack;
-    bool has_tail = false;
-    bool has_head = false;
-    for (const Candidate& c : candidates_) {
-        has_tail = has_tail || c.lo <= at_tail;
-        has_head = has_head || c.hi <= at_head;
+// Of a relay of the face that may belong to another half-edge.
+void EdgeRelays::add_distances(bool forward, Index half_edge, Index i) {
+    const Relay& relay = propagation_.relays[i];
+    const CornerDistances to = corner_distances(relay, surface_.length_of(relay.half_edge),
+                                                surface_.apex[relay.half_edge]);
+    double tail = to.tail;
+    double head = to.head;
+    if (relay.half_edge == Surface::next(half_edge)) {
+        tail = to.apex;
+        head = to.tail;
+    } else if (relay.half_edge != half_edge) {
+        tail = to.head;
+        head = to.apex;
     }
-    return has_tail && has_head;
+    if (!forward) std::swap(tail, head);
+    candidates_.push_back({tail, head, -1, 1, i, relay.site.value()});
 }
 
 // Leaves the candidates that could win somewhere.
@@ -152,23 +111,28 @@ void EdgeRelays::scan(Index edge) {
     const Index twin = surface_.twin[h];
     const double length = surface_.length[edge];
     candidates_.clear();
-    scan_face(edge, h, false);
-    if (twin != no_index) scan_face(edge, twin, false);
-    // What reaches the edge through one face is a relay of the other. An engine that leaves some of
-    // those out shows it at the ends.
-    if (twin == no_index || !explain_ends(edge)) {
-        scan_face(edge, h, true);
-        if (twin != no_index) scan_face(edge, twin, true);
-    }
-
+    scan_across(edge, h);
+    if (twin != no_index) scan_across(edge, twin);
     const double at_tail = labels_.vertex_distance[surface_.tail(h)];
     const double at_head = labels_.vertex_distance[surface_.head(h)];
-    Candidate first{infinity, infinity, 0, 0, 0, no_index};
-    Candidate last = first;
-    for (const Candidate& c : candidates_) {
-        if (c.lo < first.lo) first = c;
-        if (c.hi < last.hi) last = c;
+    Candidate first, last;  // The nearest at the ends.
+    const auto find_nearest = [&] {
+        first = last = {infinity, infinity, 0, 0, 0, no_index};
+        for (const Candidate& c : candidates_) {
+            if (c.lo < first.lo) first = c;
+            if (c.hi < last.hi) last = c;
+        }
+    };
+    find_nearest();
+    // What reaches the edge through one face is a relay of the other. An engine that leaves some of
+    // those out shows it at the ends.
+    if (twin == no_index || first.lo > at_tail + explained * length ||
+        last.hi > at_head + explained * length) {
+        scan_others(edge, h);
+        if (twin != no_index) scan_others(edge, twin);
+        find_nearest();
     }
+
     const double slack = tie_tolerance * (at_tail + at_head + length);
     const double enough = same_distance * length;
     needs_tail_ = first.site != labels_.point_site[surface_.tail(h)] || first.lo > at_tail + enough;
@@ -221,10 +185,13 @@ void EdgeRelays::append_all(Index edge, std::vector<LineRelay>& relays) const {
     const double length = surface_.length[edge];
     for (const Candidate& c : candidates_) {
         const Relay& relay = propagation_.relays[c.relay];
-        const bool is_straight = relay.y < 0 && (relay.half_edge == h || relay.half_edge == twin);
-        relays.push_back(is_straight
-                             ? through_edge(relay, reaches_[c.relay], relay.half_edge == h, length)
-                             : through_face(edge, relay));
+        if (relay.y < 0 && relay.half_edge == h) {
+            relays.push_back(through_edge(relay, c.lo, c.hi, true, length));
+        } else if (relay.y < 0 && relay.half_edge == twin) {
+            relays.push_back(through_edge(relay, c.hi, c.lo, false, length));
+        } else {
+            relays.push_back(through_face(edge, relay));
+        }
     }
     const Index a = surface_.tail(h);
     const Index b = surface_.head(h);

@@ -2,25 +2,19 @@
 //! The relays that matter on one mesh edge.
 #pragma once
 
-#include <memory>
-
 #include "agvd/diagram/edge_labels.h"
 #include "agvd/diagram/envelope.h"
+#include "agvd/diagram/relay_groups.h"
 
 namespace agvd {
-
-//! All relays of the propagation. Parallel; O(relays).
-[[nodiscard]] std::unique_ptr<RelayReach[]> find_reaches(const Surface& surface,
-                                                         const Propagation& propagation,
-                                                         int num_threads);
 
 //! Gathers the relays of both faces of an edge and its ends in the frame of the edge_half. Keeps
 //! references; one for each thread.
 class EdgeRelays {
 public:
-    EdgeRelays(const Surface& surface, const Propagation& propagation,
-               std::span<const RelayReach> reaches, const EdgeLabels& labels)
-        : surface_(surface), propagation_(propagation), reaches_(reaches), labels_(labels) {}
+    EdgeRelays(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
+               const EdgeLabels& labels)
+        : surface_(surface), propagation_(propagation), groups_(groups), labels_(labels) {}
 
     //! Whether labels may change on an edge, all of whose faces are listed. Then `relays` holds
     //! those that could be the nearest somewhere on it. Distances grow no faster than the point
@@ -39,14 +33,15 @@ private:
     };
 
     void scan(Index edge);
-    void scan_face(Index edge, Index half_edge, bool others);
-    [[nodiscard]] bool explain_ends(Index edge) const;
+    void scan_across(Index edge, Index half_edge);
+    void scan_others(Index edge, Index half_edge);
+    void add_distances(bool forward, Index half_edge, Index relay);
     [[nodiscard]] LineRelay through_face(Index edge, const Relay& relay) const;
     void append_all(Index edge, std::vector<LineRelay>& relays) const;
 
     const Surface& surface_;
     const Propagation& propagation_;
-    std::span<const RelayReach> reaches_;
+    const RelayGroups& groups_;
     const EdgeLabels& labels_;
     std::vector<Candidate> candidates_;
     // The end itself is nearer to its site than any relay says.

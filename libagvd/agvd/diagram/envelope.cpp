@@ -369,6 +369,8 @@ double distance_on_line(std::span<const LineRelay> relays, Index site, double x)
 
 bool find_single_crossing(std::span<const LineRelay> relays, double length, Index a, Index b,
                           double& at, double& distance) {
+    std::array<LineSample, 16> samples;
+    if (relays.size() > samples.size()) return false;
     double a_lo = infinity, a_hi = infinity, b_lo = infinity, b_hi = infinity;
     for (const LineRelay& relay : relays) {
         const double lo = value_at(relay, 0);
@@ -379,8 +381,6 @@ bool find_single_crossing(std::span<const LineRelay> relays, double length, Inde
         } else if (relay.site == b) {
             b_lo = std::min(b_lo, lo);
             b_hi = std::min(b_hi, hi);
-        } else {
-            return false;
         }
     }
     const double gap_lo = b_lo - a_lo;
@@ -393,53 +393,56 @@ bool find_single_crossing(std::span<const LineRelay> relays, double length, Inde
     // Newton, relay against relay, until no other relay is nearer at the root.
     const double tolerance = equality * (length + a_lo);
     double lo = 0, hi = length;
-    const LineRelay* on_a = nullptr;
-    const LineRelay* on_b = nullptr;
-    bool is_root = false;
-    for (int round = 0; round < 6 && !is_root; ++round) {
-        double value_a = infinity, value_b = infinity;
-        const LineRelay* best_a = nullptr;
-        const LineRelay* best_b = nullptr;
-        for (const LineRelay& relay : relays) {
-            const double value = value_at(relay, x);
-            if (relay.site == a) {
-                if (value < value_a) {
-                    value_a = value;
-                    best_a = &relay;
-                }
-            } else if (value < value_b) {
-                value_b = value;
-                best_b = &relay;
+    for (int round = 0; round < 6; ++round) {
+        std::size_t best_a = relays.size();
+        std::size_t best_b = relays.size();
+        for (std::size_t i = 0; i < relays.size(); ++i) {
+            samples[i] = sample(relays[i], x);
+            if (relays[i].site == a) {
+                if (best_a == relays.size() || samples[i].value < samples[best_a].value) best_a = i;
+            } else if (relays[i].site == b) {
+                if (best_b == relays.size() || samples[i].value < samples[best_b].value) best_b = i;
             }
         }
-        if (best_a == nullptr || best_b == nullptr) return false;
-        is_root = std::abs(value_a - value_b) <= tolerance;
-        on_a = best_a;
-        on_b = best_b;
-        distance = std::max(value_a, value_b);
-        if (is_root) break;
-        (value_a < value_b ? lo : hi) = x;
+        if (best_a == relays.size() || best_b == relays.size()) return false;
+        LineSample at_a = samples[best_a];
+        LineSample at_b = samples[best_b];
+        double gap = at_a.value - at_b.value;
+        if (std::abs(gap) <= tolerance) {
+            at = x;
+            distance = std::max(at_a.value, at_b.value);
+            // Tangents at the root against chords to the ends: nothing changes sides again, and
+            // nobody else comes in.
+            for (std::size_t i = 0; i < relays.size(); ++i) {
+                const LineSample& s = samples[i];
+                const double at_start = s.value - s.slope * x;
+                const double at_end = s.value + s.slope * (length - x);
+                const Index site = relays[i].site;
+                const bool is_above = site == b ? at_start >= a_lo - clear
+                                      : site == a
+                                          ? at_end >= b_hi - clear
+                                          : s.value >= distance + clear &&
+                                                at_start >= a_lo + clear && at_end >= b_hi + clear;
+                if (!is_above) return false;
+            }
+            return true;
+        }
+        (gap < 0 ? lo : hi) = x;
+        // Steps double the digits: from here one more is enough.
+        const double nearly = 1e-6 * length;
         for (int step = 0; step < 4; ++step) {
-            const LineSample at_a = sample(*on_a, x);
-            const LineSample at_b = sample(*on_b, x);
-            const double gap = at_a.value - at_b.value;
-            if (std::abs(gap) <= tolerance / 2) break;
             x -= gap / (at_a.slope - at_b.slope);
-            if (x > lo && x < hi) continue;
-            x = (lo + hi) / 2;
-            break;
+            if (!(x > lo && x < hi)) {
+                x = (lo + hi) / 2;
+                break;
+            }
+            if (std::abs(gap) <= nearly) break;
+            at_a = sample(relays[best_a], x);
+            at_b = sample(relays[best_b], x);
+            gap = at_a.value - at_b.value;
         }
     }
-    if (!is_root) return false;
-    // Tangents at the root against chords to the ends: nothing changes sides again.
-    for (const LineRelay& relay : relays) {
-        const LineSample s = sample(relay, x);
-        const bool is_above = relay.site == b ? s.value - s.slope * x >= a_lo - clear
-                                              : s.value + s.slope * (length - x) >= b_hi - clear;
-        if (!is_above) return false;
-    }
-    at = x;
-    return true;
+    return false;
 }
 
 void label_envelope(std::span<const LineRelay> relays, double length, Index site_at_start,

@@ -70,8 +70,8 @@ struct EnvelopeScratch {
     std::vector<Candidate> candidates, left, right;
 };
 
-//! Where the label changes from site a, at the start of a segment, to b, if that is certain: no
-//! other site has relays, and tangents show that there is one change only. A cheap answer for most
+//! Where the label changes from site a, at the start of a segment, to b, if that is certain:
+//! tangents show that there is one change only and no other site between. A cheap answer for most
 //! segments; false: ask label_envelope.
 [[nodiscard]] bool find_single_crossing(std::span<const LineRelay> relays, double length, Index a,
                                         Index b, double& at, double& distance);

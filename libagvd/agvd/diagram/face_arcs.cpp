@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "agvd/diagram/earlier_parts.h"
+#include "agvd/diagram/straight_arc.h"
+
 namespace agvd {
 namespace {
 
@@ -15,13 +18,13 @@ struct Side {
 
 class FaceTracer {
 public:
-    FaceTracer(const Surface& surface, const Propagation& propagation,
-               std::span<const RelayReach> reaches, const EdgeLabels& labels,
-               double chord_tolerance, FaceArcs& out)
+    FaceTracer(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
+               const EdgeLabels& labels, double chord_tolerance, FaceArcs& out)
         : surface_(surface),
           propagation_(propagation),
           labels_(labels),
-          inside_relays_(surface, propagation, reaches, labels),
+          inside_relays_(surface, propagation, groups, labels),
+          chord_tolerance_(chord_tolerance),
           solver_(chord_tolerance, out.local),
           out_(out) {}
 
@@ -86,17 +89,41 @@ private:
             if (site != no_index) out_.parts.push_back({site, 1, area_of(corners)});
             return;
         }
-        const auto first_arc = static_cast<Index>(out_.local.arcs.size());
-        const auto first_connection = out_.local.connections.size();
-        if (has_all_relays_ || !solve_by_own_relays(corners)) {
+        boundary_parts_.assign(out_.parts.begin() + static_cast<std::ptrdiff_t>(first_part_),
+                               out_.parts.end());
+        const FaceArcs::Mark before = out_.mark();
+        const bool is_plain = !has_all_relays_ && solve_by_one_arc(corners);
+        if (!is_plain && (has_all_relays_ || !solve_by_own_relays(corners))) {
             gather_all_relays();
             solver_.solve(face_, corners, joints_);
         }
+        count_parts(before);
+        // Arcs that lie on each other, or on a side, escape a search for crossings, but turn a
+        // piece inside out.
+        if (!is_plain && has_inverted_part(corners)) {
+            solver_.redraw_straight(joints_);
+            out_.parts.resize(first_part_);
+            out_.parts.insert(out_.parts.end(), boundary_parts_.begin(), boundary_parts_.end());
+            count_parts(before);
+        }
+    }
+
+    // What the triangle's arcs, all from a mark on, add to the cells.
+    void count_parts(const FaceArcs::Mark& before) {
         for (const Joint& joint : joints_) count(joint.site_after, 1, 0);
-        for (std::size_t i = first_connection; i < out_.local.connections.size(); ++i) {
+        for (std::size_t i = before.connections; i < out_.local.connections.size(); ++i) {
             count(out_.local.connections[i].site, -1, 0);
         }
-        for (Index i = first_arc; i < out_.local.arcs.size(); ++i) add_area_beside(i);
+        for (Index i = before.arcs; i < out_.local.arcs.size(); ++i) add_area_beside(i);
+    }
+
+    [[nodiscard]] bool has_inverted_part(const std::array<Vec2, 3>& corners) const {
+        constexpr double rounding = 1e-13;
+        const double size = longest_side(corners);
+        const auto first = out_.parts.begin() + static_cast<std::ptrdiff_t>(first_part_);
+        return std::any_of(first, out_.parts.end(), [&](const FaceArcs::CellPart& part) {
+            return part.area < -rounding * size * size;
+        });
     }
 
     static double area_of(const std::array<Vec2, 3>& corners) {
@@ -136,6 +163,21 @@ private:
             if (!labels_.in_row(s->row).empty()) return true;
         }
         return false;
+    }
+
+    // As most faces are.
+    [[nodiscard]] bool solve_by_one_arc(const std::array<Vec2, 3>& corners) {
+        if (joints_.size() != 2) return false;
+        const Joint& from = joints_[0];
+        const Joint& to = joints_[1];
+        if (!joins_straight(relays_of(propagation_, mixed_index_), corners_, from, to,
+                            largest_disagreement * longest_side(corners), chord_tolerance_)) {
+            return false;
+        }
+        const auto num_points = static_cast<Index>(out_.local.points.size());
+        out_.local.arcs.push_back(
+            {face_, from.node, to.node, to.site_after, from.site_after, num_points, 0});
+        return true;
     }
 
     [[nodiscard]] bool solve_by_own_relays(const std::array<Vec2, 3>& corners) {
@@ -195,6 +237,7 @@ private:
     const Propagation& propagation_;
     const EdgeLabels& labels_;
     InsideRelays inside_relays_;
+    double chord_tolerance_;
     TriangleSolver solver_;
     FaceArcs& out_;
 
@@ -205,6 +248,7 @@ private:
     bool has_all_relays_ = false;
     std::array<Side, 3> sides_;  // Of the triangle at hand.
     std::size_t first_part_ = 0;
+    std::vector<FaceArcs::CellPart> boundary_parts_;  // What the boundary alone contributes.
     std::vector<Index> sites_;
     std::vector<PlanarRelay> relays_;
     std::vector<Joint> joints_;
@@ -212,16 +256,23 @@ private:
 
 }  // namespace
 
-void trace_faces(const Surface& surface, const Propagation& propagation,
-                 std::span<const RelayReach> reaches, const EdgeLabels& labels,
-                 double chord_tolerance, Index begin, Index end, FaceArcs& out) {
+void trace_faces(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
+                 const EdgeLabels& labels, const EarlierParts* earlier, double chord_tolerance,
+                 Index begin, Index end, FaceArcs& out) {
     out = {};
-    FaceTracer tracer(surface, propagation, reaches, labels, chord_tolerance, out);
+    out.local.arcs.reserve(end - begin);
+    out.parts.reserve(2 * (end - begin));
+    out.faces.reserve(end - begin);
+    FaceTracer tracer(surface, propagation, groups, labels, chord_tolerance, out);
     auto cut = std::lower_bound(labels.cut_faces.begin(), labels.cut_faces.end(), begin,
                                 [](const CutFace& c, Index i) { return c.mixed_index < i; });
     for (Index i = begin; i < end; ++i) {
+        out.faces.push_back(out.mark());
+        const Index face = propagation.mixed_faces[i];
         if (cut != labels.cut_faces.end() && cut->mixed_index == i) {
             tracer.trace_cut(*cut++);
+        } else if (earlier != nullptr && earlier->holds_in_face(face) && !earlier->is_cut(face)) {
+            earlier->append_arcs(face, labels, out);
         } else {
             tracer.trace(i);
         }

@@ -21,14 +21,30 @@ struct FaceArcs {
         double area;
     };
     std::vector<CellPart> parts;
+
+    //! Where a face's contributions begin.
+    struct Mark {
+        Index points, arcs, branches, connections, parts;
+    };
+    std::vector<Mark> faces;
+
+    [[nodiscard]] Mark mark() const {
+        return {static_cast<Index>(local.points.size()), static_cast<Index>(local.arcs.size()),
+                static_cast<Index>(local.branches.size()),
+                static_cast<Index>(local.connections.size()), static_cast<Index>(parts.size())};
+    }
 };
+
+class EarlierParts;
 
 //! The faces [begin, end) of propagation.mixed_faces.
 //!
 //! Most faces have two or three label changes, and there the face's own relays settle all; where
 //! they do not agree with each other, what the edges hand on does.
-void trace_faces(const Surface& surface, const Propagation& propagation,
-                 std::span<const RelayReach> reaches, const EdgeLabels& labels,
-                 double chord_tolerance, Index begin, Index end, FaceArcs& out);
+//!
+//! \param earlier  where it holds, its arcs are taken over; may be null.
+void trace_faces(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
+                 const EdgeLabels& labels, const EarlierParts* earlier, double chord_tolerance,
+                 Index begin, Index end, FaceArcs& out);
 
 }  // namespace agvd

@@ -34,6 +34,30 @@ SurfacePoint to_surface(const Surface& surface, Index face, const Vec2& p) {
     return {FaceId(face), {1.0 - at_apex - at_head, at_head, at_apex}};
 }
 
+CornerDistances corner_distances(const Relay& r, double length, const Vec2& apex) {
+    const auto root = [](double x, double y) { return std::sqrt(x * x + y * y); };
+    const double cx = apex.x();
+    const double cy = apex.y();
+    if (r.y >= 0) {
+        return {r.weight + root(r.x, r.y), r.weight + root(length - r.x, r.y),
+                r.weight + root(cx - r.x, cy - r.y)};
+    }
+    const double begin = root(r.begin - r.x, r.y);
+    const double end = root(r.end - r.x, r.y);
+    CornerDistances result{r.weight + begin + r.begin, r.weight + end + (length - r.end), 0};
+    // The chord to the apex meets the edge at x + (cx - x) (-y) / (cy - y).
+    const double height = cy - r.y;
+    const double hit = (cx - r.x) * -r.y;
+    if (hit < (r.begin - r.x) * height) {
+        result.apex = r.weight + begin + root(cx - r.begin, cy);
+    } else if (hit > (r.end - r.x) * height) {
+        result.apex = r.weight + end + root(cx - r.end, cy);
+    } else {
+        result.apex = r.weight + root(cx - r.x, height);
+    }
+    return result;
+}
+
 void append_planar(const Surface& surface, std::span<const Relay> relays, const Motion& motion,
                    std::vector<PlanarRelay>& out) {
     Index half_edge = no_index;

@@ -10,6 +10,14 @@
 
 namespace agvd {
 
+//! The relays of one mixed face.
+[[nodiscard]] inline std::span<const Relay> relays_of(const Propagation& propagation,
+                                                      Index mixed_index) {
+    const Index begin = propagation.relay_offsets[mixed_index];
+    return std::span(propagation.relays)
+        .subspan(begin, propagation.relay_offsets[mixed_index + 1] - begin);
+}
+
 //! A relay in a planar frame shared with other relays.
 struct PlanarRelay {
     Vec2 image;
@@ -89,6 +97,15 @@ struct Motion {
             relay.site.value(),
             relay.y >= 0};
 }
+
+//! Distances of the corners of a face through a relay: of the tail and head of its half-edge, and
+//! of the corner opposite. Straight, or bent at an end of the interval.
+struct CornerDistances {
+    double tail, head, apex;
+};
+
+//! \param length, apex  of the relay's half-edge.
+[[nodiscard]] CornerDistances corner_distances(const Relay& relay, double length, const Vec2& apex);
 
 //! Appends relays, moved from their half-edges' frames by to_face_frame and then by `motion`.
 void append_planar(const Surface& surface, std::span<const Relay> relays, const Motion& motion,

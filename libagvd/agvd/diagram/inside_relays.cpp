@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace agvd {
 namespace {
@@ -26,26 +27,22 @@ void InsideRelays::gather_own(Index mixed_index, std::span<const Index> sites,
     const std::array<Motion, 3> motions{Motion{},
                                         Motion{(corners[2] - corners[1]) / lengths[1], corners[1]},
                                         Motion{-corners[2] / lengths[2], corners[2]}};
-    const Index end = propagation_.relay_offsets[mixed_index + 1];
-    for (const Index site : sites) {
-        for (Index r = propagation_.relay_offsets[mixed_index]; r < end; ++r) {
-            if (reaches_[r].site == site) out.push_back(moved(r, motions));
-        }
+    const auto own = relays_of(propagation_, mixed_index);
+    places_.clear();
+    next_.assign(sites.size() + 1, 0);
+    for (const Relay& relay : own) {
+        const auto found = std::find(sites.begin(), sites.end(), relay.site.value());
+        places_.push_back(static_cast<Index>(found - sites.begin()));
+        ++next_[places_.back()];
     }
-}
-
-PlanarRelay InsideRelays::moved(Index relay, const std::array<Motion, 3>& motions) const {
-    const Relay& r = propagation_.relays[relay];
-    const Motion& motion = motions[r.half_edge % 3];
-    const double length = surface_.length_of(r.half_edge);
-    return {motion({r.x, r.y}),
-            motion({r.begin, 0}),
-            motion({r.end, 0}),
-            r.weight,
-            reaches_[relay].tail - r.begin,
-            reaches_[relay].head - (length - r.end),
-            r.site.value(),
-            r.y >= 0};
+    const Index rest = next_.back();
+    next_.back() = 0;
+    std::exclusive_scan(next_.begin(), next_.end(), next_.begin(), Index{0});
+    out.resize(own.size() - rest);
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        if (places_[i] == sites.size()) continue;
+        out[next_[places_[i]]++] = to_planar(own[i], motions[own[i].half_edge - 3 * face]);
+    }
 }
 
 void InsideRelays::gather_all(Index mixed_index, std::vector<PlanarRelay>& out) {

@@ -9,13 +9,12 @@ namespace agvd {
 //! Gathers relays in a face's own frame, site by site. Keeps references; one for each thread.
 class InsideRelays {
 public:
-    InsideRelays(const Surface& surface, const Propagation& propagation,
-                 std::span<const RelayReach> reaches, const EdgeLabels& labels)
+    InsideRelays(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
+                 const EdgeLabels& labels)
         : surface_(surface),
           propagation_(propagation),
-          reaches_(reaches),
           labels_(labels),
-          edge_relays_(surface, propagation, reaches, labels) {}
+          edge_relays_(surface, propagation, groups, labels) {}
 
     //! The face's own relays of some sites, in their order.
     void gather_own(Index mixed_index, std::span<const Index> sites, std::vector<PlanarRelay>& out);
@@ -27,15 +26,14 @@ public:
     void gather_all(Index mixed_index, std::vector<PlanarRelay>& out);
 
 private:
-    [[nodiscard]] PlanarRelay moved(Index relay, const std::array<Motion, 3>& motions) const;
     void append_winners(Index half_edge, std::vector<PlanarRelay>& out);
     void append_crossings(Index half_edge, std::vector<PlanarRelay>& out) const;
 
     const Surface& surface_;
     const Propagation& propagation_;
-    std::span<const RelayReach> reaches_;
     const EdgeLabels& labels_;
     EdgeRelays edge_relays_;
+    std::vector<Index> places_, next_;
     std::vector<LineRelay> on_edge_;
     std::vector<LabelInterval> intervals_;
     std::vector<EnvelopePiece> pieces_;

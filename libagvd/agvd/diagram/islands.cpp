@@ -59,8 +59,10 @@ public:
     void choose_new_sites() {
         for (Index row = 0; row < labels_.rows.size(); ++row) {
             for_each_crossing(row, [&](Index, Index a, Index site_a, Index b, Index site_b) {
-                consider(a, site_a, b, site_b);
-                consider(b, site_b, a, site_a);
+                const bool is_a = is_island(a, site_a);
+                const bool is_b = is_island(b, site_b);
+                if (is_a && !is_b) give(a, site_b);
+                if (is_b && !is_a) give(b, site_a);
             });
         }
     }
@@ -141,10 +143,9 @@ private:
         return site != no_index && root(node) != mainland_[site];
     }
 
-    void consider(Index island, Index site, Index neighbour, Index neighbour_site) {
-        if (!is_island(island, site) || is_island(neighbour, neighbour_site)) return;
-        const auto [found, is_new] = new_site_.try_emplace(root(island), neighbour_site);
-        if (!is_new) found->second = std::min(found->second, neighbour_site);
+    void give(Index island, Index site) {
+        const auto [found, is_new] = new_site_.try_emplace(root(island), site);
+        if (!is_new) found->second = std::min(found->second, site);
     }
 
     [[nodiscard]] Index site_of(Index node, Index site) {
@@ -215,6 +216,11 @@ std::vector<Index> join_points(const Surface& surface, const EdgeLabels& labels)
     std::iota(parent.begin(), parent.end(), Index{0});
     for (Index f = 0; f < surface.num_faces(); ++f) {
         const Triangle& t = surface.mesh.triangles[f];
+        if (labels.mixed_index[f] == no_index) {
+            unite_nodes(parent, t[0], t[1]);
+            unite_nodes(parent, t[1], t[2]);
+            continue;
+        }
         for (Index k = 0; k < 3; ++k) {
             const Index twin = surface.twin[3 * f + k];
             if (twin < 3 * f + k) continue;  // Each edge once.

@@ -6,7 +6,8 @@ namespace agvd {
 namespace {
 
 constexpr double beside_vertex = 1e-12;  // In edge lengths.
-constexpr double beside_edge = 1e-12;    // In heights of the face.
+constexpr double beside_edge = 1e-12;    // In heights of the face,
+constexpr double flat = 1e-3;            // and of the share along the edge.
 
 // Visits the faces that hold the point: one, the two at its edge, or all around its vertex.
 template <typename Visit>
@@ -31,7 +32,6 @@ std::optional<Index> vertex_of(const Surface& surface, const SurfacePoint& point
     const auto& b = point.barycentric;
     for (Index k = 0; k < 3; ++k) {
         const double to_next = b[(k + 1) % 3], to_last = b[(k + 2) % 3];
-        if (!(to_next + to_last <= beside_vertex)) continue;
         const Index h = 3 * point.face.value() + k;
         const double next = surface.length_of(h), last = surface.length_of(Surface::previous(h));
         if (to_next * next + to_last * last <= beside_vertex * std::min(next, last)) {
@@ -44,7 +44,9 @@ std::optional<Index> vertex_of(const Surface& surface, const SurfacePoint& point
 std::optional<Index> half_edge_of(const SurfacePoint& point) {
     const auto& b = point.barycentric;
     for (Index k = 0; k < 3; ++k) {
-        if (b[(k + 2) % 3] <= beside_edge && b[k] > beside_edge && b[(k + 1) % 3] > beside_edge) {
+        const double height = b[(k + 2) % 3];
+        const double along = std::min(b[k], b[(k + 1) % 3]);
+        if (along > 0 && height <= std::min(beside_edge, flat * along)) {
             return 3 * point.face.value() + k;
         }
     }

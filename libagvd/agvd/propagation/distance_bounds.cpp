@@ -14,8 +14,17 @@ namespace agvd {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
-// Each step is rounded up by more than all roundings of the exact distance.
+// Arcs are rounded up by more than all roundings of the exact distance.
 constexpr float round_up = 1 + 0x1p-20F;
+
+// Not below the exact sum of two numbers >= 0: thousands of short arcs must not fall short of a
+// long way by the rounding of each sum.
+float sum_rounded_up(float a, float b) {
+    const float sum = a + b;
+    const float larger = std::max(a, b), smaller = std::min(a, b);
+    const bool is_short = smaller > sum - larger;  // Exact, as smaller <= larger.
+    return std::bit_cast<float>(std::bit_cast<std::uint32_t>(sum) + (is_short ? 1U : 0U));
+}
 
 // Distance and site in one number, in the order of (distance, site): floats above 0 are ordered
 // like their bits.
@@ -145,7 +154,7 @@ void BoundsSearch::relax_arcs(Index vertex, std::vector<Index>& changed) {
     const Key from = std::atomic_ref(keys_[vertex]).load(relaxed);
     for (Index i = graph_.offsets[vertex]; i < graph_.ends[vertex]; ++i) {
         const ArcGraph::Arc& arc = graph_.arcs[i];
-        const Key key = to_key(distance_of(from) + arc.length, site_of(from));
+        const Key key = to_key(sum_rounded_up(distance_of(from), arc.length), site_of(from));
         std::atomic_ref best(keys_[arc.head]);
         Key old = best.load(relaxed);
         while (key < old) {

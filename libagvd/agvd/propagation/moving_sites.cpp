@@ -1,7 +1,6 @@
 #include "agvd/propagation/moving_sites.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <mutex>
 #include <numeric>
@@ -42,27 +41,6 @@ struct SiteRun {
             std::lower_bound(vertices.begin(), vertices.end(), vertex,
                              [](const Vertex& v, Index wanted) { return v.vertex < wanted; });
         return found->distance;
-    }
-    // In the order of the run.
-    void add_relays_in(Index face, Index site, std::vector<Relay>& out) const {
-        auto next =
-            std::lower_bound(half_edges.begin(), half_edges.end(), 3 * face,
-                             [](const HalfEdge& h, Index wanted) { return h.half_edge < wanted; });
-        std::array<const HalfEdge*, 3> in_face{};
-        std::size_t count = 0;
-        for (; next != half_edges.end() && next->half_edge < 3 * face + 3; ++next) {
-            std::size_t place = count++;
-            for (; place > 0 && next->first < in_face[place - 1]->first; --place) {
-                in_face[place] = in_face[place - 1];
-            }
-            in_face[place] = &*next;
-        }
-        for (std::size_t i = 0; i < count; ++i) {
-            for (Index k = 0; k < in_face[i]->count; ++k) {
-                out.push_back(relays[in_face[i]->first + k]);
-                out.back().site = SiteId(site);
-            }
-        }
     }
 };
 
@@ -135,7 +113,8 @@ public:
           max_error_(options.max_error.value_or(default_max_error)),
           search_(surface, layout.arcs(), corners_.mean_length(), options.num_threads),
           bounds_(surface.num_vertices(), std::numeric_limits<float>::infinity()),
-          readers_(surface.num_vertices()) {
+          readers_(surface.num_vertices()),
+          place_(surface.num_faces(), no_index) {
         result_.vertex_site.assign(surface.num_vertices(), SiteId());
         result_.vertex_distance.assign(surface.num_vertices(),
                                        std::numeric_limits<double>::infinity());
@@ -180,12 +159,14 @@ public:
         keep_unique(faces);
         placement_ = std::move(placement);
         replace_faces(faces);
+        changed_faces_ = std::move(faces);
         tell_totals();
     }
 
     [[nodiscard]] const std::vector<SurfacePoint>& sites() const { return sites_; }
     [[nodiscard]] const Propagation& propagation() const { return result_; }
     [[nodiscard]] Index num_propagated() const { return num_propagated_; }
+    [[nodiscard]] const std::vector<Index>& changed_faces() const { return changed_faces_; }
 
 private:
     [[nodiscard]] std::vector<SurfacePoint> changed_sites(const SiteChanges& changes) const {
@@ -365,30 +346,70 @@ private:
         }
     }
 
+    // Windows of one site through one half-edge of a face.
+    struct Visit {
+        Index place;  // Of the face, among those asked for.
+        Index site;
+        Index first, count;  // Of its relays.
+    };
+
+    // Those to given faces, face by face, site by site in the order of propagate(), and of each
+    // site in the order of its run. `ends` gets where the visits to each face end.
+    [[nodiscard]] std::vector<Visit> find_visits(std::span<const Index> faces,
+                                                 std::vector<Index>& ends) {
+        std::vector<Index> sites;
+        std::vector<std::uint8_t> is_listed(runs_.size(), 0);
+        for (Index i = 0; i < faces.size(); ++i) {
+            place_[faces[i]] = i;
+            for (const Index v : surface_.mesh.triangles[faces[i]]) {
+                for (const Index site : readers_[v]) {
+                    if (std::exchange(is_listed[site], 1) == 0) sites.push_back(site);
+                }
+            }
+        }
+        std::sort(sites.begin(), sites.end(), [&](Index a, Index b) { return comes_before(a, b); });
+        std::vector<Visit> by_site;
+        ends.assign(faces.size(), 0);
+        for (const Index site : sites) {
+            for (const SiteRun::HalfEdge& h : runs_[site].half_edges) {
+                const Index place = place_[Surface::face(h.half_edge)];
+                if (place == no_index || h.count == 0) continue;
+                by_site.push_back({place, site, h.first, h.count});
+                ++ends[place];
+                // Half-edges of one face follow each other: at most three.
+                for (std::size_t i = by_site.size() - 1;
+                     i > 0 && by_site[i - 1].place == place && by_site[i - 1].site == site &&
+                     by_site[i - 1].first > by_site[i].first;
+                     --i) {
+                    std::swap(by_site[i - 1], by_site[i]);
+                }
+            }
+        }
+        std::exclusive_scan(ends.begin(), ends.end(), ends.begin(), Index{0});
+        std::vector<Visit> visits(by_site.size());
+        for (const Visit& visit : by_site) visits[ends[visit.place]++] = visit;
+        for (const Index face : faces) place_[face] = no_index;
+        return visits;
+    }
+
     // Adds the relays of a face if it is mixed; else false.
-    [[nodiscard]] bool collect(Index face, std::vector<Relay>& out) const {
-        std::vector<Index> visitors;
-        for (const Index v : surface_.mesh.triangles[face]) {
-            visitors.insert(visitors.end(), readers_[v].begin(), readers_[v].end());
-        }
-        std::sort(visitors.begin(), visitors.end(),
-                  [&](Index a, Index b) { return comes_before(a, b); });
-        visitors.erase(std::unique(visitors.begin(), visitors.end()), visitors.end());
-        const std::size_t first = out.size();
+    [[nodiscard]] bool collect(Index face, std::span<const Visit> visits,
+                               std::vector<Relay>& out) const {
         FaceRelays all;
-        for (const Index site : visitors) {
-            const std::size_t before = out.size();
-            runs_[site].add_relays_in(face, ranks_[site], out);
-            if (out.size() > before) all.add_site(ranks_[site]);
-        }
+        for (const Visit& visit : visits) all.add_site(visit.site);
         for (const Index v : surface_.mesh.triangles[face]) {
-            all.add_site(result_.vertex_site[v].value());
+            const SiteId site = result_.vertex_site[v];
+            if (site.is_valid()) all.add_site(numbers_[site.value()]);
         }
         const auto placed = placement_.in_face(face);
-        for (const PlacedSite& p : placed) all.add_site(p.site);
-        if (all.site != FaceRelays::several) {
-            out.resize(first);
-            return false;
+        for (const PlacedSite& p : placed) all.add_site(numbers_[p.site]);
+        if (all.site != FaceRelays::several) return false;
+        for (const Visit& visit : visits) {
+            const auto first = runs_[visit.site].relays.begin() + visit.first;
+            out.insert(out.end(), first, first + visit.count);
+            for (std::size_t i = out.size() - visit.count; i < out.size(); ++i) {
+                out[i].site = SiteId(ranks_[visit.site]);
+            }
         }
         const std::size_t windows = out.size();
         out.resize(windows + count_inner_relays(surface_, placed, result_, face));
@@ -405,11 +426,15 @@ private:
             std::vector<Index> ends;
         };
         const auto count = static_cast<Index>(faces.size());
+        std::vector<Index> ends;
+        const std::vector<Visit> visits = find_visits(faces, ends);
         std::vector<Chunk> chunks(num_chunks(count, grain));
         parallel_chunks(count, grain, num_threads_, [&](Index chunk, Index begin, Index end) {
             for (Index i = begin; i < end; ++i) {
                 Chunk& out = chunks[chunk];
-                if (!collect(faces[i], out.relays)) continue;
+                const Index first = i == 0 ? 0 : ends[i - 1];
+                const auto visits_here = std::span(visits).subspan(first, ends[i] - first);
+                if (!collect(faces[i], visits_here, out.relays)) continue;
                 out.mixed_faces.push_back(faces[i]);
                 out.ends.push_back(static_cast<Index>(out.relays.size()));
             }
@@ -490,10 +515,12 @@ private:
     std::vector<SurfacePoint> sites_;          // By rank.
     std::vector<Index> site_faces_;            // Where changed sites were and are.
     SitePlacement placement_;
+    std::vector<Index> place_;  // #F: no_index but during a search for visits.
     std::vector<std::unique_ptr<WindowFront>> fronts_;
     Propagation result_;
     Propagation spare_;  // Its relays are memory for the next ones.
     Index num_propagated_ = 0;
+    std::vector<Index> changed_faces_;
 };
 
 MovingSites::MovingSites(const Surface& surface, const SurfaceLayout& layout,
@@ -513,5 +540,6 @@ void MovingSites::update(const SiteChanges& changes) { state_->update(changes); 
 const std::vector<SurfacePoint>& MovingSites::sites() const { return state_->sites(); }
 const Propagation& MovingSites::propagation() const { return state_->propagation(); }
 Index MovingSites::num_propagated() const { return state_->num_propagated(); }
+const std::vector<Index>& MovingSites::changed_faces() const { return state_->changed_faces(); }
 
 }  // namespace agvd

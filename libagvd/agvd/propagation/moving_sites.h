@@ -41,6 +41,9 @@ public:
     [[nodiscard]] const Propagation& propagation() const;
     //! Sites that the last change (or the constructor) propagated.
     [[nodiscard]] Index num_propagated() const;
+    //! Ascending: all faces that the last change gave other relays, or corners with other
+    //! distances, listed or not, and maybe more. Renumbering is no change.
+    [[nodiscard]] const std::vector<Index>& changed_faces() const;
 
 private:
     class State;

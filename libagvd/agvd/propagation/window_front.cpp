@@ -18,6 +18,13 @@ namespace {
 // reached is reached along the beams beside it, longer by the square of this.
 constexpr double negligible = 1e-13;
 
+// Of a distance and an edge: what two ways to compute it may differ by after thousands of faces,
+// and beside a vertex. A path along edges must not kill the straight one that it is.
+constexpr double rounding = 1e-12;
+
+// Of the edge: what a frame's coordinates may be off by after some turns.
+constexpr double frame_rounding = 1e-14;
+
 // |v| < limit, without a root.
 bool is_within(const Vec2& v, double limit) { return limit > 0 && v.squaredNorm() < limit * limit; }
 
@@ -270,8 +277,8 @@ inline void WindowFront::take_in(EdgeRecord& edge, const Face& face) {
     const auto is_beaten = [&](const Window& w) {
         const double at =
             meeting_point(face.tail_bound, face.head_bound, face.length, w.begin, w.end);
-        const double around =
-            std::min(face.tail_bound + at, face.head_bound + face.length - at) - w.weight;
+        const double around = std::min(face.tail_bound + at, face.head_bound + face.length - at) -
+                              w.weight + rounding * (w.at_begin + face.length);
         return (around <= 0) | (around * around < (at - w.x) * (at - w.x) + w.y * w.y);
     };
     const Index only = edge.waiting;
@@ -340,7 +347,9 @@ inline WindowFront::Division WindowFront::divide(Window& w, EdgeRecord& edge, co
     ++num_served_;
     ++edge.num_served;
     const double ray = (w.x * face.apex_y - w.y * face.apex_x) / (face.apex_y - w.y);
-    const double slack = grazing * std::min(face.length, std::min(w.at_begin, w.at_end) - w.weight);
+    const double slack =
+        grazing * std::min(face.length, std::min(w.at_begin, w.at_end) - w.weight) +
+        frame_rounding * face.length;
     if (ray < w.begin - slack) {
         reach_bent(face, w.at_begin, w.begin, w.error);
     } else if (ray > w.end + slack) {
@@ -390,7 +399,8 @@ inline bool WindowFront::lives(const Window& child, double begin_bound, double e
     const double to_begin = child.at_begin - child.weight;
     const double to_end = child.at_end - child.weight;
     const double at = meeting_point(begin_bound, end_bound, length, child.begin, child.end);
-    const double around = std::min(begin_bound + at, end_bound + length - at) - child.weight;
+    const double around = std::min(begin_bound + at, end_bound + length - at) - child.weight +
+                          rounding * (child.at_begin + length);
     const bool is_wide = ((child.begin - child.end) * child.y > negligible * to_begin * to_end) |
                          ((child.begin < child.x) & (child.x < child.end) & (child.y < 0));
     return is_wide & (around >= 0) &
@@ -427,8 +437,8 @@ inline bool WindowFront::pass_right(const Part& part, const Face& face, Window& 
     const double tail_x = length - face.length * face.right_x;
     const double tail_y = -face.length * sine;
     const double to_tail = (tail_x - end) * (tail_x - end) + tail_y * tail_y;
-    return lives(child, face.apex_bound, face.head_bound, length, child.at_end - face.tail_bound,
-                 to_tail);
+    return lives(child, face.apex_bound, face.head_bound, length,
+                 child.at_end - face.tail_bound - rounding * (child.at_end + length), to_tail);
 }
 
 // The same through the previous half-edge: the tail at 0, the apex at `length`.
@@ -453,8 +463,8 @@ inline bool WindowFront::pass_left(const Part& part, const Face& face, Window& c
     const double head_x = face.length * face.left_x;
     const double head_y = -face.length * face.left_y;
     const double to_head = (head_x - begin) * (head_x - begin) + head_y * head_y;
-    return lives(child, face.tail_bound, face.apex_bound, length, child.at_begin - face.head_bound,
-                 to_head);
+    return lives(child, face.tail_bound, face.apex_bound, length,
+                 child.at_begin - face.head_bound - rounding * (child.at_begin + length), to_head);
 }
 
 // Takes in the windows that wait, and sends on what has not been sent on.

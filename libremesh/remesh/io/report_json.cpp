@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -89,6 +90,20 @@ Json to_json(const std::optional<SurfaceDistance>& measured) {
     return object;
 }
 
+Json to_json(const DelaunayCounts& counts, Delaunay delaunay) {
+    if (delaunay == Delaunay::Off) return {};
+    const double inner_edges = std::max<agvd::Index>(counts.inner_edges, 1);
+    return {{"inner_edges", counts.inner_edges},
+            {"failing_edges_before", counts.failing_before},
+            {"failing_before_percent", 100 * counts.failing_before / inner_edges},
+            {"failing_edges_after", counts.failing_after},
+            {"failing_after_percent", 100 * counts.failing_after / inner_edges},
+            {"flips", counts.flips},
+            {"edges_not_locally_shortest", counts.not_locally_shortest},
+            {"broken_triangles", counts.broken_triangles},
+            {"finished", counts.is_finished}};
+}
+
 Json to_json(const RemeshOptions& options) {
     Json object;
     object["samples"] = options.num_samples;
@@ -105,6 +120,7 @@ Json to_json(const RemeshOptions& options) {
     object["max_error"] = options.max_error ? Json(*options.max_error) : Json();
     object["steiner_points_per_edge"] = options.steiner_points;
     object["lambda"] = options.lambda;
+    object["delaunay"] = delaunay_name(options.delaunay);
     object["max_repair_rounds"] = options.repair_rounds;
     object["threads"] = options.num_threads;
     return object;
@@ -134,6 +150,7 @@ std::string to_json(const RemeshResult& result, const RunInfo& info) {
     object["components_from_faces"] = result.components_from_faces;
     object["sites_dropped"] = result.sites_dropped;
     object["repair_rounds"] = result.repair_rounds;
+    object["delaunay"] = to_json(result.delaunay, info.options.delaunay);
     object["unfitted_vertices"] = result.unfitted_vertices;
     Json& levels = object["relaxation"] = Json::array();
     for (const RelaxLevel& level : result.relaxation) {

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <locale>
@@ -112,6 +113,28 @@ std::string to_text(agvd::Engine engine, double certified_error) {
     return text + "at most " + fixed(percent, 4) + " % above exact";
 }
 
+namespace {
+
+std::string describe(const DelaunayCounts& counts, Delaunay delaunay) {
+    const double inner_edges = std::max<agvd::Index>(counts.inner_edges, 1);
+    const auto percent = [&](agvd::Index count) {
+        return fixed(100 * count / inner_edges, 2) + " %";
+    };
+    std::string text = std::string(delaunay_name(delaunay)) +
+                       " Delaunay: " + percent(counts.failing_before) + " of the edges failed, " +
+                       percent(counts.failing_after) + " after " + counted(counts.flips, "flip");
+    if (!counts.is_finished) text += " (stopped)";
+    if (counts.not_locally_shortest > 0) {
+        text += "; " + counted(counts.not_locally_shortest, "edge") + " not locally shortest";
+    }
+    if (counts.broken_triangles > 0) {
+        text += "; " + counted(counts.broken_triangles, "face") + " without triangle inequality";
+    }
+    return text;
+}
+
+}  // namespace
+
 std::string to_text(const RemeshResult& result, const RunInfo& info) {
     std::string text;
     if (!info.input_path.empty()) text += "input: " + info.input_path + '\n';
@@ -150,6 +173,9 @@ std::string to_text(const RemeshResult& result, const RunInfo& info) {
         text +=
             "\nself-intersecting pairs of faces: " + std::to_string(*result.self_intersections) +
             ", in the input " + std::to_string(result.input_self_intersections);
+    }
+    if (info.options.delaunay != Delaunay::Off) {
+        text += '\n' + describe(result.delaunay, info.options.delaunay);
     }
     text += "\ntime:";
     for (const auto& [stage, seconds] : result.seconds) {

@@ -69,10 +69,11 @@ using CrossingFaces = std::optional<std::vector<std::pair<Index, Index>>>;
 
 class Pipeline {
 public:
-    Pipeline(const agvd::MeshView& mesh, const RemeshOptions& options)
-        : input_(mesh), options_(options) {
-        for (const Stage stage : {Stage::Clean, Stage::Sample, Stage::Relax, Stage::Propagate,
-                                  Stage::Diagram, Stage::Dual, Stage::Place, Stage::Check}) {
+    Pipeline(const agvd::MeshView& mesh, const RemeshOptions& options, int most_mends)
+        : input_(mesh), options_(options), most_mends_(most_mends) {
+        for (const Stage stage :
+             {Stage::Clean, Stage::Sample, Stage::Relax, Stage::Propagate, Stage::Diagram,
+              Stage::Dual, Stage::Delaunay, Stage::Place, Stage::Check}) {
             result_.seconds.emplace_back(stage, 0.0);
         }
     }
@@ -184,19 +185,25 @@ private:
             ValidDual dual = build_valid_dual(ground, sites_, options_, result_);
             if (mends == 0) set_target(dual.diagram);
             const Index num_removed = reduce(dual);
+            if (dual.mesh.points.size() > target_ && options_.vertex_count == VertexCount::Exact) {
+                if (mends > 0) return;
+                throw TooFewSamples{static_cast<Index>(dual.mesh.points.size())};
+            }
+            const DelaunayCounts flips = flip_edges(dual);
             PlacedMesh placed = place(dual);
             const CrossingFaces crossings = unfit_crossings(placed);
             if (mends == 0 || !crossings || crossings->size() < *result_.self_intersections) {
                 result_.mesh = {positions_of(placed), placed.triangles};
                 result_.sites = placed.points;
                 result_.sites_removed = num_removed;
+                result_.delaunay = flips;
                 if (crossings) result_.self_intersections = static_cast<Index>(crossings->size());
             }
             if (!crossings || crossings->size() <= result_.input_self_intersections ||
-                mends == max_mends) {
+                mends == most_mends_) {
                 return;
             }
-            add_sites_at(*crossings, dual);
+            if (!add_sites_at(*crossings, dual)) return;
         }
     }
 
@@ -227,10 +234,17 @@ private:
         }
         const std::vector<Index> gone =
             reduce_vertices(positions_of(dual.mesh), dual.mesh.triangles, target_, keep);
-        const Index reached = num_vertices - static_cast<Index>(gone.size());
-        if (reached > target_) throw TooFewSamples{reached};
         compact(dual, gone);
         return static_cast<Index>(gone.size());
+    }
+
+    DelaunayCounts flip_edges(ValidDual& dual) {
+        const StageClock clock(Stage::Delaunay, result_);
+        DelaunayResult made =
+            make_delaunay(surface_, dual.mesh.points, dual.site, dual.diagram, dual.mesh.triangles,
+                          {.mode = options_.delaunay, .num_threads = options_.num_threads});
+        dual.mesh.triangles = std::move(made.triangles);
+        return made.counts;
     }
 
     static void compact(ValidDual& dual, const std::vector<Index>& gone) {
@@ -328,8 +342,9 @@ private:
         return found;
     }
 
-    // Where the cells of the faces' corners reach farthest; these cells' sites then stay.
-    void add_sites_at(const std::vector<std::pair<Index, Index>>& crossings,
+    // Where the cells of the faces' corners reach farthest; these cells' sites then stay. False if
+    // there is no such place.
+    bool add_sites_at(const std::vector<std::pair<Index, Index>>& crossings,
                       const ValidDual& dual) {
         const std::vector<Index> farthest = farthest_corners(dual.diagram);
         std::vector<Index> corners;
@@ -344,12 +359,14 @@ private:
                 }
             }
         }
+        if (corners.empty()) return false;
         std::sort(corners.begin(), corners.end());
         corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
         for (const Index v : corners) sites_.push_back(dual.diagram.vertices[v]);
         is_wanted_.resize(sites_.size(), true);
         result_.sites_added += static_cast<Index>(corners.size());
         result_.added_because["runs through another part"] += static_cast<Index>(corners.size());
+        return true;
     }
 
     // All before implies this; nothing leaves unchecked all the same.
@@ -365,6 +382,7 @@ private:
 
     agvd::MeshView input_;
     const RemeshOptions& options_;
+    const int most_mends_;
     RemeshResult result_;
     CleanResult clean_;             // Cleaned, then refined.
     std::vector<Index> component_;  // #F of it.
@@ -387,7 +405,7 @@ std::string describe_too_few(const agvd::MeshView& mesh, const RemeshOptions& op
     for (int tries = 0; tries < max_tries; ++tries) {
         more.num_samples = reached;
         try {
-            (void)Pipeline(mesh, more).run();
+            (void)Pipeline(mesh, more, 0).run();
             return std::to_string(reached) + " work";
         } catch (const TooFewSamples& failure) {
             reached = std::max(failure.reached, reached + reached / 4 + 1);
@@ -412,6 +430,8 @@ const char* stage_name(Stage stage) {
             return "diagram";
         case Stage::Dual:
             return "dual";
+        case Stage::Delaunay:
+            return "delaunay";
         case Stage::Place:
             return "place";
         case Stage::Check:
@@ -422,7 +442,7 @@ const char* stage_name(Stage stage) {
 
 RemeshResult remesh(const agvd::MeshView& mesh, const RemeshOptions& options) {
     try {
-        return Pipeline(mesh, options).run();
+        return Pipeline(mesh, options, max_mends).run();
     } catch (const TooFewSamples& failure) {
         const auto asked = options.sites ? options.sites->size() : options.num_samples;
         throw agvd::ConstraintUnmet(std::to_string(asked) +

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "agvd/propagation/propagate.h"
+#include "remesh/dual/delaunay.h"
 #include "remesh/quality/topology.h"
 #include "remesh/relax/relax_sites.h"
 #include "remesh/repair/clean_input.h"
@@ -16,7 +17,7 @@
 
 namespace remesh {
 
-enum class Stage { Clean, Sample, Relax, Propagate, Diagram, Dual, Place, Check };
+enum class Stage { Clean, Sample, Relax, Propagate, Diagram, Dual, Delaunay, Place, Check };
 
 //! Lower-case name of a stage, for logs.
 [[nodiscard]] const char* stage_name(Stage stage);
@@ -50,8 +51,10 @@ struct RemeshOptions {
     std::optional<double> max_error = {};
     int steiner_points = 8;  //!< Steiner engine, m: Steiner points on each edge, in [0, 1000].
     double lambda = 1;       //!< Steiner engine: triangles are retired every lambda * #F pops, > 0.
-    int repair_rounds = 50;  //!< Rounds of adding sites, >= 0; then a component's own faces serve.
-    int num_threads = 0;     //!< >= 0; 0: all cores.
+    int repair_rounds = 12;  //!< Rounds of adding sites, >= 0; then a component's own faces serve.
+    //! Which edges to flip: those that fail by geodesic or by straight lengths, or none.
+    Delaunay delaunay = DelaunayOptions{}.mode;
+    int num_threads = 0;  //!< >= 0; 0: all cores.
     //! Gets the stage and a fraction in [0, 1] on the caller's thread; return false to stop.
     std::function<bool(Stage, double)> progress = {};
 };
@@ -76,6 +79,7 @@ struct RemeshResult {
     //! Components whose cells could not be made to give their topology; their vertices are chosen
     //! from the input's faces instead.
     agvd::Index components_from_faces = 0;
+    DelaunayCounts delaunay = {};  //!< Edges that failed, were flipped, still fail.
     //! Self-intersecting pairs of faces of the result, and, if that is not 0, of the cleaned input.
     //! Unset: without CGAL.
     std::optional<agvd::Index> self_intersections = {};

@@ -21,10 +21,10 @@ using agvd::Triangle;
 using agvd::Vec3;
 
 // Rounds without fewer violations than ever before: adding sites does not help here.
-constexpr int max_stalled_rounds = 8;
+constexpr int max_stalled_rounds = 3;
 // Sites may grow to this many times the first ones, and what topology may need of a few, before a
 // component's own faces are the better start.
-constexpr std::size_t max_growth = 3;
+constexpr std::size_t max_growth = 2;
 constexpr std::size_t always_allowed = 300;
 
 class ValidDualBuilder {
@@ -52,7 +52,7 @@ private:
     void mend_sites() {
         std::size_t fewest = std::numeric_limits<std::size_t>::max();
         int stalled_rounds = 0;
-        for (int round = 0;; ++round) {
+        while (true) {
             build_diagram();
             BoundaryFixes fixes;
             if (options_.boundary == Boundary::Keep) {
@@ -65,8 +65,8 @@ private:
             if (num_faults == 0) return;
             stalled_rounds = num_faults < fewest ? 0 : stalled_rounds + 1;
             fewest = std::min(fewest, num_faults);
-            if (round == options_.repair_rounds || stalled_rounds == max_stalled_rounds ||
-                sites_.size() >= most_sites_) {
+            if (result_.repair_rounds >= options_.repair_rounds ||
+                stalled_rounds == max_stalled_rounds || sites_.size() >= most_sites_) {
                 name_failed_components(fixes, violations);
                 return;
             }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "agvd/mesh/mesh_view.h"
@@ -22,7 +23,7 @@ struct EdgeSide {
 };
 
 //! 3 #F sides, those of one edge side by side, by face within. Cost: O(n).
-[[nodiscard]] std::vector<EdgeSide> sorted_edge_sides(const agvd::MeshView& mesh);
+[[nodiscard]] std::vector<EdgeSide> sorted_edge_sides(std::span<const agvd::Triangle> triangles);
 
 //! Calls visit(begin, end), pointers into `sides`, once for each edge.
 template <typename Visit>

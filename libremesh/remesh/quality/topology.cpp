@@ -80,7 +80,7 @@ int Topology::boundary_loops() const {
 
 Topology analyze_topology(const agvd::MeshView& mesh) {
     Topology result;
-    const std::vector<EdgeSide> sides = sorted_edge_sides(mesh);
+    const std::vector<EdgeSide> sides = sorted_edge_sides(mesh.triangles);
     const auto num_faces = static_cast<Index>(mesh.triangles.size());
 
     std::vector<Index> parent(num_faces);

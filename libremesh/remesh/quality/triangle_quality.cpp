@@ -105,7 +105,7 @@ TriangleQuality measure_triangles(const agvd::MeshView& mesh) {
     TriangleQuality result;
     if (mesh.triangles.empty()) return result;
     const std::vector<double> opposite = measure_faces(mesh, result);
-    const std::vector<EdgeSide> sides = sorted_edge_sides(mesh);
+    const std::vector<EdgeSide> sides = sorted_edge_sides(mesh.triangles);
     measure_edges(mesh, sides, opposite, result);
     measure_valences(mesh, sides, result);
     return result;

@@ -1,0 +1,42 @@
+//! \file
+//! A diagram that follows sites as they are added, removed and moved.
+#pragma once
+
+#include <memory>
+
+#include "agvd/diagram/diagram.h"
+#include "agvd/propagation/moving_sites.h"
+
+namespace agvd {
+
+//! Propagates and traces again only what a change touches; joining the arcs and measuring the cells
+//! is done anew. Propagation and diagram are those of a fresh run, byte for byte. Not for use by
+//! two threads at once.
+class MovingDiagram {
+public:
+    //! \param surface, layout  outlive this; SurfaceLayout(surface).
+    //! \param propagation     engine must be Window; progress is not told.
+    //! \throw as propagate() and build_diagram().
+    //! Space: that of MovingSites, and twice that of the diagram.
+    MovingDiagram(const Surface& surface, const SurfaceLayout& layout,
+                  std::vector<SurfacePoint> sites, const PropagationOptions& propagation = {},
+                  DiagramOptions options = {});
+    MovingDiagram(MovingDiagram&&) noexcept;
+    MovingDiagram& operator=(MovingDiagram&&) noexcept;
+    ~MovingDiagram();
+
+    //! \throw InvalidInput  as MovingSites::update(); nothing has changed then.
+    //! \throw Cancelled     the diagram is that of before, the sites are the new ones; the next
+    //!                      update makes up for it.
+    //! Where sites are removed the others are renumbered, and all arcs are traced again.
+    void update(const SiteChanges& changes);
+
+    [[nodiscard]] const MovingSites& sites() const;
+    [[nodiscard]] const Diagram& diagram() const;
+
+private:
+    class State;
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace agvd

@@ -1,0 +1,40 @@
+#include "agvd/diagram/relay_groups.h"
+
+#include <utility>
+
+#include "agvd/core/parallel.h"
+
+namespace agvd {
+
+RelayGroups::RelayGroups(const Propagation& propagation, int num_threads)
+    : offsets_(propagation.relay_offsets) {
+    constexpr Index grain = 512;
+    const auto num_mixed = static_cast<Index>(propagation.mixed_faces.size());
+    relays_ = std::make_unique_for_overwrite<Index[]>(propagation.relays.size());
+    begins_ = std::make_unique_for_overwrite<Index[]>(num_groups * num_mixed + 1);
+    begins_[num_groups * num_mixed] = static_cast<Index>(propagation.relays.size());
+    parallel_chunks(num_mixed, grain, num_threads, [&](Index, Index begin, Index end) {
+        std::vector<Index> groups;
+        for (Index i = begin; i < end; ++i) {
+            const Index first_half_edge = 3 * propagation.mixed_faces[i];
+            const std::span<const Relay> relays = relays_of(propagation, i);
+            std::array<Index, num_groups> next{};
+            groups.clear();
+            for (const Relay& r : relays) {
+                const Index inner = r.x == 0 && r.y == 0 ? corner_group : inside_group;
+                groups.push_back(r.y < 0 ? r.half_edge - first_half_edge : inner);
+                ++next[groups.back()];
+            }
+            Index place = propagation.relay_offsets[i];
+            for (Index g = 0; g < num_groups; ++g) {
+                begins_[num_groups * i + g] = place;
+                place += std::exchange(next[g], place);
+            }
+            for (Index r = 0; r < relays.size(); ++r) {
+                relays_[next[groups[r]]++] = propagation.relay_offsets[i] + r;
+            }
+        }
+    });
+}
+
+}  // namespace agvd

@@ -1,0 +1,25 @@
+//! \file
+//! The plainest face: two label changes and one straight arc between them.
+#pragma once
+
+#include "agvd/diagram/apollonius.h"
+
+namespace agvd {
+
+//! Whether the bisector of two sites clearly strays from a chord by less than the tolerance (share
+//! of the chord), by one Newton step across its middle: by Kantorovich's theorem the root lies
+//! within twice that step where the slope changes by less than half of itself on the way.
+//! \param a, b  of the two sites at the middle.
+[[nodiscard]] bool is_nearly_straight(const Vec2& chord, const Vec2& middle, const Reach& a,
+                                      const Reach& b, double tolerance);
+
+//! Whether a face's own relays say so of the chord between two joints, and agree with the joints'
+//! distances up to `slack`. False: ask TriangleSolver, which does with arcs of any shape.
+//! \param relays    of the face.
+//! \param corners   of the face, in whose frame the joints are.
+//! \param tolerance  see is_nearly_straight().
+[[nodiscard]] bool joins_straight(std::span<const Relay> relays, const std::array<Vec2, 3>& corners,
+                                  const Joint& from, const Joint& to, double slack,
+                                  double tolerance);
+
+}  // namespace agvd

@@ -1,0 +1,121 @@
+#include "remesh/dual/delaunay.h"
+
+#include "remesh/dual/delaunay_flips.h"
+#include "remesh/dual/edge_paths.h"
+
+namespace remesh {
+
+using agvd::Index;
+using agvd::Surface;
+using agvd::SurfacePoint;
+using agvd::Vec3;
+
+namespace {
+
+std::vector<Vec3> positions_of(const Surface& surface, std::span<const SurfacePoint> points) {
+    std::vector<Vec3> positions;
+    positions.reserve(points.size());
+    for (const SurfacePoint& point : points) {
+        positions.push_back(position(surface.mesh.view(), point));
+    }
+    return positions;
+}
+
+Index count_inner(const FlippableMesh& mesh) {
+    Index count = 0;
+    for (Index e = 0; e < mesh.num_edges(); ++e) count += mesh.is_inner(e) ? 1 : 0;
+    return count;
+}
+
+void flip(FlippableMesh& mesh, std::vector<double>& length, std::span<const Vec3> positions,
+          const Diagonals& diagonals, DelaunayCounts& counts) {
+    counts.inner_edges = count_inner(mesh);
+    const FlipCounts flips = flip_to_delaunay(mesh, length, positions, diagonals);
+    counts.failing_before = flips.failing_before;
+    counts.failing_after = flips.failing_after;
+    counts.flips = flips.flips;
+    counts.is_finished = flips.is_finished;
+}
+
+std::vector<double> flip_in_space(FlippableMesh& mesh, std::span<const Vec3> positions,
+                                  DelaunayCounts& counts) {
+    std::vector<double> length(mesh.num_edges());
+    for (Index e = 0; e < mesh.num_edges(); ++e) {
+        const Index h = mesh.sides(e)[0];
+        length[e] = (positions[mesh.tail(h)] - positions[mesh.tail(FlippableMesh::next(h))]).norm();
+    }
+    const auto measure = [&](Index edge) {
+        const auto [h, g] = mesh.sides(edge);
+        return (positions[mesh.tail(FlippableMesh::previous(h))] -
+                positions[mesh.tail(FlippableMesh::previous(g))])
+            .norm();
+    };
+    flip(mesh, length, positions, {measure, [](Index) {}}, counts);
+    return length;
+}
+
+std::vector<double> flip_on_surface(const Surface& surface, const DualVertices& vertices,
+                                    std::span<const Vec3> positions, int num_threads,
+                                    FlippableMesh& mesh, DelaunayCounts& counts) {
+    std::vector<SurfacePoint> points;
+    points.reserve(vertices.points.size());
+    for (const SurfacePoint& point : vertices.points) points.push_back(snapped(surface, point));
+    std::vector<EdgePath> paths =
+        find_edge_paths(surface, {points, vertices.site, vertices.diagram}, mesh, num_threads);
+    mend_triangles(surface, mesh, paths);
+    std::vector<double> length(paths.size());
+    for (Index e = 0; e < paths.size(); ++e) length[e] = paths[e].length;
+
+    PathStraightener straightener(surface);
+    EdgePath diagonal;
+    const auto measure = [&](Index edge) {
+        diagonal = path_across(surface, mesh, paths, edge, straightener);
+        return diagonal.length;
+    };
+    const auto accept = [&](Index edge) { paths[edge] = std::move(diagonal); };
+    flip(mesh, length, positions, {measure, accept}, counts);
+    for (const EdgePath& path : paths) counts.not_locally_shortest += !path.is_locally_shortest;
+    return length;
+}
+
+}  // namespace
+
+const char* delaunay_name(Delaunay delaunay) {
+    switch (delaunay) {
+        case Delaunay::Intrinsic:
+            return "intrinsic";
+        case Delaunay::Extrinsic:
+            return "extrinsic";
+        case Delaunay::Off:
+            return "off";
+    }
+    return "unknown";
+}
+
+DelaunayResult make_delaunay(const Surface& surface, std::span<const SurfacePoint> points,
+                             std::span<const Index> site, const agvd::Diagram& diagram,
+                             std::span<const agvd::Triangle> triangles,
+                             const DelaunayOptions& options) {
+    DelaunayResult result;
+    if (options.mode == Delaunay::Off) {
+        result.triangles.assign(triangles.begin(), triangles.end());
+        return result;
+    }
+    FlippableMesh mesh(triangles);
+    const std::vector<Vec3> positions = positions_of(surface, points);
+    const std::vector<double> length =
+        options.mode == Delaunay::Extrinsic
+            ? flip_in_space(mesh, positions, result.counts)
+            : flip_on_surface(surface, {points, site, diagram}, positions, options.num_threads,
+                              mesh, result.counts);
+    result.triangles = mesh.triangles();
+    result.side_lengths.reserve(result.triangles.size());
+    for (Index t = 0; t < result.triangles.size(); ++t) {
+        const auto& side = result.side_lengths.emplace_back(std::array{
+            length[mesh.edge(3 * t)], length[mesh.edge(3 * t + 1)], length[mesh.edge(3 * t + 2)]});
+        if (!is_triangle(side[0], side[1], side[2])) ++result.counts.broken_triangles;
+    }
+    return result;
+}
+
+}  // namespace remesh

@@ -1,0 +1,223 @@
+#include "remesh/dual/edge_paths.h"
+
+#include <algorithm>
+#include <array>
+#include <tuple>
+
+#include "agvd/core/parallel.h"
+#include "remesh/dual/site_paths.h"
+
+namespace remesh {
+
+using agvd::Diagram;
+using agvd::Index;
+using agvd::no_index;
+using agvd::Surface;
+using agvd::SurfacePoint;
+
+namespace {
+
+constexpr Index grain = 128;
+// Of the longest side; lengths are sums of a few square roots.
+constexpr double length_tolerance = 1e-12;
+// Over the triangles, while sides get shorter.
+constexpr int max_passes = 100;
+
+std::uint64_t key(Index a, Index b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
+
+// Where two cells touch nearest to their sites.
+struct Gate {
+    std::uint64_t ends;  // Vertices on both sides.
+    double distance;
+    Index point;
+
+    [[nodiscard]] bool operator<(const Gate& other) const {
+        return std::tie(ends, distance, point) < std::tie(other.ends, other.distance, other.point);
+    }
+};
+
+// Sorted; the first one for two vertices is the nearest.
+std::vector<Gate> find_gates(const DualVertices& vertices) {
+    const Diagram& diagram = vertices.diagram;
+    std::vector<Index> vertex(diagram.num_sites, no_index);  // By site.
+    for (Index v = 0; v < vertices.site.size(); ++v) {
+        if (vertices.site[v] != no_index) vertex[vertices.site[v]] = v;
+    }
+    std::vector<Gate> gates;
+    gates.reserve(diagram.edges.size());
+    for (Index e = 0; e < diagram.edges.size(); ++e) {
+        const agvd::VoronoiEdge& edge = diagram.edges[e];
+        if (!edge.right.is_valid()) continue;
+        const Index a = vertex[edge.left.value()], b = vertex[edge.right.value()];
+        if (a == no_index || b == no_index) continue;
+        const auto begin = diagram.point_distance.begin() + diagram.edge_points[e];
+        const auto end = diagram.point_distance.begin() + diagram.edge_points[e + 1];
+        const auto nearest = std::min_element(begin, end);
+        gates.push_back(
+            {key(a, b), *nearest, static_cast<Index>(nearest - diagram.point_distance.begin())});
+    }
+    std::sort(gates.begin(), gates.end());
+    return gates;
+}
+
+// A triangle next to the edge whose other two edges have paths: the half-edge in it, or no_index.
+Index find_way_round(const FlippableMesh& mesh, const std::vector<EdgePath>& paths, Index edge) {
+    for (const Index h : mesh.sides(edge)) {
+        if (h == no_index) continue;
+        if (paths[mesh.edge(FlippableMesh::next(h))].from == no_index) continue;
+        if (paths[mesh.edge(FlippableMesh::previous(h))].from == no_index) continue;
+        return h;
+    }
+    return no_index;
+}
+
+FaceStrip strip_from(const Surface& surface, const EdgePath& path, Index vertex) {
+    return path.from == vertex ? path.strip : reversed(surface, path.strip);
+}
+
+// Straightened, from the vertex where the strip starts.
+EdgePath path_in(FaceStrip strip, Index from, PathStraightener& straightener) {
+    const GeodesicPath path = straightener.straighten(strip);
+    return {from, std::move(strip), path.length, path.is_locally_shortest};
+}
+
+// Straightened from the way along two edges, from one vertex over another.
+EdgePath path_along(const Surface& surface, const EdgePath& first, const EdgePath& second,
+                    Index from, Index over, PathStraightener& straightener) {
+    FaceStrip strip =
+        joined(surface, strip_from(surface, first, from), strip_from(surface, second, over));
+    return path_in(std::move(strip), from, straightener);
+}
+
+// Straightened from the way along the other two edges of the half-edge's triangle.
+EdgePath path_round(const Surface& surface, const FlippableMesh& mesh,
+                    const std::vector<EdgePath>& paths, Index half_edge,
+                    PathStraightener& straightener) {
+    const Index next = FlippableMesh::next(half_edge);
+    const Index previous = FlippableMesh::previous(half_edge);
+    return path_along(surface, paths[mesh.edge(next)], paths[mesh.edge(previous)], mesh.tail(next),
+                      mesh.tail(previous), straightener);
+}
+
+// The ends of an edge, the lower one first.
+std::array<Index, 2> ends_of(const FlippableMesh& mesh, Index edge) {
+    const Index h = mesh.sides(edge)[0];
+    return {mesh.tail(h), mesh.tail(FlippableMesh::next(h))};
+}
+
+// Leaves out edges without a Voronoi edge.
+void find_paths_through_gates(const Surface& surface, const DualVertices& vertices,
+                              const FlippableMesh& mesh, int num_threads,
+                              std::vector<EdgePath>& paths) {
+    const std::vector<Gate> gates = find_gates(vertices);
+    agvd::parallel_chunks(mesh.num_edges(), grain, num_threads, [&](Index, Index begin, Index end) {
+        PathStraightener straightener(surface);
+        SitePaths site_paths(surface, vertices);
+        auto gate = gates.begin();
+        for (Index e = begin; e < end; ++e) {
+            const auto [a, b] = ends_of(mesh, e);
+            // Both are sorted by their ends.
+            if (e == begin) gate = std::lower_bound(gate, gates.end(), Gate{key(a, b), -1, 0});
+            while (gate != gates.end() && gate->ends < key(a, b)) ++gate;
+            if (gate == gates.end() || gate->ends != key(a, b)) continue;
+            const Index face = vertices.diagram.points[gate->point].face.value();
+            paths[e] = path_in(site_paths.through(a, face, b), a, straightener);
+        }
+    });
+}
+
+// Rounds, each from the paths of those before: the way round a triangle, or a search for all that
+// are left when that finds no more.
+void find_missing_paths(const Surface& surface, const DualVertices& vertices,
+                        const FlippableMesh& mesh, int num_threads, std::vector<EdgePath>& paths) {
+    std::vector<Index> missing;
+    for (Index e = 0; e < paths.size(); ++e) {
+        if (paths[e].from == no_index) missing.push_back(e);
+    }
+    for (bool is_stuck = false; !missing.empty();) {
+        const auto num_missing = static_cast<Index>(missing.size());
+        std::vector<EdgePath> found(num_missing);
+        agvd::parallel_chunks(num_missing, grain, num_threads, [&](Index, Index begin, Index end) {
+            PathStraightener straightener(surface);
+            SitePaths site_paths(surface, vertices);
+            for (Index i = begin; i < end; ++i) {
+                const Index h = find_way_round(mesh, paths, missing[i]);
+                if (h != no_index) {
+                    found[i] = path_round(surface, mesh, paths, h, straightener);
+                } else if (is_stuck) {
+                    const auto [a, b] = ends_of(mesh, missing[i]);
+                    found[i] = path_in(site_paths.between(a, b), a, straightener);
+                }
+            }
+        });
+        std::vector<Index> still_missing;
+        for (Index i = 0; i < num_missing; ++i) {
+            if (found[i].from == no_index) {
+                still_missing.push_back(missing[i]);
+            } else {
+                paths[missing[i]] = std::move(found[i]);
+            }
+        }
+        is_stuck = still_missing.size() == missing.size();
+        missing = std::move(still_missing);
+    }
+}
+
+}  // namespace
+
+std::vector<EdgePath> find_edge_paths(const Surface& surface, const DualVertices& vertices,
+                                      const FlippableMesh& mesh, int num_threads) {
+    std::vector<EdgePath> paths(mesh.num_edges());
+    find_paths_through_gates(surface, vertices, mesh, num_threads, paths);
+    find_missing_paths(surface, vertices, mesh, num_threads, paths);
+    return paths;
+}
+
+EdgePath path_across(const Surface& surface, const FlippableMesh& mesh,
+                     const std::vector<EdgePath>& paths, Index edge,
+                     PathStraightener& straightener) {
+    const auto [h, g] = mesh.sides(edge);
+    const Index c = mesh.tail(FlippableMesh::previous(h));
+    const auto path = [&](Index half_edge) -> const EdgePath& {
+        return paths[mesh.edge(half_edge)];
+    };
+    const EdgePath& ca = path(FlippableMesh::previous(h));
+    const EdgePath& ad = path(FlippableMesh::next(g));
+    const EdgePath& cb = path(FlippableMesh::next(h));
+    const EdgePath& bd = path(FlippableMesh::previous(g));
+    if (ca.length + ad.length <= cb.length + bd.length) {
+        return path_along(surface, ca, ad, c, mesh.tail(h), straightener);
+    }
+    return path_along(surface, cb, bd, c, mesh.tail(g), straightener);
+}
+
+bool is_triangle(double a, double b, double c) {
+    const double longest = std::max({a, b, c});
+    return longest <= (a + b + c - longest) + length_tolerance * longest;
+}
+
+void mend_triangles(const Surface& surface, const FlippableMesh& mesh,
+                    std::vector<EdgePath>& paths) {
+    PathStraightener straightener(surface);
+    const auto length = [&](Index half_edge) { return paths[mesh.edge(half_edge)].length; };
+    const auto is_sound = [&](Index t) {
+        return is_triangle(length(3 * t), length(3 * t + 1), length(3 * t + 2));
+    };
+    bool is_changed = true;
+    for (int pass = 0; is_changed && pass < max_passes; ++pass) {
+        is_changed = false;
+        for (Index t = 0; t < mesh.triangles().size(); ++t) {
+            if (is_sound(t)) continue;
+            Index longest = 3 * t;
+            for (const Index h : {3 * t + 1, 3 * t + 2}) {
+                if (length(h) > length(longest)) longest = h;
+            }
+            EdgePath shorter = path_round(surface, mesh, paths, longest, straightener);
+            if (!(shorter.length < length(longest))) continue;
+            paths[mesh.edge(longest)] = std::move(shorter);
+            is_changed = true;
+        }
+    }
+}
+
+}  // namespace remesh

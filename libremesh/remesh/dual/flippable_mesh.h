@@ -1,0 +1,60 @@
+//! \file
+//! Triangles whose edges can be flipped. Private to the dual.
+#pragma once
+
+#include <span>
+#include <unordered_set>
+#include <vector>
+
+#include "agvd/core/types.h"
+
+namespace remesh {
+
+//! Half-edge 3 t + k runs from corner k to corner k + 1 of triangle t. Edges are numbered by their
+//! two ends, ascending, and keep their number in a flip.
+class FlippableMesh {
+public:
+    //! Any triangles; edges that have not two sides in opposite directions never flip.
+    explicit FlippableMesh(std::span<const agvd::Triangle> triangles);
+
+    [[nodiscard]] const std::vector<agvd::Triangle>& triangles() const { return triangles_; }
+    [[nodiscard]] agvd::Index num_edges() const { return static_cast<agvd::Index>(sides_.size()); }
+    [[nodiscard]] agvd::Index edge(agvd::Index half_edge) const { return edge_[half_edge]; }
+    //! The half-edge of an inner edge that runs from its lower end at the start, and the other; the
+    //! second is no_index for edges that never flip.
+    [[nodiscard]] const std::array<agvd::Index, 2>& sides(agvd::Index edge) const {
+        return sides_[edge];
+    }
+    [[nodiscard]] bool is_inner(agvd::Index edge) const {
+        return sides_[edge][1] != agvd::no_index;
+    }
+    [[nodiscard]] agvd::Index tail(agvd::Index half_edge) const {
+        return triangles_[half_edge / 3][half_edge % 3];
+    }
+    [[nodiscard]] static constexpr agvd::Index next(agvd::Index half_edge) {
+        return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1;
+    }
+    [[nodiscard]] static constexpr agvd::Index previous(agvd::Index half_edge) {
+        return half_edge % 3 == 0 ? half_edge + 2 : half_edge - 1;
+    }
+
+    //! The mesh stays a simplicial complex: the new edge is new, and no vertex is left with fewer
+    //! than three edges (two on the boundary).
+    [[nodiscard]] bool can_flip(agvd::Index edge) const;
+    //! The edge is then that between the corners that were opposite to it.
+    void flip(agvd::Index edge);
+
+private:
+    [[nodiscard]] bool has_edge(std::uint64_t ends) const;
+
+    std::vector<agvd::Triangle> triangles_;
+    std::vector<agvd::Index> edge_;                  // #H
+    std::vector<std::array<agvd::Index, 2>> sides_;  // #E
+    std::vector<agvd::Index> valence_;               // By vertex: edges.
+    std::vector<bool> is_boundary_;                  // By vertex.
+    // Ends of the edges at the start, ascending; what flips took away, and what they added.
+    std::vector<std::uint64_t> first_ends_;
+    std::unordered_set<std::uint64_t> removed_, added_;
+};
+
+}  // namespace remesh

@@ -1,0 +1,53 @@
+//! \file
+//! Any path between neighbouring vertices of the dual, for a start. Private to the dual.
+#pragma once
+
+#include <span>
+
+#include "agvd/diagram/diagram.h"
+#include "remesh/dual/face_strip.h"
+
+namespace remesh {
+
+//! Vertices of a mesh over the diagram.
+struct DualVertices {
+    std::span<const agvd::SurfacePoint> points;
+    std::span<const agvd::Index> site;  //!< Of each; no_index: it is none.
+    const agvd::Diagram& diagram;
+};
+
+//! Finds ways from sites into faces of their cells: down the distances from vertex to vertex, and
+//! where that leads nowhere by a search along the edges. Keeps its memory; one for each thread.
+class SitePaths {
+public:
+    SitePaths(const agvd::Surface& surface, const DualVertices& vertices)
+        : surface_(surface), vertices_(vertices) {}
+
+    //! From one vertex to another through `face`, by vertices of their cells where that is
+    //! possible. Cost: O(mesh vertices on the way), or a search as far as both.
+    [[nodiscard]] FaceStrip through(agvd::Index from, agvd::Index face, agvd::Index to);
+
+    //! From one vertex to another; by a search. They must lie on one component.
+    [[nodiscard]] FaceStrip between(agvd::Index from, agvd::Index to);
+
+private:
+    using Way = std::vector<agvd::Index>;  // Mesh vertices.
+
+    [[nodiscard]] bool holds_goal(agvd::Index face, agvd::Index goal) const {
+        return holds(surface_, face, vertices_.points[goal]);
+    }
+    // In the cell of the goal's site.
+    [[nodiscard]] bool is_inside(agvd::Index mesh_vertex, agvd::Index goal) const {
+        return vertices_.diagram.nearest_site[mesh_vertex].value() == vertices_.site[goal];
+    }
+    void find_way(agvd::Index face, agvd::Index goal, Way& way) const;
+    [[nodiscard]] agvd::Index common_corner(agvd::Index face, agvd::Index goal) const;
+    void descend(agvd::Index face, agvd::Index goal, Way& way) const;
+    void search(agvd::Index face, agvd::Index goal, Way& way) const;
+
+    const agvd::Surface& surface_;
+    const DualVertices& vertices_;
+    Way back_, forth_;
+};
+
+}  // namespace remesh

@@ -1,0 +1,299 @@
+#include "remesh/dual/straighten.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+
+#include "agvd/propagation/site_placement.h"
+
+namespace remesh {
+
+using agvd::Index;
+using agvd::no_index;
+using agvd::Surface;
+using agvd::SurfacePoint;
+using agvd::Vec2;
+
+namespace {
+
+// Radians. What a path saves by passing a vertex on a side that is narrower than pi by less is
+// beyond double: the square of it.
+constexpr double angle_tolerance = 1e-7;
+// A bound for the worst, besides one for each crossing of the start; half as many as crossings were
+// the most met on meshes.
+constexpr std::size_t more_rounds = 500;
+// Rounds in a row that may fail to shorten the path, where rounding hides what they save.
+constexpr int max_stalled_rounds = 5;
+// Of a path's length, relative.
+constexpr double rounding = 1e-12;
+
+double cross_product(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+// Above 0: c lies on the left of the line from a to b.
+double side_of(const Vec2& a, const Vec2& b, const Vec2& c) { return cross_product(b - a, c - a); }
+
+// Sine of the angle below which a vertex is taken to lie on a straight line: rounding must not
+// hide that a path goes through it.
+constexpr double collinear = 1e-12;
+
+// Clearly on the left of the line from a to b, seen from a.
+bool is_left_of(const Vec2& a, const Vec2& b, const Vec2& c) {
+    const double side = side_of(a, b, c);
+    return side > 0 &&
+           side * side > collinear * collinear * (b - a).squaredNorm() * (c - a).squaredNorm();
+}
+
+// A sum of angles below pi, as far as pi.
+class AngleSum {
+public:
+    //! \param corner  (cos, sin) times any length; sin < 0 is taken for rounding.
+    void add(const Vec2& corner) {
+        if (is_over_) return;
+        const double length = corner.norm();
+        if (!(length > 0)) return;
+        const double cosine = corner.x() / length, sine = std::max(corner.y(), 0.0) / length;
+        const Vec2 sum(cosine_ * cosine - sine_ * sine, cosine_ * sine + sine_ * cosine);
+        // From the upper half plane an angle below pi leads below it only past pi.
+        is_over_ = sum.y() < 0 || (sum.x() < 0 && sum.y() < angle_tolerance);
+        cosine_ = sum.x();
+        sine_ = sum.y();
+    }
+    [[nodiscard]] bool is_below_pi() const { return !is_over_; }
+
+private:
+    double cosine_ = 1, sine_ = 0;
+    bool is_over_ = false;
+};
+
+}  // namespace
+
+GeodesicPath PathStraightener::straighten(FaceStrip& strip) {
+    GeodesicPath path{std::numeric_limits<double>::infinity(), false, {}};
+    strip.source = snapped(surface_, strip.source);
+    strip.target = snapped(surface_, strip.target);
+    const std::size_t max_rounds = strip.crossed.size() + more_rounds;
+    int stalled_rounds = 0;
+    for (std::size_t round = 0; round < max_rounds && stalled_rounds <= max_stalled_rounds;
+         ++round) {
+        trim(surface_, strip);
+        const double length = find_shortest(strip);
+        const bool is_rerouted = reroute(strip.crossed);
+        if (!is_rerouted && length <= path.length * (1 + rounding)) {
+            path.length = length;
+            path.is_locally_shortest = true;
+            return path;
+        }
+        if (length < path.length) {
+            path.length = length;
+            best_ = strip;
+            stalled_rounds = 0;
+        } else {
+            ++stalled_rounds;
+        }
+        if (!is_rerouted) break;
+        strip.crossed.swap(crossed_);
+    }
+    strip = best_;
+    return path;
+}
+
+GeodesicPath PathStraightener::shortest_in(FaceStrip strip) {
+    trim(surface_, strip);
+    GeodesicPath path{find_shortest(strip), !reroute(strip.crossed), {}};
+    path.points.push_back(strip.source);
+    Index next = 0;
+    for (std::size_t i = 1; i < path_.size(); ++i) {
+        const Node& from = nodes_[path_[i - 1]];
+        const Node& to = nodes_[path_[i]];
+        for (; next < to.first; ++next) {
+            const Index h = strip.crossed[next];
+            const double left = std::max(side_of(from.place, to.place, ends_[next].left), 0.0);
+            const double right = std::max(-side_of(from.place, to.place, ends_[next].right), 0.0);
+            const double tail = left + right > 0 ? left / (left + right) : 0.5;
+            SurfacePoint& point = path.points.emplace_back();
+            point = {agvd::FaceId(Surface::face(h)), {0, 0, 0}};
+            point.barycentric[h % 3] = tail;
+            point.barycentric[(h + 1) % 3] = 1 - tail;
+        }
+        if (i + 1 == path_.size()) break;
+        const Index h = strip.crossed[to.first];
+        SurfacePoint& point = path.points.emplace_back();
+        point = {agvd::FaceId(Surface::face(h)), {0, 0, 0}};
+        point.barycentric[to.is_left ? (h + 1) % 3 : h % 3] = 1;
+        next = std::max(next, to.last + 1);
+    }
+    path.points.push_back(strip.target);
+    return path;
+}
+
+// The length of the shortest path inside the strip; path_ has its bends.
+double PathStraightener::find_shortest(const FaceStrip& strip) {
+    path_.clear();
+    if (strip.crossed.empty()) {
+        const Index h = 3 * strip.source.face.value();
+        nodes_ = {{position_in_frame(surface_, strip.source, h), no_index, 0, 0, false},
+                  {position_in_frame(surface_, strip.target, h), 0, 0, 0, false}};
+    } else {
+        unfold(strip);
+        const auto num_nodes = static_cast<Index>(nodes_.size());
+        funnel_.resize(2 * num_nodes);
+        begin_ = num_nodes - 1;
+        apex_ = num_nodes;
+        end_ = num_nodes + 2;
+        funnel_[begin_] = 1;
+        funnel_[apex_] = 0;
+        funnel_[apex_ + 1] = 2;
+        for (Index node = 3; node < num_nodes; ++node) add_to_funnel(node);
+    }
+    return collect_path();
+}
+
+// Lays the faces out in one plane, each beside the one before.
+void PathStraightener::unfold(const FaceStrip& strip) {
+    const std::vector<Index>& crossed = strip.crossed;
+    const auto num_crossed = static_cast<Index>(crossed.size());
+    nodes_.clear();
+    ends_.clear();
+    Index h = crossed[0];
+    ends_.push_back({{surface_.length_of(h), 0}, {0, 0}});
+    nodes_.push_back({position_in_frame(surface_, strip.source, h), no_index, 0, 0, false});
+    nodes_.push_back({ends_[0].left, 0, 0, 0, true});
+    nodes_.push_back({ends_[0].right, 0, 0, 0, false});
+    Index left = 1, right = 2;
+    for (Index k = 1; k < num_crossed; ++k) {
+        const Index inside = surface_.twin[h];
+        Ends ends = ends_.back();
+        const Vec2 apex = apex_of(inside, ends.left, ends.right);
+        h = crossed[k];
+        const bool is_left = h == Surface::next(inside);
+        assert(is_left || h == Surface::previous(inside));
+        nodes_[is_left ? left : right].last = k - 1;
+        (is_left ? left : right) = static_cast<Index>(nodes_.size());
+        (is_left ? ends.left : ends.right) = apex;
+        nodes_.push_back({apex, no_index, k, 0, is_left});
+        ends_.push_back(ends);
+    }
+    nodes_[left].last = nodes_[right].last = num_crossed - 1;
+    const Index inside = surface_.twin[h];
+    const Vec2 target = position_in_frame(surface_, strip.target, inside);
+    const Ends& ends = ends_.back();
+    const Vec2 along = (ends.right - ends.left) / surface_.length_of(inside);
+    nodes_.push_back({ends.left + target.x() * along + target.y() * Vec2(-along.y(), along.x()),
+                      no_index, num_crossed, num_crossed, false});
+}
+
+Vec2 PathStraightener::apex_of(Index half_edge, const Vec2& tail, const Vec2& head) const {
+    const Vec2 along = (head - tail) / surface_.length_of(half_edge);
+    const Vec2& apex = surface_.apex[half_edge];
+    return tail + apex.x() * along + apex.y() * Vec2(-along.y(), along.x());
+}
+
+// Chains from the apex to both ends bend outwards; what the new end sees past them falls off. A
+// vertex on the straight line counts as a bend: its other side may still be narrower than pi.
+void PathStraightener::add_to_funnel(Index node) {
+    const Vec2& place = nodes_[node].place;
+    const auto at = [&](Index i) -> const Vec2& { return nodes_[funnel_[i]].place; };
+    if (nodes_[node].is_left) {
+        for (; begin_ + 1 < end_; ++begin_) {
+            if (begin_ < apex_) {
+                if (!is_left_of(at(begin_ + 1), place, at(begin_))) break;
+            } else {
+                if (is_left_of(at(begin_), at(begin_ + 1), place)) break;
+                ++apex_;
+            }
+        }
+        nodes_[node].parent = funnel_[begin_];
+        funnel_[--begin_] = node;
+        return;
+    }
+    for (; begin_ + 1 < end_; --end_) {
+        const Index last = end_ - 1;
+        if (last > apex_) {
+            if (!is_left_of(at(last - 1), at(last), place)) break;
+        } else {
+            if (is_left_of(at(last), place, at(last - 1))) break;
+            --apex_;
+        }
+    }
+    nodes_[node].parent = funnel_[end_ - 1];
+    funnel_[end_++] = node;
+}
+
+double PathStraightener::collect_path() {
+    double length = 0;
+    Index node = static_cast<Index>(nodes_.size()) - 1;
+    path_.push_back(node);
+    while (node != 0) {
+        const Index parent = nodes_[node].parent;
+        length += (nodes_[node].place - nodes_[parent].place).norm();
+        path_.push_back(parent);
+        node = parent;
+    }
+    std::reverse(path_.begin(), path_.end());
+    return length;
+}
+
+// Passes all vertices that have less than pi on the other side there: each saves something next
+// to its vertex already, so that they do not get into each other's way.
+bool PathStraightener::reroute(const std::vector<Index>& crossed) {
+    crossed_.clear();
+    Index next = 0;
+    bool is_changed = false;
+    for (Index i = 1; i + 1 < path_.size(); ++i) {
+        const Detour detour = find_detour(crossed, i);
+        if (!detour.is_shorter) continue;
+        is_changed = true;
+        const Index first = nodes_[path_[i]].first;
+        while (next < first) cross(surface_, crossed[next++], crossed_);
+        // An edge from bend to bend is crossed by both.
+        while (next > first) cross(surface_, surface_.twin[crossed[--next]], crossed_);
+        for (const Index h : detour_) cross(surface_, h, crossed_);
+        next = detour.last + 1;
+    }
+    if (!is_changed) return false;
+    for (; next < crossed.size(); ++next) cross(surface_, crossed[next], crossed_);
+    return true;
+}
+
+PathStraightener::Detour PathStraightener::find_detour(const std::vector<Index>& crossed,
+                                                       Index bend) {
+    const Node& node = nodes_[path_[bend]];
+    detour_.clear();
+    const Index in = crossed[node.first];
+    const Index out = surface_.twin[crossed[node.last]];
+    for (Index k = node.first; k <= node.last; ++k) {  // All the way round is never shorter.
+        if (Surface::face(surface_.twin[crossed[k]]) == Surface::face(in)) return {true, k};
+    }
+    // Angles at the vertex, on the other side: clockwise for a vertex on the left.
+    AngleSum angle;
+    const auto add = [&](const Vec2& from, const Vec2& to) {
+        const Vec2 a = from - node.place, b = to - node.place;
+        angle.add({a.dot(b), node.is_left ? cross_product(b, a) : cross_product(a, b)});
+    };
+    const Ends& first = ends_[node.first];
+    const Ends& last = ends_[node.last];
+    add(nodes_[path_[bend - 1]].place, apex_of(in, first.right, first.left));
+    add(apex_of(out, last.left, last.right), nodes_[path_[bend + 1]].place);
+    const Index goal = node.is_left ? Surface::previous(out) : Surface::next(out);
+    Index h = node.is_left ? Surface::next(in) : Surface::previous(in);
+    while (angle.is_below_pi()) {
+        const Index inside = surface_.twin[h];
+        if (inside == no_index) break;
+        detour_.push_back(h);
+        if (inside == goal) return {true, node.last};
+        h = node.is_left ? Surface::next(inside) : Surface::previous(inside);
+        angle.add(surface_.apex[node.is_left ? h : inside]);
+    }
+    return {false, node.last};
+}
+
+GeodesicPath straightest_path(const Surface& surface, FaceStrip strip) {
+    PathStraightener straightener(surface);
+    const GeodesicPath path = straightener.straighten(strip);
+    GeodesicPath result = straightener.shortest_in(std::move(strip));
+    result.is_locally_shortest = path.is_locally_shortest;
+    return result;
+}
+
+}  // namespace remesh

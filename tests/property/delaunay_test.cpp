@@ -1,0 +1,248 @@
+// The Delaunay stage on what the stages before it hand on.
+#include "remesh/dual/delaunay.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <map>
+#include <set>
+
+#include "agvd/mesh/uniform_points.h"
+#include "agvd/propagation/propagate.h"
+#include "remesh/dual/build_dual.h"
+#include "remesh/dual/flippable_mesh.h"
+#include "remesh/quality/topology.h"
+#include "support/points.h"
+#include "support/random_meshes.h"
+#include "support/shapes.h"
+
+using namespace agvd;
+using remesh::Delaunay;
+using remesh::DelaunayResult;
+
+namespace {
+
+struct Dual {
+    Surface surface;
+    std::vector<SurfacePoint> sites;
+    std::vector<Index> site;  // Of each vertex: itself.
+    Diagram diagram;
+    std::vector<Triangle> triangles;
+
+    Dual(const TriangleMesh& mesh, std::vector<SurfacePoint> points)
+        : surface(build_surface(mesh.view())), sites(std::move(points)) {
+        diagram = build_diagram(surface, sites, propagate(surface, sites, {.num_threads = 1}),
+                                {.num_threads = 1});
+        triangles = remesh::build_dual(surface, diagram);
+        for (Index s = 0; s < sites.size(); ++s) site.push_back(s);
+    }
+
+    [[nodiscard]] DelaunayResult made(Delaunay mode, int num_threads = 1) const {
+        return remesh::make_delaunay(surface, sites, site, diagram, triangles,
+                                     {.mode = mode, .num_threads = num_threads});
+    }
+    [[nodiscard]] std::vector<Vec3> positions() const {
+        std::vector<Vec3> result;
+        for (const SurfacePoint& place : sites) {
+            result.push_back(position(surface.mesh.view(), place));
+        }
+        return result;
+    }
+};
+
+std::vector<SurfacePoint> uniform(const TriangleMesh& mesh, Index count, std::uint64_t seed) {
+    return uniform_points(build_surface(mesh.view()), count, seed);
+}
+
+using Edges = std::map<std::pair<Index, Index>, int>;
+
+Edges edges_of(const std::vector<Triangle>& triangles) {
+    Edges edges;
+    for (const Triangle& t : triangles) {
+        for (std::size_t k = 0; k < 3; ++k) ++edges[std::minmax(t[k], t[(k + 1) % 3])];
+    }
+    return edges;
+}
+
+std::set<std::pair<Index, Index>> boundary_of(const std::vector<Triangle>& triangles) {
+    std::set<std::pair<Index, Index>> boundary;
+    for (const auto& [ends, count] : edges_of(triangles)) {
+        if (count == 1) boundary.insert(ends);
+    }
+    return boundary;
+}
+
+// Distances between sites never exceed what is shorter: the straight line.
+void expect_sound_lengths(const Dual& dual, const DelaunayResult& result) {
+    const std::vector<Vec3> p = dual.positions();
+    ASSERT_EQ(result.side_lengths.size(), result.triangles.size());
+    double rounding = 0;  // Of coordinates; points that lie beside a vertex are moved.
+    for (const Vec3& place : dual.surface.mesh.positions) {
+        rounding = std::max(rounding, 1e-11 * place.norm());
+    }
+    for (std::size_t t = 0; t < result.triangles.size(); ++t) {
+        const auto& side = result.side_lengths[t];
+        const double longest = *std::max_element(side.begin(), side.end());
+        EXPECT_LE(2 * longest, (side[0] + side[1] + side[2]) * (1 + 1e-12));
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 step = p[result.triangles[t][(k + 1) % 3]] - p[result.triangles[t][k]];
+            EXPECT_GE(side[k], step.norm() * (1 - 1e-9) - rounding);
+        }
+    }
+    EXPECT_EQ(result.counts.broken_triangles, 0u);
+    EXPECT_TRUE(result.counts.is_finished);
+}
+
+void expect_same_surface(const Dual& dual, const DelaunayResult& result) {
+    const std::vector<Vec3> p = dual.positions();
+    const auto before = remesh::analyze_topology({p, dual.triangles});
+    const auto after = remesh::analyze_topology({p, result.triangles});
+    EXPECT_EQ(before.is_manifold, after.is_manifold);
+    EXPECT_EQ(before.is_oriented, after.is_oriented);
+    if (before.is_manifold) {
+        EXPECT_TRUE(same_topology(before, after));
+    }
+    EXPECT_EQ(boundary_of(dual.triangles), boundary_of(result.triangles));
+    if (!before.is_manifold) return;
+    std::map<Index, int> valence;
+    for (const auto& [ends, count] : edges_of(result.triangles)) {
+        ++valence[ends.first];
+        ++valence[ends.second];
+    }
+    std::set<Index> on_boundary;
+    for (const auto& [a, b] : boundary_of(result.triangles)) on_boundary.insert({a, b});
+    for (const auto& [v, count] : valence) EXPECT_GE(count, on_boundary.contains(v) ? 2 : 3);
+}
+
+}  // namespace
+
+TEST(MakeDelaunay, HoldsOnRandomMeshesWhateverTheDual) {
+    const std::uint64_t num_seeds = std::getenv("AGVD_LONG") != nullptr ? 500 : 30;
+    std::size_t num_edges = 0, num_unproved = 0;
+    for (const char* family : random_meshes::families()) {
+        for (std::uint64_t seed = 1; seed <= num_seeds; ++seed) {
+            SCOPED_TRACE(std::string(family) + ' ' + std::to_string(seed));
+            const TriangleMesh mesh = random_meshes::make(family, seed);
+            Dice dice(seed);
+            const Dual dual(
+                mesh, seed % 2 == 0
+                          ? points::random_sites(dice, static_cast<Index>(mesh.triangles.size()))
+                          : uniform(mesh, dice.count(4, 150), seed));
+            for (const Delaunay mode : {Delaunay::Intrinsic, Delaunay::Extrinsic}) {
+                const DelaunayResult result = dual.made(mode);
+                expect_same_surface(dual, result);
+                EXPECT_TRUE(result.counts.is_finished);
+                if (mode == Delaunay::Extrinsic) continue;
+                expect_sound_lengths(dual, result);
+                num_edges += result.counts.inner_edges;
+                num_unproved += result.counts.not_locally_shortest;
+            }
+        }
+    }
+    // Rounding hides it on faces of no height.
+    EXPECT_LE(num_unproved, num_edges / 5000);
+}
+
+TEST(MakeDelaunay, InThePlaneEveryEdgeIsDelaunay) {
+    TriangleMesh mesh = shapes::jitter(shapes::grid(30), 0.01, 2);
+    for (Vec3& p : mesh.positions) p.z() = 0;
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
+        const Dual dual(mesh, uniform(mesh, 200, seed));
+        for (const Delaunay mode : {Delaunay::Intrinsic, Delaunay::Extrinsic}) {
+            const DelaunayResult result = dual.made(mode);
+            EXPECT_EQ(result.counts.failing_after, 0u);
+            EXPECT_GT(result.counts.inner_edges, 400u);
+            expect_same_surface(dual, result);
+        }
+    }
+}
+
+// Not the dual any more, as after edges were collapsed or flipped: paths are found all the same.
+TEST(MakeDelaunay, MendsEdgesThatAreDualToNothing) {
+    TriangleMesh mesh = shapes::jitter(shapes::grid(30), 0.01, 2);
+    for (Vec3& p : mesh.positions) p.z() = 0;
+    Dual dual(mesh, uniform(mesh, 150, 5));
+    const std::size_t dual_failing = dual.made(Delaunay::Intrinsic).counts.failing_before;
+    // The fan around every tenth vertex inside is triangulated anew from one of its neighbours.
+    const std::set<std::pair<Index, Index>> boundary = boundary_of(dual.triangles);
+    std::set<Index> fixed;
+    for (const auto& [a, b] : boundary) fixed.insert({a, b});
+    Index removed = 0;
+    for (Index v = 0; v < dual.sites.size(); v += 10) {
+        if (fixed.contains(v)) continue;
+        std::map<Index, Index> next;
+        for (const Triangle& t : dual.triangles) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (t[k] == v) next[t[(k + 1) % 3]] = t[(k + 2) % 3];
+            }
+        }
+        const Edges edges = edges_of(dual.triangles);
+        for (const auto& [start, second] : next) {
+            std::vector<Triangle> fan;
+            bool is_free = true;
+            for (Index a = second, b = next[a]; b != start; a = b, b = next[b]) {
+                fan.push_back({start, a, b});
+                if (next[b] != start) is_free = is_free && !edges.contains(std::minmax(start, b));
+            }
+            if (!is_free) continue;
+            std::erase_if(dual.triangles,
+                          [&](const Triangle& t) { return t[0] == v || t[1] == v || t[2] == v; });
+            dual.triangles.insert(dual.triangles.end(), fan.begin(), fan.end());
+            ++removed;
+            break;
+        }
+    }
+    ASSERT_GT(removed, 5u);
+    const DelaunayResult result = dual.made(Delaunay::Intrinsic);
+    EXPECT_GT(result.counts.failing_before, dual_failing);
+    EXPECT_GT(result.counts.flips, 0u);
+    EXPECT_EQ(result.counts.failing_after, 0u);
+    expect_same_surface(dual, result);
+    expect_sound_lengths(dual, result);
+    const std::vector<Vec3> p = dual.positions();
+    for (std::size_t t = 0; t < result.triangles.size(); ++t) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 step = p[result.triangles[t][(k + 1) % 3]] - p[result.triangles[t][k]];
+            EXPECT_NEAR(result.side_lengths[t][k], step.norm(), 1e-12);
+        }
+    }
+}
+
+TEST(MakeDelaunay, MendsFlipsMadeAtRandom) {
+    const TriangleMesh mesh = shapes::jitter(shapes::torus(60, 30), 0.005, 1);
+    Dual dual(mesh, uniform(mesh, 500, 4));
+    const Index unmended = dual.made(Delaunay::Intrinsic).counts.failing_after;
+    remesh::FlippableMesh flipped(dual.triangles);
+    Dice dice(1);
+    for (int i = 0; i < 300; ++i) {
+        const Index edge = dice.count(0, flipped.num_edges() - 1);
+        if (flipped.can_flip(edge)) flipped.flip(edge);
+    }
+    dual.triangles = flipped.triangles();
+    const DelaunayResult result = dual.made(Delaunay::Intrinsic);
+    EXPECT_GT(result.counts.failing_before, 100u);
+    EXPECT_LE(result.counts.failing_after, unmended + result.counts.failing_before / 20);
+    EXPECT_EQ(result.counts.not_locally_shortest, 0u);
+    expect_same_surface(dual, result);
+    expect_sound_lengths(dual, result);
+}
+
+TEST(MakeDelaunay, SameBytesForAnyThreadCount) {
+    const TriangleMesh mesh = shapes::jitter(shapes::torus(60, 30), 0.03, 3);
+    const Dual dual(mesh, uniform(mesh, 300, 1));
+    const DelaunayResult one = dual.made(Delaunay::Intrinsic, 1);
+    EXPECT_GT(one.counts.flips, 0u);
+    for (const int threads : {2, 8}) {
+        const DelaunayResult other = dual.made(Delaunay::Intrinsic, threads);
+        EXPECT_EQ(one.triangles, other.triangles);
+        EXPECT_EQ(one.side_lengths, other.side_lengths);
+    }
+}
+
+TEST(MakeDelaunay, OffLeavesTheTriangles) {
+    const TriangleMesh mesh = shapes::sphere(3);
+    const Dual dual(mesh, uniform(mesh, 100, 1));
+    const DelaunayResult result = dual.made(Delaunay::Off);
+    EXPECT_EQ(result.triangles, dual.triangles);
+    EXPECT_EQ(result.counts.inner_edges, 0u);
+}

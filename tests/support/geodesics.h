@@ -1,0 +1,25 @@
+//! \file
+//! Paths over surfaces, and what makes one locally shortest.
+#pragma once
+
+#include <span>
+
+#include "remesh/dual/face_strip.h"
+
+namespace geodesics {
+
+//! A way from one point to another over faces chosen at random; they must lie on one component.
+[[nodiscard]] remesh::FaceStrip random_strip(const agvd::Surface& surface,
+                                             const agvd::SurfacePoint& from,
+                                             const agvd::SurfacePoint& to, std::uint64_t seed);
+
+//! The sum of the straight lines from point to point, each of which must lie in one face.
+[[nodiscard]] double length(const agvd::Surface& surface,
+                            std::span<const agvd::SurfacePoint> points);
+
+//! How far below pi the narrowest side of a path is at the points between its ends; a side with a
+//! boundary counts as wide. 0 if none is below. Points that all but coincide count as one.
+[[nodiscard]] double largest_bend(const agvd::Surface& surface,
+                                  std::span<const agvd::SurfacePoint> points);
+
+}  // namespace geodesics

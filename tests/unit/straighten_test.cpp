@@ -1,0 +1,228 @@
+#include "remesh/dual/straighten.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <numbers>
+
+#include "agvd/mesh/point_faces.h"
+#include "support/geodesics.h"
+#include "support/points.h"
+#include "support/random_meshes.h"
+#include "support/shapes.h"
+
+using namespace agvd;
+using remesh::FaceStrip;
+using remesh::GeodesicPath;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// A fan around vertex 0 with corners of `corner` radians and spokes of length 1: a cone, a disc or
+// a saddle, flat or not in space is all the same to it.
+Surface fan(Index spokes, double corner) {
+    const double total = spokes * corner;
+    TriangleMesh mesh;
+    mesh.positions.emplace_back(0, 0, 0);
+    for (Index i = 0; i < spokes; ++i) {
+        const double turn = 2 * pi * i / spokes;
+        // Every spoke has length 1 and every rim edge the chord of the corner.
+        const double chord = 2 * std::sin(corner / 2);
+        if (total <= 2 * pi) {
+            const double radius = chord / (2 * std::sin(pi / spokes));
+            mesh.positions.emplace_back(radius * std::cos(turn), radius * std::sin(turn),
+                                        -std::sqrt(std::max(0.0, 1 - radius * radius)));
+        } else {
+            // Up and down in turn: cos(corner) = r^2 cos(2 pi / spokes) - h^2, r^2 + h^2 = 1.
+            const double radius_sq = (std::cos(corner) + 1) / (1 + std::cos(2 * pi / spokes));
+            const double height = std::sqrt(1 - radius_sq);
+            const double radius = std::sqrt(radius_sq);
+            mesh.positions.emplace_back(radius * std::cos(turn), radius * std::sin(turn),
+                                        i % 2 == 0 ? height : -height);
+        }
+        mesh.triangles.push_back({0, 1 + i, 1 + (i + 1) % spokes});
+    }
+    return build_surface(mesh.view());
+}
+
+// At `share` of the spoke to rim vertex i.
+SurfacePoint on_spoke(Index i, double share) { return {FaceId(i), {1 - share, share, 0}}; }
+
+FaceStrip through_vertex(const Surface& surface, const SurfacePoint& from, Index vertex,
+                         const SurfacePoint& to) {
+    remesh::StripBuilder builder(surface, from);
+    builder.to_vertex(vertex);
+    return builder.finish(to);
+}
+
+void expect_locally_shortest(const Surface& surface, const GeodesicPath& path) {
+    EXPECT_TRUE(path.is_locally_shortest);
+    EXPECT_NEAR(geodesics::length(surface, path.points), path.length, 1e-9 * path.length);
+    EXPECT_LT(geodesics::largest_bend(surface, path.points), 1e-6);
+}
+
+}  // namespace
+
+TEST(Straighten, InThePlaneAnyWayBecomesTheStraightLine) {
+    TriangleMesh mesh = shapes::jitter(shapes::grid(8), 0.03, 1);
+    for (Vec3& p : mesh.positions) p.z() = 0;
+    // Convex, or the straight line might leave it.
+    for (Vec3& p : mesh.positions) {
+        if (p.x() < 0.05 || p.x() > 0.95) p.x() = std::round(p.x());
+        if (p.y() < 0.05 || p.y() > 0.95) p.y() = std::round(p.y());
+    }
+    const Surface surface = build_surface(mesh.view());
+    const auto ends = points::scattered(surface, 40, 3);
+    for (Index i = 0; i + 1 < ends.size(); ++i) {
+        SCOPED_TRACE(i);
+        const GeodesicPath path = remesh::straightest_path(
+            surface, geodesics::random_strip(surface, ends[i], ends[i + 1], i));
+        const double distance =
+            (position(mesh.view(), ends[i]) - position(mesh.view(), ends[i + 1])).norm();
+        EXPECT_NEAR(path.length, distance, 1e-12);
+        expect_locally_shortest(surface, path);
+    }
+}
+
+TEST(Straighten, InsideOneFaceItIsTheSegment) {
+    const Surface surface = build_surface(shapes::tetrahedron().view());
+    const SurfacePoint a{FaceId(1), {0.2, 0.3, 0.5}}, b{FaceId(1), {0.6, 0.4, 0}};
+    const GeodesicPath path = remesh::straightest_path(surface, {a, b, {}});
+    const MeshView mesh = surface.mesh.view();
+    EXPECT_NEAR(path.length, (position(mesh, a) - position(mesh, b)).norm(), 1e-15);
+    EXPECT_TRUE(path.is_locally_shortest);
+    EXPECT_EQ(path.points.size(), 2u);
+}
+
+TEST(Straighten, OverAConeItPassesTheApexOnTheNarrowSide) {
+    // 1 + 4 corners of pi / 4: the straight line passes on the side of the one, whichever way round
+    // the path was at first.
+    const Surface surface = fan(5, pi / 4);
+    const SurfacePoint a = on_spoke(0, 0.5), b = on_spoke(1, 0.8);
+    const double chord = std::sqrt(0.25 + 0.64 - 2 * 0.5 * 0.8 * std::cos(pi / 4));
+    remesh::StripBuilder wide(surface, a);
+    for (const Index face : {4U, 3U, 2U, 1U}) wide.to_face(face);
+    const FaceStrip strip = wide.finish(b);
+    ASSERT_EQ(strip.crossed.size(), 4u);
+    for (const FaceStrip& start : {strip, through_vertex(surface, a, 0, b)}) {
+        const GeodesicPath path = remesh::straightest_path(surface, start);
+        EXPECT_NEAR(path.length, chord, 1e-14);
+        expect_locally_shortest(surface, path);
+    }
+}
+
+TEST(Straighten, OverASaddleItGoesThroughTheVertex) {
+    const Surface surface = fan(8, pi / 3);  // 480 degrees, 240 on each side.
+    ASSERT_TRUE(surface.can_turn[0]);
+    const SurfacePoint a = on_spoke(0, 0.5), b = on_spoke(4, 0.75);
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        const GeodesicPath path =
+            remesh::straightest_path(surface, geodesics::random_strip(surface, a, b, seed));
+        EXPECT_NEAR(path.length, 1.25, 1e-14);
+        expect_locally_shortest(surface, path);
+        EXPECT_EQ(path.points.size(), 3u);
+    }
+    // 2 of 8 corners are less than pi: past the vertex.
+    const SurfacePoint c = on_spoke(2, 0.75);
+    const double chord = std::sqrt(0.25 + 0.5625 - 2 * 0.5 * 0.75 * std::cos(2 * pi / 3));
+    const GeodesicPath path = remesh::straightest_path(surface, through_vertex(surface, a, 0, c));
+    EXPECT_NEAR(path.length, chord, 1e-14);
+    expect_locally_shortest(surface, path);
+}
+
+TEST(Straighten, AtAReflexCornerOfTheBoundaryItBends) {
+    TriangleMesh mesh = shapes::grid(4);
+    std::vector<Triangle> left;
+    for (const Triangle& t : mesh.triangles) {
+        const Vec3 center =
+            (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]) / 3;
+        if (center.x() < 0.5 || center.y() < 0.5) left.push_back(t);
+    }
+    mesh.triangles = left;
+    // Vertices of the part cut out are left in no face.
+    const Surface surface = build_surface(mesh.view());
+    const auto nearest = [&](const Vec3& place) {
+        for (Index f = 0; f < surface.num_faces(); ++f) {
+            SurfacePoint center{FaceId(f), {1.0 / 3, 1.0 / 3, 1.0 / 3}};
+            if ((position(mesh.view(), center) - place).norm() < 0.12) return center;
+        }
+        return SurfacePoint{};
+    };
+    const SurfacePoint a = nearest({0.4, 0.9, 0}), b = nearest({0.9, 0.4, 0});
+    const Vec3 corner(0.5, 0.5, 0);
+    const double around =
+        (position(mesh.view(), a) - corner).norm() + (position(mesh.view(), b) - corner).norm();
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        const GeodesicPath path =
+            remesh::straightest_path(surface, geodesics::random_strip(surface, a, b, seed));
+        EXPECT_NEAR(path.length, around, 1e-14);
+        expect_locally_shortest(surface, path);
+    }
+}
+
+TEST(Straighten, BothWaysRoundATubeAreKept) {
+    const Index sides = 12, layers = 6;
+    const Surface surface = build_surface(shapes::tube(sides, layers).view());
+    const double side = 2 * std::sin(pi / sides);
+    const auto vertex = [&](Index i, Index j) { return i % sides * (layers + 1) + j; };
+    for (const Index passed : {4U, 8U, 16U}) {  // The short way, the long way, a turn more.
+        for (const bool is_forward : {true, false}) {
+            remesh::StripBuilder builder(surface, point_at(surface, 0));
+            const auto at = [&](Index i) { return is_forward ? i : 10 * sides - i; };
+            for (Index i = 1; i <= passed; ++i) builder.to_vertex(vertex(at(i), 0));
+            for (Index j = 1; j < layers; ++j) builder.to_vertex(vertex(at(passed), j));
+            const GeodesicPath path = remesh::straightest_path(
+                surface, builder.finish(point_at(surface, vertex(at(passed), layers))));
+            EXPECT_NEAR(path.length, std::hypot(2, passed * side), 1e-13);
+            expect_locally_shortest(surface, path);
+        }
+    }
+}
+
+TEST(Straighten, OnRandomMeshesEveryPathIsLocallyShortest) {
+    const std::uint64_t num_seeds = std::getenv("AGVD_LONG") != nullptr ? 1000 : 30;
+    std::size_t num_paths = 0, num_unproved = 0;
+    for (const char* family : random_meshes::families()) {
+        for (std::uint64_t seed = 1; seed <= num_seeds; ++seed) {
+            SCOPED_TRACE(std::string(family) + ' ' + std::to_string(seed));
+            const Surface surface = build_surface(random_meshes::make(family, seed).view());
+            Dice dice(seed);
+            for (int i = 0; i < 4; ++i) {
+                const SurfacePoint a =
+                    points::anywhere(dice, dice.count(0, surface.num_faces() - 1));
+                std::vector<bool> is_near(surface.num_faces(), false);
+                std::vector<Index> open{a.face.value()};
+                for (std::size_t k = 0; k < open.size(); ++k) {
+                    if (is_near[open[k]]) continue;
+                    is_near[open[k]] = true;
+                    for (Index h = 3 * open[k]; h < 3 * open[k] + 3; ++h) {
+                        if (surface.twin[h] != no_index) {
+                            open.push_back(Surface::face(surface.twin[h]));
+                        }
+                    }
+                }
+                const SurfacePoint b = points::anywhere(
+                    dice, open[dice.count(0, static_cast<Index>(open.size()) - 1)]);
+                FaceStrip strip = geodesics::random_strip(surface, a, b, seed);
+                remesh::PathStraightener straightener(surface);
+                const double start = straightener.shortest_in(strip).length;
+                const GeodesicPath path = remesh::straightest_path(surface, strip);
+                double rounding = 0;  // Of coordinates; points that lie beside a vertex are moved.
+                for (const Vec3& p : surface.mesh.positions) {
+                    rounding = std::max(rounding, 1e-11 * p.norm());
+                }
+                EXPECT_LE(path.length, start + rounding);
+                EXPECT_NEAR(geodesics::length(surface, path.points), path.length, rounding);
+                ++num_paths;
+                if (!path.is_locally_shortest) {
+                    ++num_unproved;
+                } else if (path.length > 1e6 * rounding) {
+                    EXPECT_LT(geodesics::largest_bend(surface, path.points), 1e-5);
+                }
+            }
+        }
+    }
+    // Rounding hides it on faces of no height.
+    EXPECT_LE(num_unproved, num_paths / 1000);
+}
