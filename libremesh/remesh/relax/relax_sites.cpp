@@ -31,6 +31,8 @@ constexpr std::size_t vertices_per_site = 8;
 constexpr std::size_t vertices_per_cell = 2;
 // Flaws of a triangulation, as a share of the sites, that are worth a propagation.
 constexpr double most_flaws = 2e-3;
+// With more of them than that, relaxation would do harm.
+constexpr double hopeless_flaws = 0.1;
 // Distance error of a propagation that only has to tell who neighbours whom.
 constexpr double neighbour_error = 1e-2;
 // A coarse start needs this many sites of each component: with fewer, middles are no triangulation.
@@ -70,6 +72,11 @@ detail::SiteDual triangulate(const Surface& surface, const SurfaceLayout& layout
     return {build_dual(surface, agvd::build_diagram(surface, sites, propagation,
                                                     {.num_threads = num_threads})),
             {}};
+}
+
+// Triangles as large as the features of the surface: what is even on them is not on the surface.
+bool is_hopeless(const Relaxation& relaxation) {
+    return relaxation.num_flaws() > hopeless_flaws * static_cast<double>(relaxation.sites().size());
 }
 
 class Levels {
@@ -191,9 +198,11 @@ RelaxResult relax_sites(const Surface& surface, const SurfaceLayout& layout,
     }
     const agvd::DistanceBounds labels = levels.label(sites);
     detail::SiteDual dual = triangulate(surface, layout, labels, sites, options.num_threads);
-    Relaxation relaxation(surface, std::move(sites), std::move(dual.triangles), options.is_fixed,
-                          {}, options.num_threads);
+    Relaxation relaxation(surface, sites, std::move(dual.triangles), options.is_fixed, {},
+                          options.num_threads);
+    if (is_hopeless(relaxation)) return levels.finish(std::move(sites));
     levels.run(relaxation, &labels);
+    if (is_hopeless(relaxation)) return levels.finish(std::move(sites));
     return levels.finish(relaxation.sites());
 }
 
@@ -213,16 +222,22 @@ RelaxResult sample_relaxed_sites(const Surface& surface, const SurfaceLayout& la
     detail::SiteDual dual = detail::label_dual(surface, labels);
     Relaxation relaxation(surface, std::move(sites), std::move(dual.triangles), {}, {},
                           options.num_threads);
+    const auto one_after_the_other = [&] {
+        return relax_sites(surface, layout, sample_sites(surface, sampling), options);
+    };
+    if (is_hopeless(relaxation)) return one_after_the_other();
     levels.run(relaxation, &labels);
+    if (is_hopeless(relaxation)) return one_after_the_other();
 
     labels = levels.label(relaxation.sites());
     dual = detail::label_dual(surface, labels);
     std::optional<detail::TriangulatedSites> fine = detail::subdivide(
         surface, relaxation.sites(), relaxation.weights(), dual, sampling.num_samples);
-    if (!fine) return relax_sites(surface, layout, sample_sites(surface, sampling), options);
+    if (!fine) return one_after_the_other();
     Relaxation last(surface, std::move(fine->sites), std::move(fine->triangles), {},
                     std::move(fine->weights), options.num_threads);
     levels.run(last, nullptr);
+    if (is_hopeless(last)) return one_after_the_other();
     return levels.finish(last.sites());
 }
 

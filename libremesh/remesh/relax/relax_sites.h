@@ -38,6 +38,8 @@ struct RelaxResult {
 //! others, sites are first moved over there; if that would be most of them, and none stays, they
 //! are sampled anew (sample_relaxed_sites).
 //!
+//! Where sites are too few for their triangulation to resemble the surface, they stay where they
+//! are.
 //! \param layout  SurfaceLayout(surface).
 //! \throw agvd::InvalidOption  an option is out of range.
 //! \throw agvd::InvalidInput   a site is not on the surface.
