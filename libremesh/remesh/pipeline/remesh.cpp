@@ -221,7 +221,11 @@ private:
     // Takes vertices away until the count is met; returns how many.
     Index reduce(ValidDual& dual) {
         const auto num_vertices = static_cast<Index>(dual.mesh.points.size());
-        if (options_.vertex_count == VertexCount::Add || num_vertices <= target_) return 0;
+        const bool adds = options_.vertex_count == VertexCount::Add;
+        // A component from its faces has more vertices than it was to have sites.
+        if (adds && result_.components_from_faces == 0) return 0;
+        const Index target = adds ? static_cast<Index>(sites_.size()) : target_;
+        if (num_vertices <= target) return 0;
         const StageClock clock(Stage::Dual, result_);
         std::vector<bool> is_corner(surface_.num_vertices(), false);
         for (const Index v : corners_) is_corner[v] = true;
@@ -233,7 +237,7 @@ private:
                       (site != no_index && site < is_wanted_.size() && is_wanted_[site]);
         }
         const std::vector<Index> gone =
-            reduce_vertices(positions_of(dual.mesh), dual.mesh.triangles, target_, keep);
+            reduce_vertices(positions_of(dual.mesh), dual.mesh.triangles, target, keep);
         compact(dual, gone);
         return static_cast<Index>(gone.size());
     }
