@@ -97,9 +97,12 @@ private:
     };
     // A way to close off an interval.
     struct Ear {
+        enum State : std::uint8_t { Unknown, Moved, Judged };
+        State state;  // Moved: judged with another place of the joint before it.
+        bool is_lens;
+        bool is_certain;
         double violation;
         BranchPoint branch;
-        bool is_lens;
     };
     struct Group {
         Index site;
@@ -125,7 +128,9 @@ private:
     [[nodiscard]] bool agrees(const Joint& at, Index site_before) const;
     [[nodiscard]] bool is_accepted(double violation) const;
     [[nodiscard]] Ear judge_ear(std::size_t i) const;
+    void judge_lens(const Joint& from, const Joint& to, Ear& ear) const;
     void close_ears();
+    [[nodiscard]] std::size_t choose_ear();
     void close_ear(std::size_t i, const Ear& ear);
     void close_with_branch(std::size_t i, BranchPoint branch);
     void add_arc(const Joint& from, const Vec2& to, Index head, Index left, bool is_curved);
@@ -146,7 +151,6 @@ private:
     [[nodiscard]] BranchPoint least_unequal(std::span<const Vec2> places, Index a, Index b,
                                             Index c) const;
     [[nodiscard]] double arc_undercut(Index site_before, const Joint& from, const Vec2& to) const;
-    [[nodiscard]] double lens_violation(const Joint& from, const Joint& to) const;
     [[nodiscard]] bool project(Relays a, Relays b, const Vec2& from, const Vec2& to, Vec2& p,
                                double& distance) const;
     [[nodiscard]] bool is_straight(Relays a, Relays b, const Vec2& from, const Vec2& to) const;
