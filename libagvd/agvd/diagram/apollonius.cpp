@@ -37,15 +37,6 @@ Vec2 direction(const Vec2& p, const Reach& r) {
     return r.last_piece > 0 ? Vec2((p - r.from) / r.last_piece) : Vec2(0, 0);
 }
 
-Reach least_reach(std::span<const PlanarRelay> relays, const Vec2& p) {
-    Reach best{infinity, p, 0};
-    for (const PlanarRelay& relay : relays) {
-        const Reach r = reach(relay, p);
-        if (r.distance < best.distance) best = r;
-    }
-    return best;
-}
-
 const PlanarRelay* nearest_relay(std::span<const PlanarRelay> relays, const Vec2& p) {
     const PlanarRelay* best = nullptr;
     double least = infinity;
@@ -79,14 +70,9 @@ double longest_side(const std::array<Vec2, 3>& corners) {
                   (corners[0] - corners[2]).squaredNorm()}));
 }
 
-void TriangleSolver::set_relays(Relays relays) {
+void TriangleSolver::set_relays(Relays relays, std::span<const Index> sites) {
     groups_.clear();
-    for (std::size_t i = 0; i < relays.size();) {
-        std::size_t end = i + 1;
-        while (end < relays.size() && relays[end].site == relays[i].site) ++end;
-        groups_.push_back({relays[i].site, relays.subspan(i, end - i)});
-        i = end;
-    }
+    for (const Index site : sites) groups_.push_back({site, of_site(relays, site)});
 }
 
 void TriangleSolver::begin(Index face, const std::array<Vec2, 3>& corners) {

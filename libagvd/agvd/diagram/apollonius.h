@@ -66,8 +66,9 @@ public:
     TriangleSolver(double chord_tolerance, LocalDiagram& out)
         : chord_tolerance_(chord_tolerance), out_(out) {}
 
-    //! \param relays  site by site; kept by reference until the next call.
-    void set_relays(std::span<const PlanarRelay> relays);
+    //! \param relays  by ascending site; kept by reference until the next call.
+    //! \param sites   those that the next triangle's boundary shows: nobody else is asked.
+    void set_relays(std::span<const PlanarRelay> relays, std::span<const Index> sites);
 
     //! Appends the diagram if the relays agree with the joints and with each other: equal
     //! joints no farther than they say, branch points where they should be, no arcs that cross.

@@ -17,9 +17,10 @@ constexpr double equality = 1e-11;
 constexpr int max_root_steps = 60;
 // Of two relays of one site that differ by less (share of the segment) one is enough.
 constexpr double same_relay = 1e-6;
-// Ties over a whole stretch that escape the tests would bisect for ever: past this many pieces the
-// ends of a piece decide.
-constexpr int max_splits = 200;
+// Ties over a whole stretch that escape the tests would bisect for ever: past this many pieces, and
+// this many for each relay, the ends of a piece decide.
+constexpr std::size_t max_splits = 200;
+constexpr std::size_t max_splits_each = 8;
 
 double value_at(const LineRelay& relay, double x) {
     const std::size_t k = x < relay.first ? 0 : x > relay.last ? 2 : 1;
@@ -29,17 +30,16 @@ double value_at(const LineRelay& relay, double x) {
 
 class Envelope {
 public:
-    Envelope(double length, EnvelopeScratch& scratch, std::vector<LabelInterval>& out,
-             std::vector<EnvelopePiece>* pieces)
+    Envelope(double length, EnvelopeScratch& scratch, std::vector<LabelInterval>& out)
         : length_(length),
           stack_(scratch.candidates),
           left_(scratch.left),
           right_(scratch.right),
-          out_(out),
-          pieces_(pieces) {}
+          out_(out) {}
 
     void run(std::span<const LineRelay> relays) {
         stack_.clear();
+        splits_left_ = max_splits + max_splits_each * relays.size();
         for (const LineRelay& relay : relays) {
             stack_.push_back({&relay, sample(relay, 0), at_right_end(relay, length_)});
         }
@@ -121,36 +121,6 @@ private:
         }
     }
 
-    // Splits a candidate's stretch [lo, hi] where its path begins or ceases to bend.
-    void emit_pieces(const LineRelay& relay, double lo, double hi) {
-        if (pieces_ == nullptr) return;
-        const double begin = std::clamp(relay.first, lo, hi);
-        const double end = std::clamp(relay.last, begin, hi);
-        emit_piece(relay, 0, lo, begin);
-        emit_piece(relay, 1, begin, end);
-        emit_piece(relay, 2, end, hi);
-    }
-
-    void emit_piece(const LineRelay& relay, std::size_t source, double begin, double end) {
-        if (!(end > begin)) return;
-        const Vec2 from(relay.x[source], relay.y[source]);
-        for (auto piece = pieces_->rbegin(); piece != pieces_->rend() && piece->end >= begin;
-             ++piece) {
-            if (piece->end == begin && piece->from == from && piece->site == relay.site) {
-                piece->end = end;
-                return;
-            }
-        }
-        pieces_->push_back({from, relay.weight[source], begin, end, relay.site});
-    }
-
-    void meet(const LineRelay& below, const LineRelay& above, double lo, double x, double hi) {
-        emit(x, below.site);
-        emit(hi, above.site);
-        emit_pieces(below, lo, x);
-        emit_pieces(above, x, hi);
-    }
-
     // The relay of one site, among the candidates from `first` on, that is the nearest at x.
     [[nodiscard]] const LineRelay* nearest_of(Index site, std::size_t first, double x) const {
         const LineRelay* result = nullptr;
@@ -228,7 +198,8 @@ private:
                     double hi) {
         const double x = crossing(below, above, first, lo, hi);
         if (stack_.size() - first == 2) {
-            meet(*below.relay, *above.relay, lo, x, hi);
+            emit(x, below.relay->site);
+            emit(hi, above.relay->site);
             return true;
         }
         if (!(x > lo && x < hi)) return false;
@@ -244,12 +215,6 @@ private:
         }
         emit(x, below.relay->site);
         emit(hi, above.relay->site);
-        for (const Candidate& c : left_) {
-            if (c.relay->site == below.relay->site) emit_pieces(*c.relay, lo, x);
-        }
-        for (const Candidate& c : right_) {
-            if (c.relay->site == above.relay->site) emit_pieces(*c.relay, x, hi);
-        }
         return true;
     }
 
@@ -276,11 +241,9 @@ private:
         }
         if (has_one_site) {
             emit(hi, site_lo);
-            for (std::size_t i = first; i < stack_.size(); ++i) {
-                emit_pieces(*stack_[i].relay, lo, hi);
-            }
-        } else if (hi - lo <= shortest_interval * length_ || ++splits_ > max_splits) {
-            meet(*best_lo.relay, *best_hi.relay, lo, (lo + hi) / 2, hi);
+        } else if (hi - lo <= shortest_interval * length_ || splits_left_ == 0) {
+            emit((lo + hi) / 2, site_lo);
+            emit(hi, site_hi);
         } else if (!has_two_sites || !cross_once(best_lo, best_hi, first, lo, hi)) {
             bisect(lo, hi, first);
         }
@@ -288,6 +251,7 @@ private:
     }
 
     void bisect(double lo, double hi, std::size_t first) {
+        --splits_left_;
         const double mid = (lo + hi) / 2;
         const std::size_t last = stack_.size();
         for (std::size_t i = first; i < last; ++i) {
@@ -305,8 +269,7 @@ private:
     std::vector<Candidate>& left_;
     std::vector<Candidate>& right_;
     std::vector<LabelInterval>& out_;
-    std::vector<EnvelopePiece>* pieces_;
-    int splits_ = 0;
+    std::size_t splits_left_ = 0;
 };
 
 // Stretches too short to be told apart go to their neighbour.
@@ -365,6 +328,33 @@ double distance_on_line(std::span<const LineRelay> relays, Index site, double x)
         if (relay.site == site) least = std::min(least, sample(relay, x).value);
     }
     return least;
+}
+
+void append_pieces(std::span<const LineRelay> relays, Index site, double begin, double end,
+                   std::vector<StraightPiece>& out) {
+    const auto first = static_cast<std::ptrdiff_t>(out.size());
+    const auto append = [&](const LineRelay& relay, std::size_t source, double lo, double hi) {
+        if (!(hi > lo)) return;
+        const Vec2 from(relay.x[source], relay.y[source]);
+        // Paths that bend at one point are one.
+        const auto same = std::find_if(out.begin() + first, out.end(), [&](const auto& piece) {
+            return piece.from == from && piece.weight == relay.weight[source];
+        });
+        if (same == out.end()) {
+            out.push_back({from, relay.weight[source], lo, hi, site});
+        } else {
+            same->begin = std::min(same->begin, lo);
+            same->end = std::max(same->end, hi);
+        }
+    };
+    for (const LineRelay& relay : relays) {
+        if (relay.site != site) continue;
+        const double straight = std::clamp(relay.first, begin, end);
+        const double bent = std::clamp(relay.last, straight, end);
+        append(relay, 0, begin, straight);
+        append(relay, 1, straight, bent);
+        append(relay, 2, bent, end);
+    }
 }
 
 bool find_single_crossing(std::span<const LineRelay> relays, double length, Index a, Index b,
@@ -446,11 +436,9 @@ bool find_single_crossing(std::span<const LineRelay> relays, double length, Inde
 }
 
 void label_envelope(std::span<const LineRelay> relays, double length, Index site_at_start,
-                    Index site_at_end, EnvelopeScratch& scratch, std::vector<LabelInterval>& out,
-                    std::vector<EnvelopePiece>* pieces) {
+                    Index site_at_end, EnvelopeScratch& scratch, std::vector<LabelInterval>& out) {
     out.clear();
-    if (pieces != nullptr) pieces->clear();
-    Envelope(length, scratch, out, pieces).run(relays);
+    Envelope(length, scratch, out).run(relays);
     drop_slivers(out);
     if (out.front().site != site_at_start) out.insert(out.begin(), {0, site_at_start});
     if (out.back().site != site_at_end) out.push_back({1, site_at_end});
