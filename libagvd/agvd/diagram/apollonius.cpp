@@ -452,15 +452,25 @@ TriangleSolver::BranchPoint TriangleSolver::find_branch(const Joint& before, con
     const Relays b = relays_of_site(sites[1]);
     const Relays c = relays_of_site(sites[2]);
     const Vec2 centroid = (at.position + after.position + before.position) / 3;
-    const Vec2 starts[] = {centroid, (at.position + after.position) / 2};
-    for (const Vec2& start : starts) {
+    // Of three joints that are left the sites do meet: worth more than two tries.
+    const bool is_last = joints_.size() == 3;
+    const Vec2 starts[] = {centroid, (at.position + after.position) / 2,
+                           (after.position + before.position) / 2,
+                           (before.position + at.position) / 2};
+    for (const Vec2& start : std::span(starts).first(is_last ? 4 : 2)) {
         Vec2 p = start;
         double distance;
         double turn = 0;
-        if (!find_equal(a, b, c, p, distance, turn)) break;
+        if (!find_equal(a, b, c, p, distance, turn)) {
+            if (is_last) continue;
+            break;
+        }
         if (!(turn > 0)) continue;  // The other one: from elsewhere.
         const double gap = outside(p);
-        if (gap > inside_tolerance * size_) break;
+        if (gap > inside_tolerance * size_) {
+            if (is_last) continue;
+            break;
+        }
         return {gap > 0 ? inside(p) : p, distance,
                 undercut(p, distance, sites[0], sites[1], sites[2])};
     }

@@ -88,24 +88,24 @@ private:
         t = std::clamp(t, 0.0, width);
         const double tangent =
             std::max(c.lo.value + c.lo.slope * t, c.hi.value - c.hi.slope * (width - t));
-        return tangent >= b.lo.value + chord * t - slack || are_parallel(c, b, lo, width, slack);
+        return tangent >= b.lo.value + chord * t - slack || are_parallel(c, b, width, slack);
     }
 
     // Seen from x, two images differ in direction by at most their distance over either's distance,
     // so near images have nearly parallel distances: told apart without bisecting.
-    [[nodiscard]] static bool are_parallel(const Candidate& c, const Candidate& b, double lo,
-                                           double width, double slack) {
+    [[nodiscard]] static bool are_parallel(const Candidate& c, const Candidate& b, double width,
+                                           double slack) {
         if (c.lo.source != c.hi.source || b.lo.source != b.hi.source) return false;
         const auto i = static_cast<std::size_t>(c.lo.source);
         const auto j = static_cast<std::size_t>(b.lo.source);
         const double dx = c.relay->x[i] - b.relay->x[j];
         // Along the segment only the distance from its line matters, not the side.
         const double dy = std::abs(c.relay->y[i]) - std::abs(b.relay->y[j]);
-        const double apart = std::sqrt(dx * dx + dy * dy);
-        const double from_lo = lo - b.relay->x[j];
-        const double range = std::sqrt(from_lo * from_lo + b.relay->y[j] * b.relay->y[j]) - width;
-        const double gap = std::min(c.lo.value - b.lo.value, c.hi.value - b.hi.value);
-        return apart == 0 || (range > 0 && gap + slack >= width * apart / range);
+        if (dx == 0 && dy == 0) return true;
+        const double range = b.lo.value - b.relay->weight[j] - width;
+        if (!(range > 0)) return false;
+        const double gap = std::min(c.lo.value - b.lo.value, c.hi.value - b.hi.value) + slack;
+        return gap >= 0 && gap * gap * range * range >= width * width * (dx * dx + dy * dy);
     }
 
     [[nodiscard]] double slack_between(const Candidate& c, const Candidate& b) const {
@@ -244,15 +244,26 @@ private:
         } else if (hi - lo <= shortest_interval * length_ || splits_left_ == 0) {
             emit((lo + hi) / 2, site_lo);
             emit(hi, site_hi);
-        } else if (!has_two_sites || !cross_once(best_lo, best_hi, first, lo, hi)) {
-            bisect(lo, hi, first);
+        } else if (!has_two_sites) {
+            divide(lo, near_crossing(best_lo, best_hi, lo, hi), hi, first);
+        } else if (!cross_once(best_lo, best_hi, first, lo, hi)) {
+            divide(lo, (lo + hi) / 2, hi, first);
         }
         stack_.resize(first);
     }
 
-    void bisect(double lo, double hi, std::size_t first) {
+    // Where two relays are about equal, if that is well inside: whoever comes between them is
+    // likely to do so there. Else the middle.
+    [[nodiscard]] static double near_crossing(const Candidate& a, const Candidate& b, double lo,
+                                              double hi) {
+        const double gap_lo = a.lo.value - b.lo.value;
+        const double gap_hi = a.hi.value - b.hi.value;
+        const double share = gap_lo / (gap_lo - gap_hi);
+        return share > 0.1 && share < 0.9 ? lo + (hi - lo) * share : (lo + hi) / 2;
+    }
+
+    void divide(double lo, double mid, double hi, std::size_t first) {
         --splits_left_;
-        const double mid = (lo + hi) / 2;
         const std::size_t last = stack_.size();
         for (std::size_t i = first; i < last; ++i) {
             Candidate c = stack_[i];
