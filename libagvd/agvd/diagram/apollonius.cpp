@@ -128,7 +128,7 @@ void TriangleSolver::draw(std::span<const Joint> joints) {
     is_sound_ = true;
     if (joints_.size() > 3) close_ears();
     if (joints_.size() == 3) {
-        close_with_branch(0, find_branch(joints_[2], joints_[0], joints_[1]));
+        close_with_branch(0, find_branch(joints_[2], joints_[0], joints_[1], true));
     } else {
         assert(joints_.size() == 2);
         add_arc(joints_[0], joints_[1].position, joints_[1].node, joints_[1].site_after, true);
@@ -150,17 +150,17 @@ bool TriangleSolver::is_accepted(double violation) const {
     return !is_safe_ && violation <= largest_violation * size_;
 }
 
-TriangleSolver::Ear TriangleSolver::judge_ear(std::size_t i) const {
+TriangleSolver::Ear TriangleSolver::judge_ear(std::size_t i, bool is_thorough) const {
     const Joint& previous = joints_[before(i, joints_.size())];
     const Joint& next = joints_[after(i, joints_.size())];
     Ear ear{};
-    ear.state = Ear::Judged;
+    ear.state = is_thorough ? Ear::Settled : Ear::Judged;
     ear.is_lens = previous.site_after == next.site_after;
     if (ear.is_lens) {
         judge_lens(joints_[i], next, ear);
         return ear;
     }
-    ear.branch = find_branch(previous, joints_[i], next);
+    ear.branch = find_branch(previous, joints_[i], next, is_thorough);
     const Vec2& p = ear.branch.position;
     ear.violation = ear.branch.violation;
     if (ear.violation >= no_branch * size_) return ear;
@@ -194,11 +194,11 @@ void TriangleSolver::close_ears() {
         const std::size_t here = next < i ? n - 1 : i % n;
         ears_[before(here, n)].state = Ear::Unknown;
         if (ear.is_lens) {
-            ears_[here].state = std::min(ears_[here].state, Ear::Moved);
+            ears_[here].state = std::min(ears_[here].state, Ear::Judged);
         } else {
             ears_[here].state = Ear::Unknown;
             Ear& last = ears_[after(here, n)];
-            last.state = std::min(last.state, Ear::Moved);
+            last.state = std::min(last.state, Ear::Judged);
         }
     }
 }
@@ -211,14 +211,13 @@ std::size_t TriangleSolver::choose_ear() {
             const bool is_lens =
                 joints_[before(i, n)].site_after == joints_[after(i, n)].site_after;
             if (is_lens != of_lenses) continue;
-            ears_[i] = judge_ear(i);
+            ears_[i] = judge_ear(i, false);
             if (ears_[i].is_certain) return i;
         }
     }
-    // Another start may find a branch that the first has missed.
     for (std::size_t i = 0; i < n; ++i) {
-        if (ears_[i].state != Ear::Moved) continue;
-        ears_[i] = judge_ear(i);
+        if (ears_[i].state != Ear::Judged) continue;
+        ears_[i] = judge_ear(i, true);
         if (ears_[i].is_certain) return i;
     }
     const auto best = std::min_element(ears_.begin(), ears_.end(), [](const Ear& a, const Ear& b) {
@@ -444,31 +443,31 @@ bool TriangleSolver::find_equal(Relays a, Relays b, Relays c, Vec2& p, double& d
     return false;
 }
 
-// Where the sites before, at and after an interval meet.
+// Where the sites before, at and after an interval meet. Most that are not found at once are
+// nowhere; to be thorough takes twice the time.
 TriangleSolver::BranchPoint TriangleSolver::find_branch(const Joint& before, const Joint& at,
-                                                        const Joint& after) const {
+                                                        const Joint& after,
+                                                        bool is_thorough) const {
     const Index sites[] = {before.site_after, at.site_after, after.site_after};
     const Relays a = relays_of_site(sites[0]);
     const Relays b = relays_of_site(sites[1]);
     const Relays c = relays_of_site(sites[2]);
     const Vec2 centroid = (at.position + after.position + before.position) / 3;
-    // Of three joints that are left the sites do meet: worth more than two tries.
-    const bool is_last = joints_.size() == 3;
     const Vec2 starts[] = {centroid, (at.position + after.position) / 2,
                            (after.position + before.position) / 2,
                            (before.position + at.position) / 2};
-    for (const Vec2& start : std::span(starts).first(is_last ? 4 : 2)) {
+    for (const Vec2& start : std::span(starts).first(is_thorough ? 4 : 2)) {
         Vec2 p = start;
         double distance;
         double turn = 0;
         if (!find_equal(a, b, c, p, distance, turn)) {
-            if (is_last) continue;
+            if (is_thorough) continue;
             break;
         }
         if (!(turn > 0)) continue;  // The other one: from elsewhere.
         const double gap = outside(p);
         if (gap > inside_tolerance * size_) {
-            if (is_last) continue;
+            if (is_thorough) continue;
             break;
         }
         return {gap > 0 ? inside(p) : p, distance,

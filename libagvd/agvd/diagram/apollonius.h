@@ -98,8 +98,8 @@ private:
     };
     // A way to close off an interval.
     struct Ear {
-        enum State : std::uint8_t { Unknown, Moved, Judged };
-        State state;  // Moved: judged with another place of the joint before it.
+        enum State : std::uint8_t { Unknown, Judged, Settled };
+        State state;  // Settled: judged thoroughly.
         bool is_lens;
         bool is_certain;
         double violation;
@@ -128,7 +128,7 @@ private:
 
     [[nodiscard]] bool agrees(const Joint& at, Index site_before) const;
     [[nodiscard]] bool is_accepted(double violation) const;
-    [[nodiscard]] Ear judge_ear(std::size_t i) const;
+    [[nodiscard]] Ear judge_ear(std::size_t i, bool is_thorough) const;
     void judge_lens(const Joint& from, const Joint& to, Ear& ear) const;
     void close_ears();
     [[nodiscard]] std::size_t choose_ear();
@@ -147,8 +147,8 @@ private:
     [[nodiscard]] double undercut(const Vec2& p, double distance, Index a, Index b, Index c) const;
     [[nodiscard]] bool find_equal(Relays a, Relays b, Relays c, Vec2& p, double& distance,
                                   double& turn) const;
-    [[nodiscard]] BranchPoint find_branch(const Joint& before, const Joint& at,
-                                          const Joint& after) const;
+    [[nodiscard]] BranchPoint find_branch(const Joint& before, const Joint& at, const Joint& after,
+                                          bool is_thorough) const;
     [[nodiscard]] BranchPoint least_unequal(std::span<const Vec2> places, Index a, Index b,
                                             Index c) const;
     [[nodiscard]] double arc_undercut(Index site_before, const Joint& from, const Vec2& to) const;
