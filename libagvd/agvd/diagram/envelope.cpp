@@ -47,9 +47,12 @@ public:
     }
 
 private:
-    // The segment may pass through the source itself: then the slope changes there.
     static LineSample at_right_end(const LineRelay& relay, double x) {
-        LineSample s = sample(relay, x);
+        return from_left(relay, x, sample(relay, x));
+    }
+
+    // The segment may pass through the source itself: then the slope changes there.
+    static LineSample from_left(const LineRelay& relay, double x, LineSample s) {
         const auto k = static_cast<std::size_t>(s.source);
         if (relay.y[k] == 0 && relay.x[k] == x) s.slope = -1;
         return s;
@@ -80,15 +83,13 @@ private:
                                 double slack) const {
         if (c.lo.value < b.lo.value - slack || c.hi.value < b.hi.value - slack) return false;
         const double width = hi - lo;
-        const double chord = (b.hi.value - b.lo.value) / width;
-        // The tangents at both ends meet at lo + t; above the chord there means above it
-        // everywhere.
-        const double bend = c.hi.slope - c.lo.slope;
-        double t = bend > 0 ? (c.lo.value - c.hi.value + c.hi.slope * width) / bend : 0;
-        t = std::clamp(t, 0.0, width);
-        const double tangent =
-            std::max(c.lo.value + c.lo.slope * t, c.hi.value - c.hi.slope * (width - t));
-        return tangent >= b.lo.value + chord * t - slack || are_parallel(c, b, width, slack);
+        const double rise = b.hi.value - b.lo.value;
+        // A tangent that leaves the chord upwards stays above it.
+        if (c.lo.slope * width >= rise || c.hi.slope * width <= rise) return true;
+        // Else the tangents meet at lo + t; above the chord there means above it everywhere.
+        const double t = (c.lo.value - c.hi.value + c.hi.slope * width) / (c.hi.slope - c.lo.slope);
+        return c.lo.value + c.lo.slope * t >= b.lo.value + rise * (t / width) - slack ||
+               are_parallel(c, b, width, slack);
     }
 
     // Seen from x, two images differ in direction by at most their distance over either's distance,
@@ -121,19 +122,26 @@ private:
         }
     }
 
-    // The relay of one site, among the candidates from `first` on, that is the nearest at x.
-    [[nodiscard]] const LineRelay* nearest_of(Index site, std::size_t first, double x) const {
-        const LineRelay* result = nullptr;
-        double least = infinity;
+    // The relays of two sites, among the candidates from `first` on, that are the nearest at x.
+    struct Pair {
+        const LineRelay *a, *b;
+        double at_a, at_b;
+    };
+    [[nodiscard]] Pair nearest_of(Index site_a, Index site_b, std::size_t first, double x) const {
+        Pair pair{nullptr, nullptr, infinity, infinity};
         for (std::size_t i = first; i < stack_.size(); ++i) {
-            if (stack_[i].relay->site != site) continue;
-            const double value = sample(*stack_[i].relay, x).value;
-            if (value < least) {
-                least = value;
-                result = stack_[i].relay;
+            const LineRelay* const relay = stack_[i].relay;
+            if (relay->site != site_a && relay->site != site_b) continue;
+            const double value = value_at(*relay, x);
+            if (relay->site == site_a && value < pair.at_a) {
+                pair.a = relay;
+                pair.at_a = value;
+            } else if (relay->site == site_b && value < pair.at_b) {
+                pair.b = relay;
+                pair.at_b = value;
             }
         }
-        return result;
+        return pair;
     }
 
     // A point where the distances from two sites are equal; a is nearer at lo, b at hi. Newton,
@@ -152,13 +160,13 @@ private:
             const LineSample at_b = sample(*on_b, x);
             const double gap = at_a.value - at_b.value;
             const bool is_root = std::abs(gap) <= equality * length_ + tolerance(at_a.value);
-            if (!is_pair && (is_root || i % 4 == 0)) {
-                const LineRelay* const best_a = nearest_of(a.relay->site, first, x);
-                const LineRelay* const best_b = nearest_of(b.relay->site, first, x);
-                if (best_a != on_a || best_b != on_b) {
-                    on_a = best_a;
-                    on_b = best_b;
-                    const double true_gap = sample(*on_a, x).value - sample(*on_b, x).value;
+            const bool is_checked = is_root || i % 4 == 3;
+            if (!is_pair && is_checked) {
+                const Pair nearest = nearest_of(a.relay->site, b.relay->site, first, x);
+                if (nearest.a != on_a || nearest.b != on_b) {
+                    on_a = nearest.a;
+                    on_b = nearest.b;
+                    const double true_gap = nearest.at_a - nearest.at_b;
                     if (std::abs(true_gap) <= equality * length_) return x;
                     (true_gap < 0 ? lo : hi) = x;
                     // From here with the new pair; halving now and then, so that it ends.
@@ -170,7 +178,7 @@ private:
                 }
             }
             if (is_root) return x;
-            if (is_pair || i % 4 == 0) (gap < 0 ? lo : hi) = x;
+            if (is_pair || is_checked) (gap < 0 ? lo : hi) = x;
             x = i % 4 == 3 ? (lo + hi) / 2 : x - gap / (at_a.slope - at_b.slope);
         }
         return (lo + hi) / 2;
@@ -206,8 +214,8 @@ private:
         left_.assign(stack_.begin() + static_cast<std::ptrdiff_t>(first), stack_.end());
         right_ = left_;
         for (std::size_t i = 0; i < left_.size(); ++i) {
-            left_[i].hi = at_right_end(*left_[i].relay, x);
             right_[i].lo = sample(*left_[i].relay, x);
+            left_[i].hi = from_left(*left_[i].relay, x, right_[i].lo);
         }
         if (!is_alone(left_, below.relay->site, lo, x) ||
             !is_alone(right_, above.relay->site, x, hi)) {
@@ -268,7 +276,7 @@ private:
         for (std::size_t i = first; i < last; ++i) {
             Candidate c = stack_[i];
             stack_[i].lo = sample(*c.relay, mid);  // This entry goes on as the upper half.
-            c.hi = at_right_end(*c.relay, mid);
+            c.hi = from_left(*c.relay, mid, stack_[i].lo);
             stack_.push_back(c);
         }
         split(lo, mid, last);
