@@ -78,11 +78,12 @@ public:
                                  std::span<const Joint> joints);
 
     //! The same for any relays. The result is a planar forest whatever the distances are: the
-    //! boundary's intervals are closed off one after the other, each by the arc or branch that fits
-    //! the distances best, and each step leaves a shorter cycle. Where the distances are those of a
-    //! true Apollonius diagram it is that diagram. Arcs that would cross others are drawn straight,
-    //! and if that is not enough all are, with branches on the chords that cut intervals off.
-    //! Cost: O(k) branch points for k joints, each O(relays), and O(k^2) comparisons.
+    //! boundary's intervals are closed off one after the other, each by an arc or branch, those
+    //! about which there is no doubt first and then what fits the distances best, and each step
+    //! leaves a shorter cycle. Where the distances are those of a true Apollonius diagram it is
+    //! that diagram. Arcs that would cross others are drawn straight, and if that is not enough all
+    //! are, with branches on the chords that cut intervals off. Cost: O(k) branch points for k
+    //! joints, each O(relays), and O(k^2) comparisons.
     void solve(Index face, const std::array<Vec2, 3>& corners, std::span<const Joint> joints);
 
     //! Draws what the last of these calls drew once more, all straight.

@@ -1,5 +1,6 @@
 #include "agvd/diagram/face_triangulation.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "agvd/diagram/face_relays.h"
