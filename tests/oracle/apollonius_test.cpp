@@ -160,7 +160,9 @@ TEST(Apollonius, InATriangleIsThatOfCgal) {
         const Graph graph = graph_of(c);
         LocalDiagram local;
         TriangleSolver solver(0.01, local);
-        solver.set_relays(c.relays);
+        std::vector<Index> sites;
+        for (const PlanarRelay& relay : c.relays) sites.push_back(relay.site);
+        solver.set_relays(c.relays, sites);
         if (!joints.empty()) solver.solve(0, c.corners, joints);
 
         std::vector<Vertex> ours;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 
 #include "agvd/core/random.h"
 #include "agvd/diagram/cells.h"
@@ -126,6 +127,64 @@ TEST(Diagram, PlaneSitesGiveThePlanarVoronoiDiagram) {
         for (Index i = diagram.edge_points[e]; i < diagram.edge_points[e + 1]; ++i) {
             const Vec3 p = position(mesh.view(), diagram.points[i]);
             EXPECT_NEAR(distance(p, edge.left), distance(p, edge.right), 0.01);
+        }
+    }
+}
+
+TEST(Diagram, AThousandSitesInTwelveFacesAreAValidComplex) {
+    const bool is_long = std::getenv("AGVD_LONG") != nullptr;
+    const TriangleMesh mesh = shapes::cube();
+    const Surface surface = build_surface(mesh.view());
+    for (const bool is_lattice : {false, true}) {
+        SCOPED_TRACE(is_lattice ? "lattice" : "random");
+        std::vector<SurfacePoint> sites;
+        const int steps = is_long ? 30 : 14;
+        for (Index f = 0; f < mesh.triangles.size(); ++f) {
+            for (int i = 1; i < steps; ++i) {
+                for (int j = 1; i + j < steps; ++j) {
+                    const auto n = static_cast<Index>(sites.size());
+                    double u = static_cast<double>(i) / steps;
+                    double v = static_cast<double>(j) / steps;
+                    if (!is_lattice) {
+                        u = random_unit(1, 0, n);
+                        v = (1 - u) * random_unit(1, 1, n);
+                    }
+                    sites.push_back({FaceId(f), {u, v, 1 - u - v}});
+                }
+            }
+        }
+        const auto diagram = build_diagram(surface, sites, propagate(surface, sites));
+        checks::expect_valid_complex(surface, diagram);
+        for (const double area : diagram.cell_area) EXPECT_GT(area, 0);
+        for (const int euler : diagram.cell_euler) EXPECT_EQ(euler, 1);
+    }
+}
+
+TEST(Diagram, ManySitesInAFaceOfAPlaneGiveThePlanarVoronoiDiagram) {
+    const TriangleMesh mesh = shapes::grid(1);
+    const Surface surface = build_surface(mesh.view());
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        std::vector<SurfacePoint> sites;
+        std::vector<Vec3> places;
+        for (Index i = 0; i < 500; ++i) {
+            const double u = random_unit(seed, 0, i);
+            const double v = (1 - u) * random_unit(seed, 1, i);
+            sites.push_back({FaceId(i % 2), {u, v, 1 - u - v}});
+            places.push_back(position(mesh.view(), sites.back()));
+        }
+        const auto diagram =
+            build_diagram(surface, sites, propagate(surface, sites, {.max_error = 0.0}));
+        for (Index v = 0; v < diagram.vertices.size(); ++v) {
+            const Vec3 p = position(mesh.view(), diagram.vertices[v]);
+            double least = std::numeric_limits<double>::infinity();
+            for (const Vec3& place : places) least = std::min(least, (p - place).norm());
+            EXPECT_NEAR(diagram.vertex_distance[v], least, 1e-9);
+            for (Index i = diagram.vertex_offsets[v]; i < diagram.vertex_offsets[v + 1]; ++i) {
+                const SiteId site = diagram.vertex_sites[i];
+                if (!site.is_valid()) continue;
+                EXPECT_NEAR((p - places[site.value()]).norm(), least, 1e-9);
+            }
         }
     }
 }

@@ -37,15 +37,6 @@ Vec2 direction(const Vec2& p, const Reach& r) {
     return r.last_piece > 0 ? Vec2((p - r.from) / r.last_piece) : Vec2(0, 0);
 }
 
-Reach least_reach(std::span<const PlanarRelay> relays, const Vec2& p) {
-    Reach best{infinity, p, 0};
-    for (const PlanarRelay& relay : relays) {
-        const Reach r = reach(relay, p);
-        if (r.distance < best.distance) best = r;
-    }
-    return best;
-}
-
 const PlanarRelay* nearest_relay(std::span<const PlanarRelay> relays, const Vec2& p) {
     const PlanarRelay* best = nullptr;
     double least = infinity;
@@ -79,14 +70,9 @@ double longest_side(const std::array<Vec2, 3>& corners) {
                   (corners[0] - corners[2]).squaredNorm()}));
 }
 
-void TriangleSolver::set_relays(Relays relays) {
+void TriangleSolver::set_relays(Relays relays, std::span<const Index> sites) {
     groups_.clear();
-    for (std::size_t i = 0; i < relays.size();) {
-        std::size_t end = i + 1;
-        while (end < relays.size() && relays[end].site == relays[i].site) ++end;
-        groups_.push_back({relays[i].site, relays.subspan(i, end - i)});
-        i = end;
-    }
+    for (const Index site : sites) groups_.push_back({site, of_site(relays, site)});
 }
 
 void TriangleSolver::begin(Index face, const std::array<Vec2, 3>& corners) {
@@ -142,7 +128,7 @@ void TriangleSolver::draw(std::span<const Joint> joints) {
     is_sound_ = true;
     if (joints_.size() > 3) close_ears();
     if (joints_.size() == 3) {
-        close_with_branch(0, find_branch(joints_[2], joints_[0], joints_[1]));
+        close_with_branch(0, find_branch(joints_[2], joints_[0], joints_[1], true));
     } else {
         assert(joints_.size() == 2);
         add_arc(joints_[0], joints_[1].position, joints_[1].node, joints_[1].site_after, true);
@@ -164,35 +150,35 @@ bool TriangleSolver::is_accepted(double violation) const {
     return !is_safe_ && violation <= largest_violation * size_;
 }
 
-TriangleSolver::Ear TriangleSolver::judge_ear(std::size_t i) const {
+TriangleSolver::Ear TriangleSolver::judge_ear(std::size_t i, bool is_thorough) const {
     const Joint& previous = joints_[before(i, joints_.size())];
     const Joint& next = joints_[after(i, joints_.size())];
     Ear ear{};
+    ear.state = is_thorough ? Ear::Settled : Ear::Judged;
     ear.is_lens = previous.site_after == next.site_after;
     if (ear.is_lens) {
-        ear.violation = lens_violation(joints_[i], next);
-    } else {
-        ear.branch = find_branch(previous, joints_[i], next);
-        const Vec2& p = ear.branch.position;
-        ear.violation = ear.branch.violation;
-        if (ear.violation >= no_branch * size_) return ear;
-        ear.violation = std::max({ear.violation, arc_undercut(previous.site_after, joints_[i], p),
-                                  arc_undercut(joints_[i].site_after, next, p)});
+        judge_lens(joints_[i], next, ear);
+        return ear;
     }
+    ear.branch = find_branch(previous, joints_[i], next, is_thorough);
+    const Vec2& p = ear.branch.position;
+    ear.violation = ear.branch.violation;
+    if (ear.violation >= no_branch * size_) return ear;
+    ear.violation = std::max({ear.violation, arc_undercut(previous.site_after, joints_[i], p),
+                              arc_undercut(joints_[i].site_after, next, p)});
+    ear.is_certain = ear.violation <= inside_tolerance * size_;
     return ear;
 }
 
-// Closes ears, the best first, until at most three joints are left. Closing one changes the
-// judgement of its two neighbours only.
+// Closes ears until at most three joints are left: the first about which there is no doubt, else
+// the best. Most triangles with many joints are crossed by strips; there only the lenses at both
+// ends of the row are ears, and told without looking for branches. Closing an ear changes the sites
+// around two others at most.
 void TriangleSolver::close_ears() {
-    ears_.clear();
-    for (std::size_t i = 0; i < joints_.size(); ++i) ears_.push_back(judge_ear(i));
+    ears_.assign(joints_.size(), {});
     while (joints_.size() > 3) {
-        const auto best =
-            std::min_element(ears_.begin(), ears_.end(),
-                             [](const Ear& a, const Ear& b) { return a.violation < b.violation; });
-        const auto i = static_cast<std::size_t>(best - ears_.begin());
-        const Ear ear = *best;
+        const std::size_t i = choose_ear();
+        const Ear ear = ears_[i];
         const std::size_t next = after(i, joints_.size());
         close_ear(i, ear);
         if (joints_.size() <= 3) return;
@@ -206,11 +192,38 @@ void TriangleSolver::close_ears() {
         }
         const std::size_t n = joints_.size();
         const std::size_t here = next < i ? n - 1 : i % n;
-        for (const std::size_t k :
-             {before(before(here, n), n), before(here, n), here, after(here, n)}) {
-            ears_[k] = judge_ear(k);
+        ears_[before(here, n)].state = Ear::Unknown;
+        if (ear.is_lens) {
+            ears_[here].state = std::min(ears_[here].state, Ear::Judged);
+        } else {
+            ears_[here].state = Ear::Unknown;
+            Ear& last = ears_[after(here, n)];
+            last.state = std::min(last.state, Ear::Judged);
         }
     }
+}
+
+std::size_t TriangleSolver::choose_ear() {
+    const std::size_t n = joints_.size();
+    for (const bool of_lenses : {true, false}) {
+        for (std::size_t i = 0; i < n; ++i) {
+            if (ears_[i].state != Ear::Unknown) continue;
+            const bool is_lens =
+                joints_[before(i, n)].site_after == joints_[after(i, n)].site_after;
+            if (is_lens != of_lenses) continue;
+            ears_[i] = judge_ear(i, false);
+            if (ears_[i].is_certain) return i;
+        }
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+        if (ears_[i].state != Ear::Judged) continue;
+        ears_[i] = judge_ear(i, true);
+        if (ears_[i].is_certain) return i;
+    }
+    const auto best = std::min_element(ears_.begin(), ears_.end(), [](const Ear& a, const Ear& b) {
+        return a.violation < b.violation;
+    });
+    return static_cast<std::size_t>(best - ears_.begin());
 }
 
 void TriangleSolver::close_ear(std::size_t i, const Ear& ear) {
@@ -430,23 +443,33 @@ bool TriangleSolver::find_equal(Relays a, Relays b, Relays c, Vec2& p, double& d
     return false;
 }
 
-// Where the sites before, at and after an interval meet.
+// Where the sites before, at and after an interval meet. Most that are not found at once are
+// nowhere; to be thorough takes twice the time.
 TriangleSolver::BranchPoint TriangleSolver::find_branch(const Joint& before, const Joint& at,
-                                                        const Joint& after) const {
+                                                        const Joint& after,
+                                                        bool is_thorough) const {
     const Index sites[] = {before.site_after, at.site_after, after.site_after};
     const Relays a = relays_of_site(sites[0]);
     const Relays b = relays_of_site(sites[1]);
     const Relays c = relays_of_site(sites[2]);
     const Vec2 centroid = (at.position + after.position + before.position) / 3;
-    const Vec2 starts[] = {centroid, (at.position + after.position) / 2};
-    for (const Vec2& start : starts) {
+    const Vec2 starts[] = {centroid, (at.position + after.position) / 2,
+                           (after.position + before.position) / 2,
+                           (before.position + at.position) / 2};
+    for (const Vec2& start : std::span(starts).first(is_thorough ? 4 : 2)) {
         Vec2 p = start;
         double distance;
         double turn = 0;
-        if (!find_equal(a, b, c, p, distance, turn)) break;
+        if (!find_equal(a, b, c, p, distance, turn)) {
+            if (is_thorough) continue;
+            break;
+        }
         if (!(turn > 0)) continue;  // The other one: from elsewhere.
         const double gap = outside(p);
-        if (gap > inside_tolerance * size_) break;
+        if (gap > inside_tolerance * size_) {
+            if (is_thorough) continue;
+            break;
+        }
         return {gap > 0 ? inside(p) : p, distance,
                 undercut(p, distance, sites[0], sites[1], sites[2])};
     }
@@ -485,17 +508,23 @@ double TriangleSolver::arc_undercut(Index site_before, const Joint& from, const 
 }
 
 // Closing off an interval by one arc from its joint to the next: wrong where a third site is
-// nearer on the arc, and the less likely the farther the arc strays from its chord.
-double TriangleSolver::lens_violation(const Joint& from, const Joint& to) const {
+// nearer on the arc, and the less likely the farther the arc strays from its chord. Certain where
+// the site has no other interval that this one could hang together with.
+void TriangleSolver::judge_lens(const Joint& from, const Joint& to, Ear& ear) const {
     Vec2 p;
     double distance;
     if (!project(relays_of_site(from.site_after), relays_of_site(to.site_after), from.position,
                  to.position, p, distance)) {
-        return 2 * size_;
+        ear.violation = no_branch * size_;
+        return;
     }
     constexpr double stray_weight = 1e-3;
-    return undercut(p, distance, from.site_after, to.site_after, no_index) +
-           stray_weight * (p - (from.position + to.position) / 2).norm();
+    const double below = undercut(p, distance, from.site_after, to.site_after, no_index);
+    ear.violation = below + stray_weight * (p - (from.position + to.position) / 2).norm();
+    ear.is_certain = below <= inside_tolerance * size_ &&
+                     std::count_if(joints_.begin(), joints_.end(), [&](const Joint& joint) {
+                         return joint.site_after == from.site_after;
+                     }) == 1;
 }
 
 // The point of the bisector of a and b opposite the middle of a chord; false where there is

@@ -66,8 +66,9 @@ public:
     TriangleSolver(double chord_tolerance, LocalDiagram& out)
         : chord_tolerance_(chord_tolerance), out_(out) {}
 
-    //! \param relays  site by site; kept by reference until the next call.
-    void set_relays(std::span<const PlanarRelay> relays);
+    //! \param relays  by ascending site; kept by reference until the next call.
+    //! \param sites   those that the next triangle's boundary shows: nobody else is asked.
+    void set_relays(std::span<const PlanarRelay> relays, std::span<const Index> sites);
 
     //! Appends the diagram if the relays agree with the joints and with each other: equal
     //! joints no farther than they say, branch points where they should be, no arcs that cross.
@@ -77,11 +78,12 @@ public:
                                  std::span<const Joint> joints);
 
     //! The same for any relays. The result is a planar forest whatever the distances are: the
-    //! boundary's intervals are closed off one after the other, each by the arc or branch that fits
-    //! the distances best, and each step leaves a shorter cycle. Where the distances are those of a
-    //! true Apollonius diagram it is that diagram. Arcs that would cross others are drawn straight,
-    //! and if that is not enough all are, with branches on the chords that cut intervals off.
-    //! Cost: O(k) branch points for k joints, each O(relays), and O(k^2) comparisons.
+    //! boundary's intervals are closed off one after the other, each by an arc or branch, those
+    //! about which there is no doubt first and then what fits the distances best, and each step
+    //! leaves a shorter cycle. Where the distances are those of a true Apollonius diagram it is
+    //! that diagram. Arcs that would cross others are drawn straight, and if that is not enough all
+    //! are, with branches on the chords that cut intervals off. Cost: O(k) branch points for k
+    //! joints, each O(relays), and O(k^2) comparisons.
     void solve(Index face, const std::array<Vec2, 3>& corners, std::span<const Joint> joints);
 
     //! Draws what the last of these calls drew once more, all straight.
@@ -97,9 +99,12 @@ private:
     };
     // A way to close off an interval.
     struct Ear {
+        enum State : std::uint8_t { Unknown, Judged, Settled };
+        State state;  // Settled: judged thoroughly.
+        bool is_lens;
+        bool is_certain;
         double violation;
         BranchPoint branch;
-        bool is_lens;
     };
     struct Group {
         Index site;
@@ -124,8 +129,10 @@ private:
 
     [[nodiscard]] bool agrees(const Joint& at, Index site_before) const;
     [[nodiscard]] bool is_accepted(double violation) const;
-    [[nodiscard]] Ear judge_ear(std::size_t i) const;
+    [[nodiscard]] Ear judge_ear(std::size_t i, bool is_thorough) const;
+    void judge_lens(const Joint& from, const Joint& to, Ear& ear) const;
     void close_ears();
+    [[nodiscard]] std::size_t choose_ear();
     void close_ear(std::size_t i, const Ear& ear);
     void close_with_branch(std::size_t i, BranchPoint branch);
     void add_arc(const Joint& from, const Vec2& to, Index head, Index left, bool is_curved);
@@ -141,12 +148,11 @@ private:
     [[nodiscard]] double undercut(const Vec2& p, double distance, Index a, Index b, Index c) const;
     [[nodiscard]] bool find_equal(Relays a, Relays b, Relays c, Vec2& p, double& distance,
                                   double& turn) const;
-    [[nodiscard]] BranchPoint find_branch(const Joint& before, const Joint& at,
-                                          const Joint& after) const;
+    [[nodiscard]] BranchPoint find_branch(const Joint& before, const Joint& at, const Joint& after,
+                                          bool is_thorough) const;
     [[nodiscard]] BranchPoint least_unequal(std::span<const Vec2> places, Index a, Index b,
                                             Index c) const;
     [[nodiscard]] double arc_undercut(Index site_before, const Joint& from, const Vec2& to) const;
-    [[nodiscard]] double lens_violation(const Joint& from, const Joint& to) const;
     [[nodiscard]] bool project(Relays a, Relays b, const Vec2& from, const Vec2& to, Vec2& p,
                                double& distance) const;
     [[nodiscard]] bool is_straight(Relays a, Relays b, const Vec2& from, const Vec2& to) const;

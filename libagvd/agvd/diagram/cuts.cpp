@@ -1,10 +1,11 @@
 #include "agvd/diagram/cuts.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "agvd/core/parallel.h"
+#include "agvd/diagram/face_triangulation.h"
 #include "agvd/diagram/inside_relays.h"
+#include "agvd/diagram/relay_tree.h"
 
 namespace agvd {
 namespace {
@@ -32,87 +33,74 @@ public:
     void cut(Index mixed_index, std::span<const PlacedSite> placed) {
         face_ = propagation_.mixed_faces[mixed_index];
         inside_relays_.gather_all(mixed_index, relays_);
+        tree_.build(relays_);
         points_.clear();
         const auto corners = face_corners(surface_, face_);
-        triangles_.assign(1, {0, 1, 2});
+        triangulation_.reset(corners);
         for (std::size_t k = 0; k < 3; ++k) {
-            points_.push_back({surface_.mesh.triangles[face_][k], corners[k]});
+            const Index v = surface_.mesh.triangles[face_][k];
+            points_.push_back({v, corners[k], labels_.point_site[v], labels_.vertex_distance[v]});
         }
         for (const PlacedSite& site : placed) add_site(site);
-        if (triangles_.size() == 1) return;
-        sides_.clear();
-        for (Index k = 0; k < 3; ++k) {
-            sides_.push_back({std::min(k, (k + 1) % 3), std::max(k, (k + 1) % 3), 3 * face_ + k});
-        }
-        out_.faces.push_back({mixed_index, static_cast<Index>(out_.triangles.size()),
-                              static_cast<Index>(triangles_.size())});
-        for (const auto& t : triangles_) {
-            CutTriangle& triangle = out_.triangles.emplace_back();
-            for (std::size_t k = 0; k < 3; ++k) {
-                triangle.points[k] = points_[t[k]].name;
-                triangle.sides[k] = find_side(t[k], t[(k + 1) % 3]);
-            }
-        }
+        if (points_.size() > 3) append_triangles(mixed_index);
     }
 
 private:
     struct Point {
         Index name;
         Vec2 position;
-    };
-    struct Side {
-        Index from, to;  // Of points_, from < to.
-        Index name;
+        Index site;
+        double distance;
     };
 
-    // Splits the triangle that holds the site in three.
     void add_site(const PlacedSite& placed) {
         if (half_edge_of(placed.point)) return;
         const Vec2 p = position_in_frame(surface_, placed.point, 3 * face_);
-        if (nearest(relays_, p).site != placed.site) return;
-        const std::size_t holder = find_triangle(p);
-        const Triangle old = triangles_[holder];
-        const auto n = static_cast<Index>(points_.size());
+        const double distance = least_reach(of_site(relays_, placed.site), p).distance;
+        find_near(p, distance);
+        if (nearest(near_, p).site != placed.site) return;
         const auto inner = static_cast<Index>(out_.inner_points.size());
-        points_.push_back({surface_.num_vertices() + inner, p});
+        points_.push_back({surface_.num_vertices() + inner, p, placed.site, distance});
         out_.inner_points.push_back({face_, p, placed.site});
-        triangles_[holder] = {old[0], old[1], n};
-        triangles_.push_back({old[1], old[2], n});
-        triangles_.push_back({old[2], old[0], n});
+        triangulation_.add(p);
     }
 
-    [[nodiscard]] Index site_of(const Point& point) const {
-        return point.name < surface_.num_vertices()
-                   ? labels_.point_site[point.name]
-                   : out_.inner_points[point.name - surface_.num_vertices()].site;
+    // Those through which p is no farther from a site than this, and maybe some others.
+    void find_near(const Vec2& p, double distance) {
+        constexpr double rounding = 1e-9;
+        tree_.find_near(p, distance * (1 + rounding), found_);
+        near_.clear();
+        for (const Index i : found_) near_.push_back(relays_[i]);
     }
 
-    [[nodiscard]] std::size_t find_triangle(const Vec2& p) const {
-        std::size_t best = 0;
-        double best_margin = -std::numeric_limits<double>::infinity();
-        for (std::size_t i = 0; i < triangles_.size(); ++i) {
-            double margin = std::numeric_limits<double>::infinity();
+    void append_triangles(Index mixed_index) {
+        const auto& pieces = triangulation_.pieces();
+        const auto first = static_cast<Index>(out_.triangles.size());
+        out_.faces.push_back({mixed_index, first, static_cast<Index>(pieces.size())});
+        for (Index i = 0; i < pieces.size(); ++i) {
+            CutTriangle triangle;
             for (std::size_t k = 0; k < 3; ++k) {
-                const Vec2& a = points_[triangles_[i][k]].position;
-                const Vec2& b = points_[triangles_[i][(k + 1) % 3]].position;
-                margin = std::min(margin, cross(b - a, p - a));
+                const Index from = pieces[i].points[k];
+                const Index to = pieces[i].points[k == 2 ? 0 : k + 1];
+                const Index beside = pieces[i].beside[k];
+                triangle.points[k] = points_[from].name;
+                if (beside == no_index) {
+                    triangle.sides[k] = 3 * face_ + from;
+                } else if (beside > i) {
+                    triangle.sides[k] = add_cut(std::min(from, to), std::max(from, to));
+                } else {
+                    const auto& shared = pieces[beside].points;
+                    const auto place = std::find(shared.begin(), shared.end(), to);
+                    triangle.sides[k] =
+                        out_.triangles[first + beside].sides[place - shared.begin()];
+                }
             }
-            if (margin > best_margin) {
-                best_margin = margin;
-                best = i;
-            }
+            out_.triangles.push_back(triangle);
         }
-        return best;
     }
 
-    Index find_side(Index a, Index b) {
-        const Index from = std::min(a, b);
-        const Index to = std::max(a, b);
-        for (const Side& side : sides_) {
-            if (side.from == from && side.to == to) return side.name;
-        }
+    Index add_cut(Index from, Index to) {
         const Index name = CrossingRow::first_cut + static_cast<Index>(out_.cuts.size());
-        sides_.push_back({from, to, name});
         label_cut(name, points_[from], points_[to]);
         return name;
     }
@@ -120,25 +108,44 @@ private:
     void label_cut(Index name, const Point& from, const Point& to) {
         const Vec2 chord = to.position - from.position;
         const double length = chord.norm();
+        // No point of the cut is farther from a site than the nearer end allows; from the middle a
+        // relay that wins there has half the length to go.
+        find_near((from.position + to.position) / 2,
+                  std::max(from.distance, to.distance) + length / 2);
         on_cut_.clear();
-        for (const PlanarRelay& relay : relays_) {
+        for (const PlanarRelay& relay : near_) {
             on_cut_.push_back(on_line(relay, from.position, chord / length, length));
         }
-        label_envelope(on_cut_, length, site_of(from), site_of(to), scratch_, intervals_);
-        const auto count = static_cast<Index>(intervals_.size()) - 1;
-        const Index row = count == 0 ? no_index : static_cast<Index>(out_.rows.size());
-        out_.cuts.push_back({face_, from.name, to.name, row});
-        if (count == 0) return;
-        out_.rows.push_back({name, static_cast<Index>(out_.crossings.size()), count});
-        for (Index i = 0; i < count; ++i) {
+        Crossing single{0, 0, from.site, to.site};
+        if (from.site != to.site &&
+            find_single_crossing(on_cut_, length, from.site, to.site, single.at, single.distance)) {
+            single.at /= length;
+            append_row(name, from, to, {&single, 1});
+            return;
+        }
+        label_envelope(on_cut_, length, from.site, to.site, scratch_, intervals_);
+        crossings_.clear();
+        for (std::size_t i = 0; i + 1 < intervals_.size(); ++i) {
             const Index before = intervals_[i].site;
             const Index after = intervals_[i + 1].site;
             const double at = intervals_[i].end;
-            out_.crossings.push_back({at,
-                                      std::max(distance_on_line(on_cut_, before, at * length),
-                                               distance_on_line(on_cut_, after, at * length)),
-                                      before, after});
+            crossings_.push_back({at,
+                                  std::max(distance_on_line(on_cut_, before, at * length),
+                                           distance_on_line(on_cut_, after, at * length)),
+                                  before, after});
         }
+        append_row(name, from, to, crossings_);
+    }
+
+    void append_row(Index name, const Point& from, const Point& to,
+                    std::span<const Crossing> crossings) {
+        const bool has_one_label = crossings.empty();
+        out_.cuts.push_back({face_, from.name, to.name,
+                             has_one_label ? no_index : static_cast<Index>(out_.rows.size())});
+        if (has_one_label) return;
+        out_.rows.push_back({name, static_cast<Index>(out_.crossings.size()),
+                             static_cast<Index>(crossings.size())});
+        out_.crossings.insert(out_.crossings.end(), crossings.begin(), crossings.end());
     }
 
     const Surface& surface_;
@@ -150,10 +157,13 @@ private:
     // The face at hand.
     Index face_ = 0;
     std::vector<PlanarRelay> relays_;
+    RelayTree tree_;
+    std::vector<Index> found_;
+    std::vector<PlanarRelay> near_;  // Those found.
     std::vector<LineRelay> on_cut_;
     std::vector<Point> points_;
-    std::vector<Triangle> triangles_;
-    std::vector<Side> sides_;
+    FaceTriangulation triangulation_;
+    std::vector<Crossing> crossings_;
     std::vector<LabelInterval> intervals_;
     EnvelopeScratch scratch_;
 };

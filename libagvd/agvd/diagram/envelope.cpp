@@ -17,9 +17,10 @@ constexpr double equality = 1e-11;
 constexpr int max_root_steps = 60;
 // Of two relays of one site that differ by less (share of the segment) one is enough.
 constexpr double same_relay = 1e-6;
-// Ties over a whole stretch that escape the tests would bisect for ever: past this many pieces the
-// ends of a piece decide.
-constexpr int max_splits = 200;
+// Ties over a whole stretch that escape the tests would bisect for ever: past this many pieces, and
+// this many for each relay, the ends of a piece decide.
+constexpr std::size_t max_splits = 200;
+constexpr std::size_t max_splits_each = 8;
 
 double value_at(const LineRelay& relay, double x) {
     const std::size_t k = x < relay.first ? 0 : x > relay.last ? 2 : 1;
@@ -29,17 +30,16 @@ double value_at(const LineRelay& relay, double x) {
 
 class Envelope {
 public:
-    Envelope(double length, EnvelopeScratch& scratch, std::vector<LabelInterval>& out,
-             std::vector<EnvelopePiece>* pieces)
+    Envelope(double length, EnvelopeScratch& scratch, std::vector<LabelInterval>& out)
         : length_(length),
           stack_(scratch.candidates),
           left_(scratch.left),
           right_(scratch.right),
-          out_(out),
-          pieces_(pieces) {}
+          out_(out) {}
 
     void run(std::span<const LineRelay> relays) {
         stack_.clear();
+        splits_left_ = max_splits + max_splits_each * relays.size();
         for (const LineRelay& relay : relays) {
             stack_.push_back({&relay, sample(relay, 0), at_right_end(relay, length_)});
         }
@@ -47,9 +47,12 @@ public:
     }
 
 private:
-    // The segment may pass through the source itself: then the slope changes there.
     static LineSample at_right_end(const LineRelay& relay, double x) {
-        LineSample s = sample(relay, x);
+        return from_left(relay, x, sample(relay, x));
+    }
+
+    // The segment may pass through the source itself: then the slope changes there.
+    static LineSample from_left(const LineRelay& relay, double x, LineSample s) {
         const auto k = static_cast<std::size_t>(s.source);
         if (relay.y[k] == 0 && relay.x[k] == x) s.slope = -1;
         return s;
@@ -80,32 +83,30 @@ private:
                                 double slack) const {
         if (c.lo.value < b.lo.value - slack || c.hi.value < b.hi.value - slack) return false;
         const double width = hi - lo;
-        const double chord = (b.hi.value - b.lo.value) / width;
-        // The tangents at both ends meet at lo + t; above the chord there means above it
-        // everywhere.
-        const double bend = c.hi.slope - c.lo.slope;
-        double t = bend > 0 ? (c.lo.value - c.hi.value + c.hi.slope * width) / bend : 0;
-        t = std::clamp(t, 0.0, width);
-        const double tangent =
-            std::max(c.lo.value + c.lo.slope * t, c.hi.value - c.hi.slope * (width - t));
-        return tangent >= b.lo.value + chord * t - slack || are_parallel(c, b, lo, width, slack);
+        const double rise = b.hi.value - b.lo.value;
+        // A tangent that leaves the chord upwards stays above it.
+        if (c.lo.slope * width >= rise || c.hi.slope * width <= rise) return true;
+        // Else the tangents meet at lo + t; above the chord there means above it everywhere.
+        const double t = (c.lo.value - c.hi.value + c.hi.slope * width) / (c.hi.slope - c.lo.slope);
+        return c.lo.value + c.lo.slope * t >= b.lo.value + rise * (t / width) - slack ||
+               are_parallel(c, b, width, slack);
     }
 
     // Seen from x, two images differ in direction by at most their distance over either's distance,
     // so near images have nearly parallel distances: told apart without bisecting.
-    [[nodiscard]] static bool are_parallel(const Candidate& c, const Candidate& b, double lo,
-                                           double width, double slack) {
+    [[nodiscard]] static bool are_parallel(const Candidate& c, const Candidate& b, double width,
+                                           double slack) {
         if (c.lo.source != c.hi.source || b.lo.source != b.hi.source) return false;
         const auto i = static_cast<std::size_t>(c.lo.source);
         const auto j = static_cast<std::size_t>(b.lo.source);
         const double dx = c.relay->x[i] - b.relay->x[j];
         // Along the segment only the distance from its line matters, not the side.
         const double dy = std::abs(c.relay->y[i]) - std::abs(b.relay->y[j]);
-        const double apart = std::sqrt(dx * dx + dy * dy);
-        const double from_lo = lo - b.relay->x[j];
-        const double range = std::sqrt(from_lo * from_lo + b.relay->y[j] * b.relay->y[j]) - width;
-        const double gap = std::min(c.lo.value - b.lo.value, c.hi.value - b.hi.value);
-        return apart == 0 || (range > 0 && gap + slack >= width * apart / range);
+        if (dx == 0 && dy == 0) return true;
+        const double range = b.lo.value - b.relay->weight[j] - width;
+        if (!(range > 0)) return false;
+        const double gap = std::min(c.lo.value - b.lo.value, c.hi.value - b.hi.value) + slack;
+        return gap >= 0 && gap * gap * range * range >= width * width * (dx * dx + dy * dy);
     }
 
     [[nodiscard]] double slack_between(const Candidate& c, const Candidate& b) const {
@@ -121,49 +122,26 @@ private:
         }
     }
 
-    // Splits a candidate's stretch [lo, hi] where its path begins or ceases to bend.
-    void emit_pieces(const LineRelay& relay, double lo, double hi) {
-        if (pieces_ == nullptr) return;
-        const double begin = std::clamp(relay.first, lo, hi);
-        const double end = std::clamp(relay.last, begin, hi);
-        emit_piece(relay, 0, lo, begin);
-        emit_piece(relay, 1, begin, end);
-        emit_piece(relay, 2, end, hi);
-    }
-
-    void emit_piece(const LineRelay& relay, std::size_t source, double begin, double end) {
-        if (!(end > begin)) return;
-        const Vec2 from(relay.x[source], relay.y[source]);
-        for (auto piece = pieces_->rbegin(); piece != pieces_->rend() && piece->end >= begin;
-             ++piece) {
-            if (piece->end == begin && piece->from == from && piece->site == relay.site) {
-                piece->end = end;
-                return;
-            }
-        }
-        pieces_->push_back({from, relay.weight[source], begin, end, relay.site});
-    }
-
-    void meet(const LineRelay& below, const LineRelay& above, double lo, double x, double hi) {
-        emit(x, below.site);
-        emit(hi, above.site);
-        emit_pieces(below, lo, x);
-        emit_pieces(above, x, hi);
-    }
-
-    // The relay of one site, among the candidates from `first` on, that is the nearest at x.
-    [[nodiscard]] const LineRelay* nearest_of(Index site, std::size_t first, double x) const {
-        const LineRelay* result = nullptr;
-        double least = infinity;
+    // The relays of two sites, among the candidates from `first` on, that are the nearest at x.
+    struct Pair {
+        const LineRelay *a, *b;
+        double at_a, at_b;
+    };
+    [[nodiscard]] Pair nearest_of(Index site_a, Index site_b, std::size_t first, double x) const {
+        Pair pair{nullptr, nullptr, infinity, infinity};
         for (std::size_t i = first; i < stack_.size(); ++i) {
-            if (stack_[i].relay->site != site) continue;
-            const double value = sample(*stack_[i].relay, x).value;
-            if (value < least) {
-                least = value;
-                result = stack_[i].relay;
+            const LineRelay* const relay = stack_[i].relay;
+            if (relay->site != site_a && relay->site != site_b) continue;
+            const double value = value_at(*relay, x);
+            if (relay->site == site_a && value < pair.at_a) {
+                pair.a = relay;
+                pair.at_a = value;
+            } else if (relay->site == site_b && value < pair.at_b) {
+                pair.b = relay;
+                pair.at_b = value;
             }
         }
-        return result;
+        return pair;
     }
 
     // A point where the distances from two sites are equal; a is nearer at lo, b at hi. Newton,
@@ -182,13 +160,13 @@ private:
             const LineSample at_b = sample(*on_b, x);
             const double gap = at_a.value - at_b.value;
             const bool is_root = std::abs(gap) <= equality * length_ + tolerance(at_a.value);
-            if (!is_pair && (is_root || i % 4 == 0)) {
-                const LineRelay* const best_a = nearest_of(a.relay->site, first, x);
-                const LineRelay* const best_b = nearest_of(b.relay->site, first, x);
-                if (best_a != on_a || best_b != on_b) {
-                    on_a = best_a;
-                    on_b = best_b;
-                    const double true_gap = sample(*on_a, x).value - sample(*on_b, x).value;
+            const bool is_checked = is_root || i % 4 == 3;
+            if (!is_pair && is_checked) {
+                const Pair nearest = nearest_of(a.relay->site, b.relay->site, first, x);
+                if (nearest.a != on_a || nearest.b != on_b) {
+                    on_a = nearest.a;
+                    on_b = nearest.b;
+                    const double true_gap = nearest.at_a - nearest.at_b;
                     if (std::abs(true_gap) <= equality * length_) return x;
                     (true_gap < 0 ? lo : hi) = x;
                     // From here with the new pair; halving now and then, so that it ends.
@@ -200,7 +178,7 @@ private:
                 }
             }
             if (is_root) return x;
-            if (is_pair || i % 4 == 0) (gap < 0 ? lo : hi) = x;
+            if (is_pair || is_checked) (gap < 0 ? lo : hi) = x;
             x = i % 4 == 3 ? (lo + hi) / 2 : x - gap / (at_a.slope - at_b.slope);
         }
         return (lo + hi) / 2;
@@ -228,15 +206,16 @@ private:
                     double hi) {
         const double x = crossing(below, above, first, lo, hi);
         if (stack_.size() - first == 2) {
-            meet(*below.relay, *above.relay, lo, x, hi);
+            emit(x, below.relay->site);
+            emit(hi, above.relay->site);
             return true;
         }
         if (!(x > lo && x < hi)) return false;
         left_.assign(stack_.begin() + static_cast<std::ptrdiff_t>(first), stack_.end());
         right_ = left_;
         for (std::size_t i = 0; i < left_.size(); ++i) {
-            left_[i].hi = at_right_end(*left_[i].relay, x);
             right_[i].lo = sample(*left_[i].relay, x);
+            left_[i].hi = from_left(*left_[i].relay, x, right_[i].lo);
         }
         if (!is_alone(left_, below.relay->site, lo, x) ||
             !is_alone(right_, above.relay->site, x, hi)) {
@@ -244,12 +223,6 @@ private:
         }
         emit(x, below.relay->site);
         emit(hi, above.relay->site);
-        for (const Candidate& c : left_) {
-            if (c.relay->site == below.relay->site) emit_pieces(*c.relay, lo, x);
-        }
-        for (const Candidate& c : right_) {
-            if (c.relay->site == above.relay->site) emit_pieces(*c.relay, x, hi);
-        }
         return true;
     }
 
@@ -276,24 +249,34 @@ private:
         }
         if (has_one_site) {
             emit(hi, site_lo);
-            for (std::size_t i = first; i < stack_.size(); ++i) {
-                emit_pieces(*stack_[i].relay, lo, hi);
-            }
-        } else if (hi - lo <= shortest_interval * length_ || ++splits_ > max_splits) {
-            meet(*best_lo.relay, *best_hi.relay, lo, (lo + hi) / 2, hi);
-        } else if (!has_two_sites || !cross_once(best_lo, best_hi, first, lo, hi)) {
-            bisect(lo, hi, first);
+        } else if (hi - lo <= shortest_interval * length_ || splits_left_ == 0) {
+            emit((lo + hi) / 2, site_lo);
+            emit(hi, site_hi);
+        } else if (!has_two_sites) {
+            divide(lo, near_crossing(best_lo, best_hi, lo, hi), hi, first);
+        } else if (!cross_once(best_lo, best_hi, first, lo, hi)) {
+            divide(lo, (lo + hi) / 2, hi, first);
         }
         stack_.resize(first);
     }
 
-    void bisect(double lo, double hi, std::size_t first) {
-        const double mid = (lo + hi) / 2;
+    // Where two relays are about equal, if that is well inside: whoever comes between them is
+    // likely to do so there. Else the middle.
+    [[nodiscard]] static double near_crossing(const Candidate& a, const Candidate& b, double lo,
+                                              double hi) {
+        const double gap_lo = a.lo.value - b.lo.value;
+        const double gap_hi = a.hi.value - b.hi.value;
+        const double share = gap_lo / (gap_lo - gap_hi);
+        return share > 0.1 && share < 0.9 ? lo + (hi - lo) * share : (lo + hi) / 2;
+    }
+
+    void divide(double lo, double mid, double hi, std::size_t first) {
+        --splits_left_;
         const std::size_t last = stack_.size();
         for (std::size_t i = first; i < last; ++i) {
             Candidate c = stack_[i];
             stack_[i].lo = sample(*c.relay, mid);  // This entry goes on as the upper half.
-            c.hi = at_right_end(*c.relay, mid);
+            c.hi = from_left(*c.relay, mid, stack_[i].lo);
             stack_.push_back(c);
         }
         split(lo, mid, last);
@@ -305,8 +288,7 @@ private:
     std::vector<Candidate>& left_;
     std::vector<Candidate>& right_;
     std::vector<LabelInterval>& out_;
-    std::vector<EnvelopePiece>* pieces_;
-    int splits_ = 0;
+    std::size_t splits_left_ = 0;
 };
 
 // Stretches too short to be told apart go to their neighbour.
@@ -365,6 +347,33 @@ double distance_on_line(std::span<const LineRelay> relays, Index site, double x)
         if (relay.site == site) least = std::min(least, sample(relay, x).value);
     }
     return least;
+}
+
+void append_pieces(std::span<const LineRelay> relays, Index site, double begin, double end,
+                   std::vector<StraightPiece>& out) {
+    const auto first = static_cast<std::ptrdiff_t>(out.size());
+    const auto append = [&](const LineRelay& relay, std::size_t source, double lo, double hi) {
+        if (!(hi > lo)) return;
+        const Vec2 from(relay.x[source], relay.y[source]);
+        // Paths that bend at one point are one.
+        const auto same = std::find_if(out.begin() + first, out.end(), [&](const auto& piece) {
+            return piece.from == from && piece.weight == relay.weight[source];
+        });
+        if (same == out.end()) {
+            out.push_back({from, relay.weight[source], lo, hi, site});
+        } else {
+            same->begin = std::min(same->begin, lo);
+            same->end = std::max(same->end, hi);
+        }
+    };
+    for (const LineRelay& relay : relays) {
+        if (relay.site != site) continue;
+        const double straight = std::clamp(relay.first, begin, end);
+        const double bent = std::clamp(relay.last, straight, end);
+        append(relay, 0, begin, straight);
+        append(relay, 1, straight, bent);
+        append(relay, 2, bent, end);
+    }
 }
 
 bool find_single_crossing(std::span<const LineRelay> relays, double length, Index a, Index b,
@@ -446,11 +455,9 @@ bool find_single_crossing(std::span<const LineRelay> relays, double length, Inde
 }
 
 void label_envelope(std::span<const LineRelay> relays, double length, Index site_at_start,
-                    Index site_at_end, EnvelopeScratch& scratch, std::vector<LabelInterval>& out,
-                    std::vector<EnvelopePiece>* pieces) {
+                    Index site_at_end, EnvelopeScratch& scratch, std::vector<LabelInterval>& out) {
     out.clear();
-    if (pieces != nullptr) pieces->clear();
-    Envelope(length, scratch, out, pieces).run(relays);
+    Envelope(length, scratch, out).run(relays);
     drop_slivers(out);
     if (out.front().site != site_at_start) out.insert(out.begin(), {0, site_at_start});
     if (out.back().site != site_at_end) out.push_back({1, site_at_end});

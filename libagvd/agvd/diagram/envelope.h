@@ -51,15 +51,18 @@ struct LabelInterval {
     Index site;
 };
 
-//! A straight stretch of the envelope: from parameter `begin` to `end` (lengths along the segment)
-//! the nearest site is reached straight from `from`, itself at distance `weight` from the site.
-//! Several may overlap where one site is reached in several ways.
-struct EnvelopePiece {
+//! From `begin` to `end` (lengths along the segment) a site is reached straight from `from`, itself
+//! at distance `weight` from it.
+struct StraightPiece {
     Vec2 from;
     double weight;
     double begin, end;
     Index site;
 };
+
+//! Appends what the relays of one site say about a stretch of the segment.
+void append_pieces(std::span<const LineRelay> relays, Index site, double begin, double end,
+                   std::vector<StraightPiece>& out);
 
 //! Scratch memory, so that a loop over many segments allocates once.
 struct EnvelopeScratch {
@@ -84,7 +87,6 @@ struct EnvelopeScratch {
 //! The first and last interval get the sites named, with no length if need be, so that all segments
 //! at a corner agree on its site. `pieces`, if asked for, gets what won and where.
 void label_envelope(std::span<const LineRelay> relays, double length, Index site_at_start,
-                    Index site_at_end, EnvelopeScratch& scratch, std::vector<LabelInterval>& out,
-                    std::vector<EnvelopePiece>* pieces = nullptr);
+                    Index site_at_end, EnvelopeScratch& scratch, std::vector<LabelInterval>& out);
 
 }  // namespace agvd

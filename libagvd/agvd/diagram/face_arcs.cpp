@@ -57,7 +57,7 @@ private:
         mixed_index_ = mixed_index;
         face_ = propagation_.mixed_faces[mixed_index];
         corners_ = face_corners(surface_, face_);
-        has_all_relays_ = false;
+        has_own_relays_ = has_all_relays_ = false;
     }
 
     [[nodiscard]] Vec2 position_of(Index point) const {
@@ -93,9 +93,9 @@ private:
                                out_.parts.end());
         const FaceArcs::Mark before = out_.mark();
         const bool is_plain = !has_all_relays_ && solve_by_one_arc(corners);
-        if (!is_plain && (has_all_relays_ || !solve_by_own_relays(corners))) {
-            gather_all_relays();
-            solver_.solve(face_, corners, joints_);
+        if (!is_plain) {
+            collect_sites();
+            if (has_all_relays_ || !solve_by_own_relays(corners)) solve_by_all_relays(corners);
         }
         count_parts(before);
         // Arcs that lie on each other, or on a side, escape a search for crossings, but turn a
@@ -180,23 +180,27 @@ private:
         return true;
     }
 
-    [[nodiscard]] bool solve_by_own_relays(const std::array<Vec2, 3>& corners) {
+    void collect_sites() {
         sites_.clear();
         for (const Joint& joint : joints_) {
             if (std::find(sites_.begin(), sites_.end(), joint.site_after) == sites_.end()) {
                 sites_.push_back(joint.site_after);
             }
         }
-        inside_relays_.gather_own(mixed_index_, sites_, relays_);
-        solver_.set_relays(relays_);
+    }
+
+    [[nodiscard]] bool solve_by_own_relays(const std::array<Vec2, 3>& corners) {
+        if (!has_own_relays_) inside_relays_.gather_own(mixed_index_, own_relays_);
+        has_own_relays_ = true;
+        solver_.set_relays(own_relays_, sites_);
         return solver_.try_solve(face_, corners, joints_);
     }
 
-    void gather_all_relays() {
-        if (has_all_relays_) return;
-        inside_relays_.gather_all(mixed_index_, relays_);
-        solver_.set_relays(relays_);
+    void solve_by_all_relays(const std::array<Vec2, 3>& corners) {
+        if (!has_all_relays_) inside_relays_.gather_all(mixed_index_, all_relays_);
         has_all_relays_ = true;
+        solver_.set_relays(all_relays_, sites_);
+        solver_.solve(face_, corners, joints_);
     }
 
     void add_area_beside(Index i) {
@@ -245,12 +249,12 @@ private:
     Index mixed_index_ = 0;
     Index face_ = 0;
     std::array<Vec2, 3> corners_;
-    bool has_all_relays_ = false;
+    bool has_own_relays_ = false, has_all_relays_ = false;
+    std::vector<PlanarRelay> own_relays_, all_relays_;
     std::array<Side, 3> sides_;  // Of the triangle at hand.
     std::size_t first_part_ = 0;
     std::vector<FaceArcs::CellPart> boundary_parts_;  // What the boundary alone contributes.
     std::vector<Index> sites_;
-    std::vector<PlanarRelay> relays_;
     std::vector<Joint> joints_;
 };
 

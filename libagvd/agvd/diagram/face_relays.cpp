@@ -71,10 +71,18 @@ void append_planar(const Surface& surface, std::span<const Relay> relays, const 
     }
 }
 
-Reach reach_from(std::span<const PlanarRelay> relays, Index site, const Vec2& p) {
+std::span<const PlanarRelay> of_site(std::span<const PlanarRelay> relays, Index site) {
+    const auto first = std::lower_bound(
+        relays.begin(), relays.end(), site,
+        [](const PlanarRelay& relay, Index wanted) { return relay.site < wanted; });
+    auto last = first;
+    while (last != relays.end() && last->site == site) ++last;
+    return {first, last};
+}
+
+Reach least_reach(std::span<const PlanarRelay> relays, const Vec2& p) {
     Reach best{std::numeric_limits<double>::infinity(), p, 0};
     for (const PlanarRelay& relay : relays) {
-        if (relay.site != site) continue;
         const Reach r = reach(relay, p);
         if (r.distance < best.distance) best = r;
     }

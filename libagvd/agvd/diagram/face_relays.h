@@ -111,8 +111,11 @@ struct CornerDistances {
 void append_planar(const Surface& surface, std::span<const Relay> relays, const Motion& motion,
                    std::vector<PlanarRelay>& out);
 
-//! Least distance over the relays of one site; infinity if it has none.
-[[nodiscard]] Reach reach_from(std::span<const PlanarRelay> relays, Index site, const Vec2& p);
+//! Those of one site among relays by ascending site.
+[[nodiscard]] std::span<const PlanarRelay> of_site(std::span<const PlanarRelay> relays, Index site);
+
+//! Least distance over all relays; infinity if there is none.
+[[nodiscard]] Reach least_reach(std::span<const PlanarRelay> relays, const Vec2& p);
 
 struct Nearest {
     Index site;  //!< no_index without relays; of equally near sites the lowest.

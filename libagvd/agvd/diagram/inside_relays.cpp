@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace agvd {
 namespace {
@@ -17,8 +16,7 @@ bool is_listed(const Surface& surface, const EdgeLabels& labels, Index half_edge
 
 }  // namespace
 
-void InsideRelays::gather_own(Index mixed_index, std::span<const Index> sites,
-                              std::vector<PlanarRelay>& out) {
+void InsideRelays::gather_own(Index mixed_index, std::vector<PlanarRelay>& out) {
     out.clear();
     const Index face = propagation_.mixed_faces[mixed_index];
     const auto corners = face_corners(surface_, face);
@@ -28,20 +26,11 @@ void InsideRelays::gather_own(Index mixed_index, std::span<const Index> sites,
                                         Motion{(corners[2] - corners[1]) / lengths[1], corners[1]},
                                         Motion{-corners[2] / lengths[2], corners[2]}};
     const auto own = relays_of(propagation_, mixed_index);
-    places_.clear();
-    next_.assign(sites.size() + 1, 0);
-    for (const Relay& relay : own) {
-        const auto found = std::find(sites.begin(), sites.end(), relay.site.value());
-        places_.push_back(static_cast<Index>(found - sites.begin()));
-        ++next_[places_.back()];
-    }
-    const Index rest = next_.back();
-    next_.back() = 0;
-    std::exclusive_scan(next_.begin(), next_.end(), next_.begin(), Index{0});
-    out.resize(own.size() - rest);
-    for (std::size_t i = 0; i < own.size(); ++i) {
-        if (places_[i] == sites.size()) continue;
-        out[next_[places_[i]]++] = to_planar(own[i], motions[own[i].half_edge - 3 * face]);
+    order_.clear();
+    for (Index i = 0; i < own.size(); ++i) order_.emplace_back(own[i].site.value(), i);
+    std::sort(order_.begin(), order_.end());
+    for (const auto& [site, i] : order_) {
+        out.push_back(to_planar(own[i], motions[own[i].half_edge - 3 * face]));
     }
 }
 
@@ -69,11 +58,18 @@ void InsideRelays::append_winners(Index half_edge, std::vector<PlanarRelay>& out
     const Index along = surface_.edge_half[edge];
     const double length = surface_.length[edge];
     edge_relays_.gather(edge, on_edge_);
-    label_envelope(on_edge_, length, labels_.point_site[surface_.tail(along)],
-                   labels_.point_site[surface_.head(along)], scratch_, intervals_, &pieces_);
+    pieces_.clear();
+    double from = 0;
+    Index site = labels_.point_site[surface_.tail(along)];
+    for (const Crossing& crossing : labels_.on_edge(edge)) {
+        append_pieces(on_edge_, site, from, crossing.at * length, pieces_);
+        from = crossing.at * length;
+        site = crossing.site_after;
+    }
+    append_pieces(on_edge_, site, from, length, pieces_);
     const bool forward = along == half_edge;
     const Motion to = to_face_frame(surface_, half_edge);
-    for (const EnvelopePiece& won : pieces_) {
+    for (const StraightPiece& won : pieces_) {
         const Vec2 image = forward ? won.from : Vec2(length - won.from.x(), -won.from.y());
         const bool is_on_edge = std::abs(image.y()) <= on_edge * length;
         if (image.y() > 0 && !is_on_edge) continue;  // Comes from this face.

@@ -6,7 +6,7 @@
 
 namespace agvd {
 
-//! Gathers relays in a face's own frame, site by site. Keeps references; one for each thread.
+//! Gathers relays in a face's own frame, by ascending site. Keeps references; one for each thread.
 class InsideRelays {
 public:
     InsideRelays(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
@@ -16,13 +16,13 @@ public:
           labels_(labels),
           edge_relays_(surface, propagation, groups, labels) {}
 
-    //! The face's own relays of some sites, in their order.
-    void gather_own(Index mixed_index, std::span<const Index> sites, std::vector<PlanarRelay>& out);
+    //! The face's own relays.
+    void gather_own(Index mixed_index, std::vector<PlanarRelay>& out);
 
     //! What lies in the face, what won on its edges, its corners, and the label changes on its
     //! edges, which pin the arcs to the points where they enter. What won on an edge comes through
     //! the interval on which it won and nowhere else: inside the face every label is star-shaped
-    //! with respect to an interval of its own on the boundary, or its site. By ascending site.
+    //! with respect to an interval of its own on the boundary, or its site.
     void gather_all(Index mixed_index, std::vector<PlanarRelay>& out);
 
 private:
@@ -33,11 +33,9 @@ private:
     const Propagation& propagation_;
     const EdgeLabels& labels_;
     EdgeRelays edge_relays_;
-    std::vector<Index> places_, next_;
+    std::vector<std::pair<Index, Index>> order_;  // Site and relay.
     std::vector<LineRelay> on_edge_;
-    std::vector<LabelInterval> intervals_;
-    std::vector<EnvelopePiece> pieces_;
-    EnvelopeScratch scratch_;
+    std::vector<StraightPiece> pieces_;
 };
 
 }  // namespace agvd
