@@ -106,7 +106,7 @@ void judge(const remesh::RemeshResult& result, bool strict, cli::Console& consol
                              std::to_string(result.input_self_intersections) +
                              "; ask for more samples";
     if (strict) throw agvd::ConstraintUnmet(text + ", or leave --strict out");
-    console.warn("warning: " + text);
+    console.warn(text);
 }
 
 void check_outputs(const Arguments& arguments) {
