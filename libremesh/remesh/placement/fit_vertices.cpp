@@ -21,7 +21,7 @@ using Field = std::vector<Vec3>;
 
 constexpr int num_rounds = 2;
 // What a move along the mesh costs, against the same move at right angles to all triangles.
-constexpr double along_cost = 0.2;
+constexpr double along_cost = 0.4;
 // The same of any other move: keeps vertices of which the surface says nothing.
 constexpr double across_cost = 1e-3;
 // Longest move of a round, and longest way to the centroid, in square roots of the cell's area.

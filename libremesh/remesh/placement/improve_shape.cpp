@@ -17,7 +17,7 @@ using agvd::Triangle;
 using agvd::Vec3;
 
 // Triangles below are worked on (Q of [frey1999], 1 for equilateral ones).
-constexpr double low_quality = 0.65;
+constexpr double low_quality = 0.7;
 constexpr int most_rounds = 8;
 // Steps tried, in mean lengths of the edges around the vertex, so often as they help.
 constexpr std::array step_lengths{0.2, 0.07, 0.02};

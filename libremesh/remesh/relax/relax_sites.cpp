@@ -31,8 +31,9 @@ constexpr std::size_t vertices_per_site = 8;
 constexpr std::size_t vertices_per_cell = 2;
 // Flaws of a triangulation, as a share of the sites, that are worth a propagation.
 constexpr double most_flaws = 2e-3;
-// With more of them than that, relaxation would do harm.
-constexpr double hopeless_flaws = 0.1;
+// Where more than this share of the triangles face against the surface, or of the sites are in no
+// triangle, relaxation would do harm.
+constexpr double hopeless_share = 0.1;
 // Distance error of a propagation that only has to tell who neighbours whom.
 constexpr double neighbour_error = 1e-2;
 // A coarse start needs this many sites of each component: with fewer, middles are no triangulation.
@@ -76,7 +77,11 @@ detail::SiteDual triangulate(const Surface& surface, const SurfaceLayout& layout
 
 // Triangles as large as the features of the surface: what is even on them is not on the surface.
 bool is_hopeless(const Relaxation& relaxation) {
-    return relaxation.num_flaws() > hopeless_flaws * static_cast<double>(relaxation.sites().size());
+    const std::vector<double>& area = relaxation.energy().area;
+    const auto lonely = static_cast<double>(std::count(area.begin(), area.end(), 0.0));
+    const auto turned = static_cast<double>(relaxation.energy().turned.size());
+    return turned > hopeless_share * static_cast<double>(relaxation.triangles().size()) ||
+           lonely > hopeless_share * static_cast<double>(area.size());
 }
 
 class Levels {
