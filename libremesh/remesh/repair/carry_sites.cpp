@@ -56,6 +56,16 @@ std::optional<SurfacePoint> carry_exactly(const SurfacePoint& point,
     return carried;
 }
 
+// Of place_tolerance.
+double squared_reach(const MeshView& mesh) {
+    Vec3 low = mesh.positions[0], high = low;
+    for (const Vec3& position : mesh.positions) {
+        low = low.cwiseMin(position);
+        high = high.cwiseMax(position);
+    }
+    return place_tolerance * place_tolerance * (high - low).squaredNorm();
+}
+
 // Where points of the input lie on the cleaned mesh.
 class CleanedSurface {
 public:
@@ -66,12 +76,7 @@ public:
             pieces_.emplace_back(clean.face_origin[f], f);
         }
         std::sort(pieces_.begin(), pieces_.end());
-        Vec3 low = clean_.positions[0], high = low;
-        for (const Vec3& position : clean_.positions) {
-            low = low.cwiseMin(position);
-            high = high.cwiseMax(position);
-        }
-        reach_sq_ = place_tolerance * place_tolerance * (high - low).squaredNorm();
+        reach_sq_ = squared_reach(clean_);
     }
 
     // None where cleaning left no surface. Pieces of the site's own face go first: another part of
@@ -146,18 +151,26 @@ std::vector<SurfacePoint> to_cleaned(const std::vector<SurfacePoint>& sites, con
 std::vector<SurfacePoint> to_original(const std::vector<SurfacePoint>& sites, const MeshView& mesh,
                                       const CleanResult& clean) {
     const MeshView cleaned = clean.mesh.view();
+    const double reach_sq = squared_reach(cleaned);
+    std::optional<agvd::ClosestPointTree> tree;  // Few meshes need it.
     std::vector<SurfacePoint> carried;
     carried.reserve(sites.size());
     for (const SurfacePoint& given : sites) {
         const SurfacePoint site = normalized(given);
         const Index origin = clean.face_origin[site.face.value()];
         const std::array<Vec3, 3> corners = corners_of(mesh, origin);
-        const auto same =
-            carry_exactly(site, corners_of(cleaned, site.face.value()), corners, origin);
-        carried.push_back(
-            same ? *same
-                 : closest_point_on_triangle(corners, FaceId(origin), position(cleaned, site))
-                       .point);
+        if (const auto same =
+                carry_exactly(site, corners_of(cleaned, site.face.value()), corners, origin)) {
+            carried.push_back(*same);
+            continue;
+        }
+        const Vec3 where = position(cleaned, site);
+        ClosestPoint nearest = closest_point_on_triangle(corners, FaceId(origin), where);
+        if (nearest.distance_sq > reach_sq) {  // Edges were flipped there.
+            if (!tree) tree.emplace(mesh);
+            nearest = tree->query(where);
+        }
+        carried.push_back(nearest.point);
     }
     return carried;
 }
