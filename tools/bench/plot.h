@@ -20,6 +20,7 @@ struct Plot {
     std::string y_label;
     bool is_log_x = false;  //!< Then all x are > 0; likewise for y.
     bool is_log_y = false;
+    bool is_y_from_zero = true;  //!< Without is_log_y: else from the lowest value.
     std::vector<Series> series;
 };
 

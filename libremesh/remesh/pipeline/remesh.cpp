@@ -13,6 +13,7 @@
 #include "remesh/placement/improve_shape.h"
 #include "remesh/quality/self_intersections.h"
 #include "remesh/repair/carry_sites.h"
+#include "remesh/repair/distinct_sites.h"
 #include "remesh/repair/drop_components.h"
 #include "remesh/repair/farthest_corner.h"
 #include "remesh/repair/reduce_vertices.h"
@@ -84,6 +85,7 @@ public:
         refine();
         place_sites();
         relax();
+        drop_duplicates();
         build_mesh();
         check_mesh();
         result_.sites = to_original(result_.sites, input_, clean_);
@@ -176,6 +178,12 @@ private:
         result_.relaxation = std::move(relaxed.levels);
     }
 
+    void drop_duplicates() {
+        if (!options_.sites) return;
+        sites_ = distinct_sites(surface_, sites_);
+        num_distinct_ = static_cast<Index>(sites_.size());
+    }
+
     // The dual with the count asked for. Where it runs through itself more often than the input, it
     // is built again with more sites there; the best counts.
     void build_mesh() {
@@ -211,11 +219,9 @@ private:
         target_ = options_.num_samples;
         if (!options_.sites) return;
         const auto first = diagram.cell_area.begin();
-        const auto num_given = static_cast<Index>(options_.sites->size());
-        result_.sites_dropped =
-            static_cast<Index>(std::count_if(first, first + num_given,  //
-                                             [](double area) { return !(area > 0); }));
-        target_ = num_given - result_.sites_dropped;
+        target_ = static_cast<Index>(
+            std::count_if(first, first + num_distinct_, [](double area) { return area > 0; }));
+        result_.sites_dropped = static_cast<Index>(options_.sites->size()) - target_;
     }
 
     // Takes vertices away until the count is met; returns how many.
@@ -395,6 +401,7 @@ private:
     std::optional<agvd::SurfaceLayout> layout_;
     std::vector<SurfacePoint> sites_;
     std::vector<Index> corners_;   // Boundary vertices, ascending.
+    Index num_distinct_ = 0;       // Given sites.
     Index target_ = 0;             // Vertices of the result.
     std::vector<bool> is_wanted_;  // By site: stays where vertices are taken away.
     bool has_judged_input_ = false;
