@@ -63,6 +63,7 @@ constexpr int max_unfits = 4;
 
 // Thrown where no vertex can go any more; never leaves this file.
 struct TooFewSamples {
+    Index asked;
     Index reached;  // Vertices that are left.
 };
 
@@ -195,7 +196,7 @@ private:
             const Index num_removed = reduce(dual);
             if (dual.mesh.points.size() > target_ && options_.vertex_count == VertexCount::Exact) {
                 if (mends > 0) return;
-                throw TooFewSamples{static_cast<Index>(dual.mesh.points.size())};
+                throw TooFewSamples{target_, static_cast<Index>(dual.mesh.points.size())};
             }
             const DelaunayCounts flips = flip_edges(dual);
             PlacedMesh placed = place(dual);
@@ -455,9 +456,11 @@ RemeshResult remesh(const agvd::MeshView& mesh, const RemeshOptions& options) {
     try {
         return Pipeline(mesh, options, max_mends).run();
     } catch (const TooFewSamples& failure) {
-        const auto asked = options.sites ? options.sites->size() : options.num_samples;
-        throw agvd::ConstraintUnmet(std::to_string(asked) +
-                                    " samples are too few for the topology of the mesh; " +
+        const std::string asked = std::to_string(failure.asked);
+        const std::string who =
+            options.sites ? "the given sites, of which " + asked + " own a part of the surface,"
+                          : asked + " samples";
+        throw agvd::ConstraintUnmet(who + " are too few for the topology of the mesh; " +
                                     describe_too_few(mesh, options, failure.reached));
     }
 }
