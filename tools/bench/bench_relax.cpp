@@ -92,11 +92,8 @@ std::vector<bench::Plot> plots(const Json& rows, const std::vector<int>& steps) 
     std::string x_label = "seconds, one thread; steps";
     for (const int k : steps) x_label += ' ' + std::to_string(k);
     const auto plot = [&](const char* title, const char* key) {
-        bench::Plot result{.title = title,
-                           .x_label = x_label,
-                           .y_label = title,
-                           .is_y_from_zero = false,
-                           .series = {}};
+        bench::Plot result{
+            .title = title, .x_label = x_label, .y_label = title, .is_y_from_zero = false};
         for (const Json& row : rows) {
             if (!row[key].is_number()) continue;
             const std::string name = row["mesh"];
