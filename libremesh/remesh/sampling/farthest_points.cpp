@@ -21,8 +21,7 @@ using agvd::Surface;
 using agvd::SurfacePoint;
 using agvd::Vec3;
 
-// Longest edge, in spacings: halving it once more makes the largest gap 2 % smaller and takes four
-// times as long.
+// Longest edge, in spacings: no point is then farther than a quarter of one from a vertex.
 constexpr double longest_edge = 0.4;
 // Slivers are longer than any spacing of points on them: all edges together are split into no more
 // than so many pieces for each half-edge, and for each point.

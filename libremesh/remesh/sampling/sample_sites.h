@@ -38,8 +38,8 @@ struct SamplingOptions {
 //! distances between them. Blue noise is taken from five times as many area-uniform points by
 //! weighted sample elimination ([yuksel2015]); points on opposite walls of a thin part do not repel
 //! each other. Farthest points are told by distances along the surface, along edges and across them
-//! ([eldar1997], [moenning2003]): those on the boundary, or else a random one, come first. The
-//! largest gap between them is the smallest of the three, whatever the shape.
+//! ([eldar1997], [moenning2003]): those on the boundary, or else a random one, come first. They
+//! leave the smallest gaps of the three.
 //!
 //! \throw agvd::InvalidOption    num_samples < 1 or > 8e8, or num_threads < 0.
 //! \throw agvd::InvalidInput     the surface has no face.
