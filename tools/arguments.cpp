@@ -30,6 +30,15 @@ std::string check_lambda(const std::string& text) {
     return "lambda is " + text + "; use a number above 0";
 }
 
+std::map<std::string, remesh::Init> inits_by_name() {
+    std::map<std::string, remesh::Init> inits;
+    for (const auto init :
+         {remesh::Init::Random, remesh::Init::BlueNoise, remesh::Init::Farthest}) {
+        inits[remesh::init_name(init)] = init;
+    }
+    return inits;
+}
+
 }  // namespace
 
 std::map<std::string, agvd::Engine> engines_by_name() {
@@ -49,21 +58,21 @@ void add_diagram_options(CLI::App& app, DiagramArguments& arguments) {
                         ->check(CLI::Range(agvd::Index{1}, agvd::no_index - 1).description(""))
                         ->type_name("N")
                         ->capture_default_str();
-    app.add_option_function<std::string>(
-           "--init",
-           [&sampling](const std::string& name) {
-               sampling.init = name == "random" ? remesh::Init::Random : remesh::Init::BlueNoise;
-           },
-           "How to place them: random (by area) or blue-noise")
-        ->check(CLI::IsMember({"random", "blue-noise"}).description(""))
-        ->type_name("NAME")
-        ->default_str("blue-noise");
+    auto* init =
+        app.add_option_function<std::string>(
+               "--init",
+               [&sampling](const std::string& name) { sampling.init = inits_by_name().at(name); },
+               "How to place them: blue-noise (even), farthest (no large gap) or random (by area)")
+            ->check(CLI::IsMember(inits_by_name()).description(""))
+            ->type_name("NAME")
+            ->default_str(remesh::init_name(sampling.init));
     app.add_option("--seed", sampling.seed, "Same seed, same bytes, whatever the threads")
         ->type_name("S")
         ->capture_default_str();
     app.add_option("--sites", arguments.sites,
                    "Sites to use instead; lines `v VERTEX`, `f FACE B0 B1 B2` or `p X Y Z`")
         ->excludes(samples)
+        ->excludes(init)
         ->type_name("FILE");
     app.add_option_function<std::string>(
            "--engine",

@@ -55,6 +55,8 @@ TEST_F(Remesh, SameBytesForAnyThreadsAndLambdaButNotForAnySeed) {
     EXPECT_EQ(with({"--lambda", "0.1"}), reference);
     EXPECT_NE(with({"--seed", "7"}), reference);
     EXPECT_NE(with({"--init", "random"}), reference);
+    EXPECT_NE(with({"--init", "farthest"}), reference);
+    EXPECT_NE(with({"--init", "farthest"}), with({"--init", "random"}));
 }
 
 TEST_F(Remesh, MoreSamplesThanVerticesWork) {
@@ -74,6 +76,28 @@ TEST_F(Remesh, GivenSitesBecomeTheVertices) {
     const auto mesh = remesh::read_mesh(at("out.off")).mesh;
     ASSERT_GE(mesh.positions.size(), 33u);
     EXPECT_NEAR((mesh.positions[1] - shapes::icosahedron().positions[0]).norm(), 0, 1e-12);
+}
+
+TEST_F(Remesh, SitesOnOneSpotAreOneVertexOrAreParted) {
+    const std::string in = put("in.off", shapes::sphere(3));
+    std::string sites;
+    for (int v = 0; v < 60; ++v) {
+        for (int copy = 0; copy < 5; ++copy) sites += "v " + std::to_string(v) + "\n";
+    }
+    const std::string file = put("sites.txt", sites);
+    const auto num_vertices = [&](const std::string& option, const std::string& value) {
+        std::vector<std::string> arguments{in, at("out.off"), "--sites", file, option};
+        if (!value.empty()) arguments.push_back(value);
+        const auto outcome = remesh(arguments);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        const bool tells = outcome.err.find("240 sites that owned nothing") != std::string::npos;
+        const auto count = remesh::read_mesh(at("out.off")).mesh.positions.size();
+        EXPECT_EQ(tells, count == 60) << outcome.err;
+        return count;
+    };
+    EXPECT_EQ(num_vertices("--keep-sites", ""), 60u);
+    EXPECT_EQ(num_vertices("--relax", "0"), 60u);
+    EXPECT_EQ(num_vertices("--relax", "10"), 300u);
 }
 
 TEST_F(Remesh, WrongUsageIsTwo) {
@@ -101,6 +125,7 @@ TEST_F(Remesh, WrongUsageIsTwo) {
              {in, out, "--engine", "vertex", "--max-error", "0.01"},
              {in, out, "-q", "--verbose"},
              {in, out, "--sites", at("sites"), "-n", "20"},
+             {in, out, "--sites", at("sites"), "--init", "farthest"},
              {in, out, "--keep-sites"},
              {in, out, "--relax", "-1"},
              {in, out, "--report", out},

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <map>
 
+#include "agvd/core/random.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/io/read_mesh.h"
+#include "remesh/relax/even_out.h"
 #include "remesh/relax/walk.h"
 #include "support/files.h"
 #include "support/shapes.h"
@@ -22,6 +24,7 @@ using remesh::relax_sites;
 using remesh::RelaxResult;
 using remesh::sample_relaxed_sites;
 using remesh::sample_sites;
+using remesh::detail::even_out;
 
 namespace {
 
@@ -173,6 +176,94 @@ TEST(RelaxSites, FromOneSpotItGetsAsFarAsFromBlueNoise) {
         EXPECT_LT(energy(surface, from_spot.sites), 1.02 * energy(surface, from_noise.sites))
             << name;
     }
+}
+
+// Where sites start does not matter, be it ever so uneven.
+TEST(RelaxSites, TheEnergyDoesNotDependOnTheStart) {
+    const Index count = 500;
+    for (const agvd::TriangleMesh& mesh :
+         {shapes::jitter(shapes::sphere(5), 0.01, 3), shapes::torus(120, 60)}) {
+        const Surface surface = agvd::build_surface(mesh.view());
+        const SurfaceLayout layout(surface);
+        const SurfacePoint spot{agvd::FaceId(7), {0.2, 0.3, 0.5}};
+        const auto half = sample_sites(surface, {.num_samples = count / 2});
+        const auto in_disc = [&](double share) {
+            const agvd::Propagation from_spot = agvd::propagate(surface, {{spot}}, {});
+            std::vector<std::pair<double, Index>> faces;
+            for (Index f = 0; f < surface.num_faces(); ++f) {
+                faces.emplace_back(from_spot.vertex_distance[surface.mesh.triangles[f][0]], f);
+            }
+            std::sort(faces.begin(), faces.end());
+            const auto num_faces = static_cast<Index>(share * surface.num_faces());
+            std::vector<SurfacePoint> sites;
+            for (Index i = 0; i < count; ++i) {
+                const double u = 0.01 + 0.98 * agvd::random_unit(3, 0, 3 * i);
+                const double v = agvd::random_unit(3, 0, 3 * i + 1) * (1 - u);
+                const Index f = faces[agvd::random_bits(3, 1, i) % num_faces].second;
+                sites.push_back({agvd::FaceId(f), {u, v, 1 - u - v}});
+            }
+            return sites;
+        };
+        std::map<std::string, std::vector<SurfacePoint>> starts;
+        starts["random"] = sample_sites(surface, {.num_samples = count, .init = Init::Random});
+        starts["farthest"] = sample_sites(surface, {.num_samples = count, .init = Init::Farthest});
+        starts["one spot"].assign(count, spot);
+        starts["one face"] = in_disc(1.5 / surface.num_faces());
+        starts["disc of 5 %"] = in_disc(0.05);
+        starts["disc of 20 %"] = in_disc(0.2);
+        starts["half of the surface"] = in_disc(0.5);
+        starts["half on one spot"] = half;
+        starts["half on one spot"].resize(count, spot);
+        starts["every one twice"] = half;
+        starts["every one twice"].insert(starts["every one twice"].end(), half.begin(), half.end());
+        for (const int steps : {remesh::RelaxOptions{}.steps, 100}) {
+            const double best = energy(
+                surface,
+                sample_relaxed_sites(surface, layout, {.num_samples = count}, {.steps = steps})
+                    .sites);
+            for (const auto& [name, start] : starts) {
+                const auto end = relax_sites(surface, layout, start, {.steps = steps}).sites;
+                EXPECT_LT(energy(surface, end), 1.02 * best) << name << ", " << steps;
+            }
+        }
+    }
+}
+
+TEST(EvenOut, StartsAsEvenAsRandomOnesStayAsTheyAre) {
+    for (const agvd::TriangleMesh& mesh : all_shapes()) {
+        const Surface surface = agvd::build_surface(mesh.view());
+        const SurfaceLayout layout(surface);
+        for (const Index count : {20u, 150u, 600u}) {
+            for (const Init init : {Init::Random, Init::BlueNoise, Init::Farthest}) {
+                const auto start = sample_sites(surface, {.num_samples = count, .init = init});
+                auto sites = start;
+                EXPECT_EQ(even_out(surface, layout, sites, {}, 0), 0u) << count;
+                EXPECT_TRUE(same_sites(sites, start));
+            }
+            auto relaxed = sample_relaxed_sites(surface, layout, {.num_samples = count}).sites;
+            EXPECT_EQ(even_out(surface, layout, relaxed, {}, 0), 0u) << count;
+        }
+    }
+}
+
+TEST(EvenOut, EveryPartGetsItsShareAndFixedSitesStay) {
+    const agvd::TriangleMesh mesh = shapes::join(shapes::sphere(4), shapes::torus(40, 20));
+    const Surface surface = agvd::build_surface(mesh.view());
+    const Index num_sphere_faces = static_cast<Index>(shapes::sphere(4).triangles.size());
+    const SurfacePoint spot{agvd::FaceId(7), {0.2, 0.3, 0.5}};
+    std::vector<SurfacePoint> sites(400, spot);
+    std::vector<std::uint8_t> is_fixed(400, 0);
+    is_fixed[0] = is_fixed[300] = 1;
+    EXPECT_EQ(even_out(surface, SurfaceLayout(surface), sites, is_fixed, 0), 398u);
+    expect_on_surface(surface, sites);
+    EXPECT_TRUE(same_sites({sites[0], sites[300]}, {spot, spot}));
+    const auto even = sample_sites(surface, {.num_samples = 400});
+    const auto on_sphere = [&](const std::vector<SurfacePoint>& all) {
+        return std::count_if(all.begin(), all.end(), [&](const SurfacePoint& s) {
+            return s.face.value() < num_sphere_faces;
+        });
+    };
+    EXPECT_NEAR(static_cast<double>(on_sphere(sites)), static_cast<double>(on_sphere(even)), 3);
 }
 
 TEST(RelaxSites, TheSameBytesForAnyNumberOfThreads) {

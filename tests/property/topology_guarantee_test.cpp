@@ -2,6 +2,7 @@
 // is named that works.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <charconv>
 #include <cstdlib>
 #include <set>
@@ -113,7 +114,8 @@ TEST_P(Guarantee, Holds) {
         Dice dice(seed + 1000);
         const TriangleMesh mesh = random_surfaces::make(GetParam(), seed);
         remesh::RemeshOptions options{.num_samples = static_cast<Index>(dice.magnitude(4, 3000))};
-        options.init = dice.one_in(2) ? remesh::Init::Random : remesh::Init::BlueNoise;
+        options.init = std::array{remesh::Init::Random, remesh::Init::BlueNoise,
+                                  remesh::Init::Farthest}[dice.count(0, 2)];
         options.seed = seed;
         SCOPED_TRACE(std::string(GetParam()) + " AGVD_SEED=" + std::to_string(seed) + ", " +
                      std::to_string(mesh.triangles.size()) +

@@ -8,7 +8,10 @@
 #include <set>
 
 #include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/refine.h"
+#include "agvd/propagation/propagate.h"
 #include "remesh/sampling/boundary_curves.h"
+#include "remesh/sampling/farthest_points.h"
 #include "support/shapes.h"
 
 using agvd::Index;
@@ -20,7 +23,7 @@ using remesh::sample_sites;
 
 namespace {
 
-constexpr std::array both_inits{Init::Random, Init::BlueNoise};
+constexpr std::array all_inits{Init::Random, Init::BlueNoise, Init::Farthest};
 
 Surface make(const agvd::TriangleMesh& mesh) { return agvd::build_surface(mesh.view()); }
 
@@ -51,6 +54,13 @@ bool same_sites(const std::vector<SurfacePoint>& a, const std::vector<SurfacePoi
     });
 }
 
+// The farthest that any vertex lies from the sites, along the surface.
+double covering_radius(const Surface& surface, const std::vector<SurfacePoint>& sites) {
+    const std::vector<double> distance =
+        agvd::propagate(surface, sites, {.max_error = 0.0}).vertex_distance;
+    return *std::max_element(distance.begin(), distance.end());
+}
+
 Index count_below(const std::vector<SurfacePoint>& sites, Index face) {
     return static_cast<Index>(std::count_if(
         sites.begin(), sites.end(), [face](const auto& s) { return s.face.value() < face; }));
@@ -60,7 +70,7 @@ Index count_below(const std::vector<SurfacePoint>& sites, Index face) {
 
 TEST(SampleSites, GivesTheExactCountOfDifferentPointsInsideFaces) {
     const Surface surface = make(shapes::sphere(1));  // 80 faces.
-    for (const Init init : both_inits) {
+    for (const Init init : all_inits) {
         for (const Index n : {4u, 5u, 63u, 80u, 3000u}) {
             const auto sites = sample_sites(surface, {.num_samples = n, .init = init});
             ASSERT_EQ(sites.size(), n);
@@ -83,7 +93,7 @@ TEST(SampleSites, NeverPutsTwoSitesAtOnePositionEvenWhereThereAreFew) {
     const double far = 0x1p50;
     for (Vec3& p : mesh.positions) p = p + Vec3(far, far, 0);
     const Surface surface = make(mesh);
-    for (const Init init : both_inits) {
+    for (const Init init : all_inits) {
         EXPECT_THROW((void)sample_sites(surface, {.num_samples = 2000, .init = init}),
                      agvd::ConstraintUnmet);
         const auto sites = sample_sites(surface, {.num_samples = 8, .init = init});
@@ -111,7 +121,7 @@ TEST(SampleSites, EveryComponentGetsWhatItsTopologyNeedsAndTheRestGoesByArea) {
     agvd::TriangleMesh large = grid;
     for (Vec3& p : large.positions) p = 2 * p + Vec3(5, 0, 0);  // Area 4.
     const Surface surface = make(shapes::join(shapes::join(small, grid), large));
-    for (const Init init : both_inits) {
+    for (const Init init : all_inits) {
         const auto sites = sample_sites(
             surface, {.num_samples = 13 + 101, .init = init, .boundary = remesh::Boundary::Free});
         ASSERT_EQ(sites.size(), 114u);
@@ -138,7 +148,7 @@ TEST(SampleSites, SpreadsByAreaOverFacesAndWithinThem) {
     agvd::TriangleMesh mesh = shapes::grid(2);
     for (Vec3& p : mesh.positions) p = Vec3(p.x() * p.x(), p.y(), 0);  // Faces of unequal area.
     const Surface surface = make(mesh);
-    for (const Init init : both_inits) {
+    for (const Init init : all_inits) {
         const Index n = 10000;
         std::array<double, 64> hits{};
         const auto sites = sample_sites(
@@ -149,16 +159,20 @@ TEST(SampleSites, SpreadsByAreaOverFacesAndWithinThem) {
         double chi_square = 0;
         for (const double h : hits) chi_square += (h - n / 64.0) * (h - n / 64.0) / (n / 64.0);
         EXPECT_LT(chi_square, 63 + 5 * std::sqrt(2 * 63.0));
-        if (init == Init::BlueNoise) {
+        if (init != Init::Random) {
             EXPECT_LT(chi_square, 20) << "more even than chance";
         }
     }
 }
 
-TEST(SampleSites, TheBoundaryGetsItsCornersAndEqualSteps) {
+class SampleSitesOfEvenKind : public testing::TestWithParam<Init> {};
+INSTANTIATE_TEST_SUITE_P(Inits, SampleSitesOfEvenKind,
+                         testing::Values(Init::BlueNoise, Init::Farthest));
+
+TEST_P(SampleSitesOfEvenKind, TheBoundaryGetsItsCornersAndEqualSteps) {
     const Surface surface = make(shapes::grid(30));
     const Index n = 400;
-    const auto sites = sample_sites(surface, {.num_samples = n});
+    const auto sites = sample_sites(surface, {.num_samples = n, .init = GetParam()});
     ASSERT_EQ(sites.size(), n);
     std::vector<Vec3> rim;
     Index corners = 0;
@@ -204,17 +218,19 @@ TEST(SampleSites, BlueNoiseKeepsItsDistance) {
               0.6 * spacing);
 }
 
-TEST(SampleSites, BlueNoiseKeepsItsDistanceAcrossRightAngles) {
+TEST_P(SampleSitesOfEvenKind, KeepsItsDistanceAcrossRightAngles) {
     const Surface surface = make(shapes::subdivide(shapes::cube()));
-    const auto points = positions(surface, sample_sites(surface, {.num_samples = 600}));
+    const auto points =
+        positions(surface, sample_sites(surface, {.num_samples = 600, .init = GetParam()}));
     EXPECT_GT(least_distance(points), 0.5 * best_spacing(6, 600));
 }
 
-TEST(SampleSites, BothWallsOfAThinPlateGetTheirShareOnTheirOwn) {
+TEST_P(SampleSitesOfEvenKind, BothWallsOfAThinPlateGetTheirShareOnTheirOwn) {
     agvd::TriangleMesh mesh = shapes::subdivide(shapes::subdivide(shapes::cube()));
     for (Vec3& p : mesh.positions) p.z() *= 1e-3;
     const Surface surface = make(mesh);
-    const auto points = positions(surface, sample_sites(surface, {.num_samples = 1000}));
+    const auto points =
+        positions(surface, sample_sites(surface, {.num_samples = 1000, .init = GetParam()}));
     std::vector<Vec3> top, bottom;
     for (const Vec3& p : points) {
         if (p.z() > 0.9e-3) top.push_back(p);
@@ -227,9 +243,72 @@ TEST(SampleSites, BothWallsOfAThinPlateGetTheirShareOnTheirOwn) {
     EXPECT_LT(least_distance(points), 0.2 * spacing) << "the walls do not see each other";
 }
 
+TEST(SampleSites, FarthestPointsLeaveTheSmallestGaps) {
+    agvd::TriangleMesh uneven = shapes::torus(40, 20);
+    for (Vec3& p : uneven.positions) p = Vec3(std::exp(p.x()), p.y(), p.z());
+    for (const agvd::TriangleMesh& mesh :
+         {shapes::sphere(3), shapes::torus(40, 20), shapes::cube(), uneven}) {
+        for (const Index n : {30u, 500u}) {
+            const Surface surface = make(mesh);
+            double area = 0;
+            for (Index f = 0; f < surface.num_faces(); ++f) {
+                area += surface.length_of(3 * f) * surface.apex[3 * f].y() / 2;
+            }
+            const double fine = 0.3 * std::sqrt(area / n);
+            const agvd::RefinedMesh refined = agvd::split_long_edges(mesh.view(), fine);
+            const Surface judged = make(refined.mesh);
+            const auto radius = [&](Init init) {
+                return covering_radius(judged,
+                                       sample_sites(judged, {.num_samples = n, .init = init}));
+            };
+            const double farthest = radius(Init::Farthest);
+            EXPECT_LT(farthest, 0.7 * radius(Init::Random));
+            EXPECT_LT(farthest, 1.02 * radius(Init::BlueNoise));
+            // Discs of this radius around the sites cover the area: no fewer could.
+            EXPECT_LT(farthest, 1.5 * best_spacing(area, n) / std::numbers::sqrt3);
+        }
+    }
+}
+
+TEST(SampleSites, TheFirstFarthestPointsAreThoseOfASmallerCount) {
+    const Surface surface = make(shapes::sphere(4));
+    const auto many = sample_sites(surface, {.num_samples = 60, .init = Init::Farthest});
+    const auto few = sample_sites(surface, {.num_samples = 25, .init = Init::Farthest});
+    EXPECT_TRUE(same_sites(few, {many.begin(), many.begin() + 25}));
+}
+
+TEST(SampleSites, FarthestPointsKeepAwayFromThoseThatAreFixed) {
+    const Surface surface = make(shapes::sphere(3));
+    const remesh::detail::Component whole = remesh::detail::find_components(surface)[0];
+    std::vector<SurfacePoint> fixed;  // Northern hemisphere.
+    for (const SurfacePoint& p : sample_sites(surface, {.num_samples = 400})) {
+        if (agvd::position(surface.mesh.view(), p).z() > 0) fixed.push_back(p);
+    }
+    const auto added = remesh::detail::farthest_points(surface, whole, fixed, 100, 0.2, 1, 0, 0);
+    ASSERT_EQ(added.size(), 100u);
+    EXPECT_LT(agvd::position(surface.mesh.view(), added[0]).z(), -0.9);
+    for (const SurfacePoint& p : added) {
+        EXPECT_LT(agvd::position(surface.mesh.view(), p).z(), 0.1);
+    }
+}
+
+TEST(SampleSites, SlenderPartsOfAnySizeGetTheirFarthestPoints) {
+    agvd::TriangleMesh needle = shapes::subdivide(shapes::cube());
+    for (Vec3& p : needle.positions) p = Vec3(p.x(), 1e-9 * p.y(), 1e-12 * p.z());
+    const Surface surface = make(shapes::join(shapes::sphere(2), needle));
+    const auto sites = sample_sites(surface, {.num_samples = 200, .init = Init::Farthest});
+    EXPECT_EQ(sites.size(), 200u);
+    EXPECT_EQ(count_below(sites, 320), 196u);
+    std::vector<double> along;
+    for (const Vec3& p : positions(surface, {sites.end() - 4, sites.end()})) along.push_back(p.x());
+    std::sort(along.begin(), along.end());
+    EXPECT_LT(along.front(), 0.2);
+    EXPECT_GT(along.back(), 0.8);
+}
+
 TEST(SampleSites, SameBytesForAnyThreadCountAndOtherOnesForAnotherSeed) {
     const Surface surface = make(shapes::torus(20, 12));
-    for (const Init init : both_inits) {
+    for (const Init init : all_inits) {
         const auto sites = [&](std::uint64_t seed, int threads) {
             return sample_sites(
                 surface, {.num_samples = 3000, .init = init, .seed = seed, .num_threads = threads});

@@ -18,7 +18,8 @@ constexpr std::array colours{"#1b6ca8", "#d1495b", "#2e8b57", "#b8860b",
 // One direction of a plot.
 class Axis {
 public:
-    Axis(bool is_log, double from, double to) : is_log_(is_log), from_(from), to_(to) {}
+    Axis(bool is_log, bool is_from_zero, double from, double to)
+        : is_log_(is_log), is_from_zero_(is_from_zero), from_(from), to_(to) {}
 
     void include(double value) {
         low_ = std::min(low_, scaled(value));
@@ -26,9 +27,9 @@ public:
     }
     void finish() {
         if (low_ > high_) low_ = high_ = 0;
-        if (!is_log_) low_ = std::min(low_, 0.0);
+        if (is_from_zero_) low_ = std::min(low_, 0.0);
         if (high_ - low_ < 1e-12) high_ = low_ + 1;
-        if (is_log_) {  // A little room, since no axis is at 0.
+        if (!is_from_zero_) {  // A little room, since no axis is at 0.
             const double room = 0.04 * (high_ - low_);
             low_ -= room;
             high_ += room;
@@ -65,7 +66,7 @@ public:
 private:
     [[nodiscard]] double scaled(double value) const { return is_log_ ? std::log10(value) : value; }
 
-    bool is_log_;
+    bool is_log_, is_from_zero_;
     double from_, to_;  // Pixels.
     double low_ = std::numeric_limits<double>::infinity();
     double high_ = -std::numeric_limits<double>::infinity();
@@ -122,7 +123,8 @@ void add_legend(std::ostringstream& svg, std::size_t i, const std::string& name)
 }
 
 std::string draw(const Plot& plot) {
-    Axis x(plot.is_log_x, left, width - right), y(plot.is_log_y, height - bottom, top);
+    Axis x(plot.is_log_x, !plot.is_log_x, left, width - right);
+    Axis y(plot.is_log_y, !plot.is_log_y && plot.is_y_from_zero, height - bottom, top);
     const auto is_level = [](const Series& series) { return series.points.size() == 1; };
     const auto shows = [&](const Series& series, const std::pair<double, double>& point) {
         return (is_level(series) || x.shows(point.first)) && y.shows(point.second);

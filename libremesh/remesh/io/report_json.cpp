@@ -110,7 +110,7 @@ Json to_json(const RemeshOptions& options) {
     object["topology"] = options.vertex_count == VertexCount::Exact ? "exact" : "add";
     object["boundary"] = options.boundary == Boundary::Keep ? "keep" : "free";
     object["drop_components_percent"] = options.drop_components;
-    object["init"] = options.init == Init::Random ? "random" : "blue-noise";
+    object["init"] = init_name(options.init);
     object["seed"] = options.seed;
     object["given_sites"] = options.sites ? Json(options.sites->size()) : Json();
     object["relax_steps"] = options.relax_steps;

@@ -13,6 +13,7 @@
 #include "remesh/placement/improve_shape.h"
 #include "remesh/quality/self_intersections.h"
 #include "remesh/repair/carry_sites.h"
+#include "remesh/repair/distinct_sites.h"
 #include "remesh/repair/drop_components.h"
 #include "remesh/repair/farthest_corner.h"
 #include "remesh/repair/flat_edges.h"
@@ -65,6 +66,7 @@ constexpr int max_unfits = 4;
 
 // Thrown where no vertex can go any more; never leaves this file.
 struct TooFewSamples {
+    Index asked;
     Index reached;  // Vertices that are left.
 };
 
@@ -87,6 +89,7 @@ public:
         refine();
         place_sites();
         relax();
+        drop_duplicates();
         build_mesh();
         check_mesh();
         result_.sites = to_original(result_.sites, input_, clean_);
@@ -181,6 +184,12 @@ private:
         result_.relaxation = std::move(relaxed.levels);
     }
 
+    void drop_duplicates() {
+        if (!options_.sites) return;
+        sites_ = distinct_sites(surface_, sites_);
+        num_distinct_ = static_cast<Index>(sites_.size());
+    }
+
     // The dual with the count asked for. Where it runs through itself more often than the input, it
     // is built again with more sites there; the best counts.
     void build_mesh() {
@@ -192,7 +201,7 @@ private:
             const Index num_removed = reduce(dual);
             if (dual.mesh.points.size() > target_ && options_.vertex_count == VertexCount::Exact) {
                 if (mends > 0) return;
-                throw TooFewSamples{static_cast<Index>(dual.mesh.points.size())};
+                throw TooFewSamples{target_, static_cast<Index>(dual.mesh.points.size())};
             }
             const DelaunayCounts flips = flip_edges(dual);
             PlacedMesh placed = place(dual);
@@ -216,11 +225,9 @@ private:
         target_ = options_.num_samples;
         if (!options_.sites) return;
         const auto first = diagram.cell_area.begin();
-        const auto num_given = static_cast<Index>(options_.sites->size());
-        result_.sites_dropped =
-            static_cast<Index>(std::count_if(first, first + num_given,  //
-                                             [](double area) { return !(area > 0); }));
-        target_ = num_given - result_.sites_dropped;
+        target_ = static_cast<Index>(
+            std::count_if(first, first + num_distinct_, [](double area) { return area > 0; }));
+        result_.sites_dropped = static_cast<Index>(options_.sites->size()) - target_;
     }
 
     // Takes vertices away until the count is met; returns how many.
@@ -401,6 +408,7 @@ private:
     std::optional<agvd::SurfaceLayout> layout_;
     std::vector<SurfacePoint> sites_;
     std::vector<Index> corners_;   // Boundary vertices, ascending.
+    Index num_distinct_ = 0;       // Given sites.
     Index target_ = 0;             // Vertices of the result.
     std::vector<bool> is_wanted_;  // By site: stays where vertices are taken away.
     bool has_judged_input_ = false;
@@ -454,9 +462,11 @@ RemeshResult remesh(const agvd::MeshView& mesh, const RemeshOptions& options) {
     try {
         return Pipeline(mesh, options, max_mends).run();
     } catch (const TooFewSamples& failure) {
-        const auto asked = options.sites ? options.sites->size() : options.num_samples;
-        throw agvd::ConstraintUnmet(std::to_string(asked) +
-                                    " samples are too few for the topology of the mesh; " +
+        const std::string asked = std::to_string(failure.asked);
+        const std::string who =
+            options.sites ? "the given sites, of which " + asked + " own a part of the surface,"
+                          : asked + " samples";
+        throw agvd::ConstraintUnmet(who + " are too few for the topology of the mesh; " +
                                     describe_too_few(mesh, options, failure.reached));
     }
 }

@@ -2,143 +2,263 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <unordered_set>
 
+#include "agvd/core/position_hash.h"
 #include "agvd/core/random.h"
-#include "remesh/relax/site_labels.h"
+#include "agvd/mesh/point_faces.h"
 #include "remesh/relax/walk.h"
+#include "remesh/sampling/components.h"
+#include "remesh/sampling/farthest_vertex.h"
+#include "remesh/sampling/shares.h"
 
 namespace remesh::detail {
 namespace {
 
 using agvd::Index;
 using agvd::no_index;
+using agvd::Surface;
 using agvd::SurfacePoint;
+using agvd::Vec3;
 
-// Cells larger than this many means get more sites, those below that many may be given up.
-// Independent random points stay below the first.
-constexpr double too_large = 4;
-constexpr double too_small = 0.25;
-constexpr int most_rounds = 4;
+// Sites that belong on a region: what is uneven within the last takes relaxation a few steps.
+constexpr std::array sites_per_region{400.0, 100.0, 25.0, 6.0};
+// Regions are made of faces: those of fewer vertices would be no measure.
+constexpr Index vertices_per_region = 8;
+// Standard deviations of chance that are let pass: of all regions together, and of one.
+constexpr double most_deviation = 4, most_deviation_of_one = 5;
+// Sites nearer than this are taken for one: in mean distances.
+constexpr double same_place = 1e-3;
 // Any will do.
 constexpr std::uint64_t seed = 0x5eed;
 
-// The faces of each cell, by the label of their first corner.
-class CellFaces {
-public:
-    CellFaces(const agvd::Surface& surface, const agvd::DistanceBounds& labels, Index num_sites)
-        : begin_(num_sites + 1, 0) {
-        const auto cell = [&](Index f) { return labels.site[surface.mesh.triangles[f][0]]; };
-        for (Index f = 0; f < surface.num_faces(); ++f) {
-            if (cell(f) != no_index) ++begin_[cell(f) + 1];
-        }
-        for (Index i = 0; i < num_sites; ++i) begin_[i + 1] += begin_[i];
-        faces_.resize(begin_.back());
-        std::vector<Index> next(begin_.begin(), begin_.end() - 1);
-        for (Index f = 0; f < surface.num_faces(); ++f) {
-            if (cell(f) != no_index) faces_[next[cell(f)]++] = f;
+// Parts of the surface, each a set of faces.
+struct Regions {
+    std::vector<Index> of_face;      // #F
+    std::vector<double> area;        // Per region.
+    std::vector<Index> begin;        // #regions + 1, into `faces` and `area_up_to`.
+    std::vector<Index> faces;        // By region.
+    std::vector<double> area_up_to;  // Of the region, with that face.
+
+    // \param of_face  without gaps in the numbers.
+    Regions(const Surface& surface, std::vector<Index> region_of_face, Index count)
+        : of_face(std::move(region_of_face)), area(count, 0), begin(count + 1, 0) {
+        for (const Index r : of_face) ++begin[r + 1];
+        std::partial_sum(begin.begin(), begin.end(), begin.begin());
+        faces.resize(of_face.size());
+        area_up_to.resize(of_face.size());
+        std::vector<Index> next(begin.begin(), begin.end() - 1);
+        for (Index f = 0; f < of_face.size(); ++f) {
+            const Index r = of_face[f];
+            area[r] += surface.length_of(3 * f) * surface.apex[3 * f].y() / 2;
+            faces[next[r]] = f;
+            area_up_to[next[r]++] = area[r];
         }
     }
+    [[nodiscard]] Index size() const { return static_cast<Index>(area.size()); }
 
-    [[nodiscard]] std::span<const Index> of(Index site) const {
-        return std::span(faces_).subspan(begin_[site], begin_[site + 1] - begin_[site]);
+    // A random point of a region, by area.
+    [[nodiscard]] SurfacePoint draw(Index region, std::uint64_t stream,
+                                    std::uint64_t number) const {
+        const auto unit = [&](std::uint64_t k) {
+            return agvd::random_unit(seed, stream, 3 * number + k);
+        };
+        const auto first = area_up_to.begin() + begin[region];
+        const auto last = area_up_to.begin() + begin[region + 1] - 1;
+        const auto found = std::upper_bound(first, last, unit(0) * area[region]);
+        const double root = std::sqrt(unit(1));  // Uniform in the triangle.
+        const double b1 = root * (1 - unit(2)), b2 = root * unit(2);
+        const Index face = faces[static_cast<std::size_t>(found - area_up_to.begin())];
+        return {agvd::FaceId(face), {1 - b1 - b2, b1, b2}};
+    }
+};
+
+// Regions around vertices that are far apart, more and more of them.
+class RegionMaker {
+public:
+    RegionMaker(const Surface& surface, const agvd::SurfaceLayout& layout, int num_threads)
+        : surface_(surface),
+          search_(surface, layout.arcs(), layout.corners().mean_length(), num_threads),
+          farthest_(surface, search_) {}
+
+    // At least `count`, and one for each component.
+    Regions make(Index count) {
+        while (!farthest_.is_empty()) {
+            const Index v = farthest_.pop();
+            if (num_centers_ >= count && std::isfinite(search_.distance(v))) {
+                farthest_.push(v);
+                break;
+            }
+            search_.add(agvd::point_at(surface_, v), num_centers_++);
+            search_.run();
+        }
+        // By the first corner; regions without a face get no number.
+        std::vector<Index> number(num_centers_, no_index);
+        std::vector<Index> region(surface_.num_faces());
+        Index num_regions = 0;
+        for (Index f = 0; f < region.size(); ++f) {
+            Index& n = number[search_.site(surface_.mesh.triangles[f][0])];
+            if (n == no_index) n = num_regions++;
+            region[f] = n;
+        }
+        return {surface_, std::move(region), num_regions};
     }
 
 private:
-    std::vector<Index> begin_;  // #sites + 1
-    std::vector<Index> faces_;
+    const Surface& surface_;
+    agvd::BoundsSearch search_;
+    FarthestVertex farthest_;
+    Index num_centers_ = 0;
 };
 
 class EvenOut {
 public:
-    EvenOut(const agvd::Surface& surface, const agvd::SurfaceLayout& layout,
-            std::vector<SurfacePoint>& sites, std::span<const std::uint8_t> is_fixed,
-            int num_threads)
-        : surface_(surface),
-          layout_(layout),
-          sites_(sites),
-          is_fixed_(is_fixed),
-          num_threads_(num_threads) {}
-
-    Index run() {
-        Index num_moved = 0;
-        for (int round = 0; round < most_rounds; ++round) {
-            const Index now = improve(round);
-            if (now == 0) break;
-            num_moved += now;
+    EvenOut(const Surface& surface, std::vector<SurfacePoint>& sites,
+            std::span<const std::uint8_t> is_fixed)
+        : surface_(surface), sites_(sites), components_(find_components(surface)) {
+        may_move_.reserve(sites.size());
+        for (Index i = 0; i < sites.size(); ++i) {
+            const bool stays = (!is_fixed.empty() && is_fixed[i] != 0) ||
+                               boundary_half_edge(surface, sites[i]).has_value();
+            may_move_.push_back(stays ? 0 : 1);
         }
-        return num_moved;
+        component_of_face_.resize(surface.num_faces());
+        for (Index c = 0; c < components_.size(); ++c) {
+            for (const Index f : components_[c].faces) component_of_face_[f] = c;
+            area_ += components_[c].area();
+        }
+        is_moved_.assign(sites.size(), 0);
+        find_homeless();
+    }
+
+    Index run(const agvd::SurfaceLayout& layout, int num_threads) {
+        const auto num_sites = static_cast<Index>(sites_.size());
+        const Regions components(surface_, component_of_face_,
+                                 static_cast<Index>(components_.size()));
+        std::vector<double> shares;
+        if (num_sites >= needed_samples(components_)) {
+            const std::vector<double> no_boundary(components_.size(), 0);
+            for (const Index n : share_out(components_, no_boundary, num_sites)) {
+                shares.push_back(n);
+            }
+        } else {
+            for (const Component& c : components_) shares.push_back(c.area());
+        }
+        balance(components, shares, components_.size());
+
+        RegionMaker maker(surface_, layout, num_threads);
+        for (const double per_region : sites_per_region) {
+            const auto count = static_cast<Index>(num_sites / per_region);
+            if (count < 2 || count * vertices_per_region > surface_.num_vertices()) continue;
+            const Regions regions = maker.make(count);
+            balance(regions, shares_of(regions), regions.size());
+        }
+        return static_cast<Index>(std::count(is_moved_.begin(), is_moved_.end(), 1));
     }
 
 private:
-    // Returns the number of sites moved.
-    Index improve(int round) {
-        const auto num_sites = static_cast<Index>(sites_.size());
-        const agvd::DistanceBounds labels = label_vertices(surface_, layout_, sites_, num_threads_);
-        const std::vector<double> areas = measure_cells(surface_, labels, num_sites).area;
-        double sum = 0;
-        for (const double a : areas) sum += a;
-        const double mean = sum / num_sites;
-
-        std::vector<std::pair<double, Index>> small;
-        for (Index i = 0; i < num_sites; ++i) {
-            const bool may_move = (is_fixed_.empty() || is_fixed_[i] == 0) &&
-                                  !boundary_half_edge(surface_, sites_[i]);
-            if (may_move && areas[i] < too_small * mean) small.emplace_back(areas[i], i);
-        }
-        std::sort(small.begin(), small.end());
-        if (small.empty() || *std::max_element(areas.begin(), areas.end()) <= too_large * mean) {
-            return 0;
-        }
-        const CellFaces cells(surface_, labels, num_sites);
-        auto next = small.begin();
-        std::vector<double> area_up_to;  // Of the faces of a cell.
-        for (Index i = 0; i < num_sites; ++i) {
-            const std::span<const Index> faces = cells.of(i);
-            if (areas[i] <= too_large * mean || faces.empty()) continue;
-            area_up_to.clear();
-            double total = 0;
-            for (const Index f : faces) area_up_to.push_back(total += doubled_area(f));
-            const double missing = std::floor(areas[i] / mean) - 1;
-            for (double k = 0; k < missing && next != small.end(); ++k, ++next) {
-                const auto number = static_cast<std::uint64_t>(next - small.begin());
-                sites_[next->second] =
-                    draw(faces, area_up_to, static_cast<std::uint64_t>(round), number);
+    // Sites on one spot: but for one, they wait for a region.
+    void find_homeless() {
+        const double cell = same_place * std::sqrt(area_ / static_cast<double>(sites_.size()));
+        std::unordered_set<Vec3, agvd::PositionHash> taken;
+        for (const bool moves : {false, true}) {
+            for (Index i = 0; i < sites_.size(); ++i) {
+                if ((may_move_[i] != 0) != moves) continue;
+                const Vec3 at = agvd::position(surface_.mesh.view(), sites_[i]) / cell;
+                const Vec3 key(std::round(at.x()), std::round(at.y()), std::round(at.z()));
+                if (!taken.insert(key).second && moves) homeless_.push_back(i);
             }
         }
-        return static_cast<Index>(next - small.begin());
+        for (const Index i : homeless_) is_moved_[i] = 1;
     }
 
-    // A random point of some faces, by area.
-    static SurfacePoint draw(std::span<const Index> faces, const std::vector<double>& area_up_to,
-                             std::uint64_t round, std::uint64_t number) {
-        const auto unit = [&](std::uint64_t k) {
-            return agvd::random_unit(seed, round, 3 * number + k);
-        };
-        const auto found =
-            std::upper_bound(area_up_to.begin(), area_up_to.end(), unit(0) * area_up_to.back());
-        const auto slot =
-            std::min(static_cast<std::size_t>(found - area_up_to.begin()), faces.size() - 1);
-        const double root = std::sqrt(unit(1));  // Uniform in the triangle.
-        const double b1 = root * (1 - unit(2)), b2 = root * unit(2);
-        return {agvd::FaceId(faces[slot]), {1 - b1 - b2, b1, b2}};
-    }
-    [[nodiscard]] double doubled_area(Index face) const {
-        return surface_.length_of(3 * face) * surface_.apex[3 * face].y();
+    // Of the sites that each component has, by area.
+    [[nodiscard]] std::vector<double> shares_of(const Regions& regions) const {
+        std::vector<double> count(components_.size(), 0);
+        for (const SurfacePoint& s : sites_) ++count[component_of_face_[s.face.value()]];
+        std::vector<double> shares;
+        for (Index r = 0; r < regions.size(); ++r) {
+            const Index c = component_of_face_[regions.faces[regions.begin[r]]];
+            shares.push_back(count[c] * regions.area[r] / components_[c].area());
+        }
+        return shares;
     }
 
-    const agvd::Surface& surface_;
-    const agvd::SurfaceLayout& layout_;
+    // Gives every region its share, if the sites are spread less evenly than by chance.
+    void balance(const Regions& regions, std::span<const double> shares, std::uint64_t stream) {
+        const auto num_sites = static_cast<Index>(sites_.size());
+        std::vector<std::vector<Index>> residents(regions.size());  // Ascending.
+        std::vector<std::uint8_t> waits(num_sites, 0);
+        for (const Index i : homeless_) waits[i] = 1;
+        for (Index i = 0; i < num_sites; ++i) {
+            if (waits[i] == 0) residents[regions.of_face[sites_[i].face.value()]].push_back(i);
+        }
+        if (homeless_.empty() && is_even(residents, shares)) return;
+
+        const std::vector<Index> quota = apportion(shares, num_sites);
+        std::vector<double> missing;
+        Index num_missing = 0;
+        for (Index r = 0; r < regions.size(); ++r) {
+            const auto have = static_cast<Index>(residents[r].size());
+            missing.push_back(quota[r] > have ? quota[r] - have : 0);
+            num_missing += static_cast<Index>(missing.back());
+            if (have > quota[r]) release(residents[r], have - quota[r], stream);
+        }
+        if (num_missing == 0) return;
+        // Fewer than are missing where some that are too many may not move.
+        const std::vector<Index> gets = apportion(missing, static_cast<Index>(homeless_.size()));
+        Index next = 0;
+        for (Index r = 0; r < regions.size(); ++r) {
+            for (Index k = 0; k < gets[r]; ++k, ++next) {
+                sites_[homeless_[next]] = regions.draw(r, stream, next);
+            }
+        }
+        homeless_.clear();
+    }
+
+    [[nodiscard]] static bool is_even(const std::vector<std::vector<Index>>& residents,
+                                      std::span<const double> shares) {
+        double chi_square = 0;
+        for (std::size_t r = 0; r < shares.size(); ++r) {
+            const double excess = static_cast<double>(residents[r].size()) - shares[r];
+            if (excess > most_deviation_of_one * std::sqrt(shares[r]) + 1) return false;
+            chi_square += excess * excess / std::max(shares[r], 1.0);
+        }
+        const auto count = static_cast<double>(shares.size());
+        return chi_square <= count + most_deviation * std::sqrt(2 * count);
+    }
+
+    // Takes away random ones of those that may move.
+    void release(const std::vector<Index>& residents, Index count, std::uint64_t stream) {
+        std::vector<std::pair<std::uint64_t, Index>> order;
+        for (const Index i : residents) {
+            if (may_move_[i] != 0) order.emplace_back(agvd::random_bits(seed, ~stream, i), i);
+        }
+        std::sort(order.begin(), order.end());
+        order.resize(std::min<std::size_t>(order.size(), count));
+        for (const auto& [bits, i] : order) {
+            homeless_.push_back(i);
+            is_moved_[i] = 1;
+        }
+    }
+
+    const Surface& surface_;
     std::vector<SurfacePoint>& sites_;
-    std::span<const std::uint8_t> is_fixed_;
-    int num_threads_;
+    std::vector<Component> components_;
+    std::vector<Index> component_of_face_;  // #F
+    double area_ = 0;
+    std::vector<std::uint8_t> may_move_;  // #sites
+    std::vector<std::uint8_t> is_moved_;  // #sites
+    std::vector<Index> homeless_;
 };
 
 }  // namespace
 
-Index even_out(const agvd::Surface& surface, const agvd::SurfaceLayout& layout,
+Index even_out(const Surface& surface, const agvd::SurfaceLayout& layout,
                std::vector<SurfacePoint>& sites, std::span<const std::uint8_t> is_fixed,
                int num_threads) {
-    return EvenOut(surface, layout, sites, is_fixed, num_threads).run();
+    return EvenOut(surface, sites, is_fixed).run(layout, num_threads);
 }
 
 }  // namespace remesh::detail

@@ -10,13 +10,18 @@
 
 namespace remesh::detail {
 
-//! Moves sites whose cells are tiny to random places of cells that are many times larger than the
-//! mean, so that each gets about as many as belong there: what relaxation does in a number of steps
-//! that grows with the number of sites. Even starts stay as they are. Returns the number of sites
-//! moved.
+//! Moves sites from where there are too many to where there are too few, so that relaxation need
+//! not carry them there: a Lloyd step evens out neighbours, and what is uneven over w cells takes
+//! some w^2 steps. The surface is divided into regions of about one size, large ones first; where
+//! the sites are spread over these less evenly than random points would be, random ones of the
+//! crowded regions go to random places of the others. Sites that lie on another one, which no
+//! relaxation can part, go first. Starts as even as random ones stay as they are.
 //!
+//! Sites on the boundary stay. Components keep their numbers unless these are further from their
+//! share than chance would bring them.
 //! \param is_fixed  #sites: 1 for sites that stay; or empty.
-//! Cost: a few sweeps over the edges.
+//! \return  the number of sites moved.
+//! Cost: O(n log n), a few sweeps over the edges.
 agvd::Index even_out(const agvd::Surface& surface, const agvd::SurfaceLayout& layout,
                      std::vector<agvd::SurfacePoint>& sites, std::span<const std::uint8_t> is_fixed,
                      int num_threads);

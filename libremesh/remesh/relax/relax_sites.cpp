@@ -181,26 +181,7 @@ RelaxResult relax_sites(const Surface& surface, const SurfaceLayout& layout,
     agvd::check_sites(surface, sites);
     Levels levels(surface, layout, options, 1);
     if (options.steps == 0 || sites.empty()) return levels.finish(std::move(sites));
-    const Index num_moved =
-        detail::even_out(surface, layout, sites, options.is_fixed, options.num_threads);
-    if (num_moved > sites.size() / 2) {
-        // Next to nothing is left of the start: then the best one will do.
-        const auto is_kept = [](std::uint8_t fixed) { return fixed != 0; };
-        const bool keeps_any =
-            std::any_of(options.is_fixed.begin(), options.is_fixed.end(), is_kept) ||
-            std::any_of(sites.begin(), sites.end(), [&](const SurfacePoint& site) {
-                return detail::boundary_half_edge(surface, site).has_value();
-            });
-        if (!keeps_any) {
-            RelaxOptions free = options;
-            free.is_fixed.clear();
-            const SamplingOptions sampling{.num_samples = static_cast<Index>(sites.size()),
-                                           .num_threads = options.num_threads};
-            if (coarse_count(surface, sampling.num_samples)) {
-                return sample_relaxed_sites(surface, layout, sampling, free);
-            }
-        }
-    }
+    detail::even_out(surface, layout, sites, options.is_fixed, options.num_threads);
     const agvd::DistanceBounds labels = levels.label(sites);
     detail::SiteDual dual = triangulate(surface, layout, labels, sites, options.num_threads);
     Relaxation relaxation(surface, sites, std::move(dual.triangles), options.is_fixed, {},

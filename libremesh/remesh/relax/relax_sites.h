@@ -33,10 +33,9 @@ struct RelaxResult {
 
 //! Lloyd's method with momentum: sites move towards the centroids of their cells, along the
 //! surface. Sites on the boundary (barycentric coordinates of exactly 0) stay on it, and those at
-//! one of its vertices where they are. Starts may be
-//! as uneven as they like, all sites at one spot included: where cells are many times larger than
-//! others, sites are first moved over there; if that would be most of them, and none stays, they
-//! are sampled anew (sample_relaxed_sites).
+//! one of its vertices where they are. Starts may be as uneven as they like, all sites at one spot
+//! included: where they are less evenly spread than random points, at any scale, they are moved
+//! over first.
 //!
 //! Where sites are too few for their triangulation to resemble the surface, they stay where they
 //! are.

@@ -10,7 +10,9 @@
 #include "remesh/sampling/boundary_curves.h"
 #include "remesh/sampling/components.h"
 #include "remesh/sampling/eliminate.h"
+#include "remesh/sampling/farthest_points.h"
 #include "remesh/sampling/scatter.h"
+#include "remesh/sampling/shares.h"
 
 namespace remesh {
 namespace {
@@ -24,55 +26,14 @@ constexpr Index candidates_per_site = 5;
 constexpr Index least_candidates = 60;
 constexpr Index most_samples = agvd::no_index / candidates_per_site;
 
-// Distance of neighbours in a mesh of equilateral triangles with this number of vertices, those on
-// the boundary included: 2 N less the boundary's L / h is the number of triangles, sqrt(3) / 4 h^2
-// the area of each.
-double spacing_of(double num_vertices, double area, double boundary_length) {
-    const double half = boundary_length / (4 * num_vertices);
-    return half + std::sqrt(half * half + 2 * area / (std::numbers::sqrt3 * num_vertices));
-}
-
-// What each component's topology needs, then the rest by the vertices that such a mesh would have
-// there, with the largest remainders rounded up.
-std::vector<Index> share_out(const std::vector<Component>& components,
-                             const std::vector<double>& boundary_length, Index num_samples) {
-    std::vector<Index> quota;
-    std::uint64_t needed = 0;
-    double area = 0, length = 0;
-    for (Index i = 0; i < components.size(); ++i) {
-        quota.push_back(minimum_samples(components[i].genus(), components[i].boundary_loops));
-        needed += quota.back();
-        area += components[i].area();
-        length += boundary_length[i];
-    }
-    if (num_samples < needed) {
-        throw agvd::ConstraintUnmet(
-            "the topology of the mesh (" + std::to_string(components.size()) +
-            " components) needs at least " + std::to_string(needed) + " samples, not " +
-            std::to_string(num_samples) + "; ask for that many or more");
-    }
-    const double spacing = spacing_of(num_samples, area, length);
-    const auto vertices = [&](double area_share, double length_share) {
-        return 2 / std::numbers::sqrt3 * area_share / (spacing * spacing) +
-               length_share / (2 * spacing);
-    };
-    const auto rest = num_samples - static_cast<Index>(needed);
-    Index given = 0;
-    std::vector<std::pair<double, Index>> remainder;  // (negative, component)
-    for (Index i = 0; i < quota.size(); ++i) {
-        const double share =
-            rest * (1 - 1e-12) *  // Sum <= rest.
-            (vertices(components[i].area(), boundary_length[i]) / vertices(area, length));
-        const auto whole = static_cast<Index>(share);
-        quota[i] += whole;
-        given += whole;
-        remainder.emplace_back(whole - share, i);
-    }
-    std::sort(remainder.begin(), remainder.end());
-    for (std::size_t i = 0; given < rest; ++given, ++i) {
-        ++quota[remainder[i % remainder.size()].second];
-    }
-    return quota;
+// \throw agvd::ConstraintUnmet  there are too few for the topology.
+void check_count(const std::vector<Component>& components, Index num_samples) {
+    const std::uint64_t needed = detail::needed_samples(components);
+    if (num_samples >= needed) return;
+    throw agvd::ConstraintUnmet("the topology of the mesh (" + std::to_string(components.size()) +
+                                " components) needs at least " + std::to_string(needed) +
+                                " samples, not " + std::to_string(num_samples) +
+                                "; ask for that many or more");
 }
 
 // The boundary loops of each component.
@@ -109,7 +70,46 @@ std::vector<agvd::SurfacePoint> sample_boundary(const agvd::Surface& surface,
     }
 }
 
+// `count` points strictly inside faces of a component, besides those on its rim; fewer if it is too
+// small for that many.
+std::vector<agvd::SurfacePoint> place_inside(const agvd::Surface& surface,
+                                             const Component& component,
+                                             const std::vector<agvd::SurfacePoint>& rim,
+                                             Index count, double spacing, std::uint64_t stream,
+                                             const SamplingOptions& options) {
+    if (options.init == Init::Farthest) {
+        return detail::farthest_points(surface, component, rim, count, spacing, options.seed,
+                                       stream, options.num_threads);
+    }
+    const bool is_blue = options.init == Init::BlueNoise;
+    const Index scattered =
+        is_blue ? std::max(candidates_per_site * count, least_candidates) : count;
+    auto points = detail::scatter(surface, component, scattered, options.seed, stream);
+    if (!is_blue || points.size() < count) {
+        std::vector<agvd::SurfacePoint> all;
+        for (const detail::ScatteredPoint& p : points) all.push_back(p.point);
+        return all;
+    }
+    for (const agvd::SurfacePoint& p : rim) {
+        points.push_back({p, agvd::position(surface.mesh.view(), p)});
+    }
+    return detail::eliminate(surface, points, static_cast<Index>(rim.size()), count, spacing,
+                             options.num_threads);
+}
+
 }  // namespace
+
+const char* init_name(Init init) {
+    switch (init) {
+        case Init::Random:
+            return "random";
+        case Init::BlueNoise:
+            return "blue-noise";
+        case Init::Farthest:
+            return "farthest";
+    }
+    return "unknown";
+}
 
 Index minimum_samples(int genus, int boundary_loops) {
     if (boundary_loops == 0) {
@@ -140,8 +140,7 @@ std::vector<agvd::SurfacePoint> sample_sites(const agvd::Surface& surface,
     }
     agvd::poll(options.progress, 0);
     const std::vector<Component> components = detail::find_components(surface);
-    const bool is_blue = options.init == Init::BlueNoise;
-    const bool keeps_boundary = is_blue && options.boundary == Boundary::Keep;
+    const bool keeps_boundary = options.init != Init::Random && options.boundary == Boundary::Keep;
     const auto loops = find_loops(surface, components);
     std::vector<double> boundary_length(components.size(), 0);
     for (Index i = 0; keeps_boundary && i < components.size(); ++i) {
@@ -149,20 +148,21 @@ std::vector<agvd::SurfacePoint> sample_sites(const agvd::Surface& surface,
             for (const Index h : loop) boundary_length[i] += surface.length_of(h);
         }
     }
-    const std::vector<Index> quota = share_out(components, boundary_length, options.num_samples);
+    check_count(components, options.num_samples);
+    const std::vector<Index> quota =
+        detail::share_out(components, boundary_length, options.num_samples);
 
     std::vector<agvd::SurfacePoint> sites;
     sites.reserve(options.num_samples);
     for (Index i = 0; i < components.size(); ++i) {
-        const double spacing = spacing_of(quota[i], components[i].area(), boundary_length[i]);
+        const double spacing =
+            detail::spacing_of(quota[i], components[i].area(), boundary_length[i]);
         std::vector<agvd::SurfacePoint> rim;
         if (keeps_boundary && !loops[i].empty()) {
             rim = sample_boundary(surface, loops[i], spacing, quota[i]);
         }
         const Index inner = quota[i] - static_cast<Index>(rim.size());
-        const Index count =
-            is_blue ? std::max(candidates_per_site * inner, least_candidates) : inner;
-        auto points = detail::scatter(surface, components[i], count, options.seed, i);
+        const auto points = place_inside(surface, components[i], rim, inner, spacing, i, options);
         if (points.size() < inner) {
             throw agvd::ConstraintUnmet(
                 "the component of face " + std::to_string(components[i].faces[0]) +
@@ -170,16 +170,7 @@ std::vector<agvd::SurfacePoint> sample_sites(const agvd::Surface& surface,
                 " different points; ask for fewer samples or move the mesh to the origin");
         }
         sites.insert(sites.end(), rim.begin(), rim.end());
-        if (is_blue) {
-            for (const agvd::SurfacePoint& p : rim) {
-                points.push_back({p, agvd::position(surface.mesh.view(), p)});
-            }
-            const auto kept = detail::eliminate(surface, points, static_cast<Index>(rim.size()),
-                                                inner, spacing, options.num_threads);
-            sites.insert(sites.end(), kept.begin(), kept.end());
-        } else {
-            for (const detail::ScatteredPoint& p : points) sites.push_back(p.point);
-        }
+        sites.insert(sites.end(), points.begin(), points.end());
         agvd::poll(options.progress, static_cast<double>(sites.size()) / options.num_samples);
     }
     return sites;

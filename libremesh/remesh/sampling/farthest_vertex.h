@@ -1,0 +1,50 @@
+//! \file
+//! The vertex farthest from all sites, while sites are added.
+#pragma once
+
+#include <queue>
+#include <utility>
+#include <vector>
+
+#include "agvd/propagation/distance_bounds.h"
+
+namespace remesh::detail {
+
+//! Distances only fall, so a queue of old ones holds no vertex too far back.
+class FarthestVertex {
+public:
+    //! \param search  of the surface; outlives this. Sites may be added and run at any time.
+    //! Cost: O(#V).
+    FarthestVertex(const agvd::Surface& surface, const agvd::BoundsSearch& search)
+        : search_(search) {
+        std::vector<Entry> entries;
+        entries.reserve(surface.num_vertices());
+        for (agvd::Index v = 0; v < surface.num_vertices(); ++v) {
+            if (surface.outgoing[v] != agvd::no_index) entries.emplace_back(search.distance(v), v);
+        }
+        queue_ = std::priority_queue<Entry>({}, std::move(entries));
+    }
+
+    [[nodiscard]] bool is_empty() const { return queue_.empty(); }
+
+    //! The farthest vertex of those left (at infinity where no site reaches; of equals the highest
+    //! index), which is left no more. \pre not empty.
+    //! Cost: O(log #V) for each vertex that has come nearer since.
+    [[nodiscard]] agvd::Index pop() {
+        while (true) {
+            const auto [distance, v] = queue_.top();
+            queue_.pop();
+            if (search_.distance(v) == distance) return v;
+            push(v);
+        }
+    }
+    void push(agvd::Index vertex) { queue_.emplace(search_.distance(vertex), vertex); }
+
+private:
+    using Entry = std::pair<float, agvd::Index>;
+
+    const agvd::BoundsSearch& search_;
+    std::priority_queue<Entry> queue_;
+};
+
+}  // namespace remesh::detail

@@ -1,0 +1,67 @@
+#include "remesh/sampling/shares.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "remesh/sampling/sample_sites.h"
+
+namespace remesh::detail {
+
+using agvd::Index;
+
+// 2 N less the boundary's L / h is the number of triangles, sqrt(3) / 4 h^2 the area of each.
+double spacing_of(double num_vertices, double area, double boundary_length) {
+    const double half = boundary_length / (4 * num_vertices);
+    return half + std::sqrt(half * half + 2 * area / (std::numbers::sqrt3 * num_vertices));
+}
+
+std::vector<Index> apportion(std::span<const double> weights, Index total) {
+    const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
+    std::vector<Index> result;
+    result.reserve(weights.size());
+    Index given = 0;
+    std::vector<std::pair<double, Index>> remainder;  // (negative, place)
+    for (const double weight : weights) {
+        const double share = total * (1 - 1e-12) * (weight / sum);  // Sum <= total.
+        const auto whole = static_cast<Index>(share);
+        remainder.emplace_back(whole - share, static_cast<Index>(result.size()));
+        result.push_back(whole);
+        given += whole;
+    }
+    std::sort(remainder.begin(), remainder.end());
+    for (std::size_t i = 0; given < total; ++given, ++i) {
+        ++result[remainder[i % remainder.size()].second];
+    }
+    return result;
+}
+
+std::uint64_t needed_samples(const std::vector<Component>& components) {
+    std::uint64_t needed = 0;
+    for (const Component& c : components) needed += minimum_samples(c.genus(), c.boundary_loops);
+    return needed;
+}
+
+std::vector<Index> share_out(const std::vector<Component>& components,
+                             std::span<const double> boundary_length, Index num_samples) {
+    double area = 0, length = 0;
+    for (Index i = 0; i < components.size(); ++i) {
+        area += components[i].area();
+        length += boundary_length[i];
+    }
+    const double spacing = spacing_of(num_samples, area, length);
+    std::vector<double> vertices;
+    for (Index i = 0; i < components.size(); ++i) {
+        vertices.push_back(2 / std::numbers::sqrt3 * components[i].area() / (spacing * spacing) +
+                           boundary_length[i] / (2 * spacing));
+    }
+    const std::uint64_t needed = needed_samples(components);
+    std::vector<Index> quota = apportion(vertices, num_samples - static_cast<Index>(needed));
+    for (Index i = 0; i < components.size(); ++i) {
+        quota[i] += minimum_samples(components[i].genus(), components[i].boundary_loops);
+    }
+    return quota;
+}
+
+}  // namespace remesh::detail
