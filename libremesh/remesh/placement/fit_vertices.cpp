@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 
 #include "agvd/mesh/closest_point.h"
@@ -19,14 +20,15 @@ using agvd::Vec3;
 using Mat3 = Eigen::Matrix3d;
 using Field = std::vector<Vec3>;
 
-constexpr int num_rounds = 2;
+double ev(const char*n,double d){const char*s=getenv(n);return s?atof(s):d;}
+const int num_rounds = int(ev("FR",2));
 // What a move along the mesh costs, against the same move at right angles to all triangles.
-constexpr double along_cost = 0.4;
+const double along_cost = ev("AC",0.4);
 // The same of any other move: keeps vertices of which the surface says nothing.
 constexpr double across_cost = 1e-3;
 // Longest move of a round, and longest way to the centroid, in square roots of the cell's area.
 constexpr double longest_move = 0.3;
-constexpr double longest_pull = 0.2;
+const double longest_pull = ev("LP",0.2);
 // Least cosine between the normals of a triangle before and after a round.
 constexpr double least_normal_cosine = 0.3;
 constexpr int most_guard_rounds = 10;
@@ -141,7 +143,7 @@ private:
     void sum_up() {
         sums_.assign(mesh_.triangles.size(), {});
         for (Sample& sample : samples_) {
-            if (sample.triangle == no_index) find_triangle(sample);
+            find_triangle(sample);
             if (sample.triangle == no_index) continue;
             const Index i = sample.triangle;
             const std::array<double, 3> b = closest(i, sample.position).point.barycentric;
@@ -155,6 +157,16 @@ private:
         }
     }
 
+    // Where the vertex would make its triangle equilateral.
+    [[nodiscard]] Vec3 even_apex(Index triangle, Index v) const {
+        const Triangle& t = mesh_.triangles[triangle];
+        std::size_t k = 0;
+        while (t[k] != v) ++k;
+        const Vec3& a = at_[t[(k + 1) % 3]];
+        const Vec3& b = at_[t[(k + 2) % 3]];
+        return (a + b) / 2 + std::sqrt(0.75) * normal_[triangle].cross(b - a);
+    }
+
     void build_equations() {
         diagonal_.resize(at_.size());
         right_.resize(at_.size());
@@ -164,7 +176,13 @@ private:
             const Mat3 along = Mat3::Identity() - across;
             diagonal_[v] = area_[v] * (along_cost * along + across_cost * across);
             Vec3 pull = Vec3::Zero();
-            if (cells_.mass[v] > 0) pull = -cells_.slope[v] / (2 * cells_.mass[v]);
+            static const double even = ev("PULL", 1);
+            if (cells_.mass[v] > 0) pull = -(1 - even) * cells_.slope[v] / (2 * cells_.mass[v]);
+            Vec3 ideal = Vec3::Zero();
+            for (const Index i : around_.of(v)) ideal += even_apex(i, v) - at_[v];
+            ideal /= static_cast<double>(around_.of(v).size());
+            ideal -= n.dot(ideal) * n;
+            pull += even * ideal;
             const double most = longest_pull * std::sqrt(area_[v]);
             if (pull.norm() > most) pull *= most / pull.norm();
             right_[v] = along_cost * area_[v] * pull;
