@@ -7,6 +7,7 @@
 
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/point_faces.h"
+#include "remesh/placement/nearest_in_cells.h"
 #include "remesh/placement/vertex_triangles.h"
 #include "remesh/relax/cvt_energy.h"
 
@@ -53,6 +54,12 @@ struct TriangleSums {
     std::array<double, 3> gaps{};      // b_k times the distance from the plane.
 };
 
+// The same of the middle of a triangle: `way` leads from there to the surface.
+struct Middle {
+    Vec3 direction = Vec3::Zero();  // Of length 1, or zero: none.
+    double weight = 0;
+};
+
 double dot(const Field& a, const Field& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.size(); ++i) sum += a[i].dot(b[i]);
@@ -65,7 +72,8 @@ public:
         : surface_(surface),
           mesh_(mesh),
           around_(mesh.triangles, mesh.points.size()),
-          site_mesh_(detail::build_site_mesh(mesh.triangles, num_vertices())) {
+          site_mesh_(detail::build_site_mesh(mesh.triangles, num_vertices())),
+          ground_(surface, nearest_vertex, num_vertices()) {
         for (Index v = 0; v < num_vertices(); ++v) {
             at_.push_back(mesh.position(surface.mesh.view(), v));
             stays_.push_back(agvd::is_on_boundary(surface, mesh.points[v]) ? 1 : 0);
@@ -78,6 +86,7 @@ public:
             measure();
             sum_up();
             build_equations();
+            add_ways_back();
             move(solve());
         }
         for (Index v = 0; v < num_vertices(); ++v) {
@@ -197,6 +206,41 @@ private:
         }
     }
 
+    // The way from a point of the mesh to the surface; zero if there is none.
+    [[nodiscard]] Vec3 way_back(const Vec3& point, std::span<const Index> cells) const {
+        const agvd::ClosestPoint closest = ground_.query(point, cells);
+        return std::isfinite(closest.distance_sq) ? Vec3(closest.position - point)
+                                                  : Vec3(Vec3::Zero());
+    }
+
+    // The same for the mesh: from its vertices and the middles of its triangles to the surface.
+    void add_ways_back() {
+        static const double vertex_weight = ev("VW", .25), middle_weight = ev("MW", .5);
+        for (Index v = 0; v < num_vertices(); ++v) {
+            const Vec3 way = way_back(at_[v], std::span(&v, 1));
+            const double length = way.norm();
+            if (!(length > 0)) continue;
+            const Vec3 direction = way / length;
+            diagonal_[v] += vertex_weight * area_[v] * direction * direction.transpose();
+            right_[v] += vertex_weight * area_[v] * way;
+        }
+        middle_.assign(mesh_.triangles.size(), {});
+        if (middle_weight > 0)
+        for (Index i = 0; i < mesh_.triangles.size(); ++i) {
+            const auto& [a, b, c] = mesh_.triangles[i];
+            const double area = (at_[b] - at_[a]).cross(at_[c] - at_[a]).norm() / 2;
+            const Vec3 way = way_back((at_[a] + at_[b] + at_[c]) / 3, mesh_.triangles[i]);
+            const double length = way.norm();
+            if (!(length > 0)) continue;
+            middle_[i] = {way / length, middle_weight * area / 9};
+            const Mat3 block = middle_[i].weight * middle_[i].direction * middle_[i].direction.transpose();
+            for (const Index v : mesh_.triangles[i]) {
+                diagonal_[v] += block;
+                right_[v] += 3 * middle_[i].weight * way;
+            }
+        }
+    }
+
     void multiply(const Field& x, Field& result) const {
         for (std::size_t v = 0; v < x.size(); ++v) result[v] = diagonal_[v] * x[v];
         for (Index i = 0; i < mesh_.triangles.size(); ++i) {
@@ -209,6 +253,14 @@ private:
                     (sums_[i].products[k] * up[next] + sums_[i].products[previous] * up[previous]) *
                     normal_[i];
             }
+        }
+        for (Index i = 0; i < mesh_.triangles.size(); ++i) {
+            const auto& [a, b, c] = mesh_.triangles[i];
+            const Middle& m = middle_[i];
+            const double u = m.weight * m.direction.dot(x[a]), v = m.weight * m.direction.dot(x[b]), w = m.weight * m.direction.dot(x[c]);
+            result[a] += (v + w) * m.direction;
+            result[b] += (u + w) * m.direction;
+            result[c] += (u + v) * m.direction;
         }
         hold(result);
     }
@@ -281,7 +333,9 @@ private:
     PlacedMesh& mesh_;
     detail::VertexTriangles around_;
     detail::SiteMesh site_mesh_;
+    detail::NearestInCells ground_;
     std::vector<Sample> samples_;
+    std::vector<Middle> middle_;
     Field at_;                         // #V
     std::vector<std::uint8_t> stays_;  // #V
     std::vector<double> area_;         // #V: a third of the triangles around.
