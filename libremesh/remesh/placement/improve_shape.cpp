@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
 #include "agvd/mesh/point_faces.h"
@@ -18,16 +17,15 @@ using agvd::SurfacePoint;
 using agvd::Triangle;
 using agvd::Vec3;
 
-double ev(const char* n, double d) { const char* s = getenv(n); return s ? atof(s) : d; }
-// Triangles below are worked on.
-const double low_quality = ev("LQ", 0.66);
-// What a sine of the smallest angle counts for: 33 degrees are as bad as `low_quality`.
-const double angle_weight = ev("LQ", .66) / std::sin(ev("LA", 33) / 180 * 3.14159);
-// Quality to be gained by a move that leaves the planes of the cell by the mean length of the edges
-// around, as a mean over the cell of squares.
-const double plane_cost = ev("MU", 10);
-// Below that, leaving the planes costs nothing.
-const double poor_quality = ev("PQ", 0.62);
+// Triangles below are worked on...
+constexpr double low_quality = 0.63;
+// ...and once more below that, wherever their corners have to go.
+constexpr double poor_quality = 0.62;
+// What the sine of the smallest angle counts for: 32.5 degrees are as bad as `low_quality`.
+constexpr double sine_weight = low_quality / 0.5373;
+// Quality that a move must gain which leaves the planes of the cell by the mean length of the edges
+// around the vertex; by less, in proportion to the square.
+constexpr double plane_cost = 30;
 constexpr int most_rounds = 8;
 // Steps tried, in mean lengths of the edges around the vertex, so often as they help.
 constexpr std::array step_lengths{0.2, 0.07, 0.02};
@@ -36,8 +34,8 @@ constexpr int num_directions = 8;
 // Less is not worth a move.
 constexpr double least_gain = 1e-4;
 
-// 6 / sqrt(3) * S / (p h) ([frey1999]): S area, p half the perimeter, h the longest edge; less where
-// an angle is small.
+// 6 / sqrt(3) * S / (p h) ([frey1999]): S area, p half the perimeter, h the longest edge; less
+// where an angle is small.
 double quality(const Vec3& a, const Vec3& b, const Vec3& c) {
     const double ab = (b - a).norm(), bc = (c - b).norm(), ca = (a - c).norm();
     const double doubled_area = (b - a).cross(c - a).norm();
@@ -46,7 +44,7 @@ double quality(const Vec3& a, const Vec3& b, const Vec3& c) {
     // The smallest angle is the one between the longest sides.
     const double sine = doubled_area * std::min({ab, bc, ca}) / (ab * bc * ca);
     return std::min(2 * std::numbers::sqrt3 * doubled_area / ((ab + bc + ca) * longest),
-                    angle_weight * sine);
+                    sine_weight * sine);
 }
 
 class Improvement {
@@ -72,13 +70,13 @@ public:
     }
 
     void run() {
-        work_below(low_quality);
-        plane_cost_ = 0;
-        work_below(poor_quality);
+        work_below(low_quality, plane_cost);
+        work_below(poor_quality, 0);
     }
 
 private:
-    void work_below(double least_quality) {
+    void work_below(double least_quality, double cost) {
+        plane_cost_ = cost;
         for (int round = 0; round < most_rounds; ++round) {
             std::vector<std::pair<double, Index>> bad;
             for (const Triangle& t : mesh_.triangles) {
@@ -173,7 +171,7 @@ private:
     detail::VertexTriangles around_;
     std::vector<Vec3> at_, facing_;           // #V: positions, and normals of the surface.
     std::vector<detail::CellPlanes> planes_;  // #V
-    double plane_cost_ = plane_cost;
+    double plane_cost_ = 0;
 };
 
 }  // namespace

@@ -15,7 +15,8 @@ namespace remesh::detail {
 class NearestInCells {
 public:
     //! \param surface         stays as long as this.
-    //! \param nearest_vertex  per vertex of the surface: in whose cell it lies; agvd::no_index: none.
+    //! \param nearest_vertex  per vertex of the surface: in whose cell it lies; agvd::no_index:
+    //! none.
     NearestInCells(const agvd::Surface& surface, std::span<const agvd::Index> nearest_vertex,
                    agvd::Index num_cells);
 

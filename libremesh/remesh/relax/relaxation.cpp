@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/point_faces.h"
@@ -15,6 +14,7 @@ using agvd::Index;
 using agvd::no_index;
 using agvd::SurfacePoint;
 using agvd::Vec3;
+using Mat3 = Eigen::Matrix3d;
 
 // A move is this many times Lloyd's, which goes to the centroid, and this share of the last one.
 constexpr double stretch = 1.5;
@@ -34,10 +34,11 @@ constexpr double most_area_ratio = 4;
 // Distances are least where cells are as the cubic root of the radius of curvature: that is density
 // as curvature^(4/3), and curvature^2 is as bending. Half of that leaves better shapes. Below
 // `even_bending` all cells are alike.
-double ev(const char*n,double d){const char*s=getenv(n);return s?atof(s):d;}
-const double bending_power = ev("BP",2.0 / 3);
-const double even_bending = ev("EB",0.05);
-const double plane_weight = ev("PW",4);
+constexpr double bending_power = 2.0 / 3;
+constexpr double even_bending = 0.05;
+// Squared distances from the planes of the cell, against those from its points: draws sites to
+// creases.
+constexpr double plane_weight = 0.4;
 constexpr double most_weight = 64;
 
 }  // namespace
@@ -139,7 +140,7 @@ void Relaxation::step() {
 double Relaxation::objective() const {
     double sum = now_.weighted;
     for (std::size_t i = 0; i < at_.size(); ++i) {
-        sum += plane_weight * weight_[i] * planes_[i].growth(Vec3::Zero(), at_[i]);
+        sum += plane_weight * weight_[i] * planes_[i].at(at_[i]);
     }
     return sum;
 }
@@ -160,7 +161,8 @@ void Relaxation::choose_moves() {
     std::vector<Vec3> half_slope(move_.size());
     for (std::size_t i = 0; i < move_.size(); ++i) {
         const Vec3 off = planes_[i].half_slope(at_[i]);
-        half_slope[i] = now_.slope[i] / 2 + plane_weight * weight_[i] * (off - facing_[i].dot(off) * facing_[i]);
+        const Vec3 along = off - facing_[i].dot(off) * facing_[i];
+        half_slope[i] = now_.slope[i] / 2 + plane_weight * weight_[i] * along;
         uphill += half_slope[i].dot(move_[i]);
     }
     const double keep = uphill > 0 ? 0 : momentum;
@@ -169,8 +171,9 @@ void Relaxation::choose_moves() {
             move_[i].setZero();
             continue;
         }
-        const Eigen::Matrix3d along = Eigen::Matrix3d::Identity() - facing_[i] * facing_[i].transpose();
-        const Eigen::Matrix3d stiffness = now_.mass[i] * Eigen::Matrix3d::Identity() + plane_weight * weight_[i] * along * planes_[i].spread * along;
+        const Mat3 along = Mat3::Identity() - facing_[i] * facing_[i].transpose();
+        const Mat3 stiffness = now_.mass[i] * Mat3::Identity() +
+                               plane_weight * weight_[i] * along * planes_[i].spread * along;
         Vec3 move = keep * move_[i] - stretch * (stiffness.inverse() * half_slope[i]);
         move -= now_.normal[i].dot(move) * now_.normal[i];
         const double most = longest_move * std::sqrt(std::max(now_.area[i], 0.0));

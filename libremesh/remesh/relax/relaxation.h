@@ -42,8 +42,7 @@ public:
 
     [[nodiscard]] const CvtEnergy& energy() const { return now_; }
 
-    //! What steps lower: the energy by density, and the distances from the planes of the cells;
-    //! but for a constant that depends on the cells.
+    //! What steps lower: the energy by density, and the squared distances from the cells' planes.
     [[nodiscard]] double objective() const;
 
     [[nodiscard]] const std::vector<agvd::SurfacePoint>& sites() const { return sites_; }
