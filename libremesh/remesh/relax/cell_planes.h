@@ -4,10 +4,8 @@
 #pragma once
 
 #include <Eigen/LU>
-#include <span>
-#include <vector>
 
-#include "agvd/mesh/surface.h"
+#include "agvd/core/types.h"
 
 namespace remesh::detail {
 
