@@ -3,8 +3,6 @@
 //! along it cost nothing; where it is creased, the crease is nearest to all of them.
 #pragma once
 
-#include <Eigen/LU>
-
 #include "agvd/core/types.h"
 
 namespace remesh::detail {
