@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "agvd/diagram/diagram.h"
 #include "agvd/mesh/closest_point.h"
@@ -102,6 +103,28 @@ TEST(FitVertices, ItFindsTheEdgesOfACube) {
     EXPECT_LT(mean_square_distance(r), 0.4 * before);
 }
 
+TEST(FitVertices, ShapesGetBetter) {
+    for (const TriangleMesh& input : smooth_shapes()) {
+        Remeshed r = remeshed(input, 300, 20);
+        const double before = remesh::measure_triangles(shape_of(r).view()).mean_quality;
+        remesh::fit_vertices(r.surface, r.nearest_vertex, r.mesh);
+        EXPECT_GT(remesh::measure_triangles(shape_of(r).view()).mean_quality, before + 0.005);
+    }
+}
+
+TEST(FitVertices, NoVertexGoesFarOffTheSurface) {
+    // Around the rim of a flat lens the planes of the two sides meet far outside.
+    TriangleMesh lens = shapes::sphere(5);
+    for (Vec3& p : lens.positions) p.z() *= 0.1;
+    Remeshed r = remeshed(lens, 300, 20);
+    remesh::fit_vertices(r.surface, r.nearest_vertex, r.mesh);
+    const ClosestPointTree tree(lens.view());
+    const double spacing = std::sqrt(2 * std::numbers::pi / 300);
+    for (const Vec3& p : shape_of(r).positions) {
+        EXPECT_LT(std::sqrt(tree.query(p).distance_sq), 0.15 * spacing);
+    }
+}
+
 TEST(FitVertices, NoTriangleTurnsOver) {
     for (const TriangleMesh& input :
          {shapes::jitter(shapes::sphere(5), 0.02, 3), shapes::torus(90, 45, 0.1)}) {
@@ -124,7 +147,7 @@ TEST(ImproveShape, TheWorstTriangleGetsBetterAndVerticesStayOnTheSurface) {
         const std::vector<SurfacePoint> points = r.mesh.points;
         const double before = remesh::measure_triangles(shape_of(r).view()).min_quality;
         ASSERT_LT(before, 0.55);
-        remesh::improve_shape(r.surface, r.mesh);
+        remesh::improve_shape(r.surface, r.nearest_vertex, r.mesh);
         EXPECT_GT(remesh::measure_triangles(shape_of(r).view()).min_quality, before + 0.05);
         for (Index v = 0; v < points.size(); ++v) {
             EXPECT_EQ(r.mesh.offsets[v], Vec3(Vec3::Zero()));
@@ -137,12 +160,24 @@ TEST(ImproveShape, TheWorstTriangleGetsBetterAndVerticesStayOnTheSurface) {
     }
 }
 
+TEST(ImproveShape, VerticesStayAtTheEdgesOfACube) {
+    TriangleMesh cube = shapes::cube();
+    for (int i = 0; i < 5; ++i) cube = shapes::subdivide(cube);
+    Remeshed r = remeshed(cube, 500, 0);
+    remesh::fit_vertices(r.surface, r.nearest_vertex, r.mesh);
+    const double distance = mean_square_distance(r);
+    const double quality = remesh::measure_triangles(shape_of(r).view()).min_quality;
+    remesh::improve_shape(r.surface, r.nearest_vertex, r.mesh);
+    EXPECT_GT(remesh::measure_triangles(shape_of(r).view()).min_quality, quality + 0.02);
+    EXPECT_LT(mean_square_distance(r), 1.2 * distance);
+}
+
 TEST(ImproveShape, WhatIsGoodStays) {
     Remeshed r = remeshed(shapes::sphere(5), 300, 100);
-    remesh::improve_shape(r.surface, r.mesh);
+    remesh::improve_shape(r.surface, r.nearest_vertex, r.mesh);
     const std::vector<SurfacePoint> points = r.mesh.points;
     ASSERT_GE(remesh::measure_triangles(shape_of(r).view()).min_quality, 0.6);
-    remesh::improve_shape(r.surface, r.mesh);
+    remesh::improve_shape(r.surface, r.nearest_vertex, r.mesh);
     for (Index v = 0; v < points.size(); ++v) {
         EXPECT_EQ(r.mesh.points[v].face, points[v].face);
         EXPECT_EQ(r.mesh.points[v].barycentric, points[v].barycentric);

@@ -10,6 +10,7 @@
 #include "agvd/propagation/propagate.h"
 #include "remesh/io/read_mesh.h"
 #include "remesh/relax/even_out.h"
+#include "remesh/relax/relaxation.h"
 #include "remesh/relax/walk.h"
 #include "support/files.h"
 #include "support/shapes.h"
@@ -331,4 +332,29 @@ TEST(RelaxSites, WrongOptionsAndSitesAreRefused) {
     EXPECT_THROW(
         (void)relax_sites(surface, layout, start, {.progress = [](double) { return false; }}),
         agvd::Cancelled);
+}
+
+TEST(Relaxation, SitesAreDrawnToThePlanesOfTheirCells) {
+    agvd::TriangleMesh cube = shapes::cube();
+    for (int i = 0; i < 5; ++i) cube = shapes::subdivide(cube);
+    const Surface surface = agvd::build_surface(cube.view());
+    const SurfaceLayout layout(surface);
+    const std::vector<SurfacePoint> sites = sample_sites(surface, {.num_samples = 300});
+    const agvd::DistanceBounds labels = remesh::detail::label_vertices(surface, layout, sites, 1);
+    const remesh::detail::CellMeasures cells =
+        remesh::detail::measure_cells(surface, labels, static_cast<Index>(sites.size()));
+    const auto distance_after_steps = [&](const remesh::detail::CellMeasures& known) {
+        remesh::detail::Relaxation relaxation(
+            surface, sites, remesh::detail::label_dual(surface, labels).triangles, {}, {}, 1);
+        relaxation.set_density(known);
+        for (int step = 0; step < 5; ++step) relaxation.step();
+        double sum = 0;
+        for (std::size_t i = 0; i < sites.size(); ++i) {
+            sum += cells.planes[i].at(agvd::position(surface.mesh.view(), relaxation.sites()[i]));
+        }
+        return sum;
+    };
+    remesh::detail::CellMeasures without_planes = cells;
+    for (auto& planes : without_planes.planes) planes = {};
+    EXPECT_LT(distance_after_steps(cells), 0.9 * distance_after_steps(without_planes));
 }

@@ -298,18 +298,16 @@ private:
         agvd::poll(progress_of(Stage::Place, options_), 0);
         PlacedMesh placed{dual.mesh.points, {}, dual.mesh.triangles};
         placed.offsets.assign(placed.points.size(), Vec3::Zero());
-        if (options_.fit.value_or(is_relaxed())) {
-            std::vector<Index> vertex(sites_.size(), no_index);
-            for (Index v = 0; v < dual.site.size(); ++v) {
-                if (dual.site[v] != no_index) vertex[dual.site[v]] = v;
-            }
-            std::vector<Index> nearest;
-            for (const agvd::SiteId site : dual.diagram.nearest_site) {
-                nearest.push_back(site.is_valid() ? vertex[site.value()] : no_index);
-            }
-            fit_vertices(surface_, nearest, placed);
+        std::vector<Index> vertex(sites_.size(), no_index);
+        for (Index v = 0; v < dual.site.size(); ++v) {
+            if (dual.site[v] != no_index) vertex[dual.site[v]] = v;
         }
-        if (is_relaxed()) improve_shape(surface_, placed);
+        std::vector<Index> nearest;
+        for (const agvd::SiteId site : dual.diagram.nearest_site) {
+            nearest.push_back(site.is_valid() ? vertex[site.value()] : no_index);
+        }
+        if (options_.fit.value_or(is_relaxed())) fit_vertices(surface_, nearest, placed);
+        if (is_relaxed()) improve_shape(surface_, nearest, placed);
         agvd::poll(progress_of(Stage::Place, options_), 1);
         return placed;
     }

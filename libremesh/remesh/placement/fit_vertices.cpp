@@ -6,8 +6,8 @@
 
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/point_faces.h"
+#include "remesh/placement/nearest_in_cells.h"
 #include "remesh/placement/vertex_triangles.h"
-#include "remesh/relax/cvt_energy.h"
 
 namespace remesh {
 namespace {
@@ -19,14 +19,21 @@ using agvd::Vec3;
 using Mat3 = Eigen::Matrix3d;
 using Field = std::vector<Vec3>;
 
-constexpr int num_rounds = 2;
+constexpr int num_rounds = 3;
 // What a move along the mesh costs, against the same move at right angles to all triangles.
-constexpr double along_cost = 0.4;
+constexpr double along_cost = 0.12;
 // The same of any other move: keeps vertices of which the surface says nothing.
 constexpr double across_cost = 1e-3;
-// Longest move of a round, and longest way to the centroid, in square roots of the cell's area.
-constexpr double longest_move = 0.3;
+// Longest move of a round, and longest pull of the shapes, in square roots of the cell's area.
+constexpr double longest_move = 0.15;
 constexpr double longest_pull = 0.2;
+// What the distances of vertices and middles of triangles from the surface weigh, against those of
+// the surface from the mesh: they keep vertices from where planes meet far off the surface.
+constexpr double vertex_weight = 0.25;
+constexpr double middle_weight = 0.25;
+// Where the way to the nearest point of the mesh is longer than that to the plane by this factor,
+// the mesh ends before the surface does.
+constexpr double overhang = 1.05;
 // Least cosine between the normals of a triangle before and after a round.
 constexpr double least_normal_cosine = 0.3;
 constexpr int most_guard_rounds = 10;
@@ -51,6 +58,12 @@ struct TriangleSums {
     std::array<double, 3> gaps{};      // b_k times the distance from the plane.
 };
 
+// Least squares of the distance of a triangle's middle from the surface.
+struct MiddleSum {
+    Vec3 direction = Vec3::Zero();  // To the surface, of length 1; zero: there is none.
+    double weight = 0;              // For each pair of corners.
+};
+
 double dot(const Field& a, const Field& b) {
     double sum = 0;
     for (std::size_t i = 0; i < a.size(); ++i) sum += a[i].dot(b[i]);
@@ -63,7 +76,7 @@ public:
         : surface_(surface),
           mesh_(mesh),
           around_(mesh.triangles, mesh.points.size()),
-          site_mesh_(detail::build_site_mesh(mesh.triangles, num_vertices())) {
+          ground_(surface, nearest_vertex, num_vertices()) {
         for (Index v = 0; v < num_vertices(); ++v) {
             at_.push_back(mesh.position(surface.mesh.view(), v));
             stays_.push_back(agvd::is_on_boundary(surface, mesh.points[v]) ? 1 : 0);
@@ -74,8 +87,9 @@ public:
     void run() {
         for (int round = 0; round < num_rounds; ++round) {
             measure();
-            sum_up();
-            build_equations();
+            hold_shapes();
+            add_distances_of_surface();
+            add_distances_of_mesh();
             move(solve());
         }
         for (Index v = 0; v < num_vertices(); ++v) {
@@ -108,18 +122,17 @@ private:
     void measure() {
         normal_.resize(mesh_.triangles.size());
         area_.assign(at_.size(), 0);
-        Field facing(at_.size(), Vec3::Zero());
+        facing_.assign(at_.size(), Vec3::Zero());
         for (Index i = 0; i < mesh_.triangles.size(); ++i) {
             const auto& [a, b, c] = mesh_.triangles[i];
             normal_[i] = (at_[b] - at_[a]).cross(at_[c] - at_[a]);
             for (const Index v : mesh_.triangles[i]) {
                 area_[v] += normal_[i].norm() / 6;
-                facing[v] += normal_[i];
+                facing_[v] += normal_[i];
             }
             normal_[i].normalize();
         }
-        const std::vector<double> even(at_.size(), 1);
-        detail::measure_energy(site_mesh_, at_, facing, even, cells_);
+        for (Vec3& normal : facing_) normal.normalize();
     }
 
     // The triangle of a sample that lies nearest; later rounds only move a little.
@@ -138,36 +151,53 @@ private:
                                                position);
     }
 
-    void sum_up() {
+    // Where the vertex would make its triangle equilateral.
+    [[nodiscard]] Vec3 even_apex(Index triangle, Index v) const {
+        const Triangle& t = mesh_.triangles[triangle];
+        const std::size_t k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
+        const Vec3& a = at_[t[(k + 1) % 3]];
+        const Vec3& b = at_[t[(k + 2) % 3]];
+        return (a + b) / 2 + std::sqrt(0.75) * normal_[triangle].cross(b - a);
+    }
+
+    // Moves along the mesh go to where triangles are equilateral, in the mean.
+    void hold_shapes() {
+        diagonal_.resize(at_.size());
+        right_.resize(at_.size());
+        for (Index v = 0; v < num_vertices(); ++v) {
+            const Vec3& n = facing_[v];
+            const Mat3 across = n * n.transpose();
+            const Mat3 along = Mat3::Identity() - across;
+            diagonal_[v] = area_[v] * (along_cost * along + across_cost * across);
+            Vec3 pull = Vec3::Zero();
+            for (const Index i : around_.of(v)) pull += even_apex(i, v) - at_[v];
+            pull = along * pull / static_cast<double>(around_.of(v).size());
+            const double most = longest_pull * std::sqrt(area_[v]);
+            if (pull.norm() > most) pull *= most / pull.norm();
+            right_[v] = along_cost * area_[v] * pull;
+        }
+    }
+
+    void add_distances_of_surface() {
         sums_.assign(mesh_.triangles.size(), {});
         for (Sample& sample : samples_) {
-            if (sample.triangle == no_index) find_triangle(sample);
+            find_triangle(sample);
             if (sample.triangle == no_index) continue;
             const Index i = sample.triangle;
-            const std::array<double, 3> b = closest(i, sample.position).point.barycentric;
+            const agvd::ClosestPoint nearest = closest(i, sample.position);
+            const std::array<double, 3>& b = nearest.point.barycentric;
             const double gap = normal_[i].dot(sample.position - at_[mesh_.triangles[i][0]]);
+            const double distance = std::sqrt(nearest.distance_sq);
+            if (distance > overhang * std::abs(gap)) {
+                add_overhang(sample, b, (sample.position - nearest.position) / distance, distance);
+                continue;
+            }
             TriangleSums& sums = sums_[i];
             for (std::size_t k = 0; k < 3; ++k) {
                 sums.squares[k] += sample.area * b[k] * b[k];
                 sums.products[k] += sample.area * b[k] * b[(k + 1) % 3];
                 sums.gaps[k] += sample.area * b[k] * gap;
             }
-        }
-    }
-
-    void build_equations() {
-        diagonal_.resize(at_.size());
-        right_.resize(at_.size());
-        for (std::size_t v = 0; v < at_.size(); ++v) {
-            const Vec3& n = cells_.normal[v];
-            const Mat3 across = n * n.transpose();
-            const Mat3 along = Mat3::Identity() - across;
-            diagonal_[v] = area_[v] * (along_cost * along + across_cost * across);
-            Vec3 pull = Vec3::Zero();
-            if (cells_.mass[v] > 0) pull = -cells_.slope[v] / (2 * cells_.mass[v]);
-            const double most = longest_pull * std::sqrt(area_[v]);
-            if (pull.norm() > most) pull *= most / pull.norm();
-            right_[v] = along_cost * area_[v] * pull;
         }
         for (Index i = 0; i < mesh_.triangles.size(); ++i) {
             const Mat3 plane = normal_[i] * normal_[i].transpose();
@@ -177,6 +207,45 @@ private:
                 right_[v] += sums_[i].gaps[k] * normal_[i];
             }
         }
+    }
+    // Corners are drawn there each by itself: an upper bound of the squares of all together.
+    void add_overhang(const Sample& sample, const std::array<double, 3>& b, const Vec3& direction,
+                      double distance) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index v = mesh_.triangles[sample.triangle][k];
+            diagonal_[v] += sample.area * b[k] * direction * direction.transpose();
+            right_[v] += sample.area * b[k] * distance * direction;
+        }
+    }
+
+    void add_distances_of_mesh() {
+        for (Index v = 0; v < num_vertices(); ++v) {
+            const Vec3 way = way_to_surface(at_[v], std::span(&v, 1));
+            if (way.isZero(0)) continue;
+            const Vec3 direction = way.normalized();
+            diagonal_[v] += vertex_weight * area_[v] * direction * direction.transpose();
+            right_[v] += vertex_weight * area_[v] * way;
+        }
+        middle_.assign(mesh_.triangles.size(), {});
+        for (Index i = 0; i < mesh_.triangles.size(); ++i) {
+            const auto& [a, b, c] = mesh_.triangles[i];
+            const Vec3 way = way_to_surface((at_[a] + at_[b] + at_[c]) / 3, mesh_.triangles[i]);
+            if (way.isZero(0)) continue;
+            const double area = (at_[b] - at_[a]).cross(at_[c] - at_[a]).norm() / 2;
+            MiddleSum& sum = middle_[i];
+            sum = {way.normalized(), middle_weight * area / 9};
+            const Mat3 block = sum.weight * sum.direction * sum.direction.transpose();
+            for (const Index v : mesh_.triangles[i]) {
+                diagonal_[v] += block;
+                right_[v] += 3 * sum.weight * way;
+            }
+        }
+    }
+    // From a point of the mesh; zero if nothing is known.
+    [[nodiscard]] Vec3 way_to_surface(const Vec3& point, std::span<const Index> cells) const {
+        const agvd::ClosestPoint nearest = ground_.query(point, cells);
+        if (!std::isfinite(nearest.distance_sq)) return Vec3::Zero();
+        return nearest.position - point;
     }
 
     void multiply(const Field& x, Field& result) const {
@@ -190,6 +259,12 @@ private:
                 result[t[k]] +=
                     (sums_[i].products[k] * up[next] + sums_[i].products[previous] * up[previous]) *
                     normal_[i];
+            }
+            const auto& [direction, weight] = middle_[i];
+            const std::array<double, 3> out{direction.dot(x[t[0]]), direction.dot(x[t[1]]),
+                                            direction.dot(x[t[2]])};
+            for (std::size_t k = 0; k < 3; ++k) {
+                result[t[k]] += weight * (out[(k + 1) % 3] + out[(k + 2) % 3]) * direction;
             }
         }
         hold(result);
@@ -262,16 +337,17 @@ private:
     const agvd::Surface& surface_;
     PlacedMesh& mesh_;
     detail::VertexTriangles around_;
-    detail::SiteMesh site_mesh_;
+    detail::NearestInCells ground_;
     std::vector<Sample> samples_;
     Field at_;                         // #V
     std::vector<std::uint8_t> stays_;  // #V
     std::vector<double> area_;         // #V: a third of the triangles around.
-    detail::CvtEnergy cells_;
-    Field normal_;                    // #triangles, of length 1.
-    std::vector<TriangleSums> sums_;  // #triangles
-    std::vector<Mat3> diagonal_;      // #V: the equations' blocks.
-    Field right_;                     // #V: their right sides.
+    Field normal_;                     // #triangles, of length 1.
+    Field facing_;                     // #V: normals of the mesh, of length 1.
+    std::vector<TriangleSums> sums_;   // #triangles
+    std::vector<MiddleSum> middle_;    // #triangles
+    std::vector<Mat3> diagonal_;       // #V: the equations' blocks.
+    Field right_;                      // #V: their right sides.
 };
 
 }  // namespace

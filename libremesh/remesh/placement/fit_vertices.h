@@ -11,13 +11,14 @@ namespace remesh {
 
 //! Moves vertices so that the triangles, not their corners, lie as near to the surface as they can:
 //! least squares of the distances of the surface's vertices (where there are few, of points inside
-//! faces too) from the planes of their triangles. Planes say nothing of moves along them: there a
-//! vertex is held near the centroid of its cell, so that shapes stay, but slides to the edge
-//! where planes meet at an angle. Vertices on the boundary stay, and no triangle turns over.
+//! faces too) from the planes of their triangles, and of vertices and middles of triangles from the
+//! surface. Planes say nothing of moves along them: there a vertex is drawn to where its triangles
+//! are equilateral, but slides to the edge where planes meet at an angle. Vertices on the boundary
+//! stay, and no triangle turns over.
 //!
 //! \param nearest_vertex  per vertex of the surface: that of the mesh in whose cell it lies;
 //!                        agvd::no_index: none.
-//! Cost: O(#surface + #mesh), about 1 us for each vertex of the surface.
+//! Cost: O(#surface + #mesh), about 2 us for each vertex of the surface.
 void fit_vertices(const agvd::Surface& surface, std::span<const agvd::Index> nearest_vertex,
                   PlacedMesh& mesh);
 

@@ -6,6 +6,7 @@
 
 #include "agvd/mesh/point_faces.h"
 #include "remesh/placement/vertex_triangles.h"
+#include "remesh/relax/cell_planes.h"
 #include "remesh/relax/walk.h"
 
 namespace remesh {
@@ -16,8 +17,15 @@ using agvd::SurfacePoint;
 using agvd::Triangle;
 using agvd::Vec3;
 
-// Triangles below are worked on (Q of [frey1999], 1 for equilateral ones).
-constexpr double low_quality = 0.7;
+// Triangles below are worked on...
+constexpr double low_quality = 0.63;
+// ...and once more below that, wherever their corners have to go.
+constexpr double poor_quality = 0.62;
+// What the sine of the smallest angle counts for: 32.5 degrees are as bad as `low_quality`.
+constexpr double sine_weight = low_quality / 0.5373;
+// Quality that a move must gain which leaves the planes of the cell by the mean length of the edges
+// around the vertex; by less, in proportion to the square.
+constexpr double plane_cost = 30;
 constexpr int most_rounds = 8;
 // Steps tried, in mean lengths of the edges around the vertex, so often as they help.
 constexpr std::array step_lengths{0.2, 0.07, 0.02};
@@ -26,29 +34,54 @@ constexpr int num_directions = 8;
 // Less is not worth a move.
 constexpr double least_gain = 1e-4;
 
-// 6 / sqrt(3) * S / (p h): S area, p half the perimeter, h the longest edge.
+// 6 / sqrt(3) * S / (p h) ([frey1999]): S area, p half the perimeter, h the longest edge; less
+// where an angle is small.
 double quality(const Vec3& a, const Vec3& b, const Vec3& c) {
     const double ab = (b - a).norm(), bc = (c - b).norm(), ca = (a - c).norm();
     const double doubled_area = (b - a).cross(c - a).norm();
     if (!(doubled_area > 0)) return 0;
-    return 2 * std::numbers::sqrt3 * doubled_area / ((ab + bc + ca) * std::max({ab, bc, ca}));
+    const double longest = std::max({ab, bc, ca});
+    // The smallest angle is the one between the longest sides.
+    const double sine = doubled_area * std::min({ab, bc, ca}) / (ab * bc * ca);
+    return std::min(2 * std::numbers::sqrt3 * doubled_area / ((ab + bc + ca) * longest),
+                    sine_weight * sine);
 }
 
 class Improvement {
 public:
-    Improvement(const agvd::Surface& surface, PlacedMesh& mesh)
-        : surface_(surface), mesh_(mesh), around_(mesh.triangles, mesh.points.size()) {
-        at_.resize(mesh.points.size());
-        facing_.resize(mesh.points.size());
+    Improvement(const agvd::Surface& surface, std::span<const Index> nearest_vertex,
+                PlacedMesh& mesh)
+        : surface_(surface),
+          mesh_(mesh),
+          around_(mesh.triangles, mesh.points.size()),
+          at_(mesh.points.size()),
+          facing_(mesh.points.size()),
+          planes_(mesh.points.size()) {
         for (Index v = 0; v < at_.size(); ++v) locate(v);
+        const auto& p = surface.mesh.positions;
+        for (const Triangle& t : surface.mesh.triangles) {
+            const Vec3 vector = (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]) / 6;
+            const double area = vector.norm();
+            for (const Index corner : t) {
+                const Index v = nearest_vertex[corner];
+                if (v != agvd::no_index && area > 0) planes_[v].add(vector, area, p[t[0]]);
+            }
+        }
     }
 
     void run() {
+        work_below(low_quality, plane_cost);
+        work_below(poor_quality, 0);
+    }
+
+private:
+    void work_below(double least_quality, double cost) {
+        plane_cost_ = cost;
         for (int round = 0; round < most_rounds; ++round) {
             std::vector<std::pair<double, Index>> bad;
             for (const Triangle& t : mesh_.triangles) {
                 const double q = quality(at_[t[0]], at_[t[1]], at_[t[2]]);
-                if (q >= low_quality) continue;
+                if (q >= least_quality) continue;
                 for (const Index v : t) bad.emplace_back(q, v);
             }
             std::sort(bad.begin(), bad.end());
@@ -58,7 +91,6 @@ public:
         }
     }
 
-private:
     void locate(Index v) {
         const auto& p = surface_.mesh.positions;
         const Triangle& t = surface_.mesh.triangles[mesh_.points[v].face.value()];
@@ -79,12 +111,19 @@ private:
     }
 
     // Takes a step if it helps.
-    bool try_step(Index v, const Vec3& step, double& worst) {
+    //
+    // \param length  of the edges around the vertex.
+    bool try_step(Index v, const Vec3& step, double length, double& worst) {
         const SurfacePoint before = mesh_.points[v];
+        const Vec3 at_before = at_[v];
         mesh_.points[v] = detail::walk_straight(surface_, before, step);
         locate(v);
         const double now = worst_around(v);
-        if (now > worst + least_gain) {
+        const double area = planes_[v].spread.trace();
+        const double leaves =
+            area > 0 ? planes_[v].growth(at_before, at_[v] - at_before) / (area * length * length)
+                     : 0;
+        if (now > worst + least_gain + plane_cost_ * std::max(leaves, 0.0)) {
             worst = now;
             return true;
         }
@@ -111,7 +150,7 @@ private:
         const Vec3 x = normal.unitOrthogonal(), y = normal.normalized().cross(x);
 
         double worst = worst_around(v);
-        bool is_better = try_step(v, mean - at_[v], worst);
+        bool is_better = try_step(v, mean - at_[v], length, worst);
         for (const double share : step_lengths) {
             bool helps = true;
             for (int tries = 0; tries < most_tries && helps; ++tries) {
@@ -119,7 +158,7 @@ private:
                 for (int d = 0; d < num_directions; ++d) {
                     const double angle = 2 * std::numbers::pi * d / num_directions;
                     const Vec3 step = std::cos(angle) * x + std::sin(angle) * y;
-                    helps = try_step(v, share * length * step, worst) || helps;
+                    helps = try_step(v, share * length * step, length, worst) || helps;
                 }
                 is_better = is_better || helps;
             }
@@ -130,13 +169,16 @@ private:
     const agvd::Surface& surface_;
     PlacedMesh& mesh_;
     detail::VertexTriangles around_;
-    std::vector<Vec3> at_, facing_;  // #V: positions, and normals of the surface.
+    std::vector<Vec3> at_, facing_;           // #V: positions, and normals of the surface.
+    std::vector<detail::CellPlanes> planes_;  // #V
+    double plane_cost_ = 0;
 };
 
 }  // namespace
 
-void improve_shape(const agvd::Surface& surface, PlacedMesh& mesh) {
-    Improvement(surface, mesh).run();
+void improve_shape(const agvd::Surface& surface, std::span<const Index> nearest_vertex,
+                   PlacedMesh& mesh) {
+    Improvement(surface, nearest_vertex, mesh).run();
 }
 
 }  // namespace remesh

@@ -2,15 +2,22 @@
 //! Better worst triangles.
 #pragma once
 
+#include <span>
+
 #include "agvd/mesh/surface.h"
 #include "remesh/placement/placed_mesh.h"
 
 namespace remesh {
 
-//! Moves the corners of triangles of low quality along the surface (their offsets stay), a little
-//! at a time, as long as the worst triangle around the vertex gets better. All other vertices and
-//! those on the boundary stay. No triangle turns over.
-//! Cost: O(#triangles), and about 20 us for each vertex at such a triangle.
-void improve_shape(const agvd::Surface& surface, PlacedMesh& mesh);
+//! Moves the corners of triangles of low quality or with a small angle along the surface (their
+//! offsets stay), a little at a time, as long as the worst triangle around the vertex gets better
+//! by more than it costs to leave the planes of the surface nearby: so vertices at a crease stay at
+//! it. All other vertices and those on the boundary stay. No triangle turns over.
+//!
+//! \param nearest_vertex  per vertex of the surface: that of the mesh in whose cell it lies;
+//!                        agvd::no_index: none.
+//! Cost: O(#surface + #triangles), and about 20 us for each vertex at such a triangle.
+void improve_shape(const agvd::Surface& surface, std::span<const agvd::Index> nearest_vertex,
+                   PlacedMesh& mesh);
 
 }  // namespace remesh

@@ -100,15 +100,15 @@ public:
         level.num_sites = num_sites;
         level.energy.push_back(relaxation.energy().energy);
         if (labels != nullptr) set_density(relaxation, *labels);
-        double last = relaxation.energy().weighted;
+        double last = relaxation.objective();
         for (int step = 1; step <= options_.steps; ++step) {
             relaxation.step();
             level.energy.push_back(relaxation.energy().energy);
             agvd::poll(options_.progress, static_cast<double>(++steps_done_) / steps_planned_);
             if (step % steps_per_sweep != 0 || step == options_.steps) continue;
-            if (last - relaxation.energy().weighted < options_.tolerance * last) break;
+            if (last - relaxation.objective() < options_.tolerance * last) break;
             sweep(relaxation);
-            last = relaxation.energy().weighted;
+            last = relaxation.objective();
         }
     }
 

@@ -10,7 +10,7 @@
 namespace remesh {
 
 struct RelaxOptions {
-    int steps = 40;  //!< >= 0; coarse to fine, on each level.
+    int steps = 60;  //!< >= 0; coarse to fine, on each level.
     //! Stops where ten steps lower the energy by less than this share, >= 0.
     double tolerance = 1e-4;
     std::vector<std::uint8_t> is_fixed = {};  //!< #sites: 1 for sites that stay; or empty.

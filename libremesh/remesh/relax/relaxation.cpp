@@ -14,6 +14,7 @@ using agvd::Index;
 using agvd::no_index;
 using agvd::SurfacePoint;
 using agvd::Vec3;
+using Mat3 = Eigen::Matrix3d;
 
 // A move is this many times Lloyd's, which goes to the centroid, and this share of the last one.
 constexpr double stretch = 1.5;
@@ -35,6 +36,9 @@ constexpr double most_area_ratio = 4;
 // `even_bending` all cells are alike.
 constexpr double bending_power = 2.0 / 3;
 constexpr double even_bending = 0.05;
+// Squared distances from the planes of the cell, against those from its points: draws sites to
+// creases.
+constexpr double plane_weight = 0.5;
 constexpr double most_weight = 64;
 
 }  // namespace
@@ -52,6 +56,7 @@ Relaxation::Relaxation(const agvd::Surface& surface, std::vector<SurfacePoint> s
       is_fixed_(std::move(is_fixed)),
       boundary_(sites_.size()) {
     weight_.resize(sites_.size(), 1);
+    planes_.resize(sites_.size());
     is_fixed_.resize(sites_.size(), 0);
     for (Index i = 0; i < sites_.size(); ++i) {
         locate(i);
@@ -117,6 +122,7 @@ void Relaxation::set_density(const CellMeasures& cells) {
         const double bent = std::pow(1 + s.bending / s.count / even_bending, bending_power);
         weight_[i] = std::min(lost * bent, most_weight);
     }
+    planes_ = cells.planes;
     measure();
 }
 
@@ -129,6 +135,14 @@ void Relaxation::step() {
     take_back(sites_before, at_before, facing_before);
     // What flips change is measured by the next step: they are few.
     flip_towards_delaunay(mesh_, at_, now_.cotangent);
+}
+
+double Relaxation::objective() const {
+    double sum = now_.weighted;
+    for (std::size_t i = 0; i < at_.size(); ++i) {
+        sum += plane_weight * weight_[i] * planes_[i].at(at_[i]);
+    }
+    return sum;
 }
 
 void Relaxation::locate(Index i) {
@@ -144,14 +158,23 @@ void Relaxation::measure() { measure_energy(mesh_, at_, facing_, weight_, now_);
 
 void Relaxation::choose_moves() {
     double uphill = 0;
-    for (std::size_t i = 0; i < move_.size(); ++i) uphill += now_.slope[i].dot(move_[i]);
+    std::vector<Vec3> half_slope(move_.size());
+    for (std::size_t i = 0; i < move_.size(); ++i) {
+        const Vec3 off = planes_[i].half_slope(at_[i]);
+        const Vec3 along = off - facing_[i].dot(off) * facing_[i];
+        half_slope[i] = now_.slope[i] / 2 + plane_weight * weight_[i] * along;
+        uphill += half_slope[i].dot(move_[i]);
+    }
     const double keep = uphill > 0 ? 0 : momentum;
     for (std::size_t i = 0; i < move_.size(); ++i) {
         if (is_fixed_[i] != 0 || is_stuck_[i] != 0 || !(now_.mass[i] > 0)) {
             move_[i].setZero();
             continue;
         }
-        Vec3 move = keep * move_[i] - stretch / (2 * now_.mass[i]) * now_.slope[i];
+        const Mat3 along = Mat3::Identity() - facing_[i] * facing_[i].transpose();
+        const Mat3 stiffness = now_.mass[i] * Mat3::Identity() +
+                               plane_weight * weight_[i] * along * planes_[i].spread * along;
+        Vec3 move = keep * move_[i] - stretch * (stiffness.inverse() * half_slope[i]);
         move -= now_.normal[i].dot(move) * now_.normal[i];
         const double most = longest_move * std::sqrt(std::max(now_.area[i], 0.0));
         const double length = move.norm();

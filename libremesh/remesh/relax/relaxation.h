@@ -42,6 +42,9 @@ public:
 
     [[nodiscard]] const CvtEnergy& energy() const { return now_; }
 
+    //! What steps lower: the energy by density, and the squared distances from the cells' planes.
+    [[nodiscard]] double objective() const;
+
     [[nodiscard]] const std::vector<agvd::SurfacePoint>& sites() const { return sites_; }
     [[nodiscard]] const std::vector<agvd::Triangle>& triangles() const { return mesh_.triangles; }
     [[nodiscard]] const std::vector<double>& weights() const { return weight_; }
@@ -64,6 +67,7 @@ private:
     std::vector<agvd::Vec3> at_, facing_;  // #sites: positions, normals of their faces.
     std::vector<agvd::Vec3> move_;         // #sites: the last move.
     std::vector<double> weight_;           // #sites
+    std::vector<CellPlanes> planes_;       // #sites
     std::vector<std::uint8_t> is_fixed_;   // #sites
     std::vector<std::uint8_t> is_stuck_;   // #sites: the triangles around do not close.
     std::vector<agvd::Index> boundary_;    // #sites: the boundary half-edge, or no_index.

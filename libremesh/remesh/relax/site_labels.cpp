@@ -38,7 +38,8 @@ agvd::DistanceBounds label_vertices(const Surface& surface, const agvd::SurfaceL
 
 CellMeasures measure_cells(const Surface& surface, const agvd::DistanceBounds& labels,
                            Index num_sites) {
-    CellMeasures result{std::vector<double>(num_sites, 0), std::vector<double>(num_sites, 0)};
+    CellMeasures result{std::vector<double>(num_sites, 0), std::vector<double>(num_sites, 0),
+                        std::vector<CellPlanes>(num_sites)};
     std::vector<agvd::Vec3> shadow(num_sites, agvd::Vec3::Zero());  // The largest is so long.
     const auto& p = surface.mesh.positions;
     for (Index f = 0; f < surface.num_faces(); ++f) {
@@ -49,6 +50,7 @@ CellMeasures measure_cells(const Surface& surface, const agvd::DistanceBounds& l
             if (site == no_index) return;
             result.area[site] += share * area;
             shadow[site] += share * vector;
+            if (area > 0) result.planes[site].add(share * vector, share * area, p[t[0]]);
         };
         const std::array<Index, 3> site{labels.site[t[0]], labels.site[t[1]], labels.site[t[2]]};
         if (site[0] == site[1] && site[1] == site[2]) {

@@ -9,6 +9,7 @@
 #include "agvd/mesh/surface_point.h"
 #include "agvd/propagation/distance_bounds.h"
 #include "agvd/propagation/surface_layout.h"
+#include "remesh/relax/cell_planes.h"
 
 namespace remesh::detail {
 
@@ -24,6 +25,7 @@ struct CellMeasures {
     //! #sites, in [0, 1]: the share of the area that a shadow in the best direction lacks. 0 for
     //! what is flat, half for a hemisphere.
     std::vector<double> bending;
+    std::vector<CellPlanes> planes;  //!< #sites
 };
 
 //! Faces of two labels are cut where these meet. Cost: O(#F).

@@ -1,0 +1,36 @@
+//! \file
+//! How far a point lies from the planes of the surface in a cell: where the cell is flat, moves
+//! along it cost nothing; where it is creased, the crease is nearest to all of them.
+#pragma once
+
+#include "agvd/core/types.h"
+
+namespace remesh::detail {
+
+//! A quadric ([garland1997]): x^T `spread` x - 2 x^T `lift` + `constant` is the integral over the
+//! cell of the squared distance of x from the planes.
+struct CellPlanes {
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();  //!< Integral of n n^T, square mesh units.
+    agvd::Vec3 lift = agvd::Vec3::Zero();              //!< Integral of n n^T p, p on the surface.
+    double constant = 0;                               //!< Integral of (n^T p)^2.
+
+    //! \param vector  the normal of a piece, as long as its area.
+    void add(const agvd::Vec3& vector, double area, const agvd::Vec3& point) {
+        const agvd::Vec3 scaled = vector / area;
+        spread += scaled * vector.transpose();
+        lift += scaled.dot(point) * vector;
+        constant += scaled.dot(point) * vector.dot(point);
+    }
+    //! The integral: of fourth order in lengths; rounding may make it negative.
+    [[nodiscard]] double at(const agvd::Vec3& x) const {
+        return x.dot(spread * x) - 2 * x.dot(lift) + constant;
+    }
+    //! Half the slope of the integral.
+    [[nodiscard]] agvd::Vec3 half_slope(const agvd::Vec3& x) const { return spread * x - lift; }
+    //! By how much the integral grows from x to x + step.
+    [[nodiscard]] double growth(const agvd::Vec3& x, const agvd::Vec3& step) const {
+        return step.dot(spread * step + 2 * half_slope(x));
+    }
+};
+
+}  // namespace remesh::detail

@@ -1,0 +1,19 @@
+#include "remesh/relax/cell_planes.h"
+
+#include <gtest/gtest.h>
+
+using agvd::Vec3;
+using remesh::detail::CellPlanes;
+
+TEST(CellPlanes, TheIntegralIsThatOfSquaredDistances) {
+    CellPlanes planes;  // z = 1 on an area of 2, x = 3 on one of 5.
+    planes.add(Vec3(0, 0, 2), 2, Vec3(7, -4, 1));
+    planes.add(Vec3(-5, 0, 0), 5, Vec3(3, 9, 2));
+    for (const Vec3& x : {Vec3(0, 0, 0), Vec3(3, 8, 1), Vec3(-2, 5, 4)}) {
+        const double expected = 2 * std::pow(x.z() - 1, 2) + 5 * std::pow(x.x() - 3, 2);
+        EXPECT_NEAR(planes.at(x), expected, 1e-12);
+        const Vec3 step(0.5, -3, 2);
+        EXPECT_NEAR(planes.growth(x, step), planes.at(x + step) - planes.at(x), 1e-12);
+        EXPECT_LT((planes.half_slope(x) - Vec3(5 * (x.x() - 3), 0, 2 * (x.z() - 1))).norm(), 1e-12);
+    }
+}
