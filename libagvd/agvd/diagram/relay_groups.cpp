@@ -7,12 +7,11 @@
 namespace agvd {
 
 RelayGroups::RelayGroups(const Propagation& propagation, int num_threads)
-    : offsets_(propagation.relay_offsets) {
+    : ranges_(propagation.relay_ranges) {
     constexpr Index grain = 512;
     const auto num_mixed = static_cast<Index>(propagation.mixed_faces.size());
     relays_ = std::make_unique_for_overwrite<Index[]>(propagation.relays.size());
-    begins_ = std::make_unique_for_overwrite<Index[]>(num_groups * num_mixed + 1);
-    begins_[num_groups * num_mixed] = static_cast<Index>(propagation.relays.size());
+    begins_ = std::make_unique_for_overwrite<Index[]>(std::size_t{stride} * num_mixed);
     parallel_chunks(num_mixed, grain, num_threads, [&](Index, Index begin, Index end) {
         std::vector<Index> groups;
         for (Index i = begin; i < end; ++i) {
@@ -25,13 +24,15 @@ RelayGroups::RelayGroups(const Propagation& propagation, int num_threads)
                 groups.push_back(r.y < 0 ? r.half_edge - first_half_edge : inner);
                 ++next[groups.back()];
             }
-            Index place = propagation.relay_offsets[i];
+            const Index first = ranges_[i].begin;
+            Index place = first;
             for (Index g = 0; g < num_groups; ++g) {
-                begins_[num_groups * i + g] = place;
+                begins_[stride * i + g] = place;
                 place += std::exchange(next[g], place);
             }
+            begins_[stride * i + num_groups] = place;
             for (Index r = 0; r < relays.size(); ++r) {
-                relays_[next[groups[r]]++] = propagation.relay_offsets[i] + r;
+                relays_[next[groups[r]]++] = first + r;
             }
         }
     });
