@@ -6,7 +6,8 @@
 
 namespace agvd {
 
-RelayGroups::RelayGroups(const Propagation& propagation, int num_threads)
+RelayGroups::RelayGroups(const Propagation& propagation, std::span<const std::uint8_t> is_asked,
+                         int num_threads)
     : ranges_(propagation.relay_ranges) {
     constexpr Index grain = 512;
     const auto num_mixed = static_cast<Index>(propagation.mixed_faces.size());
@@ -15,6 +16,7 @@ RelayGroups::RelayGroups(const Propagation& propagation, int num_threads)
     parallel_chunks(num_mixed, grain, num_threads, [&](Index, Index begin, Index end) {
         std::vector<Index> groups;
         for (Index i = begin; i < end; ++i) {
+            if (!is_asked.empty() && is_asked[i] == 0) continue;
             const Index first_half_edge = 3 * propagation.mixed_faces[i];
             const std::span<const Relay> relays = relays_of(propagation, i);
             std::array<Index, num_groups> next{};

@@ -12,7 +12,9 @@ namespace agvd {
 class RelayGroups {
 public:
     //! Parallel; O(relays). Keeps a reference.
-    RelayGroups(const Propagation& propagation, int num_threads);
+    //! \param is_asked  #mixed: 1 for the faces whose relays will be asked for; empty: all.
+    RelayGroups(const Propagation& propagation, std::span<const std::uint8_t> is_asked,
+                int num_threads);
 
     //! The relays whose image lies across a half-edge of a mixed face. As all that follow in their
     //! order.
