@@ -418,6 +418,22 @@ private:
                              static_cast<Index>(out.relays.size() - begin), is_mixed});
     }
 
+    // What collect() reads of a face, in two steps.
+    [[gnu::always_inline]] void prefetch(Index far, Index near) const {
+        if (far != no_index) {
+            store_.prefetch_place(far);
+            __builtin_prefetch(&surface_.mesh.triangles[far]);
+        }
+        if (near != no_index) {
+            store_.prefetch_relays(result_, near);
+            for (const Index v : surface_.mesh.triangles[near]) {
+                __builtin_prefetch(&result_.vertex_site[v]);
+                __builtin_prefetch(&result_.vertex_distance[v]);
+                __builtin_prefetch(&surface_.can_turn[v]);
+            }
+        }
+    }
+
     void replace_faces() {
         constexpr Index grain_of_faces = 256;
         const auto count = static_cast<Index>(changed_faces_.size());
@@ -428,6 +444,8 @@ private:
                             out.faces.clear();
                             out.relays.clear();
                             for (Index i = begin; i < end; ++i) {
+                                prefetch(i + 6 < end ? changed_faces_[i + 6] : no_index,
+                                         i + 3 < end ? changed_faces_[i + 3] : no_index);
                                 collect(changed_faces_[i], patches_to(i), out);
                             }
                         });

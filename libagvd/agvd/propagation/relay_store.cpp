@@ -24,11 +24,11 @@ void RelayStore::replace(Index face, std::span<const Relay> relays, Index num_wi
 }
 
 void RelayStore::list_mixed_faces(std::span<const Index> faces, Propagation& result) {
-    constexpr std::size_t least_gaps = 1 << 10;
-    if (result.relays.size() > 2 * num_stored_ + least_gaps) {
+    if (result.relays.size() > most_relays()) {
         close_gaps(result);
         return;
     }
+    result.relays.reserve(most_relays());
     mixed_faces_.clear();
     ranges_.clear();
     std::size_t old = 0;
@@ -53,7 +53,7 @@ void RelayStore::list_mixed_faces(std::span<const Index> faces, Propagation& res
 
 void RelayStore::close_gaps(Propagation& result) {
     std::vector<Relay> relays;
-    relays.reserve(num_stored_ + num_stored_ / 2);
+    relays.reserve(most_relays());
     result.mixed_faces.clear();
     result.relay_ranges.clear();
     for (Index face = 0; face < faces_.size(); ++face) {

@@ -38,7 +38,18 @@ public:
     //! \param new_site  of every site that has relays.
     void renumber_sites(std::span<const SiteId> new_site, Propagation& result) const;
 
+    //! Starts to load what replace() writes. Inlined by force, as all that only prefetches must be.
+    [[gnu::always_inline]] void prefetch_place(Index face) const {
+        __builtin_prefetch(&faces_[face]);
+    }
+    [[gnu::always_inline]] void prefetch_relays(const Propagation& result, Index face) const {
+        const Relay* const first = result.relays.data() + faces_[face].begin;
+        for (Index r = 0; r < faces_[face].count; ++r) __builtin_prefetch(first + r);
+    }
+
 private:
+    // Half of them gaps, at most.
+    [[nodiscard]] std::size_t most_relays() const { return 2 * num_stored_ + 1024; }
     void close_gaps(Propagation& result);
 
     std::vector<StoredFace> faces_;
