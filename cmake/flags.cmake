@@ -1,8 +1,9 @@
 # agvd_flags(target): the language level, warnings and sanitizers of all our targets; never global.
 function(agvd_flags target)
     target_compile_features(${target} PUBLIC cxx_std_20)
+    # Roots without errno or traps keep their values and are half as long.
     target_compile_options(${target} PRIVATE
-        -ffp-contract=off -Wall -Wextra -Wshadow -Wconversion $<$<BOOL:${AGVD_WERROR}>:-Werror>)
+        -ffp-contract=off -fno-math-errno -fno-trapping-math -Wall -Wextra -Wshadow -Wconversion $<$<BOOL:${AGVD_WERROR}>:-Werror>)
     if(AGVD_SANITIZE)
         # gcc sees uninitialised temporaries in instrumented code of the standard library.
         target_compile_options(${target} PRIVATE

@@ -219,7 +219,9 @@ private:
                 for (const Window& w : windows) task.add(to_relay(w, site, half_edge));
                 return;
             }
-            Index visitor = no_index;
+            Index visitor = first_visitor_[face].load(relaxed);
+            if (visitor == site) return;
+            visitor = no_index;
             first_visitor_[face].compare_exchange_strong(visitor, site, relaxed);
             if (visitor != no_index && visitor != site) {
                 task.late_visits.push_back({face, site});

@@ -73,7 +73,7 @@ struct WindowFront::Face {
 WindowFront::WindowFront(const Surface& surface, const Corners& corners, double max_error)
     : surface_(surface),
       corners_(corners),
-      per_bucket_(2 / corners.mean_length()),
+      per_bucket_(3 / corners.mean_length()),
       max_error_(max_error),
       vertex_slot_(surface.num_vertices(), 0),
       edge_slot_(surface.twin.size(), 0) {}

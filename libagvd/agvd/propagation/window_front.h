@@ -88,8 +88,8 @@ private:
 
     // In which order half-edges are served. Any order gives the same distances up to rounding.
     enum class Order : std::uint8_t {
-        Buckets,  // By half a mean edge length: quick, but how often a half-edge is served has no
-                  // useful bound.
+        Buckets,  // By a third of the mean edge length: quick, but how often a half-edge is served
+                  // has no useful bound.
         Nearest,  // Nearest window first: slower, and bounded as in [mitchell1987].
     };
     struct EdgeRecord {
@@ -163,7 +163,7 @@ private:
     [[nodiscard]] static bool pass_right(const Part& part, const Face& face, Window& child);
     [[nodiscard]] static bool pass_left(const Part& part, const Face& face, Window& child);
     void emit(const Turn& turn);
-    void emit_fan(Index first, const Vec2* from, Index last, const Vec2* to, const VertexRecord& v);
+    bool emit_fan(Index first, const Vec2* from, Index last, const Vec2* to, const VertexRecord& v);
     void emit_into(Index half_edge, double weight, float error, const Vec2* from, const Vec2* to);
 
     const Surface& surface_;

@@ -102,9 +102,8 @@ void WindowFront::emit(const Turn& turn) {
     const VertexRecord v = vertices_[turn.vertex];
     if (!(turn.distance <= v.bound * (1 + grazing))) return;
     if (max_error_ == 0 && turn.distance > v.low) return;
-    const Index start = surface_.outgoing[v.vertex];
     if (turn.half_edge == no_index) {
-        emit_fan(start, nullptr, no_index, nullptr, v);
+        emit_fan(surface_.outgoing[v.vertex], nullptr, no_index, nullptr, v);
         return;
     }
 
@@ -141,24 +140,25 @@ void WindowFront::emit(const Turn& turn) {
     }
     from = -from;
     to = -to;
+    // Whether the vertex lies on the boundary is asked last: seldom in the cache.
+    if (first != no_index && emit_fan(first, &from, last, &to, v)) return;
+    if (last == no_index) return;
     const bool is_boundary = surface_.is_boundary_vertex(v.vertex);
-    if (last != no_index && (is_boundary || first == no_index)) {
-        emit_fan(is_boundary ? start : last, nullptr, last, &to, v);
-    }
-    if (first != no_index) {
-        emit_fan(first, &from, is_boundary ? no_index : last, &to, v);
-    }
+    emit_fan(is_boundary ? surface_.outgoing[v.vertex] : last, nullptr, last, &to, v);
 }
 
-void WindowFront::emit_fan(Index first, const Vec2* from, Index last, const Vec2* to,
+// Counter-clockwise from one face to another, or to the boundary or all around. False if the
+// boundary comes first.
+bool WindowFront::emit_fan(Index first, const Vec2* from, Index last, const Vec2* to,
                            const VertexRecord& v) {
     const auto error = static_cast<float>(std::max(v.upper - v.low, 0.0) * (1 + 1e-6));
     Index h = first;
     do {
         emit_into(h, v.low, error, h == first ? from : nullptr, h == last ? to : nullptr);
-        if (h == last) return;
+        if (h == last) return true;
         h = corners_.twin(Surface::previous(h));
     } while (h != no_index && h != first);
+    return h != no_index;
 }
 
 }  // namespace agvd
