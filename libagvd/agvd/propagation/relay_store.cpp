@@ -28,7 +28,7 @@ void RelayStore::list_mixed_faces(std::span<const Index> faces, Propagation& res
         close_gaps(result);
         return;
     }
-    result.relays.reserve(most_relays());
+    if (result.relays.capacity() < most_relays()) reserve(result.relays);
     mixed_faces_.clear();
     ranges_.clear();
     std::size_t old = 0;
@@ -51,9 +51,14 @@ void RelayStore::list_mixed_faces(std::span<const Index> faces, Propagation& res
     std::swap(result.relay_ranges, ranges_);
 }
 
+// With some to spare, since relays become more and less.
+void RelayStore::reserve(std::vector<Relay>& relays) const {
+    relays.reserve(most_relays() + most_relays() / 8);
+}
+
 void RelayStore::close_gaps(Propagation& result) {
     std::vector<Relay> relays;
-    relays.reserve(most_relays());
+    reserve(relays);
     result.mixed_faces.clear();
     result.relay_ranges.clear();
     for (Index face = 0; face < faces_.size(); ++face) {

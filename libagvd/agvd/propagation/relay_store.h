@@ -50,6 +50,7 @@ public:
 private:
     // Half of them gaps, at most.
     [[nodiscard]] std::size_t most_relays() const { return 2 * num_stored_ + 1024; }
+    void reserve(std::vector<Relay>& relays) const;
     void close_gaps(Propagation& result);
 
     std::vector<StoredFace> faces_;
