@@ -232,12 +232,11 @@ void expect_first_of_equals(const Case& c, const Propagation& propagation) {
 void expect_well_formed(const Case& c, const Propagation& p) {
     ASSERT_EQ(p.vertex_site.size(), c.surface.num_vertices());
     ASSERT_EQ(p.vertex_distance.size(), c.surface.num_vertices());
-    ASSERT_EQ(p.relay_offsets.size(), p.mixed_faces.size() + 1);
-    ASSERT_EQ(p.relay_offsets.back(), p.relays.size());
+    ASSERT_EQ(p.relay_ranges.size(), p.mixed_faces.size());
     ASSERT_TRUE(std::is_sorted(p.mixed_faces.begin(), p.mixed_faces.end()));
     for (std::size_t i = 0; i < p.mixed_faces.size(); ++i) {
-        for (Index r = p.relay_offsets[i]; r < p.relay_offsets[i + 1]; ++r) {
-            const Relay& relay = p.relays[r];
+        ASSERT_EQ(p.relay_ranges[i].begin, i == 0 ? 0 : p.relay_ranges[i - 1].end);
+        for (const Relay& relay : relays_of(p, static_cast<Index>(i))) {
             ASSERT_EQ(Surface::face(relay.half_edge), p.mixed_faces[i]);
             ASSERT_LT(relay.site.value(), c.sites.size());
             ASSERT_TRUE(0 <= relay.begin && relay.begin <= relay.end &&

@@ -80,10 +80,7 @@ TEST_P(VertexEngine, DistancesThroughRelaysAreNeverBelowTheExactOnes) {
     for (Index i = 0; i < p.mixed_faces.size(); ++i) {
         const Index face = p.mixed_faces[i];
         std::vector<PlanarRelay> relays;
-        append_planar(surface,
-                      std::span(p.relays).subspan(p.relay_offsets[i],
-                                                  p.relay_offsets[i + 1] - p.relay_offsets[i]),
-                      {}, relays);
+        append_planar(surface, relays_of(p, i), {}, relays);
         const auto corners = face_corners(surface, face);
         for (std::uint64_t k = 0; k < 3; ++k) {
             const double root = std::sqrt(random_unit(i, k, 0));

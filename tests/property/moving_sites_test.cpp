@@ -84,6 +84,55 @@ TEST(MovingSites, OnlyNeighboursPropagateAgain) {
     expect_fresh(surface, moving, {});
 }
 
+TEST(MovingSites, SitesThatChangePlacesGiveWhatAFreshRunGives) {
+    for (const bool is_jittered : {false, true}) {
+        const auto mesh = shapes::torus(40, 20);
+        const Surface surface =
+            build_surface((is_jittered ? shapes::jitter(mesh, 0.01, 3) : mesh).view());
+        const SurfaceLayout layout(surface);
+        MovingSites moving(surface, layout, points::scattered(surface, 60, 5));
+        for (Index i = 0; i + 1 < 60; i += 7) {
+            const std::vector<SurfacePoint> sites = moving.sites();
+            moving.update(
+                {.moved = {{i, sites[i + 1]}, {i + 1, sites[i]}}, .removed = {}, .added = {}});
+            ASSERT_NO_FATAL_FAILURE(expect_fresh(surface, moving, {}));
+        }
+    }
+}
+
+TEST(MovingSites, SitesThatHideEachOtherGiveWhatAFreshRunGives) {
+    const Surface surface = build_surface(shapes::torus(20, 10).view());
+    const SurfaceLayout layout(surface);
+    const SurfacePoint here = point_at(surface, 7), there = point_at(surface, 90);
+    MovingSites moving(surface, layout, {here, here, there, here});
+    moving.update({.moved = {{0, there}}, .removed = {}, .added = {}});
+    ASSERT_NO_FATAL_FAILURE(expect_fresh(surface, moving, {}));
+    moving.update({.moved = {}, .removed = {1}, .added = {here}});
+    ASSERT_NO_FATAL_FAILURE(expect_fresh(surface, moving, {}));
+    moving.update({.moved = {{0, here}, {1, here}}, .removed = {2, 3}, .added = {}});
+    ASSERT_NO_FATAL_FAILURE(expect_fresh(surface, moving, {}));
+}
+
+TEST(MovingSites, GapsBetweenRelaysStaySmall) {
+    const Surface surface = build_surface(shapes::jitter(shapes::torus(40, 20), 0.01, 3).view());
+    const SurfaceLayout layout(surface);
+    MovingSites moving(surface, layout, points::scattered(surface, 80, 5));
+    const std::size_t first = moving.propagation().relays.size();
+    bool has_shrunk = false;
+    for (Index i = 0; i < 60; ++i) {
+        const std::size_t before = moving.propagation().relays.size();
+        const auto points = points::scattered(surface, 8, i);
+        SiteChanges changes;
+        for (Index k = 0; k < 8; ++k) changes.moved.emplace_back(10 * k + i % 10, points[k]);
+        moving.update(changes);
+        const std::size_t after = moving.propagation().relays.size();
+        has_shrunk = has_shrunk || after < before;
+        ASSERT_LE(after, 3 * first + 2000);
+        ASSERT_NO_FATAL_FAILURE(expect_fresh(surface, moving, {}));
+    }
+    EXPECT_TRUE(has_shrunk);
+}
+
 TEST(MovingSites, ADiagramOfThemIsTheFreshOne) {
     const Surface surface = build_surface(shapes::torus(40, 20).view());
     const SurfaceLayout layout(surface);

@@ -162,7 +162,7 @@ TEST(SteinerRefinement, SameBytesForAnyLambdaAndThreadCount) {
             EXPECT_TRUE(same_bytes(one.vertex_distance, other.vertex_distance));
             EXPECT_TRUE(same_bytes(one.vertex_site, other.vertex_site));
             EXPECT_TRUE(same_bytes(one.mixed_faces, other.mixed_faces));
-            EXPECT_TRUE(same_bytes(one.relay_offsets, other.relay_offsets));
+            EXPECT_TRUE(same_bytes(one.relay_ranges, other.relay_ranges));
             EXPECT_TRUE(same_bytes(one.relays, other.relays));
             EXPECT_EQ(one.certified_error, other.certified_error);
         }

@@ -119,16 +119,15 @@ TEST(VertexEngine, KeepsTheContractOfPropagation) {
             const auto sites = points::scattered(surface, t, t);
             const Propagation p = run(surface, sites);
             EXPECT_TRUE(std::isinf(p.certified_error));
-            ASSERT_EQ(p.relay_offsets.size(), p.mixed_faces.size() + 1);
-            EXPECT_EQ(p.relay_offsets.back(), p.relays.size());
+            ASSERT_EQ(p.relay_ranges.size(), p.mixed_faces.size());
             EXPECT_TRUE(std::is_sorted(p.mixed_faces.begin(), p.mixed_faces.end()));
 
             std::vector<bool> is_listed(surface.num_faces(), false);
             for (Index i = 0; i < p.mixed_faces.size(); ++i) {
                 const Index face = p.mixed_faces[i];
                 is_listed[face] = true;
-                const std::span<const Relay> relays = std::span(p.relays).subspan(
-                    p.relay_offsets[i], p.relay_offsets[i + 1] - p.relay_offsets[i]);
+                ASSERT_EQ(p.relay_ranges[i].begin, i == 0 ? 0 : p.relay_ranges[i - 1].end);
+                const std::span<const Relay> relays = relays_of(p, i);
                 for (const Relay& relay : relays) {
                     ASSERT_EQ(Surface::face(relay.half_edge), face);
                     EXPECT_LE(0, relay.begin);
@@ -295,7 +294,7 @@ TEST(VertexEngine, SameBytesForAnyThreadCount) {
         EXPECT_TRUE(same(one.vertex_distance, other.vertex_distance));
         EXPECT_TRUE(same(one.vertex_site, other.vertex_site));
         EXPECT_TRUE(same(one.mixed_faces, other.mixed_faces));
-        EXPECT_TRUE(same(one.relay_offsets, other.relay_offsets));
+        EXPECT_TRUE(same(one.relay_ranges, other.relay_ranges));
         EXPECT_TRUE(same(one.relays, other.relays));
     }
 }

@@ -79,6 +79,24 @@ private:
     Diagram& diagram_;
 };
 
+// #mixed: 1 for the faces that are labelled or traced and those across their edges: their relays
+// are asked for.
+template <typename IsDone>
+std::vector<std::uint8_t> faces_to_ask(const Surface& surface, const Propagation& propagation,
+                                       const IsDone& is_done) {
+    std::vector<std::uint8_t> is_asked;
+    is_asked.reserve(propagation.mixed_faces.size());
+    for (const Index face : propagation.mixed_faces) {
+        bool is_near = is_done(face);
+        for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+            const Index twin = surface.twin[h];
+            is_near = is_near || (twin != no_index && is_done(Surface::face(twin)));
+        }
+        is_asked.push_back(is_near ? 1 : 0);
+    }
+    return is_asked;
+}
+
 }  // namespace
 
 Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> sites,
@@ -87,7 +105,13 @@ Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> site
     constexpr Index grain = DiagramParts::grain;
     poll(options.progress, 0);
     const SitePlacement placement(surface, sites);
-    const RelayGroups groups(propagation, options.num_threads);
+    std::vector<std::uint8_t> is_asked;
+    if (earlier != nullptr) {
+        is_asked = faces_to_ask(surface, propagation, [&](Index face) {  // Sites: each time.
+            return earlier->is_near_change(face) || !placement.in_face(face).empty();
+        });
+    }
+    RelayGroups groups(propagation, is_asked, options.num_threads);
     parts.labels = label_edges(surface, propagation, groups, earlier, options.num_threads);
     EdgeLabels& labels = parts.labels;
     parts.vertex_site = labels.point_site;
@@ -98,13 +122,13 @@ Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> site
     const auto num_mixed = static_cast<Index>(propagation.mixed_faces.size());
     parts.chunks = std::vector<FaceArcs>(num_chunks(num_mixed, grain));
     parts.mended_faces.clear();
-    std::vector<std::uint8_t> is_stale(num_mixed, 1);
+    std::vector<std::uint8_t> is_chunk_stale(parts.chunks.size(), 1);
+    std::vector<std::uint8_t> is_stale;
     bool is_first = true;
     while (true) {
         parallel_chunks(
             num_mixed, grain, options.num_threads, [&](Index chunk, Index begin, Index end) {
-                const auto first = is_stale.begin() + begin;
-                if (std::find(first, is_stale.begin() + end, 1) == is_stale.begin() + end) return;
+                if (is_chunk_stale[chunk] == 0) return;
                 trace_faces(surface, propagation, groups, labels, is_first ? earlier : nullptr,
                             options.chord_tolerance, begin, end, parts.chunks[chunk]);
             });
@@ -113,9 +137,18 @@ Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> site
         if (absorb_islands(surface, sites, parts.chunks, joined_points, labels, is_stale) == 0) {
             break;
         }
+        is_chunk_stale.assign(parts.chunks.size(), 0);
         for (Index i = 0; i < num_mixed; ++i) {
-            if (is_stale[i] != 0) parts.mended_faces.push_back(propagation.mixed_faces[i]);
+            if (is_stale[i] == 0) continue;
+            parts.mended_faces.push_back(propagation.mixed_faces[i]);
+            is_chunk_stale[i / grain] = 1;
         }
+        if (earlier == nullptr) continue;
+        is_asked = faces_to_ask(surface, propagation, [&](Index face) {
+            const Index mixed = labels.mixed_index[face];
+            return mixed != no_index && is_chunk_stale[mixed / grain] != 0;
+        });
+        groups = {propagation, is_asked, options.num_threads};
     }
     poll(options.progress, 0.9);
 

@@ -1,6 +1,8 @@
 #include "agvd/diagram/earlier_parts.h"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 namespace agvd {
 
@@ -9,10 +11,21 @@ EarlierParts::EarlierParts(const Surface& surface, const DiagramParts& parts,
     : surface_(surface),
       parts_(parts),
       is_face_changed_(surface.num_faces(), 0),
-      is_vertex_changed_(surface.num_vertices(), 0) {
+      is_vertex_changed_(surface.num_vertices(), 0),
+      is_near_(surface.num_faces(), 0) {
+    const auto mark_around = [&](Index vertex) {
+        const Index first = surface.outgoing[vertex];
+        for (Index h = first; h != no_index;) {
+            is_near_[Surface::face(h)] = 1;
+            h = surface.twin[Surface::previous(h)];
+            if (h == first) break;
+        }
+    };
     const auto mark = [&](Index face) {
         is_face_changed_[face] = 1;
-        for (const Index v : surface.mesh.triangles[face]) is_vertex_changed_[v] = 1;
+        for (const Index v : surface.mesh.triangles[face]) {
+            if (std::exchange(is_vertex_changed_[v], 1) == 0) mark_around(v);
+        }
     };
     for (const Index face : changed_faces) mark(face);
     for (const Index face : parts.mended_faces) mark(face);
@@ -37,6 +50,7 @@ void EarlierParts::compare_vertices(const EdgeLabels& labels) {
 }
 
 bool EarlierParts::holds_on_edge(Index half_edge) const {
+    if (!is_near_change(Surface::face(half_edge))) return true;
     const Index twin = surface_.twin[half_edge];
     return is_face_changed_[Surface::face(half_edge)] == 0 &&
            (twin == no_index || is_face_changed_[Surface::face(twin)] == 0) &&
@@ -45,6 +59,7 @@ bool EarlierParts::holds_on_edge(Index half_edge) const {
 }
 
 bool EarlierParts::holds_in_face(Index face) const {
+    if (!is_near_change(face)) return true;
     return holds_on_edge(3 * face) && holds_on_edge(3 * face + 1) && holds_on_edge(3 * face + 2);
 }
 
@@ -65,15 +80,23 @@ void EarlierParts::append_arcs(Index face, const EdgeLabels& labels, FaceArcs& o
     const FaceArcs::Mark to = out.mark();
 
     // The same crossing by its new name.
+    struct Renamed {
+        Index old_begin = 0, count = 0;
+        Index begin = 0;
+    };
+    std::array<Renamed, 3> rows;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Index edge = surface_.edge[3 * face + k];
+        const Index row = parts_.labels.edge_row[edge];
+        if (row == no_index) continue;
+        const CrossingRow& old = parts_.labels.rows[row];
+        if (old.count == 0) continue;
+        rows[k] = {old.begin, old.count, labels.rows[labels.edge_row[edge]].begin};
+    }
     const auto crossing = [&](Index old) {
-        for (Index h = 3 * face; h < 3 * face + 3; ++h) {
-            const Index edge = surface_.edge[h];
-            const Index row = parts_.labels.edge_row[edge];
-            if (row == no_index) continue;
-            const Index place = old - parts_.labels.rows[row].begin;  // Large if before it.
-            if (place < parts_.labels.rows[row].count) {
-                return labels.rows[labels.edge_row[edge]].begin + place;
-            }
+        for (const Renamed& row : rows) {
+            const Index place = old - row.old_begin;  // Large if before it.
+            if (place < row.count) return row.begin + place;
         }
         return no_index;
     };

@@ -33,6 +33,9 @@ public:
     //! Compares the other vertices, when they are settled; before that, nothing holds at them.
     void compare_vertices(const EdgeLabels& labels);
 
+    //! Whether anything has changed in a face or next to one of its corners; where nothing has,
+    //! all holds.
+    [[nodiscard]] bool is_near_change(Index face) const { return is_near_[face] != 0; }
     [[nodiscard]] bool holds_on_edge(Index half_edge) const;
     //! In the face and on its edges.
     [[nodiscard]] bool holds_in_face(Index face) const;
@@ -51,6 +54,7 @@ private:
     const DiagramParts& parts_;
     std::vector<std::uint8_t> is_face_changed_;    // #F
     std::vector<std::uint8_t> is_vertex_changed_;  // #V
+    std::vector<std::uint8_t> is_near_;            // #F: around a vertex marked at first.
 };
 
 //! As build_diagram().

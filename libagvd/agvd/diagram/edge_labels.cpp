@@ -115,9 +115,7 @@ void label_vertices(const Surface& surface, const Propagation& propagation, Earl
             __builtin_prefetch(&surface.edge_half[surface.edge[h]]);
         } else if (*neighbour != no_index) {
             groups.prefetch(*neighbour);
-            const Index first = propagation.relay_offsets[*neighbour];
-            const Index end = propagation.relay_offsets[*neighbour + 1];
-            for (Index r = first; r < end; ++r) __builtin_prefetch(&propagation.relays[r]);
+            for (const Relay& r : relays_of(propagation, *neighbour)) __builtin_prefetch(&r);
         }
     }
 }

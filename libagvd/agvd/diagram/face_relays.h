@@ -10,14 +10,6 @@
 
 namespace agvd {
 
-//! The relays of one mixed face.
-[[nodiscard]] inline std::span<const Relay> relays_of(const Propagation& propagation,
-                                                      Index mixed_index) {
-    const Index begin = propagation.relay_offsets[mixed_index];
-    return std::span(propagation.relays)
-        .subspan(begin, propagation.relay_offsets[mixed_index + 1] - begin);
-}
-
 //! A relay in a planar frame shared with other relays.
 struct PlanarRelay {
     Vec2 image;

@@ -13,12 +13,9 @@ PointLabel PointLabels::operator()(const SurfacePoint& point) {
     if (found == mixed.end() || *found != face) {
         return {propagation_.vertex_site[surface_.mesh.triangles[face][0]], {}};
     }
-    const auto i = static_cast<std::size_t>(found - mixed.begin());
-    const std::span relays(propagation_.relays);
-    const Index begin = propagation_.relay_offsets[i];
+    const auto i = static_cast<Index>(found - mixed.begin());
     planar_.clear();
-    append_planar(surface_, relays.subspan(begin, propagation_.relay_offsets[i + 1] - begin),
-                  Motion{}, planar_);
+    append_planar(surface_, relays_of(propagation_, i), Motion{}, planar_);
     const Nearest label = nearest(planar_, position_in_frame(surface_, point, 3 * face));
     return {SiteId(label.site), label.distance};
 }

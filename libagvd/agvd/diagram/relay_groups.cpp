@@ -6,16 +6,17 @@
 
 namespace agvd {
 
-RelayGroups::RelayGroups(const Propagation& propagation, int num_threads)
-    : offsets_(propagation.relay_offsets) {
+RelayGroups::RelayGroups(const Propagation& propagation, std::span<const std::uint8_t> is_asked,
+                         int num_threads)
+    : ranges_(propagation.relay_ranges) {
     constexpr Index grain = 512;
     const auto num_mixed = static_cast<Index>(propagation.mixed_faces.size());
     relays_ = std::make_unique_for_overwrite<Index[]>(propagation.relays.size());
-    begins_ = std::make_unique_for_overwrite<Index[]>(num_groups * num_mixed + 1);
-    begins_[num_groups * num_mixed] = static_cast<Index>(propagation.relays.size());
+    begins_ = std::make_unique_for_overwrite<Index[]>(std::size_t{stride} * num_mixed);
     parallel_chunks(num_mixed, grain, num_threads, [&](Index, Index begin, Index end) {
         std::vector<Index> groups;
         for (Index i = begin; i < end; ++i) {
+            if (!is_asked.empty() && is_asked[i] == 0) continue;
             const Index first_half_edge = 3 * propagation.mixed_faces[i];
             const std::span<const Relay> relays = relays_of(propagation, i);
             std::array<Index, num_groups> next{};
@@ -25,13 +26,15 @@ RelayGroups::RelayGroups(const Propagation& propagation, int num_threads)
                 groups.push_back(r.y < 0 ? r.half_edge - first_half_edge : inner);
                 ++next[groups.back()];
             }
-            Index place = propagation.relay_offsets[i];
+            const Index first = ranges_[i].begin;
+            Index place = first;
             for (Index g = 0; g < num_groups; ++g) {
-                begins_[num_groups * i + g] = place;
+                begins_[stride * i + g] = place;
                 place += std::exchange(next[g], place);
             }
+            begins_[stride * i + num_groups] = place;
             for (Index r = 0; r < relays.size(); ++r) {
-                relays_[next[groups[r]]++] = propagation.relay_offsets[i] + r;
+                relays_[next[groups[r]]++] = first + r;
             }
         }
     });

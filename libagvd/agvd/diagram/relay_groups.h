@@ -12,7 +12,9 @@ namespace agvd {
 class RelayGroups {
 public:
     //! Parallel; O(relays). Keeps a reference.
-    RelayGroups(const Propagation& propagation, int num_threads);
+    //! \param is_asked  #mixed: 1 for the faces whose relays will be asked for; empty: all.
+    RelayGroups(const Propagation& propagation, std::span<const std::uint8_t> is_asked,
+                int num_threads);
 
     //! The relays whose image lies across a half-edge of a mixed face. As all that follow in their
     //! order.
@@ -30,21 +32,22 @@ public:
 
     //! Always inline: g++ drops calls of functions that do nothing but prefetch.
     [[gnu::always_inline]] void prefetch(Index mixed_index) const {
-        __builtin_prefetch(&begins_[num_groups * mixed_index]);
-        __builtin_prefetch(&relays_[offsets_[mixed_index]]);
+        __builtin_prefetch(&begins_[stride * mixed_index]);
+        __builtin_prefetch(&relays_[ranges_[mixed_index].begin]);
     }
 
 private:
     static constexpr Index inside_group = 3, corner_group = 4, num_groups = 5;
+    static constexpr Index stride = num_groups + 1;
 
     [[nodiscard]] std::span<const Index> group(Index mixed_index, Index group) const {
-        const Index* const begin = &begins_[num_groups * mixed_index + group];
+        const Index* const begin = &begins_[stride * mixed_index + group];
         return {&relays_[begin[0]], begin[1] - begin[0]};
     }
 
-    std::span<const Index> offsets_;   // By mixed face, in relays_ as in Propagation::relays.
-    std::unique_ptr<Index[]> relays_;  // Face after face, group after group.
-    std::unique_ptr<Index[]> begins_;  // Of the groups, and the end of the last.
+    std::span<const RelayRange> ranges_;  // By mixed face, in relays_ as in Propagation::relays.
+    std::unique_ptr<Index[]> relays_;     // Face after face, group after group.
+    std::unique_ptr<Index[]> begins_;     // Of the groups of each face, and the end of the last.
 };
 
 }  // namespace agvd

@@ -78,11 +78,17 @@ void BoundsSearch::add(const SurfacePoint& point, Index site) {
     });
 }
 
-void BoundsSearch::remove(const std::vector<bool>& is_removed) {
+std::vector<Index> BoundsSearch::starts_of(const SurfacePoint& point) const {
+    std::vector<Index> starts;
+    for_each_start(point, [&](Index vertex, double) { starts.push_back(vertex); });
+    return starts;
+}
+
+std::vector<Index> BoundsSearch::remove(std::span<const std::uint8_t> is_removed) {
     std::vector<Index> forgotten;
     for (Index v = 0; v < keys_.size(); ++v) {
         const Index site = site_of(keys_[v]);
-        if (site == no_index || !is_removed[site]) continue;
+        if (site == no_index || is_removed[site] == 0) continue;
         keys_[v] = to_key(infinity, no_index);
         forgotten.push_back(v);
     }
@@ -93,6 +99,7 @@ void BoundsSearch::remove(const std::vector<bool>& is_removed) {
         }
     }
     if (tracks_changes_) changes_.insert(changes_.end(), forgotten.begin(), forgotten.end());
+    return forgotten;
 }
 
 void BoundsSearch::run() {

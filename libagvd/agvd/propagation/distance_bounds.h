@@ -26,11 +26,15 @@ public:
 
     //! Adds a site, whose paths the next run() follows.
     void add(const SurfacePoint& point, Index site);
+    //! The vertices from which the paths of a site start.
+    [[nodiscard]] std::vector<Index> starts_of(const SurfacePoint& point) const;
     //! Forgets all that comes from some sites; the next run() fills the gaps from outside. Sites
-    //! that may have been hidden in them must be added again, which is harmless for any other.
+    //! that start at forgotten vertices may have been hidden there and must be added again, which
+    //! is harmless for any other.
     //!
-    //! \param is_removed  by site. Cost: O(#V).
-    void remove(const std::vector<bool>& is_removed);
+    //! \param is_removed  by site: 1 or 0. Cost: O(#V).
+    //! \return the vertices forgotten.
+    std::vector<Index> remove(std::span<const std::uint8_t> is_removed);
     //! Cost: about that of one Dijkstra sweep over the edges, where anything is new.
     void run();
 

@@ -10,7 +10,9 @@
 #include "agvd/propagation/arc_graph.h"
 #include "agvd/propagation/distance_bounds.h"
 #include "agvd/propagation/option_checks.h"
+#include "agvd/propagation/relay_store.h"
 #include "agvd/propagation/site_placement.h"
+#include "agvd/propagation/site_run.h"
 #include "agvd/propagation/window_engine.h"
 #include "agvd/propagation/window_front.h"
 #include "agvd/propagation/window_relays.h"
@@ -18,86 +20,44 @@
 namespace agvd {
 namespace {
 
-// What one site has propagated.
-struct SiteRun {
-    struct Vertex {
-        Index vertex;
-        double distance;  // Infinity where only the bound was asked for.
-    };
-    struct HalfEdge {
-        Index half_edge;
-        Index first, count;  // In relays.
-    };
-    SurfacePoint point;
-    bool is_removed = false;
-    std::vector<Vertex> vertices = {};      // Ascending.
-    std::vector<HalfEdge> half_edges = {};  // Ascending.
-    std::vector<Relay> relays = {};         // In the order in which the run came to its half-edges.
-    double error = 0;
-    std::size_t num_windows = 0;
-
-    [[nodiscard]] double distance(Index vertex) const {
-        const auto found =
-            std::lower_bound(vertices.begin(), vertices.end(), vertex,
-                             [](const Vertex& v, Index wanted) { return v.vertex < wanted; });
-        return found->distance;
-    }
+// A site, by number, and what its run gives at a vertex that it has read.
+struct Reader {
+    Index site;
+    double distance;
 };
 
-SiteRun propagated(WindowFront& front, const SurfacePoint& point, std::span<const float> bounds) {
-    front.run(point, bounds, default_work_cap);
-    SiteRun run{point};
-    run.error = front.relative_error();
-    run.num_windows = front.num_windows();
-    front.for_each_bound([&](Index vertex) {
-        run.vertices.push_back({vertex, std::numeric_limits<double>::infinity()});
-    });
-    std::sort(run.vertices.begin(), run.vertices.end(),
-              [](const auto& a, const auto& b) { return a.vertex < b.vertex; });
-    front.for_each_vertex([&](const WindowFront::ReachedVertex& v) {
-        const auto found = std::lower_bound(
-            run.vertices.begin(), run.vertices.end(), v.vertex,
-            [](const auto& reached, Index wanted) { return reached.vertex < wanted; });
-        found->distance = v.distance;
-    });
-    front.for_each_half_edge([&](Index half_edge, std::span<const Window> windows) {
-        run.half_edges.push_back(
-            {half_edge, static_cast<Index>(run.relays.size()), static_cast<Index>(windows.size())});
-        for (const Window& w : windows) run.relays.push_back(to_relay(w, no_index, half_edge));
-    });
-    std::sort(run.half_edges.begin(), run.half_edges.end(),
-              [](const auto& a, const auto& b) { return a.half_edge < b.half_edge; });
-    return run;
-}
+// All that a site that ran again gives to a face: relays of its chunk.
+struct Patch {
+    Index face;
+    Index site;
+    Index chunk;
+    Index first, count;
+};
 
-bool is_same_relay(const Relay& a, const Relay& b) {
-    return a.x == b.x && a.y == b.y && a.weight == b.weight && a.begin == b.begin && a.end == b.end;
-}
+struct Source {
+    SurfacePoint point;
+    bool is_removed = false;
+};
 
-// Calls each(key, was, is) for the keys of two ascending lists that only one has, or that both have
-// with different contents.
-template <typename Entry, typename IsSame, typename Each>
-void for_each_difference(const std::vector<Entry>& before, const std::vector<Entry>& now,
-                         Index Entry::*key, const IsSame& is_same, const Each& each) {
-    auto b = before.begin();
-    auto n = now.begin();
-    while (b != before.end() || n != now.end()) {
-        if (n == now.end() || (b != before.end() && (*b).*key < (*n).*key)) {
-            each((*b++).*key, true, false);
-        } else if (b == before.end() || (*n).*key < (*b).*key) {
-            each((*n++).*key, false, true);
-        } else {
-            if (!is_same(*b, *n)) each((*n).*key, true, true);
-            ++b;
-            ++n;
-        }
-    }
-}
+// Of the sites of one task, one after the other.
+struct ChunkChanges {
+    struct End {
+        Index vertices, faces;
+    };
+    RunChanges changes;
+    std::vector<End> ends;
+};
 
-void keep_unique(std::vector<Index>& indices) {
-    std::sort(indices.begin(), indices.end());
-    indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
-}
+// What some faces are to have.
+struct CollectedFaces {
+    struct Face {
+        Index begin;
+        Index num_windows, count;
+        bool is_mixed;
+    };
+    std::vector<Face> faces;
+    std::vector<Relay> relays;
+};
 
 }  // namespace
 
@@ -113,53 +73,37 @@ public:
           max_error_(options.max_error.value_or(default_max_error)),
           search_(surface, layout.arcs(), corners_.mean_length(), options.num_threads),
           bounds_(surface.num_vertices(), std::numeric_limits<float>::infinity()),
+          starting_at_(surface.num_vertices()),
           readers_(surface.num_vertices()),
-          place_(surface.num_faces(), no_index) {
+          is_listed_(surface.num_vertices(), 0),
+          placement_(surface, {}),
+          place_(surface.num_faces(), no_index),
+          store_(surface.num_faces()) {
         result_.vertex_site.assign(surface.num_vertices(), SiteId());
         result_.vertex_distance.assign(surface.num_vertices(),
                                        std::numeric_limits<double>::infinity());
-        result_.relay_offsets = {0};
         (void)search_.take_changes();
         update({.moved = {}, .removed = {}, .added = std::move(sites)});
     }
 
     void update(const SiteChanges& changes) {
         std::vector<SurfacePoint> sites = changed_sites(changes);
-        SitePlacement placement(surface_, sites);
 
-        std::vector<Index> dirty = change_search(changes);  // Sites, by number.
-        const bool is_renumbered = !changes.removed.empty();
-        renumber();
+        change_search(changes);
         sites_ = std::move(sites);
-        for (const Index v : search_.take_changes()) {
-            if (bounds_[v] == search_.distance(v)) continue;
-            bounds_[v] = search_.distance(v);
-            dirty.insert(dirty.end(), readers_[v].begin(), readers_[v].end());
-        }
-        keep_unique(dirty);
-
-        std::vector<SiteRun> before;
-        for (const Index site : dirty) {
-            SiteRun& run = runs_[site];
-            before.push_back(std::exchange(run, {run.point, run.is_removed}));
-        }
-        propagate(dirty);
+        renumber();
+        if (!changes.removed.empty()) renumber_result();
+        if (num_placed_ > 0 || !placement_.is_empty()) placement_ = {surface_, sites_};
+        const std::vector<Index> dirty = find_dirty();
         num_propagated_ = static_cast<Index>(std::count_if(
-            dirty.begin(), dirty.end(), [&](Index site) { return !runs_[site].is_removed; }));
+            dirty.begin(), dirty.end(), [&](Index site) { return !sources_[site].is_removed; }));
+        propagate(dirty);
 
-        std::vector<Index> vertices;
-        std::vector<Index> faces = std::move(site_faces_);
-        for (std::size_t i = 0; i < dirty.size(); ++i) {
-            compare(before[i], dirty[i], vertices, faces);
-        }
-        keep_unique(vertices);
-        if (is_renumbered) renumber_result();
-        std::erase_if(vertices, [&](Index v) { return !settle_vertex(v); });
-        add_faces_around(vertices, faces);
-        keep_unique(faces);
-        placement_ = std::move(placement);
-        replace_faces(faces);
-        changed_faces_ = std::move(faces);
+        take_changes(dirty);
+        std::erase_if(vertices_, [&](Index v) { return !settle_vertex(v); });
+        list_faces();
+        sort_patches();
+        replace_faces();
         tell_totals();
     }
 
@@ -198,40 +142,68 @@ private:
         return result;
     }
 
-    // Brings the bounds up to date. \return the numbers of the sites that changed.
-    std::vector<Index> change_search(const SiteChanges& changes) {
-        std::vector<Index> changed;
-        for (const auto& [site, point] : changes.moved) changed.push_back(numbers_[site]);
-        for (const Index site : changes.removed) changed.push_back(numbers_[site]);
+    // Brings the search for bounds up to date, and marks the sites that changed.
+    void change_search(const SiteChanges& changes) {
         site_faces_.clear();
-        std::vector<bool> is_changed(runs_.size(), false);
-        for (const Index site : changed) {
-            is_changed[site] = true;
-            add_faces_of(runs_[site].point);
-        }
-        search_.remove(is_changed);
-        for (const auto& [site, point] : changes.moved) {
-            runs_[numbers_[site]].point = point;
+        is_changed_.assign(sources_.size(), 0);
+        const auto take_out = [&](Index site) {
+            is_changed_[site] = 1;
+            num_placed_ -= vertex_of(surface_, sources_[site].point) ? 0 : 1;
+            add_faces_of(sources_[site].point);
+            for (const Index v : search_.starts_of(sources_[site].point)) {
+                std::erase(starting_at_[v], site);
+            }
+        };
+        const auto put_in = [&](Index site, const SurfacePoint& point) {
+            sources_[site].point = point;
+            num_placed_ += vertex_of(surface_, point) ? 0 : 1;
             add_faces_of(point);
+            for (const Index v : search_.starts_of(point)) starting_at_[v].push_back(site);
+            search_.add(point, site);
+        };
+        for (const auto& [site, point] : changes.moved) take_out(numbers_[site]);
+        for (const Index site : changes.removed) {
+            take_out(numbers_[site]);
+            sources_[numbers_[site]].is_removed = true;
         }
-        for (const Index site : changes.removed) runs_[numbers_[site]].is_removed = true;
+        for (const Index v : search_.remove(is_changed_)) {
+            for (const Index site : starting_at_[v]) search_.add(sources_[site].point, site);
+        }
+        for (const auto& [site, point] : changes.moved) put_in(numbers_[site], point);
         for (const SurfacePoint& point : changes.added) {
-            changed.push_back(static_cast<Index>(runs_.size()));
-            add_faces_of(point);
-            runs_.push_back({point});
-        }
-        for (Index n = 0; n < runs_.size(); ++n) {  // Some may have been hidden behind others.
-            if (!runs_[n].is_removed) search_.add(runs_[n].point, n);
+            const auto site = static_cast<Index>(sources_.size());
+            sources_.emplace_back();
+            runs_.emplace_back();
+            is_changed_.push_back(1);
+            put_in(site, point);
         }
         search_.run();
-        return changed;
+    }
+
+    // Those that changed and those that have read a bound that is another now, in the order of
+    // propagate().
+    [[nodiscard]] std::vector<Index> find_dirty() {
+        std::vector<Index> dirty;
+        for (Index site = 0; site < is_changed_.size(); ++site) {
+            if (is_changed_[site] != 0) dirty.push_back(site);
+        }
+        std::vector<std::uint8_t> is_dirty = is_changed_;
+        for (const Index v : search_.take_changes()) {
+            if (bounds_[v] == search_.distance(v)) continue;
+            bounds_[v] = search_.distance(v);
+            for (const Reader& reader : readers_[v]) {
+                if (std::exchange(is_dirty[reader.site], 1) == 0) dirty.push_back(reader.site);
+            }
+        }
+        std::sort(dirty.begin(), dirty.end(), [&](Index a, Index b) { return comes_before(a, b); });
+        return dirty;
     }
 
     void renumber() {
         numbers_.clear();
-        ranks_.assign(runs_.size(), no_index);
-        for (Index n = 0; n < runs_.size(); ++n) {
-            if (runs_[n].is_removed) continue;
+        ranks_.assign(sources_.size(), no_index);
+        for (Index n = 0; n < sources_.size(); ++n) {
+            if (sources_[n].is_removed) continue;
             ranks_[n] = static_cast<Index>(numbers_.size());
             numbers_.push_back(n);
         }
@@ -246,79 +218,98 @@ private:
         for (SiteId& site : result_.vertex_site) {
             if (site.is_valid()) site = new_rank[site.value()];
         }
-        for (Relay& relay : result_.relays) relay.site = new_rank[relay.site.value()];
+        store_.renumber_sites(new_rank, result_);
     }
 
     void propagate(std::span<const Index> sites) {
-        constexpr Index grain = 4;
         std::mutex mutex;
-        parallel_chunks(static_cast<Index>(sites.size()), grain, num_threads_,
-                        [&](Index, Index begin, Index end) {
-                            std::unique_ptr<WindowFront> front;
-                            {
-                                const std::scoped_lock lock(mutex);
-                                if (!fronts_.empty()) {
-                                    front = std::move(fronts_.back());
-                                    fronts_.pop_back();
-                                }
-                            }
-                            if (!front) {
-                                front =
-                                    std::make_unique<WindowFront>(surface_, corners_, max_error_);
-                            }
-                            for (Index i = begin; i < end; ++i) {
-                                SiteRun& run = runs_[sites[i]];
-                                if (run.is_removed) continue;
-                                run = propagated(*front, run.point, bounds_);
-                            }
-                            const std::scoped_lock lock(mutex);
-                            fronts_.push_back(std::move(front));
-                        });
+        const auto count = static_cast<Index>(sites.size());
+        changes_.resize(num_chunks(count, grain));
+        parallel_chunks(count, grain, num_threads_, [&](Index chunk, Index begin, Index end) {
+            std::unique_ptr<WindowFront> front;
+            {
+                const std::scoped_lock lock(mutex);
+                if (!fronts_.empty()) {
+                    front = std::move(fronts_.back());
+                    fronts_.pop_back();
+                }
+            }
+            if (!front) front = std::make_unique<WindowFront>(surface_, corners_, max_error_);
+            ChunkChanges& out = changes_[chunk];
+            out.changes.clear();
+            out.ends.clear();
+            for (Index i = begin; i < end; ++i) {
+                const Index site = sites[i];
+                if (sources_[site].is_removed) {
+                    forget_run(runs_[site], out.changes);
+                } else {
+                    front->run(sources_[site].point, bounds_, default_work_cap);
+                    replace_run(*front, is_changed_[site] != 0, runs_[site], out.changes);
+                }
+                out.ends.push_back({static_cast<Index>(out.changes.vertices.size()),
+                                    static_cast<Index>(out.changes.faces.size())});
+            }
+            const std::scoped_lock lock(mutex);
+            fronts_.push_back(std::move(front));
+        });
     }
 
-    // Lists where a site's run is not what it was.
-    void compare(const SiteRun& before, Index site, std::vector<Index>& vertices,
-                 std::vector<Index>& faces) {
-        const SiteRun& now = runs_[site];
-        const auto is_same_vertex = [](const SiteRun::Vertex& a, const SiteRun::Vertex& b) {
-            return a.distance == b.distance;
-        };
-        for_each_difference(before.vertices, now.vertices, &SiteRun::Vertex::vertex, is_same_vertex,
-                            [&](Index v, bool was, bool is) {
-                                if (was && !is) std::erase(readers_[v], site);
-                                if (is && !was) readers_[v].push_back(site);
-                                vertices.push_back(v);
-                            });
-        const auto is_same_half_edge = [&](const SiteRun::HalfEdge& a, const SiteRun::HalfEdge& b) {
-            const auto of_a = before.relays.begin() + a.first;
-            const auto of_b = now.relays.begin() + b.first;
-            return std::equal(of_a, of_a + a.count, of_b, of_b + b.count, is_same_relay);
-        };
-        for_each_difference(
-            before.half_edges, now.half_edges, &SiteRun::HalfEdge::half_edge, is_same_half_edge,
-            [&](Index half_edge, bool, bool) { faces.push_back(Surface::face(half_edge)); });
+    // Lists the vertices to be settled anew, once each, and the patches, site after site.
+    void take_changes(std::span<const Index> sites) {
+        vertices_.clear();
+        patches_.clear();
+        for (Index i = 0; i < sites.size(); ++i) {
+            const Index site = sites[i];
+            const ChunkChanges& chunk = changes_[i / grain];
+            const auto begin = i % grain == 0 ? ChunkChanges::End{0, 0} : chunk.ends[i % grain - 1];
+            const auto end = chunk.ends[i % grain];
+            for (Index k = begin.vertices; k < end.vertices; ++k) {
+                const RunChanges::Vertex& change = chunk.changes.vertices[k];
+                take_vertex(site, change);
+                if (std::exchange(is_listed_[change.vertex], 1) == 0) {
+                    vertices_.push_back(change.vertex);
+                }
+            }
+            for (Index k = begin.faces; k < end.faces; ++k) {
+                const RunChanges::Face& change = chunk.changes.faces[k];
+                patches_.push_back({change.face, site, i / grain, change.first, change.count});
+            }
+        }
+        for (const Index v : vertices_) is_listed_[v] = 0;
+    }
+
+    void take_vertex(Index site, const RunChanges::Vertex& change) {
+        std::vector<Reader>& readers = readers_[change.vertex];
+        const auto reader = std::find_if(readers.begin(), readers.end(),
+                                         [&](const Reader& r) { return r.site == site; });
+        if (reader == readers.end()) {
+            readers.push_back({site, change.distance});
+        } else if (change.is_read) {
+            reader->distance = change.distance;
+        } else {
+            readers.erase(reader);
+        }
     }
 
     // In the order in which propagate() takes sites in.
     [[nodiscard]] bool comes_before(Index a, Index b) const {
-        const FaceId face = runs_[a].point.face;
-        const FaceId other = runs_[b].point.face;
+        const FaceId face = sources_[a].point.face;
+        const FaceId other = sources_[b].point.face;
         return face < other || (face == other && a < b);
     }
 
     // False if nothing changes.
     [[nodiscard]] bool settle_vertex(Index v) {
-        std::vector<Index>& readers = readers_[v];
+        std::vector<Reader>& readers = readers_[v];
         std::sort(readers.begin(), readers.end(),
-                  [&](Index a, Index b) { return comes_before(a, b); });
+                  [&](const Reader& a, const Reader& b) { return comes_before(a.site, b.site); });
         double best = std::numeric_limits<double>::infinity();
         Index best_site = no_index;
-        for (const Index site : readers) {
-            const double distance = runs_[site].distance(v);
+        for (const auto& [number, distance] : readers) {
             if (!(distance < std::numeric_limits<double>::infinity())) continue;
-            if (!is_nearer(distance, ranks_[site], best, best_site)) continue;
+            if (!is_nearer(distance, ranks_[number], best, best_site)) continue;
             best = distance;
-            best_site = ranks_[site];
+            best_site = ranks_[number];
         }
         const SiteId site(best_site);
         if (result_.vertex_distance[v] == best && result_.vertex_site[v] == site) return false;
@@ -327,15 +318,23 @@ private:
         return true;
     }
 
-    void add_faces_around(std::span<const Index> vertices, std::vector<Index>& faces) const {
-        for (const Index v : vertices) {
+    // Those with patches, around settled vertices and of sites that changed.
+    void list_faces() {
+        changed_faces_.clear();
+        const auto add = [&](Index face) {
+            if (std::exchange(place_[face], 0) == no_index) changed_faces_.push_back(face);
+        };
+        for (const Index face : site_faces_) add(face);
+        for (const Patch& patch : patches_) add(patch.face);
+        for (const Index v : vertices_) {
             const Index first = surface_.outgoing[v];
             for (Index h = first; h != no_index;) {
-                faces.push_back(Surface::face(h));
+                add(Surface::face(h));
                 h = corners_.twin(Surface::previous(h));
                 if (h == first) break;
             }
         }
+        std::sort(changed_faces_.begin(), changed_faces_.end());
     }
 
     void add_faces_of(const SurfacePoint& point) {
@@ -346,150 +345,117 @@ private:
         }
     }
 
-    // Windows of one site through one half-edge of a face.
-    struct Visit {
-        Index place;  // Of the face, among those asked for.
-        Index site;
-        Index first, count;  // Of its relays.
-    };
-
-    // Those to given faces, face by face, site by site in the order of propagate(), and of each
-    // site in the order of its run. `ends` gets where the visits to each face end.
-    [[nodiscard]] std::vector<Visit> find_visits(std::span<const Index> faces,
-                                                 std::vector<Index>& ends) {
-        std::vector<Index> sites;
-        std::vector<std::uint8_t> is_listed(runs_.size(), 0);
-        for (Index i = 0; i < faces.size(); ++i) {
-            place_[faces[i]] = i;
-            for (const Index v : surface_.mesh.triangles[faces[i]]) {
-                for (const Index site : readers_[v]) {
-                    if (std::exchange(is_listed[site], 1) == 0) sites.push_back(site);
-                }
-            }
+    // By face; those to one face keep their order.
+    void sort_patches() {
+        for (Index i = 0; i < changed_faces_.size(); ++i) place_[changed_faces_[i]] = i;
+        patch_ends_.assign(changed_faces_.size(), 0);
+        for (const Patch& patch : patches_) ++patch_ends_[place_[patch.face]];
+        std::exclusive_scan(patch_ends_.begin(), patch_ends_.end(), patch_ends_.begin(), Index{0});
+        sorted_patches_.resize(patches_.size());
+        for (const Patch& patch : patches_) {
+            sorted_patches_[patch_ends_[place_[patch.face]]++] = patch;
         }
-        std::sort(sites.begin(), sites.end(), [&](Index a, Index b) { return comes_before(a, b); });
-        std::vector<Visit> by_site;
-        ends.assign(faces.size(), 0);
-        for (const Index site : sites) {
-            for (const SiteRun::HalfEdge& h : runs_[site].half_edges) {
-                const Index place = place_[Surface::face(h.half_edge)];
-                if (place == no_index || h.count == 0) continue;
-                by_site.push_back({place, site, h.first, h.count});
-                ++ends[place];
-                // Half-edges of one face follow each other: at most three.
-                for (std::size_t i = by_site.size() - 1;
-                     i > 0 && by_site[i - 1].place == place && by_site[i - 1].site == site &&
-                     by_site[i - 1].first > by_site[i].first;
-                     --i) {
-                    std::swap(by_site[i - 1], by_site[i]);
-                }
-            }
-        }
-        std::exclusive_scan(ends.begin(), ends.end(), ends.begin(), Index{0});
-        std::vector<Visit> visits(by_site.size());
-        for (const Visit& visit : by_site) visits[ends[visit.place]++] = visit;
-        for (const Index face : faces) place_[face] = no_index;
-        return visits;
+        for (const Index face : changed_faces_) place_[face] = no_index;
     }
 
-    // Adds the relays of a face if it is mixed; else false.
-    [[nodiscard]] bool collect(Index face, std::span<const Visit> visits,
-                               std::vector<Relay>& out) const {
+    [[nodiscard]] std::span<const Patch> patches_to(Index changed) const {
+        const Index first = changed == 0 ? 0 : patch_ends_[changed - 1];
+        return std::span(sorted_patches_).subspan(first, patch_ends_[changed] - first);
+    }
+
+    // Appends the relays that a face has now.
+    void collect(Index face, std::span<const Patch> patches, CollectedFaces& out) const {
         FaceRelays all;
-        for (const Visit& visit : visits) all.add_site(visit.site);
+        const auto append = [&](std::span<const Relay> relays, Index rank) {
+            if (relays.empty()) return;
+            all.add_site(rank);
+            for (const Relay& relay : relays) out.relays.push_back(relay);
+            const auto first = out.relays.end() - static_cast<std::ptrdiff_t>(relays.size());
+            std::for_each(first, out.relays.end(), [&](Relay& r) { r.site = SiteId(rank); });
+        };
+        auto patch = patches.begin();
+        const auto append_patch = [&] {
+            append(std::span(changes_[patch->chunk].changes.relays)
+                       .subspan(patch->first, patch->count),
+                   ranks_[patch->site]);
+            ++patch;
+        };
+        const std::size_t begin = out.relays.size();
+        std::span<const Relay> old = store_.windows(result_, face);
+        while (!old.empty()) {
+            const SiteId site = old.front().site;
+            std::size_t count = 1;
+            while (count < old.size() && old[count].site == site) ++count;
+            if (site.is_valid()) {  // Else it was removed.
+                const Index number = numbers_[site.value()];
+                const auto is_patched =
+                    std::any_of(patches.begin(), patches.end(),
+                                [&](const Patch& p) { return p.site == number; });
+                if (!is_patched) {
+                    while (patch != patches.end() && comes_before(patch->site, number)) {
+                        append_patch();
+                    }
+                    append(old.first(count), site.value());
+                }
+            }
+            old = old.subspan(count);
+        }
+        while (patch != patches.end()) append_patch();
+        const auto num_windows = static_cast<Index>(out.relays.size() - begin);
+
         for (const Index v : surface_.mesh.triangles[face]) {
-            const SiteId site = result_.vertex_site[v];
-            if (site.is_valid()) all.add_site(numbers_[site.value()]);
+            all.add_site(result_.vertex_site[v].value());
         }
         const auto placed = placement_.in_face(face);
-        for (const PlacedSite& p : placed) all.add_site(numbers_[p.site]);
-        if (all.site != FaceRelays::several) return false;
-        for (const Visit& visit : visits) {
-            const auto first = runs_[visit.site].relays.begin() + visit.first;
-            out.insert(out.end(), first, first + visit.count);
-            for (std::size_t i = out.size() - visit.count; i < out.size(); ++i) {
-                out[i].site = SiteId(ranks_[visit.site]);
-            }
+        for (const PlacedSite& p : placed) all.add_site(p.site);
+        const bool is_mixed = all.site == FaceRelays::several;
+        if (is_mixed) {
+            const std::size_t windows_end = out.relays.size();
+            out.relays.resize(windows_end + count_inner_relays(surface_, placed, result_, face));
+            write_inner_relays(surface_, placed, result_, face, out.relays.data() + windows_end);
         }
-        const std::size_t windows = out.size();
-        out.resize(windows + count_inner_relays(surface_, placed, result_, face));
-        write_inner_relays(surface_, placed, result_, face, out.data() + windows);
-        return true;
+        out.faces.push_back({static_cast<Index>(begin), num_windows,
+                             static_cast<Index>(out.relays.size() - begin), is_mixed});
     }
 
-    // Ascending faces get new relays; the others keep theirs.
-    void replace_faces(std::span<const Index> faces) {
-        constexpr Index grain = 256;
-        struct Chunk {
-            std::vector<Relay> relays;
-            std::vector<Index> mixed_faces;
-            std::vector<Index> ends;
-        };
-        const auto count = static_cast<Index>(faces.size());
-        std::vector<Index> ends;
-        const std::vector<Visit> visits = find_visits(faces, ends);
-        std::vector<Chunk> chunks(num_chunks(count, grain));
-        parallel_chunks(count, grain, num_threads_, [&](Index chunk, Index begin, Index end) {
-            for (Index i = begin; i < end; ++i) {
-                Chunk& out = chunks[chunk];
-                const Index first = i == 0 ? 0 : ends[i - 1];
-                const auto visits_here = std::span(visits).subspan(first, ends[i] - first);
-                if (!collect(faces[i], visits_here, out.relays)) continue;
-                out.mixed_faces.push_back(faces[i]);
-                out.ends.push_back(static_cast<Index>(out.relays.size()));
-            }
-        });
-
-        Propagation& old = result_;
-        spare_.mixed_faces.clear();
-        spare_.relay_offsets.clear();
-        spare_.relays.clear();
-        spare_.relays.reserve(old.relays.size());
-        const auto add = [&](Index face, std::span<const Relay> relays) {
-            spare_.mixed_faces.push_back(face);
-            spare_.relay_offsets.push_back(static_cast<Index>(spare_.relays.size()));
-            spare_.relays.insert(spare_.relays.end(), relays.begin(), relays.end());
-        };
-        Index kept = 0;
-        const auto keep_before = [&](Index face) {
-            const auto first = old.mixed_faces.begin() + kept;
-            const auto last = std::lower_bound(first, old.mixed_faces.end(), face);
-            const auto end = kept + static_cast<Index>(last - first);
-            const Index begin_of_relays = old.relay_offsets[kept];
-            // Modulo 2^32, so that it may go up or down.
-            const Index shift = static_cast<Index>(spare_.relays.size()) - begin_of_relays;
-            spare_.mixed_faces.insert(spare_.mixed_faces.end(), first, last);
-            for (Index i = kept; i < end; ++i) {
-                spare_.relay_offsets.push_back(old.relay_offsets[i] + shift);
-            }
-            spare_.relays.insert(spare_.relays.end(), old.relays.begin() + begin_of_relays,
-                                 old.relays.begin() + old.relay_offsets[end]);
-            kept = end;
-        };
-        std::size_t replaced = 0;
-        const auto drop_before = [&](Index face) {
-            for (; replaced < faces.size() && faces[replaced] < face; ++replaced) {
-                keep_before(faces[replaced]);
-                if (kept < old.mixed_faces.size() && old.mixed_faces[kept] == faces[replaced]) {
-                    ++kept;
-                }
-            }
-        };
-        for (const Chunk& chunk : chunks) {
-            Index begin = 0;
-            for (std::size_t i = 0; i < chunk.ends.size(); ++i) {
-                drop_before(chunk.mixed_faces[i] + 1);
-                add(chunk.mixed_faces[i],
-                    std::span(chunk.relays).subspan(begin, chunk.ends[i] - begin));
-                begin = chunk.ends[i];
+    // What collect() reads of a face, in two steps.
+    [[gnu::always_inline]] void prefetch(Index far, Index near) const {
+        if (far != no_index) {
+            store_.prefetch_place(far);
+            __builtin_prefetch(&surface_.mesh.triangles[far]);
+        }
+        if (near != no_index) {
+            store_.prefetch_relays(result_, near);
+            for (const Index v : surface_.mesh.triangles[near]) {
+                __builtin_prefetch(&result_.vertex_site[v]);
+                __builtin_prefetch(&result_.vertex_distance[v]);
+                __builtin_prefetch(&surface_.can_turn[v]);
             }
         }
-        drop_before(no_index);
-        keep_before(no_index);
-        spare_.relay_offsets.push_back(static_cast<Index>(spare_.relays.size()));
-        std::swap(old.mixed_faces, spare_.mixed_faces);
-        std::swap(old.relay_offsets, spare_.relay_offsets);
-        std::swap(old.relays, spare_.relays);
+    }
+
+    void replace_faces() {
+        constexpr Index grain_of_faces = 256;
+        const auto count = static_cast<Index>(changed_faces_.size());
+        collected_.resize(num_chunks(count, grain_of_faces));
+        parallel_chunks(count, grain_of_faces, num_threads_,
+                        [&](Index chunk, Index begin, Index end) {
+                            CollectedFaces& out = collected_[chunk];
+                            out.faces.clear();
+                            out.relays.clear();
+                            for (Index i = begin; i < end; ++i) {
+                                prefetch(i + 6 < end ? changed_faces_[i + 6] : no_index,
+                                         i + 3 < end ? changed_faces_[i + 3] : no_index);
+                                collect(changed_faces_[i], patches_to(i), out);
+                            }
+                        });
+        for (Index i = 0; i < count; ++i) {
+            const CollectedFaces& chunk = collected_[i / grain_of_faces];
+            const auto& [begin, num_windows, size, is_mixed] = chunk.faces[i % grain_of_faces];
+            store_.replace(changed_faces_[i], std::span(chunk.relays).subspan(begin, size),
+                           num_windows, is_mixed, result_);
+        }
+        store_.list_mixed_faces(changed_faces_, result_);
     }
 
     void tell_totals() {
@@ -502,23 +468,35 @@ private:
         }
     }
 
+    static constexpr Index grain = 4;  // Sites that one task propagates.
+
     const Surface& surface_;
     const Corners& corners_;
     int num_threads_;
     double max_error_;
     BoundsSearch search_;
-    std::vector<float> bounds_;                // #V
-    std::vector<std::vector<Index>> readers_;  // #V: the sites whose runs came to a vertex.
-    std::vector<SiteRun> runs_;                // By number.
-    std::vector<Index> numbers_;               // By rank.
-    std::vector<Index> ranks_, old_ranks_;     // By number; no_index: removed.
-    std::vector<SurfacePoint> sites_;          // By rank.
-    std::vector<Index> site_faces_;            // Where changed sites were and are.
+    std::vector<float> bounds_;                    // #V
+    std::vector<std::vector<Index>> starting_at_;  // #V: the sites whose paths start at a vertex.
+    std::vector<std::vector<Reader>> readers_;     // #V: the sites whose runs came to a vertex.
+    std::vector<Source> sources_;                  // By number, as the next two.
+    std::vector<SiteRun> runs_;
+    std::vector<std::uint8_t> is_changed_;  // By the last change itself.
+    std::vector<Index> numbers_;            // By rank.
+    std::vector<Index> ranks_, old_ranks_;  // By number; no_index: removed.
+    std::vector<SurfacePoint> sites_;       // By rank.
+    std::vector<Index> site_faces_;         // Where changed sites were and are.
+    std::vector<std::uint8_t> is_listed_;   // #V: 0 but while vertices are listed.
+    Index num_placed_ = 0;                  // Sites that do not lie at vertices.
     SitePlacement placement_;
-    std::vector<Index> place_;  // #F: no_index but during a search for visits.
+    std::vector<Index> place_;  // #F: no_index but while faces are listed.
     std::vector<std::unique_ptr<WindowFront>> fronts_;
+    std::vector<ChunkChanges> changes_;
+    std::vector<Index> vertices_;  // To be settled.
+    std::vector<Patch> patches_, sorted_patches_;
+    std::vector<Index> patch_ends_;  // By changed face.
+    std::vector<CollectedFaces> collected_;
+    RelayStore store_;
     Propagation result_;
-    Propagation spare_;  // Its relays are memory for the next ones.
     Index num_propagated_ = 0;
     std::vector<Index> changed_faces_;
 };

@@ -18,14 +18,14 @@ struct SiteChanges {
 
 //! Keeps what each site has propagated, and repeats only what a change touches: the sites that
 //! changed and those whose bounds did. The result is that of propagate() with Engine::Window on the
-//! sites at hand, byte for byte (but for peak_bytes and num_nodes). Not for use by two threads at
-//! once.
+//! sites at hand, byte for byte face by face (but for peak_bytes and num_nodes; relays have gaps
+//! between). Not for use by two threads at once.
 class MovingSites {
 public:
     //! \param surface, layout  outlive this; SurfaceLayout(surface).
     //! \param options          engine must be Window; progress is not told.
     //! \throw as propagate().
-    //! Space: all windows of all sites, 48 bytes each.
+    //! Space: all windows of all sites, 48 bytes each, and up to twice as much for relays.
     MovingSites(const Surface& surface, const SurfaceLayout& layout,
                 std::vector<SurfacePoint> sites, const PropagationOptions& options = {});
     MovingSites(MovingSites&&) noexcept;
@@ -34,7 +34,8 @@ public:
 
     //! \throw InvalidInput  an index is out of range or named twice, or a point is off its face;
     //!                      nothing has changed then.
-    //! Cost: that of the sites that propagate again, and a pass over the relays.
+    //! Cost: that of the sites that propagate again, and O(#V + #mixed) for quick passes; at times
+    //! a pass over the relays.
     void update(const SiteChanges& changes);
 
     [[nodiscard]] const std::vector<SurfacePoint>& sites() const;

@@ -3,6 +3,8 @@
 //! site, and, in the faces where labels meet, the relays through which distances reach them.
 #pragma once
 
+#include <span>
+
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_point.h"
 
@@ -21,6 +23,12 @@ struct Relay {
     double begin = 0, end = 0;  //!< Visible interval on the half-edge, 0 <= begin <= end <= length.
     SiteId site;
     Index half_edge = no_index;
+};
+
+//! [begin, end) of Propagation::relays.
+struct RelayRange {
+    Index begin = 0, end = 0;
+    friend bool operator==(const RelayRange&, const RelayRange&) = default;
 };
 
 //! Distances that differ by less, relative to their size, are tied: a few hundred roundings of a
@@ -43,8 +51,9 @@ struct Propagation {
     //! Faces that may hold more than one label, ascending. Contract: an edge between a listed and
     //! an unlisted face, and a whole unlisted face, lie in the cell of their vertices' one site.
     std::vector<Index> mixed_faces;
-    std::vector<Index> relay_offsets;  //!< #mixed + 1: relays of mixed face i are
-    std::vector<Relay> relays;         //!< relays[relay_offsets[i] .. relay_offsets[i + 1]).
+    std::vector<RelayRange> relay_ranges;  //!< #mixed: where the relays of each mixed face stand.
+    //! Face after face; from MovingSites in any order of faces, with others' relays in between.
+    std::vector<Relay> relays;
 
     //! Certified: no distance, at a vertex or through the relays, exceeds the exact one by more
     //! than this share of it (rounding in double apart). The Steiner engine's bound holds at the
@@ -55,5 +64,12 @@ struct Propagation {
     //! Work done: graph nodes reached (in the last round of insertions), or windows served.
     std::size_t num_nodes = 0;
 };
+
+//! The relays of one mixed face.
+[[nodiscard]] inline std::span<const Relay> relays_of(const Propagation& propagation,
+                                                      Index mixed_index) {
+    const auto [begin, end] = propagation.relay_ranges[mixed_index];
+    return std::span(propagation.relays).subspan(begin, end - begin);
+}
 
 }  // namespace agvd

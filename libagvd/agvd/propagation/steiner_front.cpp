@@ -93,10 +93,10 @@ Propagation SteinerFront::finish() {
         result.vertex_site.push_back(SiteId(node.site));
         result.vertex_distance.push_back(node.distance);
     }
-    const std::size_t own =
-        result.relays.capacity() * sizeof(Relay) +
-        (result.mixed_faces.capacity() + result.relay_offsets.capacity()) * sizeof(Index) +
-        vertices_.size() * (sizeof(SiteId) + sizeof(double));
+    const std::size_t own = result.relays.capacity() * sizeof(Relay) +
+                            result.mixed_faces.capacity() * sizeof(Index) +
+                            result.relay_ranges.capacity() * sizeof(RelayRange) +
+                            vertices_.size() * (sizeof(SiteId) + sizeof(double));
     result.peak_bytes = std::max(result.peak_bytes, common + own);
     result.num_nodes = num_pops_;
     return result;

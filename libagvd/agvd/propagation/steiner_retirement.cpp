@@ -50,15 +50,15 @@ void SteinerRetirement::hand_over(Propagation& result) const {
               [&](Index a, Index b) { return mixed_faces_[a] < mixed_faces_[b]; });
     result.relays.reserve(relays_.size());
     result.mixed_faces.reserve(count);
-    result.relay_offsets.reserve(count + 1);
+    result.relay_ranges.reserve(count);
     for (const Index i : order) {
         result.mixed_faces.push_back(mixed_faces_[i]);
-        result.relay_offsets.push_back(static_cast<Index>(result.relays.size()));
+        const auto begin = static_cast<Index>(result.relays.size());
         const std::size_t end = i + 1 < count ? relay_offsets_[i + 1] : relays_.size();
         result.relays.insert(result.relays.end(), relays_.begin() + relay_offsets_[i],
                              relays_.begin() + static_cast<std::ptrdiff_t>(end));
+        result.relay_ranges.push_back({begin, static_cast<Index>(result.relays.size())});
     }
-    result.relay_offsets.push_back(static_cast<Index>(result.relays.size()));
 }
 
 }  // namespace agvd

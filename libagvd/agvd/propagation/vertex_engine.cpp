@@ -383,14 +383,14 @@ private:
         const VertexRelays relays(surface_, sites_, placement_, corners_, reach_, views_);
         result.mixed_faces = relays.mixed_faces();
         const std::size_t num_mixed = result.mixed_faces.size();
-        result.relay_offsets.reserve(num_mixed + 1);
+        result.relay_ranges.reserve(num_mixed);
         result.relays.reserve(relays_per_face * num_mixed);
         for (std::size_t i = 0; i < num_mixed; ++i) {
             if (i + look_ahead < num_mixed) relays.prefetch(result.mixed_faces[i + look_ahead]);
-            result.relay_offsets.push_back(static_cast<Index>(result.relays.size()));
+            const auto begin = static_cast<Index>(result.relays.size());
             relays.collect(result.mixed_faces[i], result.relays);
+            result.relay_ranges.push_back({begin, static_cast<Index>(result.relays.size())});
         }
-        result.relay_offsets.push_back(static_cast<Index>(result.relays.size()));
 
         result.vertex_site.reserve(reach_.size());
         result.vertex_distance.reserve(reach_.size());
@@ -399,13 +399,13 @@ private:
             result.vertex_distance.push_back(reach.distance);
             if (reach.site != no_index) ++result.num_nodes;
         }
-        result.peak_bytes =
-            corners_.bytes() + reach_.capacity() * sizeof(VertexReach) +
-            views_.capacity() * sizeof(VertexView) + queue_.bytes() +
-            result.relays.capacity() * sizeof(Relay) +
-            (result.mixed_faces.capacity() + result.relay_offsets.capacity()) * sizeof(Index) +
-            result.vertex_site.capacity() * sizeof(SiteId) +
-            result.vertex_distance.capacity() * sizeof(double);
+        result.peak_bytes = corners_.bytes() + reach_.capacity() * sizeof(VertexReach) +
+                            views_.capacity() * sizeof(VertexView) + queue_.bytes() +
+                            result.relays.capacity() * sizeof(Relay) +
+                            result.mixed_faces.capacity() * sizeof(Index) +
+                            result.relay_ranges.capacity() * sizeof(RelayRange) +
+                            result.vertex_site.capacity() * sizeof(SiteId) +
+                            result.vertex_distance.capacity() * sizeof(double);
         return result;
     }
 

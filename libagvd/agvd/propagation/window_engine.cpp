@@ -129,7 +129,7 @@ public:
         write_relays(surface_, placement_, std::move(logs_), options_.num_threads, result_);
         result_.peak_bytes =
             std::max(result_.peak_bytes, log_bytes + result_.relays.capacity() * sizeof(Relay) +
-                                             result_.mixed_faces.capacity() * 2 * sizeof(Index));
+                                             result_.mixed_faces.capacity() * 3 * sizeof(Index));
         poll(options_.progress, 1);
         return std::move(result_);
     }

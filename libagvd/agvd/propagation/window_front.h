@@ -50,11 +50,32 @@ public:
             if (e.windows != no_index) each(e.half_edge, windows_of(e.windows));
         }
     }
-    //! Calls each(vertex) for the vertices whose bounds mattered.
-    template <typename Each>
-    void for_each_bound(const Each& each) const {
-        for (const VertexRecord& v : vertices_) each(v.vertex);
+
+    //! Vertices whose bounds mattered, and half-edges, have places in the order in which the last
+    //! run came to them.
+    [[nodiscard]] Index num_vertices() const { return vertices_.size(); }
+    [[nodiscard]] Index num_half_edges() const { return edges_.size(); }
+    //! no_index: the run did not come there.
+    [[nodiscard]] Index place_of_vertex(Index vertex) const {
+        const Index slot = vertex_slot_[vertex];
+        return slot < vertices_.size() && vertices_[slot].vertex == vertex ? slot : no_index;
     }
+    [[nodiscard]] Index place_of_half_edge(Index half_edge) const {
+        const Index slot = edge_slot_[half_edge];
+        return slot < edges_.size() && edges_[slot].half_edge == half_edge ? slot : no_index;
+    }
+    //! Infinity where the vertex was not reached within its bound.
+    [[nodiscard]] ReachedVertex vertex_at(Index place) const {
+        const VertexRecord& v = vertices_[place];
+        return {v.vertex, std::min(v.low, v.upper) <= v.outer_bound ? v.upper : infinity};
+    }
+    [[nodiscard]] Index half_edge_at(Index place) const { return edges_[place].half_edge; }
+    //! May be none.
+    [[nodiscard]] std::span<const Window> windows_at(Index place) const {
+        const Index run = edges_[place].windows;
+        return run == no_index ? std::span<const Window>() : windows_of(run);
+    }
+
     //! Largest error of a window that was merged in the last run over its least distance; 0 if none
     //! was.
     [[nodiscard]] double relative_error() const { return relative_error_; }

@@ -73,11 +73,6 @@ std::vector<std::uint8_t> faces_near_borders(const Surface& surface,
     return faces;
 }
 
-Relay to_relay(const Window& window, Index site, Index half_edge) {
-    return {window.x,     window.y, window.weight + window.error, window.begin, window.end,
-            SiteId(site), half_edge};
-}
-
 void write_relays(const Surface& surface, const SitePlacement& placement,
                   std::vector<std::vector<Relay>> logs, int num_threads, Propagation& result) {
     const Index num_faces = surface.num_faces();
@@ -105,10 +100,10 @@ void write_relays(const Surface& surface, const SitePlacement& placement,
         }
         next[f] = total;
         result.mixed_faces.push_back(f);
-        result.relay_offsets.push_back(total);
+        const Index begin = total;
         total += face.count + count_inner_relays(surface, placed, result, f);
+        result.relay_ranges.push_back({begin, total});
     }
-    result.relay_offsets.push_back(total);
     result.relays.resize(total);
     for (auto& log : logs) {
         for_each_relay(

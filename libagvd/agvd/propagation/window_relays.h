@@ -20,7 +20,10 @@ struct FaceVisit {
                                                            std::span<const Index> vertex_site);
 
 //! Weighted by the length of a real path.
-[[nodiscard]] Relay to_relay(const Window& window, Index site, Index half_edge);
+[[nodiscard]] inline Relay to_relay(const Window& window, Index site, Index half_edge) {
+    return {window.x,     window.y, window.weight + window.error, window.begin, window.end,
+            SiteId(site), half_edge};
+}
 
 //! The relays that came into a face, and whose they are.
 struct FaceRelays {
