@@ -38,7 +38,7 @@ constexpr double bending_power = 2.0 / 3;
 constexpr double even_bending = 0.05;
 // Squared distances from the planes of the cell, against those from its points: draws sites to
 // creases.
-constexpr double plane_weight = 0.5;
+constexpr double plane_weight = 2;
 constexpr double most_weight = 64;
 
 }  // namespace
