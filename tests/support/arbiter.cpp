@@ -130,6 +130,13 @@ private:
         }
         start_in_face(site, label);
         for (Index h = first; h < first + 3; ++h) {
+            // So near a vertex, rounding hides the faces past it: the vertex sends out for the
+            // site.
+            constexpr Real beside_vertex = 1e-12L;
+            const Index v = surface_.tail(h);
+            if (place(site, h).norm() <= beside_vertex * length_[h] && vertex_site_[v] == label) {
+                send_out(v, label);
+            }
             const Index twin = surface_.twin[h];
             if (zeros != 1 || site.barycentric[Surface::previous(h) % 3] != 0 || twin == no_index) {
                 continue;

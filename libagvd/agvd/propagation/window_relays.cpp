@@ -9,10 +9,16 @@ namespace {
 
 constexpr Index grain = 4096;
 
-// A corner that is a site or turns paths is itself the image of what comes by it.
-bool is_source(const Surface& surface, const Propagation& result, Index vertex) {
-    return result.vertex_site[vertex].is_valid() &&
-           (surface.can_turn[vertex] != 0 || result.vertex_distance[vertex] == 0);
+// Of the edge: nearer to a site than this, rounding may hide which faces the site sees past the
+// vertex.
+constexpr double beside_vertex = 1e-7;
+
+// A tail that is a site, or nearly, or turns paths, is itself the image of what comes by it.
+bool is_source(const Surface& surface, const Propagation& result, Index half_edge) {
+    const Index v = surface.tail(half_edge);
+    if (!result.vertex_site[v].is_valid()) return false;
+    return surface.can_turn[v] != 0 ||
+           result.vertex_distance[v] <= beside_vertex * surface.length_of(half_edge);
 }
 
 // Calls each(relay, place of its face). The places are seldom in the cache, so that each one is
@@ -31,10 +37,9 @@ void for_each_relay(const std::vector<Relay>& log, std::vector<Place>& places, c
 
 Index count_inner_relays(const Surface& surface, std::span<const PlacedSite> placed,
                          const Propagation& result, Index face) {
-    const Triangle& corners = surface.mesh.triangles[face];
-    const auto sources = std::count_if(corners.begin(), corners.end(),
-                                       [&](Index v) { return is_source(surface, result, v); });
-    return static_cast<Index>(placed.size()) + static_cast<Index>(sources);
+    auto count = static_cast<Index>(placed.size());
+    for (Index h = 3 * face; h < 3 * face + 3; ++h) count += is_source(surface, result, h) ? 1 : 0;
+    return count;
 }
 
 void write_inner_relays(const Surface& surface, std::span<const PlacedSite> placed,
@@ -44,8 +49,8 @@ void write_inner_relays(const Surface& surface, std::span<const PlacedSite> plac
         *out++ = {p.x(), p.y(), 0, 0, surface.length_of(3 * face), SiteId(site.site), 3 * face};
     }
     for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+        if (!is_source(surface, result, h)) continue;
         const Index v = surface.tail(h);
-        if (!is_source(surface, result, v)) continue;
         *out++ = {0, 0, result.vertex_distance[v], 0, surface.length_of(h), result.vertex_site[v],
                   h};
     }
