@@ -147,4 +147,12 @@ TriangleMesh join(const TriangleMesh& a, const TriangleMesh& b) {
     return both;
 }
 
+double signed_volume(const TriangleMesh& mesh) {
+    double volume = 0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        volume += mesh.positions[a].dot(mesh.positions[b].cross(mesh.positions[c])) / 6;
+    }
+    return volume;
+}
+
 }  // namespace shapes

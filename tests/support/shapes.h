@@ -22,6 +22,8 @@ namespace shapes {
 [[nodiscard]] agvd::TriangleMesh subdivide(const agvd::TriangleMesh& mesh);
 //! Every vertex moved by at most `amount`, reproducibly.
 [[nodiscard]] agvd::TriangleMesh jitter(agvd::TriangleMesh mesh, double amount, std::uint64_t seed);
+//! Above 0 for a closed mesh whose faces look outwards.
+[[nodiscard]] double signed_volume(const agvd::TriangleMesh& mesh);
 //! Two meshes side by side in one.
 [[nodiscard]] agvd::TriangleMesh join(const agvd::TriangleMesh& a, const agvd::TriangleMesh& b);
 

@@ -51,14 +51,6 @@ std::string error_of(const TriangleMesh& mesh) {
     return "no error";
 }
 
-double signed_volume(const TriangleMesh& mesh) {
-    double volume = 0;
-    for (const auto& [a, b, c] : mesh.triangles) {
-        volume += mesh.positions[a].dot(mesh.positions[b].cross(mesh.positions[c])) / 6;
-    }
-    return volume;
-}
-
 TriangleMesh turned(TriangleMesh mesh) {
     for (agvd::Triangle& t : mesh.triangles) std::swap(t[1], t[2]);
     return mesh;
@@ -166,7 +158,7 @@ TEST(CleanInput, TurnsClosedPiecesOutwardWhereThereIsNoMajority) {
         for (Index f = first; f < mesh.triangles.size(); f += 2) {
             std::swap(mesh.triangles[f][1], mesh.triangles[f][2]);
         }
-        EXPECT_GT(signed_volume(clean_input(mesh.view()).mesh), 4);
+        EXPECT_GT(shapes::signed_volume(clean_input(mesh.view()).mesh), 4);
     }
 }
 

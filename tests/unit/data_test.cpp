@@ -15,6 +15,7 @@
 #include "remesh/io/read_mesh.h"
 #include "remesh/io/write_mesh.h"
 #include "remesh/quality/topology.h"
+#include "support/shapes.h"
 
 namespace {
 
@@ -56,14 +57,6 @@ std::vector<double> sorted_areas(const TriangleMesh& mesh) {
     return areas;
 }
 
-double signed_volume(const TriangleMesh& mesh) {
-    double volume = 0;
-    for (const auto& [a, b, c] : mesh.triangles) {
-        volume += mesh.positions[a].dot(mesh.positions[b].cross(mesh.positions[c])) / 6;
-    }
-    return volume;
-}
-
 double degrees(const Vec3& u, const Vec3& v) {
     return std::atan2(u.cross(v).norm(), u.dot(v)) * 180 / std::numbers::pi;
 }
@@ -80,7 +73,7 @@ TEST(DataFiles, AreWhatTheirReadmeSays) {
                                 static_cast<int>(topology.components.size()), topology.genus(),
                                 topology.boundary_loops()};
         EXPECT_EQ(found, stated(file.name));
-        EXPECT_TRUE(topology.boundary_loops() > 0 || signed_volume(mesh) > 0);
+        EXPECT_TRUE(topology.boundary_loops() > 0 || shapes::signed_volume(mesh) > 0);
     }
 }
 

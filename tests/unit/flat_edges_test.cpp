@@ -36,14 +36,6 @@ TriangleMesh prism(Index n) {
     return mesh;
 }
 
-double volume(const TriangleMesh& mesh) {
-    double sum = 0;
-    for (const auto& [a, b, c] : mesh.triangles) {
-        sum += mesh.positions[a].dot(mesh.positions[b].cross(mesh.positions[c])) / 6;
-    }
-    return sum;
-}
-
 double total_length(const TriangleMesh& mesh) {
     double sum = 0;
     for (const double length : build_surface(mesh.view()).length) sum += length;
@@ -57,7 +49,7 @@ TEST(FlatEdges, FansOfSliversGoAndTheSurfaceStays) {
     TriangleMesh after = before;
     EXPECT_GT(remesh::flip_flat_edges(after, 0.5), 100u);
     EXPECT_EQ(after.positions, before.positions);
-    EXPECT_NEAR(volume(after), volume(before), 1e-9);
+    EXPECT_NEAR(shapes::signed_volume(after), shapes::signed_volume(before), 1e-9);
     EXPECT_TRUE(same_topology(remesh::analyze_topology(before.view()),
                               remesh::analyze_topology(after.view())));
     EXPECT_LT(total_length(after), 0.9 * total_length(before));

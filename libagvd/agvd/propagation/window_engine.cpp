@@ -220,9 +220,9 @@ private:
                 return;
             }
             Index visitor = first_visitor_[face].load(relaxed);
-            if (visitor == site) return;
-            visitor = no_index;
-            first_visitor_[face].compare_exchange_strong(visitor, site, relaxed);
+            if (visitor == no_index) {
+                first_visitor_[face].compare_exchange_strong(visitor, site, relaxed);
+            }
             if (visitor != no_index && visitor != site) {
                 task.late_visits.push_back({face, site});
                 task.late_visits.push_back({face, visitor});

@@ -10,6 +10,9 @@ namespace agvd {
 //! is not bent.
 inline constexpr double grazing = 1e-10;
 
+//! Of the edge: nearer to a vertex than this, rounding may hide which faces a site sees past it.
+inline constexpr double beside_vertex = 1e-7;
+
 //! A vector in the frame whose x axis is the unit vector `axis`.
 [[nodiscard]] inline Vec2 into(const Vec2& axis, const Vec2& v) {
     return {axis.x() * v.x() + axis.y() * v.y(), axis.x() * v.y() - axis.y() * v.x()};

@@ -3,15 +3,12 @@
 #include <algorithm>
 
 #include "agvd/core/parallel.h"
+#include "agvd/propagation/window_rays.h"
 
 namespace agvd {
 namespace {
 
 constexpr Index grain = 4096;
-
-// Of the edge: nearer to a site than this, rounding may hide which faces the site sees past the
-// vertex.
-constexpr double beside_vertex = 1e-7;
 
 // A tail that is a site, or nearly, or turns paths, is itself the image of what comes by it.
 bool is_source(const Surface& surface, const Propagation& result, Index half_edge) {

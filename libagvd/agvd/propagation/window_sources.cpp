@@ -7,11 +7,6 @@
 #include "agvd/propagation/window_rays.h"
 
 namespace agvd {
-namespace {
-
-constexpr double beside_vertex = 1e-7;  // In edge lengths.
-
-}  // namespace
 
 void WindowFront::start(const SurfacePoint& site) {
     if (const auto vertex = vertex_of(surface_, site)) {
