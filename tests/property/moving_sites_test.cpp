@@ -113,6 +113,44 @@ TEST(MovingSites, SitesThatHideEachOtherGiveWhatAFreshRunGives) {
     ASSERT_NO_FATAL_FAILURE(expect_fresh(surface, moving, {}));
 }
 
+TEST(MovingSites, OneOfManyOnOneSpotPropagates) {
+    const Surface surface = build_surface(shapes::torus(20, 10).view());
+    const SurfaceLayout layout(surface);
+    const Index inner = 4;
+    const SurfacePoint far = point_at(surface, 90);
+    const SurfacePoint in_face{FaceId(3), {0.5, 0.25, 0.25}};
+    const SurfacePoint on_edge{FaceId(Surface::face(inner)), {0, 0.25, 0.75}};
+    for (const SurfacePoint& here : {point_at(surface, 7), in_face, on_edge}) {
+        const std::vector<SurfacePoint> all(30, here);
+        MovingSites moving(surface, layout, all);
+        EXPECT_EQ(moving.num_propagated(), 1);
+        ASSERT_NO_FATAL_FAILURE(expect_fresh(surface, moving, {}));
+        const std::vector<std::pair<Index, SurfacePoint>> away{{0, far}, {7, far}};
+        moving.update({.moved = away, .removed = {}, .added = {}});
+        EXPECT_EQ(moving.num_propagated(), 2);
+        ASSERT_NO_FATAL_FAILURE(expect_fresh(surface, moving, {}));
+        moving.update({.moved = {}, .removed = {1, 2}, .added = {}});
+        EXPECT_EQ(moving.num_propagated(), 1);
+        ASSERT_NO_FATAL_FAILURE(expect_fresh(surface, moving, {}));
+    }
+}
+
+TEST(MovingSites, AnEdgeSiteHidesItsLikeOfTheOtherFace) {
+    const Surface surface = build_surface(shapes::torus(20, 10).view());
+    const SurfaceLayout layout(surface);
+    const Index h = 4, k = h % 3;
+    SurfacePoint point{FaceId(Surface::face(h)), {0, 0, 0}};
+    point.barycentric[k] = 0.25;
+    point.barycentric[(k + 1) % 3] = 0.75;
+    MovingSites moving(surface, layout, {point_at(surface, 90), point});
+    moving.update({.moved = {}, .removed = {}, .added = {across_edge(surface, point, h), point}});
+    EXPECT_EQ(moving.num_propagated(), 0);
+    ASSERT_NO_FATAL_FAILURE(expect_fresh(surface, moving, {}));
+    moving.update({.moved = {}, .removed = {1}, .added = {}});
+    EXPECT_GE(moving.num_propagated(), 1);
+    ASSERT_NO_FATAL_FAILURE(expect_fresh(surface, moving, {}));
+}
+
 TEST(MovingSites, GapsBetweenRelaysStaySmall) {
     const Surface surface = build_surface(shapes::jitter(shapes::torus(40, 20), 0.01, 3).view());
     const SurfaceLayout layout(surface);

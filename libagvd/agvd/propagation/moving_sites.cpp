@@ -7,6 +7,7 @@
 #include <string>
 
 #include "agvd/core/parallel.h"
+#include "agvd/mesh/distinct_points.h"
 #include "agvd/propagation/arc_graph.h"
 #include "agvd/propagation/distance_bounds.h"
 #include "agvd/propagation/option_checks.h"
@@ -36,7 +37,11 @@ struct Patch {
 
 struct Source {
     SurfacePoint point;
+    PlaceOnSurface place;
     bool is_removed = false;
+    bool is_repeat = false;  // Lies where an earlier one does, and so owns nothing.
+
+    [[nodiscard]] bool is_silent() const { return is_removed || is_repeat; }
 };
 
 // Of the sites of one task, one after the other.
@@ -96,7 +101,7 @@ public:
         if (num_placed_ > 0 || !placement_.is_empty()) placement_ = {surface_, sites_};
         const std::vector<Index> dirty = find_dirty();
         num_propagated_ = static_cast<Index>(std::count_if(
-            dirty.begin(), dirty.end(), [&](Index site) { return !sources_[site].is_removed; }));
+            dirty.begin(), dirty.end(), [&](Index site) { return !sources_[site].is_silent(); }));
         propagate(dirty);
 
         take_changes(dirty);
@@ -146,19 +151,26 @@ private:
     void change_search(const SiteChanges& changes) {
         site_faces_.clear();
         is_changed_.assign(sources_.size(), 0);
+        std::vector<Index> starts;  // Of the sites that changed, before and after.
         const auto take_out = [&](Index site) {
             is_changed_[site] = 1;
             num_placed_ -= vertex_of(surface_, sources_[site].point) ? 0 : 1;
             add_faces_of(sources_[site].point);
             for (const Index v : search_.starts_of(sources_[site].point)) {
                 std::erase(starting_at_[v], site);
+                starts.push_back(v);
             }
         };
         const auto put_in = [&](Index site, const SurfacePoint& point) {
             sources_[site].point = point;
+            sources_[site].place = place_of(surface_, point);
             num_placed_ += vertex_of(surface_, point) ? 0 : 1;
             add_faces_of(point);
-            for (const Index v : search_.starts_of(point)) starting_at_[v].push_back(site);
+            for (const Index v : search_.starts_of(point)) {
+                std::vector<Index>& sites = starting_at_[v];  // An edge names its ends twice.
+                if (sites.empty() || sites.back() != site) sites.push_back(site);
+                starts.push_back(v);
+            }
             search_.add(point, site);
         };
         for (const auto& [site, point] : changes.moved) take_out(numbers_[site]);
@@ -177,7 +189,22 @@ private:
             is_changed_.push_back(1);
             put_in(site, point);
         }
+        for (const Index v : starts) find_repeats(starting_at_[v]);
         search_.run();
+    }
+
+    // Among sites that start at one vertex; those that lie on one another do.
+    void find_repeats(std::vector<Index>& sites) {
+        std::sort(sites.begin(), sites.end(), [&](Index a, Index b) {
+            return std::pair(sources_[a].place, a) < std::pair(sources_[b].place, b);
+        });
+        for (std::size_t i = 0; i < sites.size(); ++i) {
+            Source& source = sources_[sites[i]];
+            const bool is_repeat = i > 0 && sources_[sites[i - 1]].place == source.place;
+            if (std::exchange(source.is_repeat, is_repeat) == is_repeat) continue;
+            is_changed_[sites[i]] = 1;
+            add_faces_of(source.point);
+        }
     }
 
     // Those that changed and those that have read a bound that is another now, in the order of
@@ -240,7 +267,7 @@ private:
             out.ends.clear();
             for (Index i = begin; i < end; ++i) {
                 const Index site = sites[i];
-                if (sources_[site].is_removed) {
+                if (sources_[site].is_silent()) {
                     forget_run(runs_[site], out.changes);
                 } else {
                     front->run(sources_[site].point, bounds_, default_work_cap);

@@ -1,5 +1,6 @@
 #include "agvd/propagation/propagate.h"
 
+#include "agvd/mesh/distinct_points.h"
 #include "agvd/propagation/option_checks.h"
 #include "agvd/propagation/site_placement.h"
 #include "agvd/propagation/steiner_engine.h"
@@ -21,6 +22,24 @@ Propagation carry(const Surface& surface, const Corners& corners, const Bounds& 
     return propagate_windows(surface, corners, bounds(), sites, options);
 }
 
+// Of the distinct sites. The others own nothing, but their windows would go as far as those of the
+// site they lie on.
+template <typename Run>
+Propagation propagate_distinct(const Surface& surface, std::span<const SurfacePoint> sites,
+                               const PropagationOptions& options, const Run& run) {
+    check_options(surface, options);
+    check_sites(surface, sites);
+    const std::vector<Index> distinct = distinct_points(surface, sites);
+    if (distinct.size() == sites.size()) return run(sites);
+    Propagation result = run(points_of(sites, distinct));
+    const auto rename = [&](SiteId& site) {
+        if (site.is_valid()) site = SiteId(distinct[site.value()]);
+    };
+    for (SiteId& site : result.vertex_site) rename(site);
+    for (Relay& relay : result.relays) rename(relay.site);
+    return result;
+}
+
 }  // namespace
 
 const char* engine_name(Engine engine) {
@@ -37,28 +56,30 @@ const char* engine_name(Engine engine) {
 
 Propagation propagate(const Surface& surface, std::span<const SurfacePoint> sites,
                       const PropagationOptions& options) {
-    check_options(surface, options);
-    check_sites(surface, sites);
-    if (options.engine == Engine::Steiner) return propagate_steiner(surface, sites, options);
-    const Corners corners(surface, options.num_threads);
-    const auto bounds = [&] {  // The arcs go before the windows come.
-        return distance_bounds(surface, ArcGraph(surface, corners), corners.mean_length(), sites,
-                               options.num_threads);
+    const auto run = [&](std::span<const SurfacePoint> distinct) {
+        if (options.engine == Engine::Steiner) return propagate_steiner(surface, distinct, options);
+        const Corners corners(surface, options.num_threads);
+        const auto bounds = [&] {  // The arcs go before the windows come.
+            return distance_bounds(surface, ArcGraph(surface, corners), corners.mean_length(),
+                                   distinct, options.num_threads);
+        };
+        return carry(surface, corners, bounds, distinct, options);
     };
-    return carry(surface, corners, bounds, sites, options);
+    return propagate_distinct(surface, sites, options, run);
 }
 
 Propagation propagate(const Surface& surface, const SurfaceLayout& layout,
                       std::span<const SurfacePoint> sites, const PropagationOptions& options) {
-    check_options(surface, options);
-    check_sites(surface, sites);
-    if (options.engine == Engine::Steiner) return propagate_steiner(surface, sites, options);
-    const Corners& corners = layout.corners();
-    const auto bounds = [&] {
-        return distance_bounds(surface, layout.arcs(), corners.mean_length(), sites,
-                               options.num_threads);
+    const auto run = [&](std::span<const SurfacePoint> distinct) {
+        if (options.engine == Engine::Steiner) return propagate_steiner(surface, distinct, options);
+        const Corners& corners = layout.corners();
+        const auto bounds = [&] {
+            return distance_bounds(surface, layout.arcs(), corners.mean_length(), distinct,
+                                   options.num_threads);
+        };
+        return carry(surface, corners, bounds, distinct, options);
     };
-    return carry(surface, corners, bounds, sites, options);
+    return propagate_distinct(surface, sites, options, run);
 }
 
 }  // namespace agvd

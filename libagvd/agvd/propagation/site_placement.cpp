@@ -6,6 +6,7 @@
 #include <string>
 
 #include "agvd/core/error.h"
+#include "agvd/mesh/distinct_points.h"
 
 namespace agvd {
 namespace {
@@ -56,7 +57,7 @@ void check_sites(const Surface& surface, std::span<const SurfacePoint> sites) {
 
 SitePlacement::SitePlacement(const Surface& surface, std::span<const SurfacePoint> sites) {
     check_sites(surface, sites);
-    for (Index s = 0; s < sites.size(); ++s) {
+    for (const Index s : distinct_points(surface, sites)) {
         if (vertex_of(surface, sites[s])) continue;
         placed_.push_back({s, sites[s]});
         const std::optional<Index> half_edge = half_edge_of(sites[s]);
@@ -76,13 +77,6 @@ std::span<const PlacedSite> SitePlacement::find_in_face(Index face) const {
     auto last = first;
     while (last != placed_.end() && last->point.face.value() == face) ++last;
     return {first, last};
-}
-
-bool SitePlacement::repeats_another(Index site, const SurfacePoint& point) const {
-    const auto others = in_face(point.face.value());
-    return std::any_of(others.begin(), others.end(), [&](const PlacedSite& other) {
-        return other.site < site && other.point.barycentric == point.barycentric;
-    });
 }
 
 const SurfacePoint& SitePlacement::seen_from(Index face, Index site) const {

@@ -22,7 +22,8 @@ struct PlacedSite {
     SurfacePoint point;
 };
 
-//! The placed sites of each face that has any; an edge site is listed in both faces.
+//! The placed sites of each face that has any; an edge site is listed in both faces, one that lies
+//! where an earlier one does in none.
 class SitePlacement {
 public:
     SitePlacement() = default;
@@ -35,9 +36,6 @@ public:
         if (!holds_site_[face]) return {};
         return find_in_face(face);
     }
-    //! Another site of lower index lies at the very same point of a face or edge, so that this one
-    //! is nowhere the nearest.
-    [[nodiscard]] bool repeats_another(Index site, const SurfacePoint& point) const;
     //! The site as seen from `face`, which must hold it.
     [[nodiscard]] const SurfacePoint& seen_from(Index face, Index site) const;
 

@@ -64,9 +64,7 @@ public:
           queue_(bucket_width(surface, corners)) {}
 
     Propagation run() {
-        for (Index s = 0; s < sites_.size(); ++s) {
-            if (!placement_.repeats_another(s, sites_[s])) start(s);
-        }
+        for (Index s = 0; s < sites_.size(); ++s) start(s);
         std::size_t served = 0;
         for (Index v = queue_.pop(); v != no_index; v = queue_.pop()) {
             prefetch();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "agvd/mesh/distinct_points.h"
 #include "agvd/mesh/point_faces.h"
 #include "agvd/mesh/refine.h"
 #include "remesh/pipeline/stage_clock.h"
@@ -12,7 +13,6 @@
 #include "remesh/placement/improve_shape.h"
 #include "remesh/quality/self_intersections.h"
 #include "remesh/repair/carry_sites.h"
-#include "remesh/repair/distinct_sites.h"
 #include "remesh/repair/drop_components.h"
 #include "remesh/repair/farthest_corner.h"
 #include "remesh/repair/flat_edges.h"
@@ -151,7 +151,7 @@ private:
 
     void drop_duplicates() {
         if (!options_.sites) return;
-        sites_ = distinct_sites(surface_, sites_);
+        sites_ = agvd::points_of(sites_, agvd::distinct_points(surface_, sites_));
         num_distinct_ = static_cast<Index>(sites_.size());
     }
 

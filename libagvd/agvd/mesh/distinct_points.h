@@ -1,0 +1,35 @@
+//! \file
+//! Points of a surface that lie on one another.
+#pragma once
+
+#include <array>
+#include <compare>
+#include <span>
+#include <vector>
+
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_point.h"
+
+namespace agvd {
+
+//! A vertex, an edge or a face, and where on it: equal for equal points, whatever face names them.
+struct PlaceOnSurface {
+    Index element = no_index;       //!< Vertices first, then edges, then faces.
+    std::array<double, 3> where{};  //!< Vertex: 0. Edge: position. Face: barycentric coordinates.
+
+    auto operator<=>(const PlaceOnSurface&) const = default;
+};
+
+[[nodiscard]] PlaceOnSurface place_of(const Surface& surface, const SurfacePoint& point);
+
+//! Ascending: the points that do not lie exactly where an earlier one does. As sites the others own
+//! nothing, since ties go to the earlier one. Points of two parts of the surface at one position
+//! in space are different. Cost: O(#points log #points).
+[[nodiscard]] std::vector<Index> distinct_points(const Surface& surface,
+                                                 std::span<const SurfacePoint> points);
+
+//! The chosen points, in the order of `chosen`.
+[[nodiscard]] std::vector<SurfacePoint> points_of(std::span<const SurfacePoint> points,
+                                                  std::span<const Index> chosen);
+
+}  // namespace agvd
