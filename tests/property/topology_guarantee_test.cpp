@@ -151,6 +151,16 @@ TEST(TopologyGuarantee, FewVerticesAreEnough) {
     works(random_surfaces::lattice(2, 2, 2), 600);
 }
 
+TEST(TopologyGuarantee, ALatticeOfGenusThirtyKeepsItsTunnels) {
+    const TriangleMesh mesh = random_surfaces::lattice(4, 2, 1);
+    const auto topology = remesh::analyze_topology(mesh.view());
+    ASSERT_EQ(topology.components.size(), 1u);
+    ASSERT_EQ(topology.components[0].genus, 30);
+    for (const Index n : {600, 2000}) {
+        expect_kept(mesh, {.num_samples = n}, remesh::remesh(mesh.view(), {.num_samples = n}));
+    }
+}
+
 TEST(TopologyGuarantee, ComponentsGoOnlyWhenAsked) {
     TriangleMesh small = shapes::sphere(1);
     for (Vec3& p : small.positions) p = 0.01 * p + Vec3(5, 0, 0);
