@@ -140,17 +140,16 @@ P0::P0(const agvd::Surface& surface, std::span<const agvd::SurfacePoint> sites)
     sweep(graph_, sources_, sweep_);  // The first one also waits for its memory.
 }
 
-double P0::seconds() {
+SweepSeconds P0::seconds() {
     constexpr int most_sweeps = 5;
     constexpr double long_enough = 0.5;
-    double best = std::numeric_limits<double>::infinity();
+    std::vector<double> taken;
     double sum = 0;
     for (int i = 0; i < most_sweeps && sum < long_enough; ++i) {
-        const Seconds taken = time([this] { sweep(graph_, sources_, sweep_); });
-        best = std::min(best, taken.cpu);
-        sum += taken.cpu;
+        taken.push_back(time([this] { sweep(graph_, sources_, sweep_); }).cpu);
+        sum += taken.back();
     }
-    return best;
+    return {quickest(taken), median(taken)};
 }
 
 }  // namespace bench

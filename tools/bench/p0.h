@@ -30,14 +30,18 @@ struct Sweep {
 //! Dijkstra's algorithm with an indexed 4-ary heap. Reuses the memory of `result`.
 void sweep(const EdgeGraph& graph, std::span<const agvd::Index> sources, Sweep& result);
 
+struct SweepSeconds {
+    double quickest, median;
+};
+
 //! The sweep from the same sites again and again, to time other work by it.
 class P0 {
 public:
     //! A site starts at its nearest corner.
     P0(const agvd::Surface& surface, std::span<const agvd::SurfacePoint> sites);
 
-    //! Seconds of the quickest of a few sweeps, on one core.
-    [[nodiscard]] double seconds();
+    //! Seconds of a few sweeps, on one core.
+    [[nodiscard]] SweepSeconds seconds();
 
 private:
     EdgeGraph graph_;
