@@ -32,8 +32,9 @@ std::optional<Index> vertex_of(const Surface& surface, const SurfacePoint& point
     const auto& b = point.barycentric;
     for (Index k = 0; k < 3; ++k) {
         const double to_next = b[(k + 1) % 3], to_last = b[(k + 2) % 3];
+        if (to_next + to_last > beside_vertex) continue;  // Told without the edges' lengths.
         const Index h = 3 * point.face.value() + k;
-        if (to_next == 0 && to_last == 0) return surface.tail(h);  // Quicker: often so.
+        if (to_next == 0 && to_last == 0) return surface.tail(h);
         const double next = surface.length_of(h), last = surface.length_of(Surface::previous(h));
         if (to_next * next + to_last * last <= beside_vertex * std::min(next, last)) {
             return surface.tail(h);
