@@ -16,6 +16,11 @@ constexpr Index leaf_size = 2;
 // edges, which carry rounding errors, are inside and ties are found.
 constexpr double padding_share = 1e-15;
 
+// Square of twice a needle's area over the fourth power of its length, at most.
+constexpr double needle = 1e-8;
+// Barycentric coordinate of what may as well lie on the side.
+constexpr double beside_side = 1e-6;
+
 bool comes_before(const Vec3& a, const Vec3& b) {
     return std::tie(a.x(), a.y(), a.z()) < std::tie(b.x(), b.y(), b.z());
 }
@@ -50,20 +55,27 @@ double box_distance_sq(const Vec3& low, const Vec3& high, const Vec3& query) {
 
 }  // namespace
 
-// The sides are always asked: in a needle the foot of the perpendicular is inaccurate.
 ClosestPoint closest_point_on_triangle(const std::array<Vec3, 3>& corners, FaceId face,
                                        const Vec3& query) {
-    ClosestPoint best = closest_point_on_side(corners, face, 0, query);
-    take_nearer(best, closest_point_on_side(corners, face, 1, query));
-    take_nearer(best, closest_point_on_side(corners, face, 2, query));
     const Vec3 u = corners[1] - corners[0], v = corners[2] - corners[0], w = query - corners[0];
     const Vec3 normal = u.cross(v);
-    const double b1 = w.cross(v).dot(normal) / normal.squaredNorm();
-    const double b2 = u.cross(w).dot(normal) / normal.squaredNorm();
-    const double b0 = 1 - b1 - b2;
-    if (b0 > 0 && b1 > 0 && b2 > 0) {  // False for NaN, when there is no area.
-        const Vec3 foot = b0 * corners[0] + b1 * corners[1] + b2 * corners[2];
-        take_nearer(best, {{face, {b0, b1, b2}}, foot, (query - foot).squaredNorm()});
+    const double scale = 1 / normal.squaredNorm();
+    const double b1 = w.cross(v).dot(normal) * scale;
+    const double b2 = u.cross(w).dot(normal) * scale;
+    const std::array<double, 3> b{1 - b1 - b2, b1, b2};
+    // In a needle the foot of the perpendicular is inaccurate, and all sides are asked; elsewhere
+    // only those that the foot lies across, or almost.
+    const double longest_sq = std::max(u.squaredNorm(), v.squaredNorm());
+    const bool is_needle = !(normal.squaredNorm() > needle * longest_sq * longest_sq);
+    ClosestPoint best;
+    best.distance_sq = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (!is_needle && b[(k + 2) % 3] > beside_side) continue;
+        take_nearer(best, closest_point_on_side(corners, face, k, query));
+    }
+    if (b[0] > 0 && b[1] > 0 && b[2] > 0) {  // False for NaN, when there is no area.
+        const Vec3 foot = b[0] * corners[0] + b[1] * corners[1] + b[2] * corners[2];
+        take_nearer(best, {{face, b}, foot, (query - foot).squaredNorm()});
     }
     return best;
 }

@@ -39,6 +39,8 @@ constexpr double least_normal_cosine = 0.3;
 constexpr int most_guard_rounds = 10;
 // The surface's vertices will do where there are so many for each of the mesh.
 constexpr std::size_t enough_vertices = 12;
+// Least barycentric coordinate of what lies over the middle of a triangle.
+constexpr double inner_share = 0.05;
 // Conjugate gradients end there: residuals fall by that share.
 constexpr double residual_share = 1e-3;
 constexpr int most_iterations = 40;
@@ -135,15 +137,24 @@ private:
         for (Vec3& normal : facing_) normal.normalize();
     }
 
-    // The triangle of a sample that lies nearest; later rounds only move a little.
-    void find_triangle(Sample& sample) const {
-        double least = std::numeric_limits<double>::infinity();
+    // On the triangle around the sample's vertex that lies nearest. What lies over the middle of
+    // its triangle stays with it: rounds only move a little.
+    [[nodiscard]] agvd::ClosestPoint find_nearest(Sample& sample) const {
+        agvd::ClosestPoint nearest;
+        nearest.distance_sq = std::numeric_limits<double>::infinity();
+        if (sample.triangle != no_index) {
+            nearest = closest(sample.triangle, sample.position);
+            const std::array<double, 3>& b = nearest.point.barycentric;
+            if (std::min({b[0], b[1], b[2]}) > inner_share) return nearest;
+        }
         for (const Index i : around_.of(sample.vertex)) {
-            const double distance_sq = closest(i, sample.position).distance_sq;
-            if (distance_sq >= least) continue;
-            least = distance_sq;
+            if (i == sample.triangle) continue;
+            const agvd::ClosestPoint other = closest(i, sample.position);
+            if (other.distance_sq >= nearest.distance_sq) continue;
+            nearest = other;
             sample.triangle = i;
         }
+        return nearest;
     }
     [[nodiscard]] agvd::ClosestPoint closest(Index triangle, const Vec3& position) const {
         const auto& [a, b, c] = mesh_.triangles[triangle];
@@ -181,10 +192,9 @@ private:
     void add_distances_of_surface() {
         sums_.assign(mesh_.triangles.size(), {});
         for (Sample& sample : samples_) {
-            find_triangle(sample);
+            const agvd::ClosestPoint nearest = find_nearest(sample);
             if (sample.triangle == no_index) continue;
             const Index i = sample.triangle;
-            const agvd::ClosestPoint nearest = closest(i, sample.position);
             const std::array<double, 3>& b = nearest.point.barycentric;
             const double gap = normal_[i].dot(sample.position - at_[mesh_.triangles[i][0]]);
             const double distance = std::sqrt(nearest.distance_sq);

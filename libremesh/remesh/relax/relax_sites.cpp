@@ -62,17 +62,14 @@ bool gives_neighbours(const Surface& surface, std::size_t num_sites) {
 }
 
 // By labels; exactly where faces are too large for those.
-detail::SiteDual triangulate(const Surface& surface, const SurfaceLayout& layout,
-                             const agvd::DistanceBounds& labels,
-                             std::span<const SurfacePoint> sites, int num_threads) {
-    if (gives_neighbours(surface, sites.size())) {
-        return detail::label_dual(surface, labels);
-    }
+std::vector<agvd::Triangle> triangulate(const Surface& surface, const SurfaceLayout& layout,
+                                        const agvd::DistanceBounds& labels,
+                                        std::span<const SurfacePoint> sites, int num_threads) {
+    if (gives_neighbours(surface, sites.size())) return detail::label_triangles(surface, labels);
     const agvd::Propagation propagation = agvd::propagate(
         surface, layout, sites, {.max_error = neighbour_error, .num_threads = num_threads});
-    return {build_dual(surface, agvd::build_diagram(surface, sites, propagation,
-                                                    {.num_threads = num_threads})),
-            {}};
+    return build_dual(
+        surface, agvd::build_diagram(surface, sites, propagation, {.num_threads = num_threads}));
 }
 
 // Triangles as large as the features of the surface: what is even on them is not on the surface.
@@ -144,8 +141,7 @@ private:
         if (flaws > 0 && (is_cheap || is_worth_it)) {
             if (!is_cheap) num_mended_ = result_.levels.size();
             relaxation.mend(
-                triangulate(surface_, layout_, labels, relaxation.sites(), options_.num_threads)
-                    .triangles);
+                triangulate(surface_, layout_, labels, relaxation.sites(), options_.num_threads));
         }
         set_density(relaxation, labels);
     }
@@ -183,9 +179,9 @@ RelaxResult relax_sites(const Surface& surface, const SurfaceLayout& layout,
     if (options.steps == 0 || sites.empty()) return levels.finish(std::move(sites));
     detail::even_out(surface, layout, sites, options.is_fixed, options.num_threads);
     const agvd::DistanceBounds labels = levels.label(sites);
-    detail::SiteDual dual = triangulate(surface, layout, labels, sites, options.num_threads);
-    Relaxation relaxation(surface, sites, std::move(dual.triangles), options.is_fixed, {},
-                          options.num_threads);
+    Relaxation relaxation(surface, sites,
+                          triangulate(surface, layout, labels, sites, options.num_threads),
+                          options.is_fixed, {}, options.num_threads);
     if (is_hopeless(relaxation)) return levels.finish(std::move(sites));
     levels.run(relaxation, &labels);
     if (is_hopeless(relaxation)) return levels.finish(std::move(sites));
@@ -205,9 +201,8 @@ RelaxResult sample_relaxed_sites(const Surface& surface, const SurfaceLayout& la
     Levels levels(surface, layout, options, 2);
     std::vector<SurfacePoint> sites = sample_sites(surface, first);
     agvd::DistanceBounds labels = levels.label(sites);
-    detail::SiteDual dual = detail::label_dual(surface, labels);
-    Relaxation relaxation(surface, std::move(sites), std::move(dual.triangles), {}, {},
-                          options.num_threads);
+    Relaxation relaxation(surface, std::move(sites), detail::label_triangles(surface, labels), {},
+                          {}, options.num_threads);
     const auto one_after_the_other = [&] {
         return relax_sites(surface, layout, sample_sites(surface, sampling), options);
     };
@@ -216,9 +211,9 @@ RelaxResult sample_relaxed_sites(const Surface& surface, const SurfaceLayout& la
     if (is_hopeless(relaxation)) return one_after_the_other();
 
     labels = levels.label(relaxation.sites());
-    dual = detail::label_dual(surface, labels);
-    std::optional<detail::TriangulatedSites> fine = detail::subdivide(
-        surface, relaxation.sites(), relaxation.weights(), dual, sampling.num_samples);
+    std::optional<detail::TriangulatedSites> fine =
+        detail::subdivide(surface, relaxation.sites(), relaxation.weights(),
+                          detail::label_dual(surface, labels), sampling.num_samples);
     if (!fine) return one_after_the_other();
     Relaxation last(surface, std::move(fine->sites), std::move(fine->triangles), {},
                     std::move(fine->weights), options.num_threads);

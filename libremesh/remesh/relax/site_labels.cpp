@@ -80,12 +80,18 @@ CellMeasures measure_cells(const Surface& surface, const agvd::DistanceBounds& l
     return result;
 }
 
-SiteDual label_dual(const Surface& surface, const agvd::DistanceBounds& labels) {
-    SiteDual result;
+std::vector<agvd::Triangle> label_triangles(const Surface& surface,
+                                            const agvd::DistanceBounds& labels) {
+    std::vector<agvd::Triangle> triangles;
     for (const agvd::Triangle& t : surface.mesh.triangles) {
         const Index a = labels.site[t[0]], b = labels.site[t[1]], c = labels.site[t[2]];
-        if (a != b && b != c && c != a) result.triangles.push_back({a, b, c});
+        if (a != b && b != c && c != a) triangles.push_back({a, b, c});
     }
+    return triangles;
+}
+
+SiteDual label_dual(const Surface& surface, const agvd::DistanceBounds& labels) {
+    SiteDual result{label_triangles(surface, labels), {}};
     struct Crossing {
         std::uint64_t pair;
         bool is_inner;  // The boundary comes first: there the middle must lie.

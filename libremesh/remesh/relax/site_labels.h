@@ -39,15 +39,19 @@ struct Middle {
     agvd::SurfacePoint point;       //!< On the boundary if they meet there, else inside a face.
 };
 
-//! The sites as the vertices of a triangulation.
+//! The sites as the vertices of a triangulation: a triangle for each face whose corners have three
+//! labels. It is the surface, the vertices of each label drawn together to one, and has its
+//! topology where each label is a disc. Sites that label no vertex are in no triangle.
+[[nodiscard]] std::vector<agvd::Triangle> label_triangles(const agvd::Surface& surface,
+                                                          const agvd::DistanceBounds& labels);
+
+//! A triangulation with the middles of its edges.
 struct SiteDual {
     std::vector<agvd::Triangle> triangles;
     std::vector<Middle> middles;  //!< By (low, high): one for each pair that meets.
 };
 
-//! A triangle for each face whose corners have three labels: the surface, the vertices of each
-//! label drawn together to one. It has the surface's topology where each label is a disc. Sites
-//! that label no vertex are in no triangle.
+//! Cost: sorting the edges whose ends have two labels.
 [[nodiscard]] SiteDual label_dual(const agvd::Surface& surface, const agvd::DistanceBounds& labels);
 
 }  // namespace remesh::detail
