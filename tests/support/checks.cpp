@@ -1,4 +1,5 @@
 #include "support/checks.h"
+#include "agvd/mesh/face_area.h"
 
 #include <gtest/gtest.h>
 
@@ -195,7 +196,7 @@ void expect_valid_complex(const Surface& surface, const Diagram& d) {
     for (Index f = 0; f < surface.num_faces(); ++f) {
         if (!d.nearest_site[surface.mesh.triangles[f][0]].is_valid()) continue;
         ++surface_euler;
-        surface_area += surface.length_of(3 * f) * surface.apex[3 * f].y() / 2;
+        surface_area += face_area(surface, f);
     }
     for (Index e = 0; e < surface.num_edges(); ++e) {
         surface_euler -= d.nearest_site[surface.tail(surface.edge_half[e])].is_valid() ? 1 : 0;

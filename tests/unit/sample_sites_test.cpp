@@ -7,6 +7,7 @@
 #include <numbers>
 #include <set>
 
+#include "agvd/mesh/face_area.h"
 #include "agvd/mesh/point_faces.h"
 #include "agvd/mesh/refine.h"
 #include "agvd/propagation/propagate.h"
@@ -252,7 +253,7 @@ TEST(SampleSites, FarthestPointsLeaveTheSmallestGaps) {
             const Surface surface = make(mesh);
             double area = 0;
             for (Index f = 0; f < surface.num_faces(); ++f) {
-                area += surface.length_of(3 * f) * surface.apex[3 * f].y() / 2;
+                area += agvd::face_area(surface, f);
             }
             const double fine = 0.3 * std::sqrt(area / n);
             const agvd::RefinedMesh refined = agvd::split_long_edges(mesh.view(), fine);

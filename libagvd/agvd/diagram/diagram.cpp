@@ -8,13 +8,10 @@
 #include "agvd/diagram/edge_relays.h"
 #include "agvd/diagram/islands.h"
 #include "agvd/diagram/join.h"
+#include "agvd/mesh/face_area.h"
 
 namespace agvd {
 namespace {
-
-double face_area(const Surface& surface, Index face) {
-    return surface.length_of(3 * face) * surface.apex[3 * face].y() / 2;
-}
 
 // Areas and Euler characteristics: the open cell is a union of open pieces of triangles, open
 // intervals of inner edges and cuts, and inner points, and for a surface without its boundary their

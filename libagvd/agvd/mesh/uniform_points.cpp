@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "agvd/core/random.h"
+#include "agvd/mesh/face_area.h"
 
 namespace agvd {
 
@@ -11,7 +12,7 @@ std::vector<SurfacePoint> uniform_points(const Surface& surface, Index count, st
     std::vector<double> area_up_to(surface.num_faces());
     double area = 0;
     for (Index f = 0; f < surface.num_faces(); ++f) {
-        area += surface.length_of(3 * f) * surface.apex[3 * f].y() / 2;
+        area += face_area(surface, f);
         area_up_to[f] = area;
     }
     std::vector<SurfacePoint> points(area_up_to.empty() ? 0 : count);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "agvd/mesh/face_area.h"
 #include "agvd/mesh/point_faces.h"
 
 namespace agvd {
@@ -60,9 +61,7 @@ BisectorError summarize(std::vector<double> errors) {
 
 double mean_cell_radius(const Surface& surface, std::size_t num_sites) {
     double area = 0;
-    for (Index h = 0; h < surface.twin.size(); h += 3) {
-        area += surface.length_of(h) * surface.apex[h].y() / 2;
-    }
+    for (Index f = 0; f < surface.num_faces(); ++f) area += face_area(surface, f);
     return std::sqrt(area / (std::numbers::pi * static_cast<double>(num_sites)));
 }
 

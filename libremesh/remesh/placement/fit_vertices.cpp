@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "agvd/mesh/closest_point.h"
+#include "agvd/mesh/face_area.h"
 #include "agvd/mesh/point_faces.h"
 #include "remesh/placement/nearest_in_cells.h"
 #include "remesh/placement/vertex_triangles.h"
@@ -108,12 +109,12 @@ private:
         std::vector<double> area(p.size(), 0);
         for (Index f = 0; f < surface_.num_faces(); ++f) {
             const Triangle& t = surface_.mesh.triangles[f];
-            const double face_area = surface_.length_of(3 * f) * surface_.apex[3 * f].y() / 2;
+            const double whole = agvd::face_area(surface_, f);
             // With the centroid three quarters: exact for what is quadratic on the face.
-            for (const Index v : t) area[v] += is_dense ? face_area / 3 : face_area / 12;
+            for (const Index v : t) area[v] += is_dense ? whole / 3 : whole / 12;
             if (is_dense || nearest_vertex[t[0]] == no_index) continue;
             samples_.push_back(
-                {(p[t[0]] + p[t[1]] + p[t[2]]) / 3, face_area * 3 / 4, nearest_vertex[t[0]]});
+                {(p[t[0]] + p[t[1]] + p[t[2]]) / 3, whole * 3 / 4, nearest_vertex[t[0]]});
         }
         for (Index v = 0; v < p.size(); ++v) {
             if (nearest_vertex[v] != no_index)

@@ -7,6 +7,7 @@
 
 #include "agvd/core/position_hash.h"
 #include "agvd/core/random.h"
+#include "agvd/mesh/face_area.h"
 #include "agvd/mesh/point_faces.h"
 #include "remesh/relax/walk.h"
 #include "remesh/sampling/components.h"
@@ -51,7 +52,7 @@ struct Regions {
         std::vector<Index> next(begin.begin(), begin.end() - 1);
         for (Index f = 0; f < of_face.size(); ++f) {
             const Index r = of_face[f];
-            area[r] += surface.length_of(3 * f) * surface.apex[3 * f].y() / 2;
+            area[r] += agvd::face_area(surface, f);
             faces[next[r]] = f;
             area_up_to[next[r]++] = area[r];
         }
