@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "agvd/propagation/distance_bounds.h"
+#include "remesh/relax/site_labels.h"
+#include "support/shapes.h"
+
 using agvd::Vec3;
 using remesh::detail::CellPlanes;
 
@@ -16,4 +20,16 @@ TEST(CellPlanes, TheIntegralIsThatOfSquaredDistances) {
         EXPECT_NEAR(planes.growth(x, step), planes.at(x + step) - planes.at(x), 1e-12);
         EXPECT_LT((planes.half_slope(x) - Vec3(5 * (x.x() - 3), 0, 2 * (x.z() - 1))).norm(), 1e-12);
     }
+}
+
+TEST(CellPlanes, ACornerOfNoAreaHasNone) {
+    const agvd::Surface surface = agvd::build_surface(shapes::grid(1).view());
+    agvd::DistanceBounds labels;  // The first vertex is no nearer to its site than across an edge.
+    labels.distance = {9, 0, 0, 0};
+    labels.site = {0, 1, 1, 1};
+    const auto cells = remesh::detail::measure_cells(surface, labels, 2);
+    EXPECT_EQ(cells.area[0], 0);
+    EXPECT_EQ(cells.planes[0].spread, Eigen::Matrix3d::Zero());
+    EXPECT_EQ(cells.planes[0].lift, Vec3(Vec3::Zero()));
+    EXPECT_NEAR(cells.planes[1].spread.norm(), cells.area[1], 1e-12);
 }

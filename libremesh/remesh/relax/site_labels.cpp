@@ -50,7 +50,7 @@ CellMeasures measure_cells(const Surface& surface, const agvd::DistanceBounds& l
             if (site == no_index) return;
             result.area[site] += share * area;
             shadow[site] += share * vector;
-            if (area > 0) result.planes[site].add(share * vector, share * area, p[t[0]]);
+            if (share * area > 0) result.planes[site].add(share * vector, share * area, p[t[0]]);
         };
         const std::array<Index, 3> site{labels.site[t[0]], labels.site[t[1]], labels.site[t[2]]};
         if (site[0] == site[1] && site[1] == site[2]) {
