@@ -59,14 +59,15 @@ ClosestPoint closest_point_on_triangle(const std::array<Vec3, 3>& corners, FaceI
                                        const Vec3& query) {
     const Vec3 u = corners[1] - corners[0], v = corners[2] - corners[0], w = query - corners[0];
     const Vec3 normal = u.cross(v);
-    const double scale = 1 / normal.squaredNorm();
+    const double normal_sq = normal.squaredNorm();
+    const double scale = 1 / normal_sq;
     const double b1 = w.cross(v).dot(normal) * scale;
     const double b2 = u.cross(w).dot(normal) * scale;
     const std::array<double, 3> b{1 - b1 - b2, b1, b2};
     // In a needle the foot of the perpendicular is inaccurate, and all sides are asked; elsewhere
     // only those that the foot lies across, or almost.
     const double longest_sq = std::max(u.squaredNorm(), v.squaredNorm());
-    const bool is_needle = !(normal.squaredNorm() > needle * longest_sq * longest_sq);
+    const bool is_needle = !(normal_sq > needle * longest_sq * longest_sq);
     ClosestPoint best;
     best.distance_sq = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < 3; ++k) {

@@ -7,23 +7,6 @@
 
 namespace agvd {
 
-namespace {
-
-using Places = std::vector<std::pair<PlaceOnSurface, Index>>;
-
-// The usual case, and sorting would be felt: a fiftieth of a propagation's time.
-bool are_elements_distinct(const Surface& surface, const Places& places) {
-    std::vector<bool> is_taken(surface.num_vertices() + surface.num_edges() + surface.num_faces());
-    return std::none_of(places.begin(), places.end(), [&](const auto& place) {
-        auto taken = is_taken[place.first.element];
-        const bool was_taken = taken;
-        taken = true;
-        return was_taken;
-    });
-}
-
-}  // namespace
-
 PlaceOnSurface place_of(const Surface& surface, const SurfacePoint& point) {
     if (const auto vertex = vertex_of(surface, point)) return {*vertex, {}};
     if (const auto h = half_edge_of(point)) {
@@ -34,15 +17,12 @@ PlaceOnSurface place_of(const Surface& surface, const SurfacePoint& point) {
 }
 
 std::vector<Index> distinct_points(const Surface& surface, std::span<const SurfacePoint> points) {
-    Places places;
+    std::vector<std::pair<PlaceOnSurface, Index>> places;
     places.reserve(points.size());
     for (Index i = 0; i < points.size(); ++i) places.emplace_back(place_of(surface, points[i]), i);
-    auto end = places.end();
-    if (!are_elements_distinct(surface, places)) {
-        std::sort(places.begin(), end);
-        end = std::unique(places.begin(), end,
-                          [](const auto& a, const auto& b) { return a.first == b.first; });
-    }
+    std::sort(places.begin(), places.end());
+    const auto end = std::unique(places.begin(), places.end(),
+                                 [](const auto& a, const auto& b) { return a.first == b.first; });
     std::vector<Index> distinct;
     distinct.reserve(points.size());
     for (auto place = places.begin(); place != end; ++place) distinct.push_back(place->second);

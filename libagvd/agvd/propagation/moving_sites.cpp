@@ -147,6 +147,10 @@ private:
         return result;
     }
 
+    [[nodiscard]] bool is_placed(Index site) const {  // Not at a vertex.
+        return sources_[site].place.element >= surface_.num_vertices();
+    }
+
     // Brings the search for bounds up to date, and marks the sites that changed.
     void change_search(const SiteChanges& changes) {
         site_faces_.clear();
@@ -154,7 +158,7 @@ private:
         std::vector<Index> starts;  // Of the sites that changed, before and after.
         const auto take_out = [&](Index site) {
             is_changed_[site] = 1;
-            num_placed_ -= vertex_of(surface_, sources_[site].point) ? 0 : 1;
+            num_placed_ -= is_placed(site) ? 1 : 0;
             add_faces_of(sources_[site].point);
             for (const Index v : search_.starts_of(sources_[site].point)) {
                 std::erase(starting_at_[v], site);
@@ -164,7 +168,7 @@ private:
         const auto put_in = [&](Index site, const SurfacePoint& point) {
             sources_[site].point = point;
             sources_[site].place = place_of(surface_, point);
-            num_placed_ += vertex_of(surface_, point) ? 0 : 1;
+            num_placed_ += is_placed(site) ? 1 : 0;
             add_faces_of(point);
             for (const Index v : search_.starts_of(point)) {
                 std::vector<Index>& sites = starting_at_[v];  // An edge names its ends twice.
