@@ -140,6 +140,8 @@ private:
         if (!is_relaxed()) return;
         const StageClock clock(Stage::Relax, result_);
         const RelaxOptions relax{.steps = options_.relax_steps,
+                                 .boundary = options_.boundary,
+                                 .corners = corners_,
                                  .num_threads = options_.num_threads,
                                  .progress = progress_of(Stage::Relax, options_)};
         RelaxResult relaxed = is_coarse_to_fine()

@@ -77,6 +77,7 @@ public:
 private:
     void work_below(double least_quality, double cost) {
         plane_cost_ = cost;
+        is_worth_it_.assign(at_.size(), 1);
         for (int round = 0; round < most_rounds; ++round) {
             std::vector<std::pair<double, Index>> bad;
             for (const Triangle& t : mesh_.triangles) {
@@ -86,7 +87,15 @@ private:
             }
             std::sort(bad.begin(), bad.end());
             bool is_better = false;
-            for (const auto& [q, v] : bad) is_better = improve(v) || is_better;
+            for (const auto& [q, v] : bad) {
+                if (is_worth_it_[v] == 0) continue;
+                is_worth_it_[v] = 0;
+                if (!improve(v)) continue;
+                is_better = true;
+                for (const Index i : around_.of(v)) {
+                    for (const Index other : mesh_.triangles[i]) is_worth_it_[other] = 1;
+                }
+            }
             if (!is_better) return;
         }
     }
@@ -172,6 +181,7 @@ private:
     std::vector<Vec3> at_, facing_;           // #V: positions, and normals of the surface.
     std::vector<detail::CellPlanes> planes_;  // #V
     double plane_cost_ = 0;
+    std::vector<std::uint8_t> is_worth_it_;  // #V: 0 where the last try stood still, as all around.
 };
 
 }  // namespace

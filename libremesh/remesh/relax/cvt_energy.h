@@ -10,26 +10,32 @@ namespace remesh::detail {
 
 //! Of the Voronoi diagram of the sites on their triangulation, taken as a surface of its own.
 struct CvtEnergy {
-    double energy = 0;                //!< Sum over the cells of the integral of |x - site|^2.
-    double weighted = 0;              //!< The same by density.
-    std::vector<agvd::Vec3> slope;    //!< #sites: of that.
-    std::vector<double> mass;         //!< #sites: weighted areas of the cells.
-    std::vector<double> area;         //!< #sites: areas of the cells.
-    std::vector<agvd::Vec3> normal;   //!< #sites: of the triangles around, of length 1.
-    std::vector<double> cotangent;    //!< #H: of the angle opposite.
-    std::vector<agvd::Index> turned;  //!< Triangles that face against the surface.
+    struct Cell {
+        agvd::Vec3 slope;   //!< Of `weighted`; tangential: at right angles to `normal`.
+        agvd::Vec3 normal;  //!< Of the triangles around, of length 1.
+        double mass;        //!< Weighted area.
+        double area;
+    };
+    double energy = 0;              //!< Sum over the cells of the integral of |x - site|^2.
+    double weighted = 0;            //!< The same by density.
+    std::vector<Cell> cells;        //!< #sites
+    std::vector<double> cotangent;  //!< #H: of the angle opposite.
 };
 
 //! Fills `result`, whose memory is used again.
 //!
 //! \param mesh    Delaunay or nearly so: where a circumcentre lies outside of its triangle, areas
 //!                are negative and neighbours make up for them.
-//! \param facing  #sites: normals of the surface.
 //! \param weight  #sites: density, > 0; linear in between.
-//! Slopes are tangential: at right angles to `normal`.
 //! Cost: O(n).
 void measure_energy(const SiteMesh& mesh, std::span<const agvd::Vec3> positions,
-                    std::span<const agvd::Vec3> facing, std::span<const double> weight,
-                    CvtEnergy& result);
+                    std::span<const double> weight, CvtEnergy& result);
+
+//! Fills `turned` with the triangles that face against the surface or have no area, ascending.
+//!
+//! \param facing  #sites: normals of the surface.
+//! Cost: O(n).
+void find_turned(const SiteMesh& mesh, std::span<const agvd::Vec3> positions,
+                 std::span<const agvd::Vec3> facing, std::vector<agvd::Index>& turned);
 
 }  // namespace remesh::detail

@@ -74,11 +74,12 @@ std::vector<agvd::Triangle> triangulate(const Surface& surface, const SurfaceLay
 
 // Triangles as large as the features of the surface: what is even on them is not on the surface.
 bool is_hopeless(const Relaxation& relaxation) {
-    const std::vector<double>& area = relaxation.energy().area;
-    const auto lonely = static_cast<double>(std::count(area.begin(), area.end(), 0.0));
-    const auto turned = static_cast<double>(relaxation.energy().turned.size());
+    const auto& cells = relaxation.energy().cells;
+    const auto lonely = static_cast<double>(
+        std::count_if(cells.begin(), cells.end(), [](const auto& cell) { return cell.area == 0; }));
+    const auto turned = static_cast<double>(relaxation.num_turned());
     return turned > hopeless_share * static_cast<double>(relaxation.triangles().size()) ||
-           lonely > hopeless_share * static_cast<double>(area.size());
+           lonely > hopeless_share * static_cast<double>(cells.size());
 }
 
 class Levels {
@@ -90,13 +91,15 @@ public:
           options_(options),
           steps_planned_(options.steps * num_levels) {}
 
-    // \param labels  of the sites; null: the relaxation knows its weights.
-    void run(Relaxation& relaxation, const agvd::DistanceBounds* labels) {
+    // \param labels   of the sites; null: the relaxation knows its weights.
+    // \param corners  boundary vertices that sites go to: of the spacing that these sites have.
+    void run(Relaxation& relaxation, const agvd::DistanceBounds* labels,
+             std::span<const Index> corners) {
         const auto num_sites = static_cast<Index>(relaxation.sites().size());
         RelaxLevel& level = result_.levels.emplace_back();
         level.num_sites = num_sites;
         level.energy.push_back(relaxation.energy().energy);
-        if (labels != nullptr) set_density(relaxation, *labels);
+        if (labels != nullptr) look(relaxation, *labels, corners);
         double last = relaxation.objective();
         for (int step = 1; step <= options_.steps; ++step) {
             relaxation.step();
@@ -104,7 +107,7 @@ public:
             agvd::poll(options_.progress, static_cast<double>(++steps_done_) / steps_planned_);
             if (step % steps_per_sweep != 0 || step == options_.steps) continue;
             if (last - relaxation.objective() < options_.tolerance * last) break;
-            sweep(relaxation);
+            sweep(relaxation, corners);
             last = relaxation.objective();
         }
     }
@@ -123,14 +126,19 @@ private:
         return surface_.num_vertices() >= vertices_per_cell * num_sites;
     }
 
-    void set_density(Relaxation& relaxation, const agvd::DistanceBounds& labels) const {
+    void look(Relaxation& relaxation, const agvd::DistanceBounds& labels,
+              std::span<const Index> corners) const {
         const auto num_sites = static_cast<Index>(relaxation.sites().size());
         if (!gives_cells(num_sites)) return;
+        if (options_.boundary == Boundary::Keep) {
+            relaxation.move_to_boundary(
+                detail::boundary_places(surface_, labels, num_sites, corners));
+        }
         relaxation.set_density(detail::measure_cells(surface_, labels, num_sites));
     }
 
     // Looks at the surface again.
-    void sweep(Relaxation& relaxation) {
+    void sweep(Relaxation& relaxation, std::span<const Index> corners) {
         const auto num_sites = static_cast<Index>(relaxation.sites().size());
         if (!gives_cells(num_sites)) return;
         const agvd::DistanceBounds labels = label(relaxation.sites());
@@ -143,7 +151,7 @@ private:
             relaxation.mend(
                 triangulate(surface_, layout_, labels, relaxation.sites(), options_.num_threads));
         }
-        set_density(relaxation, labels);
+        look(relaxation, labels, corners);
     }
 
     const Surface& surface_;
@@ -183,7 +191,7 @@ RelaxResult relax_sites(const Surface& surface, const SurfaceLayout& layout,
                           triangulate(surface, layout, labels, sites, options.num_threads),
                           options.is_fixed, {}, options.num_threads);
     if (is_hopeless(relaxation)) return levels.finish(std::move(sites));
-    levels.run(relaxation, &labels);
+    levels.run(relaxation, &labels, options.corners);
     if (is_hopeless(relaxation)) return levels.finish(std::move(sites));
     return levels.finish(relaxation.sites());
 }
@@ -207,7 +215,7 @@ RelaxResult sample_relaxed_sites(const Surface& surface, const SurfaceLayout& la
         return relax_sites(surface, layout, sample_sites(surface, sampling), options);
     };
     if (is_hopeless(relaxation)) return one_after_the_other();
-    levels.run(relaxation, &labels);
+    levels.run(relaxation, &labels, {});
     if (is_hopeless(relaxation)) return one_after_the_other();
 
     labels = levels.label(relaxation.sites());
@@ -217,7 +225,7 @@ RelaxResult sample_relaxed_sites(const Surface& surface, const SurfaceLayout& la
     if (!fine) return one_after_the_other();
     Relaxation last(surface, std::move(fine->sites), std::move(fine->triangles), {},
                     std::move(fine->weights), options.num_threads);
-    levels.run(last, nullptr);
+    levels.run(last, nullptr, options.corners);
     if (is_hopeless(last)) return one_after_the_other();
     return levels.finish(last.sites());
 }

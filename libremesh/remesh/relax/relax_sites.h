@@ -14,6 +14,8 @@ struct RelaxOptions {
     //! Stops where ten steps lower the energy by less than this share, >= 0.
     double tolerance = 1e-4;
     std::vector<std::uint8_t> is_fixed = {};  //!< #sites: 1 for sites that stay; or empty.
+    Boundary boundary = Boundary::Keep;       //!< Inner sites whose cells meet it move onto it...
+    std::vector<agvd::Index> corners = {};    //!< ...and the nearest ones to these vertices of it.
     int num_threads = 0;  //!< >= 0; 0: all cores. The same bytes for any number.
     agvd::Progress progress = {};
 };

@@ -95,6 +95,22 @@ void Relaxation::mend(const std::vector<agvd::Triangle>& triangles) {
     measure();
 }
 
+void Relaxation::move_to_boundary(std::span<const std::optional<SurfacePoint>> places) {
+    bool has_moved = false;
+    for (Index i = 0; i < places.size(); ++i) {
+        if (!places[i] || is_fixed_[i] != 0) continue;
+        const bool is_corner = agvd::vertex_of(surface_, *places[i]).has_value();
+        if (boundary_[i] != no_index && !is_corner) continue;
+        sites_[i] = *places[i];
+        locate(i);
+        is_fixed_[i] = is_corner ? 1 : 0;
+        has_moved = true;
+    }
+    if (!has_moved) return;
+    find_stuck();
+    measure();
+}
+
 void Relaxation::set_density(const CellMeasures& cells) {
     // Of a site and its neighbours together: cells are rough where faces are large, and sizes must
     // not change abruptly.
@@ -103,13 +119,13 @@ void Relaxation::set_density(const CellMeasures& cells) {
     };
     std::vector<Sums> sums(sites_.size());
     for (std::size_t i = 0; i < sums.size(); ++i) {
-        sums[i] = {cells.area[i], now_.area[i], cells.bending[i], 1};
+        sums[i] = {cells.area[i], now_.cells[i].area, cells.bending[i], 1};
     }
     for (const agvd::Triangle& t : mesh_.triangles) {
         for (std::size_t k = 0; k < 3; ++k) {
             for (const Index other : {t[(k + 1) % 3], t[(k + 2) % 3]}) {  // Each comes twice.
                 sums[t[k]].on_surface += cells.area[other] / 2;
-                sums[t[k]].on_triangles += now_.area[other] / 2;
+                sums[t[k]].on_triangles += now_.cells[other].area / 2;
                 sums[t[k]].bending += cells.bending[other] / 2;
                 sums[t[k]].count += 0.5;
             }
@@ -123,7 +139,7 @@ void Relaxation::set_density(const CellMeasures& cells) {
         weight_[i] = std::min(lost * bent, most_weight);
     }
     planes_ = cells.planes;
-    measure();
+    measure_energy(mesh_, at_, weight_, now_);
 }
 
 void Relaxation::step() {
@@ -131,8 +147,8 @@ void Relaxation::step() {
     const std::vector<SurfacePoint> sites_before = sites_;
     const std::vector<Vec3> at_before = at_, facing_before = facing_;
     walk();
-    measure();
     take_back(sites_before, at_before, facing_before);
+    measure_energy(mesh_, at_, weight_, now_);
     // What flips change is measured by the next step: they are few.
     flip_towards_delaunay(mesh_, at_, now_.cotangent);
 }
@@ -154,7 +170,10 @@ void Relaxation::locate(Index i) {
     boundary_[i] = boundary_half_edge(surface_, sites_[i]).value_or(no_index);
 }
 
-void Relaxation::measure() { measure_energy(mesh_, at_, facing_, weight_, now_); }
+void Relaxation::measure() {
+    measure_energy(mesh_, at_, weight_, now_);
+    find_turned(mesh_, at_, facing_, turned_);
+}
 
 void Relaxation::choose_moves() {
     double uphill = 0;
@@ -162,21 +181,22 @@ void Relaxation::choose_moves() {
     for (std::size_t i = 0; i < move_.size(); ++i) {
         const Vec3 off = planes_[i].half_slope(at_[i]);
         const Vec3 along = off - facing_[i].dot(off) * facing_[i];
-        half_slope[i] = now_.slope[i] / 2 + plane_weight * weight_[i] * along;
+        half_slope[i] = now_.cells[i].slope / 2 + plane_weight * weight_[i] * along;
         uphill += half_slope[i].dot(move_[i]);
     }
     const double keep = uphill > 0 ? 0 : momentum;
     for (std::size_t i = 0; i < move_.size(); ++i) {
-        if (is_fixed_[i] != 0 || is_stuck_[i] != 0 || !(now_.mass[i] > 0)) {
+        const CvtEnergy::Cell& cell = now_.cells[i];
+        if (is_fixed_[i] != 0 || is_stuck_[i] != 0 || !(cell.mass > 0)) {
             move_[i].setZero();
             continue;
         }
         const Mat3 along = Mat3::Identity() - facing_[i] * facing_[i].transpose();
-        const Mat3 stiffness = now_.mass[i] * Mat3::Identity() +
+        const Mat3 stiffness = cell.mass * Mat3::Identity() +
                                plane_weight * weight_[i] * along * planes_[i].spread * along;
         Vec3 move = keep * move_[i] - stretch * (stiffness.inverse() * half_slope[i]);
-        move -= now_.normal[i].dot(move) * now_.normal[i];
-        const double most = longest_move * std::sqrt(std::max(now_.area[i], 0.0));
+        move -= cell.normal.dot(move) * cell.normal;
+        const double most = longest_move * std::sqrt(std::max(cell.area, 0.0));
         const double length = move.norm();
         move_[i] = length > most ? Vec3(most / length * move) : move;
     }
@@ -199,9 +219,10 @@ void Relaxation::walk() {
 void Relaxation::take_back(const std::vector<SurfacePoint>& sites_before,
                            const std::vector<Vec3>& at_before,
                            const std::vector<Vec3>& facing_before) {
+    find_turned(mesh_, at_, facing_, turned_);
     for (int round = 0; round < most_rounds; ++round) {
         bool is_done = true;
-        for (const Index turned : now_.turned) {
+        for (const Index turned : turned_) {
             const agvd::Triangle& t = mesh_.triangles[turned];
             const Vec3 normal =
                 (at_before[t[1]] - at_before[t[0]]).cross(at_before[t[2]] - at_before[t[0]]);
@@ -216,7 +237,7 @@ void Relaxation::take_back(const std::vector<SurfacePoint>& sites_before,
             }
         }
         if (is_done) return;
-        measure();
+        find_turned(mesh_, at_, facing_, turned_);
     }
 }
 

@@ -2,6 +2,8 @@
 //! Steps towards a centroidal Voronoi tessellation.
 #pragma once
 
+#include <optional>
+
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_point.h"
 #include "remesh/relax/cvt_energy.h"
@@ -30,12 +32,18 @@ public:
     //! By what the cells hold of the surface.
     void set_density(const CellMeasures& cells);
 
-    //! Sites around which triangles do not close, and triangles that face against the surface.
-    [[nodiscard]] agvd::Index num_flaws() const {
-        return num_stuck_ + static_cast<agvd::Index>(now_.turned.size());
-    }
+    //! Triangles that face against the surface.
+    [[nodiscard]] agvd::Index num_turned() const { return static_cast<agvd::Index>(turned_.size()); }
+    //! These, and sites around which triangles do not close.
+    [[nodiscard]] agvd::Index num_flaws() const { return num_stuck_ + num_turned(); }
     //! Takes new triangles if they close around more sites and face with the surface more often.
     void mend(const std::vector<agvd::Triangle>& triangles);
+
+    //! Inner sites go to their places on the boundary, all others only to a vertex, where they stay
+    //! from then on.
+    //!
+    //! \param places  #sites; nothing for sites that have none.
+    void move_to_boundary(std::span<const std::optional<agvd::SurfacePoint>> places);
 
     //! Cost: O(#sites) and the faces crossed.
     void step();
@@ -72,6 +80,7 @@ private:
     std::vector<std::uint8_t> is_stuck_;   // #sites: the triangles around do not close.
     std::vector<agvd::Index> boundary_;    // #sites: the boundary half-edge, or no_index.
     agvd::Index num_stuck_ = 0;
+    std::vector<agvd::Index> turned_;  // Triangles that face against the surface.
     CvtEnergy now_;
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "agvd/mesh/point_faces.h"
+
 namespace remesh::detail {
 namespace {
 
@@ -13,6 +15,8 @@ using agvd::SurfacePoint;
 // How far middles keep from the ends of their edge, and from the edge: shares of it.
 constexpr double end_margin = 1e-3;
 constexpr double side_margin = 1e-6;
+// How far places on the boundary keep from its vertices: a share of the edge.
+constexpr double off_vertex = 0.25;
 
 // Where on the way from u to v the labels meet, in [0, 1].
 double meeting_place(const agvd::DistanceBounds& labels, Index u, Index v, double length) {
@@ -123,6 +127,33 @@ SiteDual label_dual(const Surface& surface, const agvd::DistanceBounds& labels) 
                                   c.length, point_on(h, along, c.is_inner ? side_margin : 0)});
     }
     return result;
+}
+
+std::vector<std::optional<SurfacePoint>> boundary_places(const Surface& surface,
+                                                         const agvd::DistanceBounds& labels,
+                                                         Index num_sites,
+                                                         std::span<const Index> corners) {
+    std::vector<Index> nearest(num_sites, no_index);
+    for (Index v = 0; v < surface.num_vertices(); ++v) {
+        const Index site = labels.site[v];
+        if (site == no_index || !surface.is_boundary_vertex(v)) continue;
+        Index& best = nearest[site];
+        if (best == no_index || labels.distance[v] < labels.distance[best]) best = v;
+    }
+    std::vector<std::optional<SurfacePoint>> places(num_sites);
+    for (Index s = 0; s < num_sites; ++s) {
+        if (nearest[s] != no_index) {
+            places[s] = point_on(surface.outgoing[nearest[s]], off_vertex, 0);
+        }
+    }
+    std::vector<bool> has_corner(num_sites, false);
+    for (const Index v : corners) {
+        const Index site = labels.site[v];
+        if (site == no_index || has_corner[site]) continue;
+        has_corner[site] = true;
+        places[site] = agvd::point_at(surface, v);
+    }
+    return places;
 }
 
 }  // namespace remesh::detail

@@ -3,6 +3,7 @@
 //! much of the surface belongs to each site.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -53,5 +54,15 @@ struct SiteDual {
 
 //! Cost: sorting the edges whose ends have two labels.
 [[nodiscard]] SiteDual label_dual(const agvd::Surface& surface, const agvd::DistanceBounds& labels);
+
+//! For each site the corner that it labels, or else the place on the boundary that is nearest by
+//! its labels, off the vertices, so that the site can move along. Nothing for sites that label no
+//! vertex there.
+//!
+//! \param corners  boundary vertices. Of several that a site labels the first one counts.
+//! Cost: O(#V + #sites).
+[[nodiscard]] std::vector<std::optional<agvd::SurfacePoint>> boundary_places(
+    const agvd::Surface& surface, const agvd::DistanceBounds& labels, agvd::Index num_sites,
+    std::span<const agvd::Index> corners);
 
 }  // namespace remesh::detail
