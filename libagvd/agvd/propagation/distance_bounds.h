@@ -50,6 +50,7 @@ private:
     template <typename Each>
     void for_each_start(const SurfacePoint& point, const Each& each) const;
     void queue(Index vertex);
+    template <bool (*lower)(std::uint64_t&, std::uint64_t)>
     void relax_arcs(Index vertex, std::vector<Index>& changed);
 
     const Surface& surface_;

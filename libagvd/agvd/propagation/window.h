@@ -2,6 +2,8 @@
 //! Windows: what one straight beam of shortest paths knows where it crosses an edge.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "agvd/core/types.h"
@@ -34,10 +36,10 @@ struct Window {
         result.end = to;
         return result;
     }
-    //! Least distance over the interval.
+    //! Least distance over the interval. Without branches, which cannot be predicted.
     [[nodiscard]] double nearest() const {
-        if (begin < x && x < end) return weight - y;
-        return at_begin < at_end ? at_begin : at_end;
+        const std::array<double, 2> least{std::min(at_begin, at_end), weight - y};
+        return least[static_cast<std::size_t>((begin < x) & (x < end))];
     }
 };
 static_assert(sizeof(Window) == 64);

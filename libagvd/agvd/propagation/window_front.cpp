@@ -451,7 +451,8 @@ inline bool WindowFront::pass_left(const Part& part, const Face& face, Window& c
         return x + (at * face.left_x - x) * y / (y + at * face.left_y);
     };
     const double begin = w.begin == 0 ? 0.0 : std::max(seen_at(w.begin), 0.0);
-    const double end = part.is_apex ? length : std::min(seen_at(part.limit), length);
+    const std::array ends{std::min(seen_at(part.limit), length), length};
+    const double end = ends[static_cast<std::size_t>(part.is_apex)];
     child = {x,
              y,
              w.weight,

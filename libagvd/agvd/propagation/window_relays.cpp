@@ -13,9 +13,9 @@ constexpr Index grain = 4096;
 // A tail that is a site, or nearly, or turns paths, is itself the image of what comes by it.
 bool is_source(const Surface& surface, const Propagation& result, Index half_edge) {
     const Index v = surface.tail(half_edge);
-    if (!result.vertex_site[v].is_valid()) return false;
-    return surface.can_turn[v] != 0 ||
-           result.vertex_distance[v] <= beside_vertex * surface.length_of(half_edge);
+    return result.vertex_site[v].is_valid() &
+           ((surface.can_turn[v] != 0) |
+            (result.vertex_distance[v] <= beside_vertex * surface.length_of(half_edge)));
 }
 
 // Calls each(relay, place of its face). The places are seldom in the cache, so that each one is
@@ -57,16 +57,14 @@ std::vector<std::uint8_t> faces_near_borders(const Surface& surface,
                                              std::span<const Index> vertex_site) {
     const std::vector<Triangle>& triangles = surface.mesh.triangles;
     std::vector<std::uint8_t> ring(surface.num_vertices(), 0);  // 1: at a border, 2: next to one.
-    for (const auto& [a, b, c] : triangles) {
-        const bool is_border = vertex_site[a] != vertex_site[b] || vertex_site[b] != vertex_site[c];
-        if (is_border) ring[a] = ring[b] = ring[c] = 1;
+    const auto mark = [&](const Triangle& triangle, int bits) {
+        for (const Index v : triangle) ring[v] = static_cast<std::uint8_t>(ring[v] | bits);
+    };
+    for (const Triangle& t : triangles) {
+        const auto &a = vertex_site[t[0]], &b = vertex_site[t[1]], &c = vertex_site[t[2]];
+        mark(t, (a != b) | (b != c) ? 1 : 0);
     }
-    for (const auto& [a, b, c] : triangles) {
-        if (ring[a] != 1 && ring[b] != 1 && ring[c] != 1) continue;
-        for (const Index v : {a, b, c}) {
-            if (ring[v] == 0) ring[v] = 2;
-        }
-    }
+    for (const Triangle& t : triangles) mark(t, ((ring[t[0]] | ring[t[1]] | ring[t[2]]) & 1) << 1);
     std::vector<std::uint8_t> faces;
     faces.reserve(triangles.size());
     for (const auto& [a, b, c] : triangles) {

@@ -32,12 +32,10 @@ struct FaceRelays {
     Index count = 0;
     Index site = no_index;  //!< Or `several`.
 
+    // Without branches, which cannot be predicted.
     void add_site(Index other) {
-        if (site == no_index) {
-            site = other;
-        } else if (other != no_index && other != site) {
-            site = several;
-        }
+        const Index both = (other == no_index) | (other == site) ? site : several;
+        site = site == no_index ? other : both;
     }
 };
 

@@ -6,7 +6,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "agvd/core/types.h"
+#include "agvd/core/half_edge.h"
 
 namespace remesh {
 
@@ -32,10 +32,10 @@ public:
         return triangles_[half_edge / 3][half_edge % 3];
     }
     [[nodiscard]] static constexpr agvd::Index next(agvd::Index half_edge) {
-        return half_edge % 3 == 2 ? half_edge - 2 : half_edge + 1;
+        return agvd::next_half_edge(half_edge);
     }
     [[nodiscard]] static constexpr agvd::Index previous(agvd::Index half_edge) {
-        return half_edge % 3 == 0 ? half_edge + 2 : half_edge - 1;
+        return agvd::previous_half_edge(half_edge);
     }
 
     //! The mesh stays a simplicial complex: the new edge is new, and no vertex is left with fewer

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "agvd/core/types.h"
+#include "agvd/core/half_edge.h"
 
 namespace remesh::detail {
 
@@ -16,10 +16,10 @@ struct SiteMesh {
     std::vector<std::uint8_t> is_rim;  //!< #sites: 1 where the triangles around do not close.
 
     [[nodiscard]] static constexpr agvd::Index next(agvd::Index h) {
-        return h % 3 == 2 ? h - 2 : h + 1;
+        return agvd::next_half_edge(h);
     }
     [[nodiscard]] static constexpr agvd::Index previous(agvd::Index h) {
-        return h % 3 == 0 ? h + 2 : h - 1;
+        return agvd::previous_half_edge(h);
     }
     [[nodiscard]] agvd::Index tail(agvd::Index h) const { return triangles[h / 3][h % 3]; }
     [[nodiscard]] agvd::Index head(agvd::Index h) const { return tail(next(h)); }
