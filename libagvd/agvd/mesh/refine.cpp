@@ -29,10 +29,17 @@ private:
         TriangleMesh& mesh = result_.mesh;
         std::vector<Triangle> triangles;
         std::vector<Index> origin;
+        triangles.reserve(mesh.triangles.size());
+        origin.reserve(mesh.triangles.size());
         for (Index f = 0; f < mesh.triangles.size(); ++f) {
             const Triangle t = mesh.triangles[f];
             std::array<Index, 3> m{};
             for (std::size_t k = 0; k < 3; ++k) m[k] = middle_of(t[k], t[(k + 1) % 3]);
+            if ((m[0] & m[1] & m[2]) == no_index) {  // Most faces.
+                triangles.push_back(t);
+                origin.push_back(result_.face_origin[f]);
+                continue;
+            }
             append_parts(t, m, triangles);
             origin.resize(triangles.size(), result_.face_origin[f]);
         }
@@ -55,9 +62,7 @@ private:
                       std::vector<Triangle>& out) const {
         const auto num_split =
             std::count_if(m.begin(), m.end(), [](Index i) { return i != no_index; });
-        if (num_split == 0) {
-            out.push_back(t);
-        } else if (num_split == 3) {
+        if (num_split == 3) {
             out.insert(
                 out.end(),
                 {{t[0], m[0], m[2]}, {m[0], t[1], m[1]}, {m[2], m[1], t[2]}, {m[0], m[1], m[2]}});

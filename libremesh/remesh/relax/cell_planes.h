@@ -16,10 +16,11 @@ struct CellPlanes {
 
     //! \param vector  the normal of a piece, as long as its area.
     void add(const agvd::Vec3& vector, double area, const agvd::Vec3& point) {
-        const agvd::Vec3 scaled = vector / area;
-        spread += scaled * vector.transpose();
-        lift += scaled.dot(point) * vector;
-        constant += scaled.dot(point) * vector.dot(point);
+        const agvd::Vec3 normal = (1 / area) * vector;
+        const double height = normal.dot(point);
+        spread += normal * vector.transpose();
+        lift += height * vector;
+        constant += height * height * area;
     }
     //! The integral: of fourth order in lengths; rounding may make it negative.
     [[nodiscard]] double at(const agvd::Vec3& x) const {

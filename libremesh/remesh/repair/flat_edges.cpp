@@ -53,15 +53,21 @@ struct Quad {
 }  // namespace
 
 Index flip_flat_edges(TriangleMesh& mesh, double max_length) {
-    const bool has_any =
-        std::any_of(mesh.triangles.begin(), mesh.triangles.end(),
-                    [&](const agvd::Triangle& t) { return has_long_edge(mesh, t, max_length); });
-    if (!has_any) return 0;
+    std::vector<Index> long_triangles;
+    for (Index t = 0; t < mesh.triangles.size(); ++t) {
+        if (has_long_edge(mesh, mesh.triangles[t], max_length)) long_triangles.push_back(t);
+    }
+    if (long_triangles.empty()) return 0;
 
     FlippableMesh flippable(mesh.triangles);
+    std::vector<bool> waits(flippable.num_edges(), false);
+    for (const Index t : long_triangles) {
+        for (Index h = 3 * t; h < 3 * t + 3; ++h) waits[flippable.edge(h)] = true;
+    }
     std::vector<Index> waiting;
-    for (Index edge = flippable.num_edges(); edge-- > 0;) waiting.push_back(edge);
-    std::vector<bool> waits(flippable.num_edges(), true);
+    for (Index edge = flippable.num_edges(); edge-- > 0;) {
+        if (waits[edge]) waiting.push_back(edge);
+    }
     Index num_flips = 0;
     while (!waiting.empty() && num_flips / most_flips < flippable.num_edges()) {
         const Index edge = waiting.back();
