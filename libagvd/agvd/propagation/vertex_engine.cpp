@@ -39,7 +39,7 @@ constexpr int max_shadow_crossings = 2;
 // Width of the queue's buckets in mean edge lengths.
 constexpr double bucket_share = 0.4;
 // Nodes looked up ahead of their turn.
-constexpr std::size_t look_ahead = 6;
+constexpr std::size_t look_ahead = 8;
 
 struct Wedge {
     Vec2 tail, head;  // Of the half-edge about to be crossed.
@@ -94,9 +94,19 @@ private:
             __builtin_prefetch(&reach_[v]);
             __builtin_prefetch(&views_[v]);
         }
-        const Index v = queue_.peek(look_ahead / 2);
-        if (v == no_index || views_[v].half_edge == no_index) return;
-        corners_.prefetch(Surface::face(views_[v].half_edge));
+        const auto face_of = [&](std::size_t ahead) {
+            const Index v = queue_.peek(ahead);
+            const Index h = v == no_index ? no_index : views_[v].half_edge;
+            return h == no_index ? no_index : Surface::face(h);
+        };
+        if (const Index face = face_of(look_ahead / 2); face != no_index) corners_.prefetch(face);
+        if (const Index face = face_of(look_ahead / 4); face != no_index) {
+            for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+                if (corners_.twin(h) != no_index)
+                    corners_.prefetch(Surface::face(corners_.twin(h)));
+                __builtin_prefetch(&reach_[corners_.tail(h)]);
+            }
+        }
     }
 
     // --- Wedges --------------------------------------------------------------------------------

@@ -1,38 +1,38 @@
 #include "agvd/propagation/vertex_relays.h"
 
 #include <algorithm>
+#include <cstdint>
 
 namespace agvd {
 
 std::vector<Index> VertexRelays::mixed_faces() const {
-    std::vector<Index> mixed;
-    for (Index f = 0; f < surface_.num_faces(); ++f) {
-        const Triangle& corners = surface_.mesh.triangles[f];
-        const Index site = reach_[corners[0]].site;
-        if (reach_[corners[1]].site != site || reach_[corners[2]].site != site) mixed.push_back(f);
+    std::vector<std::uint8_t> is_mixed;
+    is_mixed.reserve(surface_.num_faces());
+    for (const auto& [a, b, c] : surface_.mesh.triangles) {
+        const Index site = reach_[a].site;
+        is_mixed.push_back((reach_[b].site != site) | (reach_[c].site != site) ? 1 : 0);
     }
-    const std::size_t num_by_corners = mixed.size();
-    const auto list_if_foreign = [&](Index face, Index site) {
-        if (reach_[surface_.tail(3 * face)].site != site) mixed.push_back(face);
+    const auto mark_if_foreign = [&](Index face, Index site) {
+        if (reach_[surface_.tail(3 * face)].site != site) is_mixed[face] = 1;
     };
-    const auto list_around = [&](Index face, Index site) {
-        list_if_foreign(face, site);
+    const auto mark_around = [&](Index face, Index site) {
+        mark_if_foreign(face, site);
         for (Index h = 3 * face; h < 3 * face + 3; ++h) {
             const Index twin = surface_.twin[h];
-            if (twin != no_index) list_if_foreign(Surface::face(twin), site);
+            if (twin != no_index) mark_if_foreign(Surface::face(twin), site);
         }
     };
     for (Index s = 0; s < sites_.size(); ++s) {
         if (vertex_of(surface_, sites_[s])) continue;
-        list_around(sites_[s].face.value(), s);
+        mark_around(sites_[s].face.value(), s);
         const auto half_edge = half_edge_of(sites_[s]);
         if (half_edge && surface_.twin[*half_edge] != no_index) {
-            list_around(Surface::face(surface_.twin[*half_edge]), s);
+            mark_around(Surface::face(surface_.twin[*half_edge]), s);
         }
     }
-    if (mixed.size() > num_by_corners) {
-        std::sort(mixed.begin(), mixed.end());
-        mixed.erase(std::unique(mixed.begin(), mixed.end()), mixed.end());
+    std::vector<Index> mixed;
+    for (Index f = 0; f < is_mixed.size(); ++f) {
+        if (is_mixed[f] != 0) mixed.push_back(f);
     }
     return mixed;
 }
