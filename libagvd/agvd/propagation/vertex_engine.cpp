@@ -102,8 +102,8 @@ private:
         if (const Index face = face_of(look_ahead / 2); face != no_index) corners_.prefetch(face);
         if (const Index face = face_of(look_ahead / 4); face != no_index) {
             for (Index h = 3 * face; h < 3 * face + 3; ++h) {
-                if (corners_.twin(h) != no_index)
-                    corners_.prefetch(Surface::face(corners_.twin(h)));
+                const Index twin = corners_.twin(h);
+                if (twin != no_index) corners_.prefetch(Surface::face(twin));
                 __builtin_prefetch(&reach_[corners_.tail(h)]);
             }
         }

@@ -59,8 +59,7 @@ void find_turned(const SiteMesh& mesh, std::span<const Vec3> positions,
     turned.clear();
     for (Index i = 0; i < mesh.triangles.size(); ++i) {
         const auto& [a, b, c] = mesh.triangles[i];
-        const Vec3 normal =
-            (positions[b] - positions[a]).cross(positions[c] - positions[b]);
+        const Vec3 normal = (positions[b] - positions[a]).cross(positions[c] - positions[b]);
         if (!(normal.dot(facing[a] + facing[b] + facing[c]) > 0)) turned.push_back(i);
     }
 }

@@ -102,6 +102,7 @@ void Relaxation::move_to_boundary(std::span<const std::optional<SurfacePoint>> p
         const bool is_corner = agvd::vertex_of(surface_, *places[i]).has_value();
         if (boundary_[i] != no_index && !is_corner) continue;
         sites_[i] = *places[i];
+        move_[i].setZero();
         locate(i);
         is_fixed_[i] = is_corner ? 1 : 0;
         has_moved = true;

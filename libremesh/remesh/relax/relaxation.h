@@ -33,7 +33,9 @@ public:
     void set_density(const CellMeasures& cells);
 
     //! Triangles that face against the surface.
-    [[nodiscard]] agvd::Index num_turned() const { return static_cast<agvd::Index>(turned_.size()); }
+    [[nodiscard]] agvd::Index num_turned() const {
+        return static_cast<agvd::Index>(turned_.size());
+    }
     //! These, and sites around which triangles do not close.
     [[nodiscard]] agvd::Index num_flaws() const { return num_stuck_ + num_turned(); }
     //! Takes new triangles if they close around more sites and face with the surface more often.
