@@ -214,6 +214,18 @@ TEST(RelaxSites, FromOneSpotItGetsAsFarAsFromBlueNoise) {
 }
 
 // Where sites start does not matter, be it ever so uneven.
+TEST(RelaxSites, FromOneSpotOfASheetItGetsAsFarAsFromBlueNoise) {
+    const Surface surface = agvd::build_surface(shapes::grid(60).view());
+    const SurfaceLayout layout(surface);
+    const std::vector<Index> corners =
+        remesh::find_corners(surface, agvd::boundary_loops(surface).front(), 1 / std::sqrt(300.0));
+    const std::vector<SurfacePoint> spot(300, SurfacePoint{agvd::FaceId(7), {0.2, 0.3, 0.5}});
+    const auto from_spot = relax_sites(surface, layout, spot, {.steps = 100, .corners = corners});
+    const auto from_noise = sample_relaxed_sites(surface, layout, {.num_samples = 300},
+                                                 {.steps = 100, .corners = corners});
+    EXPECT_LT(energy(surface, from_spot.sites), 1.02 * energy(surface, from_noise.sites));
+}
+
 TEST(RelaxSites, TheEnergyDoesNotDependOnTheStart) {
     const Index count = 500;
     for (const agvd::TriangleMesh& mesh :

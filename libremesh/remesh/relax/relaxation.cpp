@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/point_faces.h"
@@ -40,6 +41,9 @@ constexpr double even_bending = 0.05;
 // creases.
 constexpr double plane_weight = 2;
 constexpr double most_weight = 64;
+// Triangles of three sites on the boundary that are flatter than this (4 sqrt(3) S / sum of the
+// squared sides) have no part of the surface.
+constexpr double flat_quality = 0.1;
 
 }  // namespace
 
@@ -96,11 +100,15 @@ void Relaxation::mend(const std::vector<agvd::Triangle>& triangles) {
 }
 
 void Relaxation::move_to_boundary(std::span<const std::optional<SurfacePoint>> places) {
+    std::vector<std::uint8_t> is_at_rim = is_stuck_;  // Or one triangle away from it.
+    for (Index h = 0; h < mesh_.twin.size(); ++h) {
+        if (mesh_.twin[h] == no_index) is_at_rim[mesh_.tail(SiteMesh::previous(h))] = 1;
+    }
     bool has_moved = false;
     for (Index i = 0; i < places.size(); ++i) {
         if (!places[i] || is_fixed_[i] != 0) continue;
         const bool is_corner = agvd::vertex_of(surface_, *places[i]).has_value();
-        if (boundary_[i] != no_index && !is_corner) continue;
+        if (boundary_[i] != no_index ? !is_corner : is_at_rim[i] == 0) continue;
         sites_[i] = *places[i];
         move_[i].setZero();
         locate(i);
@@ -108,8 +116,22 @@ void Relaxation::move_to_boundary(std::span<const std::optional<SurfacePoint>> p
         has_moved = true;
     }
     if (!has_moved) return;
-    find_stuck();
-    measure();
+    std::vector<agvd::Triangle> kept;
+    for (const agvd::Triangle& t : mesh_.triangles) {
+        if (!is_flat_at_boundary(t)) kept.push_back(t);
+    }
+    take_triangles(std::move(kept));
+}
+
+bool Relaxation::is_flat_at_boundary(const agvd::Triangle& t) const {
+    double squares = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (boundary_[t[k]] == no_index) return false;
+        squares += (at_[t[(k + 1) % 3]] - at_[t[k]]).squaredNorm();
+    }
+    const Vec3 normal = (at_[t[1]] - at_[t[0]]).cross(at_[t[2]] - at_[t[0]]);
+    return !(normal.dot(facing_[t[0]] + facing_[t[1]] + facing_[t[2]]) > 0) ||
+           2 * std::numbers::sqrt3 * normal.norm() < flat_quality * squares;
 }
 
 void Relaxation::set_density(const CellMeasures& cells) {

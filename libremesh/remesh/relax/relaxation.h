@@ -41,8 +41,9 @@ public:
     //! Takes new triangles if they close around more sites and face with the surface more often.
     void mend(const std::vector<agvd::Triangle>& triangles);
 
-    //! Inner sites go to their places on the boundary, all others only to a vertex, where they stay
-    //! from then on.
+    //! Sites at the rim of the triangulation go to their places on the boundary, those that are on
+    //! the boundary only to a vertex. There sites stay from then on. Triangles along the boundary
+    //! that have become flat are dropped.
     //!
     //! \param places  #sites; nothing for sites that have none.
     void move_to_boundary(std::span<const std::optional<agvd::SurfacePoint>> places);
@@ -60,6 +61,7 @@ public:
     [[nodiscard]] const std::vector<double>& weights() const { return weight_; }
 
 private:
+    [[nodiscard]] bool is_flat_at_boundary(const agvd::Triangle& triangle) const;
     void find_stuck();
     void take_triangles(std::vector<agvd::Triangle> triangles);
     void locate(agvd::Index i);
