@@ -223,6 +223,12 @@ TEST(RelaxSites, FromOneSpotOfASheetItGetsAsFarAsFromBlueNoise) {
     const auto from_spot = relax_sites(surface, layout, spot, {.steps = 100, .corners = corners});
     const auto from_noise = sample_relaxed_sites(surface, layout, {.num_samples = 300},
                                                  {.steps = 100, .corners = corners});
+    const double told = from_noise.levels.back().energy.back();
+    EXPECT_NEAR(told, energy(surface, from_noise.sites), 0.5 * told);
+    for (const double e : from_spot.levels.back().energy) {
+        EXPECT_GT(e, 0.5 * told);
+        EXPECT_LT(e, 2 * told);
+    }
     EXPECT_LT(energy(surface, from_spot.sites), 1.02 * energy(surface, from_noise.sites));
 }
 

@@ -16,7 +16,8 @@ struct CvtEnergy {
         double mass;        //!< Weighted area.
         double area;
     };
-    double energy = 0;              //!< Sum over the cells of the integral of |x - site|^2.
+    //! Sum over the cells of the integral of |x - site|^2; without flat triangles.
+    double energy = 0;
     double weighted = 0;            //!< The same by density.
     std::vector<Cell> cells;        //!< #sites
     std::vector<double> cotangent;  //!< #H: of the angle opposite.
