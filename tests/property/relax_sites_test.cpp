@@ -213,7 +213,6 @@ TEST(RelaxSites, FromOneSpotItGetsAsFarAsFromBlueNoise) {
     }
 }
 
-// Where sites start does not matter, be it ever so uneven.
 TEST(RelaxSites, FromOneSpotOfASheetItGetsAsFarAsFromBlueNoise) {
     const Surface surface = agvd::build_surface(shapes::grid(60).view());
     const SurfaceLayout layout(surface);
@@ -232,6 +231,7 @@ TEST(RelaxSites, FromOneSpotOfASheetItGetsAsFarAsFromBlueNoise) {
     EXPECT_LT(energy(surface, from_spot.sites), 1.02 * energy(surface, from_noise.sites));
 }
 
+// Where sites start does not matter, be it ever so uneven.
 TEST(RelaxSites, TheEnergyDoesNotDependOnTheStart) {
     const Index count = 500;
     for (const agvd::TriangleMesh& mesh :
