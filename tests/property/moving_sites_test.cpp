@@ -151,6 +151,24 @@ TEST(MovingSites, AnEdgeSiteHidesItsLikeOfTheOtherFace) {
     ASSERT_NO_FATAL_FAILURE(expect_fresh(surface, moving, {}));
 }
 
+// Moving sites keep all windows, a fresh run those where bounds tell of a border. Along slanted
+// needles the bounds are far off, so that windows come to faces deep in what seem cells of others.
+TEST(MovingSites, BordersFarFromWhereTheBoundsPutThemAreFresh) {
+    TriangleMesh mesh = shapes::grid(60);
+    for (Vec3& p : mesh.positions) p.x() += 6 * p.y();
+    const Surface surface = build_surface(mesh.view());
+    const SurfaceLayout layout(surface);
+    for (const Index count : {2, 5}) {
+        const MovingSites moving(surface, layout, points::scattered(surface, count, count));
+        for (const int num_threads : {1, 3}) {
+            const Propagation fresh =
+                propagate(surface, moving.sites(), {.num_threads = num_threads});
+            checks::expect_same(moving.propagation(), fresh);
+            EXPECT_GT(fresh.num_nodes, moving.propagation().num_nodes);  // Sites that ran again.
+        }
+    }
+}
+
 TEST(MovingSites, GapsBetweenRelaysStaySmall) {
     const Surface surface = build_surface(shapes::jitter(shapes::torus(40, 20), 0.01, 3).view());
     const SurfaceLayout layout(surface);

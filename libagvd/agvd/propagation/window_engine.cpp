@@ -1,7 +1,6 @@
 #include "agvd/propagation/window_engine.h"
 
 #include <algorithm>
-#include <atomic>
 #include <iterator>
 #include <memory>
 #include <mutex>
@@ -9,6 +8,7 @@
 #include <utility>
 
 #include "agvd/core/parallel.h"
+#include "agvd/propagation/border_faces.h"
 #include "agvd/propagation/site_placement.h"
 #include "agvd/propagation/window_front.h"
 #include "agvd/propagation/window_relays.h"
@@ -30,7 +30,7 @@ struct TaskResult {
     };
     std::vector<Reached> vertices;
     std::vector<std::vector<Relay>> relays;  // In faces near borders; in blocks, never copied.
-    std::vector<FaceVisit> late_visits;      // Elsewhere, in faces that another site has visited.
+    std::vector<Relay> strays;               // In faces that the bounds give to another site.
     std::size_t num_windows = 0;
     double error = 0;
 
@@ -42,12 +42,12 @@ struct TaskResult {
     void clear() {
         vertices.clear();
         relays.clear();
-        late_visits.clear();
+        strays.clear();
         num_windows = 0;
         error = 0;
     }
     [[nodiscard]] std::size_t bytes() const {
-        return vertices.capacity() * sizeof(Reached) + late_visits.capacity() * sizeof(FaceVisit);
+        return vertices.capacity() * sizeof(Reached) + strays.capacity() * sizeof(Relay);
     }
 };
 
@@ -105,26 +105,25 @@ public:
           max_error_(options.max_error.value_or(default_max_error)),
           work_cap_(work_cap),
           placement_(surface, sites),
+          borders_(faces_near_borders(surface, corners, bounds)),
           bounds_(std::move(bounds.distance)),
-          borders_(faces_near_borders(surface, bounds.site)) {}
+          labels_(std::move(bounds.site)) {}
 
     Propagation run() {
         {
-            first_visitor_ = std::vector<std::atomic<Index>>(surface_.num_faces());
-            for (auto& visitor : first_visitor_) visitor.store(no_index, relaxed);
-
             WorkerPool workers(surface_, corners_, max_error_);
             result_.vertex_distance.assign(surface_.num_vertices(),
                                            std::numeric_limits<double>::infinity());
             result_.vertex_site.assign(surface_.num_vertices(), SiteId());
             result_.certified_error = 0;
             propagate_all(workers);
-            propagate_late(workers);
+            propagate_again(workers);
             result_.peak_bytes = corners_.bytes() + workers.bytes() +
-                                 bounds_.capacity() * sizeof(float) + common_bytes();
+                                 bounds_.capacity() * sizeof(float) +
+                                 labels_.capacity() * sizeof(Index) + common_bytes();
         }
         std::vector<float>().swap(bounds_);
-        std::vector<std::atomic<Index>>().swap(first_visitor_);
+        std::vector<Index>().swap(labels_);
         const std::size_t log_bytes = common_bytes();
         write_relays(surface_, placement_, std::move(logs_), options_.num_threads, result_);
         result_.peak_bytes =
@@ -135,20 +134,19 @@ public:
     }
 
 private:
-    static constexpr auto relaxed = std::memory_order_relaxed;
-
     [[nodiscard]] std::size_t common_bytes() const {
         std::size_t sum = result_.vertex_distance.capacity() * sizeof(double) +
-                          result_.vertex_site.capacity() * sizeof(SiteId) + borders_.capacity() +
-                          first_visitor_.capacity() * sizeof(Index);
+                          result_.vertex_site.capacity() * sizeof(SiteId) + borders_.capacity();
         for (const auto& log : logs_) sum += log.capacity() * sizeof(Relay);
         return sum;
     }
 
-    // Sites in the order of their faces: neighbours on most meshes, so that caches stay warm.
+    // In the order of their faces: neighbours on most meshes, so that caches stay warm.
+    [[nodiscard]] bool comes_before(Index a, Index b) const {
+        return sites_[a].face < sites_[b].face || (sites_[a].face == sites_[b].face && a < b);
+    }
     void sort_by_face(std::vector<Index>& sites) const {
-        std::stable_sort(sites.begin(), sites.end(),
-                         [&](Index a, Index b) { return sites_[a].face < sites_[b].face; });
+        std::sort(sites.begin(), sites.end(), [&](Index a, Index b) { return comes_before(a, b); });
     }
 
     void propagate_all(WorkerPool& workers) {
@@ -203,8 +201,7 @@ private:
             result_.num_nodes += task.num_windows;
             result_.certified_error = std::max(result_.certified_error, task.error);
             std::move(task.relays.begin(), task.relays.end(), std::back_inserter(logs_));
-            late_visits_.insert(late_visits_.end(), task.late_visits.begin(),
-                                task.late_visits.end());
+            strays_.insert(strays_.end(), task.strays.begin(), task.strays.end());
         }
         return tasks;
     }
@@ -217,17 +214,17 @@ private:
             const Index face = Surface::face(half_edge);
             if (borders_[face] != 0) {
                 for (const Window& w : windows) task.add(to_relay(w, site, half_edge));
-                return;
-            }
-            Index visitor = first_visitor_[face].load(relaxed);
-            if (visitor == no_index) {
-                first_visitor_[face].compare_exchange_strong(visitor, site, relaxed);
-            }
-            if (visitor != no_index && visitor != site) {
-                task.late_visits.push_back({face, site});
-                task.late_visits.push_back({face, visitor});
+            } else if (label_of(face) != site) {
+                for (const Window& w : windows) {
+                    task.strays.push_back(to_relay(w, site, half_edge));
+                }
             }
         });
+    }
+
+    // Of a face away from borders.
+    [[nodiscard]] Index label_of(Index face) const {
+        return labels_[surface_.mesh.triangles[face][0]];
     }
 
     // In the fixed order of the tasks: ties depend on nothing else.
@@ -241,44 +238,45 @@ private:
         }
     }
 
-    // Sites that came to a face where the bounds showed no border, and others did, too.
-    void propagate_late(WorkerPool& workers) {
-        for (Index face = 0; face < surface_.num_faces(); ++face) {
-            if (borders_[face] != 0 || has_one_site(face)) continue;
-            const Index visitor = first_visitor_[face].load(relaxed);
-            late_visits_.push_back({face, visitor});
-        }
-        for (const FaceVisit& visit : late_visits_) borders_[visit.face] = 1;
+    // Faces away from the borders of the bounds that are not their site's alone: what has strayed
+    // there is at hand, and their own sites run once more.
+    void propagate_again(WorkerPool& workers) {
+        std::vector<bool> is_late(surface_.num_faces(), false);
+        for (const Relay& stray : strays_) is_late[Surface::face(stray.half_edge)] = true;
         std::vector<Index> again;
-        for (const FaceVisit& visit : late_visits_) {
-            if (visit.site != no_index) again.push_back(visit.site);
+        for (Index face = 0; face < surface_.num_faces(); ++face) {
+            if (borders_[face] == 0 && !has_one_site(face)) is_late[face] = true;
+            if (is_late[face]) again.push_back(label_of(face));
         }
         std::sort(again.begin(), again.end());
         again.erase(std::unique(again.begin(), again.end()), again.end());
         sort_by_face(again);
-        std::vector<bool> is_late(surface_.num_faces(), false);
-        for (const FaceVisit& visit : late_visits_) is_late[visit.face] = true;
+        const auto num_strays = static_cast<std::ptrdiff_t>(strays_.size());
         (void)run_tasks(
             again, workers, [&](Index site, const WindowFront& front, TaskResult& task) {
                 front.for_each_half_edge([&](Index half_edge, std::span<const Window> windows) {
-                    if (!is_late[Surface::face(half_edge)]) return;
-                    for (const Window& w : windows) task.add(to_relay(w, site, half_edge));
+                    const Index face = Surface::face(half_edge);
+                    if (!is_late[face] || label_of(face) != site) return;
+                    for (const Window& w : windows) {
+                        task.strays.push_back(to_relay(w, site, half_edge));
+                    }
                 });
             });
+        std::inplace_merge(strays_.begin(), strays_.begin() + num_strays, strays_.end(),
+                           [&](const Relay& a, const Relay& b) {
+                               return comes_before(a.site.value(), b.site.value());
+                           });
+        logs_.push_back(std::move(strays_));
     }
 
     [[nodiscard]] bool has_one_site(Index face) const {
-        Index site = first_visitor_[face].load(relaxed);
-        const auto agrees = [&site](Index other) {
-            if (site == no_index) site = other;
-            return other == no_index || other == site;
-        };
+        const Index site = label_of(face);
         for (const Index v : surface_.mesh.triangles[face]) {
-            if (!agrees(result_.vertex_site[v].value())) return false;
+            if (result_.vertex_site[v].value() != site) return false;
         }
         const auto placed = placement_.in_face(face);
         return std::all_of(placed.begin(), placed.end(),
-                           [&](const PlacedSite& p) { return agrees(p.site); });
+                           [&](const PlacedSite& p) { return p.site == site; });
     }
 
     const Surface& surface_;
@@ -288,10 +286,10 @@ private:
     double max_error_;
     Index work_cap_;
     SitePlacement placement_;
-    std::vector<float> bounds_;                      // #V, of the nearest site.
-    std::vector<std::uint8_t> borders_;              // #F: 1 where windows are kept.
-    std::vector<std::atomic<Index>> first_visitor_;  // #F: of the other faces.
-    std::vector<FaceVisit> late_visits_;
+    std::vector<std::uint8_t> borders_;  // #F: 1 where all windows are kept.
+    std::vector<float> bounds_;          // #V, of the nearest site.
+    std::vector<Index> labels_;          // #V: whose the bounds are.
+    std::vector<Relay> strays_;          // As in TaskResult; then all that late faces have.
     std::vector<std::vector<Relay>> logs_;
     Propagation result_;
 };

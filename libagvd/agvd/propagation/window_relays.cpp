@@ -53,26 +53,6 @@ void write_inner_relays(const Surface& surface, std::span<const PlacedSite> plac
     }
 }
 
-std::vector<std::uint8_t> faces_near_borders(const Surface& surface,
-                                             std::span<const Index> vertex_site) {
-    const std::vector<Triangle>& triangles = surface.mesh.triangles;
-    std::vector<std::uint8_t> ring(surface.num_vertices(), 0);  // 1: at a border, 2: next to one.
-    const auto mark = [&](const Triangle& triangle, int bits) {
-        for (const Index v : triangle) ring[v] = static_cast<std::uint8_t>(ring[v] | bits);
-    };
-    for (const Triangle& t : triangles) {
-        const auto &a = vertex_site[t[0]], &b = vertex_site[t[1]], &c = vertex_site[t[2]];
-        mark(t, (a != b) | (b != c) ? 1 : 0);
-    }
-    for (const Triangle& t : triangles) mark(t, ((ring[t[0]] | ring[t[1]] | ring[t[2]]) & 1) << 1);
-    std::vector<std::uint8_t> faces;
-    faces.reserve(triangles.size());
-    for (const auto& [a, b, c] : triangles) {
-        faces.push_back((ring[a] | ring[b] | ring[c]) != 0 ? 1 : 0);
-    }
-    return faces;
-}
-
 void write_relays(const Surface& surface, const SitePlacement& placement,
                   std::vector<std::vector<Relay>> logs, int num_threads, Propagation& result) {
     const Index num_faces = surface.num_faces();

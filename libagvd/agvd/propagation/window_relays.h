@@ -8,17 +8,6 @@
 
 namespace agvd {
 
-//! A site whose windows came into a face.
-struct FaceVisit {
-    Index face;
-    Index site;
-};
-
-//! #F: 1 for the faces within two rings of a change of label. The labels come from bounds: the
-//! borders of exact distances lie near, on most faces.
-[[nodiscard]] std::vector<std::uint8_t> faces_near_borders(const Surface& surface,
-                                                           std::span<const Index> vertex_site);
-
 //! Weighted by the length of a real path.
 [[nodiscard]] inline Relay to_relay(const Window& window, Index site, Index half_edge) {
     return {window.x,     window.y, window.weight + window.error, window.begin, window.end,

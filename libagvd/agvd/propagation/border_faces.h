@@ -1,0 +1,23 @@
+//! \file
+//! The faces where labels may meet, guessed from quick bounds before any window runs.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "agvd/propagation/corners.h"
+#include "agvd/propagation/distance_bounds.h"
+
+namespace agvd {
+
+//! #F: 1 for the faces within two rings of a change of label, and for those nearer to one than a
+//! share of their distance from the site. The labels come from bounds: the borders of exact
+//! distances lie farther off on few faces.
+//!
+//! \param corners  Corners(surface).
+//! Cost: O(#F).
+[[nodiscard]] std::vector<std::uint8_t> faces_near_borders(const Surface& surface,
+                                                           const Corners& corners,
+                                                           const DistanceBounds& bounds);
+
+}  // namespace agvd
