@@ -154,11 +154,11 @@ TEST(MovingSites, AnEdgeSiteHidesItsLikeOfTheOtherFace) {
 // Moving sites keep all windows, a fresh run those where bounds tell of a border. Along slanted
 // needles the bounds are far off, so that windows come to faces deep in what seem cells of others.
 TEST(MovingSites, BordersFarFromWhereTheBoundsPutThemAreFresh) {
-    TriangleMesh mesh = shapes::grid(60);
-    for (Vec3& p : mesh.positions) p.x() += 6 * p.y();
+    TriangleMesh mesh = shapes::grid(100);
+    for (Vec3& p : mesh.positions) p.x() += 4 * p.y();
     const Surface surface = build_surface(mesh.view());
     const SurfaceLayout layout(surface);
-    for (const Index count : {2, 5}) {
+    for (const Index count : {2, 5, 20}) {
         const MovingSites moving(surface, layout, points::scattered(surface, count, count));
         for (const int num_threads : {1, 3}) {
             const Propagation fresh =
