@@ -22,7 +22,9 @@ class BoundsSearch {
 public:
     //! \param surface, graph  outlive the search; ArcGraph of the surface.
     //! \param mean_edge       > 0, mesh units; a matter of speed only.
-    BoundsSearch(const Surface& surface, const ArcGraph& graph, double mean_edge, int num_threads);
+    //! \param num_steps       as well; 0: as suits the graph.
+    BoundsSearch(const Surface& surface, const ArcGraph& graph, double mean_edge, int num_threads,
+                 Index num_steps = 0);
 
     //! Adds a site, whose paths the next run() follows.
     void add(const SurfacePoint& point, Index site);
@@ -47,19 +49,32 @@ public:
     [[nodiscard]] std::size_t bytes() const;
 
 private:
+    // What one task works with, and finds.
+    struct Chunk {
+        struct Waiting {
+            std::uint64_t key;  // Stale if the vertex has another one.
+            Index vertex;
+        };
+        std::vector<std::vector<Waiting>> steps;
+        std::vector<Index> beyond;  // Vertices lowered in later slabs.
+        std::vector<Index> changed;
+    };
+
     template <typename Each>
     void for_each_start(const SurfacePoint& point, const Each& each) const;
+    [[nodiscard]] Index steps_to(float distance) const;
     void queue(Index vertex);
     template <bool (*lower)(std::uint64_t&, std::uint64_t)>
-    void relax_arcs(Index vertex, std::vector<Index>& changed);
+    void search_slab(std::span<const Index> starts, Chunk& chunk);
 
     const Surface& surface_;
     const ArcGraph& graph_;
     int num_threads_;
-    float per_bucket_;
+    Index num_steps_;  // Of a slab.
+    float per_step_;
     std::vector<std::uint64_t> keys_;  // #V: distance and site.
-    std::vector<Index> queued_in_;     // #V: the bucket in which a vertex waits.
-    std::vector<std::vector<Index>> buckets_;
+    std::vector<Index> queued_in_;     // #V: the slab in which a vertex waits.
+    std::vector<std::vector<Index>> slabs_;
     Index current_ = 0;
     bool tracks_changes_ = false;  // From the first take_changes() on.
     std::vector<Index> changes_;
