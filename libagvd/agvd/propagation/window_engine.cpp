@@ -1,7 +1,6 @@
 #include "agvd/propagation/window_engine.h"
 
 #include <algorithm>
-#include <iterator>
 #include <memory>
 #include <mutex>
 #include <numeric>
@@ -9,6 +8,7 @@
 
 #include "agvd/core/parallel.h"
 #include "agvd/propagation/border_faces.h"
+#include "agvd/propagation/mixed_faces.h"
 #include "agvd/propagation/site_placement.h"
 #include "agvd/propagation/window_front.h"
 #include "agvd/propagation/window_relays.h"
@@ -29,19 +29,14 @@ struct TaskResult {
         Index site;
     };
     std::vector<Reached> vertices;
-    std::vector<std::vector<Relay>> relays;  // In faces near borders; in blocks, never copied.
-    std::vector<Relay> strays;               // In faces that the bounds give to another site.
+    std::vector<Relay> strays;  // In faces that the bounds give to another site.
+    RelayLogs relays;           // In faces near borders.
     std::size_t num_windows = 0;
     double error = 0;
 
-    void add(const Relay& relay) {
-        constexpr std::size_t block = 512;
-        if (relays.empty() || relays.back().size() == block) relays.emplace_back().reserve(block);
-        relays.back().push_back(relay);
-    }
+    // But for the relays, which are always handed over.
     void clear() {
         vertices.clear();
-        relays.clear();
         strays.clear();
         num_windows = 0;
         error = 0;
@@ -66,8 +61,10 @@ public:
     std::unique_ptr<Worker> take() {
         const std::scoped_lock lock(mutex_);
         if (free_.empty()) {
-            return std::make_unique<Worker>(
-                Worker{WindowFront(surface_, corners_, max_error_), {}});
+            auto worker =
+                std::make_unique<Worker>(Worker{WindowFront(surface_, corners_, max_error_), {}});
+            worker->result.relays = RelayLogs(surface_.num_faces());
+            return worker;
         }
         auto worker = std::move(free_.back());
         free_.pop_back();
@@ -107,7 +104,8 @@ public:
           placement_(surface, sites),
           borders_(faces_near_borders(surface, corners, bounds)),
           bounds_(std::move(bounds.distance)),
-          labels_(std::move(bounds.site)) {}
+          labels_(std::move(bounds.site)),
+          logs_(surface.num_faces()) {}
 
     Propagation run() {
         {
@@ -125,7 +123,7 @@ public:
         std::vector<float>().swap(bounds_);
         std::vector<Index>().swap(labels_);
         const std::size_t log_bytes = common_bytes();
-        write_relays(surface_, placement_, std::move(logs_), options_.num_threads, result_);
+        write_mixed_faces(surface_, placement_, std::move(logs_), options_.num_threads, result_);
         result_.peak_bytes =
             std::max(result_.peak_bytes, log_bytes + result_.relays.capacity() * sizeof(Relay) +
                                              result_.mixed_faces.capacity() * 3 * sizeof(Index));
@@ -137,8 +135,7 @@ private:
     [[nodiscard]] std::size_t common_bytes() const {
         std::size_t sum = result_.vertex_distance.capacity() * sizeof(double) +
                           result_.vertex_site.capacity() * sizeof(SiteId) + borders_.capacity();
-        for (const auto& log : logs_) sum += log.capacity() * sizeof(Relay);
-        return sum;
+        return sum + logs_.bytes();
     }
 
     // In the order of their faces: neighbours on most meshes, so that caches stay warm.
@@ -168,14 +165,13 @@ private:
 
     // Without spare room.
     [[nodiscard]] static TaskResult hand_over(TaskResult& grown) {
-        auto relays = std::exchange(grown.relays, {});
-        if (!relays.empty()) relays.back().shrink_to_fit();
+        RelayLogs relays = grown.relays.hand_over();
         TaskResult result = grown;
         result.relays = std::move(relays);
         return result;
     }
 
-    // Runs sites in tasks of equal size, and keeps the relays and late visits of each.
+    // Runs sites in tasks of equal size, and keeps the relays of each.
     template <typename Collect>
     std::vector<TaskResult> run_tasks(std::span<const Index> order, WorkerPool& workers,
                                       const Collect& collect) {
@@ -200,7 +196,7 @@ private:
         for (TaskResult& task : tasks) {
             result_.num_nodes += task.num_windows;
             result_.certified_error = std::max(result_.certified_error, task.error);
-            std::move(task.relays.begin(), task.relays.end(), std::back_inserter(logs_));
+            logs_.append(std::move(task.relays));
             strays_.insert(strays_.end(), task.strays.begin(), task.strays.end());
         }
         return tasks;
@@ -213,7 +209,7 @@ private:
         front.for_each_half_edge([&](Index half_edge, std::span<const Window> windows) {
             const Index face = Surface::face(half_edge);
             if (borders_[face] != 0) {
-                for (const Window& w : windows) task.add(to_relay(w, site, half_edge));
+                for (const Window& w : windows) task.relays.add(to_relay(w, site, half_edge));
             } else if (label_of(face) != site) {
                 for (const Window& w : windows) {
                     task.strays.push_back(to_relay(w, site, half_edge));
@@ -266,7 +262,7 @@ private:
                            [&](const Relay& a, const Relay& b) {
                                return comes_before(a.site.value(), b.site.value());
                            });
-        logs_.push_back(std::move(strays_));
+        for (const Relay& stray : strays_) logs_.add(stray);
     }
 
     [[nodiscard]] bool has_one_site(Index face) const {
@@ -290,7 +286,7 @@ private:
     std::vector<float> bounds_;          // #V, of the nearest site.
     std::vector<Index> labels_;          // #V: whose the bounds are.
     std::vector<Relay> strays_;          // As in TaskResult; then all that late faces have.
-    std::vector<std::vector<Relay>> logs_;
+    RelayLogs logs_;
     Propagation result_;
 };
 

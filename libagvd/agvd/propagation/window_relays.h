@@ -1,5 +1,5 @@
 //! \file
-//! From the windows of all sites to the relays of the faces that may hold more than one label.
+//! The relays that a face has: from the windows that came into it, and from what lies in it.
 #pragma once
 
 #include "agvd/propagation/relays.h"
@@ -35,12 +35,5 @@ struct FaceRelays {
 //! \param out  room for as many as count_inner_relays says.
 void write_inner_relays(const Surface& surface, std::span<const PlacedSite> placed,
                         const Propagation& result, Index face, Relay* out);
-
-//! Writes the mixed faces and their relays into `result`, whose vertices are final: the faces with
-//! windows, corners or sites inside of more than one site.
-//!
-//! \param logs  windows of every face that may be mixed; consumed. Relays keep their order.
-void write_relays(const Surface& surface, const SitePlacement& placement,
-                  std::vector<std::vector<Relay>> logs, int num_threads, Propagation& result);
 
 }  // namespace agvd

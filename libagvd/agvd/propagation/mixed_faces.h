@@ -1,0 +1,18 @@
+//! \file
+//! From the windows of all sites to the relays of the faces that may hold more than one label.
+#pragma once
+
+#include "agvd/propagation/relay_logs.h"
+#include "agvd/propagation/site_placement.h"
+
+namespace agvd {
+
+//! Writes the mixed faces and their relays into `result`, whose vertices are final: the faces with
+//! windows, corners or sites inside of more than one site.
+//!
+//! \param logs  windows of every face that may be mixed; consumed. Relays keep their order.
+//! Cost: O(#F + relays).
+void write_mixed_faces(const Surface& surface, const SitePlacement& placement, RelayLogs logs,
+                       int num_threads, Propagation& result);
+
+}  // namespace agvd

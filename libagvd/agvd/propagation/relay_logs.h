@@ -1,0 +1,75 @@
+//! \file
+//! Relays on their way from the runs of sites to their faces.
+#pragma once
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include "agvd/propagation/relays.h"
+
+namespace agvd {
+
+//! Relays in the order in which they came, apart for each range of faces: small enough that what is
+//! kept of its faces stays in the cache, and that ranges can be taken side by side.
+class RelayLogs {
+public:
+    static constexpr Index faces_of_a_range = 1 << 15;
+
+    RelayLogs() = default;  // For none.
+    explicit RelayLogs(Index num_faces) : ranges_(num_faces / faces_of_a_range + 1) {}
+
+    void add(const Relay& relay) {
+        Blocks& blocks = ranges_[relay.half_edge / (3 * faces_of_a_range)];
+        if (blocks.empty() || blocks.back().size() == block_size)
+            blocks.emplace_back().reserve(block_size);
+        blocks.back().push_back(relay);
+    }
+    //! Takes all away, without spare room.
+    [[nodiscard]] RelayLogs hand_over() {
+        RelayLogs result;
+        for (Blocks& blocks : ranges_) {
+            if (!blocks.empty()) blocks.back().shrink_to_fit();
+        }
+        result.ranges_ = std::exchange(ranges_, std::vector<Blocks>(ranges_.size()));
+        return result;
+    }
+    //! Puts those of the same faces behind what is there.
+    void append(RelayLogs&& other) {
+        for (std::size_t r = 0; r < ranges_.size(); ++r) {
+            std::move(other.ranges_[r].begin(), other.ranges_[r].end(),
+                      std::back_inserter(ranges_[r]));
+        }
+    }
+
+    [[nodiscard]] Index num_ranges() const { return static_cast<Index>(ranges_.size()); }
+    //! Calls each(relays) for one block of a range after the other.
+    template <typename Each>
+    void for_each_block(Index range, const Each& each) const {
+        for (const auto& block : ranges_[range]) each(block);
+    }
+    //! The same, and gives back the memory of each when it is done.
+    template <typename Each>
+    void consume_blocks(Index range, const Each& each) {
+        for (auto& block : ranges_[range]) {
+            each(block);
+            std::vector<Relay>().swap(block);
+        }
+    }
+    [[nodiscard]] std::size_t bytes() const {
+        std::size_t sum = 0;
+        for (const Blocks& blocks : ranges_) {
+            for (const auto& block : blocks) sum += block.capacity() * sizeof(Relay);
+        }
+        return sum;
+    }
+
+private:
+    static constexpr std::size_t block_size = 256;
+    using Blocks = std::vector<std::vector<Relay>>;  // Never copied as they become more.
+
+    std::vector<Blocks> ranges_;
+};
+
+}  // namespace agvd
