@@ -73,11 +73,12 @@ Relaxation::Relaxation(const agvd::Surface& surface, std::vector<SurfacePoint> s
 void Relaxation::take_triangles(std::vector<agvd::Triangle> triangles) {
     mesh_ = build_site_mesh(std::move(triangles), static_cast<Index>(sites_.size()));
     find_stuck();
-    measure();
+    measure_energy(mesh_, at_, weight_, now_);
     for (int round = 0; round < most_flip_rounds; ++round) {
         if (flip_towards_delaunay(mesh_, at_, now_.cotangent) == 0) break;
-        measure();
+        measure_energy(mesh_, at_, weight_, now_);
     }
+    find_turned(mesh_, at_, facing_, turned_);
 }
 
 void Relaxation::find_stuck() {
@@ -96,7 +97,8 @@ void Relaxation::mend(const std::vector<agvd::Triangle>& triangles) {
     if (num_flaws() < flaws) return;
     mesh_ = std::move(before);
     find_stuck();
-    measure();
+    measure_energy(mesh_, at_, weight_, now_);
+    find_turned(mesh_, at_, facing_, turned_);
 }
 
 void Relaxation::move_to_boundary(std::span<const std::optional<SurfacePoint>> places) {
@@ -191,11 +193,6 @@ void Relaxation::locate(Index i) {
     facing_[i] = (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).normalized();
     at_[i] = agvd::position(surface_.mesh.view(), sites_[i]);
     boundary_[i] = boundary_half_edge(surface_, sites_[i]).value_or(no_index);
-}
-
-void Relaxation::measure() {
-    measure_energy(mesh_, at_, weight_, now_);
-    find_turned(mesh_, at_, facing_, turned_);
 }
 
 void Relaxation::choose_moves() {

@@ -65,7 +65,6 @@ private:
     void find_stuck();
     void take_triangles(std::vector<agvd::Triangle> triangles);
     void locate(agvd::Index i);
-    void measure();
     void choose_moves();
     void walk();
     void take_back(const std::vector<agvd::SurfacePoint>& sites_before,
