@@ -7,9 +7,7 @@
 #include <string>
 
 #include "agvd/core/parallel.h"
-#include "agvd/mesh/distinct_points.h"
-#include "agvd/propagation/arc_graph.h"
-#include "agvd/propagation/distance_bounds.h"
+#include "agvd/propagation/numbered_sites.h"
 #include "agvd/propagation/option_checks.h"
 #include "agvd/propagation/relay_store.h"
 #include "agvd/propagation/site_placement.h"
@@ -35,15 +33,6 @@ struct Patch {
     Index first, count;
 };
 
-struct Source {
-    SurfacePoint point;
-    PlaceOnSurface place;
-    bool is_removed = false;
-    bool is_repeat = false;  // Lies where an earlier one does, and so owns nothing.
-
-    [[nodiscard]] bool is_silent() const { return is_removed || is_repeat; }
-};
-
 // Of the sites of one task, one after the other.
 struct ChunkChanges {
     struct End {
@@ -66,8 +55,7 @@ struct CollectedFaces {
 
 }  // namespace
 
-// Sites are known here by numbers that never change; those of the caller are their ranks among the
-// sites that are left.
+// Sites are known here by the numbers of NumberedSites.
 class MovingSites::State {
 public:
     State(const Surface& surface, const SurfaceLayout& layout, std::vector<SurfacePoint> sites,
@@ -76,9 +64,7 @@ public:
           corners_(layout.corners()),
           num_threads_(options.num_threads),
           max_error_(options.max_error.value_or(default_max_error)),
-          search_(surface, layout.arcs(), corners_.mean_length(), options.num_threads),
-          bounds_(surface.num_vertices(), std::numeric_limits<float>::infinity()),
-          starting_at_(surface.num_vertices()),
+          sites_(surface, layout, options.num_threads),
           readers_(surface.num_vertices()),
           is_listed_(surface.num_vertices(), 0),
           placement_(surface, {}),
@@ -87,21 +73,17 @@ public:
         result_.vertex_site.assign(surface.num_vertices(), SiteId());
         result_.vertex_distance.assign(surface.num_vertices(),
                                        std::numeric_limits<double>::infinity());
-        (void)search_.take_changes();
         update({.moved = {}, .removed = {}, .added = std::move(sites)});
     }
 
     void update(const SiteChanges& changes) {
-        std::vector<SurfacePoint> sites = changed_sites(changes);
-
-        change_search(changes);
-        sites_ = std::move(sites);
-        renumber();
+        sites_.change(changes);
+        runs_.resize(sites_.count());
         if (!changes.removed.empty()) renumber_result();
-        if (num_placed_ > 0 || !placement_.is_empty()) placement_ = {surface_, sites_};
+        if (sites_.has_placed() || !placement_.is_empty()) placement_ = {surface_, sites()};
         const std::vector<Index> dirty = find_dirty();
         num_propagated_ = static_cast<Index>(std::count_if(
-            dirty.begin(), dirty.end(), [&](Index site) { return !sources_[site].is_silent(); }));
+            dirty.begin(), dirty.end(), [&](Index site) { return !sites_.is_silent(site); }));
         propagate(dirty);
 
         take_changes(dirty);
@@ -112,144 +94,36 @@ public:
         tell_totals();
     }
 
-    [[nodiscard]] const std::vector<SurfacePoint>& sites() const { return sites_; }
+    [[nodiscard]] const std::vector<SurfacePoint>& sites() const { return sites_.points(); }
     [[nodiscard]] const Propagation& propagation() const { return result_; }
     [[nodiscard]] Index num_propagated() const { return num_propagated_; }
     [[nodiscard]] const std::vector<Index>& changed_faces() const { return changed_faces_; }
 
 private:
-    [[nodiscard]] std::vector<SurfacePoint> changed_sites(const SiteChanges& changes) const {
-        const auto count = static_cast<Index>(sites_.size());
-        std::vector<bool> is_named(count, false);
-        const auto name = [&](Index site) {
-            if (site >= count || is_named[site]) {
-                throw InvalidInput("site " + std::to_string(site) +
-                                   (site >= count ? " does not exist; there are " +
-                                                        std::to_string(count) + " sites"
-                                                  : " is changed twice; name it once"));
-            }
-            is_named[site] = true;
-        };
-        std::vector<SurfacePoint> sites = sites_;
-        for (const auto& [site, point] : changes.moved) {
-            name(site);
-            sites[site] = point;
-        }
-        for (const Index site : changes.removed) name(site);
-        std::vector<bool> is_removed(count, false);
-        for (const Index site : changes.removed) is_removed[site] = true;
-        std::vector<SurfacePoint> result;
-        for (Index s = 0; s < count; ++s) {
-            if (!is_removed[s]) result.push_back(sites[s]);
-        }
-        result.insert(result.end(), changes.added.begin(), changes.added.end());
-        check_sites(surface_, result);
-        return result;
-    }
-
-    [[nodiscard]] bool is_placed(Index site) const {  // Not at a vertex.
-        return sources_[site].place.element >= surface_.num_vertices();
-    }
-
-    // Brings the search for bounds up to date, and marks the sites that changed.
-    void change_search(const SiteChanges& changes) {
-        site_faces_.clear();
-        is_changed_.assign(sources_.size(), 0);
-        std::vector<Index> starts;  // Of the sites that changed, before and after.
-        const auto take_out = [&](Index site) {
-            is_changed_[site] = 1;
-            num_placed_ -= is_placed(site) ? 1 : 0;
-            add_faces_of(sources_[site].point);
-            for (const Index v : search_.starts_of(sources_[site].point)) {
-                std::erase(starting_at_[v], site);
-                starts.push_back(v);
-            }
-        };
-        const auto put_in = [&](Index site, const SurfacePoint& point) {
-            sources_[site].point = point;
-            sources_[site].place = place_of(surface_, point);
-            num_placed_ += is_placed(site) ? 1 : 0;
-            add_faces_of(point);
-            for (const Index v : search_.starts_of(point)) {
-                std::vector<Index>& sites = starting_at_[v];  // An edge names its ends twice.
-                if (sites.empty() || sites.back() != site) sites.push_back(site);
-                starts.push_back(v);
-            }
-            search_.add(point, site);
-        };
-        for (const auto& [site, point] : changes.moved) take_out(numbers_[site]);
-        for (const Index site : changes.removed) {
-            take_out(numbers_[site]);
-            sources_[numbers_[site]].is_removed = true;
-        }
-        for (const Index v : search_.remove(is_changed_)) {
-            for (const Index site : starting_at_[v]) search_.add(sources_[site].point, site);
-        }
-        for (const auto& [site, point] : changes.moved) put_in(numbers_[site], point);
-        for (const SurfacePoint& point : changes.added) {
-            const auto site = static_cast<Index>(sources_.size());
-            sources_.emplace_back();
-            runs_.emplace_back();
-            is_changed_.push_back(1);
-            put_in(site, point);
-        }
-        for (const Index v : starts) find_repeats(starting_at_[v]);
-        search_.run();
-    }
-
-    // Among sites that start at one vertex; those that lie on one another do.
-    void find_repeats(std::vector<Index>& sites) {
-        std::sort(sites.begin(), sites.end(), [&](Index a, Index b) {
-            return std::pair(sources_[a].place, a) < std::pair(sources_[b].place, b);
-        });
-        for (std::size_t i = 0; i < sites.size(); ++i) {
-            Source& source = sources_[sites[i]];
-            const bool is_repeat = i > 0 && sources_[sites[i - 1]].place == source.place;
-            if (std::exchange(source.is_repeat, is_repeat) == is_repeat) continue;
-            is_changed_[sites[i]] = 1;
-            add_faces_of(source.point);
-        }
-    }
-
     // Those that changed and those that have read a bound that is another now, in the order of
     // propagate().
-    [[nodiscard]] std::vector<Index> find_dirty() {
+    [[nodiscard]] std::vector<Index> find_dirty() const {
+        std::vector<std::uint8_t> is_dirty = sites_.is_changed();
         std::vector<Index> dirty;
-        for (Index site = 0; site < is_changed_.size(); ++site) {
-            if (is_changed_[site] != 0) dirty.push_back(site);
+        for (Index site = 0; site < is_dirty.size(); ++site) {
+            if (is_dirty[site] != 0) dirty.push_back(site);
         }
-        std::vector<std::uint8_t> is_dirty = is_changed_;
-        for (const Index v : search_.take_changes()) {
-            if (bounds_[v] == search_.distance(v)) continue;
-            bounds_[v] = search_.distance(v);
+        for (const Index v : sites_.changed_bounds()) {
             for (const Reader& reader : readers_[v]) {
                 if (std::exchange(is_dirty[reader.site], 1) == 0) dirty.push_back(reader.site);
             }
         }
-        std::sort(dirty.begin(), dirty.end(), [&](Index a, Index b) { return comes_before(a, b); });
+        std::sort(dirty.begin(), dirty.end(),
+                  [&](Index a, Index b) { return sites_.comes_before(a, b); });
         return dirty;
     }
 
-    void renumber() {
-        numbers_.clear();
-        ranks_.assign(sources_.size(), no_index);
-        for (Index n = 0; n < sources_.size(); ++n) {
-            if (sources_[n].is_removed) continue;
-            ranks_[n] = static_cast<Index>(numbers_.size());
-            numbers_.push_back(n);
-        }
-    }
-
-    // Ranks stay in order, so that a table of the old ones is enough.
     void renumber_result() {
-        std::vector<SiteId> new_rank;
-        for (Index n = 0; n < old_ranks_.size(); ++n) {
-            if (old_ranks_[n] != no_index) new_rank.push_back(SiteId(ranks_[n]));
-        }
+        const std::vector<SiteId>& new_ranks = sites_.new_ranks();
         for (SiteId& site : result_.vertex_site) {
-            if (site.is_valid()) site = new_rank[site.value()];
+            if (site.is_valid()) site = new_ranks[site.value()];
         }
-        store_.renumber_sites(new_rank, result_);
+        store_.renumber_sites(new_ranks, result_);
     }
 
     void propagate(std::span<const Index> sites) {
@@ -271,11 +145,11 @@ private:
             out.ends.clear();
             for (Index i = begin; i < end; ++i) {
                 const Index site = sites[i];
-                if (sources_[site].is_silent()) {
+                if (sites_.is_silent(site)) {
                     forget_run(runs_[site], out.changes);
                 } else {
-                    front->run(sources_[site].point, bounds_, default_work_cap);
-                    replace_run(*front, is_changed_[site] != 0, runs_[site], out.changes);
+                    front->run(sites_.point(site), sites_.bounds(), default_work_cap);
+                    replace_run(*front, sites_.is_changed()[site] != 0, runs_[site], out.changes);
                 }
                 out.ends.push_back({static_cast<Index>(out.changes.vertices.size()),
                                     static_cast<Index>(out.changes.faces.size())});
@@ -322,25 +196,19 @@ private:
         }
     }
 
-    // In the order in which propagate() takes sites in.
-    [[nodiscard]] bool comes_before(Index a, Index b) const {
-        const FaceId face = sources_[a].point.face;
-        const FaceId other = sources_[b].point.face;
-        return face < other || (face == other && a < b);
-    }
-
     // False if nothing changes.
     [[nodiscard]] bool settle_vertex(Index v) {
         std::vector<Reader>& readers = readers_[v];
-        std::sort(readers.begin(), readers.end(),
-                  [&](const Reader& a, const Reader& b) { return comes_before(a.site, b.site); });
+        std::sort(readers.begin(), readers.end(), [&](const Reader& a, const Reader& b) {
+            return sites_.comes_before(a.site, b.site);
+        });
         double best = std::numeric_limits<double>::infinity();
         Index best_site = no_index;
         for (const auto& [number, distance] : readers) {
             if (!(distance < std::numeric_limits<double>::infinity())) continue;
-            if (!is_nearer(distance, ranks_[number], best, best_site)) continue;
+            if (!is_nearer(distance, sites_.rank(number), best, best_site)) continue;
             best = distance;
-            best_site = ranks_[number];
+            best_site = sites_.rank(number);
         }
         const SiteId site(best_site);
         if (result_.vertex_distance[v] == best && result_.vertex_site[v] == site) return false;
@@ -355,7 +223,7 @@ private:
         const auto add = [&](Index face) {
             if (std::exchange(place_[face], 0) == no_index) changed_faces_.push_back(face);
         };
-        for (const Index face : site_faces_) add(face);
+        for (const Index face : sites_.changed_faces()) add(face);
         for (const Patch& patch : patches_) add(patch.face);
         for (const Index v : vertices_) {
             const Index first = surface_.outgoing[v];
@@ -366,14 +234,6 @@ private:
             }
         }
         std::sort(changed_faces_.begin(), changed_faces_.end());
-    }
-
-    void add_faces_of(const SurfacePoint& point) {
-        site_faces_.push_back(point.face.value());
-        const auto half_edge = half_edge_of(point);
-        if (half_edge && corners_.twin(*half_edge) != no_index) {
-            site_faces_.push_back(Surface::face(corners_.twin(*half_edge)));
-        }
     }
 
     // By face; those to one face keep their order.
@@ -408,7 +268,7 @@ private:
         const auto append_patch = [&] {
             append(std::span(changes_[patch->chunk].changes.relays)
                        .subspan(patch->first, patch->count),
-                   ranks_[patch->site]);
+                   sites_.rank(patch->site));
             ++patch;
         };
         const std::size_t begin = out.relays.size();
@@ -418,12 +278,12 @@ private:
             std::size_t count = 1;
             while (count < old.size() && old[count].site == site) ++count;
             if (site.is_valid()) {  // Else it was removed.
-                const Index number = numbers_[site.value()];
+                const Index number = sites_.number(site.value());
                 const auto is_patched =
                     std::any_of(patches.begin(), patches.end(),
                                 [&](const Patch& p) { return p.site == number; });
                 if (!is_patched) {
-                    while (patch != patches.end() && comes_before(patch->site, number)) {
+                    while (patch != patches.end() && sites_.comes_before(patch->site, number)) {
                         append_patch();
                     }
                     append(old.first(count), site.value());
@@ -490,7 +350,6 @@ private:
     }
 
     void tell_totals() {
-        old_ranks_ = ranks_;
         result_.certified_error = 0;
         result_.num_nodes = 0;
         for (const SiteRun& run : runs_) {
@@ -505,19 +364,10 @@ private:
     const Corners& corners_;
     int num_threads_;
     double max_error_;
-    BoundsSearch search_;
-    std::vector<float> bounds_;                    // #V
-    std::vector<std::vector<Index>> starting_at_;  // #V: the sites whose paths start at a vertex.
-    std::vector<std::vector<Reader>> readers_;     // #V: the sites whose runs came to a vertex.
-    std::vector<Source> sources_;                  // By number, as the next two.
-    std::vector<SiteRun> runs_;
-    std::vector<std::uint8_t> is_changed_;  // By the last change itself.
-    std::vector<Index> numbers_;            // By rank.
-    std::vector<Index> ranks_, old_ranks_;  // By number; no_index: removed.
-    std::vector<SurfacePoint> sites_;       // By rank.
-    std::vector<Index> site_faces_;         // Where changed sites were and are.
-    std::vector<std::uint8_t> is_listed_;   // #V: 0 but while vertices are listed.
-    Index num_placed_ = 0;                  // Sites that do not lie at vertices.
+    NumberedSites sites_;
+    std::vector<std::vector<Reader>> readers_;  // #V: the sites whose runs came to a vertex.
+    std::vector<SiteRun> runs_;                 // By number.
+    std::vector<std::uint8_t> is_listed_;       // #V: 0 but while vertices are listed.
     SitePlacement placement_;
     std::vector<Index> place_;  // #F: no_index but while faces are listed.
     std::vector<std::unique_ptr<WindowFront>> fronts_;
