@@ -10,6 +10,7 @@
 #include "agvd/mesh/point_faces.h"
 #include "support/checks.h"
 #include "support/points.h"
+#include "support/random_meshes.h"
 #include "support/shapes.h"
 
 using namespace agvd;
@@ -71,7 +72,6 @@ TEST(WindowEngine, PathsTurnAtReflexCorners) {
     EXPECT_GT(turned, 10);
 }
 
-// Several sites in each face: more sites than faces.
 // Where rounding hides on which side of the vertex the site lies.
 TEST(WindowEngine, ASiteBesideAVertexSeesAllAround) {
     for (const TriangleMesh& mesh : {shapes::jitter(shapes::grid(6), 0.02, 5), shapes::sphere(2)}) {
@@ -88,6 +88,32 @@ TEST(WindowEngine, ASiteBesideAVertexSeesAllAround) {
                     for (Index v = 0; v < s.num_vertices(); ++v) {
                         EXPECT_NEAR(p.vertex_distance[v], at.vertex_distance[v], 1e-10) << v;
                     }
+                }
+            }
+        }
+    }
+}
+
+// Where it hides on which side of the vertex a beam passes: one along the boundary must not miss
+// the next vertex of it.
+TEST(WindowEngine, ASiteOnAnEdgeNearAVertexReachesAllThatTheVertexReaches) {
+    const char* const family = "reflex_boundary";
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const Surface s = build_surface(random_meshes::make(family, seed).view());
+        for (Index h = 0; h < 3 * s.num_faces(); h += 5) {
+            const Index vertex = s.tail(h);
+            const Propagation at = exact(s, std::vector{point_at(s, vertex)});
+            for (const double beside : {3e-7, 2e-6, 9e-6}) {
+                SurfacePoint site{FaceId(Surface::face(h)), {0, 0, 0}};
+                site.barycentric[h % 3] = 1 - beside;
+                site.barycentric[(h + 1) % 3] = beside;
+                const Propagation p = exact(s, std::vector{site});
+                for (Index v = 0; v < s.num_vertices(); ++v) {
+                    if (at.vertex_distance[v] == p.vertex_distance[v]) continue;  // Infinity, too.
+                    EXPECT_NEAR(p.vertex_distance[v], at.vertex_distance[v],
+                                beside * s.length_of(h) + 1e-9 * at.vertex_distance[v])
+                        << "from beside " << vertex << " to " << v;
                 }
             }
         }
@@ -146,6 +172,7 @@ TEST(WindowEngine, LongWaysOverThinRowsArriveEverywhere) {
     }
 }
 
+// Several sites in each face.
 TEST(WindowEngine, MoreSitesThanFaces) {
     const Surface s = build_surface(shapes::cube().view());
     const auto sites = points::scattered(s, 60, 8);
