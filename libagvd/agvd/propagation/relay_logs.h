@@ -22,8 +22,9 @@ public:
 
     void add(const Relay& relay) {
         Blocks& blocks = ranges_[relay.half_edge / (3 * faces_of_a_range)];
-        if (blocks.empty() || blocks.back().size() == block_size)
+        if (blocks.empty() || blocks.back().size() == block_size) {
             blocks.emplace_back().reserve(block_size);
+        }
         blocks.back().push_back(relay);
     }
     //! Takes all away, without spare room.

@@ -242,7 +242,8 @@ private:
         std::vector<Index> again;
         for (Index face = 0; face < surface_.num_faces(); ++face) {
             if (borders_[face] == 0 && !has_one_site(face)) is_late[face] = true;
-            if (is_late[face]) again.push_back(label_of(face));
+            const Index site = label_of(face);
+            if (is_late[face] && site != no_index) again.push_back(site);
         }
         std::sort(again.begin(), again.end());
         again.erase(std::unique(again.begin(), again.end()), again.end());
