@@ -58,7 +58,7 @@ private:
     }
 
     void count(Index range) {
-        logs_.for_each_block(range, [&](const std::vector<Relay>& block) {
+        for (const std::vector<Relay>& block : logs_.blocks(range)) {
             for_each_relay(
                 block, [&](Index face) { __builtin_prefetch(&faces_[face], 1); },
                 [&](const Relay& relay) {
@@ -66,7 +66,7 @@ private:
                     ++face.count;
                     face.add_site(relay.site.value());
                 });
-        });
+        }
         Begin& own = begins_[range + 1];
         for (Index f = range * RelayLogs::faces_of_a_range; f < end_of(range); ++f) {
             FaceRelays& face = faces_[f];
@@ -95,7 +95,7 @@ private:
             result_.mixed_faces[end] = f;
             result_.relay_ranges[end++] = {begin, relays_end};
         }
-        logs_.consume_blocks(range, [&](const std::vector<Relay>& block) {
+        for (std::vector<Relay>& block : logs_.blocks(range)) {
             for_each_relay(
                 block,
                 [&](Index face) {
@@ -106,7 +106,8 @@ private:
                     FaceRelays& face = faces_[Surface::face(relay.half_edge)];
                     if (face.site == FaceRelays::several) result_.relays[face.count++] = relay;
                 });
-        });
+            std::vector<Relay>().swap(block);
+        }
         for (Index i = first; i < end; ++i) {
             const Index f = result_.mixed_faces[i];
             write_inner_relays(surface_, placement_.in_face(f), result_, f,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -45,19 +46,8 @@ public:
     }
 
     [[nodiscard]] Index num_ranges() const { return static_cast<Index>(ranges_.size()); }
-    //! Calls each(relays) for one block of a range after the other.
-    template <typename Each>
-    void for_each_block(Index range, const Each& each) const {
-        for (const auto& block : ranges_[range]) each(block);
-    }
-    //! The same, and gives back the memory of each when it is done.
-    template <typename Each>
-    void consume_blocks(Index range, const Each& each) {
-        for (auto& block : ranges_[range]) {
-            each(block);
-            std::vector<Relay>().swap(block);
-        }
-    }
+    //! The relays of a range, block after block; to be given back one by one.
+    [[nodiscard]] std::span<std::vector<Relay>> blocks(Index range) { return ranges_[range]; }
     [[nodiscard]] std::size_t bytes() const {
         std::size_t sum = 0;
         for (const Blocks& blocks : ranges_) {

@@ -34,6 +34,9 @@ struct TaskResult {
     std::size_t num_windows = 0;
     double error = 0;
 
+    void add_strays(std::span<const Window> windows, Index site, Index half_edge) {
+        for (const Window& w : windows) strays.push_back(to_relay(w, site, half_edge));
+    }
     // But for the relays, which are always handed over.
     void clear() {
         vertices.clear();
@@ -211,9 +214,7 @@ private:
             if (borders_[face] != 0) {
                 for (const Window& w : windows) task.relays.add(to_relay(w, site, half_edge));
             } else if (label_of(face) != site) {
-                for (const Window& w : windows) {
-                    task.strays.push_back(to_relay(w, site, half_edge));
-                }
+                task.add_strays(windows, site, half_edge);
             }
         });
     }
@@ -241,22 +242,19 @@ private:
         for (const Relay& stray : strays_) is_late[Surface::face(stray.half_edge)] = true;
         std::vector<Index> again;
         for (Index face = 0; face < surface_.num_faces(); ++face) {
-            if (borders_[face] == 0 && !has_one_site(face)) is_late[face] = true;
-            const Index site = label_of(face);
-            if (is_late[face] && site != no_index) again.push_back(site);
+            if (borders_[face] != 0) continue;  // Nothing strays there.
+            if (!has_one_site(face)) is_late[face] = true;
+            if (is_late[face] && label_of(face) != no_index) again.push_back(label_of(face));
         }
-        std::sort(again.begin(), again.end());
-        again.erase(std::unique(again.begin(), again.end()), again.end());
         sort_by_face(again);
+        again.erase(std::unique(again.begin(), again.end()), again.end());
         const auto num_strays = static_cast<std::ptrdiff_t>(strays_.size());
         (void)run_tasks(
             again, workers, [&](Index site, const WindowFront& front, TaskResult& task) {
                 front.for_each_half_edge([&](Index half_edge, std::span<const Window> windows) {
                     const Index face = Surface::face(half_edge);
                     if (!is_late[face] || label_of(face) != site) return;
-                    for (const Window& w : windows) {
-                        task.strays.push_back(to_relay(w, site, half_edge));
-                    }
+                    task.add_strays(windows, site, half_edge);
                 });
             });
         std::inplace_merge(strays_.begin(), strays_.begin() + num_strays, strays_.end(),
@@ -264,6 +262,7 @@ private:
                                return comes_before(a.site.value(), b.site.value());
                            });
         for (const Relay& stray : strays_) logs_.add(stray);
+        std::vector<Relay>().swap(strays_);
     }
 
     [[nodiscard]] bool has_one_site(Index face) const {
@@ -286,7 +285,7 @@ private:
     std::vector<std::uint8_t> borders_;  // #F: 1 where all windows are kept.
     std::vector<float> bounds_;          // #V, of the nearest site.
     std::vector<Index> labels_;          // #V: whose the bounds are.
-    std::vector<Relay> strays_;          // As in TaskResult; then all that late faces have.
+    std::vector<Relay> strays_;  // As in TaskResult; then all that late faces have; then none.
     RelayLogs logs_;
     Propagation result_;
 };
