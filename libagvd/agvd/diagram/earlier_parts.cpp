@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+#include "agvd/mesh/one_ring.h"
+
 namespace agvd {
 
 EarlierParts::EarlierParts(const Surface& surface, const DiagramParts& parts,
@@ -14,12 +16,7 @@ EarlierParts::EarlierParts(const Surface& surface, const DiagramParts& parts,
       is_vertex_changed_(surface.num_vertices(), 0),
       is_near_(surface.num_faces(), 0) {
     const auto mark_around = [&](Index vertex) {
-        const Index first = surface.outgoing[vertex];
-        for (Index h = first; h != no_index;) {
-            is_near_[Surface::face(h)] = 1;
-            h = surface.twin[Surface::previous(h)];
-            if (h == first) break;
-        }
+        for_each_outgoing(surface, vertex, [&](Index h) { is_near_[Surface::face(h)] = 1; });
     };
     const auto mark = [&](Index face) {
         is_face_changed_[face] = 1;

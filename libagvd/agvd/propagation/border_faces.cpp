@@ -1,5 +1,7 @@
 #include "agvd/propagation/border_faces.h"
 
+#include "agvd/mesh/one_ring.h"
+
 namespace agvd {
 namespace {
 
@@ -60,23 +62,15 @@ private:
         }
         for (std::size_t i = 0; i < front.size(); ++i) {
             const auto [vertex, gap] = front[i];
-            for_each_neighbour(vertex, [&](Index neighbour, double length) {
+            // Not the last neighbour of a boundary vertex, which the rings of others find.
+            for_each_outgoing(surface_, vertex, [&](Index h) {
+                const Index neighbour = corners_.head(h);
+                const double there = gap + corners_.length(h);
                 if (marks_[neighbour] != 0) return;
-                if (!(gap + length <= shift * bounds_.distance[neighbour])) return;
+                if (!(there <= shift * bounds_.distance[neighbour])) return;
                 marks_[neighbour] = 2;
-                front.push_back({neighbour, gap + length});
+                front.push_back({neighbour, there});
             });
-        }
-    }
-
-    // Around a boundary vertex the last neighbour is left out: the rings from others find it.
-    template <typename Each>
-    void for_each_neighbour(Index vertex, const Each& each) const {
-        const Index first = surface_.outgoing[vertex];
-        for (Index h = first; h != no_index;) {
-            each(corners_.head(h), corners_.length(h));
-            h = corners_.twin(Surface::previous(h));
-            if (h == first) break;
         }
     }
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "agvd/core/parallel.h"
+#include "agvd/mesh/one_ring.h"
 #include "agvd/propagation/numbered_sites.h"
 #include "agvd/propagation/option_checks.h"
 #include "agvd/propagation/relay_store.h"
@@ -226,12 +227,7 @@ private:
         for (const Index face : sites_.changed_faces()) add(face);
         for (const Patch& patch : patches_) add(patch.face);
         for (const Index v : vertices_) {
-            const Index first = surface_.outgoing[v];
-            for (Index h = first; h != no_index;) {
-                add(Surface::face(h));
-                h = corners_.twin(Surface::previous(h));
-                if (h == first) break;
-            }
+            for_each_outgoing(surface_, v, [&](Index h) { add(Surface::face(h)); });
         }
         std::sort(changed_faces_.begin(), changed_faces_.end());
     }

@@ -8,6 +8,7 @@
 #include "agvd/mesh/distinct_points.h"
 #include "agvd/propagation/distance_bounds.h"
 #include "agvd/propagation/moving_sites.h"
+#include "agvd/propagation/window_engine.h"
 
 namespace agvd {
 
@@ -37,9 +38,7 @@ public:
     }
     //! In the order in which propagate() takes sites in.
     [[nodiscard]] bool comes_before(Index number, Index other) const {
-        const FaceId face = sources_[number].point.face;
-        const FaceId other_face = sources_[other].point.face;
-        return face < other_face || (face == other_face && number < other);
+        return runs_before(point(number).face, number, point(other).face, other);
     }
 
     //! #V: upper bounds for the distance from the nearest site.
