@@ -10,11 +10,11 @@
 namespace agvd {
 namespace {
 
-// What the faces of one chunk add to the labels, numbered as if it were the first.
+// What the faces of one chunk add to the labels, each face numbered as if it were the only one.
+// Blocks are in these lists.
 struct FoundCuts {
     std::vector<InnerPoint> inner_points;
     std::vector<Cut> cuts;
-    std::vector<CrossingRow> rows;
     std::vector<Crossing> crossings;
     std::vector<CutTriangle> triangles;
     std::vector<CutFace> faces;
@@ -35,6 +35,8 @@ public:
         inside_relays_.gather_all(mixed_index, relays_);
         tree_.build(relays_);
         points_.clear();
+        cut_ = {face_, block_from(out_.inner_points), block_from(out_.cuts),
+                block_from(out_.triangles)};
         const auto corners = face_corners(surface_, face_);
         triangulation_.reset(corners);
         for (std::size_t k = 0; k < 3; ++k) {
@@ -42,7 +44,7 @@ public:
             points_.push_back({v, corners[k], labels_.point_site[v], labels_.vertex_distance[v]});
         }
         for (const PlacedSite& site : placed) add_site(site);
-        if (points_.size() > 3) append_triangles(mixed_index);
+        if (points_.size() > 3) append_triangles();
     }
 
 private:
@@ -59,8 +61,8 @@ private:
         const double distance = least_reach(of_site(relays_, placed.site), p).distance;
         find_near(p, distance);
         if (nearest(near_, p).site != placed.site) return;
-        const auto inner = static_cast<Index>(out_.inner_points.size());
-        points_.push_back({surface_.num_vertices() + inner, p, placed.site, distance});
+        points_.push_back(
+            {surface_.num_vertices() + cut_.inner_points.count++, p, placed.site, distance});
         out_.inner_points.push_back({face_, p, placed.site});
         triangulation_.add(p);
     }
@@ -73,10 +75,9 @@ private:
         for (const Index i : found_) near_.push_back(relays_[i]);
     }
 
-    void append_triangles(Index mixed_index) {
+    void append_triangles() {
         const auto& pieces = triangulation_.pieces();
-        const auto first = static_cast<Index>(out_.triangles.size());
-        out_.faces.push_back({mixed_index, first, static_cast<Index>(pieces.size())});
+        const Index first = cut_.triangles.begin;
         for (Index i = 0; i < pieces.size(); ++i) {
             CutTriangle triangle;
             for (std::size_t k = 0; k < 3; ++k) {
@@ -97,10 +98,12 @@ private:
             }
             out_.triangles.push_back(triangle);
         }
+        cut_.triangles.count = static_cast<Index>(pieces.size());
+        out_.faces.push_back(cut_);
     }
 
     Index add_cut(Index from, Index to) {
-        const Index name = CrossingRow::first_cut + static_cast<Index>(out_.cuts.size());
+        const Index name = Crossing::first_cut + cut_.cuts.count++;
         label_cut(name, points_[from], points_[to]);
         return name;
     }
@@ -116,11 +119,11 @@ private:
         for (const PlanarRelay& relay : near_) {
             on_cut_.push_back(on_line(relay, from.position, chord / length, length));
         }
-        Crossing single{0, 0, from.site, to.site};
+        Crossing single{0, 0, from.site, to.site, name};
         if (from.site != to.site &&
             find_single_crossing(on_cut_, length, from.site, to.site, single.at, single.distance)) {
             single.at /= length;
-            append_row(name, from, to, {&single, 1});
+            append_cut(from, to, {&single, 1});
             return;
         }
         label_envelope(on_cut_, length, from.site, to.site, scratch_, intervals_);
@@ -132,20 +135,21 @@ private:
             crossings_.push_back({at,
                                   std::max(distance_on_line(on_cut_, before, at * length),
                                            distance_on_line(on_cut_, after, at * length)),
-                                  before, after});
+                                  before, after, name});
         }
-        append_row(name, from, to, crossings_);
+        append_cut(from, to, crossings_);
     }
 
-    void append_row(Index name, const Point& from, const Point& to,
-                    std::span<const Crossing> crossings) {
-        const bool has_one_label = crossings.empty();
-        out_.cuts.push_back({face_, from.name, to.name,
-                             has_one_label ? no_index : static_cast<Index>(out_.rows.size())});
-        if (has_one_label) return;
-        out_.rows.push_back({name, static_cast<Index>(out_.crossings.size()),
-                             static_cast<Index>(crossings.size())});
+    void append_cut(const Point& from, const Point& to, std::span<const Crossing> crossings) {
+        Block row = block_from(out_.crossings);
+        row.count = static_cast<Index>(crossings.size());
+        out_.cuts.push_back({face_, from.name, to.name, row});
         out_.crossings.insert(out_.crossings.end(), crossings.begin(), crossings.end());
+    }
+
+    template <typename T>
+    static Block block_from(const std::vector<T>& elements) {
+        return {static_cast<Index>(elements.size()), 0};
     }
 
     const Surface& surface_;
@@ -156,6 +160,7 @@ private:
 
     // The face at hand.
     Index face_ = 0;
+    CutFace cut_{};
     std::vector<PlanarRelay> relays_;
     RelayTree tree_;
     std::vector<Index> found_;
@@ -168,56 +173,80 @@ private:
     EnvelopeScratch scratch_;
 };
 
-// Renumbers.
-void append_cuts(const FoundCuts& found, Index num_vertices, EdgeLabels& labels) {
-    const auto first_inner = static_cast<Index>(labels.inner_points.size());
-    const auto first_cut = static_cast<Index>(labels.cuts.size());
-    const auto first_row = static_cast<Index>(labels.rows.size());
-    const auto first_crossing = static_cast<Index>(labels.crossings.size());
-    const auto first_triangle = static_cast<Index>(labels.cut_triangles.size());
-    const auto point = [&](Index name) { return name < num_vertices ? name : name + first_inner; };
-    for (const InnerPoint& inner : found.inner_points) {
-        labels.point_site.push_back(inner.site);
-        labels.inner_points.push_back(inner);
+// The elements of a block, to be changed.
+template <typename T>
+std::vector<T> copy_of(const std::vector<T>& elements, const Block& block) {
+    return {elements.begin() + block.begin, elements.begin() + block.end()};
+}
+
+// Under the names that they have among all.
+CutFace add_cut_face(const FoundCuts& found, const CutFace& cut, Index num_vertices,
+                     EdgeLabels& labels) {
+    const auto inner_points = copy_of(found.inner_points, cut.inner_points);
+    auto cuts = copy_of(found.cuts, cut.cuts);
+    auto triangles = copy_of(found.triangles, cut.triangles);
+    CutFace result{cut.face, labels.inner_points.add(inner_points), labels.cuts.add(cuts), {}};
+    const auto point = [&](Index name) {
+        return name < num_vertices ? name : name + result.inner_points.begin;
+    };
+    const auto side = [&](Index name) {
+        return name < Crossing::first_cut ? name : name + result.cuts.begin;
+    };
+    for (Cut& c : labels.cuts[result.cuts]) {
+        c.from = point(c.from);
+        c.to = point(c.to);
+        auto crossings = copy_of(found.crossings, c.row);
+        for (Crossing& crossing : crossings) crossing.line = side(crossing.line);
+        c.row = labels.crossings.add(crossings);
     }
-    for (const Cut& cut : found.cuts) {
-        const Index row = cut.row == no_index ? no_index : cut.row + first_row;
-        labels.cuts.push_back({cut.face, point(cut.from), point(cut.to), row});
-    }
-    for (const CrossingRow& row : found.rows) {
-        labels.rows.push_back({row.edge + first_cut, row.begin + first_crossing, row.count});
-    }
-    labels.crossings.insert(labels.crossings.end(), found.crossings.begin(), found.crossings.end());
-    for (CutTriangle triangle : found.triangles) {
+    for (CutTriangle& triangle : triangles) {
         for (Index& name : triangle.points) name = point(name);
-        for (Index& side : triangle.sides) {
-            if (side >= CrossingRow::first_cut) side += first_cut;
-        }
-        labels.cut_triangles.push_back(triangle);
+        for (Index& name : triangle.sides) name = side(name);
     }
-    for (const CutFace& face : found.faces) {
-        labels.cut_faces.push_back(
-            {face.mixed_index, face.first_triangle + first_triangle, face.num_triangles});
+    result.triangles = labels.cut_triangles.add(triangles);
+    labels.point_site.resize(num_vertices + labels.inner_points.size(), no_index);
+    for (Index i = 0; i < inner_points.size(); ++i) {
+        labels.point_site[num_vertices + result.inner_points.begin + i] = inner_points[i].site;
     }
+    return result;
 }
 
 }  // namespace
 
 void cut_faces(const Surface& surface, const Propagation& propagation,
-               const SitePlacement& placement, const RelayGroups& groups, int num_threads,
-               EdgeLabels& labels) {
+               const SitePlacement& placement, const RelayGroups& groups,
+               std::span<const Index> mixed, int num_threads, EdgeLabels& labels) {
     if (placement.is_empty()) return;
     constexpr Index grain = 512;
-    const auto num_mixed = static_cast<Index>(propagation.mixed_faces.size());
-    std::vector<FoundCuts> found(num_chunks(num_mixed, grain));
-    parallel_chunks(num_mixed, grain, num_threads, [&](Index chunk, Index begin, Index end) {
+    const auto count = static_cast<Index>(mixed.size());
+    std::vector<FoundCuts> found(num_chunks(count, grain));
+    parallel_chunks(count, grain, num_threads, [&](Index chunk, Index begin, Index end) {
         FaceCutter cutter(surface, propagation, groups, labels, found[chunk]);
         for (Index i = begin; i < end; ++i) {
-            const auto placed = placement.in_face(propagation.mixed_faces[i]);
-            if (!placed.empty()) cutter.cut(i, placed);
+            const auto placed = placement.in_face(propagation.mixed_faces[mixed[i]]);
+            if (!placed.empty()) cutter.cut(mixed[i], placed);
         }
     });
-    for (const FoundCuts& part : found) append_cuts(part, surface.num_vertices(), labels);
+    const auto num_before = static_cast<std::ptrdiff_t>(labels.cut_faces.size());
+    for (const FoundCuts& part : found) {
+        for (const CutFace& cut : part.faces) {
+            labels.cut_faces.push_back(add_cut_face(part, cut, surface.num_vertices(), labels));
+        }
+    }
+    std::inplace_merge(labels.cut_faces.begin(), labels.cut_faces.begin() + num_before,
+                       labels.cut_faces.end(),
+                       [](const CutFace& a, const CutFace& b) { return a.face < b.face; });
+}
+
+void release_cut(const CutFace& cut, Index num_vertices, EdgeLabels& labels) {
+    for (Index i = cut.inner_points.begin; i < cut.inner_points.end(); ++i) {
+        labels.inner_points[i].site = no_index;
+        labels.point_site[num_vertices + i] = no_index;
+    }
+    for (const Cut& c : labels.cuts[cut.cuts]) labels.crossings.release(c.row);
+    labels.inner_points.release(cut.inner_points);
+    labels.cuts.release(cut.cuts);
+    labels.cut_triangles.release(cut.triangles);
 }
 
 }  // namespace agvd

@@ -3,21 +3,15 @@
 #include <algorithm>
 
 #include "agvd/core/parallel.h"
-#include "agvd/diagram/earlier_parts.h"
 #include "agvd/diagram/edge_relays.h"
 #include "agvd/diagram/envelope.h"
+#include "agvd/diagram/touched_parts.h"
+#include "agvd/mesh/one_ring.h"
 
 namespace agvd {
 namespace {
 
 constexpr Index grain = 512;
-
-void list_mixed_faces(const Surface& surface, const Propagation& propagation, EdgeLabels& labels) {
-    labels.mixed_index.assign(surface.num_faces(), no_index);
-    for (Index i = 0; i < propagation.mixed_faces.size(); ++i) {
-        labels.mixed_index[propagation.mixed_faces[i]] = i;
-    }
-}
 
 // A path through the relays of one face that is shorter than what the engine found.
 struct ShorterPath {
@@ -67,34 +61,23 @@ void find_shorter_paths(const Surface& surface, const Propagation& propagation,
     }
 }
 
-void label_vertices(const Surface& surface, const Propagation& propagation, EarlierParts* earlier,
-                    int num_threads, EdgeLabels& labels) {
-    labels.vertex_distance = propagation.vertex_distance;
-    labels.point_site.reserve(surface.num_vertices());
-    for (const SiteId site : propagation.vertex_site) labels.point_site.push_back(site.value());
-    std::vector<std::uint8_t> is_fixed(surface.num_vertices(), 0);
+// #V: 1 for the vertices that keep what they have: those of an unlisted face, and those that are not
+// touched.
+std::vector<std::uint8_t> fixed_vertices(const Surface& surface, const EdgeLabels& labels,
+                                         const TouchedParts& touched) {
+    std::vector<std::uint8_t> is_fixed(surface.num_vertices(), touched.is_all() ? 0 : 1);
+    for (const Index v : touched.vertices()) {
+        is_fixed[v] = 0;
+        for_each_outgoing(surface, v, [&](Index h) {
+            if (labels.mixed_index[Surface::face(h)] == no_index) is_fixed[v] = 1;
+        });
+    }
+    if (!touched.is_all()) return is_fixed;
     for (Index f = 0; f < surface.num_faces(); ++f) {
         if (labels.mixed_index[f] != no_index) continue;
         for (const Index v : surface.mesh.triangles[f]) is_fixed[v] = 1;
     }
-    if (earlier != nullptr) earlier->settle_vertices(labels, is_fixed);
-    const auto num_mixed = static_cast<Index>(propagation.mixed_faces.size());
-    std::vector<std::vector<ShorterPath>> found(num_chunks(num_mixed, grain));
-    parallel_chunks(num_mixed, grain, num_threads, [&](Index chunk, Index begin, Index end) {
-        for (Index i = begin; i < end; ++i) {
-            find_shorter_paths(surface, propagation, is_fixed, i, found[chunk]);
-        }
-    });
-    for (const auto& paths : found) {
-        for (const ShorterPath& path : paths) {
-            double& distance = labels.vertex_distance[path.vertex];
-            Index& site = labels.point_site[path.vertex];
-            if (!is_nearer(path.distance, path.site, distance, site)) continue;
-            distance = path.distance;
-            site = path.site;
-        }
-    }
-    if (earlier != nullptr) earlier->compare_vertices(labels);
+    return is_fixed;
 }
 
 // Fetches what labelling the edges of a listed face reads of its neighbours: first where their
@@ -127,8 +110,13 @@ bool is_labelled(const Surface& surface, const EdgeLabels& labels, Index half_ed
            (half_edge < twin && labels.mixed_index[Surface::face(twin)] != no_index);
 }
 
+struct FoundRow {
+    Index edge;
+    Block crossings;
+};
+
 struct FoundRows {
-    std::vector<CrossingRow> rows;
+    std::vector<FoundRow> rows;
     std::vector<Crossing> crossings;
 };
 
@@ -147,35 +135,30 @@ public:
         double at, distance_there;
         if (site_at_tail != site_at_head &&
             find_single_crossing(relays_, length, site_at_tail, site_at_head, at, distance_there)) {
-            out_.rows.push_back({edge, static_cast<Index>(out_.crossings.size()), 1});
-            out_.crossings.push_back({at / length, distance_there, site_at_tail, site_at_head});
+            begin_row(edge, 1);
+            out_.crossings.push_back(
+                {at / length, distance_there, site_at_tail, site_at_head, edge});
             return;
         }
         label_envelope(relays_, length, site_at_tail, site_at_head, scratch_, intervals_);
         const auto count = static_cast<Index>(intervals_.size()) - 1;
         if (count == 0) return;
-        out_.rows.push_back({edge, static_cast<Index>(out_.crossings.size()), count});
+        begin_row(edge, count);
         for (Index k = 0; k < count; ++k) {
             const Index before = intervals_[k].site;
             const Index after = intervals_[k + 1].site;
             const double x = intervals_[k].end * length;
             const double distance =
                 std::max(distance_on_line(relays_, before, x), distance_on_line(relays_, after, x));
-            out_.crossings.push_back({intervals_[k].end, distance, before, after});
+            out_.crossings.push_back({intervals_[k].end, distance, before, after, edge});
         }
     }
 
-    // As it was.
-    void take_over(Index half_edge, const EarlierParts& earlier) {
-        const Index edge = surface_.edge[half_edge];
-        const std::span<const Crossing> crossings = earlier.on_edge(edge);
-        if (crossings.empty()) return;
-        out_.rows.push_back({edge, static_cast<Index>(out_.crossings.size()),
-                             static_cast<Index>(crossings.size())});
-        out_.crossings.insert(out_.crossings.end(), crossings.begin(), crossings.end());
+private:
+    void begin_row(Index edge, Index count) {
+        out_.rows.push_back({edge, {static_cast<Index>(out_.crossings.size()), count}});
     }
 
-private:
     const Surface& surface_;
     const EdgeLabels& labels_;
     EdgeRelays edge_relays_;
@@ -185,54 +168,75 @@ private:
     EnvelopeScratch scratch_;
 };
 
-void append_rows(const std::vector<FoundRows>& found, EdgeLabels& labels) {
-    for (const FoundRows& part : found) {
-        const auto offset = static_cast<Index>(labels.crossings.size());
-        for (CrossingRow row : part.rows) {
-            labels.edge_row[row.edge] = static_cast<Index>(labels.rows.size());
-            row.begin += offset;
-            labels.rows.push_back(row);
-        }
-        labels.crossings.insert(labels.crossings.end(), part.crossings.begin(),
-                                part.crossings.end());
+}  // namespace
+
+void list_mixed_faces(const Surface& surface, const Propagation& propagation, EdgeLabels& labels) {
+    labels.mixed_index.assign(surface.num_faces(), no_index);
+    for (Index i = 0; i < propagation.mixed_faces.size(); ++i) {
+        labels.mixed_index[propagation.mixed_faces[i]] = i;
     }
 }
 
-}  // namespace
+void label_vertices(const Surface& surface, const Propagation& propagation,
+                    const TouchedParts& touched, std::span<const Index> mixed, int num_threads,
+                    EdgeLabels& labels) {
+    if (touched.is_all()) {
+        labels.vertex_distance = propagation.vertex_distance;
+        labels.point_site.clear();
+        labels.point_site.reserve(surface.num_vertices());
+        for (const SiteId site : propagation.vertex_site) labels.point_site.push_back(site.value());
+    }
+    for (const Index v : touched.vertices()) {
+        labels.vertex_distance[v] = propagation.vertex_distance[v];
+        labels.point_site[v] = propagation.vertex_site[v].value();
+    }
+    const std::vector<std::uint8_t> is_fixed = fixed_vertices(surface, labels, touched);
+    const auto count = static_cast<Index>(mixed.size());
+    std::vector<std::vector<ShorterPath>> found(num_chunks(count, grain));
+    parallel_chunks(count, grain, num_threads, [&](Index chunk, Index begin, Index end) {
+        for (Index i = begin; i < end; ++i) {
+            find_shorter_paths(surface, propagation, is_fixed, mixed[i], found[chunk]);
+        }
+    });
+    for (const auto& paths : found) {
+        for (const ShorterPath& path : paths) {
+            double& distance = labels.vertex_distance[path.vertex];
+            Index& site = labels.point_site[path.vertex];
+            if (!is_nearer(path.distance, path.site, distance, site)) continue;
+            distance = path.distance;
+            site = path.site;
+        }
+    }
+}
 
-EdgeLabels label_edges(const Surface& surface, const Propagation& propagation,
-                       const RelayGroups& groups, EarlierParts* earlier, int num_threads) {
-    EdgeLabels labels;
-    list_mixed_faces(surface, propagation, labels);
-    label_vertices(surface, propagation, earlier, num_threads, labels);
-    labels.edge_row.assign(surface.num_edges(), no_index);
-
-    const auto num_mixed = static_cast<Index>(propagation.mixed_faces.size());
-    std::vector<FoundRows> found(num_chunks(num_mixed, grain));
-    parallel_chunks(num_mixed, grain, num_threads, [&](Index chunk, Index begin, Index end) {
+void label_edges(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
+                 const TouchedParts& touched, std::span<const Index> mixed, int num_threads,
+                 EdgeLabels& labels) {
+    const auto count = static_cast<Index>(mixed.size());
+    std::vector<FoundRows> found(num_chunks(count, grain));
+    parallel_chunks(count, grain, num_threads, [&](Index chunk, Index begin, Index end) {
         EdgeLabeller labeller(surface, labels, {surface, propagation, groups, labels},
                               found[chunk]);
         for (Index i = begin; i < end; ++i) {
             constexpr Index ahead = 2;
             for (const bool relays_too : {true, false}) {
                 const Index later = i + (relays_too ? ahead : 2 * ahead);
-                if (later >= end || earlier != nullptr) continue;
+                if (later >= end) continue;
                 prefetch_neighbours(surface, propagation, groups, labels,
-                                    propagation.mixed_faces[later], relays_too);
+                                    propagation.mixed_faces[mixed[later]], relays_too);
             }
-            const Index face = propagation.mixed_faces[i];
+            const Index face = propagation.mixed_faces[mixed[i]];
             for (Index h = 3 * face; h < 3 * face + 3; ++h) {
-                if (!is_labelled(surface, labels, h)) continue;
-                if (earlier != nullptr && earlier->holds_on_edge(h)) {
-                    labeller.take_over(h, *earlier);
-                } else {
-                    labeller.label(h);
-                }
+                if (is_labelled(surface, labels, h) && !touched.holds_on_edge(h)) labeller.label(h);
             }
         }
     });
-    append_rows(found, labels);
-    return labels;
+    for (const FoundRows& part : found) {
+        for (const FoundRow& row : part.rows) {
+            labels.edge_rows[row.edge] = labels.crossings.add(
+                std::span(part.crossings).subspan(row.crossings.begin, row.crossings.count));
+        }
+    }
 }
 
 }  // namespace agvd

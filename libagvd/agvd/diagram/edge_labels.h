@@ -3,6 +3,7 @@
 //! the faces around them, so that neighbouring faces cannot disagree.
 #pragma once
 
+#include "agvd/core/block_pool.h"
 #include "agvd/diagram/relay_groups.h"
 
 namespace agvd {
@@ -13,13 +14,7 @@ struct Crossing {
     double distance;  //!< From both sites.
     Index site_before;
     Index site_after;
-};
-
-//! The crossings of one edge that has any: `count` of EdgeLabels::crossings from `begin`.
-struct CrossingRow {
-    Index edge;  //!< Mesh edge; first_cut + c: cut c.
-    Index begin;
-    Index count;
+    Index line;  //!< Mesh edge; first_cut + c: cut c.
 
     static constexpr Index first_cut = Index{1} << 31;
 };
@@ -28,14 +23,14 @@ struct CrossingRow {
 struct InnerPoint {
     Index face;
     Vec2 position;  //!< In the face's own frame.
-    Index site;
+    Index site;     //!< no_index: a released one.
 };
 
 //! A straight line inside a face between two points, labelled like a mesh edge.
 struct Cut {
     Index face;
     Index from, to;  //!< Points.
-    Index row;       //!< no_index: one label.
+    Block row;       //!< Of EdgeLabels::crossings.
 };
 
 //! A face with inner points is cut into triangles at them, so that every cell in it reaches the
@@ -45,45 +40,49 @@ struct CutTriangle {
     std::array<Index, 3> sides;  //!< From point k to k + 1: a half-edge, or first_cut + c.
 };
 
+//! What belongs to one face.
 struct CutFace {
-    Index mixed_index;
-    Index first_triangle, num_triangles;
+    Index face;
+    Block inner_points, cuts, triangles;
 };
 
-//! Points are the mesh vertices, then the inner points. An edge that has no row has one label, that
-//! of its ends.
+//! Points are the mesh vertices, then the inner points. Crossings stand in rows, one for each edge
+//! or cut; where a row is empty there is one label, that of both ends.
 struct EdgeLabels {
     std::vector<Index> point_site;        //!< By point; no_index where no site reaches.
     std::vector<double> vertex_distance;  //!< #V.
     std::vector<Index> mixed_index;       //!< #F: position in mixed_faces; no_index: unlisted.
 
-    std::vector<Index> edge_row;  //!< #E; no_index: one label.
-    std::vector<CrossingRow> rows;
-    std::vector<Crossing> crossings;  //!< Row after row; may have gaps.
+    std::vector<Block> edge_rows;  //!< #E.
+    BlockPool<Crossing> crossings;
 
-    std::vector<InnerPoint> inner_points;
-    std::vector<Cut> cuts;
-    std::vector<CutTriangle> cut_triangles;
-    std::vector<CutFace> cut_faces;  //!< Ascending.
+    BlockPool<InnerPoint> inner_points;
+    BlockPool<Cut> cuts;
+    BlockPool<CutTriangle> cut_triangles;
+    std::vector<CutFace> cut_faces;  //!< By face.
 
-    [[nodiscard]] std::span<const Crossing> in_row(Index row) const {
-        if (row == no_index) return {};
-        return std::span(crossings).subspan(rows[row].begin, rows[row].count);
-    }
     [[nodiscard]] std::span<const Crossing> on_edge(Index edge) const {
-        return in_row(edge_row[edge]);
+        return crossings[edge_rows[edge]];
     }
 };
 
-class EarlierParts;
+class TouchedParts;
 
-//! A vertex all of whose faces are listed takes the nearest site over the relays of those faces
-//! (which may be nearer than the engine's graph knows); an edge all of whose faces are listed gets
-//! the envelope of the relays of both sides and of its ends. No cuts yet.
-//! Cost: O(relays) a listed face, O(relays) and a few square roots a crossing.
-//! \param earlier  where it holds, its labels are taken over; may be null. Vertices are compared.
-[[nodiscard]] EdgeLabels label_edges(const Surface& surface, const Propagation& propagation,
-                                     const RelayGroups& groups, EarlierParts* earlier,
-                                     int num_threads);
+void list_mixed_faces(const Surface& surface, const Propagation& propagation, EdgeLabels& labels);
+
+//! A vertex all of whose faces are listed takes the nearest site over the relays of those faces,
+//! which may be nearer than the engine's graph knows. Touched vertices only.
+//! \param mixed  positions in mixed_faces, ascending: all touched faces.
+void label_vertices(const Surface& surface, const Propagation& propagation,
+                    const TouchedParts& touched, std::span<const Index> mixed, int num_threads,
+                    EdgeLabels& labels);
+
+//! Adds the rows of edges all of whose faces are listed: the envelope of the relays of both sides
+//! and of its ends. Edges with something to say that is still to be said only.
+//! \param mixed  positions in mixed_faces, ascending: all faces of such edges.
+//! Cost: O(relays) a face, O(relays) and a few square roots a crossing.
+void label_edges(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
+                 const TouchedParts& touched, std::span<const Index> mixed, int num_threads,
+                 EdgeLabels& labels);
 
 }  // namespace agvd

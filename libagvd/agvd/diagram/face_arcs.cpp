@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "agvd/diagram/earlier_parts.h"
 #include "agvd/diagram/straight_arc.h"
 
 namespace agvd {
@@ -12,7 +11,7 @@ namespace {
 struct Side {
     Vec2 from, to;
     Index to_point;
-    Index row;
+    Block row;
     bool forward;  // Whether the crossings of the row run from `from` to `to`.
 };
 
@@ -38,13 +37,12 @@ public:
     }
 
     void trace_cut(const CutFace& cut) {
-        begin_face(cut.mixed_index);
-        for (Index t = cut.first_triangle; t < cut.first_triangle + cut.num_triangles; ++t) {
-            const CutTriangle& triangle = labels_.cut_triangles[t];
+        begin_face(labels_.mixed_index[cut.face]);
+        for (const CutTriangle& triangle : labels_.cut_triangles[cut.triangles]) {
             std::array<Vec2, 3> corners;
             for (std::size_t k = 0; k < 3; ++k) corners[k] = position_of(triangle.points[k]);
             for (std::size_t k = 0; k < 3; ++k) {
-                sides_[k] = triangle.sides[k] < CrossingRow::first_cut
+                sides_[k] = triangle.sides[k] < Crossing::first_cut
                                 ? mesh_side(triangle.sides[k], corners[k], corners[(k + 1) % 3])
                                 : cut_side(triangle, k, corners);
             }
@@ -70,12 +68,12 @@ private:
 
     [[nodiscard]] Side mesh_side(Index h, const Vec2& from, const Vec2& to) const {
         const Index edge = surface_.edge[h];
-        return {from, to, surface_.head(h), labels_.edge_row[edge], surface_.edge_half[edge] == h};
+        return {from, to, surface_.head(h), labels_.edge_rows[edge], surface_.edge_half[edge] == h};
     }
 
     [[nodiscard]] Side cut_side(const CutTriangle& triangle, std::size_t k,
                                 const std::array<Vec2, 3>& corners) const {
-        const Cut& cut = labels_.cuts[triangle.sides[k] - CrossingRow::first_cut];
+        const Cut& cut = labels_.cuts[triangle.sides[k] - Crossing::first_cut];
         const std::size_t next = (k + 1) % 3;
         return {corners[k], corners[next], triangle.points[next], cut.row,
                 cut.from == triangle.points[k]};
@@ -133,21 +131,19 @@ private:
     // Also adds what the boundary contributes to the areas, by Green's theorem.
     void collect_joints(Index site) {
         joints_.clear();
-        const auto num_points = static_cast<Index>(labels_.point_site.size());
         for (const Side& side : sides_) {
-            const auto crossings = labels_.in_row(side.row);
             Vec2 last = side.from;
-            for (std::size_t j = 0; j < crossings.size(); ++j) {
-                const std::size_t i = side.forward ? j : crossings.size() - 1 - j;
-                const Crossing& c = crossings[i];
-                const auto node = static_cast<Index>(&c - labels_.crossings.data());
+            for (Index j = 0; j < side.row.count; ++j) {
+                const Index node = side.row.begin + (side.forward ? j : side.row.count - 1 - j);
+                const Crossing& c = labels_.crossings[node];
                 const double at = side.forward ? c.at : 1 - c.at;
                 const Vec2 p = (1 - at) * side.from + at * side.to;
                 count(site, 0, cross(last, p) / 2);
                 site = side.forward ? c.site_after : c.site_before;
-                const bool is_last = j + 1 == crossings.size();
+                const bool is_last = j + 1 == side.row.count;
                 const Index interval =
-                    is_last ? side.to_point : num_points + (side.forward ? node : node - 1);
+                    is_last ? side.to_point
+                            : FaceArcs::first_interval + (side.forward ? node : node - 1);
                 joints_.push_back({p, c.distance, node, site, interval});
                 last = p;
             }
@@ -160,7 +156,7 @@ private:
 
     [[nodiscard]] bool has_crossings_after(const Side& side) const {
         for (const Side* s = &side + 1; s < sides_.data() + 3; ++s) {
-            if (!labels_.in_row(s->row).empty()) return true;
+            if (s->row.count > 0) return true;
         }
         return false;
     }
@@ -260,27 +256,27 @@ private:
 
 }  // namespace
 
-void trace_faces(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
-                 const EdgeLabels& labels, const EarlierParts* earlier, double chord_tolerance,
-                 Index begin, Index end, FaceArcs& out) {
-    out = {};
-    out.local.arcs.reserve(end - begin);
-    out.parts.reserve(2 * (end - begin));
-    out.faces.reserve(end - begin);
-    FaceTracer tracer(surface, propagation, groups, labels, chord_tolerance, out);
-    auto cut = std::lower_bound(labels.cut_faces.begin(), labels.cut_faces.end(), begin,
-                                [](const CutFace& c, Index i) { return c.mixed_index < i; });
-    for (Index i = begin; i < end; ++i) {
-        out.faces.push_back(out.mark());
+FaceArcs trace_faces(const Surface& surface, const Propagation& propagation,
+                     const RelayGroups& groups, const EdgeLabels& labels, double chord_tolerance,
+                     std::span<const Index> mixed) {
+    FaceArcs result;
+    result.local.arcs.reserve(mixed.size());
+    result.parts.reserve(2 * mixed.size());
+    result.faces.reserve(mixed.size());
+    FaceTracer tracer(surface, propagation, groups, labels, chord_tolerance, result);
+    const auto comes_before = [](const CutFace& cut, Index face) { return cut.face < face; };
+    auto cut = labels.cut_faces.begin();
+    for (const Index i : mixed) {
+        result.faces.push_back(result.mark());
         const Index face = propagation.mixed_faces[i];
-        if (cut != labels.cut_faces.end() && cut->mixed_index == i) {
-            tracer.trace_cut(*cut++);
-        } else if (earlier != nullptr && earlier->holds_in_face(face) && !earlier->is_cut(face)) {
-            earlier->append_arcs(face, labels, out);
+        cut = std::lower_bound(cut, labels.cut_faces.end(), face, comes_before);
+        if (cut != labels.cut_faces.end() && cut->face == face) {
+            tracer.trace_cut(*cut);
         } else {
             tracer.trace(i);
         }
     }
+    return result;
 }
 
 }  // namespace agvd

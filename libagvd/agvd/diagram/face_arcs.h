@@ -7,11 +7,13 @@
 
 namespace agvd {
 
-//! What the faces of one chunk contribute. Nodes are numbered: crossings (their index in
-//! EdgeLabels) first, then the chunk's branches from LocalDiagram::first_branch. Intervals have the
-//! name of the point at which they end, if there is one, else num_points + the crossing that they
-//! follow along the edge_half or the cut.
+//! What the faces of one chunk contribute. Nodes are the crossings (their index in EdgeLabels) and
+//! the chunk's branches from LocalDiagram::first_branch. Intervals have the name of the point at
+//! which they end, if there is one, else first_interval + the crossing that they follow along the
+//! edge_half or the cut.
 struct FaceArcs {
+    static constexpr Index first_interval = Index{1} << 31;
+
     LocalDiagram local;
 
     //! What a triangle adds to a cell: its area there, and the number of its pieces.
@@ -35,16 +37,12 @@ struct FaceArcs {
     }
 };
 
-class EarlierParts;
-
-//! The faces [begin, end) of propagation.mixed_faces.
+//! \param mixed  positions in mixed_faces, ascending; chunk.faces are in their order.
 //!
 //! Most faces have two or three label changes, and there the face's own relays settle all; where
 //! they do not agree with each other, what the edges hand on does.
-//!
-//! \param earlier  where it holds, its arcs are taken over; may be null.
-void trace_faces(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
-                 const EdgeLabels& labels, const EarlierParts* earlier, double chord_tolerance,
-                 Index begin, Index end, FaceArcs& out);
+[[nodiscard]] FaceArcs trace_faces(const Surface& surface, const Propagation& propagation,
+                                   const RelayGroups& groups, const EdgeLabels& labels,
+                                   double chord_tolerance, std::span<const Index> mixed);
 
 }  // namespace agvd

@@ -4,6 +4,7 @@
 #include <map>
 #include <numeric>
 
+#include "agvd/mesh/one_ring.h"
 #include "agvd/propagation/site_placement.h"
 
 namespace agvd {
@@ -25,56 +26,76 @@ void unite_nodes(std::vector<Index>& parent, Index a, Index b) {
 class IslandFinder {
 public:
     IslandFinder(const Surface& surface, std::span<const SurfacePoint> sites,
-                 const std::vector<Index>& joined_points, EdgeLabels& labels)
+                 const FaceList& faces, const CellSet& asked, EdgeLabels& labels)
         : surface_(surface),
           sites_(sites),
+          faces_(faces),
+          asked_(asked),
           labels_(labels),
-          num_points_(static_cast<Index>(labels.point_site.size())) {
-        parent_.reserve(labels.point_site.size() + labels.crossings.size());
-        parent_ = joined_points;
-        for (Index i = 0; i < labels.crossings.size(); ++i) parent_.push_back(num_points_ + i);
+          num_points_(static_cast<Index>(labels.point_site.size())),
+          parent_(labels.point_site.size() + labels.crossings.size()) {
+        std::iota(parent_.begin(), parent_.end(), Index{0});
     }
 
-    void connect(std::span<const FaceArcs> chunks) {
-        for (const CrossingRow& row : labels_.rows) {
-            if (row.count > 0) continue;  // Its crossings have vanished.
-            const auto [from, to] = ends_of(row);
-            unite(from, to);
-        }
-        for (const FaceArcs& chunk : chunks) {
-            for (const Connection& c : chunk.local.connections) unite(c.a, c.b);
+    void connect(const ArcStore& arcs) {
+        join_points();
+        const auto node_of = [&](Index interval) {
+            return interval < FaceArcs::first_interval
+                       ? interval
+                       : interval - FaceArcs::first_interval + num_points_;
+        };
+        for (Index i = 0; i < faces_.size(); ++i) {
+            for (const Connection& c : arcs.connections()[arcs.of_face(faces_[i]).connections]) {
+                if (asked_.has(c.site)) unite(node_of(c.a), node_of(c.b));
+            }
         }
         mainland_.assign(sites_.size(), no_index);
         for (Index i = 0; i < labels_.inner_points.size(); ++i) {
-            mainland_[labels_.inner_points[i].site] = root(surface_.num_vertices() + i);
+            const Index site = labels_.inner_points[i].site;
+            if (asked_.has(site)) mainland_[site] = root(surface_.num_vertices() + i);
         }
         for (Index s = 0; s < sites_.size(); ++s) {
+            if (!asked_.has(s)) continue;
             const Index node = holder_of(s);
             if (node != no_index) mainland_[s] = root(node);
         }
     }
 
     // Islands border on other cells at crossings. Each goes to the lowest-numbered cell that it
-    // borders on and that hangs together with its site there.
-    void choose_new_sites() {
-        for (Index row = 0; row < labels_.rows.size(); ++row) {
-            for_each_crossing(row, [&](Index, Index a, Index site_a, Index b, Index site_b) {
-                const bool is_a = is_island(a, site_a);
-                const bool is_b = is_island(b, site_b);
-                if (is_a && !is_b) give(a, site_b);
-                if (is_b && !is_a) give(b, site_a);
-            });
-        }
+    // borders on and that hangs together with its site there. Returns the sites of all.
+    CellSet choose_new_sites() {
+        CellSet found(static_cast<Index>(sites_.size()), false);
+        for_each_row([&](Block& row, Index from, Index to) {
+            bool has_island = false;
+            for_each_crossing(row, from, to,
+                              [&](Index, Index a, Index site_a, Index b, Index site_b) {
+                                  const bool is_a = is_island(a, site_a);
+                                  const bool is_b = is_island(b, site_b);
+                                  if (!is_a && !is_b) return;
+                                  has_island = true;
+                                  if (is_a) found.insert(site_a);
+                                  if (is_b) found.insert(site_b);
+                                  if (is_a && !is_b) give(a, site_b);
+                                  if (is_b && !is_a) give(b, site_a);
+                              });
+            if (has_island) island_rows_.push_back({&row, from, to});
+        });
+        return found;
     }
 
-    Index relabel(std::vector<std::uint8_t>& is_stale) {
+    Index relabel(std::vector<OldLabel>& old_labels, std::vector<Index>& stale_faces) {
         if (new_site_.empty()) return 0;
-        for (CrossingRow& row : labels_.rows) relabel_row(row, is_stale);
+        for (const auto& [row, from, to] : island_rows_) relabel_row(*row, from, to, stale_faces);
         for (Index v = 0; v < num_points_; ++v) {
-            const Index site = site_of(v, labels_.point_site[v]);
-            if (site == labels_.point_site[v]) continue;
+            const Index old_site = labels_.point_site[v];
+            if (!is_island(v, old_site)) continue;
+            const Index site = site_of(v, old_site);
+            if (site == old_site) continue;
+            old_labels.push_back({v, old_site});
             labels_.point_site[v] = site;
-            if (v < surface_.num_vertices()) mark_one_ring(v, is_stale);
+            if (v >= surface_.num_vertices()) continue;
+            for_each_outgoing(surface_, v,
+                              [&](Index h) { stale_faces.push_back(Surface::face(h)); });
         }
         return static_cast<Index>(new_site_.size());
     }
@@ -83,24 +104,55 @@ private:
     [[nodiscard]] Index root(Index i) { return find_root(parent_, i); }
     void unite(Index a, Index b) { unite_nodes(parent_, a, b); }
 
-    // The points at both ends of a row.
-    [[nodiscard]] std::pair<Index, Index> ends_of(const CrossingRow& row) const {
-        if (row.edge >= CrossingRow::first_cut) {
-            const Cut& cut = labels_.cuts[row.edge - CrossingRow::first_cut];
-            return {cut.from, cut.to};
+    // Those that hang together along edges and cuts of one label.
+    void join_points() {
+        for (Index i = 0; i < faces_.size(); ++i) {
+            const Index f = faces_[i];
+            const Triangle& t = surface_.mesh.triangles[f];
+            if (labels_.mixed_index[f] == no_index) {
+                if (!asked_.has(labels_.point_site[t[0]])) continue;
+                unite(t[0], t[1]);
+                unite(t[1], t[2]);
+                continue;
+            }
+            for (Index k = 0; k < 3; ++k) {
+                const Index twin = surface_.twin[3 * f + k];
+                if (twin < 3 * f + k || !asked_.has(labels_.point_site[t[k]])) continue;
+                if (labels_.edge_rows[surface_.edge[3 * f + k]].count > 0) continue;
+                unite(t[k], t[k == 2 ? 0 : k + 1]);
+            }
         }
-        const Index h = surface_.edge_half[row.edge];
-        return {surface_.tail(h), surface_.head(h)};
+        for (const CutFace& face : labels_.cut_faces) {
+            for (const Cut& cut : labels_.cuts[face.cuts]) {
+                if (cut.row.count == 0) unite(cut.from, cut.to);
+            }
+        }
+    }
+
+    // Calls back for each row of these faces that has crossings, with the points at its ends.
+    template <typename Callback>
+    void for_each_row(const Callback& callback) {
+        for (Index i = 0; i < faces_.size(); ++i) {
+            if (labels_.mixed_index[faces_[i]] == no_index) continue;
+            for (Index h = 3 * faces_[i]; h < 3 * faces_[i] + 3; ++h) {
+                const Index e = surface_.edge[h];
+                if (surface_.edge_half[e] != h || labels_.edge_rows[e].count == 0) continue;
+                callback(labels_.edge_rows[e], surface_.tail(h), surface_.head(h));
+            }
+        }
+        for (const CutFace& face : labels_.cut_faces) {
+            for (Cut& cut : labels_.cuts[face.cuts]) {
+                if (cut.row.count > 0) callback(cut.row, cut.from, cut.to);
+            }
+        }
     }
 
     // Calls back for each crossing of a row with the intervals before and after it.
     template <typename Callback>
-    void for_each_crossing(Index row_index, const Callback& callback) const {
-        const CrossingRow& row = labels_.rows[row_index];
-        const auto [from, to] = ends_of(row);
+    void for_each_crossing(const Block& row, Index from, Index to, const Callback& callback) const {
         Index before = from;
-        for (Index c = row.begin; c < row.begin + row.count; ++c) {
-            const Index after = c + 1 == row.begin + row.count ? to : num_points_ + c;
+        for (Index c = row.begin; c < row.end(); ++c) {
+            const Index after = c + 1 == row.end() ? to : num_points_ + c;
             const Crossing& crossing = labels_.crossings[c];
             callback(c, before, crossing.site_before, after, crossing.site_after);
             before = after;
@@ -126,21 +178,21 @@ private:
         const Index e = surface_.edge[half_edge];
         const bool forward = surface_.edge_half[e] == half_edge;
         const double at = sites_[s].barycentric[(half_edge + (forward ? 1 : 0)) % 3];
-        Index holder = surface_.tail(surface_.edge_half[e]);
-        Index site = labels_.point_site[holder];
-        if (labels_.edge_row[e] != no_index) {
-            for_each_crossing(labels_.edge_row[e],
-                              [&](Index c, Index, Index, Index after, Index site_after) {
-                                  if (labels_.crossings[c].at > at) return;
-                                  holder = after;
-                                  site = site_after;
-                              });
-        }
+        const Index tail = surface_.tail(surface_.edge_half[e]);
+        const Index head = surface_.head(surface_.edge_half[e]);
+        Index holder = tail;
+        Index site = labels_.point_site[tail];
+        for_each_crossing(labels_.edge_rows[e], tail, head,
+                          [&](Index c, Index, Index, Index after, Index site_after) {
+                              if (labels_.crossings[c].at > at) return;
+                              holder = after;
+                              site = site_after;
+                          });
         return site == s ? holder : no_index;
     }
 
     [[nodiscard]] bool is_island(Index node, Index site) {
-        return site != no_index && root(node) != mainland_[site];
+        return asked_.has(site) && root(node) != mainland_[site];
     }
 
     void give(Index island, Index site) {
@@ -153,94 +205,61 @@ private:
         return found == new_site_.end() ? site : found->second;
     }
 
-    void relabel_row(CrossingRow& row, std::vector<std::uint8_t>& is_stale) {
-        const auto [from, to] = ends_of(row);
-        const Index end = row.begin + row.count;
-        Index kept = row.begin;
-        Index before = from;
+    // Keeps the crossings between different sites.
+    void relabel_row(Block& row, Index from, Index to, std::vector<Index>& stale_faces) {
+        kept_.clear();
         bool is_changed = false;
-        for (Index c = row.begin; c < end; ++c) {
-            const Index after = c + 1 == end ? to : num_points_ + c;
+        for_each_crossing(row, from, to, [&](Index c, Index before, Index old_before, Index after,
+                                             Index old_after) {
             Crossing crossing = labels_.crossings[c];
-            const Index site_before = site_of(before, crossing.site_before);
-            const Index site_after = site_of(after, crossing.site_after);
-            is_changed = is_changed || site_before != crossing.site_before ||
-                         site_after != crossing.site_after;
-            crossing.site_before = site_before;
-            crossing.site_after = site_after;
-            if (site_before != site_after) labels_.crossings[kept++] = crossing;
-            before = after;
-        }
-        row.count = kept - row.begin;
+            crossing.site_before = site_of(before, old_before);
+            crossing.site_after = site_of(after, old_after);
+            is_changed = is_changed || crossing.site_before != old_before ||
+                         crossing.site_after != old_after;
+            if (crossing.site_before != crossing.site_after) kept_.push_back(crossing);
+        });
         if (!is_changed) return;
-        if (row.edge < CrossingRow::first_cut) {
-            mark_faces(surface_.edge_half[row.edge], is_stale);
+        const Index line = labels_.crossings[row.begin].line;
+        if (line >= Crossing::first_cut) {
+            stale_faces.push_back(labels_.cuts[line - Crossing::first_cut].face);
         } else {
-            mark_face(labels_.cuts[row.edge - CrossingRow::first_cut].face, is_stale);
+            const Index h = surface_.edge_half[line];
+            stale_faces.push_back(Surface::face(h));
+            if (surface_.twin[h] != no_index) stale_faces.push_back(Surface::face(surface_.twin[h]));
         }
-    }
-
-    void mark_face(Index face, std::vector<std::uint8_t>& is_stale) const {
-        const Index mixed = labels_.mixed_index[face];
-        if (mixed != no_index) is_stale[mixed] = 1;
-    }
-
-    void mark_faces(Index half_edge, std::vector<std::uint8_t>& is_stale) const {
-        mark_face(Surface::face(half_edge), is_stale);
-        const Index twin = surface_.twin[half_edge];
-        if (twin != no_index) mark_face(Surface::face(twin), is_stale);
-    }
-
-    void mark_one_ring(Index vertex, std::vector<std::uint8_t>& is_stale) const {
-        const Index first = surface_.outgoing[vertex];
-        Index h = first;
-        do {
-            mark_face(Surface::face(h), is_stale);
-            h = surface_.twin[Surface::previous(h)];
-        } while (h != no_index && h != first);
+        labels_.crossings.release(row);
+        row = labels_.crossings.add(kept_);
     }
 
     const Surface& surface_;
     std::span<const SurfacePoint> sites_;
+    const FaceList& faces_;
+    const CellSet& asked_;
     EdgeLabels& labels_;
     Index num_points_;
     std::vector<Index> parent_;
     std::vector<Index> mainland_;      // By site: the root of what hangs together with it.
     std::map<Index, Index> new_site_;  // By root of an island.
+    struct Row {
+        Block* crossings;
+        Index from, to;
+    };
+    std::vector<Row> island_rows_;  // With an interval on an island.
+    std::vector<Crossing> kept_;    // Of the row at hand.
 };
 
 }  // namespace
 
-std::vector<Index> join_points(const Surface& surface, const EdgeLabels& labels) {
-    std::vector<Index> parent(labels.point_site.size());
-    std::iota(parent.begin(), parent.end(), Index{0});
-    for (Index f = 0; f < surface.num_faces(); ++f) {
-        const Triangle& t = surface.mesh.triangles[f];
-        if (labels.mixed_index[f] == no_index) {
-            unite_nodes(parent, t[0], t[1]);
-            unite_nodes(parent, t[1], t[2]);
-            continue;
-        }
-        for (Index k = 0; k < 3; ++k) {
-            const Index twin = surface.twin[3 * f + k];
-            if (twin < 3 * f + k) continue;  // Each edge once.
-            if (labels.edge_row[surface.edge[3 * f + k]] != no_index) continue;
-            unite_nodes(parent, t[k], t[k == 2 ? 0 : k + 1]);
-        }
-    }
-    for (const Cut& cut : labels.cuts) {
-        if (cut.row == no_index) unite_nodes(parent, cut.from, cut.to);
-    }
-    return parent;
-}
-
 Index absorb_islands(const Surface& surface, std::span<const SurfacePoint> sites,
-                     std::span<const FaceArcs> chunks, const std::vector<Index>& joined_points,
-                     EdgeLabels& labels, std::vector<std::uint8_t>& is_stale) {
-    IslandFinder finder(surface, sites, joined_points, labels);
-    finder.connect(chunks);
-    finder.choose_new_sites();
-    return finder.relabel(is_stale);
+                     const ArcStore& arcs, const FaceList& faces, EdgeLabels& labels,
+                     CellSet& asked, std::vector<OldLabel>& old_labels,
+                     std::vector<Index>& stale_faces) {
+    IslandFinder finder(surface, sites, faces, asked, labels);
+    finder.connect(arcs);
+    CellSet found = finder.choose_new_sites();
+    const Index count = finder.relabel(old_labels, stale_faces);
+    asked = std::move(found);
+    return count;
 }
 
 }  // namespace agvd

@@ -3,24 +3,32 @@
 //! break that where two sites nearly tie; here it is mended.
 #pragma once
 
-#include "agvd/diagram/face_arcs.h"
+#include "agvd/diagram/cell_set.h"
 #include "agvd/mesh/surface_point.h"
 
 namespace agvd {
 
-//! By point, the next in a forest: points in one tree hang together along edges and cuts that have
-//! no row, whatever becomes of the rows' crossings. Cost: nearly linear in #V + #E.
-[[nodiscard]] std::vector<Index> join_points(const Surface& surface, const EdgeLabels& labels);
+//! What the label of a point was.
+struct OldLabel {
+    Index point;
+    Index site;
+};
 
 //! Finds the parts of cells that do not hang together with their site and gives each to a cell that
-//! it borders on. The labels then say so; `is_stale` (by position in mixed_faces) is set for the
-//! faces around changed edges and cuts, which are to be traced again. Returns the number of parts.
-//! Label changes only vanish, so that calling it again and again comes to an end.
-//! Cost: nearly linear in the points and crossings.
-//! \param joined_points  of join_points for these labels, as they were before any call.
+//! it borders on. The labels then say so. Calling it again and again comes to an end, since label
+//! changes only vanish.
+//! Cost: nearly linear in the points and crossings of those faces, and O(#V).
+//! \param faces        all that the cells asked for reach into.
+//! \param asked        the cells that may have such parts. After the call: those that had some, even
+//!                     if nobody could take them.
+//! \param old_labels   the points whose label changes are appended, with their old labels.
+//! \param stale_faces  the faces around changed labels are appended, which are to be traced again;
+//!                     maybe some of them twice.
+//! \return the number of parts.
 [[nodiscard]] Index absorb_islands(const Surface& surface, std::span<const SurfacePoint> sites,
-                                   std::span<const FaceArcs> chunks,
-                                   const std::vector<Index>& joined_points, EdgeLabels& labels,
-                                   std::vector<std::uint8_t>& is_stale);
+                                   const ArcStore& arcs, const FaceList& faces,
+                                   EdgeLabels& labels, CellSet& asked,
+                                   std::vector<OldLabel>& old_labels,
+                                   std::vector<Index>& stale_faces);
 
 }  // namespace agvd

@@ -1,83 +1,251 @@
 #include "agvd/diagram/join.h"
 
+#include <algorithm>
 #include <cassert>
+#include <utility>
 
 namespace agvd {
 namespace {
 
-// One end of an arc: 2 * arc + (0: tail, 1: head).
-using ArcEnd = Index;
-constexpr ArcEnd tail_of(Index arc) { return 2 * arc; }
-constexpr ArcEnd head_of(Index arc) { return 2 * arc + 1; }
-constexpr ArcEnd other_end(ArcEnd end) { return end ^ 1; }
+constexpr Index tail_of(Index arc) { return 2 * arc; }
+constexpr Index head_of(Index arc) { return 2 * arc + 1; }
+constexpr Index other_end(Index end) { return end ^ 1; }
 
-struct Arc {
-    Index tail, head;  // Global nodes: crossings, then branches.
-    Index left, right;
-    Index chunk, local;
-};
+[[nodiscard]] Index node_at(const ArcStore& arcs, Index end) {
+    const LocalArc& arc = arcs.arcs()[end / 2];
+    return end % 2 == 0 ? arc.tail : arc.head;
+}
 
-struct Node {
-    SurfacePoint point;
-    double distance = 0;
-    std::array<ArcEnd, 2> ends{no_index, no_index};  // Crossings only.
-};
+}  // namespace
 
-class Joiner {
+void ArcJoiner::PointList::clear() {
+    points.clear();
+    distances.clear();
+}
+
+void ArcJoiner::PointList::reverse_from(Index first) {
+    std::reverse(points.begin() + first, points.end());
+    std::reverse(distances.begin() + first, distances.end());
+}
+
+void ArcJoiner::PointList::append(std::span<const SurfacePoint> from_points,
+                                  std::span<const double> from_distances, const Edge& edge) {
+    const auto append_part = [&](auto from, auto& to) {
+        from = from.subspan(edge.first_point, edge.num_points);
+        to.insert(to.end(), from.begin(), from.end());
+    };
+    append_part(from_points, points);
+    append_part(from_distances, distances);
+}
+
+bool ArcJoiner::is_vertex(Index node) const {
+    return node >= LocalDiagram::first_branch || crossing_ends_[node][1] == no_index;
+}
+
+// The other arc's end at a crossing.
+ArcJoiner::ArcEnd ArcJoiner::across(const ArcStore& arcs, ArcEnd end) const {
+    const auto& ends = crossing_ends_[node_at(arcs, end)];
+    return ends[0] == end ? ends[1] : ends[0];
+}
+
+void ArcJoiner::forget(const ArcStore& arcs, Index face) {
+    const Block& block = arcs.of_face(face).arcs;
+    for (Index arc = block.begin; arc < block.end() && arc < edge_of_arc_.size(); ++arc) {
+        if (edge_of_arc_[arc] != no_index) undo_edge(arcs, edge_of_arc_[arc]);
+    }
+    for (ArcEnd end = tail_of(block.begin); end < tail_of(block.end()); ++end) {
+        const Index node = node_at(arcs, end);
+        if (node >= crossing_ends_.size()) continue;  // A branch, or not joined yet.
+        auto& ends = crossing_ends_[node];
+        if (ends[0] == end) ends[0] = std::exchange(ends[1], no_index);
+        if (ends[1] == end) ends[1] = no_index;
+    }
+}
+
+// None of its faces has been forgotten.
+void ArcJoiner::undo_edge(const ArcStore& arcs, Index name) {
+    Edge& edge = edges_[name];
+    edge.num_points = 0;
+    free_edges_.push_back(name);
+    for (ArcEnd from = edge.first;; from = across(arcs, other_end(from))) {
+        if (edge_of_arc_[from / 2] == no_index) break;  // Closed.
+        edge_of_arc_[from / 2] = no_index;
+        if (other_end(from) == edge.last) break;
+    }
+}
+
+// One call of join().
+class ArcJoiner::Run {
 public:
-    Joiner(const Surface& surface, const EdgeLabels& labels, std::span<const FaceArcs> chunks,
-           Diagram& diagram)
-        : surface_(surface), labels_(labels), chunks_(chunks), out_(diagram) {}
+    Run(const Surface& surface, const EdgeLabels& labels, const ArcStore& arcs, ArcJoiner& joiner,
+        Diagram& diagram)
+        : surface_(surface), labels_(labels), arcs_(arcs), in_(joiner), out_(diagram) {}
 
-    void run() {
-        number_nodes();
-        collect_arcs();
-        std::size_t num_points = arcs_.size() + arcs_.size() / 4;  // A node an arc, and the ends.
-        for (const FaceArcs& chunk : chunks_) num_points += chunk.local.points.size();
-        out_.points.reserve(num_points);
-        out_.point_distance.reserve(num_points);
-        edge_end_.assign(2 * arcs_.size(), {});
-        is_used_.assign(arcs_.size(), false);
-        out_.edge_points.assign(1, 0);
-        for (ArcEnd end = 0; end < 2 * arcs_.size(); ++end) {
-            if (!is_used_[end / 2] && is_vertex(node_at(end))) walk(end);
-        }
-        for (Index arc = 0; arc < arcs_.size(); ++arc) {
-            if (!is_used_[arc]) walk(tail_of(arc));  // Closed curves.
-        }
+    void run(std::span<const Index> mixed_faces, std::span<const Index> new_faces) {
+        std::erase_if(in_.order_, [&](Index name) { return in_.edges_[name].num_points == 0; });
+        register_ends(new_faces);
+        in_.new_points_.clear();
+        reserve_points(new_faces);
+        add_open_edges(new_faces);
+        add_other_edges(new_faces);
+        put_in_order();
+        gather_points();
+        list_edges();
+
         out_.vertex_offsets.assign(1, 0);
-        add_branches();
+        out_.vertex_ends.clear();
+        out_.vertex_sites.clear();
+        out_.vertices.clear();
+        out_.vertex_distance.clear();
+        add_branches(mixed_faces);
         add_boundary();
     }
 
 private:
-    void number_nodes() {
-        nodes_.resize(labels_.crossings.size());
-        is_boundary_.assign(labels_.crossings.size(), 0);
-        for (const CrossingRow& row : labels_.rows) {
-            for (Index c = row.begin; c < row.begin + row.count; ++c) {
-                const Crossing& crossing = labels_.crossings[c];
-                nodes_[c].distance = crossing.distance;
-                if (row.edge >= CrossingRow::first_cut) {
-                    nodes_[c].point =
-                        point_on_cut(labels_.cuts[row.edge - CrossingRow::first_cut], crossing.at);
-                    continue;
+    void register_ends(std::span<const Index> new_faces) {
+        in_.edge_of_arc_.resize(arcs_.arcs().size(), no_index);
+        in_.crossing_ends_.resize(labels_.crossings.size(), {no_index, no_index});
+        for (const Index face : new_faces) {
+            const Block& block = arcs_.of_face(face).arcs;
+            for (Index arc = block.begin; arc < block.end(); ++arc) {
+                for (const ArcEnd end : {tail_of(arc), head_of(arc)}) {
+                    const Index node = node_at(end);
+                    if (node >= LocalDiagram::first_branch) continue;
+                    auto& ends = in_.crossing_ends_[node];
+                    assert(ends[1] == no_index);
+                    ends[ends[0] == no_index ? 0 : 1] = end;
                 }
-                const Index h = surface_.edge_half[row.edge];
-                nodes_[c].point = {FaceId(Surface::face(h)), {0, 0, 0}};
-                nodes_[c].point.barycentric[h % 3] = 1 - crossing.at;
-                nodes_[c].point.barycentric[(h + 1) % 3] = crossing.at;
-                is_boundary_[c] = surface_.twin[h] == no_index ? 1 : 0;
             }
         }
-        first_branch_ = static_cast<Index>(nodes_.size());
-        for (const FaceArcs& chunk : chunks_) {
-            branch_offset_.push_back(static_cast<Index>(nodes_.size()));
-            for (const LocalBranch& branch : chunk.local.branches) {
-                nodes_.push_back(
-                    {to_surface(surface_, branch.face, branch.position), branch.distance});
+    }
+
+    void reserve_points(std::span<const Index> new_faces) {
+        std::size_t count = 0;
+        for (const Index face : new_faces) {
+            const ArcStore::Face& stored = arcs_.of_face(face);
+            count += stored.arcs.count + stored.arcs.count / 4;  // A node an arc, and the ends.
+            count += stored.points.count;
+        }
+        in_.new_points_.points.reserve(count);
+        in_.new_points_.distances.reserve(count);
+    }
+
+    [[nodiscard]] Index node_at(ArcEnd end) const { return agvd::node_at(arcs_, end); }
+    [[nodiscard]] bool is_vertex(Index node) const { return in_.is_vertex(node); }
+    [[nodiscard]] ArcEnd across(ArcEnd end) const { return in_.across(arcs_, end); }
+    [[nodiscard]] bool is_joined(Index arc) const { return in_.edge_of_arc_[arc] != no_index; }
+
+    // Edges come in the order of the faces, and of the ends in a face, closed ones behind.
+    [[nodiscard]] std::uint64_t key_of(ArcEnd end, bool is_closed) const {
+        const Index face = arcs_.arcs()[end / 2].face;
+        const ArcEnd first = tail_of(arcs_.of_face(face).arcs.begin);
+        return (std::uint64_t{is_closed} << 63) | (std::uint64_t{face} << 31) | (end - first);
+    }
+
+    // Those one of whose ends is new.
+    void add_open_edges(std::span<const Index> new_faces) {
+        for (const Index face : new_faces) {
+            const Block& block = arcs_.of_face(face).arcs;
+            for (ArcEnd end = tail_of(block.begin); end < tail_of(block.end()); ++end) {
+                if (!is_joined(end / 2) && is_vertex(node_at(end))) add_edge(end, false);
             }
         }
+    }
+
+    // Those that come from old faces and lead to old faces, and closed ones.
+    void add_other_edges(std::span<const Index> new_faces) {
+        for (const Index face : new_faces) {
+            const Block& block = arcs_.of_face(face).arcs;
+            for (Index arc = block.begin; arc < block.end(); ++arc) {
+                if (!is_joined(arc)) add_edge_through(arc);
+            }
+        }
+    }
+
+    void add_edge_through(Index arc) {
+        ArcEnd from = tail_of(arc);
+        ArcEnd lowest = from;
+        while (true) {
+            const ArcEnd to = other_end(from);
+            if (is_vertex(node_at(to))) {
+                add_edge(to, false);
+                return;
+            }
+            from = across(to);
+            if (from / 2 == arc) break;
+            const ArcEnd tail = tail_of(from / 2);
+            if (key_of(tail, true) < key_of(lowest, true)) lowest = tail;
+        }
+        add_edge(lowest, true);
+    }
+
+    // Follows the arcs from one end through crossings until a Voronoi vertex or the start.
+    void add_edge(ArcEnd start, bool is_closed) {
+        if (in_.free_edges_.empty()) {
+            in_.free_edges_.push_back(static_cast<Index>(in_.edges_.size()));
+            in_.edges_.emplace_back();
+        }
+        const Index name = in_.free_edges_.back();
+        in_.free_edges_.pop_back();
+        in_.order_.push_back(name);
+        const auto first_point = static_cast<Index>(in_.new_points_.points.size());
+        ArcEnd from = start;
+        ArcEnd to;
+        while (true) {
+            in_.edge_of_arc_[from / 2] = name;
+            add_node_point(node_at(from));
+            add_inner_points(from);
+            to = other_end(from);
+            if (!is_closed && is_vertex(node_at(to))) {
+                add_node_point(node_at(to));
+                break;
+            }
+            from = across(to);
+            if (from == start) break;
+        }
+        if (!is_closed && key_of(to, false) < key_of(start, false)) {
+            std::swap(start, to);
+            in_.new_points_.reverse_from(first_point);
+        }
+        const LocalArc& arc = arcs_.arcs()[start / 2];
+        const bool forward = start % 2 == 0;
+        in_.edges_[name] = {key_of(start, is_closed),
+                            start,
+                            to,
+                            forward ? arc.left : arc.right,
+                            forward ? arc.right : arc.left,
+                            first_point,
+                            static_cast<Index>(in_.new_points_.points.size()) - first_point,
+                            true};
+    }
+
+    void add_point(const SurfacePoint& point, double distance) {
+        in_.new_points_.points.push_back(point);
+        in_.new_points_.distances.push_back(distance);
+    }
+    void add_node_point(Index node) { add_point(point_of(node), distance_of(node)); }
+
+    [[nodiscard]] double distance_of(Index node) const {
+        return node >= LocalDiagram::first_branch ? branch(node).distance
+                                                  : labels_.crossings[node].distance;
+    }
+    [[nodiscard]] const LocalBranch& branch(Index node) const {
+        return arcs_.branches()[node - LocalDiagram::first_branch];
+    }
+
+    [[nodiscard]] SurfacePoint point_of(Index node) const {
+        if (node >= LocalDiagram::first_branch) {
+            return to_surface(surface_, branch(node).face, branch(node).position);
+        }
+        const Crossing& crossing = labels_.crossings[node];
+        if (crossing.line >= Crossing::first_cut) {
+            return point_on_cut(labels_.cuts[crossing.line - Crossing::first_cut], crossing.at);
+        }
+        const Index h = surface_.edge_half[crossing.line];
+        SurfacePoint point{FaceId(Surface::face(h)), {0, 0, 0}};
+        point.barycentric[h % 3] = 1 - crossing.at;
+        point.barycentric[(h + 1) % 3] = crossing.at;
+        return point;
     }
 
     [[nodiscard]] SurfacePoint point_on_cut(const Cut& cut, double at) const {
@@ -96,83 +264,76 @@ private:
                                                                    : 2];
     }
 
-    [[nodiscard]] Index global_node(Index chunk, Index local) const {
-        return local < LocalDiagram::first_branch
-                   ? local
-                   : branch_offset_[chunk] + local - LocalDiagram::first_branch;
+    void add_inner_points(ArcEnd from) {
+        const LocalArc& arc = arcs_.arcs()[from / 2];
+        for (Index j = 0; j < arc.num_points; ++j) {
+            const Index k = arc.first_point + (from % 2 == 0 ? j : arc.num_points - 1 - j);
+            const ArcStore::Point& point = arcs_.points()[k];
+            add_point(to_surface(surface_, arc.face, point.position), point.distance);
+        }
     }
 
-    void collect_arcs() {
-        std::size_t count = 0;
-        for (const FaceArcs& chunk : chunks_) count += chunk.local.arcs.size();
-        arcs_.reserve(count);
-        for (Index chunk = 0; chunk < chunks_.size(); ++chunk) {
-            arc_offset_.push_back(static_cast<Index>(arcs_.size()));
-            const auto& local_arcs = chunks_[chunk].local.arcs;
-            for (Index i = 0; i < local_arcs.size(); ++i) {
-                const LocalArc& a = local_arcs[i];
-                const auto arc = static_cast<Index>(arcs_.size());
-                arcs_.push_back({global_node(chunk, a.tail), global_node(chunk, a.head), a.left,
-                                 a.right, chunk, i});
-                for (const ArcEnd end : {tail_of(arc), head_of(arc)}) {
-                    if (node_at(end) >= first_branch_) continue;
-                    auto& ends = nodes_[node_at(end)].ends;
-                    assert(ends[1] == no_index);
-                    ends[ends[0] == no_index ? 0 : 1] = end;
+    void put_in_order() {
+        const auto comes_before = [&](Index a, Index b) {
+            return in_.edges_[a].key < in_.edges_[b].key;
+        };
+        const auto first_new =
+            std::find_if(in_.order_.begin(), in_.order_.end(),
+                         [&](Index name) { return in_.edges_[name].is_new; });
+        std::sort(first_new, in_.order_.end(), comes_before);
+        std::inplace_merge(in_.order_.begin(), first_new, in_.order_.end(), comes_before);
+    }
+
+    // Into the diagram, edge after edge.
+    void gather_points() {
+        if (!are_points_in_order()) {
+            in_.spare_.clear();
+            for (const Index name : in_.order_) {
+                const Edge& edge = in_.edges_[name];
+                if (edge.is_new) {
+                    in_.spare_.append(in_.new_points_.points, in_.new_points_.distances, edge);
+                } else {
+                    in_.spare_.append(out_.points, out_.point_distance, edge);
                 }
             }
+            std::swap(in_.spare_, in_.new_points_);
+        }
+        std::swap(out_.points, in_.new_points_.points);
+        std::swap(out_.point_distance, in_.new_points_.distances);
+        out_.edge_points.assign(1, 0);
+        for (const Index name : in_.order_) {
+            Edge& edge = in_.edges_[name];
+            edge.is_new = false;
+            edge.first_point = out_.edge_points.back();
+            out_.edge_points.push_back(edge.first_point + edge.num_points);
         }
     }
 
-    [[nodiscard]] Index node_at(ArcEnd end) const {
-        return end % 2 == 0 ? arcs_[end / 2].tail : arcs_[end / 2].head;
-    }
-    [[nodiscard]] bool is_vertex(Index node) const {
-        return node >= first_branch_ || (node < is_boundary_.size() && is_boundary_[node] != 0);
+    // As they are where nothing was kept.
+    [[nodiscard]] bool are_points_in_order() const {
+        Index next = 0;
+        for (const Index name : in_.order_) {
+            const Edge& edge = in_.edges_[name];
+            if (!edge.is_new || edge.first_point != next) return false;
+            next += edge.num_points;
+        }
+        return true;
     }
 
-    void add_point(const SurfacePoint& point, double distance) {
-        out_.points.push_back(point);
-        out_.point_distance.push_back(distance);
-    }
-    void add_node_point(Index node) { add_point(nodes_[node].point, nodes_[node].distance); }
-
-    void add_inner_points(ArcEnd from) {
-        const Arc& arc = arcs_[from / 2];
-        const LocalDiagram& local = chunks_[arc.chunk].local;
-        const LocalArc& a = local.arcs[arc.local];
-        for (Index j = 0; j < a.num_points; ++j) {
-            const Index k = a.first_point + (from % 2 == 0 ? j : a.num_points - 1 - j);
-            add_point(to_surface(surface_, a.face, local.points[k]), local.point_distance[k]);
+    void list_edges() {
+        numbers_.resize(in_.edges_.size());
+        out_.edges.clear();
+        for (const Index name : in_.order_) {
+            numbers_[name] = static_cast<Index>(out_.edges.size());
+            const Edge& edge = in_.edges_[name];
+            out_.edges.push_back({SiteId(edge.left), SiteId(edge.right), no_index, no_index});
         }
     }
 
-    // Follows the arcs from one end through crossings until a Voronoi vertex or the start.
-    void walk(ArcEnd start) {
-        const auto edge = static_cast<Index>(out_.edges.size());
-        const Arc& first = arcs_[start / 2];
-        VoronoiEdge& result = out_.edges.emplace_back();
-        result.left = SiteId(start % 2 == 0 ? first.left : first.right);
-        result.right = SiteId(start % 2 == 0 ? first.right : first.left);
-        const bool is_closed = !is_vertex(node_at(start));
-        ArcEnd from = start;
-        while (true) {
-            is_used_[from / 2] = true;
-            add_node_point(node_at(from));
-            add_inner_points(from);
-            const ArcEnd to = other_end(from);
-            const Index node = node_at(to);
-            if (is_vertex(node)) {
-                add_node_point(node);
-                edge_end_[start] = {edge, true};
-                edge_end_[to] = {edge, false};
-                break;
-            }
-            const auto& ends = nodes_[node].ends;
-            from = ends[0] == to ? ends[1] : ends[0];
-            if (is_closed && from == start) break;
-        }
-        out_.edge_points.push_back(static_cast<Index>(out_.points.size()));
+    // The end of the Voronoi edge that lies at the end of an arc.
+    [[nodiscard]] EdgeEnd edge_end(ArcEnd end) const {
+        const Index name = in_.edge_of_arc_[end / 2];
+        return {numbers_[name], in_.edges_[name].first == end};
     }
 
     void attach(const EdgeEnd& end, Index site, Index vertex) {
@@ -182,22 +343,23 @@ private:
     }
 
     void finish_vertex(Index node) {
-        out_.vertices.push_back(nodes_[node].point);
-        out_.vertex_distance.push_back(nodes_[node].distance);
+        out_.vertices.push_back(point_of(node));
+        out_.vertex_distance.push_back(distance_of(node));
         out_.vertex_offsets.push_back(static_cast<Index>(out_.vertex_ends.size()));
     }
 
-    void add_branches() {
-        for (Index chunk = 0; chunk < chunks_.size(); ++chunk) {
-            const auto& branches = chunks_[chunk].local.branches;
-            for (Index i = 0; i < branches.size(); ++i) {
+    void add_branches(std::span<const Index> mixed_faces) {
+        for (const Index face : mixed_faces) {
+            const Block& block = arcs_.of_face(face).branches;
+            for (Index i = block.begin; i < block.end(); ++i) {
+                const LocalBranch& branch = arcs_.branches()[i];
                 const auto vertex = static_cast<Index>(out_.vertices.size());
                 for (std::size_t k = 0; k < 3; ++k) {
-                    const Index arc = arc_offset_[chunk] + branches[i].arcs[k];
-                    const ArcEnd end = branches[i].at_tail[k] ? tail_of(arc) : head_of(arc);
-                    attach(edge_end_[end], branches[i].sites[k], vertex);
+                    const ArcEnd end =
+                        branch.at_tail[k] ? tail_of(branch.arcs[k]) : head_of(branch.arcs[k]);
+                    attach(edge_end(end), branch.sites[k], vertex);
                 }
-                finish_vertex(branch_offset_[chunk] + i);
+                finish_vertex(LocalDiagram::first_branch + i);
             }
         }
     }
@@ -210,13 +372,13 @@ private:
     };
 
     void add_boundary() {
-        for (const std::vector<Index>& loop : boundary_loops(surface_)) {
+        for (const std::vector<Index>& loop : in_.boundary_loops_) {
             std::vector<BoundaryCrossing> crossings;
             for (Index i = 0; i < loop.size(); ++i) {
                 // A boundary edge has one half-edge, so its crossings run along the loop.
-                const auto on_edge = labels_.on_edge(surface_.edge[loop[i]]);
-                for (const Crossing& c : on_edge) {
-                    const auto node = static_cast<Index>(&c - labels_.crossings.data());
+                const Block& row = labels_.edge_rows[surface_.edge[loop[i]]];
+                for (Index node = row.begin; node < row.end(); ++node) {
+                    const Crossing& c = labels_.crossings[node];
                     crossings.push_back({node, i, c.site_before, c.site_after});
                 }
             }
@@ -228,11 +390,17 @@ private:
         }
     }
 
+    void add_boundary_point(const SurfacePoint& point, double distance) {
+        out_.points.push_back(point);
+        out_.point_distance.push_back(distance);
+    }
+    void add_boundary_node(Index node) { add_boundary_point(point_of(node), distance_of(node)); }
+
     void add_mesh_vertex(Index half_edge) {
         const Index v = surface_.tail(half_edge);
         SurfacePoint point{FaceId(Surface::face(half_edge)), {0, 0, 0}};
         point.barycentric[half_edge % 3] = 1;
-        add_point(point, labels_.vertex_distance[v]);
+        add_boundary_point(point, labels_.vertex_distance[v]);
     }
 
     void add_closed_boundary(const std::vector<Index>& loop) {
@@ -251,13 +419,13 @@ private:
         for (Index i = 0; i < count; ++i) {
             const BoundaryCrossing& from = crossings[i];
             const BoundaryCrossing& to = crossings[(i + 1) % count];
-            add_node_point(from.node);
+            add_boundary_node(from.node);
             // The mesh vertices between: tails of the half-edges after `from` up to that of `to`.
             Index steps = (to.position + loop_size - from.position) % loop_size;
             if (steps == 0 && i + 1 == count) steps = loop_size;
             for (Index j = 1; j <= steps; ++j)
                 add_mesh_vertex(loop[(from.position + j) % loop_size]);
-            add_node_point(to.node);
+            add_boundary_node(to.node);
             out_.edges.push_back({SiteId(from.site_after), {}, no_index, no_index});
             out_.edge_points.push_back(static_cast<Index>(out_.points.size()));
         }
@@ -266,7 +434,7 @@ private:
             const auto vertex = static_cast<Index>(out_.vertices.size());
             const Index behind = first_edge + (i + count - 1) % count;
             attach({first_edge + i, true}, c.site_after, vertex);
-            attach(edge_end_[nodes_[c.node].ends[0]], c.site_before, vertex);
+            attach(edge_end(in_.crossing_ends_[c.node][0]), c.site_before, vertex);
             attach({behind, false}, no_index, vertex);
             finish_vertex(c.node);
         }
@@ -274,23 +442,16 @@ private:
 
     const Surface& surface_;
     const EdgeLabels& labels_;
-    std::span<const FaceArcs> chunks_;
+    const ArcStore& arcs_;
+    ArcJoiner& in_;
     Diagram& out_;
-
-    std::vector<Node> nodes_;
-    std::vector<std::uint8_t> is_boundary_;          // Of the crossings.
-    std::vector<Index> branch_offset_, arc_offset_;  // By chunk.
-    Index first_branch_ = 0;
-    std::vector<Arc> arcs_;
-    std::vector<EdgeEnd> edge_end_;  // By arc end: the end of the Voronoi edge that lies there.
-    std::vector<bool> is_used_;
+    std::vector<Index> numbers_;  // By edge of the joiner, in the diagram.
 };
 
-}  // namespace
-
-void join_arcs(const Surface& surface, const EdgeLabels& labels, std::span<const FaceArcs> chunks,
-               Diagram& diagram) {
-    Joiner(surface, labels, chunks, diagram).run();
+void ArcJoiner::join(const Surface& surface, const EdgeLabels& labels, const ArcStore& arcs,
+                     std::span<const Index> mixed_faces, std::span<const Index> new_faces,
+                     Diagram& diagram) {
+    Run(surface, labels, arcs, *this, diagram).run(mixed_faces, new_faces);
 }
 
 }  // namespace agvd

@@ -1,21 +1,19 @@
 #include "agvd/diagram/moving_diagram.h"
 
-#include <optional>
-
-#include "agvd/diagram/earlier_parts.h"
+#include "agvd/diagram/diagram_builder.h"
 
 namespace agvd {
 
 class MovingDiagram::State {
 public:
-    State(const Surface& surface, MovingSites sites, DiagramOptions options)
-        : surface_(surface), sites_(std::move(sites)), options_(std::move(options)) {
+    State(const Surface& surface, MovingSites sites, const DiagramOptions& options)
+        : sites_(std::move(sites)), builder_(surface, options) {
         build();
     }
 
     void update(const SiteChanges& changes) {
         sites_.update(changes);
-        if (!changes.removed.empty()) can_take_over_ = false;
+        if (!changes.removed.empty()) builder_.reset();
         build();
     }
 
@@ -24,30 +22,20 @@ public:
 
 private:
     void build() {
-        std::optional<EarlierParts> earlier;
-        if (can_take_over_) earlier.emplace(surface_, parts_, sites_.changed_faces());
-        can_take_over_ = false;  // Not after a call that throws.
-        DiagramParts parts;
-        diagram_ = build_diagram(surface_, sites_.sites(), sites_.propagation(), options_,
-                                 earlier ? &*earlier : nullptr, parts);
-        parts_ = std::move(parts);
-        can_take_over_ = true;
+        builder_.build(sites_.sites(), sites_.propagation(), sites_.changed_faces(), diagram_);
     }
 
-    const Surface& surface_;
     MovingSites sites_;
-    DiagramOptions options_;
-    DiagramParts parts_;
-    bool can_take_over_ = false;
+    DiagramBuilder builder_;
     Diagram diagram_;
 };
 
 MovingDiagram::MovingDiagram(const Surface& surface, const SurfaceLayout& layout,
                              std::vector<SurfacePoint> sites, const PropagationOptions& propagation,
-                             DiagramOptions options)
+                             const DiagramOptions& options)
     : state_(std::make_unique<State>(surface,
                                      MovingSites(surface, layout, std::move(sites), propagation),
-                                     std::move(options))) {}
+                                     options)) {}
 MovingDiagram::MovingDiagram(MovingDiagram&&) noexcept = default;
 MovingDiagram& MovingDiagram::operator=(MovingDiagram&&) noexcept = default;
 MovingDiagram::~MovingDiagram() = default;

@@ -20,7 +20,7 @@ public:
     //! Space: that of MovingSites, and twice that of the diagram.
     MovingDiagram(const Surface& surface, const SurfaceLayout& layout,
                   std::vector<SurfacePoint> sites, const PropagationOptions& propagation = {},
-                  DiagramOptions options = {});
+                  const DiagramOptions& options = {});
     MovingDiagram(MovingDiagram&&) noexcept;
     MovingDiagram& operator=(MovingDiagram&&) noexcept;
     ~MovingDiagram();

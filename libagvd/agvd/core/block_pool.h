@@ -1,0 +1,69 @@
+//! \file
+//! Lists of a few elements each, some of which are replaced now and then.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <vector>
+
+#include "agvd/core/types.h"
+
+namespace agvd {
+
+//! Some consecutive elements of a BlockPool.
+struct Block {
+    Index begin = 0;
+    Index count = 0;
+
+    [[nodiscard]] Index end() const { return begin + count; }
+};
+
+//! Blocks keep their place until they are released, so that elements have lasting names. What was
+//! released serves again for as many elements.
+template <typename T>
+class BlockPool {
+public:
+    //! Released blocks included.
+    [[nodiscard]] Index size() const { return static_cast<Index>(elements_.size()); }
+    [[nodiscard]] std::size_t num_released() const { return num_released_; }
+    void reserve(std::size_t size) { elements_.reserve(size); }
+
+    [[nodiscard]] T& operator[](Index i) { return elements_[i]; }
+    [[nodiscard]] const T& operator[](Index i) const { return elements_[i]; }
+    [[nodiscard]] std::span<T> operator[](const Block& block) {
+        return std::span(elements_).subspan(block.begin, block.count);
+    }
+    [[nodiscard]] std::span<const T> operator[](const Block& block) const {
+        return std::span(elements_).subspan(block.begin, block.count);
+    }
+
+    //! \param elements  not of this pool.
+    [[nodiscard]] Block add(std::span<const T> elements) {
+        const auto count = static_cast<Index>(elements.size());
+        if (count == 0) return {};
+        if (count < released_.size() && !released_[count].empty()) {
+            const Index begin = released_[count].back();
+            released_[count].pop_back();
+            num_released_ -= count;
+            std::copy(elements.begin(), elements.end(), elements_.begin() + begin);
+            return {begin, count};
+        }
+        const Index begin = size();
+        elements_.insert(elements_.end(), elements.begin(), elements.end());
+        return {begin, count};
+    }
+
+    void release(const Block& block) {
+        if (block.count == 0) return;
+        if (block.count >= released_.size()) released_.resize(block.count + 1);
+        released_[block.count].push_back(block.begin);
+        num_released_ += block.count;
+    }
+
+private:
+    std::vector<T> elements_;
+    std::vector<std::vector<Index>> released_;  // By count: where such blocks begin.
+    std::size_t num_released_ = 0;              // Elements.
+};
+
+}  // namespace agvd

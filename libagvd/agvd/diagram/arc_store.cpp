@@ -1,0 +1,108 @@
+#include "agvd/diagram/arc_store.h"
+
+#include <utility>
+
+namespace agvd {
+
+void ArcStore::reserve(std::span<const FaceArcs> chunks) {
+    FaceArcs::Mark sum{};
+    std::size_t num_faces = 0;
+    for (const FaceArcs& chunk : chunks) {
+        const FaceArcs::Mark mark = chunk.mark();
+        sum.arcs += mark.arcs;
+        sum.branches += mark.branches;
+        sum.points += mark.points;
+        sum.connections += mark.connections;
+        sum.parts += mark.parts;
+        num_faces += chunk.faces.size();
+    }
+    faces_.reserve(faces_.size() + num_faces);
+    arcs_.reserve(arcs_.size() + sum.arcs);
+    branches_.reserve(branches_.size() + sum.branches);
+    points_.reserve(points_.size() + sum.points);
+    connections_.reserve(connections_.size() + sum.connections);
+    parts_.reserve(parts_.size() + sum.parts);
+}
+
+void ArcStore::add(std::span<const Index> faces, const FaceArcs& chunk, Index first) {
+    const auto mark = [&](Index i) {
+        return i < chunk.faces.size() ? chunk.faces[i] : chunk.mark();
+    };
+    const FaceArcs::Mark begin = mark(first);
+    const FaceArcs::Mark end = mark(first + static_cast<Index>(faces.size()));
+    const LocalDiagram& local = chunk.local;
+    const auto part = [](const auto& elements, Index from, Index to) {
+        return std::span(elements).subspan(from, to - from);
+    };
+    new_points_.clear();
+    for (Index p = begin.points; p < end.points; ++p) {
+        new_points_.push_back({local.points[p], local.point_distance[p]});
+    }
+    Face all;
+    all.points = points_.add(new_points_);
+    all.connections =
+        connections_.add(part(local.connections, begin.connections, end.connections));
+    all.parts = parts_.add(part(chunk.parts, begin.parts, end.parts));
+    all.arcs = arcs_.add(part(local.arcs, begin.arcs, end.arcs));
+    all.branches = branches_.add(part(local.branches, begin.branches, end.branches));
+
+    const auto rename = [&](Index& node) {
+        if (node >= LocalDiagram::first_branch) node += all.branches.begin - begin.branches;
+    };
+    for (LocalArc& arc : arcs_[all.arcs]) {
+        rename(arc.tail);
+        rename(arc.head);
+        arc.first_point += all.points.begin - begin.points;
+    }
+    for (LocalBranch& branch : branches_[all.branches]) {
+        for (Index& arc : branch.arcs) arc += all.arcs.begin - begin.arcs;
+    }
+    FaceArcs::Mark from = begin;
+    for (Index i = 0; i < faces.size(); ++i) {
+        const FaceArcs::Mark to = mark(first + i + 1);
+        const auto block = [&](const Block& of_all, Index FaceArcs::Mark::*place) {
+            return Block{of_all.begin + from.*place - begin.*place, to.*place - from.*place};
+        };
+        faces_[take_slot(faces[i])] = {block(all.arcs, &FaceArcs::Mark::arcs),
+                                       block(all.branches, &FaceArcs::Mark::branches),
+                                       block(all.points, &FaceArcs::Mark::points),
+                                       block(all.connections, &FaceArcs::Mark::connections),
+                                       block(all.parts, &FaceArcs::Mark::parts)};
+        from = to;
+    }
+}
+
+Index ArcStore::take_slot(Index face) {
+    if (free_slots_.empty()) {
+        free_slots_.push_back(static_cast<Index>(faces_.size()));
+        faces_.emplace_back();
+    }
+    slots_[face] = free_slots_.back();
+    free_slots_.pop_back();
+    return slots_[face];
+}
+
+void ArcStore::remove(Index face) {
+    const Index slot = std::exchange(slots_[face], no_index);
+    if (slot == no_index) return;
+    const Face& stored = faces_[slot];
+    for (Connection& connection : connections_[stored.connections]) connection.site = no_index;
+    arcs_.release(stored.arcs);
+    branches_.release(stored.branches);
+    points_.release(stored.points);
+    connections_.release(stored.connections);
+    parts_.release(stored.parts);
+    free_slots_.push_back(slot);
+}
+
+bool ArcStore::is_wasteful() const {
+    constexpr std::size_t least = 1024;  // Not worth it.
+    const auto is_mostly_released = [](const auto& pool) {
+        return pool.num_released() > least && 2 * pool.num_released() > pool.size();
+    };
+    return is_mostly_released(arcs_) || is_mostly_released(branches_) ||
+           is_mostly_released(points_) || is_mostly_released(connections_) ||
+           is_mostly_released(parts_);
+}
+
+}  // namespace agvd

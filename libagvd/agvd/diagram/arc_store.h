@@ -1,0 +1,61 @@
+//! \file
+//! The arcs of all faces, some of which are traced again now and then.
+#pragma once
+
+#include "agvd/core/block_pool.h"
+#include "agvd/diagram/face_arcs.h"
+
+namespace agvd {
+
+//! As in FaceArcs, but for names: nodes from LocalDiagram::first_branch on and the arcs of branches
+//! are places in the pools, which last as long as the face keeps its arcs.
+class ArcStore {
+public:
+    //! What a face has.
+    struct Face {
+        Block arcs, branches, points, connections, parts;
+    };
+    struct Point {
+        Vec2 position;  //!< In the face's own frame.
+        double distance;
+    };
+
+    explicit ArcStore(Index num_faces) : slots_(num_faces, no_index) {}
+
+    //! Makes room for what is in these.
+    void reserve(std::span<const FaceArcs> chunks);
+    //! Gives faces that have none the arcs of the faces of a chunk, from the first-th on.
+    void add(std::span<const Index> faces, const FaceArcs& chunk, Index first);
+    //! Takes them away again, if there are any.
+    void remove(Index face);
+
+    //! Empty for a face without arcs.
+    [[nodiscard]] const Face& of_face(Index face) const {
+        static constexpr Face none{};
+        return slots_[face] == no_index ? none : faces_[slots_[face]];
+    }
+    [[nodiscard]] const BlockPool<LocalArc>& arcs() const { return arcs_; }
+    [[nodiscard]] const BlockPool<LocalBranch>& branches() const { return branches_; }
+    [[nodiscard]] const BlockPool<Point>& points() const { return points_; }
+    //! Those that were released are of no site.
+    [[nodiscard]] const BlockPool<Connection>& connections() const { return connections_; }
+    [[nodiscard]] const BlockPool<FaceArcs::CellPart>& parts() const { return parts_; }
+
+    //! More is released than in use: time to begin anew.
+    [[nodiscard]] bool is_wasteful() const;
+
+private:
+    Index take_slot(Index face);
+
+    std::vector<Index> slots_;  // #F: where in faces_; no_index: no arcs.
+    std::vector<Face> faces_;
+    std::vector<Index> free_slots_;
+    BlockPool<LocalArc> arcs_;
+    BlockPool<LocalBranch> branches_;
+    BlockPool<Point> points_;
+    BlockPool<Connection> connections_;
+    BlockPool<FaceArcs::CellPart> parts_;
+    std::vector<Point> new_points_;  // Of the faces at hand.
+};
+
+}  // namespace agvd

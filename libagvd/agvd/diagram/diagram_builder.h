@@ -1,0 +1,49 @@
+//! \file
+//! The stages of a diagram, and what they keep for the next one.
+#pragma once
+
+#include <optional>
+
+#include "agvd/diagram/cuts.h"
+#include "agvd/diagram/islands.h"
+#include "agvd/diagram/join.h"
+#include "agvd/diagram/touched_parts.h"
+
+namespace agvd {
+
+//! Builds a diagram, and then what a change touches of it, again and again.
+class DiagramBuilder {
+public:
+    //! \param surface  outlives this.
+    DiagramBuilder(const Surface& surface, DiagramOptions options);
+
+    //! Makes `diagram` that of these sites, byte for byte as a new builder would.
+    //! \param changed_faces  those whose relays, or the distances of whose corners, are others than
+    //!                       in the last call. Not read in the first one.
+    //! \param diagram        as the last call left it.
+    //! \throw Cancelled  `diagram` is as it was; the next call begins anew.
+    void build(std::span<const SurfacePoint> sites, const Propagation& propagation,
+               std::span<const Index> changed_faces, Diagram& diagram);
+
+    //! Forgets everything, as where sites got other numbers.
+    void reset() { kept_.reset(); }
+
+private:
+    // What one call leaves to the next.
+    struct Kept {
+        explicit Kept(const Surface& surface) : arcs(surface.num_faces()), joiner(surface) {}
+
+        EdgeLabels labels;
+        ArcStore arcs;
+        ArcJoiner joiner;
+        std::vector<OldLabel> absorbed;   // Labels that islands had, one after the other.
+        std::vector<Index> mended_faces;  // Around those.
+    };
+    class Run;
+
+    const Surface& surface_;
+    DiagramOptions options_;
+    std::optional<Kept> kept_;
+};
+
+}  // namespace agvd

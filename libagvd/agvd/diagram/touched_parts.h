@@ -1,0 +1,45 @@
+//! \file
+//! What of a diagram a change of its propagation touches.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "agvd/mesh/surface.h"
+
+namespace agvd {
+
+//! Labels and arcs depend on nothing but the relays of the faces next to them and the labels of
+//! their corners.
+class TouchedParts {
+public:
+    //! All is touched.
+    explicit TouchedParts(const Surface& surface) : surface_(surface), is_all_(true) {}
+    //! \param faces  those whose relays, or the distances of whose corners, are others now, and
+    //!               those to be done anew for other reasons.
+    TouchedParts(const Surface& surface, std::span<const Index> faces);
+
+    [[nodiscard]] bool is_all() const { return is_all_; }
+    //! Corners of those faces, unless all is touched.
+    [[nodiscard]] const std::vector<Index>& vertices() const { return vertices_; }
+    //! Ascending: the faces around those vertices, unless all is touched. What lies outside is as it
+    //! was.
+    [[nodiscard]] const std::vector<Index>& faces() const { return faces_; }
+
+    //! Says that a vertex has the label and distance that it had.
+    void clear_vertex(Index vertex) { is_vertex_touched_[vertex] = 0; }
+
+    //! Whether its row is as it was.
+    [[nodiscard]] bool holds_on_edge(Index half_edge) const;
+    //! In the face and on its edges.
+    [[nodiscard]] bool holds_in_face(Index face) const;
+
+private:
+    const Surface& surface_;
+    bool is_all_ = false;
+    std::vector<Index> vertices_, faces_;
+    std::vector<std::uint8_t> is_face_touched_;    // #F
+    std::vector<std::uint8_t> is_vertex_touched_;  // #V
+};
+
+}  // namespace agvd
