@@ -1,11 +1,17 @@
 #include "agvd/diagram/cell_set.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace agvd {
 
-void CellSet::insert(const CellSet& other) {
-    for (Index s = 0; s < has_.size(); ++s) has_[s] |= other.has_[s];
+bool CellSet::insert(const CellSet& other) {
+    bool has_new = false;
+    for (Index s = 0; s < has_.size(); ++s) {
+        has_new = has_new || has_[s] < other.has_[s];
+        has_[s] |= other.has_[s];
+    }
+    return has_new;
 }
 
 void CellSet::insert_those_in(Index face, const ArcStore& arcs) {
@@ -15,7 +21,7 @@ void CellSet::insert_those_in(Index face, const ArcStore& arcs) {
 }
 
 FaceList::FaceList(const Surface& surface, const EdgeLabels& labels, const ArcStore& arcs,
-                   const CellSet& cells) {
+                   const CellSet& cells, std::span<const Index> seeds) {
     const auto is_reached = [&](Index face) {
         if (labels.mixed_index[face] == no_index) {
             return cells.has(labels.point_site[surface.mesh.triangles[face][0]]);
@@ -24,9 +30,17 @@ FaceList::FaceList(const Surface& surface, const EdgeLabels& labels, const ArcSt
         return std::any_of(parts.begin(), parts.end(),
                            [&](const FaceArcs::CellPart& part) { return cells.has(part.site); });
     };
-    for (Index face = 0; face < surface.num_faces(); ++face) {
-        if (is_reached(face)) faces_.push_back(face);
+    std::vector<std::uint8_t> is_seen(surface.num_faces(), 0);
+    const auto visit = [&](Index face) {
+        if (std::exchange(is_seen[face], 1) == 0 && is_reached(face)) faces_.push_back(face);
+    };
+    for (const Index face : seeds) visit(face);
+    for (std::size_t i = 0; i < faces_.size(); ++i) {
+        for (Index h = 3 * faces_[i]; h < 3 * faces_[i] + 3; ++h) {
+            if (surface.twin[h] != no_index) visit(Surface::face(surface.twin[h]));
+        }
     }
+    std::sort(faces_.begin(), faces_.end());
     size_ = static_cast<Index>(faces_.size());
 }
 

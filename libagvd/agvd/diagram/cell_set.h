@@ -15,7 +15,8 @@ public:
     void insert(Index site) {
         if (site != no_index) has_[site] = 1;
     }
-    void insert(const CellSet& other);
+    //! Whether there were any new ones.
+    bool insert(const CellSet& other);
     //! The cells that reach into a listed face.
     void insert_those_in(Index face, const ArcStore& arcs);
 
@@ -28,15 +29,16 @@ class FaceList {
 public:
     //! All.
     explicit FaceList(Index num_faces) : size_(num_faces) {}
-    //! Those that any of the cells reaches into. Cost: O(#F).
+    //! Those that any of the cells reaches into, as far as they hang together with one of these
+    //! faces. Cost: O(seeds + faces), and a pass over #F bytes.
     FaceList(const Surface& surface, const EdgeLabels& labels, const ArcStore& arcs,
-             const CellSet& cells);
+             const CellSet& cells, std::span<const Index> seeds);
 
     [[nodiscard]] Index size() const { return size_; }
     [[nodiscard]] Index operator[](Index i) const { return faces_.empty() ? i : faces_[i]; }
 
 private:
-    Index size_;
+    Index size_ = 0;
     std::vector<Index> faces_;  // Empty: all, if any.
 };
 

@@ -39,7 +39,7 @@ public:
         if (!touched_.is_all()) {
             for (const Index face : new_faces_) asked_.insert_those_in(face, arcs_);
         }
-        FaceList faces = touched_.is_all() ? FaceList(surface_.num_faces()) : faces_of(asked_);
+        FaceList faces = faces_of(asked_);
         absorb_all_islands(faces, groups);
         poll(options_.progress, 0.9);
 
@@ -123,8 +123,13 @@ private:
         arcs_.remove(face);
     }
 
+    // Cells differ from what they were, and have parts that hang together with nothing else of
+    // them, next to touched faces and to those that were mended.
     [[nodiscard]] FaceList faces_of(const CellSet& cells) const {
-        return {surface_, labels_, arcs_, cells};
+        if (touched_.is_all()) return FaceList(surface_.num_faces());
+        std::vector<Index> seeds = touched_.faces();
+        seeds.insert(seeds.end(), kept_.mended_faces.begin(), kept_.mended_faces.end());
+        return {surface_, labels_, arcs_, cells, seeds};
     }
 
     // For labelling and tracing these faces.
@@ -183,9 +188,10 @@ private:
     void absorb_all_islands(FaceList& faces, RelayGroups& groups) {
         kept_.mended_faces.clear();
         CellSet asked = asked_;
+        FaceList faces_of_round = faces;
         std::vector<Index> stale;
-        while (absorb_islands(surface_, sites_, arcs_, faces, labels_, asked, kept_.absorbed,
-                              stale) > 0) {
+        while (absorb_islands(surface_, sites_, arcs_, faces_of_round, labels_, asked,
+                              kept_.absorbed, stale) > 0) {
             std::sort(stale.begin(), stale.end());
             stale.erase(std::unique(stale.begin(), stale.end()), stale.end());
             const std::vector<Index> mixed = places_of(stale);
@@ -194,15 +200,10 @@ private:
             if (!touched_.is_all()) groups = group_relays(mixed);
             trace(mixed, groups);
             for (const Index face : stale) asked.insert_those_in(face, arcs_);
-            asked_.insert(asked);
             kept_.mended_faces.insert(kept_.mended_faces.end(), stale.begin(), stale.end());
-            faces = faces_of(asked);
+            faces_of_round = faces_of(asked);
+            if (asked_.insert(asked)) faces = faces_of(asked_);
             stale.clear();
-        }
-        if (touched_.is_all()) {
-            faces = FaceList(surface_.num_faces());
-        } else if (!kept_.mended_faces.empty()) {
-            faces = faces_of(asked_);
         }
     }
 

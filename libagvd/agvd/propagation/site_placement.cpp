@@ -15,24 +15,22 @@ namespace {
 constexpr double barycentric_tolerance = 1e-6;
 
 void check_site(const Surface& surface, const SurfacePoint& site, std::size_t index) {
-    const std::string name = "site " + std::to_string(index);
+    const auto refuse = [&](const std::string& why) {
+        throw InvalidInput("site " + std::to_string(index) + why);
+    };
     if (site.face.value() >= surface.num_faces()) {
-        throw InvalidInput(name + " names a face that does not exist; there are " +
-                           std::to_string(surface.num_faces()) + " faces, counted from 0");
+        refuse(" names a face that does not exist; there are " +
+               std::to_string(surface.num_faces()) + " faces, counted from 0");
     }
     double sum = 0;
     for (const double b : site.barycentric) {
         if (!(b >= 0)) {
-            throw InvalidInput(name +
-                               " has a negative barycentric coordinate; a site must lie in "
-                               "its face");
+            refuse(" has a negative barycentric coordinate; a site must lie in its face");
         }
         sum += b;
     }
     if (!(std::abs(sum - 1) <= barycentric_tolerance)) {
-        throw InvalidInput(name +
-                           " has barycentric coordinates that do not sum to 1; divide them "
-                           "by their sum");
+        refuse(" has barycentric coordinates that do not sum to 1; divide them by their sum");
     }
 }
 
@@ -57,8 +55,12 @@ void check_sites(const Surface& surface, std::span<const SurfacePoint> sites) {
 
 SitePlacement::SitePlacement(const Surface& surface, std::span<const SurfacePoint> sites) {
     check_sites(surface, sites);
-    for (const Index s : distinct_points(surface, sites)) {
-        if (vertex_of(surface, sites[s])) continue;
+    std::vector<Index> chosen;
+    for (Index s = 0; s < sites.size(); ++s) {
+        if (!vertex_of(surface, sites[s])) chosen.push_back(s);
+    }
+    for (const Index i : distinct_points(surface, points_of(sites, chosen))) {
+        const Index s = chosen[i];
         placed_.push_back({s, sites[s]});
         const std::optional<Index> half_edge = half_edge_of(sites[s]);
         if (half_edge && surface.twin[*half_edge] != no_index) {
