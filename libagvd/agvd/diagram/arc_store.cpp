@@ -44,7 +44,14 @@ void ArcStore::add(std::span<const Index> faces, const FaceArcs& chunk, Index fi
         connections_.add(part(local.connections, begin.connections, end.connections));
     all.parts = parts_.add(part(chunk.parts, begin.parts, end.parts));
     all.arcs = arcs_.add(part(local.arcs, begin.arcs, end.arcs));
-    all.branches = branches_.add(part(local.branches, begin.branches, end.branches));
+    new_branches_.clear();
+    for (const LocalBranch& branch : part(local.branches, begin.branches, end.branches)) {
+        Branch& added = new_branches_.emplace_back(
+            Branch{to_surface(*surface_, branch.face, branch.position), branch.distance,
+                   branch.arcs, branch.at_tail, branch.sites});
+        for (Index& arc : added.arcs) arc += all.arcs.begin - begin.arcs;
+    }
+    all.branches = branches_.add(new_branches_);
 
     const auto rename = [&](Index& node) {
         if (node >= LocalDiagram::first_branch) node += all.branches.begin - begin.branches;
@@ -53,9 +60,6 @@ void ArcStore::add(std::span<const Index> faces, const FaceArcs& chunk, Index fi
         rename(arc.tail);
         rename(arc.head);
         arc.first_point += all.points.begin - begin.points;
-    }
-    for (LocalBranch& branch : branches_[all.branches]) {
-        for (Index& arc : branch.arcs) arc += all.arcs.begin - begin.arcs;
     }
     FaceArcs::Mark from = begin;
     for (Index i = 0; i < faces.size(); ++i) {
@@ -86,7 +90,6 @@ void ArcStore::remove(Index face) {
     const Index slot = std::exchange(slots_[face], no_index);
     if (slot == no_index) return;
     const Face& stored = faces_[slot];
-    for (Connection& connection : connections_[stored.connections]) connection.site = no_index;
     arcs_.release(stored.arcs);
     branches_.release(stored.branches);
     points_.release(stored.points);

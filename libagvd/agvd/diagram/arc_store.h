@@ -19,9 +19,21 @@ public:
         Vec2 position;  //!< In the face's own frame.
         double distance;
     };
+    //! As LocalBranch.
+    struct Branch {
+        SurfacePoint point;
+        double distance;
+        std::array<Index, 3> arcs;
+        std::array<bool, 3> at_tail;
+        std::array<Index, 3> sites;
+    };
 
-    explicit ArcStore(Index num_faces) : slots_(num_faces, no_index) {}
+    //! \param surface  outlives this.
+    explicit ArcStore(const Surface& surface)
+        : surface_(&surface), slots_(surface.num_faces(), no_index) {}
 
+    //! Never had any arcs.
+    [[nodiscard]] bool is_empty() const { return faces_.empty(); }
     //! Makes room for what is in these.
     void reserve(std::span<const FaceArcs> chunks);
     //! Gives faces that have none the arcs of the faces of a chunk, from the first-th on.
@@ -35,9 +47,8 @@ public:
         return slots_[face] == no_index ? none : faces_[slots_[face]];
     }
     [[nodiscard]] const BlockPool<LocalArc>& arcs() const { return arcs_; }
-    [[nodiscard]] const BlockPool<LocalBranch>& branches() const { return branches_; }
+    [[nodiscard]] const BlockPool<Branch>& branches() const { return branches_; }
     [[nodiscard]] const BlockPool<Point>& points() const { return points_; }
-    //! Those that were released are of no site.
     [[nodiscard]] const BlockPool<Connection>& connections() const { return connections_; }
     [[nodiscard]] const BlockPool<FaceArcs::CellPart>& parts() const { return parts_; }
 
@@ -47,15 +58,19 @@ public:
 private:
     Index take_slot(Index face);
 
+    const Surface* surface_;
     std::vector<Index> slots_;  // #F: where in faces_; no_index: no arcs.
     std::vector<Face> faces_;
     std::vector<Index> free_slots_;
     BlockPool<LocalArc> arcs_;
-    BlockPool<LocalBranch> branches_;
+    BlockPool<Branch> branches_;
     BlockPool<Point> points_;
     BlockPool<Connection> connections_;
     BlockPool<FaceArcs::CellPart> parts_;
-    std::vector<Point> new_points_;  // Of the faces at hand.
+
+    // Of the faces at hand.
+    std::vector<Point> new_points_;
+    std::vector<Branch> new_branches_;
 };
 
 }  // namespace agvd

@@ -1,12 +1,12 @@
 #include "agvd/diagram/diagram_builder.h"
 
 #include <algorithm>
-#include <iterator>
 #include <numeric>
 #include <utility>
 
 #include "agvd/core/parallel.h"
-#include "agvd/diagram/cell_measures.h"
+#include "agvd/diagram/cells.h"
+#include "agvd/mesh/one_ring.h"
 
 namespace agvd {
 
@@ -19,33 +19,33 @@ public:
           kept_(kept),
           labels_(kept.labels),
           arcs_(kept.arcs),
+          tally_(kept.tally),
           sites_(sites),
           propagation_(propagation),
-          touched_(std::move(touched)),
-          asked_(static_cast<Index>(sites.size()), touched_.is_all()) {}
+          touched_(std::move(touched)) {}
 
     void run(Diagram& diagram) {
         const SitePlacement placement(surface_, sites_);
-        if (touched_.is_all()) labels_.edge_rows.assign(surface_.num_edges(), {});
-        list_mixed_faces(surface_, propagation_, labels_);
+        tally_.resize(static_cast<Index>(sites_.size()));
+        begin_labels();
         settle_vertices();
+        count_unlisted_faces(1);
         const std::vector<Index> mixed = touched_.is_all() ? all_mixed() : clear_touched();
         RelayGroups groups = group_relays(mixed);
         label_edges(surface_, propagation_, groups, touched_, mixed, options_.num_threads,
                     labels_);
         cut_faces(surface_, propagation_, placement, groups, mixed, options_.num_threads, labels_);
+        count_rows_and_cuts(mixed);
         poll(options_.progress, 0.5);
         trace(mixed, groups);
-        if (!touched_.is_all()) {
-            for (const Index face : new_faces_) asked_.insert_those_in(face, arcs_);
-        }
-        FaceList faces = faces_of(asked_);
-        absorb_all_islands(faces, groups);
         poll(options_.progress, 0.9);
 
+        // From here on nothing throws.
         diagram.num_sites = static_cast<Index>(sites_.size());
-        kept_.joiner.join(surface_, labels_, arcs_, propagation_.mixed_faces, new_faces_, diagram);
-        measure_cells(surface_, labels_, arcs_, faces, asked_, diagram);
+        kept_.joiner.join(surface_, labels_, arcs_, faces_at(mixed), diagram);
+        absorb_all_islands(groups, diagram);
+        kept_.joiner.draw(surface_, labels_, arcs_, diagram);
+        tally_.write(diagram);
         diagram.nearest_site.clear();
         diagram.nearest_site.reserve(surface_.num_vertices());
         for (Index v = 0; v < surface_.num_vertices(); ++v) {
@@ -70,13 +70,52 @@ private:
         return places;
     }
 
-    // Labels the touched vertices and finds out which of them are as they were.
-    void settle_vertices() {
+    [[nodiscard]] std::vector<Index> faces_at(std::span<const Index> mixed) const {
+        std::vector<Index> faces;
+        faces.reserve(mixed.size());
+        for (const Index i : mixed) faces.push_back(propagation_.mixed_faces[i]);
+        return faces;
+    }
+
+    // Lists the mixed faces. Labels are as they were before islands were absorbed, and unlisted
+    // faces that are touched count no more.
+    void begin_labels() {
+        if (touched_.is_all()) labels_.edge_rows.assign(surface_.num_edges(), {});
         for (auto old = kept_.absorbed.rbegin(); old != kept_.absorbed.rend(); ++old) {
-            asked_.insert(std::exchange(labels_.point_site[old->point], old->site));
-            asked_.insert(old->site);
+            const Index site = std::exchange(labels_.point_site[old->point], old->site);
+            count_relabelled(old->point, site);
         }
         kept_.absorbed.clear();
+        if (!touched_.is_all()) count_unlisted_faces(-1);
+        list_mixed_faces(surface_, propagation_, labels_);
+    }
+
+    // A vertex that islands gave another label, or that has its own again.
+    void count_relabelled(Index v, Index old_site) {
+        const Index site = labels_.point_site[v];
+        tally_.count_vertex(v, old_site, -1);
+        tally_.count_vertex(v, site, 1);
+        for_each_outgoing(surface_, v, [&](Index h) {
+            const Index face = Surface::face(h);
+            const bool is_unlisted = labels_.mixed_index[face] == no_index;
+            if (!is_unlisted || surface_.mesh.triangles[face][0] != v) return;  // Once a face.
+            tally_.count_face(face, old_site, -1);
+            tally_.count_face(face, site, 1);
+        });
+    }
+
+    // The touched ones.
+    void count_unlisted_faces(int sign) {
+        const auto count = [&](Index face) {
+            if (labels_.mixed_index[face] != no_index) return;
+            tally_.count_face(face, labels_.point_site[surface_.mesh.triangles[face][0]], sign);
+        };
+        for (const Index face : touched_.faces()) count(face);
+        for (Index f = 0; touched_.is_all() && f < surface_.num_faces(); ++f) count(f);
+    }
+
+    // Labels the touched vertices and finds out which of them are as they were.
+    void settle_vertices() {
         std::vector<Nearest> before;
         before.reserve(touched_.vertices().size());
         for (const Index v : touched_.vertices()) {
@@ -88,12 +127,14 @@ private:
         for (Index i = 0; i < before.size(); ++i) {
             const Index v = touched_.vertices()[i];
             const auto& [site, distance] = before[i];
+            tally_.count_vertex(v, site, -1);
+            tally_.count_vertex(v, labels_.point_site[v], 1);
             if (labels_.point_site[v] == site && labels_.vertex_distance[v] == distance) {
                 touched_.clear_vertex(v);
-            } else {
-                asked_.insert(site);
-                asked_.insert(labels_.point_site[v]);
             }
+        }
+        for (Index v = 0; touched_.is_all() && v < surface_.num_vertices(); ++v) {
+            tally_.count_vertex(v, labels_.point_site[v], 1);
         }
     }
 
@@ -103,33 +144,52 @@ private:
         for (const Index face : touched_.faces()) {
             if (touched_.holds_in_face(face)) continue;
             stale.push_back(face);
-            clear_arcs(face, asked_);
+            clear_arcs(face);
             for (Index h = 3 * face; h < 3 * face + 3; ++h) {
                 if (touched_.holds_on_edge(h)) continue;
-                labels_.crossings.release(std::exchange(labels_.edge_rows[surface_.edge[h]], {}));
+                const Block row = std::exchange(labels_.edge_rows[surface_.edge[h]], {});
+                tally_.count_row(std::as_const(labels_.crossings)[row], -1);
+                labels_.crossings.release(row);
             }
         }
         std::erase_if(labels_.cut_faces, [&](const CutFace& cut) {
             if (touched_.holds_in_face(cut.face)) return false;
+            count_cuts(cut, -1);
             release_cut(cut, surface_.num_vertices(), labels_);
             return true;
         });
         return places_of(stale);
     }
 
-    void clear_arcs(Index face, CellSet& asked) {
-        asked.insert_those_in(face, arcs_);
+    void clear_arcs(Index face) {
         kept_.joiner.forget(arcs_, face);
+        tally_.count_parts(arcs_.parts()[arcs_.of_face(face).parts], -1);
         arcs_.remove(face);
     }
 
-    // Cells differ from what they were, and have parts that hang together with nothing else of
-    // them, next to touched faces and to those that were mended.
-    [[nodiscard]] FaceList faces_of(const CellSet& cells) const {
-        if (touched_.is_all()) return FaceList(surface_.num_faces());
-        std::vector<Index> seeds = touched_.faces();
-        seeds.insert(seeds.end(), kept_.mended_faces.begin(), kept_.mended_faces.end());
-        return {surface_, labels_, arcs_, cells, seeds};
+    // Those that were made anew.
+    void count_rows_and_cuts(std::span<const Index> mixed) {
+        for (const Index i : mixed) {
+            const Index first = 3 * propagation_.mixed_faces[i];
+            for (Index h = first; h < first + 3; ++h) {
+                const Index edge = surface_.edge[h];
+                if (surface_.edge_half[edge] != h || touched_.holds_on_edge(h)) continue;
+                tally_.count_row(labels_.on_edge(edge), 1);
+            }
+        }
+        for (const CutFace& cut : labels_.cut_faces) {
+            if (!touched_.holds_in_face(cut.face)) count_cuts(cut, 1);
+        }
+    }
+
+    void count_cuts(const CutFace& face, int sign) {
+        for (const InnerPoint& point : std::as_const(labels_.inner_points)[face.inner_points]) {
+            tally_.count_inner_point(point, sign);
+        }
+        for (const Cut& cut : std::as_const(labels_.cuts)[face.cuts]) {
+            tally_.count_cut(std::as_const(labels_.crossings)[cut.row],
+                             labels_.point_site[cut.to], sign);
+        }
     }
 
     // For labelling and tracing these faces.
@@ -161,49 +221,47 @@ private:
                                                         options_.chord_tolerance,
                                                         mixed.subspan(begin, end - begin));
                         });
-        const bool is_first = touched_.is_all() && new_faces_.empty();
-        if (is_first) arcs_.reserve(chunks);
         const std::vector<Index> faces = faces_at(mixed);
+        if (arcs_.is_empty()) arcs_.reserve(chunks);
         // Places that were released are for one face at a time.
-        const Index step = is_first ? grain : 1;
+        const Index step = arcs_.is_empty() ? grain : 1;
         for (Index i = 0; i < count; i += step) {
-            FaceArcs& chunk = chunks[i / grain];
-            arcs_.add(std::span(faces).subspan(i, std::min(step, count - i)), chunk, i % grain);
-            if (is_first) chunk = {};
+            const auto some = std::span(faces).subspan(i, std::min(step, count - i));
+            arcs_.add(some, chunks[i / grain], i % grain);
+            for (const Index face : some) {
+                tally_.count_parts(arcs_.parts()[arcs_.of_face(face).parts], 1);
+            }
+            if (step == grain) chunks[i / grain] = {};
         }
-        std::vector<Index> all;
-        std::set_union(faces.begin(), faces.end(), new_faces_.begin(), new_faces_.end(),
-                       std::back_inserter(all));
-        new_faces_ = std::move(all);
     }
 
-    [[nodiscard]] std::vector<Index> faces_at(std::span<const Index> mixed) const {
-        std::vector<Index> faces;
-        faces.reserve(mixed.size());
-        for (const Index i : mixed) faces.push_back(propagation_.mixed_faces[i]);
-        return faces;
-    }
-
-    // \param faces  of the cells asked for, before and after.
-    void absorb_all_islands(FaceList& faces, RelayGroups& groups) {
+    void absorb_all_islands(RelayGroups& groups, Diagram& diagram) {
         kept_.mended_faces.clear();
-        CellSet asked = asked_;
-        FaceList faces_of_round = faces;
-        std::vector<Index> stale;
-        while (absorb_islands(surface_, sites_, arcs_, faces_of_round, labels_, asked,
-                              kept_.absorbed, stale) > 0) {
+        while (true) {
+            const CellSet in_doubt =
+                cells_in_doubt(surface_, sites_, labels_, count_loops(diagram));
+            if (in_doubt.is_empty()) return;
+            const std::vector<Index> faces =
+                faces_of_cells(surface_, labels_, arcs_, in_doubt,
+                               kept_.joiner.faces_beside(arcs_, in_doubt));
+            const std::size_t num_before = kept_.absorbed.size();
+            std::vector<Index> stale;
+            if (absorb_islands(surface_, sites_, arcs_, in_doubt, faces, labels_, tally_,
+                               kept_.absorbed, stale) == 0) {
+                return;
+            }
+            for (const OldLabel& old : std::span(kept_.absorbed).subspan(num_before)) {
+                count_relabelled(old.point, old.site);
+            }
             std::sort(stale.begin(), stale.end());
             stale.erase(std::unique(stale.begin(), stale.end()), stale.end());
             const std::vector<Index> mixed = places_of(stale);
             stale = faces_at(mixed);
-            for (const Index face : stale) clear_arcs(face, asked);
+            for (const Index face : stale) clear_arcs(face);
             if (!touched_.is_all()) groups = group_relays(mixed);
             trace(mixed, groups);
-            for (const Index face : stale) asked.insert_those_in(face, arcs_);
+            kept_.joiner.join(surface_, labels_, arcs_, stale, diagram);
             kept_.mended_faces.insert(kept_.mended_faces.end(), stale.begin(), stale.end());
-            faces_of_round = faces_of(asked);
-            if (asked_.insert(asked)) faces = faces_of(asked_);
-            stale.clear();
         }
     }
 
@@ -212,11 +270,10 @@ private:
     Kept& kept_;
     EdgeLabels& labels_;
     ArcStore& arcs_;
+    CellTally& tally_;
     std::span<const SurfacePoint> sites_;
     const Propagation& propagation_;
     TouchedParts touched_;
-    CellSet asked_;                 // Whose cells may be others now.
-    std::vector<Index> new_faces_;  // Those that were traced, ascending.
 };
 
 DiagramBuilder::DiagramBuilder(const Surface& surface, DiagramOptions options)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 #include <utility>
 
 namespace agvd {
@@ -74,30 +75,82 @@ void ArcJoiner::undo_edge(const ArcStore& arcs, Index name) {
     }
 }
 
+// Where the ends of arcs lie.
+class ArcJoiner::Nodes {
+public:
+    Nodes(const Surface& surface, const EdgeLabels& labels, const ArcStore& arcs)
+        : surface_(surface), labels_(labels), arcs_(arcs) {}
+
+    [[nodiscard]] double distance(Index node) const {
+        return node >= LocalDiagram::first_branch ? branch(node).distance
+                                                  : labels_.crossings[node].distance;
+    }
+
+    [[nodiscard]] SurfacePoint point(Index node) const {
+        if (node >= LocalDiagram::first_branch) return branch(node).point;
+        const Crossing& crossing = labels_.crossings[node];
+        if (crossing.line >= Crossing::first_cut) {
+            return point_on_cut(labels_.cuts[crossing.line - Crossing::first_cut], crossing.at);
+        }
+        const Index h = surface_.edge_half[crossing.line];
+        SurfacePoint point{FaceId(Surface::face(h)), {0, 0, 0}};
+        point.barycentric[h % 3] = 1 - crossing.at;
+        point.barycentric[(h + 1) % 3] = crossing.at;
+        return point;
+    }
+
+private:
+    [[nodiscard]] const ArcStore::Branch& branch(Index node) const {
+        return arcs_.branches()[node - LocalDiagram::first_branch];
+    }
+
+    [[nodiscard]] SurfacePoint point_on_cut(const Cut& cut, double at) const {
+        const Vec2 from = position_of(cut.face, cut.from);
+        const Vec2 to = position_of(cut.face, cut.to);
+        return to_surface(surface_, cut.face, (1 - at) * from + at * to);
+    }
+
+    [[nodiscard]] Vec2 position_of(Index face, Index point) const {
+        if (point >= surface_.num_vertices()) {
+            return labels_.inner_points[point - surface_.num_vertices()].position;
+        }
+        const Triangle& triangle = surface_.mesh.triangles[face];
+        return face_corners(surface_, face)[point == triangle[0]   ? 0
+                                            : point == triangle[1] ? 1
+                                                                   : 2];
+    }
+
+    const Surface& surface_;
+    const EdgeLabels& labels_;
+    const ArcStore& arcs_;
+};
+
 // One call of join().
 class ArcJoiner::Run {
 public:
     Run(const Surface& surface, const EdgeLabels& labels, const ArcStore& arcs, ArcJoiner& joiner,
         Diagram& diagram)
-        : surface_(surface), labels_(labels), arcs_(arcs), in_(joiner), out_(diagram) {}
+        : surface_(surface),
+          labels_(labels),
+          arcs_(arcs),
+          nodes_(surface, labels, arcs),
+          in_(joiner),
+          out_(diagram) {}
 
-    void run(std::span<const Index> mixed_faces, std::span<const Index> new_faces) {
+    void run(std::span<const Index> new_faces) {
         std::erase_if(in_.order_, [&](Index name) { return in_.edges_[name].num_points == 0; });
         register_ends(new_faces);
-        in_.new_points_.clear();
         reserve_points(new_faces);
         add_open_edges(new_faces);
         add_other_edges(new_faces);
         put_in_order();
-        gather_points();
-        list_edges();
+        list_branch_faces(new_faces);
 
+        list_edges();
         out_.vertex_offsets.assign(1, 0);
         out_.vertex_ends.clear();
         out_.vertex_sites.clear();
-        out_.vertices.clear();
-        out_.vertex_distance.clear();
-        add_branches(mixed_faces);
+        add_branches();
         add_boundary();
     }
 
@@ -126,8 +179,8 @@ private:
             count += stored.arcs.count + stored.arcs.count / 4;  // A node an arc, and the ends.
             count += stored.points.count;
         }
-        in_.new_points_.points.reserve(count);
-        in_.new_points_.distances.reserve(count);
+        in_.new_points_.points.reserve(in_.new_points_.points.size() + count);
+        in_.new_points_.distances.reserve(in_.new_points_.distances.size() + count);
     }
 
     [[nodiscard]] Index node_at(ArcEnd end) const { return agvd::node_at(arcs_, end); }
@@ -223,46 +276,7 @@ private:
         in_.new_points_.points.push_back(point);
         in_.new_points_.distances.push_back(distance);
     }
-    void add_node_point(Index node) { add_point(point_of(node), distance_of(node)); }
-
-    [[nodiscard]] double distance_of(Index node) const {
-        return node >= LocalDiagram::first_branch ? branch(node).distance
-                                                  : labels_.crossings[node].distance;
-    }
-    [[nodiscard]] const LocalBranch& branch(Index node) const {
-        return arcs_.branches()[node - LocalDiagram::first_branch];
-    }
-
-    [[nodiscard]] SurfacePoint point_of(Index node) const {
-        if (node >= LocalDiagram::first_branch) {
-            return to_surface(surface_, branch(node).face, branch(node).position);
-        }
-        const Crossing& crossing = labels_.crossings[node];
-        if (crossing.line >= Crossing::first_cut) {
-            return point_on_cut(labels_.cuts[crossing.line - Crossing::first_cut], crossing.at);
-        }
-        const Index h = surface_.edge_half[crossing.line];
-        SurfacePoint point{FaceId(Surface::face(h)), {0, 0, 0}};
-        point.barycentric[h % 3] = 1 - crossing.at;
-        point.barycentric[(h + 1) % 3] = crossing.at;
-        return point;
-    }
-
-    [[nodiscard]] SurfacePoint point_on_cut(const Cut& cut, double at) const {
-        const Vec2 from = position_of(cut.face, cut.from);
-        const Vec2 to = position_of(cut.face, cut.to);
-        return to_surface(surface_, cut.face, (1 - at) * from + at * to);
-    }
-
-    [[nodiscard]] Vec2 position_of(Index face, Index point) const {
-        if (point >= surface_.num_vertices()) {
-            return labels_.inner_points[point - surface_.num_vertices()].position;
-        }
-        const Triangle& triangle = surface_.mesh.triangles[face];
-        return face_corners(surface_, face)[point == triangle[0]   ? 0
-                                            : point == triangle[1] ? 1
-                                                                   : 2];
-    }
+    void add_node_point(Index node) { add_point(nodes_.point(node), nodes_.distance(node)); }
 
     void add_inner_points(ArcEnd from) {
         const LocalArc& arc = arcs_.arcs()[from / 2];
@@ -284,40 +298,12 @@ private:
         std::inplace_merge(in_.order_.begin(), first_new, in_.order_.end(), comes_before);
     }
 
-    // Into the diagram, edge after edge.
-    void gather_points() {
-        if (!are_points_in_order()) {
-            in_.spare_.clear();
-            for (const Index name : in_.order_) {
-                const Edge& edge = in_.edges_[name];
-                if (edge.is_new) {
-                    in_.spare_.append(in_.new_points_.points, in_.new_points_.distances, edge);
-                } else {
-                    in_.spare_.append(out_.points, out_.point_distance, edge);
-                }
-            }
-            std::swap(in_.spare_, in_.new_points_);
-        }
-        std::swap(out_.points, in_.new_points_.points);
-        std::swap(out_.point_distance, in_.new_points_.distances);
-        out_.edge_points.assign(1, 0);
-        for (const Index name : in_.order_) {
-            Edge& edge = in_.edges_[name];
-            edge.is_new = false;
-            edge.first_point = out_.edge_points.back();
-            out_.edge_points.push_back(edge.first_point + edge.num_points);
-        }
-    }
-
-    // As they are where nothing was kept.
-    [[nodiscard]] bool are_points_in_order() const {
-        Index next = 0;
-        for (const Index name : in_.order_) {
-            const Edge& edge = in_.edges_[name];
-            if (!edge.is_new || edge.first_point != next) return false;
-            next += edge.num_points;
-        }
-        return true;
+    void list_branch_faces(std::span<const Index> new_faces) {
+        std::vector<Index> faces;
+        std::set_union(in_.branch_faces_.begin(), in_.branch_faces_.end(), new_faces.begin(),
+                       new_faces.end(), std::back_inserter(faces));
+        std::erase_if(faces, [&](Index face) { return arcs_.of_face(face).branches.count == 0; });
+        in_.branch_faces_ = std::move(faces);
     }
 
     void list_edges() {
@@ -342,38 +328,30 @@ private:
         (end.is_tail ? out_.edges[end.edge].tail : out_.edges[end.edge].head) = vertex;
     }
 
-    void finish_vertex(Index node) {
-        out_.vertices.push_back(point_of(node));
-        out_.vertex_distance.push_back(distance_of(node));
+    void finish_vertex() {
         out_.vertex_offsets.push_back(static_cast<Index>(out_.vertex_ends.size()));
     }
 
-    void add_branches(std::span<const Index> mixed_faces) {
-        for (const Index face : mixed_faces) {
-            const Block& block = arcs_.of_face(face).branches;
-            for (Index i = block.begin; i < block.end(); ++i) {
-                const LocalBranch& branch = arcs_.branches()[i];
-                const auto vertex = static_cast<Index>(out_.vertices.size());
+    void add_branches() {
+        Index vertex = 0;
+        for (const Index face : in_.branch_faces_) {
+            for (const ArcStore::Branch& branch : arcs_.branches()[arcs_.of_face(face).branches]) {
                 for (std::size_t k = 0; k < 3; ++k) {
                     const ArcEnd end =
                         branch.at_tail[k] ? tail_of(branch.arcs[k]) : head_of(branch.arcs[k]);
                     attach(edge_end(end), branch.sites[k], vertex);
                 }
-                finish_vertex(LocalDiagram::first_branch + i);
+                finish_vertex();
+                ++vertex;
             }
         }
     }
 
-    // Label changes along one boundary loop, in its direction (the surface on the left).
-    struct BoundaryCrossing {
-        Index node;
-        Index position;  // In the loop.
-        Index site_before, site_after;
-    };
-
+    // What lies between the crossings of a boundary, and the vertices at them.
     void add_boundary() {
+        in_.boundary_crossings_.clear();
         for (const std::vector<Index>& loop : in_.boundary_loops_) {
-            std::vector<BoundaryCrossing> crossings;
+            std::vector<BoundaryCrossing>& crossings = in_.boundary_crossings_.emplace_back();
             for (Index i = 0; i < loop.size(); ++i) {
                 // A boundary edge has one half-edge, so its crossings run along the loop.
                 const Block& row = labels_.edge_rows[surface_.edge[loop[i]]];
@@ -382,76 +360,175 @@ private:
                     crossings.push_back({node, i, c.site_before, c.site_after});
                 }
             }
-            if (crossings.empty()) {
-                add_closed_boundary(loop);
-            } else {
-                add_boundary_arcs(loop, crossings);
+            const Index site = labels_.point_site[surface_.tail(loop[0])];
+            if (!crossings.empty()) {
+                add_boundary_arcs(crossings);
+            } else if (site != no_index) {
+                out_.edges.push_back({SiteId(site), {}, no_index, no_index});
             }
         }
     }
 
-    void add_boundary_point(const SurfacePoint& point, double distance) {
-        out_.points.push_back(point);
-        out_.point_distance.push_back(distance);
-    }
-    void add_boundary_node(Index node) { add_boundary_point(point_of(node), distance_of(node)); }
-
-    void add_mesh_vertex(Index half_edge) {
-        const Index v = surface_.tail(half_edge);
-        SurfacePoint point{FaceId(Surface::face(half_edge)), {0, 0, 0}};
-        point.barycentric[half_edge % 3] = 1;
-        add_boundary_point(point, labels_.vertex_distance[v]);
-    }
-
-    void add_closed_boundary(const std::vector<Index>& loop) {
-        const Index site = labels_.point_site[surface_.tail(loop[0])];
-        if (site == no_index) return;
-        for (const Index h : loop) add_mesh_vertex(h);
-        out_.edges.push_back({SiteId(site), {}, no_index, no_index});
-        out_.edge_points.push_back(static_cast<Index>(out_.points.size()));
-    }
-
-    void add_boundary_arcs(const std::vector<Index>& loop,
-                           const std::vector<BoundaryCrossing>& crossings) {
+    void add_boundary_arcs(std::span<const BoundaryCrossing> crossings) {
         const auto first_edge = static_cast<Index>(out_.edges.size());
         const auto count = static_cast<Index>(crossings.size());
-        const auto loop_size = static_cast<Index>(loop.size());
-        for (Index i = 0; i < count; ++i) {
-            const BoundaryCrossing& from = crossings[i];
-            const BoundaryCrossing& to = crossings[(i + 1) % count];
-            add_boundary_node(from.node);
-            // The mesh vertices between: tails of the half-edges after `from` up to that of `to`.
-            Index steps = (to.position + loop_size - from.position) % loop_size;
-            if (steps == 0 && i + 1 == count) steps = loop_size;
-            for (Index j = 1; j <= steps; ++j)
-                add_mesh_vertex(loop[(from.position + j) % loop_size]);
-            add_boundary_node(to.node);
+        for (const BoundaryCrossing& from : crossings) {
             out_.edges.push_back({SiteId(from.site_after), {}, no_index, no_index});
-            out_.edge_points.push_back(static_cast<Index>(out_.points.size()));
         }
         for (Index i = 0; i < count; ++i) {
             const BoundaryCrossing& c = crossings[i];
-            const auto vertex = static_cast<Index>(out_.vertices.size());
+            const auto vertex = static_cast<Index>(out_.vertex_offsets.size()) - 1;
             const Index behind = first_edge + (i + count - 1) % count;
             attach({first_edge + i, true}, c.site_after, vertex);
             attach(edge_end(in_.crossing_ends_[c.node][0]), c.site_before, vertex);
             attach({behind, false}, no_index, vertex);
-            finish_vertex(c.node);
+            finish_vertex();
         }
     }
 
     const Surface& surface_;
     const EdgeLabels& labels_;
     const ArcStore& arcs_;
+    Nodes nodes_;
     ArcJoiner& in_;
     Diagram& out_;
     std::vector<Index> numbers_;  // By edge of the joiner, in the diagram.
 };
 
+// One call of draw().
+class ArcJoiner::Drawing {
+public:
+    Drawing(const Surface& surface, const EdgeLabels& labels, const ArcStore& arcs,
+            ArcJoiner& joiner, Diagram& diagram)
+        : surface_(surface),
+          labels_(labels),
+          arcs_(arcs),
+          nodes_(surface, labels, arcs),
+          in_(joiner),
+          out_(diagram) {}
+
+    void run() {
+        gather_points();
+        out_.vertices.clear();
+        out_.vertex_distance.clear();
+        for (const Index face : in_.branch_faces_) {
+            for (const ArcStore::Branch& branch : arcs_.branches()[arcs_.of_face(face).branches]) {
+                out_.vertices.push_back(branch.point);
+                out_.vertex_distance.push_back(branch.distance);
+            }
+        }
+        for (Index i = 0; i < in_.boundary_loops_.size(); ++i) {
+            draw_boundary(in_.boundary_loops_[i], in_.boundary_crossings_[i]);
+        }
+    }
+
+private:
+    // Into the diagram, edge after edge.
+    void gather_points() {
+        if (!are_points_in_order()) {
+            in_.spare_.clear();
+            for (const Index name : in_.order_) {
+                const Edge& edge = in_.edges_[name];
+                if (edge.is_new) {
+                    in_.spare_.append(in_.new_points_.points, in_.new_points_.distances, edge);
+                } else {
+                    in_.spare_.append(out_.points, out_.point_distance, edge);
+                }
+            }
+            std::swap(in_.spare_, in_.new_points_);
+        }
+        std::swap(out_.points, in_.new_points_.points);
+        std::swap(out_.point_distance, in_.new_points_.distances);
+        in_.new_points_.clear();
+        out_.edge_points.assign(1, 0);
+        for (const Index name : in_.order_) {
+            Edge& edge = in_.edges_[name];
+            edge.is_new = false;
+            edge.first_point = out_.edge_points.back();
+            out_.edge_points.push_back(edge.first_point + edge.num_points);
+        }
+    }
+
+    // As they are where nothing was kept.
+    [[nodiscard]] bool are_points_in_order() const {
+        Index next = 0;
+        for (const Index name : in_.order_) {
+            const Edge& edge = in_.edges_[name];
+            if (!edge.is_new || edge.first_point != next) return false;
+            next += edge.num_points;
+        }
+        return true;
+    }
+
+    void draw_boundary(const std::vector<Index>& loop,
+                       const std::vector<BoundaryCrossing>& crossings) {
+        if (crossings.empty()) {
+            if (labels_.point_site[surface_.tail(loop[0])] == no_index) return;
+            for (const Index h : loop) add_mesh_vertex(h);
+            end_edge();
+            return;
+        }
+        const auto count = static_cast<Index>(crossings.size());
+        const auto loop_size = static_cast<Index>(loop.size());
+        for (Index i = 0; i < count; ++i) {
+            const BoundaryCrossing& from = crossings[i];
+            const BoundaryCrossing& to = crossings[(i + 1) % count];
+            add_node(from.node);
+            // The mesh vertices between: tails of the half-edges after `from` up to that of `to`.
+            Index steps = (to.position + loop_size - from.position) % loop_size;
+            if (steps == 0 && i + 1 == count) steps = loop_size;
+            for (Index j = 1; j <= steps; ++j) {
+                add_mesh_vertex(loop[(from.position + j) % loop_size]);
+            }
+            add_node(to.node);
+            end_edge();
+        }
+        for (const BoundaryCrossing& crossing : crossings) {
+            out_.vertices.push_back(nodes_.point(crossing.node));
+            out_.vertex_distance.push_back(nodes_.distance(crossing.node));
+        }
+    }
+
+    void add_point(const SurfacePoint& point, double distance) {
+        out_.points.push_back(point);
+        out_.point_distance.push_back(distance);
+    }
+    void add_node(Index node) { add_point(nodes_.point(node), nodes_.distance(node)); }
+    void add_mesh_vertex(Index half_edge) {
+        const Index v = surface_.tail(half_edge);
+        SurfacePoint point{FaceId(Surface::face(half_edge)), {0, 0, 0}};
+        point.barycentric[half_edge % 3] = 1;
+        add_point(point, labels_.vertex_distance[v]);
+    }
+    void end_edge() { out_.edge_points.push_back(static_cast<Index>(out_.points.size())); }
+
+    const Surface& surface_;
+    const EdgeLabels& labels_;
+    const ArcStore& arcs_;
+    Nodes nodes_;
+    ArcJoiner& in_;
+    Diagram& out_;
+};
+
 void ArcJoiner::join(const Surface& surface, const EdgeLabels& labels, const ArcStore& arcs,
-                     std::span<const Index> mixed_faces, std::span<const Index> new_faces,
+                     std::span<const Index> new_faces, Diagram& diagram) {
+    Run(surface, labels, arcs, *this, diagram).run(new_faces);
+}
+
+void ArcJoiner::draw(const Surface& surface, const EdgeLabels& labels, const ArcStore& arcs,
                      Diagram& diagram) {
-    Run(surface, labels, arcs, *this, diagram).run(mixed_faces, new_faces);
+    Drawing(surface, labels, arcs, *this, diagram).run();
+}
+
+std::vector<Index> ArcJoiner::faces_beside(const ArcStore& arcs, const CellSet& cells) const {
+    std::vector<Index> faces;
+    for (const Index name : order_) {
+        const Edge& edge = edges_[name];
+        if (cells.has(edge.left) || cells.has(edge.right)) {
+            faces.push_back(arcs.arcs()[edge.first / 2].face);
+        }
+    }
+    return faces;
 }
 
 }  // namespace agvd

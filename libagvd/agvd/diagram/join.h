@@ -2,7 +2,7 @@
 //! Joins the arcs of all faces into Voronoi edges, and the boundary into arcs between them.
 #pragma once
 
-#include "agvd/diagram/arc_store.h"
+#include "agvd/diagram/cell_set.h"
 #include "agvd/diagram/diagram.h"
 
 namespace agvd {
@@ -15,16 +15,23 @@ public:
     //! To be called before a face loses its arcs.
     void forget(const ArcStore& arcs, Index face);
 
-    //! Replaces points, edges and vertices of `diagram`. Edges stand in the order of the first of
-    //! their ends in the faces, closed ones behind, then those on the boundary; branches become the
-    //! first Voronoi vertices, then the label changes on the boundary. Whatever was kept.
-    //! Cost: O(arcs of the new edges + boundary), and copying the others' points.
-    //! \param mixed_faces  ascending: all faces that may have arcs.
-    //! \param new_faces    ascending: those whose arcs are new since the last call.
-    //! \param diagram      as the last call left it.
+    //! Replaces edges and vertices of `diagram`, but for their points. Edges stand in the order of
+    //! the first of their ends in the faces, closed ones behind, then those on the boundary;
+    //! branches become the first Voronoi vertices, then the label changes on the boundary. All that
+    //! whatever was kept.
+    //! Cost: O(arcs of the new edges + edges + boundary).
+    //! \param new_faces  ascending: those whose arcs are new since the last call.
     void join(const Surface& surface, const EdgeLabels& labels, const ArcStore& arcs,
-              std::span<const Index> mixed_faces, std::span<const Index> new_faces,
+              std::span<const Index> new_faces, Diagram& diagram);
+    //! Replaces all points after the last call of join().
+    //! \param diagram  but for that call as the last call of draw() left it.
+    //! Cost: copying them.
+    void draw(const Surface& surface, const EdgeLabels& labels, const ArcStore& arcs,
               Diagram& diagram);
+
+    //! A face beside each edge between cells, of those that one of the cells is beside.
+    [[nodiscard]] std::vector<Index> faces_beside(const ArcStore& arcs,
+                                                  const CellSet& cells) const;
 
 private:
     // One end of an arc: 2 * arc + (0: tail, 1: head).
@@ -48,7 +55,15 @@ private:
                     std::span<const double> from_distances, const Edge& edge);
     };
 
+    // A label change on one of the surface's boundaries, in its direction (the surface on the left).
+    struct BoundaryCrossing {
+        Index node;
+        Index position;  // In the loop.
+        Index site_before, site_after;
+    };
+    class Nodes;
     class Run;
+    class Drawing;
 
     [[nodiscard]] bool is_vertex(Index node) const;
     [[nodiscard]] ArcEnd across(const ArcStore& arcs, ArcEnd end) const;
@@ -60,6 +75,8 @@ private:
     std::vector<Edge> edges_;
     std::vector<Index> free_edges_;  // Of edges_.
     std::vector<Index> order_;       // Of edges_, by key.
+    std::vector<Index> branch_faces_;  // Ascending: those that may have branches.
+    std::vector<std::vector<BoundaryCrossing>> boundary_crossings_;  // By loop.
     PointList new_points_, spare_;
 };
 

@@ -1,0 +1,72 @@
+#include "agvd/diagram/cell_tally.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "agvd/mesh/face_area.h"
+
+namespace agvd {
+
+CellTally::CellTally(const Surface& surface)
+    : surface_(&surface), vertex_weights_(surface.num_vertices(), 0) {
+    double area = 0;
+    for (Index f = 0; f < surface.num_faces(); ++f) {
+        area += face_area(surface, f);
+        // One boundary edge leaves each vertex of the boundary, and both are left out.
+        const Triangle& corners = surface.mesh.triangles[f];
+        for (Index k = 0; k < 3; ++k) {
+            const Index h = 3 * f + k;
+            if (surface.outgoing[corners[k]] == h) ++vertex_weights_[corners[k]];
+            if (h < surface.twin[h]) --vertex_weights_[corners[k]];
+        }
+    }
+    constexpr int bits = 61;
+    constexpr int least_exponent = -1000;  // Its inverse is finite, too.
+    if (area > 0) unit_ = std::ldexp(1.0, std::max(std::ilogb(area) - bits, least_exponent));
+}
+
+void CellTally::resize(Index num_sites) { cells_.resize(num_sites); }
+
+void CellTally::count_vertex(Index vertex, Index site, int sign) {
+    count(site, sign * vertex_weights_[vertex]);
+}
+
+void CellTally::count_row(std::span<const Crossing> row, int sign) {
+    if (row.empty()) return;
+    if (surface_->twin[surface_->edge_half[row[0].line]] == no_index) return;
+    for (const Crossing& crossing : row) count(crossing.site_after, -sign);
+}
+
+void CellTally::count_cut(std::span<const Crossing> row, Index site_at_end, int sign) {
+    for (const Crossing& crossing : row) count(crossing.site_before, -sign);
+    count(site_at_end, -sign);
+}
+
+void CellTally::count_face(Index face, Index site, int sign) {
+    if (site == no_index) return;
+    cells_[site].euler += sign;
+    cells_[site].area += sign * units(face_area(*surface_, face));
+}
+
+void CellTally::count_parts(std::span<const FaceArcs::CellPart> parts, int sign) {
+    for (const FaceArcs::CellPart& part : parts) {
+        if (part.site == no_index) continue;
+        cells_[part.site].euler += sign * part.pieces;
+        cells_[part.site].area += sign * units(part.area);
+    }
+}
+
+void CellTally::write(Diagram& diagram) const {
+    diagram.cell_area.clear();
+    diagram.cell_euler.clear();
+    for (const Cell& cell : cells_) {
+        diagram.cell_area.push_back(static_cast<double>(cell.area) * unit_);
+        diagram.cell_euler.push_back(cell.euler);
+    }
+}
+
+std::int64_t CellTally::units(double area) const {
+    return std::llrint(area * (1 / unit_));
+}
+
+}  // namespace agvd

@@ -1,0 +1,58 @@
+//! \file
+//! Areas and Euler characteristics of cells.
+#pragma once
+
+#include "agvd/diagram/arc_store.h"
+#include "agvd/diagram/diagram.h"
+
+namespace agvd {
+
+//! Sums that take parts of the complex in and out again, in any order: areas are counted in units
+//! of about 2^-61 of the surface's. The open cell is a union of open pieces of triangles, open
+//! intervals of inner edges and cuts, and inner points, and for a surface without its boundary
+//! their alternating sum is the Euler characteristic.
+class CellTally {
+public:
+    //! Nothing counts yet.
+    //! \param surface  outlives this.
+    explicit CellTally(const Surface& surface);
+    //! Of the sites at hand; the others have nothing.
+    void resize(Index num_sites);
+
+    // What is no_index belongs to no cell. \param sign  1: comes in; -1: goes out.
+
+    //! A vertex, and the first interval of each edge whose edge_half it is the tail of.
+    void count_vertex(Index vertex, Index site, int sign);
+    //! The other intervals of an edge.
+    void count_row(std::span<const Crossing> row, int sign);
+    //! An inner point.
+    void count_inner_point(const InnerPoint& point, int sign) { count(point.site, sign); }
+    //! The intervals of a cut.
+    //! \param site_at_end  of its last one.
+    void count_cut(std::span<const Crossing> row, Index site_at_end, int sign);
+    //! An unlisted face.
+    void count_face(Index face, Index site, int sign);
+    //! The pieces of a listed face.
+    void count_parts(std::span<const FaceArcs::CellPart> parts, int sign);
+
+    //! Sets cell_area and cell_euler.
+    void write(Diagram& diagram) const;
+
+private:
+    struct Cell {
+        std::int64_t area = 0;  // In units.
+        int euler = 0;
+    };
+
+    void count(Index site, int change) {
+        if (site != no_index) cells_[site].euler += change;
+    }
+    [[nodiscard]] std::int64_t units(double area) const;
+
+    const Surface* surface_;
+    std::vector<int> vertex_weights_;  // #V: what each adds to its cell's Euler characteristic.
+    double unit_ = 1;                  // Of area: a power of two.
+    std::vector<Cell> cells_;
+};
+
+}  // namespace agvd
