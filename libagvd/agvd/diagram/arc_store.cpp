@@ -4,24 +4,18 @@
 
 namespace agvd {
 
-void ArcStore::reserve(std::span<const FaceArcs> chunks) {
-    FaceArcs::Mark sum{};
-    std::size_t num_faces = 0;
-    for (const FaceArcs& chunk : chunks) {
-        const FaceArcs::Mark mark = chunk.mark();
-        sum.arcs += mark.arcs;
-        sum.branches += mark.branches;
-        sum.points += mark.points;
-        sum.connections += mark.connections;
-        sum.parts += mark.parts;
-        num_faces += chunk.faces.size();
-    }
-    faces_.reserve(faces_.size() + num_faces);
-    arcs_.reserve(arcs_.size() + sum.arcs);
-    branches_.reserve(branches_.size() + sum.branches);
-    points_.reserve(points_.size() + sum.points);
-    connections_.reserve(connections_.size() + sum.connections);
-    parts_.reserve(parts_.size() + sum.parts);
+void ArcStore::reserve_for(double times) {
+    constexpr double spare = 1.1;
+    const auto reserve = [&](auto& elements) {
+        const auto size = static_cast<double>(elements.size());
+        elements.reserve(static_cast<std::size_t>(spare * times * size));
+    };
+    reserve(faces_);
+    reserve(arcs_);
+    reserve(branches_);
+    reserve(points_);
+    reserve(connections_);
+    reserve(parts_);
 }
 
 void ArcStore::add(std::span<const Index> faces, const FaceArcs& chunk, Index first) {

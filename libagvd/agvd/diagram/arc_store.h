@@ -34,8 +34,8 @@ public:
 
     //! Never had any arcs.
     [[nodiscard]] bool is_empty() const { return faces_.empty(); }
-    //! Makes room for what is in these.
-    void reserve(std::span<const FaceArcs> chunks);
+    //! Makes room for so many times as much.
+    void reserve_for(double times);
     //! Gives faces that have none the arcs of the faces of a chunk, from the first-th on.
     void add(std::span<const Index> faces, const FaceArcs& chunk, Index first);
     //! Takes them away again, if there are any.

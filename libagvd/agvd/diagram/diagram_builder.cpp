@@ -194,52 +194,53 @@ private:
 
     // For labelling and tracing these faces.
     [[nodiscard]] RelayGroups group_relays(std::span<const Index> mixed) const {
-        std::vector<std::uint8_t> is_needed;
-        if (!touched_.is_all()) {
-            is_needed.assign(propagation_.mixed_faces.size(), 0);
-            for (const Index i : mixed) {
-                is_needed[i] = 1;
-                const Index first = 3 * propagation_.mixed_faces[i];
-                for (Index h = first; h < first + 3; ++h) {
-                    const Index twin = surface_.twin[h];
-                    if (twin == no_index) continue;
-                    const Index beside = labels_.mixed_index[Surface::face(twin)];
-                    if (beside != no_index) is_needed[beside] = 1;
-                }
+        if (touched_.is_all()) return {propagation_, all_mixed(), options_.num_threads};
+        std::vector<Index> faces = faces_at(mixed);
+        for (const Index i : mixed) {
+            const Index first = 3 * propagation_.mixed_faces[i];
+            for (Index h = first; h < first + 3; ++h) {
+                if (surface_.twin[h] != no_index) faces.push_back(Surface::face(surface_.twin[h]));
             }
         }
-        return {propagation_, is_needed, options_.num_threads};
+        std::sort(faces.begin(), faces.end());
+        faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+        return {propagation_, places_of(faces), options_.num_threads};
     }
 
+    // Some faces after the other, so that what is traced is stored while it is in the cache.
     void trace(std::span<const Index> mixed, const RelayGroups& groups) {
-        constexpr Index grain = 128;
-        const auto count = static_cast<Index>(mixed.size());
-        std::vector<FaceArcs> chunks(num_chunks(count, grain));
-        parallel_chunks(count, grain, options_.num_threads,
-                        [&](Index chunk, Index begin, Index end) {
-                            chunks[chunk] = trace_faces(surface_, propagation_, groups, labels_,
-                                                        options_.chord_tolerance,
-                                                        mixed.subspan(begin, end - begin));
-                        });
-        const std::vector<Index> faces = faces_at(mixed);
-        if (arcs_.is_empty()) arcs_.reserve(chunks);
-        // Places that were released are for one face at a time.
-        const Index step = arcs_.is_empty() ? grain : 1;
-        for (Index i = 0; i < count; i += step) {
-            const auto some = std::span(faces).subspan(i, std::min(step, count - i));
+        constexpr Index most = 64 * grain;
+        std::vector<FaceArcs> chunks(num_chunks(most, grain));
+        const bool is_first = arcs_.is_empty();
+        for (std::size_t begin = 0; begin < mixed.size(); begin += most) {
+            const auto some = mixed.subspan(begin, std::min<std::size_t>(most, mixed.size() - begin));
+            parallel_chunks(static_cast<Index>(some.size()), grain, options_.num_threads,
+                            [&](Index chunk, Index first, Index last) {
+                                trace_faces(surface_, propagation_, groups, labels_,
+                                            options_.chord_tolerance,
+                                            some.subspan(first, last - first), chunks[chunk]);
+                            });
+            // Places that were released are for one face at a time.
+            store(faces_at(some), chunks, is_first ? grain : 1);
+            if (begin == 0) arcs_.reserve_for(static_cast<double>(mixed.size()) / most);
+        }
+    }
+
+    void store(std::span<const Index> faces, std::span<const FaceArcs> chunks, Index step) {
+        for (Index i = 0; i < faces.size(); i += step) {
+            const auto some = faces.subspan(i, std::min<std::size_t>(step, faces.size() - i));
             arcs_.add(some, chunks[i / grain], i % grain);
             for (const Index face : some) {
                 tally_.count_parts(arcs_.parts()[arcs_.of_face(face).parts], 1);
             }
-            if (step == grain) chunks[i / grain] = {};
         }
     }
 
     void absorb_all_islands(RelayGroups& groups, Diagram& diagram) {
         kept_.mended_faces.clear();
+        const CellSet displaced = displaced_sites(surface_, sites_, labels_);
         while (true) {
-            const CellSet in_doubt =
-                cells_in_doubt(surface_, sites_, labels_, count_loops(diagram));
+            const CellSet in_doubt = cells_in_doubt(displaced, count_loops(diagram));
             if (in_doubt.is_empty()) return;
             const std::vector<Index> faces =
                 faces_of_cells(surface_, labels_, arcs_, in_doubt,
@@ -264,6 +265,8 @@ private:
             kept_.mended_faces.insert(kept_.mended_faces.end(), stale.begin(), stale.end());
         }
     }
+
+    static constexpr Index grain = 128;  // Faces that are traced by one task.
 
     const Surface& surface_;
     const DiagramOptions& options_;

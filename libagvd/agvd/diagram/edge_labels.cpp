@@ -231,6 +231,9 @@ void label_edges(const Surface& surface, const Propagation& propagation, const R
             }
         }
     });
+    std::size_t num_found = labels.crossings.size();
+    for (const FoundRows& part : found) num_found += part.crossings.size();
+    if (touched.is_all()) labels.crossings.reserve(num_found + num_found / 8);  // And those of cuts.
     for (const FoundRows& part : found) {
         for (const FoundRow& row : part.rows) {
             labels.edge_rows[row.edge] = labels.crossings.add(

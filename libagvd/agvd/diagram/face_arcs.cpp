@@ -256,18 +256,15 @@ private:
 
 }  // namespace
 
-FaceArcs trace_faces(const Surface& surface, const Propagation& propagation,
-                     const RelayGroups& groups, const EdgeLabels& labels, double chord_tolerance,
-                     std::span<const Index> mixed) {
-    FaceArcs result;
-    result.local.arcs.reserve(mixed.size());
-    result.parts.reserve(2 * mixed.size());
-    result.faces.reserve(mixed.size());
-    FaceTracer tracer(surface, propagation, groups, labels, chord_tolerance, result);
+void trace_faces(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
+                 const EdgeLabels& labels, double chord_tolerance, std::span<const Index> mixed,
+                 FaceArcs& out) {
+    out.clear();
+    FaceTracer tracer(surface, propagation, groups, labels, chord_tolerance, out);
     const auto comes_before = [](const CutFace& cut, Index face) { return cut.face < face; };
     auto cut = labels.cut_faces.begin();
     for (const Index i : mixed) {
-        result.faces.push_back(result.mark());
+        out.faces.push_back(out.mark());
         const Index face = propagation.mixed_faces[i];
         cut = std::lower_bound(cut, labels.cut_faces.end(), face, comes_before);
         if (cut != labels.cut_faces.end() && cut->face == face) {
@@ -276,7 +273,6 @@ FaceArcs trace_faces(const Surface& surface, const Propagation& propagation,
             tracer.trace(i);
         }
     }
-    return result;
 }
 
 }  // namespace agvd

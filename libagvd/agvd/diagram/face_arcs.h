@@ -30,6 +30,16 @@ struct FaceArcs {
     };
     std::vector<Mark> faces;
 
+    void clear() {
+        local.points.clear();
+        local.point_distance.clear();
+        local.arcs.clear();
+        local.branches.clear();
+        local.connections.clear();
+        parts.clear();
+        faces.clear();
+    }
+
     [[nodiscard]] Mark mark() const {
         return {static_cast<Index>(local.points.size()), static_cast<Index>(local.arcs.size()),
                 static_cast<Index>(local.branches.size()),
@@ -37,12 +47,13 @@ struct FaceArcs {
     }
 };
 
-//! \param mixed  positions in mixed_faces, ascending; chunk.faces are in their order.
+//! \param mixed  positions in mixed_faces, ascending; out.faces are in their order.
+//! \param out    replaced; its memory is used again.
 //!
 //! Most faces have two or three label changes, and there the face's own relays settle all; where
 //! they do not agree with each other, what the edges hand on does.
-[[nodiscard]] FaceArcs trace_faces(const Surface& surface, const Propagation& propagation,
-                                   const RelayGroups& groups, const EdgeLabels& labels,
-                                   double chord_tolerance, std::span<const Index> mixed);
+void trace_faces(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
+                 const EdgeLabels& labels, double chord_tolerance, std::span<const Index> mixed,
+                 FaceArcs& out);
 
 }  // namespace agvd

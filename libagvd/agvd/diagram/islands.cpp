@@ -126,22 +126,24 @@ public:
         });
     }
 
+    // Inner points hang together with their sites.
     Index relabel(CellTally& tally, std::vector<OldLabel>& old_labels,
                   std::vector<Index>& stale_faces) {
         if (new_site_.empty()) return 0;
         for (const auto& [row, from, to] : island_rows_) {
             relabel_row(*row, from, to, tally, stale_faces);
         }
-        for (Index v = 0; v < num_points_; ++v) {
-            const Index old_site = labels_.point_site[v];
-            if (!is_island(v, old_site)) continue;
-            const Index site = site_of(v, old_site);
-            if (site == old_site) continue;
-            old_labels.push_back({v, old_site});
-            labels_.point_site[v] = site;
-            if (v >= surface_.num_vertices()) continue;
-            for_each_outgoing(surface_, v,
-                              [&](Index h) { stale_faces.push_back(Surface::face(h)); });
+        for (const Index face : faces_) {
+            for (const Index v : surface_.mesh.triangles[face]) {
+                const Index old_site = labels_.point_site[v];
+                if (!is_island(v, old_site)) continue;
+                const Index site = site_of(v, old_site);
+                if (site == old_site) continue;
+                old_labels.push_back({v, old_site});
+                labels_.point_site[v] = site;
+                for_each_outgoing(surface_, v,
+                                  [&](Index h) { stale_faces.push_back(Surface::face(h)); });
+            }
         }
         return static_cast<Index>(new_site_.size());
     }
@@ -266,8 +268,8 @@ private:
 
 }  // namespace
 
-CellSet cells_in_doubt(const Surface& surface, std::span<const SurfacePoint> sites,
-                       const EdgeLabels& labels, std::span<const Index> num_loops) {
+CellSet displaced_sites(const Surface& surface, std::span<const SurfacePoint> sites,
+                        const EdgeLabels& labels) {
     const auto num_sites = static_cast<Index>(sites.size());
     CellSet has_inner_point(num_sites);
     for (Index i = 0; i < labels.inner_points.size(); ++i) {
@@ -275,12 +277,16 @@ CellSet cells_in_doubt(const Surface& surface, std::span<const SurfacePoint> sit
     }
     CellSet result(num_sites);
     for (Index s = 0; s < num_sites; ++s) {
-        if (num_loops[s] == 0) continue;  // Owns nothing, or a whole component of the surface.
-        if (num_loops[s] == 1 &&
-            (has_inner_point.has(s) || holder_of(surface, sites[s], labels, s) != no_index)) {
-            continue;
-        }
-        result.insert(s);
+        if (has_inner_point.has(s)) continue;
+        if (holder_of(surface, sites[s], labels, s) == no_index) result.insert(s);
+    }
+    return result;
+}
+
+CellSet cells_in_doubt(const CellSet& displaced, std::span<const Index> num_loops) {
+    CellSet result(static_cast<Index>(num_loops.size()));
+    for (Index s = 0; s < num_loops.size(); ++s) {
+        if (num_loops[s] > 1 || (num_loops[s] == 1 && displaced.has(s))) result.insert(s);
     }
     return result;
 }

@@ -15,12 +15,15 @@ struct OldLabel {
     Index site;
 };
 
+//! The sites whose place belongs to another cell. Islands that are absorbed change nothing of it.
+//! Cost: O(#sites + inner points).
+[[nodiscard]] CellSet displaced_sites(const Surface& surface, std::span<const SurfacePoint> sites,
+                                      const EdgeLabels& labels);
+
 //! The cells that may have parts that do not hang together with their site: all others are bounded
 //! by one loop, which each part would need for itself, and own the place of their site.
-//! Cost: O(#sites + inner points).
 //! \param num_loops  by site, boundary loops of its cell.
-[[nodiscard]] CellSet cells_in_doubt(const Surface& surface, std::span<const SurfacePoint> sites,
-                                     const EdgeLabels& labels, std::span<const Index> num_loops);
+[[nodiscard]] CellSet cells_in_doubt(const CellSet& displaced, std::span<const Index> num_loops);
 
 //! Finds the parts of cells in doubt that do not hang together with their site and gives each to a
 //! cell that it borders on. The labels then say so. Calling it again and again comes to an end,

@@ -19,26 +19,6 @@ constexpr Index other_end(Index end) { return end ^ 1; }
 
 }  // namespace
 
-void ArcJoiner::PointList::clear() {
-    points.clear();
-    distances.clear();
-}
-
-void ArcJoiner::PointList::reverse_from(Index first) {
-    std::reverse(points.begin() + first, points.end());
-    std::reverse(distances.begin() + first, distances.end());
-}
-
-void ArcJoiner::PointList::append(std::span<const SurfacePoint> from_points,
-                                  std::span<const double> from_distances, const Edge& edge) {
-    const auto append_part = [&](auto from, auto& to) {
-        from = from.subspan(edge.first_point, edge.num_points);
-        to.insert(to.end(), from.begin(), from.end());
-    };
-    append_part(from_points, points);
-    append_part(from_distances, distances);
-}
-
 bool ArcJoiner::is_vertex(Index node) const {
     return node >= LocalDiagram::first_branch || crossing_ends_[node][1] == no_index;
 }
@@ -50,6 +30,7 @@ ArcJoiner::ArcEnd ArcJoiner::across(const ArcStore& arcs, ArcEnd end) const {
 }
 
 void ArcJoiner::forget(const ArcStore& arcs, Index face) {
+    forgotten_.push_back(face);
     const Block& block = arcs.of_face(face).arcs;
     for (Index arc = block.begin; arc < block.end() && arc < edge_of_arc_.size(); ++arc) {
         if (edge_of_arc_[arc] != no_index) undo_edge(arcs, edge_of_arc_[arc]);
@@ -66,13 +47,12 @@ void ArcJoiner::forget(const ArcStore& arcs, Index face) {
 // None of its faces has been forgotten.
 void ArcJoiner::undo_edge(const ArcStore& arcs, Index name) {
     Edge& edge = edges_[name];
-    edge.num_points = 0;
-    free_edges_.push_back(name);
     for (ArcEnd from = edge.first;; from = across(arcs, other_end(from))) {
-        if (edge_of_arc_[from / 2] == no_index) break;  // Closed.
         edge_of_arc_[from / 2] = no_index;
         if (other_end(from) == edge.last) break;
     }
+    edge.first = edge.last = no_index;
+    free_edges_.push_back(name);
 }
 
 // Where the ends of arcs lie.
@@ -133,18 +113,16 @@ public:
         : surface_(surface),
           labels_(labels),
           arcs_(arcs),
-          nodes_(surface, labels, arcs),
           in_(joiner),
           out_(diagram) {}
 
     void run(std::span<const Index> new_faces) {
-        std::erase_if(in_.order_, [&](Index name) { return in_.edges_[name].num_points == 0; });
+        std::erase_if(in_.order_, [&](Index name) { return in_.edges_[name].first == no_index; });
         register_ends(new_faces);
-        reserve_points(new_faces);
         add_open_edges(new_faces);
         add_other_edges(new_faces);
         put_in_order();
-        list_branch_faces(new_faces);
+        list_branches(new_faces);
 
         list_edges();
         out_.vertex_offsets.assign(1, 0);
@@ -170,17 +148,6 @@ private:
                 }
             }
         }
-    }
-
-    void reserve_points(std::span<const Index> new_faces) {
-        std::size_t count = 0;
-        for (const Index face : new_faces) {
-            const ArcStore::Face& stored = arcs_.of_face(face);
-            count += stored.arcs.count + stored.arcs.count / 4;  // A node an arc, and the ends.
-            count += stored.points.count;
-        }
-        in_.new_points_.points.reserve(in_.new_points_.points.size() + count);
-        in_.new_points_.distances.reserve(in_.new_points_.distances.size() + count);
     }
 
     [[nodiscard]] Index node_at(ArcEnd end) const { return agvd::node_at(arcs_, end); }
@@ -241,25 +208,16 @@ private:
         const Index name = in_.free_edges_.back();
         in_.free_edges_.pop_back();
         in_.order_.push_back(name);
-        const auto first_point = static_cast<Index>(in_.new_points_.points.size());
         ArcEnd from = start;
         ArcEnd to;
         while (true) {
             in_.edge_of_arc_[from / 2] = name;
-            add_node_point(node_at(from));
-            add_inner_points(from);
             to = other_end(from);
-            if (!is_closed && is_vertex(node_at(to))) {
-                add_node_point(node_at(to));
-                break;
-            }
+            if (!is_closed && is_vertex(node_at(to))) break;
             from = across(to);
             if (from == start) break;
         }
-        if (!is_closed && key_of(to, false) < key_of(start, false)) {
-            std::swap(start, to);
-            in_.new_points_.reverse_from(first_point);
-        }
+        if (!is_closed && key_of(to, false) < key_of(start, false)) std::swap(start, to);
         const LocalArc& arc = arcs_.arcs()[start / 2];
         const bool forward = start % 2 == 0;
         in_.edges_[name] = {key_of(start, is_closed),
@@ -267,24 +225,9 @@ private:
                             to,
                             forward ? arc.left : arc.right,
                             forward ? arc.right : arc.left,
-                            first_point,
-                            static_cast<Index>(in_.new_points_.points.size()) - first_point,
+                            0,
+                            0,
                             true};
-    }
-
-    void add_point(const SurfacePoint& point, double distance) {
-        in_.new_points_.points.push_back(point);
-        in_.new_points_.distances.push_back(distance);
-    }
-    void add_node_point(Index node) { add_point(nodes_.point(node), nodes_.distance(node)); }
-
-    void add_inner_points(ArcEnd from) {
-        const LocalArc& arc = arcs_.arcs()[from / 2];
-        for (Index j = 0; j < arc.num_points; ++j) {
-            const Index k = arc.first_point + (from % 2 == 0 ? j : arc.num_points - 1 - j);
-            const ArcStore::Point& point = arcs_.points()[k];
-            add_point(to_surface(surface_, arc.face, point.position), point.distance);
-        }
     }
 
     void put_in_order() {
@@ -298,12 +241,22 @@ private:
         std::inplace_merge(in_.order_.begin(), first_new, in_.order_.end(), comes_before);
     }
 
-    void list_branch_faces(std::span<const Index> new_faces) {
-        std::vector<Index> faces;
-        std::set_union(in_.branch_faces_.begin(), in_.branch_faces_.end(), new_faces.begin(),
-                       new_faces.end(), std::back_inserter(faces));
-        std::erase_if(faces, [&](Index face) { return arcs_.of_face(face).branches.count == 0; });
-        in_.branch_faces_ = std::move(faces);
+    void list_branches(std::span<const Index> new_faces) {
+        std::sort(in_.forgotten_.begin(), in_.forgotten_.end());
+        auto forgotten = in_.forgotten_.begin();
+        std::erase_if(in_.branches_, [&](const FaceBranches& old) {
+            forgotten = std::lower_bound(forgotten, in_.forgotten_.end(), old.face);
+            return forgotten != in_.forgotten_.end() && *forgotten == old.face;
+        });
+        in_.forgotten_.clear();
+        const auto num_old = static_cast<std::ptrdiff_t>(in_.branches_.size());
+        for (const Index face : new_faces) {
+            const Block& branches = arcs_.of_face(face).branches;
+            if (branches.count > 0) in_.branches_.push_back({face, branches});
+        }
+        std::inplace_merge(
+            in_.branches_.begin(), in_.branches_.begin() + num_old, in_.branches_.end(),
+            [](const FaceBranches& a, const FaceBranches& b) { return a.face < b.face; });
     }
 
     void list_edges() {
@@ -334,8 +287,8 @@ private:
 
     void add_branches() {
         Index vertex = 0;
-        for (const Index face : in_.branch_faces_) {
-            for (const ArcStore::Branch& branch : arcs_.branches()[arcs_.of_face(face).branches]) {
+        for (const FaceBranches& in_face : in_.branches_) {
+            for (const ArcStore::Branch& branch : arcs_.branches()[in_face.branches]) {
                 for (std::size_t k = 0; k < 3; ++k) {
                     const ArcEnd end =
                         branch.at_tail[k] ? tail_of(branch.arcs[k]) : head_of(branch.arcs[k]);
@@ -389,7 +342,6 @@ private:
     const Surface& surface_;
     const EdgeLabels& labels_;
     const ArcStore& arcs_;
-    Nodes nodes_;
     ArcJoiner& in_;
     Diagram& out_;
     std::vector<Index> numbers_;  // By edge of the joiner, in the diagram.
@@ -411,8 +363,8 @@ public:
         gather_points();
         out_.vertices.clear();
         out_.vertex_distance.clear();
-        for (const Index face : in_.branch_faces_) {
-            for (const ArcStore::Branch& branch : arcs_.branches()[arcs_.of_face(face).branches]) {
+        for (const FaceBranches& in_face : in_.branches_) {
+            for (const ArcStore::Branch& branch : arcs_.branches()[in_face.branches]) {
                 out_.vertices.push_back(branch.point);
                 out_.vertex_distance.push_back(branch.distance);
             }
@@ -423,41 +375,57 @@ public:
     }
 
 private:
-    // Into the diagram, edge after edge.
+    // Edge after edge.
     void gather_points() {
-        if (!are_points_in_order()) {
-            in_.spare_.clear();
-            for (const Index name : in_.order_) {
-                const Edge& edge = in_.edges_[name];
-                if (edge.is_new) {
-                    in_.spare_.append(in_.new_points_.points, in_.new_points_.distances, edge);
-                } else {
-                    in_.spare_.append(out_.points, out_.point_distance, edge);
-                }
-            }
-            std::swap(in_.spare_, in_.new_points_);
-        }
-        std::swap(out_.points, in_.new_points_.points);
-        std::swap(out_.point_distance, in_.new_points_.distances);
-        in_.new_points_.clear();
+        std::vector<SurfacePoint>& old_points = in_.points_;
+        std::vector<double>& old_distances = in_.point_distance_;
+        std::swap(out_.points, old_points);
+        std::swap(out_.point_distance, old_distances);
+        out_.points.clear();
+        out_.point_distance.clear();
+        const std::size_t num_arcs = arcs_.arcs().size();  // A node an arc, and the ends.
+        out_.points.reserve(num_arcs + num_arcs / 4 + arcs_.points().size());
+        out_.point_distance.reserve(out_.points.capacity());
         out_.edge_points.assign(1, 0);
+        const auto copy = [](const auto& from, const Edge& edge, auto& to) {
+            const auto first = from.begin() + edge.first_point;
+            to.insert(to.end(), first, first + edge.num_points);
+        };
         for (const Index name : in_.order_) {
             Edge& edge = in_.edges_[name];
-            edge.is_new = false;
+            if (std::exchange(edge.is_new, false)) {
+                walk(edge);
+            } else {
+                copy(old_points, edge, out_.points);
+                copy(old_distances, edge, out_.point_distance);
+            }
             edge.first_point = out_.edge_points.back();
-            out_.edge_points.push_back(edge.first_point + edge.num_points);
+            end_edge();
+            edge.num_points = out_.edge_points.back() - edge.first_point;
         }
     }
 
-    // As they are where nothing was kept.
-    [[nodiscard]] bool are_points_in_order() const {
-        Index next = 0;
-        for (const Index name : in_.order_) {
-            const Edge& edge = in_.edges_[name];
-            if (!edge.is_new || edge.first_point != next) return false;
-            next += edge.num_points;
+    void walk(const Edge& edge) {
+        ArcEnd from = edge.first;
+        while (true) {
+            add_node(node_at(arcs_, from));
+            add_inner_points(from);
+            const ArcEnd to = other_end(from);
+            if (to == edge.last) break;
+            from = in_.across(arcs_, to);
         }
-        return true;
+        // A closed curve does not repeat its first point.
+        const Index end = node_at(arcs_, edge.last);
+        if (in_.is_vertex(end)) add_node(end);
+    }
+
+    void add_inner_points(ArcEnd from) {
+        const LocalArc& arc = arcs_.arcs()[from / 2];
+        for (Index j = 0; j < arc.num_points; ++j) {
+            const Index k = arc.first_point + (from % 2 == 0 ? j : arc.num_points - 1 - j);
+            const ArcStore::Point& point = arcs_.points()[k];
+            add_point(to_surface(surface_, arc.face, point.position), point.distance);
+        }
     }
 
     void draw_boundary(const std::vector<Index>& loop,

@@ -38,21 +38,11 @@ private:
     using ArcEnd = Index;
 
     struct Edge {
-        std::uint64_t key;  // Ascending in the diagram.
-        ArcEnd first, last;
+        std::uint64_t key;   // Ascending in the diagram.
+        ArcEnd first, last;  // no_index: a free one.
         Index left, right;
-        Index first_point, num_points;  // No point: a free one.
-        bool is_new;  // Its points are in new_points_, else in the diagram.
-    };
-
-    struct PointList {
-        std::vector<SurfacePoint> points;
-        std::vector<double> distances;
-
-        void clear();
-        void reverse_from(Index first);
-        void append(std::span<const SurfacePoint> from_points,
-                    std::span<const double> from_distances, const Edge& edge);
+        Index first_point, num_points;  // In the diagram, but for new ones.
+        bool is_new;
     };
 
     // A label change on one of the surface's boundaries, in its direction (the surface on the left).
@@ -75,9 +65,16 @@ private:
     std::vector<Edge> edges_;
     std::vector<Index> free_edges_;  // Of edges_.
     std::vector<Index> order_;       // Of edges_, by key.
-    std::vector<Index> branch_faces_;  // Ascending: those that may have branches.
+    struct FaceBranches {
+        Index face;
+        Block branches;
+    };
+    std::vector<Index> forgotten_;         // Faces, since the last call of join().
+    std::vector<FaceBranches> branches_;   // By face.
     std::vector<std::vector<BoundaryCrossing>> boundary_crossings_;  // By loop.
-    PointList new_points_, spare_;
+    // Memory for the next points.
+    std::vector<SurfacePoint> points_;
+    std::vector<double> point_distance_;
 };
 
 }  // namespace agvd

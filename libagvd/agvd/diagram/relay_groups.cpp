@@ -6,17 +6,17 @@
 
 namespace agvd {
 
-RelayGroups::RelayGroups(const Propagation& propagation, std::span<const std::uint8_t> is_asked,
+RelayGroups::RelayGroups(const Propagation& propagation, std::span<const Index> mixed,
                          int num_threads)
     : ranges_(propagation.relay_ranges) {
     constexpr Index grain = 512;
     const auto num_mixed = static_cast<Index>(propagation.mixed_faces.size());
     relays_ = std::make_unique_for_overwrite<Index[]>(propagation.relays.size());
     begins_ = std::make_unique_for_overwrite<Index[]>(std::size_t{stride} * num_mixed);
-    parallel_chunks(num_mixed, grain, num_threads, [&](Index, Index begin, Index end) {
+    const auto count = static_cast<Index>(mixed.size());
+    parallel_chunks(count, grain, num_threads, [&](Index, Index begin, Index end) {
         std::vector<Index> groups;
-        for (Index i = begin; i < end; ++i) {
-            if (!is_asked.empty() && is_asked[i] == 0) continue;
+        for (const Index i : mixed.subspan(begin, end - begin)) {
             const Index first_half_edge = 3 * propagation.mixed_faces[i];
             const std::span<const Relay> relays = relays_of(propagation, i);
             std::array<Index, num_groups> next{};

@@ -11,10 +11,9 @@ namespace agvd {
 //! Keeps nothing but indices into Propagation::relays: 4 bytes a relay.
 class RelayGroups {
 public:
-    //! Parallel; O(relays). Keeps a reference.
-    //! \param is_asked  #mixed: 1 for the faces whose relays will be asked for; empty: all.
-    RelayGroups(const Propagation& propagation, std::span<const std::uint8_t> is_asked,
-                int num_threads);
+    //! Parallel; O(relays of those faces). Keeps a reference.
+    //! \param mixed  the mixed indices that will be asked for.
+    RelayGroups(const Propagation& propagation, std::span<const Index> mixed, int num_threads);
 
     //! The relays whose image lies across a half-edge of a mixed face. As all that follow in their
     //! order.
