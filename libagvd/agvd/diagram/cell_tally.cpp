@@ -4,22 +4,13 @@
 #include <cmath>
 
 #include "agvd/mesh/face_area.h"
+#include "agvd/mesh/one_ring.h"
 
 namespace agvd {
 
-CellTally::CellTally(const Surface& surface)
-    : surface_(&surface), vertex_weights_(surface.num_vertices(), 0) {
+CellTally::CellTally(const Surface& surface) : surface_(&surface) {
     double area = 0;
-    for (Index f = 0; f < surface.num_faces(); ++f) {
-        area += face_area(surface, f);
-        // One boundary edge leaves each vertex of the boundary, and both are left out.
-        const Triangle& corners = surface.mesh.triangles[f];
-        for (Index k = 0; k < 3; ++k) {
-            const Index h = 3 * f + k;
-            if (surface.outgoing[corners[k]] == h) ++vertex_weights_[corners[k]];
-            if (h < surface.twin[h]) --vertex_weights_[corners[k]];
-        }
-    }
+    for (Index f = 0; f < surface.num_faces(); ++f) area += face_area(surface, f);
     constexpr int bits = 61;
     constexpr int least_exponent = -1000;  // Its inverse is finite, too.
     if (area > 0) unit_ = std::ldexp(1.0, std::max(std::ilogb(area) - bits, least_exponent));
@@ -28,12 +19,17 @@ CellTally::CellTally(const Surface& surface)
 void CellTally::resize(Index num_sites) { cells_.resize(num_sites); }
 
 void CellTally::count_vertex(Index vertex, Index site, int sign) {
-    count(site, sign * vertex_weights_[vertex]);
+    if (surface_->outgoing[vertex] == no_index) return;
+    count(site, sign);
+    // One boundary edge leaves each vertex of the boundary, and both are left out.
+    for_each_outgoing(*surface_, vertex, [&](Index h) {
+        if (h < surface_->twin[h]) count(site, -sign);
+    });
 }
 
 void CellTally::count_row(std::span<const Crossing> row, int sign) {
     if (row.empty()) return;
-    if (surface_->twin[surface_->edge_half[row[0].line]] == no_index) return;
+    if (surface_->twin[row[0].line] == no_index) return;
     for (const Crossing& crossing : row) count(crossing.site_after, -sign);
 }
 

@@ -21,7 +21,7 @@ public:
 
     // What is no_index belongs to no cell. \param sign  1: comes in; -1: goes out.
 
-    //! A vertex, and the first interval of each edge whose edge_half it is the tail of.
+    //! A vertex, and the first interval of each edge whose edge_half leaves it.
     void count_vertex(Index vertex, Index site, int sign);
     //! The other intervals of an edge.
     void count_row(std::span<const Crossing> row, int sign);
@@ -50,8 +50,7 @@ private:
     [[nodiscard]] std::int64_t units(double area) const;
 
     const Surface* surface_;
-    std::vector<int> vertex_weights_;  // #V: what each adds to its cell's Euler characteristic.
-    double unit_ = 1;                  // Of area: a power of two.
+    double unit_ = 1;  // Of area: a power of two.
     std::vector<Cell> cells_;
 };
 

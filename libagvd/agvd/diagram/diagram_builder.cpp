@@ -127,9 +127,10 @@ private:
         for (Index i = 0; i < before.size(); ++i) {
             const Index v = touched_.vertices()[i];
             const auto& [site, distance] = before[i];
-            tally_.count_vertex(v, site, -1);
-            tally_.count_vertex(v, labels_.point_site[v], 1);
-            if (labels_.point_site[v] == site && labels_.vertex_distance[v] == distance) {
+            if (labels_.point_site[v] != site) {
+                tally_.count_vertex(v, site, -1);
+                tally_.count_vertex(v, labels_.point_site[v], 1);
+            } else if (labels_.vertex_distance[v] == distance) {
                 touched_.clear_vertex(v);
             }
         }

@@ -137,7 +137,7 @@ public:
             find_single_crossing(relays_, length, site_at_tail, site_at_head, at, distance_there)) {
             begin_row(edge, 1);
             out_.crossings.push_back(
-                {at / length, distance_there, site_at_tail, site_at_head, edge});
+                {at / length, distance_there, site_at_tail, site_at_head, half_edge});
             return;
         }
         label_envelope(relays_, length, site_at_tail, site_at_head, scratch_, intervals_);
@@ -150,7 +150,7 @@ public:
             const double x = intervals_[k].end * length;
             const double distance =
                 std::max(distance_on_line(relays_, before, x), distance_on_line(relays_, after, x));
-            out_.crossings.push_back({intervals_[k].end, distance, before, after, edge});
+            out_.crossings.push_back({intervals_[k].end, distance, before, after, half_edge});
         }
     }
 

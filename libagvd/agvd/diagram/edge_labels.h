@@ -14,7 +14,7 @@ struct Crossing {
     double distance;  //!< From both sites.
     Index site_before;
     Index site_after;
-    Index line;  //!< Mesh edge; first_cut + c: cut c.
+    Index line;  //!< The edge_half of a mesh edge; first_cut + c: cut c.
 
     static constexpr Index first_cut = Index{1} << 31;
 };

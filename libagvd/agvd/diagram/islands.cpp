@@ -244,9 +244,9 @@ private:
             stale_faces.push_back(labels_.cuts[line - Crossing::first_cut].face);
             return;
         }
-        const Index h = surface_.edge_half[line];
-        stale_faces.push_back(Surface::face(h));
-        if (surface_.twin[h] != no_index) stale_faces.push_back(Surface::face(surface_.twin[h]));
+        stale_faces.push_back(Surface::face(line));
+        const Index twin = surface_.twin[line];
+        if (twin != no_index) stale_faces.push_back(Surface::face(twin));
     }
 
     const Surface& surface_;

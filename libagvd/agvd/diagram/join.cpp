@@ -72,7 +72,7 @@ public:
         if (crossing.line >= Crossing::first_cut) {
             return point_on_cut(labels_.cuts[crossing.line - Crossing::first_cut], crossing.at);
         }
-        const Index h = surface_.edge_half[crossing.line];
+        const Index h = crossing.line;
         SurfacePoint point{FaceId(Surface::face(h)), {0, 0, 0}};
         point.barycentric[h % 3] = 1 - crossing.at;
         point.barycentric[(h + 1) % 3] = crossing.at;
