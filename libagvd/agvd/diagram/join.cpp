@@ -33,7 +33,8 @@ void ArcJoiner::forget(const ArcStore& arcs, Index face) {
     forgotten_.push_back(face);
     const Block& block = arcs.of_face(face).arcs;
     for (Index arc = block.begin; arc < block.end() && arc < edge_of_arc_.size(); ++arc) {
-        if (edge_of_arc_[arc] != no_index) undo_edge(arcs, edge_of_arc_[arc]);
+        const Index edge = std::exchange(edge_of_arc_[arc], no_index);
+        if (edge != no_index) first_ends_[edge] = no_index;
     }
     for (ArcEnd end = tail_of(block.begin); end < tail_of(block.end()); ++end) {
         const Index node = node_at(arcs, end);
@@ -42,17 +43,6 @@ void ArcJoiner::forget(const ArcStore& arcs, Index face) {
         if (ends[0] == end) ends[0] = std::exchange(ends[1], no_index);
         if (ends[1] == end) ends[1] = no_index;
     }
-}
-
-// None of its faces has been forgotten.
-void ArcJoiner::undo_edge(const ArcStore& arcs, Index name) {
-    Edge& edge = edges_[name];
-    for (ArcEnd from = edge.first;; from = across(arcs, other_end(from))) {
-        edge_of_arc_[from / 2] = no_index;
-        if (other_end(from) == edge.last) break;
-    }
-    edge.first = edge.last = no_index;
-    free_edges_.push_back(name);
 }
 
 // Where the ends of arcs lie.
@@ -117,10 +107,18 @@ public:
           out_(diagram) {}
 
     void run(std::span<const Index> new_faces) {
-        std::erase_if(in_.order_, [&](Index name) { return in_.edges_[name].first == no_index; });
+        std::vector<Index> gone;
+        std::erase_if(in_.order_, [&](Index name) {
+            if (in_.first_ends_[name] != no_index) return false;
+            gone.push_back(name);
+            return true;
+        });
         register_ends(new_faces);
         add_open_edges(new_faces);
         add_other_edges(new_faces);
+        // All their arcs are of other edges by now: where a face was kept, they lead into one that
+        // was not.
+        in_.free_edges_.insert(in_.free_edges_.end(), gone.begin(), gone.end());
         put_in_order();
         list_branches(new_faces);
 
@@ -153,7 +151,10 @@ private:
     [[nodiscard]] Index node_at(ArcEnd end) const { return agvd::node_at(arcs_, end); }
     [[nodiscard]] bool is_vertex(Index node) const { return in_.is_vertex(node); }
     [[nodiscard]] ArcEnd across(ArcEnd end) const { return in_.across(arcs_, end); }
-    [[nodiscard]] bool is_joined(Index arc) const { return in_.edge_of_arc_[arc] != no_index; }
+    [[nodiscard]] bool is_joined(Index arc) const {
+        const Index edge = in_.edge_of_arc_[arc];
+        return edge != no_index && in_.first_ends_[edge] != no_index;
+    }
 
     // Edges come in the order of the faces, and of the ends in a face, closed ones behind.
     [[nodiscard]] std::uint64_t key_of(ArcEnd end, bool is_closed) const {
@@ -204,6 +205,7 @@ private:
         if (in_.free_edges_.empty()) {
             in_.free_edges_.push_back(static_cast<Index>(in_.edges_.size()));
             in_.edges_.emplace_back();
+            in_.first_ends_.push_back(no_index);
         }
         const Index name = in_.free_edges_.back();
         in_.free_edges_.pop_back();
@@ -220,8 +222,8 @@ private:
         if (!is_closed && key_of(to, false) < key_of(start, false)) std::swap(start, to);
         const LocalArc& arc = arcs_.arcs()[start / 2];
         const bool forward = start % 2 == 0;
+        in_.first_ends_[name] = start;
         in_.edges_[name] = {key_of(start, is_closed),
-                            start,
                             to,
                             forward ? arc.left : arc.right,
                             forward ? arc.right : arc.left,
@@ -272,7 +274,7 @@ private:
     // The end of the Voronoi edge that lies at the end of an arc.
     [[nodiscard]] EdgeEnd edge_end(ArcEnd end) const {
         const Index name = in_.edge_of_arc_[end / 2];
-        return {numbers_[name], in_.edges_[name].first == end};
+        return {numbers_[name], in_.first_ends_[name] == end};
     }
 
     void attach(const EdgeEnd& end, Index site, Index vertex) {
@@ -394,7 +396,7 @@ private:
         for (const Index name : in_.order_) {
             Edge& edge = in_.edges_[name];
             if (std::exchange(edge.is_new, false)) {
-                walk(edge);
+                walk(in_.first_ends_[name], edge.last);
             } else {
                 copy(old_points, edge, out_.points);
                 copy(old_distances, edge, out_.point_distance);
@@ -405,17 +407,16 @@ private:
         }
     }
 
-    void walk(const Edge& edge) {
-        ArcEnd from = edge.first;
+    void walk(ArcEnd from, ArcEnd last) {
         while (true) {
             add_node(node_at(arcs_, from));
             add_inner_points(from);
             const ArcEnd to = other_end(from);
-            if (to == edge.last) break;
+            if (to == last) break;
             from = in_.across(arcs_, to);
         }
         // A closed curve does not repeat its first point.
-        const Index end = node_at(arcs_, edge.last);
+        const Index end = node_at(arcs_, last);
         if (in_.is_vertex(end)) add_node(end);
     }
 
@@ -493,7 +494,7 @@ std::vector<Index> ArcJoiner::faces_beside(const ArcStore& arcs, const CellSet& 
     for (const Index name : order_) {
         const Edge& edge = edges_[name];
         if (cells.has(edge.left) || cells.has(edge.right)) {
-            faces.push_back(arcs.arcs()[edge.first / 2].face);
+            faces.push_back(arcs.arcs()[first_ends_[name] / 2].face);
         }
     }
     return faces;

@@ -38,8 +38,8 @@ private:
     using ArcEnd = Index;
 
     struct Edge {
-        std::uint64_t key;   // Ascending in the diagram.
-        ArcEnd first, last;  // no_index: a free one.
+        std::uint64_t key;  // Ascending in the diagram.
+        ArcEnd last;
         Index left, right;
         Index first_point, num_points;  // In the diagram, but for new ones.
         bool is_new;
@@ -57,14 +57,14 @@ private:
 
     [[nodiscard]] bool is_vertex(Index node) const;
     [[nodiscard]] ArcEnd across(const ArcStore& arcs, ArcEnd end) const;
-    void undo_edge(const ArcStore& arcs, Index name);
 
     std::vector<std::vector<Index>> boundary_loops_;
-    std::vector<Index> edge_of_arc_;                    // no_index: none yet.
+    std::vector<Index> edge_of_arc_;                    // no_index: none yet; or one that is gone.
     std::vector<std::array<ArcEnd, 2>> crossing_ends_;  // One only: on the boundary.
     std::vector<Edge> edges_;
-    std::vector<Index> free_edges_;  // Of edges_.
-    std::vector<Index> order_;       // Of edges_, by key.
+    std::vector<ArcEnd> first_ends_;  // By edge; no_index: it is gone.
+    std::vector<Index> order_;        // Of edges, by key; maybe some that are gone.
+    std::vector<Index> free_edges_;   // Gone, and no arc says that it is of them.
     struct FaceBranches {
         Index face;
         Block branches;
