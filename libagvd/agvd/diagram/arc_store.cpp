@@ -13,6 +13,7 @@ void ArcStore::reserve_for(double times) {
     reserve(faces_);
     reserve(arcs_);
     reserve(branches_);
+    reserve(branch_points_);
     reserve(points_);
     reserve(connections_);
     reserve(parts_);
@@ -39,13 +40,19 @@ void ArcStore::add(std::span<const Index> faces, const FaceArcs& chunk, Index fi
     all.parts = parts_.add(part(chunk.parts, begin.parts, end.parts));
     all.arcs = arcs_.add(part(local.arcs, begin.arcs, end.arcs));
     new_branches_.clear();
+    new_branch_points_.clear();
     for (const LocalBranch& branch : part(local.branches, begin.branches, end.branches)) {
-        Branch& added = new_branches_.emplace_back(
-            Branch{to_surface(*surface_, branch.face, branch.position), branch.distance,
-                   branch.arcs, branch.at_tail, branch.sites});
-        for (Index& arc : added.arcs) arc += all.arcs.begin - begin.arcs;
+        Branch& added = new_branches_.emplace_back();
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index arc = branch.arcs[k] - begin.arcs + all.arcs.begin;
+            added.ends[k] = 2 * arc + (branch.at_tail[k] ? 0 : 1);
+        }
+        added.sites = branch.sites;
+        new_branch_points_.push_back(
+            {to_surface(*surface_, branch.face, branch.position), branch.distance});
     }
     all.branches = branches_.add(new_branches_);
+    (void)branch_points_.add(new_branch_points_);
 
     const auto rename = [&](Index& node) {
         if (node >= LocalDiagram::first_branch) node += all.branches.begin - begin.branches;
@@ -86,6 +93,7 @@ void ArcStore::remove(Index face) {
     const Face& stored = faces_[slot];
     arcs_.release(stored.arcs);
     branches_.release(stored.branches);
+    branch_points_.release(stored.branches);
     points_.release(stored.points);
     connections_.release(stored.connections);
     parts_.release(stored.parts);

@@ -19,13 +19,15 @@ public:
         Vec2 position;  //!< In the face's own frame.
         double distance;
     };
-    //! As LocalBranch.
+    //! A branch as it hangs together. Counter-clockwise around it: ends[i], then sites[i].
     struct Branch {
+        std::array<Index, 3> ends;  //!< 2 * arc + (0: its tail, 1: its head).
+        std::array<Index, 3> sites;
+    };
+    //! Where a branch lies.
+    struct BranchPoint {
         SurfacePoint point;
         double distance;
-        std::array<Index, 3> arcs;
-        std::array<bool, 3> at_tail;
-        std::array<Index, 3> sites;
     };
 
     //! \param surface  outlives this.
@@ -48,9 +50,27 @@ public:
     }
     [[nodiscard]] const BlockPool<LocalArc>& arcs() const { return arcs_; }
     [[nodiscard]] const BlockPool<Branch>& branches() const { return branches_; }
+    //! In the places of the branches.
+    [[nodiscard]] const BlockPool<BranchPoint>& branch_points() const { return branch_points_; }
     [[nodiscard]] const BlockPool<Point>& points() const { return points_; }
     [[nodiscard]] const BlockPool<Connection>& connections() const { return connections_; }
     [[nodiscard]] const BlockPool<FaceArcs::CellPart>& parts() const { return parts_; }
+
+    //! Starts to load what a face has, in three steps: call for the same face with 0, 1 and 2.
+    //! Inlined by force, as all that only prefetches must be.
+    [[gnu::always_inline]] void prefetch(Index face, int step) const {
+        if (step == 0) {
+            __builtin_prefetch(&slots_[face]);
+        } else if (slots_[face] == no_index) {
+            return;
+        } else if (step == 1) {
+            __builtin_prefetch(&faces_[slots_[face]]);
+        } else {
+            const Face& stored = faces_[slots_[face]];
+            if (stored.arcs.count > 0) __builtin_prefetch(&arcs_[stored.arcs.begin]);
+            if (stored.parts.count > 0) __builtin_prefetch(&parts_[stored.parts.begin]);
+        }
+    }
 
     //! More is released than in use: time to begin anew.
     [[nodiscard]] bool is_wasteful() const;
@@ -64,6 +84,7 @@ private:
     std::vector<Index> free_slots_;
     BlockPool<LocalArc> arcs_;
     BlockPool<Branch> branches_;
+    BlockPool<BranchPoint> branch_points_;
     BlockPool<Point> points_;
     BlockPool<Connection> connections_;
     BlockPool<FaceArcs::CellPart> parts_;
@@ -71,6 +92,7 @@ private:
     // Of the faces at hand.
     std::vector<Point> new_points_;
     std::vector<Branch> new_branches_;
+    std::vector<BranchPoint> new_branch_points_;
 };
 
 }  // namespace agvd

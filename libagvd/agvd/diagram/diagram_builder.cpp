@@ -143,8 +143,15 @@ private:
     [[nodiscard]] std::vector<Index> clear_touched() {
         std::vector<Index> stale;
         for (const Index face : touched_.faces()) {
-            if (touched_.holds_in_face(face)) continue;
-            stale.push_back(face);
+            if (!touched_.holds_in_face(face)) stale.push_back(face);
+        }
+        for (std::size_t i = 0; i < stale.size(); ++i) {
+            constexpr std::size_t ahead = 4;
+            for (int step = 0; step < 3; ++step) {
+                const std::size_t later = i + ahead * (3 - step);
+                if (later < stale.size()) arcs_.prefetch(stale[later], step);
+            }
+            const Index face = stale[i];
             clear_arcs(face);
             for (Index h = 3 * face; h < 3 * face + 3; ++h) {
                 if (touched_.holds_on_edge(h)) continue;

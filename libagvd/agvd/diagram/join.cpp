@@ -52,12 +52,12 @@ public:
         : surface_(surface), labels_(labels), arcs_(arcs) {}
 
     [[nodiscard]] double distance(Index node) const {
-        return node >= LocalDiagram::first_branch ? branch(node).distance
+        return node >= LocalDiagram::first_branch ? branch_point(node).distance
                                                   : labels_.crossings[node].distance;
     }
 
     [[nodiscard]] SurfacePoint point(Index node) const {
-        if (node >= LocalDiagram::first_branch) return branch(node).point;
+        if (node >= LocalDiagram::first_branch) return branch_point(node).point;
         const Crossing& crossing = labels_.crossings[node];
         if (crossing.line >= Crossing::first_cut) {
             return point_on_cut(labels_.cuts[crossing.line - Crossing::first_cut], crossing.at);
@@ -70,8 +70,8 @@ public:
     }
 
 private:
-    [[nodiscard]] const ArcStore::Branch& branch(Index node) const {
-        return arcs_.branches()[node - LocalDiagram::first_branch];
+    [[nodiscard]] const ArcStore::BranchPoint& branch_point(Index node) const {
+        return arcs_.branch_points()[node - LocalDiagram::first_branch];
     }
 
     [[nodiscard]] SurfacePoint point_on_cut(const Cut& cut, double at) const {
@@ -292,9 +292,7 @@ private:
         for (const FaceBranches& in_face : in_.branches_) {
             for (const ArcStore::Branch& branch : arcs_.branches()[in_face.branches]) {
                 for (std::size_t k = 0; k < 3; ++k) {
-                    const ArcEnd end =
-                        branch.at_tail[k] ? tail_of(branch.arcs[k]) : head_of(branch.arcs[k]);
-                    attach(edge_end(end), branch.sites[k], vertex);
+                    attach(edge_end(branch.ends[k]), branch.sites[k], vertex);
                 }
                 finish_vertex();
                 ++vertex;
@@ -366,9 +364,9 @@ public:
         out_.vertices.clear();
         out_.vertex_distance.clear();
         for (const FaceBranches& in_face : in_.branches_) {
-            for (const ArcStore::Branch& branch : arcs_.branches()[in_face.branches]) {
-                out_.vertices.push_back(branch.point);
-                out_.vertex_distance.push_back(branch.distance);
+            for (const auto& [point, distance] : arcs_.branch_points()[in_face.branches]) {
+                out_.vertices.push_back(point);
+                out_.vertex_distance.push_back(distance);
             }
         }
         for (Index i = 0; i < in_.boundary_loops_.size(); ++i) {
