@@ -10,19 +10,24 @@ namespace agvd {
 class CellSet {
 public:
     //! Empty.
-    explicit CellSet(Index num_sites) : has_(num_sites, 0) {}
+    explicit CellSet(Index num_sites = 0) : has_(num_sites, 0) {}
+    //! Of so many sites; there are none of the new ones in it.
+    void resize(Index num_sites) { has_.resize(num_sites, 0); }
 
-    [[nodiscard]] bool is_empty() const { return is_empty_; }
+    [[nodiscard]] bool is_empty() const { return count_ == 0; }
     [[nodiscard]] bool has(Index site) const { return site != no_index && has_[site] != 0; }
+    void set(Index site, bool has) {
+        count_ += has ? 1 : 0;
+        count_ -= has_[site];
+        has_[site] = has ? 1 : 0;
+    }
     void insert(Index site) {
-        if (site == no_index) return;
-        has_[site] = 1;
-        is_empty_ = false;
+        if (site != no_index) set(site, true);
     }
 
 private:
     std::vector<std::uint8_t> has_;
-    bool is_empty_ = true;
+    Index count_ = 0;
 };
 
 //! The faces that any of the cells reaches into, as far as they hang together with one of the seeds.

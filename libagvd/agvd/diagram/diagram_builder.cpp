@@ -46,15 +46,27 @@ public:
         absorb_all_islands(groups, diagram);
         kept_.joiner.draw(surface_, labels_, arcs_, diagram);
         tally_.write(diagram);
-        diagram.nearest_site.clear();
-        diagram.nearest_site.reserve(surface_.num_vertices());
-        for (Index v = 0; v < surface_.num_vertices(); ++v) {
-            diagram.nearest_site.push_back(SiteId(labels_.point_site[v]));
-        }
-        diagram.nearest_distance = labels_.vertex_distance;
+        set_nearest(diagram);
     }
 
 private:
+    void set_nearest(Diagram& diagram) const {
+        if (touched_.is_all()) {
+            diagram.nearest_distance = labels_.vertex_distance;
+            diagram.nearest_site.clear();
+            diagram.nearest_site.reserve(surface_.num_vertices());
+            for (Index v = 0; v < surface_.num_vertices(); ++v) {
+                diagram.nearest_site.push_back(SiteId(labels_.point_site[v]));
+            }
+            return;
+        }
+        for (const Index v : touched_.vertices()) {
+            diagram.nearest_distance[v] = labels_.vertex_distance[v];
+            diagram.nearest_site[v] = SiteId(labels_.point_site[v]);
+        }
+        for (const Index v : relabelled_) diagram.nearest_site[v] = SiteId(labels_.point_site[v]);
+    }
+
     [[nodiscard]] std::vector<Index> all_mixed() const {
         std::vector<Index> all(propagation_.mixed_faces.size());
         std::iota(all.begin(), all.end(), Index{0});
@@ -92,6 +104,7 @@ private:
 
     // A vertex that islands gave another label, or that has its own again.
     void count_relabelled(Index v, Index old_site) {
+        relabelled_.push_back(v);
         const Index site = labels_.point_site[v];
         tally_.count_vertex(v, old_site, -1);
         tally_.count_vertex(v, site, 1);
@@ -246,9 +259,9 @@ private:
 
     void absorb_all_islands(RelayGroups& groups, Diagram& diagram) {
         kept_.mended_faces.clear();
-        const CellSet displaced = displaced_sites(surface_, sites_, labels_);
+        find_displaced(surface_, sites_, labels_, touched_, kept_.displaced);
         while (true) {
-            const CellSet in_doubt = cells_in_doubt(displaced, count_loops(diagram));
+            const CellSet in_doubt = cells_in_doubt(kept_.displaced, count_loops(diagram));
             if (in_doubt.is_empty()) return;
             const std::vector<Index> faces =
                 faces_of_cells(surface_, labels_, arcs_, in_doubt,
@@ -285,6 +298,7 @@ private:
     std::span<const SurfacePoint> sites_;
     const Propagation& propagation_;
     TouchedParts touched_;
+    std::vector<Index> relabelled_;  // Vertices, by islands that came and went.
 };
 
 DiagramBuilder::DiagramBuilder(const Surface& surface, DiagramOptions options)

@@ -38,6 +38,7 @@ private:
         ArcStore arcs;
         ArcJoiner joiner;
         CellTally tally;
+        CellSet displaced;  // Sites whose place belongs to another cell.
         std::vector<OldLabel> absorbed;   // Labels that islands had, one after the other.
         std::vector<Index> mended_faces;  // Around those.
     };

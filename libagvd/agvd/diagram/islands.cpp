@@ -268,19 +268,19 @@ private:
 
 }  // namespace
 
-CellSet displaced_sites(const Surface& surface, std::span<const SurfacePoint> sites,
-                        const EdgeLabels& labels) {
+void find_displaced(const Surface& surface, std::span<const SurfacePoint> sites,
+                    const EdgeLabels& labels, const TouchedParts& touched, CellSet& displaced) {
     const auto num_sites = static_cast<Index>(sites.size());
     CellSet has_inner_point(num_sites);
     for (Index i = 0; i < labels.inner_points.size(); ++i) {
         has_inner_point.insert(labels.inner_points[i].site);
     }
-    CellSet result(num_sites);
+    displaced.resize(num_sites);
     for (Index s = 0; s < num_sites; ++s) {
-        if (has_inner_point.has(s)) continue;
-        if (holder_of(surface, sites[s], labels, s) == no_index) result.insert(s);
+        if (!touched.is_near(sites[s].face.value())) continue;
+        displaced.set(s, !has_inner_point.has(s) &&
+                             holder_of(surface, sites[s], labels, s) == no_index);
     }
-    return result;
 }
 
 CellSet cells_in_doubt(const CellSet& displaced, std::span<const Index> num_loops) {

@@ -5,6 +5,7 @@
 
 #include "agvd/diagram/cell_set.h"
 #include "agvd/diagram/cell_tally.h"
+#include "agvd/diagram/touched_parts.h"
 #include "agvd/mesh/surface_point.h"
 
 namespace agvd {
@@ -15,10 +16,11 @@ struct OldLabel {
     Index site;
 };
 
-//! The sites whose place belongs to another cell. Islands that are absorbed change nothing of it.
-//! Cost: O(#sites + inner points).
-[[nodiscard]] CellSet displaced_sites(const Surface& surface, std::span<const SurfacePoint> sites,
-                                      const EdgeLabels& labels);
+//! Finds out for the sites in touched faces whether their place belongs to another cell. Islands
+//! that are absorbed change nothing of it.
+//! Cost: O(#sites + inner points) quick steps.
+void find_displaced(const Surface& surface, std::span<const SurfacePoint> sites,
+                    const EdgeLabels& labels, const TouchedParts& touched, CellSet& displaced);
 
 //! The cells that may have parts that do not hang together with their site: all others are bounded
 //! by one loop, which each part would need for itself, and own the place of their site.

@@ -113,13 +113,14 @@ public:
             gone.push_back(name);
             return true;
         });
+        const auto num_kept = static_cast<std::ptrdiff_t>(in_.order_.size());
         register_ends(new_faces);
         add_open_edges(new_faces);
         add_other_edges(new_faces);
         // All their arcs are of other edges by now: where a face was kept, they lead into one that
         // was not.
         in_.free_edges_.insert(in_.free_edges_.end(), gone.begin(), gone.end());
-        put_in_order();
+        put_in_order(num_kept);
         list_branches(new_faces);
 
         list_edges();
@@ -232,13 +233,11 @@ private:
                             true};
     }
 
-    void put_in_order() {
+    void put_in_order(std::ptrdiff_t num_kept) {
         const auto comes_before = [&](Index a, Index b) {
             return in_.edges_[a].key < in_.edges_[b].key;
         };
-        const auto first_new =
-            std::find_if(in_.order_.begin(), in_.order_.end(),
-                         [&](Index name) { return in_.edges_[name].is_new; });
+        const auto first_new = in_.order_.begin() + num_kept;
         std::sort(first_new, in_.order_.end(), comes_before);
         std::inplace_merge(in_.order_.begin(), first_new, in_.order_.end(), comes_before);
     }
@@ -387,22 +386,32 @@ private:
         out_.points.reserve(num_arcs + num_arcs / 4 + arcs_.points().size());
         out_.point_distance.reserve(out_.points.capacity());
         out_.edge_points.assign(1, 0);
-        const auto copy = [](const auto& from, const Edge& edge, auto& to) {
-            const auto first = from.begin() + edge.first_point;
-            to.insert(to.end(), first, first + edge.num_points);
+        // Old ones that follow one another are copied together.
+        Block kept;
+        const auto copy_kept = [&] {
+            const auto copy = [&](const auto& from, auto& to) {
+                to.insert(to.end(), from.begin() + kept.begin, from.begin() + kept.end());
+            };
+            copy(old_points, out_.points);
+            copy(old_distances, out_.point_distance);
+            kept = {};
         };
         for (const Index name : in_.order_) {
             Edge& edge = in_.edges_[name];
+            if (edge.is_new || edge.first_point != kept.end()) copy_kept();
             if (std::exchange(edge.is_new, false)) {
+                edge.first_point = out_.edge_points.back();
                 walk(in_.first_ends_[name], edge.last);
-            } else {
-                copy(old_points, edge, out_.points);
-                copy(old_distances, edge, out_.point_distance);
+                end_edge();
+                edge.num_points = out_.edge_points.back() - edge.first_point;
+                continue;
             }
+            if (kept.count == 0) kept.begin = edge.first_point;
+            kept.count += edge.num_points;
             edge.first_point = out_.edge_points.back();
-            end_edge();
-            edge.num_points = out_.edge_points.back() - edge.first_point;
+            out_.edge_points.push_back(edge.first_point + edge.num_points);
         }
+        copy_kept();
     }
 
     void walk(ArcEnd from, ArcEnd last) {

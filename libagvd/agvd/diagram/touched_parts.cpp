@@ -10,6 +10,7 @@ namespace agvd {
 TouchedParts::TouchedParts(const Surface& surface, std::span<const Index> faces)
     : surface_(surface),
       is_face_touched_(surface.num_faces(), 0),
+      is_near_(surface.num_faces(), 0),
       is_vertex_touched_(surface.num_vertices(), 0) {
     for (const Index face : faces) {
         is_face_touched_[face] = 1;
@@ -17,11 +18,10 @@ TouchedParts::TouchedParts(const Surface& surface, std::span<const Index> faces)
             if (std::exchange(is_vertex_touched_[v], 1) == 0) vertices_.push_back(v);
         }
     }
-    std::vector<std::uint8_t> is_near(surface.num_faces(), 0);
     for (const Index v : vertices_) {
         for_each_outgoing(surface, v, [&](Index h) {
             const Index face = Surface::face(h);
-            if (std::exchange(is_near[face], 1) == 0) faces_.push_back(face);
+            if (std::exchange(is_near_[face], 1) == 0) faces_.push_back(face);
         });
     }
     std::sort(faces_.begin(), faces_.end());

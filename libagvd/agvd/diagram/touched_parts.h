@@ -26,6 +26,9 @@ public:
     //! was.
     [[nodiscard]] const std::vector<Index>& faces() const { return faces_; }
 
+    //! Whether it is one of these.
+    [[nodiscard]] bool is_near(Index face) const { return is_all_ || is_near_[face] != 0; }
+
     //! Says that a vertex has the label and distance that it had.
     void clear_vertex(Index vertex) { is_vertex_touched_[vertex] = 0; }
 
@@ -39,6 +42,7 @@ private:
     bool is_all_ = false;
     std::vector<Index> vertices_, faces_;
     std::vector<std::uint8_t> is_face_touched_;    // #F
+    std::vector<std::uint8_t> is_near_;            // #F
     std::vector<std::uint8_t> is_vertex_touched_;  // #V
 };
 
