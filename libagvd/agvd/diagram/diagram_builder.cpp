@@ -29,7 +29,7 @@ public:
         tally_.resize(static_cast<Index>(sites_.size()));
         begin_labels();
         settle_vertices();
-        count_unlisted_faces(1);
+        count_unlisted_faces();
         const std::vector<Index> mixed = touched_.is_all() ? all_mixed() : clear_touched();
         RelayGroups groups = group_relays(mixed);
         label_edges(surface_, propagation_, groups, touched_, mixed, options_.num_threads,
@@ -89,8 +89,7 @@ private:
         return faces;
     }
 
-    // Lists the mixed faces. Labels are as they were before islands were absorbed, and unlisted
-    // faces that are touched count no more.
+    // Lists the mixed faces. Labels are as they were before islands were absorbed.
     void begin_labels() {
         if (touched_.is_all()) labels_.edge_rows.assign(surface_.num_edges(), {});
         for (auto old = kept_.absorbed.rbegin(); old != kept_.absorbed.rend(); ++old) {
@@ -98,7 +97,8 @@ private:
             count_relabelled(old->point, site);
         }
         kept_.absorbed.clear();
-        if (!touched_.is_all()) count_unlisted_faces(-1);
+        old_labels_.reserve(touched_.faces().size());
+        for (const Index face : touched_.faces()) old_labels_.push_back(label_of(face));
         list_mixed_faces(surface_, propagation_, labels_);
     }
 
@@ -117,14 +117,25 @@ private:
         });
     }
 
+    // Of an unlisted face; no_index: it is listed.
+    [[nodiscard]] Index label_of(Index face) const {
+        return labels_.mixed_index[face] == no_index
+                   ? labels_.point_site[surface_.mesh.triangles[face][0]]
+                   : no_index;
+    }
+
     // The touched ones.
-    void count_unlisted_faces(int sign) {
-        const auto count = [&](Index face) {
-            if (labels_.mixed_index[face] != no_index) return;
-            tally_.count_face(face, labels_.point_site[surface_.mesh.triangles[face][0]], sign);
-        };
-        for (const Index face : touched_.faces()) count(face);
-        for (Index f = 0; touched_.is_all() && f < surface_.num_faces(); ++f) count(f);
+    void count_unlisted_faces() {
+        for (Index i = 0; i < old_labels_.size(); ++i) {
+            const Index face = touched_.faces()[i];
+            const Index label = label_of(face);
+            if (label == old_labels_[i]) continue;
+            tally_.count_face(face, old_labels_[i], -1);
+            tally_.count_face(face, label, 1);
+        }
+        for (Index f = 0; touched_.is_all() && f < surface_.num_faces(); ++f) {
+            tally_.count_face(f, label_of(f), 1);
+        }
     }
 
     // Labels the touched vertices and finds out which of them are as they were.
@@ -298,6 +309,7 @@ private:
     std::span<const SurfacePoint> sites_;
     const Propagation& propagation_;
     TouchedParts touched_;
+    std::vector<Index> old_labels_;  // Of the touched faces.
     std::vector<Index> relabelled_;  // Vertices, by islands that came and went.
 };
 
