@@ -72,7 +72,8 @@ void ArcStore::add(std::span<const Index> faces, const FaceArcs& chunk, Index fi
                                        block(all.branches, &FaceArcs::Mark::branches),
                                        block(all.points, &FaceArcs::Mark::points),
                                        block(all.connections, &FaceArcs::Mark::connections),
-                                       block(all.parts, &FaceArcs::Mark::parts)};
+                                       block(all.parts, &FaceArcs::Mark::parts),
+                                       chunk.is_local[first + i] != 0};
         from = to;
     }
 }

@@ -14,6 +14,7 @@ public:
     //! What a face has.
     struct Face {
         Block arcs, branches, points, connections, parts;
+        bool is_local = false;  //!< They depend on no relays of other faces.
     };
     struct Point {
         Vec2 position;  //!< In the face's own frame.

@@ -30,12 +30,13 @@ public:
         begin_labels();
         settle_vertices();
         count_unlisted_faces();
-        const std::vector<Index> mixed = touched_.is_all() ? all_mixed() : clear_touched();
-        RelayGroups groups = group_relays(mixed);
-        label_edges(surface_, propagation_, groups, touched_, mixed, options_.num_threads,
-                    labels_);
+        const std::vector<Index> candidates = mixed_candidates();
+        RelayGroups groups = group_relays(candidates);
+        label_edges(surface_, propagation_, groups, candidates, options_.num_threads, touched_,
+                    labels_, tally_);
+        const std::vector<Index> mixed = touched_.is_all() ? candidates : clear_stale();
         cut_faces(surface_, propagation_, placement, groups, mixed, options_.num_threads, labels_);
-        count_rows_and_cuts(mixed);
+        count_cuts_in(mixed);
         poll(options_.progress, 0.5);
         trace(mixed, groups);
         poll(options_.progress, 0.9);
@@ -163,11 +164,21 @@ private:
         }
     }
 
-    // Takes out what does not hold, and returns the places of the faces that want it anew.
-    [[nodiscard]] std::vector<Index> clear_touched() {
+    // The places of the faces that may have other arcs.
+    [[nodiscard]] std::vector<Index> mixed_candidates() const {
+        if (touched_.is_all()) return all_mixed();
+        std::vector<Index> faces;
+        for (const Index face : touched_.faces()) {
+            if (!touched_.holds_on_edges_of(face)) faces.push_back(face);
+        }
+        return places_of(faces);
+    }
+
+    // Takes out the arcs that do not hold, and returns the places of the faces that want others.
+    [[nodiscard]] std::vector<Index> clear_stale() {
         std::vector<Index> stale;
         for (const Index face : touched_.faces()) {
-            if (!touched_.holds_in_face(face)) stale.push_back(face);
+            if (!holds_in_face(face)) stale.push_back(face);
         }
         for (std::size_t i = 0; i < stale.size(); ++i) {
             constexpr std::size_t ahead = 4;
@@ -175,22 +186,19 @@ private:
                 const std::size_t later = i + ahead * (3 - step);
                 if (later < stale.size()) arcs_.prefetch(stale[later], step);
             }
-            const Index face = stale[i];
-            clear_arcs(face);
-            for (Index h = 3 * face; h < 3 * face + 3; ++h) {
-                if (touched_.holds_on_edge(h)) continue;
-                const Block row = std::exchange(labels_.edge_rows[surface_.edge[h]], {});
-                tally_.count_row(std::as_const(labels_.crossings)[row], -1);
-                labels_.crossings.release(row);
-            }
+            clear_arcs(stale[i]);
         }
         std::erase_if(labels_.cut_faces, [&](const CutFace& cut) {
-            if (touched_.holds_in_face(cut.face)) return false;
+            if (holds_in_face(cut.face)) return false;
             count_cuts(cut, -1);
             release_cut(cut, surface_.num_vertices(), labels_);
             return true;
         });
         return places_of(stale);
+    }
+
+    [[nodiscard]] bool holds_in_face(Index face) const {
+        return touched_.holds_in_face(face, arcs_.of_face(face).is_local);
     }
 
     void clear_arcs(Index face) {
@@ -199,18 +207,10 @@ private:
         arcs_.remove(face);
     }
 
-    // Those that were made anew.
-    void count_rows_and_cuts(std::span<const Index> mixed) {
-        for (const Index i : mixed) {
-            const Index first = 3 * propagation_.mixed_faces[i];
-            for (Index h = first; h < first + 3; ++h) {
-                const Index edge = surface_.edge[h];
-                if (surface_.edge_half[edge] != h || touched_.holds_on_edge(h)) continue;
-                tally_.count_row(labels_.on_edge(edge), 1);
-            }
-        }
+    void count_cuts_in(std::span<const Index> mixed) {
         for (const CutFace& cut : labels_.cut_faces) {
-            if (!touched_.holds_in_face(cut.face)) count_cuts(cut, 1);
+            const Index place = labels_.mixed_index[cut.face];
+            if (std::binary_search(mixed.begin(), mixed.end(), place)) count_cuts(cut, 1);
         }
     }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "agvd/core/parallel.h"
+#include "agvd/diagram/cell_tally.h"
 #include "agvd/diagram/edge_relays.h"
 #include "agvd/diagram/envelope.h"
 #include "agvd/diagram/touched_parts.h"
@@ -168,6 +169,24 @@ private:
     EnvelopeScratch scratch_;
 };
 
+void reserve_crossings(std::span<const FoundRows> found, EdgeLabels& labels) {
+    std::size_t count = 0;
+    for (const FoundRows& part : found) count += part.crossings.size();
+    labels.crossings.reserve(count + count / 8);  // And those of cuts.
+}
+
+void replace_row(Index edge, std::span<const Crossing> now, TouchedParts& touched,
+                 EdgeLabels& labels, CellTally& tally) {
+    const std::span<const Crossing> old = labels.on_edge(edge);
+    const bool is_same = std::equal(old.begin(), old.end(), now.begin(), now.end());
+    touched.settle_edge(edge, is_same);
+    if (is_same) return;
+    tally.count_row(old, -1);
+    tally.count_row(now, 1);
+    labels.crossings.release(labels.edge_rows[edge]);
+    labels.edge_rows[edge] = labels.crossings.add(now);
+}
+
 }  // namespace
 
 void list_mixed_faces(const Surface& surface, const Propagation& propagation, EdgeLabels& labels) {
@@ -210,8 +229,8 @@ void label_vertices(const Surface& surface, const Propagation& propagation,
 }
 
 void label_edges(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
-                 const TouchedParts& touched, std::span<const Index> mixed, int num_threads,
-                 EdgeLabels& labels) {
+                 std::span<const Index> mixed, int num_threads, TouchedParts& touched,
+                 EdgeLabels& labels, CellTally& tally) {
     const auto count = static_cast<Index>(mixed.size());
     std::vector<FoundRows> found(num_chunks(count, grain));
     parallel_chunks(count, grain, num_threads, [&](Index chunk, Index begin, Index end) {
@@ -231,13 +250,19 @@ void label_edges(const Surface& surface, const Propagation& propagation, const R
             }
         }
     });
-    std::size_t num_found = labels.crossings.size();
-    for (const FoundRows& part : found) num_found += part.crossings.size();
-    if (touched.is_all()) labels.crossings.reserve(num_found + num_found / 8);  // And those of cuts.
+    if (touched.is_all()) reserve_crossings(found, labels);
     for (const FoundRows& part : found) {
         for (const FoundRow& row : part.rows) {
-            labels.edge_rows[row.edge] = labels.crossings.add(
-                std::span(part.crossings).subspan(row.crossings.begin, row.crossings.count));
+            replace_row(row.edge,
+                        std::span(part.crossings).subspan(row.crossings.begin, row.crossings.count),
+                        touched, labels, tally);
+        }
+    }
+    for (const Index face : touched.faces()) {
+        for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+            const Index edge = surface.edge[h];
+            if (labels.edge_rows[edge].count == 0 || touched.holds_on_edge(h)) continue;
+            if (!touched.is_settled(edge)) replace_row(edge, {}, touched, labels, tally);
         }
     }
 }

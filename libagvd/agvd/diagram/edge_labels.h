@@ -17,6 +17,8 @@ struct Crossing {
     Index line;  //!< The edge_half of a mesh edge; first_cut + c: cut c.
 
     static constexpr Index first_cut = Index{1} << 31;
+
+    friend bool operator==(const Crossing&, const Crossing&) = default;
 };
 
 //! A site inside a face that owns its place: a point of the complex like a mesh vertex.
@@ -66,6 +68,7 @@ struct EdgeLabels {
     }
 };
 
+class CellTally;
 class TouchedParts;
 
 void list_mixed_faces(const Surface& surface, const Propagation& propagation, EdgeLabels& labels);
@@ -77,12 +80,12 @@ void label_vertices(const Surface& surface, const Propagation& propagation,
                     const TouchedParts& touched, std::span<const Index> mixed, int num_threads,
                     EdgeLabels& labels);
 
-//! Adds the rows of edges all of whose faces are listed: the envelope of the relays of both sides
-//! and of its ends. Edges with something to say that is still to be said only.
+//! Replaces the rows of touched edges and says which are others now. An edge all of whose faces are
+//! listed has the envelope of the relays of both sides and of its ends.
 //! \param mixed  positions in mixed_faces, ascending: all faces of such edges.
 //! Cost: O(relays) a face, O(relays) and a few square roots a crossing.
 void label_edges(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
-                 const TouchedParts& touched, std::span<const Index> mixed, int num_threads,
-                 EdgeLabels& labels);
+                 std::span<const Index> mixed, int num_threads, TouchedParts& touched,
+                 EdgeLabels& labels, CellTally& tally);
 
 }  // namespace agvd

@@ -50,6 +50,9 @@ public:
         }
     }
 
+    // Whether the last face asked no relays of others.
+    [[nodiscard]] bool is_local() const { return !has_all_relays_; }
+
 private:
     void begin_face(Index mixed_index) {
         mixed_index_ = mixed_index;
@@ -269,8 +272,10 @@ void trace_faces(const Surface& surface, const Propagation& propagation, const R
         cut = std::lower_bound(cut, labels.cut_faces.end(), face, comes_before);
         if (cut != labels.cut_faces.end() && cut->face == face) {
             tracer.trace_cut(*cut);
+            out.is_local.push_back(0);  // Nor was it cut by its own alone.
         } else {
             tracer.trace(i);
+            out.is_local.push_back(tracer.is_local() ? 1 : 0);
         }
     }
 }

@@ -29,6 +29,7 @@ struct FaceArcs {
         Index points, arcs, branches, connections, parts;
     };
     std::vector<Mark> faces;
+    std::vector<std::uint8_t> is_local;  //!< By face: 1: no relays of other faces were asked.
 
     void clear() {
         local.points.clear();
@@ -38,6 +39,7 @@ struct FaceArcs {
         local.connections.clear();
         parts.clear();
         faces.clear();
+        is_local.clear();
     }
 
     [[nodiscard]] Mark mark() const {

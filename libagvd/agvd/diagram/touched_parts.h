@@ -32,18 +32,34 @@ public:
     //! Says that a vertex has the label and distance that it had.
     void clear_vertex(Index vertex) { is_vertex_touched_[vertex] = 0; }
 
-    //! Whether its row is as it was.
+    //! Whether all is as it was that its row depends on.
     [[nodiscard]] bool holds_on_edge(Index half_edge) const;
-    //! In the face and on its edges.
-    [[nodiscard]] bool holds_in_face(Index face) const;
+    //! On all its edges.
+    [[nodiscard]] bool holds_on_edges_of(Index face) const;
+
+    //! Says whether an edge on which not all holds has the row that it had.
+    void settle_edge(Index edge, bool is_same) {
+        if (!is_all_) edge_states_[edge] = is_same ? EdgeState::Same : EdgeState::Other;
+    }
+    [[nodiscard]] bool is_settled(Index edge) const {
+        return edge_states_[edge] != EdgeState::Unknown;
+    }
+    //! Whether all is as it was that the arcs of a face depend on, when its edges are settled.
+    //! \param is_local  the arcs depend on no relays of other faces.
+    [[nodiscard]] bool holds_in_face(Index face, bool is_local) const;
 
 private:
+    enum class EdgeState : std::uint8_t { Unknown, Same, Other };
+
+    [[nodiscard]] bool is_touched(Index face) const;
+
     const Surface& surface_;
     bool is_all_ = false;
     std::vector<Index> vertices_, faces_;
     std::vector<std::uint8_t> is_face_touched_;    // #F
     std::vector<std::uint8_t> is_near_;            // #F
     std::vector<std::uint8_t> is_vertex_touched_;  // #V
+    std::vector<EdgeState> edge_states_;           // #E
 };
 
 }  // namespace agvd
