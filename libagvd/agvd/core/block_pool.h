@@ -37,6 +37,10 @@ public:
         return std::span(elements_).subspan(block.begin, block.count);
     }
 
+    //! All elements, released ones among them.
+    [[nodiscard]] auto begin() { return elements_.begin(); }
+    [[nodiscard]] auto end() { return elements_.end(); }
+
     //! \param elements  not of this pool.
     [[nodiscard]] Block add(std::span<const T> elements) {
         const auto count = static_cast<Index>(elements.size());

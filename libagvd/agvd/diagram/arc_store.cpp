@@ -101,6 +101,18 @@ void ArcStore::remove(Index face) {
     free_slots_.push_back(slot);
 }
 
+void ArcStore::renumber(const Renumbering& renumbering) {
+    for (LocalArc& arc : arcs_) {
+        renumbering.apply(arc.left);
+        renumbering.apply(arc.right);
+    }
+    for (Branch& branch : branches_) {
+        for (Index& site : branch.sites) renumbering.apply(site);
+    }
+    for (Connection& connection : connections_) renumbering.apply(connection.site);
+    for (FaceArcs::CellPart& part : parts_) renumbering.apply(part.site);
+}
+
 bool ArcStore::is_wasteful() const {
     constexpr std::size_t least = 1024;  // Not worth it.
     const auto is_mostly_released = [](const auto& pool) {

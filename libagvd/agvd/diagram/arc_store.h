@@ -44,6 +44,8 @@ public:
     //! Takes them away again, if there are any.
     void remove(Index face);
 
+    void renumber(const Renumbering& renumbering);
+
     //! Empty for a face without arcs.
     [[nodiscard]] const Face& of_face(Index face) const {
         static constexpr Face none{};

@@ -13,6 +13,7 @@ public:
     explicit CellSet(Index num_sites = 0) : has_(num_sites, 0) {}
     //! Of so many sites; there are none of the new ones in it.
     void resize(Index num_sites) { has_.resize(num_sites, 0); }
+    void renumber(const Renumbering& renumbering);
 
     [[nodiscard]] bool is_empty() const { return count_ == 0; }
     [[nodiscard]] bool has(Index site) const { return site != no_index && has_[site] != 0; }

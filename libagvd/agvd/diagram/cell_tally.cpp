@@ -16,8 +16,6 @@ CellTally::CellTally(const Surface& surface) : surface_(&surface) {
     if (area > 0) unit_ = std::ldexp(1.0, std::max(std::ilogb(area) - bits, least_exponent));
 }
 
-void CellTally::resize(Index num_sites) { cells_.resize(num_sites); }
-
 void CellTally::count_vertex(Index vertex, Index site, int sign) {
     if (surface_->outgoing[vertex] == no_index) return;
     count(site, sign);

@@ -16,8 +16,9 @@ public:
     //! Nothing counts yet.
     //! \param surface  outlives this.
     explicit CellTally(const Surface& surface);
-    //! Of the sites at hand; the others have nothing.
-    void resize(Index num_sites);
+    //! Of so many sites; new ones have nothing.
+    void resize(Index num_sites) { cells_.resize(num_sites); }
+    void renumber(const Renumbering& renumbering) { renumbering.apply_to_places(cells_); }
 
     // What is no_index belongs to no cell. \param sign  1: comes in; -1: goes out.
 

@@ -51,8 +51,8 @@ public:
     }
 
 private:
-    void set_nearest(Diagram& diagram) const {
-        if (touched_.is_all()) {
+    void set_nearest(Diagram& diagram) {
+        if (std::exchange(kept_.is_renumbered, false) || touched_.is_all()) {
             diagram.nearest_distance = labels_.vertex_distance;
             diagram.nearest_site.clear();
             diagram.nearest_site.reserve(surface_.num_vertices());
@@ -330,6 +330,17 @@ void DiagramBuilder::build(std::span<const SurfacePoint> sites, const Propagatio
             .run(diagram);
     }
     kept_ = std::move(kept);
+}
+
+void DiagramBuilder::renumber(const Renumbering& renumbering) {
+    if (!kept_) return;
+    kept_->labels.renumber(renumbering);
+    kept_->arcs.renumber(renumbering);
+    kept_->joiner.renumber(renumbering);
+    kept_->tally.renumber(renumbering);
+    kept_->displaced.renumber(renumbering);
+    for (OldLabel& old : kept_->absorbed) renumbering.apply(old.site);
+    kept_->is_renumbered = true;
 }
 
 }  // namespace agvd

@@ -25,8 +25,8 @@ public:
     void build(std::span<const SurfacePoint> sites, const Propagation& propagation,
                std::span<const Index> changed_faces, Diagram& diagram);
 
-    //! Forgets everything, as where sites got other numbers.
-    void reset() { kept_.reset(); }
+    //! Between two calls, where sites are removed.
+    void renumber(const Renumbering& renumbering);
 
 private:
     // What one call leaves to the next.
@@ -39,6 +39,7 @@ private:
         ArcJoiner joiner;
         CellTally tally;
         CellSet displaced;  // Sites whose place belongs to another cell.
+        bool is_renumbered = false;       // Since the last call.
         std::vector<OldLabel> absorbed;   // Labels that islands had, one after the other.
         std::vector<Index> mended_faces;  // Around those.
     };

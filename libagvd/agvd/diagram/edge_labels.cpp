@@ -189,6 +189,15 @@ void replace_row(Index edge, std::span<const Crossing> now, TouchedParts& touche
 
 }  // namespace
 
+void EdgeLabels::renumber(const Renumbering& renumbering) {
+    for (Index& site : point_site) renumbering.apply(site);
+    for (Crossing& crossing : crossings) {
+        renumbering.apply(crossing.site_before);
+        renumbering.apply(crossing.site_after);
+    }
+    for (InnerPoint& point : inner_points) renumbering.apply(point.site);
+}
+
 void list_mixed_faces(const Surface& surface, const Propagation& propagation, EdgeLabels& labels) {
     labels.mixed_index.assign(surface.num_faces(), no_index);
     for (Index i = 0; i < propagation.mixed_faces.size(); ++i) {

@@ -5,6 +5,7 @@
 
 #include "agvd/core/block_pool.h"
 #include "agvd/diagram/relay_groups.h"
+#include "agvd/diagram/renumbering.h"
 
 namespace agvd {
 
@@ -62,6 +63,8 @@ struct EdgeLabels {
     BlockPool<Cut> cuts;
     BlockPool<CutTriangle> cut_triangles;
     std::vector<CutFace> cut_faces;  //!< By face.
+
+    void renumber(const Renumbering& renumbering);
 
     [[nodiscard]] std::span<const Crossing> on_edge(Index edge) const {
         return crossings[edge_rows[edge]];

@@ -496,6 +496,13 @@ void ArcJoiner::draw(const Surface& surface, const EdgeLabels& labels, const Arc
     Drawing(surface, labels, arcs, *this, diagram).run();
 }
 
+void ArcJoiner::renumber(const Renumbering& renumbering) {
+    for (Edge& edge : edges_) {
+        renumbering.apply(edge.left);
+        renumbering.apply(edge.right);
+    }
+}
+
 std::vector<Index> ArcJoiner::faces_beside(const ArcStore& arcs, const CellSet& cells) const {
     std::vector<Index> faces;
     for (const Index name : order_) {

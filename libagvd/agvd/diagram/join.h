@@ -29,6 +29,8 @@ public:
     void draw(const Surface& surface, const EdgeLabels& labels, const ArcStore& arcs,
               Diagram& diagram);
 
+    void renumber(const Renumbering& renumbering);
+
     //! A face beside each edge between cells, of those that one of the cells is beside.
     [[nodiscard]] std::vector<Index> faces_beside(const ArcStore& arcs,
                                                   const CellSet& cells) const;

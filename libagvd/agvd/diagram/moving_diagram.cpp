@@ -12,8 +12,9 @@ public:
     }
 
     void update(const SiteChanges& changes) {
+        const auto num_sites = static_cast<Index>(sites_.sites().size());
         sites_.update(changes);
-        if (!changes.removed.empty()) builder_.reset();
+        if (!changes.removed.empty()) builder_.renumber({num_sites, changes.removed});
         build();
     }
 

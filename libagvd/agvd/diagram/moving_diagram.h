@@ -9,15 +9,14 @@
 
 namespace agvd {
 
-//! Propagates and traces again only what a change touches; joining the arcs and measuring the cells
-//! is done anew. Propagation and diagram are those of a fresh run, byte for byte. Not for use by
-//! two threads at once.
+//! Propagates, labels, traces and joins again only what a change touches. Propagation and diagram
+//! are those of a fresh run, byte for byte. Not for use by two threads at once.
 class MovingDiagram {
 public:
     //! \param surface, layout  outlive this; SurfaceLayout(surface).
     //! \param propagation     engine must be Window; progress is not told.
     //! \throw as propagate() and build_diagram().
-    //! Space: that of MovingSites, and twice that of the diagram.
+    //! Space: that of MovingSites, and up to four times that of the diagram.
     MovingDiagram(const Surface& surface, const SurfaceLayout& layout,
                   std::vector<SurfacePoint> sites, const PropagationOptions& propagation = {},
                   const DiagramOptions& options = {});
@@ -28,7 +27,8 @@ public:
     //! \throw InvalidInput  as MovingSites::update(); nothing has changed then.
     //! \throw Cancelled     the diagram is that of before, the sites are the new ones; the next
     //!                      update makes up for it.
-    //! Where sites are removed the others are renumbered, and all arcs are traced again.
+    //! Cost: that of what is touched, copying the points of the other Voronoi edges, and O(#F)
+    //! quick passes.
     void update(const SiteChanges& changes);
 
     [[nodiscard]] const MovingSites& sites() const;
