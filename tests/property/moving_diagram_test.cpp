@@ -63,6 +63,21 @@ TEST_P(MovingDiagramOn, ChangesGiveWhatAFreshRunGives) {
     }
 }
 
+// Rough distances tear cells apart: islands come and go.
+TEST_P(MovingDiagramOn, ChangesOfRoughDiagramsGiveWhatAFreshRunGives) {
+    const Surface surface = build_surface(random_meshes::make(GetParam(), 11).view());
+    const SurfaceLayout layout(surface);
+    const PropagationOptions options{.max_error = 0.5};
+    MovingDiagram moving(surface, layout, points::scattered(surface, 60, 3), options);
+    expect_fresh(surface, moving, options);
+    for (std::uint64_t change = 1; change <= 12; ++change) {
+        SCOPED_TRACE("change " + std::to_string(change));
+        const auto count = static_cast<Index>(moving.sites().sites().size());
+        moving.update(some_changes(surface, count, 100 + change));
+        ASSERT_NO_FATAL_FAILURE(expect_fresh(surface, moving, options));
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(RandomMeshes, MovingDiagramOn,
                          testing::ValuesIn(random_meshes::families()),
                          [](const auto& family) { return std::string(family.param); });
@@ -76,6 +91,38 @@ TEST(MovingDiagram, SitesThatStepFromVertexToVertexGiveWhatAFreshRunGives) {
         moving.update({.moved = {{i, point_at(surface, vertex)}}, .removed = {}, .added = {}});
         expect_fresh(surface, moving, {});
         moving.update({});
+        expect_fresh(surface, moving, {});
+    }
+}
+
+// Where most of what is kept is of no use any more, it begins anew.
+TEST(MovingDiagram, WhenMostSitesAreRemovedTheRestIsAsAFreshRunGives) {
+    const Surface surface = build_surface(shapes::jitter(shapes::torus(60, 40), 0.01, 3).view());
+    const SurfaceLayout layout(surface);
+    MovingDiagram moving(surface, layout, points::scattered(surface, 500, 5));
+    SiteChanges changes;
+    for (Index i = 0; i < 490; ++i) changes.removed.push_back(i);
+    moving.update(changes);
+    expect_fresh(surface, moving, {});
+    moving.update({.moved = {{2, point_at(surface, 7)}}, .removed = {5}, .added = {}});
+    expect_fresh(surface, moving, {});
+    moving.update({.moved = {}, .removed = {}, .added = points::scattered(surface, 300, 9)});
+    expect_fresh(surface, moving, {});
+}
+
+TEST(MovingDiagram, SitesOnOneSpotGiveWhatAFreshRunGives) {
+    const Surface surface = build_surface(shapes::grid(12).view());
+    const SurfaceLayout layout(surface);
+    MovingDiagram moving(surface, layout, points::scattered(surface, 8, 5));
+    const SurfacePoint inside{FaceId(40), {0.3, 0.3, 0.4}};
+    const SurfacePoint on_edge{FaceId(41), {0.5, 0.5, 0}};
+    for (const SurfacePoint& spot : {inside, on_edge, point_at(surface, 30)}) {
+        for (const Index site : {5, 2, 7}) {
+            moving.update({.moved = {{site, spot}}, .removed = {}, .added = {}});
+            expect_fresh(surface, moving, {});
+        }
+        // Of those on the spot the first goes: the next one speaks.
+        moving.update({.moved = {}, .removed = {2}, .added = {spot}});
         expect_fresh(surface, moving, {});
     }
 }

@@ -73,8 +73,8 @@ nlohmann::ordered_json measure(const std::string& mesh, const Surface& surface,
         constexpr int in_a_row = 4;
         std::vector<SiteChanges> changes;
         for (int k = 0; k < in_a_row; ++k) {
-            changes.push_back(random_moves(surface, moving.sites(), are_near,
-                                           std::max<Index>(count, 1), seed++));
+            changes.push_back(
+                random_moves(surface, moving.sites(), are_near, std::max<Index>(count, 1), seed++));
             update.push_back(bench::time([&] { moving.update(changes.back()); }).cpu);
             propagated.push_back(moving.num_propagated());
         }

@@ -35,8 +35,7 @@ void ArcStore::add(std::span<const Index> faces, const FaceArcs& chunk, Index fi
     }
     Face all;
     all.points = points_.add(new_points_);
-    all.connections =
-        connections_.add(part(local.connections, begin.connections, end.connections));
+    all.connections = connections_.add(part(local.connections, begin.connections, end.connections));
     all.parts = parts_.add(part(chunk.parts, begin.parts, end.parts));
     all.arcs = arcs_.add(part(local.arcs, begin.arcs, end.arcs));
     new_branches_.clear();

@@ -31,8 +31,8 @@ private:
     Index count_ = 0;
 };
 
-//! The faces that any of the cells reaches into, as far as they hang together with one of the seeds.
-//! Ascending. Cost: O(seeds + faces), and a pass over #F bytes.
+//! The faces that any of the cells reaches into, as far as they hang together with one of the
+//! seeds. Ascending. Cost: O(seeds + faces), and a pass over #F bytes.
 [[nodiscard]] std::vector<Index> faces_of_cells(const Surface& surface, const EdgeLabels& labels,
                                                 const ArcStore& arcs, const CellSet& cells,
                                                 std::span<const Index> seeds);

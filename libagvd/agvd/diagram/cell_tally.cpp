@@ -59,8 +59,6 @@ void CellTally::write(Diagram& diagram) const {
     }
 }
 
-std::int64_t CellTally::units(double area) const {
-    return std::llrint(area * (1 / unit_));
-}
+std::int64_t CellTally::units(double area) const { return std::llrint(area * (1 / unit_)); }
 
 }  // namespace agvd

@@ -219,8 +219,8 @@ private:
             tally_.count_inner_point(point, sign);
         }
         for (const Cut& cut : std::as_const(labels_.cuts)[face.cuts]) {
-            tally_.count_cut(std::as_const(labels_.crossings)[cut.row],
-                             labels_.point_site[cut.to], sign);
+            tally_.count_cut(std::as_const(labels_.crossings)[cut.row], labels_.point_site[cut.to],
+                             sign);
         }
     }
 
@@ -245,7 +245,8 @@ private:
         std::vector<FaceArcs> chunks(num_chunks(most, grain));
         const bool is_first = arcs_.is_empty();
         for (std::size_t begin = 0; begin < mixed.size(); begin += most) {
-            const auto some = mixed.subspan(begin, std::min<std::size_t>(most, mixed.size() - begin));
+            const auto some =
+                mixed.subspan(begin, std::min<std::size_t>(most, mixed.size() - begin));
             parallel_chunks(static_cast<Index>(some.size()), grain, options_.num_threads,
                             [&](Index chunk, Index first, Index last) {
                                 trace_faces(surface_, propagation_, groups, labels_,
@@ -274,9 +275,8 @@ private:
         while (true) {
             const CellSet in_doubt = cells_in_doubt(kept_.displaced, count_loops(diagram));
             if (in_doubt.is_empty()) return;
-            const std::vector<Index> faces =
-                faces_of_cells(surface_, labels_, arcs_, in_doubt,
-                               kept_.joiner.faces_beside(arcs_, in_doubt));
+            const std::vector<Index> faces = faces_of_cells(
+                surface_, labels_, arcs_, in_doubt, kept_.joiner.faces_beside(arcs_, in_doubt));
             const std::size_t num_before = kept_.absorbed.size();
             std::vector<Index> stale;
             if (absorb_islands(surface_, sites_, arcs_, in_doubt, faces, labels_, tally_,

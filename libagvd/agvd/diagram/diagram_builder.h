@@ -31,14 +31,13 @@ public:
 private:
     // What one call leaves to the next.
     struct Kept {
-        explicit Kept(const Surface& surface)
-            : arcs(surface), joiner(surface), tally(surface) {}
+        explicit Kept(const Surface& surface) : arcs(surface), joiner(surface), tally(surface) {}
 
         EdgeLabels labels;
         ArcStore arcs;
         ArcJoiner joiner;
         CellTally tally;
-        CellSet displaced;  // Sites whose place belongs to another cell.
+        CellSet displaced;                // Sites whose place belongs to another cell.
         bool is_renumbered = false;       // Since the last call.
         std::vector<OldLabel> absorbed;   // Labels that islands had, one after the other.
         std::vector<Index> mended_faces;  // Around those.

@@ -62,8 +62,8 @@ void find_shorter_paths(const Surface& surface, const Propagation& propagation,
     }
 }
 
-// #V: 1 for the vertices that keep what they have: those of an unlisted face, and those that are not
-// touched.
+// #V: 1 for the vertices that keep what they have: those of an unlisted face, and those that are
+// not touched.
 std::vector<std::uint8_t> fixed_vertices(const Surface& surface, const EdgeLabels& labels,
                                          const TouchedParts& touched) {
     std::vector<std::uint8_t> is_fixed(surface.num_vertices(), touched.is_all() ? 0 : 1);

@@ -23,8 +23,8 @@ void unite_nodes(std::vector<Index>& parent, Index a, Index b) {
     parent[std::max(a, b)] = std::min(a, b);
 }
 
-// Calls back for each crossing of a row with the intervals before and after it, by node: points, then
-// the intervals after crossings that end at no point.
+// Calls back for each crossing of a row with the intervals before and after it, by node: points,
+// then the intervals after crossings that end at no point.
 template <typename Callback>
 void for_each_crossing(const EdgeLabels& labels, const Block& row, Index from, Index to,
                        const Callback& callback) {
@@ -213,18 +213,18 @@ private:
                      std::vector<Index>& stale_faces) {
         kept_.clear();
         bool is_changed = false;
-        for_each_crossing(labels_, row, from, to,
-                          [&](Index c, Index before, Index old_before, Index after,
-                              Index old_after) {
-                              Crossing crossing = labels_.crossings[c];
-                              crossing.site_before = site_of(before, old_before);
-                              crossing.site_after = site_of(after, old_after);
-                              is_changed = is_changed || crossing.site_before != old_before ||
-                                           crossing.site_after != old_after;
-                              if (crossing.site_before != crossing.site_after) {
-                                  kept_.push_back(crossing);
-                              }
-                          });
+        for_each_crossing(
+            labels_, row, from, to,
+            [&](Index c, Index before, Index old_before, Index after, Index old_after) {
+                Crossing crossing = labels_.crossings[c];
+                crossing.site_before = site_of(before, old_before);
+                crossing.site_after = site_of(after, old_after);
+                is_changed = is_changed || crossing.site_before != old_before ||
+                             crossing.site_after != old_after;
+                if (crossing.site_before != crossing.site_after) {
+                    kept_.push_back(crossing);
+                }
+            });
         if (!is_changed) return;
         const Index line = labels_.crossings[row.begin].line;
         const bool is_cut = line >= Crossing::first_cut;
@@ -278,8 +278,8 @@ void find_displaced(const Surface& surface, std::span<const SurfacePoint> sites,
     displaced.resize(num_sites);
     for (Index s = 0; s < num_sites; ++s) {
         if (!touched.is_near(sites[s].face.value())) continue;
-        displaced.set(s, !has_inner_point.has(s) &&
-                             holder_of(surface, sites[s], labels, s) == no_index);
+        displaced.set(
+            s, !has_inner_point.has(s) && holder_of(surface, sites[s], labels, s) == no_index);
     }
 }
 

@@ -100,11 +100,7 @@ class ArcJoiner::Run {
 public:
     Run(const Surface& surface, const EdgeLabels& labels, const ArcStore& arcs, ArcJoiner& joiner,
         Diagram& diagram)
-        : surface_(surface),
-          labels_(labels),
-          arcs_(arcs),
-          in_(joiner),
-          out_(diagram) {}
+        : surface_(surface), labels_(labels), arcs_(arcs), in_(joiner), out_(diagram) {}
 
     void run(std::span<const Index> new_faces) {
         std::vector<Index> gone;

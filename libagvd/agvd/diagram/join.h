@@ -32,8 +32,7 @@ public:
     void renumber(const Renumbering& renumbering);
 
     //! A face beside each edge between cells, of those that one of the cells is beside.
-    [[nodiscard]] std::vector<Index> faces_beside(const ArcStore& arcs,
-                                                  const CellSet& cells) const;
+    [[nodiscard]] std::vector<Index> faces_beside(const ArcStore& arcs, const CellSet& cells) const;
 
 private:
     // One end of an arc: 2 * arc + (0: tail, 1: head).
@@ -47,7 +46,8 @@ private:
         bool is_new;
     };
 
-    // A label change on one of the surface's boundaries, in its direction (the surface on the left).
+    // A label change on one of the surface's boundaries, in its direction (the surface on the
+    // left).
     struct BoundaryCrossing {
         Index node;
         Index position;  // In the loop.
@@ -71,8 +71,8 @@ private:
         Index face;
         Block branches;
     };
-    std::vector<Index> forgotten_;         // Faces, since the last call of join().
-    std::vector<FaceBranches> branches_;   // By face.
+    std::vector<Index> forgotten_;        // Faces, since the last call of join().
+    std::vector<FaceBranches> branches_;  // By face.
     std::vector<std::vector<BoundaryCrossing>> boundary_crossings_;  // By loop.
     // Memory for the next points.
     std::vector<SurfacePoint> points_;

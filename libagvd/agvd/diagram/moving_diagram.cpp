@@ -34,9 +34,8 @@ private:
 MovingDiagram::MovingDiagram(const Surface& surface, const SurfaceLayout& layout,
                              std::vector<SurfacePoint> sites, const PropagationOptions& propagation,
                              const DiagramOptions& options)
-    : state_(std::make_unique<State>(surface,
-                                     MovingSites(surface, layout, std::move(sites), propagation),
-                                     options)) {}
+    : state_(std::make_unique<State>(
+          surface, MovingSites(surface, layout, std::move(sites), propagation), options)) {}
 MovingDiagram::MovingDiagram(MovingDiagram&&) noexcept = default;
 MovingDiagram& MovingDiagram::operator=(MovingDiagram&&) noexcept = default;
 MovingDiagram::~MovingDiagram() = default;

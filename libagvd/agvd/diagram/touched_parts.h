@@ -22,8 +22,8 @@ public:
     [[nodiscard]] bool is_all() const { return is_all_; }
     //! Corners of those faces, unless all is touched.
     [[nodiscard]] const std::vector<Index>& vertices() const { return vertices_; }
-    //! Ascending: the faces around those vertices, unless all is touched. What lies outside is as it
-    //! was.
+    //! Ascending: the faces around those vertices, unless all is touched. What lies outside is as
+    //! it was.
     [[nodiscard]] const std::vector<Index>& faces() const { return faces_; }
 
     //! Whether it is one of these.
