@@ -25,6 +25,18 @@ void CellTally::count_vertex(Index vertex, Index site, int sign) {
     });
 }
 
+void CellTally::count_vertices(std::span<const Index> vertex_site) {
+    for (Index v = 0; v < surface_->num_vertices(); ++v) {
+        if (surface_->outgoing[v] != no_index) count(vertex_site[v], 1);
+    }
+    for (Index f = 0; f < surface_->num_faces(); ++f) {
+        for (Index k = 0; k < 3; ++k) {
+            const Index h = 3 * f + k;
+            if (h < surface_->twin[h]) count(vertex_site[surface_->mesh.triangles[f][k]], -1);
+        }
+    }
+}
+
 void CellTally::count_row(std::span<const Crossing> row, int sign) {
     if (row.empty()) return;
     if (surface_->twin[row[0].line] == no_index) return;

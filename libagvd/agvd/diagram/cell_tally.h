@@ -24,6 +24,8 @@ public:
 
     //! A vertex, and the first interval of each edge whose edge_half leaves it.
     void count_vertex(Index vertex, Index site, int sign);
+    //! All vertices, which come in. Cost: O(#F), in order.
+    void count_vertices(std::span<const Index> vertex_site);
     //! The other intervals of an edge.
     void count_row(std::span<const Crossing> row, int sign);
     //! An inner point.

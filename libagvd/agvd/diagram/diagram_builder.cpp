@@ -159,9 +159,7 @@ private:
                 touched_.clear_vertex(v);
             }
         }
-        for (Index v = 0; touched_.is_all() && v < surface_.num_vertices(); ++v) {
-            tally_.count_vertex(v, labels_.point_site[v], 1);
-        }
+        if (touched_.is_all()) tally_.count_vertices(labels_.point_site);
     }
 
     // The places of the faces that may have other arcs.
