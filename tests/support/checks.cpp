@@ -68,10 +68,8 @@ void expect_loops_close(const Diagram& d) {
 // A connected cell of genus g with b loops has Euler characteristic 2 - 2 g - b.
 void expect_cells_fit(const Diagram& d) {
     const Cells cells = build_cells(d);
-    const std::vector<Index> counted = count_loops(d);
     for (Index s = 0; s < d.num_sites; ++s) {
         const auto num_loops = static_cast<int>(cells.cell_loops[s + 1] - cells.cell_loops[s]);
-        EXPECT_EQ(counted[s], cells.cell_loops[s + 1] - cells.cell_loops[s]);
         if (num_loops == 0 && d.cell_area[s] == 0) {
             EXPECT_EQ(d.cell_euler[s], 0) << "cell " << s;
             continue;

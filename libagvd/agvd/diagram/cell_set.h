@@ -15,6 +15,7 @@ public:
     void resize(Index num_sites) { has_.resize(num_sites, 0); }
     void renumber(const Renumbering& renumbering);
 
+    [[nodiscard]] Index num_sites() const { return static_cast<Index>(has_.size()); }
     [[nodiscard]] bool is_empty() const { return count_ == 0; }
     [[nodiscard]] bool has(Index site) const { return site != no_index && has_[site] != 0; }
     void set(Index site, bool has) {
@@ -24,6 +25,11 @@ public:
     }
     void insert(Index site) {
         if (site != no_index) set(site, true);
+    }
+    void insert(const CellSet& other) {
+        for (Index s = 0; s < other.num_sites(); ++s) {
+            if (other.has(s)) insert(s);
+        }
     }
 
 private:

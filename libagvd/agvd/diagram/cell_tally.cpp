@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "agvd/mesh/face_area.h"
 #include "agvd/mesh/one_ring.h"
@@ -50,16 +51,22 @@ void CellTally::count_cut(std::span<const Crossing> row, Index site_at_end, int 
 
 void CellTally::count_face(Index face, Index site, int sign) {
     if (site == no_index) return;
-    cells_[site].euler += sign;
-    cells_[site].area += sign * units(face_area(*surface_, face));
+    change_cell(site, sign, sign * units(face_area(*surface_, face)));
 }
 
 void CellTally::count_parts(std::span<const FaceArcs::CellPart> parts, int sign) {
     for (const FaceArcs::CellPart& part : parts) {
         if (part.site == no_index) continue;
-        cells_[part.site].euler += sign * part.pieces;
-        cells_[part.site].area += sign * units(part.area);
+        change_cell(part.site, sign * part.pieces, sign * units(part.area));
     }
+}
+
+CellSet CellTally::take_changed() {
+    CellSet changed(static_cast<Index>(cells_.size()));
+    for (Index s = 0; s < cells_.size(); ++s) {
+        if (std::exchange(cells_[s].is_changed, false)) changed.insert(s);
+    }
+    return changed;
 }
 
 void CellTally::write(Diagram& diagram) const {

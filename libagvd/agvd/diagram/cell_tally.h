@@ -2,7 +2,7 @@
 //! Areas and Euler characteristics of cells.
 #pragma once
 
-#include "agvd/diagram/arc_store.h"
+#include "agvd/diagram/cell_set.h"
 #include "agvd/diagram/diagram.h"
 
 namespace agvd {
@@ -38,6 +38,9 @@ public:
     //! The pieces of a listed face.
     void count_parts(std::span<const FaceArcs::CellPart> parts, int sign);
 
+    //! The cells that have been told of since the last call.
+    [[nodiscard]] CellSet take_changed();
+
     //! Sets cell_area and cell_euler.
     void write(Diagram& diagram) const;
 
@@ -45,10 +48,17 @@ private:
     struct Cell {
         std::int64_t area = 0;  // In units.
         int euler = 0;
+        bool is_changed = false;
     };
 
     void count(Index site, int change) {
-        if (site != no_index) cells_[site].euler += change;
+        if (site != no_index) change_cell(site, change, 0);
+    }
+    void change_cell(Index site, int euler, std::int64_t area) {
+        Cell& cell = cells_[site];
+        cell.euler += euler;
+        cell.area += area;
+        cell.is_changed = true;
     }
     [[nodiscard]] std::int64_t units(double area) const;
 

@@ -79,18 +79,6 @@ void collect_neighbours(const Diagram& diagram, Cells& cells) {
 
 }  // namespace
 
-std::vector<Index> count_loops(const Diagram& diagram) {
-    const std::vector<Side> next = next_sides(diagram);
-    std::vector<Index> count(diagram.num_sites, 0);
-    std::vector<bool> seen(next.size(), false);
-    for (Side start = 0; start < next.size(); ++start) {
-        if (seen[start] || !site_of(diagram, start).is_valid()) continue;
-        ++count[site_of(diagram, start).value()];
-        for (Side side = start; !seen[side]; side = next[side]) seen[side] = true;
-    }
-    return count;
-}
-
 Cells build_cells(const Diagram& diagram) {
     Cells cells;
     collect_loops(diagram, cells);

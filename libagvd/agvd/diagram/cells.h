@@ -23,9 +23,6 @@ struct Cells {
     std::vector<SiteId> neighbours;        //!< Ascending, without repetition.
 };
 
-//! By site, how many loops its cell has. Points are not read. Cost: O(edges).
-[[nodiscard]] std::vector<Index> count_loops(const Diagram& diagram);
-
 //! Cost: O(size of the complex).
 [[nodiscard]] Cells build_cells(const Diagram& diagram);
 

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "agvd/core/parallel.h"
-#include "agvd/diagram/cells.h"
 #include "agvd/mesh/one_ring.h"
 
 namespace agvd {
@@ -43,8 +42,8 @@ public:
 
         // From here on nothing throws.
         diagram.num_sites = static_cast<Index>(sites_.size());
-        kept_.joiner.join(surface_, labels_, arcs_, faces_at(mixed), diagram);
-        absorb_all_islands(groups, diagram);
+        kept_.joiner.join(labels_, arcs_, faces_at(mixed));
+        absorb_all_islands(groups);
         kept_.joiner.draw(surface_, labels_, arcs_, diagram);
         tally_.write(diagram);
         set_nearest(diagram);
@@ -267,11 +266,15 @@ private:
         }
     }
 
-    void absorb_all_islands(RelayGroups& groups, Diagram& diagram) {
+    void absorb_all_islands(RelayGroups& groups) {
         kept_.mended_faces.clear();
         find_displaced(surface_, sites_, labels_, touched_, kept_.displaced);
         while (true) {
-            const CellSet in_doubt = cells_in_doubt(kept_.displaced, count_loops(diagram));
+            CellSet asked = tally_.take_changed();
+            asked.insert(kept_.in_doubt);
+            kept_.in_doubt = cells_in_doubt(
+                kept_.displaced, kept_.joiner.count_loops(surface_, labels_, arcs_, asked));
+            const CellSet& in_doubt = kept_.in_doubt;
             if (in_doubt.is_empty()) return;
             const std::vector<Index> faces = faces_of_cells(
                 surface_, labels_, arcs_, in_doubt, kept_.joiner.faces_beside(arcs_, in_doubt));
@@ -291,7 +294,7 @@ private:
             for (const Index face : stale) clear_arcs(face);
             if (!touched_.is_all()) groups = group_relays(mixed);
             trace(mixed, groups);
-            kept_.joiner.join(surface_, labels_, arcs_, stale, diagram);
+            kept_.joiner.join(labels_, arcs_, stale);
             kept_.mended_faces.insert(kept_.mended_faces.end(), stale.begin(), stale.end());
         }
     }
@@ -337,6 +340,7 @@ void DiagramBuilder::renumber(const Renumbering& renumbering) {
     kept_->joiner.renumber(renumbering);
     kept_->tally.renumber(renumbering);
     kept_->displaced.renumber(renumbering);
+    kept_->in_doubt.renumber(renumbering);
     for (OldLabel& old : kept_->absorbed) renumbering.apply(old.site);
     kept_->is_renumbered = true;
 }

@@ -15,17 +15,20 @@ public:
     //! To be called before a face loses its arcs.
     void forget(const ArcStore& arcs, Index face);
 
-    //! Replaces edges and vertices of `diagram`, but for their points. Edges stand in the order of
-    //! the first of their ends in the faces, closed ones behind, then those on the boundary;
-    //! branches become the first Voronoi vertices, then the label changes on the boundary. All that
-    //! whatever was kept.
-    //! Cost: O(arcs of the new edges + edges + boundary).
+    //! Joins new arcs with each other and with old ones.
+    //! Cost: O(arcs of the new edges + edges).
     //! \param new_faces  ascending: those whose arcs are new since the last call.
-    void join(const Surface& surface, const EdgeLabels& labels, const ArcStore& arcs,
-              std::span<const Index> new_faces, Diagram& diagram);
-    //! Replaces all points after the last call of join().
-    //! \param diagram  but for that call as the last call of draw() left it.
-    //! Cost: copying them.
+    void join(const EdgeLabels& labels, const ArcStore& arcs, std::span<const Index> new_faces);
+
+    //! How many loops bound each of these cells; 0 for others. Cost: O(edges + boundary).
+    [[nodiscard]] std::vector<Index> count_loops(const Surface& surface, const EdgeLabels& labels,
+                                                 const ArcStore& arcs, const CellSet& cells) const;
+
+    //! Replaces edges, vertices and points of `diagram`. Edges stand in the order of the first of
+    //! their ends in the faces, closed ones behind, then those on the boundary; branches become the
+    //! first Voronoi vertices, then the label changes on the boundary. All that whatever was kept.
+    //! Cost: O(edges + points of new ones + boundary), and copying the points of the others.
+    //! \param diagram  as the last call left it.
     void draw(const Surface& surface, const EdgeLabels& labels, const ArcStore& arcs,
               Diagram& diagram);
 
@@ -37,6 +40,13 @@ public:
 private:
     // One end of an arc: 2 * arc + (0: tail, 1: head).
     using ArcEnd = Index;
+    static constexpr ArcEnd tail_of(Index arc) { return 2 * arc; }
+    static constexpr ArcEnd head_of(Index arc) { return 2 * arc + 1; }
+    static constexpr ArcEnd other_end(ArcEnd end) { return end ^ 1; }
+    [[nodiscard]] static Index node_at(const ArcStore& arcs, ArcEnd end) {
+        const LocalArc& arc = arcs.arcs()[end / 2];
+        return end % 2 == 0 ? arc.tail : arc.head;
+    }
 
     struct Edge {
         std::uint64_t key;  // Ascending in the diagram.
@@ -44,6 +54,8 @@ private:
         Index left, right;
         Index first_point, num_points;  // In the diagram, but for new ones.
         bool is_new;
+
+        [[nodiscard]] bool is_closed() const { return key >> 63 != 0; }
     };
 
     // A label change on one of the surface's boundaries, in its direction (the surface on the
@@ -53,8 +65,9 @@ private:
         Index position;  // In the loop.
         Index site_before, site_after;
     };
-    class Nodes;
     class Run;
+    class LoopCounter;
+    class Nodes;
     class Drawing;
 
     [[nodiscard]] bool is_vertex(Index node) const;
@@ -65,7 +78,7 @@ private:
     std::vector<std::array<ArcEnd, 2>> crossing_ends_;  // One only: on the boundary.
     std::vector<Edge> edges_;
     std::vector<ArcEnd> first_ends_;  // By edge; no_index: it is gone.
-    std::vector<Index> order_;        // Of edges, by key; maybe some that are gone.
+    std::vector<Index> order_;        // Of edges: old ones by key, then new ones.
     std::vector<Index> free_edges_;   // Gone, and no arc says that it is of them.
     struct FaceBranches {
         Index face;
