@@ -37,8 +37,8 @@ private:
         ArcStore arcs;
         ArcJoiner joiner;
         CellTally tally;
-        CellSet displaced;            // Sites whose place belongs to another cell.
-        CellSet in_doubt;             // May have parts that do not hang together, still.
+        CellSet displaced;                // Sites whose place belongs to another cell.
+        CellSet in_doubt;                 // May have parts that do not hang together, still.
         bool is_renumbered = false;       // Since the last call.
         std::vector<OldLabel> absorbed;   // Labels that islands had, one after the other.
         std::vector<Index> mended_faces;  // Around those.

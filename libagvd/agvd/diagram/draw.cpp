@@ -96,9 +96,8 @@ private:
         const auto comes_before = [&](Index a, Index b) {
             return in_.edges_[a].key < in_.edges_[b].key;
         };
-        const auto first_new =
-            std::find_if(in_.order_.begin(), in_.order_.end(),
-                         [&](Index name) { return in_.edges_[name].is_new; });
+        const auto first_new = std::find_if(in_.order_.begin(), in_.order_.end(),
+                                            [&](Index name) { return in_.edges_[name].is_new; });
         std::sort(first_new, in_.order_.end(), comes_before);
         std::inplace_merge(in_.order_.begin(), first_new, in_.order_.end(), comes_before);
     }

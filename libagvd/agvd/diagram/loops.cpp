@@ -16,8 +16,7 @@ public:
         std::vector<std::uint8_t> is_seen(2 * in_.edges_.size(), 0);
         for (const Index edge : in_.order_) {
             for (Side side = 2 * edge; side < 2 * edge + 2; ++side) {
-                const Index site =
-                    side % 2 == 0 ? in_.edges_[edge].left : in_.edges_[edge].right;
+                const Index site = side % 2 == 0 ? in_.edges_[edge].left : in_.edges_[edge].right;
                 if (!cells.has(site) || is_seen[side] != 0) continue;
                 ++count[site];
                 for (Side s = side; is_seen[s] == 0; s = next(s)) is_seen[s] = 1;

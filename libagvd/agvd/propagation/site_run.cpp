@@ -70,12 +70,35 @@ private:
         }
     }
 
+    // Where the runs begin to differ: often far behind, since the bounds that did lie at the cell's
+    // border.
+    void skip_what_is_same() {
+        if (is_other_place_) return;
+        const Index num_places = front_.num_half_edges();
+        while (true) {
+            while (first_place_ < num_places && front_.windows_at(first_place_).empty()) {
+                ++first_place_;
+            }
+            if (num_kept_ == run_.half_edges.size() || first_place_ == num_places) return;
+            const SiteRun::HalfEdge& old = run_.half_edges[num_kept_];
+            if (old.half_edge != front_.half_edge_at(first_place_) ||
+                !are_same(front_.windows_at(first_place_),
+                          std::span(run_.relays).subspan(old.first, old.count))) {
+                return;
+            }
+            ++num_kept_;
+            ++first_place_;
+        }
+    }
+
     // Half-edges of one face must keep their order, too: it is enough that none comes before one
     // that it came behind.
     bool compare_half_edges() {
+        skip_what_is_same();
         is_old_.assign(front_.num_half_edges(), 0);
         Index last_place = 0;
-        for (const auto& [half_edge, first, count] : run_.half_edges) {
+        for (const auto& [half_edge, first, count] :
+             std::span(run_.half_edges).subspan(num_kept_)) {
             const Index place = front_.place_of_half_edge(half_edge);
             const auto before = std::span(run_.relays).subspan(first, count);
             bool is_same = place != no_index && !is_other_place_ && place >= last_place;
@@ -86,7 +109,7 @@ private:
             }
             if (!is_same) faces_.push_back(Surface::face(half_edge));
         }
-        for (Index place = 0; place < front_.num_half_edges(); ++place) {
+        for (Index place = first_place_; place < front_.num_half_edges(); ++place) {
             if (is_old_[place] != 0 || front_.windows_at(place).empty()) continue;
             faces_.push_back(Surface::face(front_.half_edge_at(place)));
         }
@@ -110,9 +133,11 @@ private:
     }
 
     void take_half_edges() {
-        run_.half_edges.clear();
-        run_.relays.clear();
-        for (Index place = 0; place < front_.num_half_edges(); ++place) {
+        if (num_kept_ < run_.half_edges.size()) {
+            run_.relays.resize(run_.half_edges[num_kept_].first);
+            run_.half_edges.resize(num_kept_);
+        }
+        for (Index place = first_place_; place < front_.num_half_edges(); ++place) {
             const auto first = static_cast<Index>(run_.relays.size());
             append(place, run_.relays);
             const auto count = static_cast<Index>(run_.relays.size()) - first;
@@ -133,6 +158,8 @@ private:
     RunChanges& changes_;
     std::vector<std::uint8_t> is_old_;  // By place in the front: the run before came there, too.
     std::vector<Index> faces_;          // Those with a difference.
+    // Of the half-edges of the run before, and the place of the next one.
+    Index num_kept_ = 0, first_place_ = 0;
 };
 
 }  // namespace
