@@ -26,6 +26,11 @@ public:
     //! Released blocks included.
     [[nodiscard]] Index size() const { return static_cast<Index>(elements_.size()); }
     [[nodiscard]] std::size_t num_released() const { return num_released_; }
+    //! More is released than in use, and it is worth the name.
+    [[nodiscard]] bool is_wasteful() const {
+        constexpr std::size_t least = 1024;
+        return num_released_ > least && 2 * num_released_ > elements_.size();
+    }
     void reserve(std::size_t size) { elements_.reserve(size); }
 
     [[nodiscard]] T& operator[](Index i) { return elements_[i]; }

@@ -113,13 +113,8 @@ void ArcStore::renumber(const Renumbering& renumbering) {
 }
 
 bool ArcStore::is_wasteful() const {
-    constexpr std::size_t least = 1024;  // Not worth it.
-    const auto is_mostly_released = [](const auto& pool) {
-        return pool.num_released() > least && 2 * pool.num_released() > pool.size();
-    };
-    return is_mostly_released(arcs_) || is_mostly_released(branches_) ||
-           is_mostly_released(points_) || is_mostly_released(connections_) ||
-           is_mostly_released(parts_);
+    return arcs_.is_wasteful() || branches_.is_wasteful() || points_.is_wasteful() ||
+           connections_.is_wasteful() || parts_.is_wasteful();
 }
 
 }  // namespace agvd

@@ -236,7 +236,7 @@ private:
         return {propagation_, places_of(faces), options_.num_threads};
     }
 
-    // Some faces after the other, so that what is traced is stored while it is in the cache.
+    // Faces come in lots, so that what is traced is stored while it is in the cache.
     void trace(std::span<const Index> mixed, const RelayGroups& groups) {
         constexpr Index most = 64 * grain;
         std::vector<FaceArcs> chunks(num_chunks(most, grain));
@@ -252,7 +252,9 @@ private:
                             });
             // Places that were released are for one face at a time.
             store(faces_at(some), chunks, is_first ? grain : 1);
-            if (begin == 0) arcs_.reserve_for(static_cast<double>(mixed.size()) / most);
+            if (begin == 0 && is_first) {
+                arcs_.reserve_for(static_cast<double>(mixed.size()) / most);
+            }
         }
     }
 
@@ -321,7 +323,7 @@ void DiagramBuilder::build(std::span<const SurfacePoint> sites, const Propagatio
                            std::span<const Index> changed_faces, Diagram& diagram) {
     std::optional<Kept> kept = std::exchange(kept_, {});  // None after a call that throws.
     poll(options_.progress, 0);
-    if (!kept || kept->arcs.is_wasteful()) {
+    if (!kept || kept->arcs.is_wasteful() || kept->labels.is_wasteful()) {
         kept.emplace(surface_);
         Run(surface_, options_, *kept, sites, propagation, TouchedParts(surface_)).run(diagram);
     } else {

@@ -1,5 +1,5 @@
+// The diagram of joined arcs: numbers for edges and vertices, and where their points lie.
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 #include "agvd/diagram/join.h"

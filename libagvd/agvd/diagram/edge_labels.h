@@ -65,6 +65,11 @@ struct EdgeLabels {
     std::vector<CutFace> cut_faces;  //!< By face.
 
     void renumber(const Renumbering& renumbering);
+    //! More is released than in use: time to begin anew.
+    [[nodiscard]] bool is_wasteful() const {
+        return crossings.is_wasteful() || inner_points.is_wasteful() || cuts.is_wasteful() ||
+               cut_triangles.is_wasteful();
+    }
 
     [[nodiscard]] std::span<const Crossing> on_edge(Index edge) const {
         return crossings[edge_rows[edge]];

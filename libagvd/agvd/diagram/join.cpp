@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cassert>
-#include <iterator>
 #include <utility>
 
 namespace agvd {
+
 bool ArcJoiner::is_vertex(Index node) const {
     return node >= LocalDiagram::first_branch || crossing_ends_[node][1] == no_index;
 }

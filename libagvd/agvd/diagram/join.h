@@ -65,6 +65,10 @@ private:
         Index position;  // In the loop.
         Index site_before, site_after;
     };
+    struct FaceBranches {
+        Index face;
+        Block branches;
+    };
     class Run;
     class LoopCounter;
     class Nodes;
@@ -77,13 +81,9 @@ private:
     std::vector<Index> edge_of_arc_;                    // no_index: none yet; or one that is gone.
     std::vector<std::array<ArcEnd, 2>> crossing_ends_;  // One only: on the boundary.
     std::vector<Edge> edges_;
-    std::vector<ArcEnd> first_ends_;  // By edge; no_index: it is gone.
-    std::vector<Index> order_;        // Of edges: old ones by key, then new ones.
-    std::vector<Index> free_edges_;   // Gone, and no arc says that it is of them.
-    struct FaceBranches {
-        Index face;
-        Block branches;
-    };
+    std::vector<ArcEnd> first_ends_;      // By edge; no_index: it is gone.
+    std::vector<Index> order_;            // Of edges: old ones by key, then new ones.
+    std::vector<Index> free_edges_;       // Gone, and no arc says that it is of them.
     std::vector<Index> forgotten_;        // Faces, since the last call of join().
     std::vector<FaceBranches> branches_;  // By face.
     std::vector<std::vector<BoundaryCrossing>> boundary_crossings_;  // By loop.

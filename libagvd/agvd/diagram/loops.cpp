@@ -1,3 +1,4 @@
+// The loops of cells, told from joined arcs.
 #include <unordered_map>
 
 #include "agvd/diagram/join.h"

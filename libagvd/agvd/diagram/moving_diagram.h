@@ -16,7 +16,7 @@ public:
     //! \param surface, layout  outlive this; SurfaceLayout(surface).
     //! \param propagation     engine must be Window; progress is not told.
     //! \throw as propagate() and build_diagram().
-    //! Space: that of MovingSites, and up to four times that of the diagram.
+    //! Space: that of MovingSites, and four to eight times that of the diagram.
     MovingDiagram(const Surface& surface, const SurfaceLayout& layout,
                   std::vector<SurfacePoint> sites, const PropagationOptions& propagation = {},
                   const DiagramOptions& options = {});
