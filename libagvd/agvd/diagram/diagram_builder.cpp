@@ -223,7 +223,7 @@ private:
 
     // For labelling and tracing these faces.
     [[nodiscard]] RelayGroups group_relays(std::span<const Index> mixed) const {
-        if (touched_.is_all()) return {propagation_, all_mixed(), options_.num_threads};
+        if (touched_.is_all()) return {propagation_, mixed, options_.num_threads};
         std::vector<Index> faces = faces_at(mixed);
         for (const Index i : mixed) {
             const Index first = 3 * propagation_.mixed_faces[i];

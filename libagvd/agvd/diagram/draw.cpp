@@ -87,11 +87,19 @@ public:
             }
         }
         for (Index i = 0; i < in_.boundary_loops_.size(); ++i) {
-            draw_boundary(in_.boundary_loops_[i], in_.boundary_crossings_[i]);
+            draw_boundary(in_.boundary_loops_[i], boundary_crossings_[i]);
         }
     }
 
 private:
+    // A label change on one of the surface's boundaries, in its direction (the surface on the
+    // left).
+    struct BoundaryCrossing {
+        Index node;
+        Index position;  // In the loop.
+        Index site_before, site_after;
+    };
+
     void put_in_order() {
         const auto comes_before = [&](Index a, Index b) {
             return in_.edges_[a].key < in_.edges_[b].key;
@@ -143,9 +151,8 @@ private:
 
     // What lies between the crossings of a boundary, and the vertices at them.
     void add_boundary() {
-        in_.boundary_crossings_.clear();
         for (const std::vector<Index>& loop : in_.boundary_loops_) {
-            std::vector<BoundaryCrossing>& crossings = in_.boundary_crossings_.emplace_back();
+            std::vector<BoundaryCrossing>& crossings = boundary_crossings_.emplace_back();
             for (Index i = 0; i < loop.size(); ++i) {
                 // A boundary edge has one half-edge, so its crossings run along the loop.
                 const Block& row = labels_.edge_rows[surface_.edge[loop[i]]];
@@ -291,6 +298,7 @@ private:
     ArcJoiner& in_;
     Diagram& out_;
     std::vector<Index> numbers_;  // By edge of the joiner, in the diagram.
+    std::vector<std::vector<BoundaryCrossing>> boundary_crossings_;  // By loop.
 };
 
 void ArcJoiner::draw(const Surface& surface, const EdgeLabels& labels, const ArcStore& arcs,

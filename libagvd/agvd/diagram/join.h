@@ -58,13 +58,6 @@ private:
         [[nodiscard]] bool is_closed() const { return key >> 63 != 0; }
     };
 
-    // A label change on one of the surface's boundaries, in its direction (the surface on the
-    // left).
-    struct BoundaryCrossing {
-        Index node;
-        Index position;  // In the loop.
-        Index site_before, site_after;
-    };
     struct FaceBranches {
         Index face;
         Block branches;
@@ -86,7 +79,6 @@ private:
     std::vector<Index> free_edges_;       // Gone, and no arc says that it is of them.
     std::vector<Index> forgotten_;        // Faces, since the last call of join().
     std::vector<FaceBranches> branches_;  // By face.
-    std::vector<std::vector<BoundaryCrossing>> boundary_crossings_;  // By loop.
     // Memory for the next points.
     std::vector<SurfacePoint> points_;
     std::vector<double> point_distance_;
