@@ -1,0 +1,44 @@
+#include "agvd/intrinsic/delaunay_queue.h"
+
+#include <algorithm>
+
+namespace agvd::detail {
+
+void DelaunayQueue::push(Index edge) {
+    const Index h = surface_.edge_half[edge];
+    const Index twin = surface_.twin[h];
+    if (twin == no_index || Surface::face(h) == Surface::face(twin)) return;
+    if (!is_kept_.empty() && is_kept_[edge] != 0) return;
+    const Quad quad(surface_, h);
+    if (!quad.should_flip() || !quad.is_convex()) return;
+    heap_.push_back({quad.flipped_length() / quad.length, edge});
+    std::push_heap(heap_.begin(), heap_.end());
+}
+
+bool DelaunayQueue::flip_all(std::size_t most_flips) {
+    while (!heap_.empty()) {
+        const Waiting next = heap_.front();
+        std::pop_heap(heap_.begin(), heap_.end());
+        heap_.pop_back();
+        const Index h = surface_.edge_half[next.edge];
+        const Index twin = surface_.twin[h];
+        if (Surface::face(h) == Surface::face(twin)) continue;
+        const Quad quad(surface_, h);
+        // The faces have changed since: then the edge waits once more if it fails still.
+        if (quad.flipped_length() / quad.length != next.shortening) continue;
+        if (!quad.should_flip() || !quad.is_convex()) continue;
+        if (num_flips_ == most_flips) return false;
+        const std::array<Index, 2> faces{Surface::face(h), Surface::face(twin)};
+        history_.add_flip(h, twin, quad.shares());
+        flip(surface_, h, quad);
+        ++num_flips_;
+        for (const Index face : faces) {
+            for (Index side = 3 * face; side < 3 * face + 3; ++side) {
+                if (surface_.edge[side] != next.edge) push(surface_.edge[side]);
+            }
+        }
+    }
+    return true;
+}
+
+}  // namespace agvd::detail

@@ -1,0 +1,47 @@
+//! \file
+//! Makes a triangulation Delaunay by flips. Private to intrinsic.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "agvd/intrinsic/face_history.h"
+
+namespace agvd::detail {
+
+//! Edges that fail the Delaunay condition wait here; those go first whose flip shortens them most:
+//! on a part of 14 740 needles that is 130 000 flips where first in, first out takes 317 000.
+class DelaunayQueue {
+public:
+    //! \param is_kept  by edge: 1 for edges that stay; or empty. May grow.
+    DelaunayQueue(Surface& surface, FaceHistory& history, const std::vector<std::uint8_t>& is_kept)
+        : surface_(surface), history_(history), is_kept_(is_kept) {}
+
+    //! Looks at an edge, and lets it wait if it fails.
+    void push(Index edge);
+    //! Flips until nothing waits, or `most_flips` were made.
+    //! \return false if edges are left.
+    bool flip_all(std::size_t most_flips);
+
+    [[nodiscard]] std::size_t num_flips() const { return num_flips_; }
+
+private:
+    struct Waiting {
+        double shortening;  // The new length over the old one.
+        Index edge;
+
+        // The least on top of a heap.
+        [[nodiscard]] bool operator<(const Waiting& other) const {
+            return shortening != other.shortening ? shortening > other.shortening
+                                                  : edge > other.edge;
+        }
+    };
+
+    Surface& surface_;
+    FaceHistory& history_;
+    const std::vector<std::uint8_t>& is_kept_;
+    std::vector<Waiting> heap_;
+    std::size_t num_flips_ = 0;
+};
+
+}  // namespace agvd::detail

@@ -1,0 +1,214 @@
+#include "agvd/intrinsic/face_history.h"
+
+#include <algorithm>
+
+namespace agvd::detail {
+namespace {
+
+using Shares = std::array<double, 3>;
+
+// Coordinates for the tail and the head of a half-edge and the corner opposite.
+Shares seen_from(const SurfacePoint& point, Index half_edge) {
+    const std::size_t k = half_edge % 3;
+    return {point.barycentric[k], point.barycentric[(k + 1) % 3], point.barycentric[(k + 2) % 3]};
+}
+
+SurfacePoint point_of(const Shares& shares, Index half_edge) {
+    SurfacePoint point{FaceId(Surface::face(half_edge)), {}};
+    const std::size_t k = half_edge % 3;
+    for (std::size_t i = 0; i < 3; ++i) point.barycentric[(k + i) % 3] = shares[i];
+    return point;
+}
+
+SurfacePoint normalized(SurfacePoint point) {
+    const auto& [a, b, c] = point.barycentric;
+    const double sum = a + b + c;
+    for (double& share : point.barycentric) share /= sum;
+    return point;
+}
+
+Shares between(const Shares& s, const Shares& t, double at) {
+    Shares result;
+    for (std::size_t k = 0; k < 3; ++k) result[k] = (1 - at) * s[k] + at * t[k];
+    return result;
+}
+
+}  // namespace
+
+// One operation, passed from one of its faces. With d = q.tail a + q.head b + q.apex c every corner
+// of the old and new faces is an affine sum of those of another.
+struct FaceHistory::Step {
+    Step(const Operation& operation, Way way_through, Index slot)
+        : op(operation), way(way_through), is_twin(slot == 1), q(operation.shares) {}
+
+    const Operation& op;
+    Way way;
+    bool is_twin;  // From slot 1.
+    const QuadShares& q;
+
+    [[nodiscard]] Shares shares_of(const SurfacePoint& point) const {
+        if (way == Way::Forward) return seen_from(point, op.half_edge[is_twin ? 1 : 0]);
+        return point.barycentric;
+    }
+    // At least 0 where the point goes to slot 0.
+    [[nodiscard]] double side(const Shares& s) const {
+        if (way == Way::Forward) {
+            return is_twin ? s[1] - s[0] * (q.tail / q.head) : s[0] - s[1] * (q.tail / q.head);
+        }
+        return s[2] + (is_twin ? s[0] : s[1]) * q.apex;
+    }
+    // To slot 0 or 1; `on_cut`: the point lies on the edge between the two.
+    [[nodiscard]] SurfacePoint pass(const Shares& s, Index slot, bool on_cut) const {
+        Shares to = way == Way::Forward ? forward(s, slot) : backward(s, slot);
+        for (double& share : to) share = std::max(share, 0.0);
+        if (way == Way::Backward) {
+            if (on_cut) to[2] = 0;
+            return point_of(to, op.half_edge[slot]);
+        }
+        if (on_cut) to[slot] = 0;
+        return {FaceId(op.new_face[slot]), to};
+    }
+    [[nodiscard]] Index next_link(Index slot) const {
+        return way == Way::Forward ? op.next[slot] : op.previous[slot];
+    }
+
+private:
+    // From (a, b, c) or (b, a, d) to (a, d, c) or (d, b, c).
+    [[nodiscard]] Shares forward(const Shares& s, Index slot) const {
+        if (!is_twin) {
+            if (slot == 0) {
+                const double at = s[1] / q.head;
+                return {s[0] - at * q.tail, at, s[2] - at * q.apex};
+            }
+            const double at = s[0] / q.tail;
+            return {at, s[1] - at * q.head, s[2] - at * q.apex};
+        }
+        if (slot == 0) {
+            const double at = s[0] / q.head;
+            return {s[1] - at * q.tail, s[2] + at, -at * q.apex};
+        }
+        const double at = s[1] / q.tail;
+        return {s[2] + at, s[0] - at * q.head, -at * q.apex};
+    }
+    // From (a, d, c) or (d, b, c) to (a, b, c) or (b, a, d).
+    [[nodiscard]] Shares backward(const Shares& s, Index slot) const {
+        if (slot == 0) {
+            const double d = is_twin ? s[0] : s[1];
+            const Shares along{d * q.tail, d * q.head, s[2] + d * q.apex};
+            if (is_twin) return {along[0], s[1] + along[1], along[2]};
+            return {s[0] + along[0], along[1], along[2]};
+        }
+        const double at = s[2] / q.apex;
+        if (is_twin) return {s[1] - at * q.head, -at * q.tail, s[0] + at};
+        return {-at * q.head, s[0] - at * q.tail, s[1] + at};
+    }
+};
+
+void FaceHistory::add_flip(Index half_edge, Index twin, const QuadShares& shares) {
+    add({{half_edge, twin},
+         {Surface::face(half_edge), Surface::face(twin)},
+         {no_index, no_index},
+         {no_index, no_index},
+         shares});
+}
+
+void FaceHistory::add_split(Index half_edge, Index new_face) {
+    add({{half_edge, no_index},
+         {Surface::face(half_edge), new_face},
+         {no_index, no_index},
+         {no_index, no_index},
+         {0.5, 0.5, 0}});
+}
+
+void FaceHistory::add(Operation operation) {
+    if (operations_.empty()) {
+        first_.assign(num_faces_, no_index);
+        last_.assign(num_faces_, no_index);
+    }
+    const auto number = static_cast<Index>(operations_.size());
+    for (Index slot = 0; slot < 2; ++slot) {
+        if (operation.half_edge[slot] == no_index) continue;
+        const Index face = Surface::face(operation.half_edge[slot]);
+        const Index made_by = operation.previous[slot] = last_[face];
+        (made_by == no_index ? first_[face] : operations_[made_by / 2].next[made_by % 2]) =
+            2 * number + slot;
+    }
+    for (Index slot = 0; slot < 2; ++slot) {
+        const Index face = operation.new_face[slot];
+        if (face >= last_.size()) last_.resize(face + 1, no_index);
+        last_[face] = 2 * number + slot;
+    }
+    operations_.push_back(operation);
+}
+
+std::size_t FaceHistory::bytes() const {
+    return operations_.capacity() * sizeof(Operation) +
+           (first_.capacity() + last_.capacity()) * sizeof(Index);
+}
+
+Index FaceHistory::first_link(Way way, Index face) const {
+    const std::vector<Index>& links = way == Way::Forward ? first_ : last_;
+    return face < links.size() ? links[face] : no_index;
+}
+
+SurfacePoint FaceHistory::carry(Way way, SurfacePoint point) const {
+    Index link = first_link(way, point.face.value());
+    if (link == no_index) return point;
+    while (link != no_index) {
+        const Step step(operations_[link / 2], way, link % 2);
+        const Shares shares = step.shares_of(point);
+        const double side = step.side(shares);
+        const Index slot = side >= 0 ? 0 : 1;
+        point = step.pass(shares, slot, side == 0);
+        link = step.next_link(slot);
+    }
+    return normalized(point);
+}
+
+void FaceHistory::carry(Way way, const FaceSegment& segment,
+                        std::vector<FaceSegment>& parts) const {
+    struct Waiting {
+        FaceSegment segment;
+        Index link;
+    };
+    std::vector<Waiting> waiting{{segment, first_link(way, segment.begin.face.value())}};
+    if (waiting[0].link == no_index) {
+        parts.push_back(segment);
+        return;
+    }
+    while (!waiting.empty()) {
+        const auto [part, link] = waiting.back();
+        waiting.pop_back();
+        if (link == no_index) {
+            parts.push_back({normalized(part.begin), normalized(part.end)});
+            continue;
+        }
+        const Step step(operations_[link / 2], way, link % 2);
+        const Shares begin = step.shares_of(part.begin), end = step.shares_of(part.end);
+        const double begin_side = step.side(begin), end_side = step.side(end);
+        if ((begin_side > 0 && end_side < 0) || (begin_side < 0 && end_side > 0)) {
+            const Shares cut = between(begin, end, begin_side / (begin_side - end_side));
+            const Index slot = begin_side > 0 ? 0 : 1;
+            waiting.push_back({{step.pass(cut, 1 - slot, true), step.pass(end, 1 - slot, false)},
+                               step.next_link(1 - slot)});
+            waiting.push_back({{step.pass(begin, slot, false), step.pass(cut, slot, true)},
+                               step.next_link(slot)});
+            continue;
+        }
+        const Index slot = begin_side >= 0 && end_side >= 0 ? 0 : 1;
+        waiting.push_back({{step.pass(begin, slot, begin_side == 0),  //
+                            step.pass(end, slot, end_side == 0)},
+                           step.next_link(slot)});
+    }
+}
+
+SurfacePoint FaceHistory::forward(SurfacePoint point) const { return carry(Way::Forward, point); }
+SurfacePoint FaceHistory::backward(SurfacePoint point) const { return carry(Way::Backward, point); }
+void FaceHistory::forward(const FaceSegment& segment, std::vector<FaceSegment>& parts) const {
+    carry(Way::Forward, segment, parts);
+}
+void FaceHistory::backward(const FaceSegment& segment, std::vector<FaceSegment>& parts) const {
+    carry(Way::Backward, segment, parts);
+}
+
+}  // namespace agvd::detail

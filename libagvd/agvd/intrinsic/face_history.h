@@ -1,0 +1,72 @@
+//! \file
+//! What flips and splits have done to faces: takes points and segments through them, both ways.
+//! Private to intrinsic.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "agvd/intrinsic/face_operations.h"
+#include "agvd/mesh/surface_point.h"
+
+namespace agvd::detail {
+
+//! A part of a polyline that lies in one face.
+struct FaceSegment {
+    SurfacePoint begin;
+    SurfacePoint end;  //!< Of the same face.
+};
+
+//! An operation lays one or two faces out in a plane and cuts them anew. Barycentric coordinates
+//! pass from the old faces to the new ones by the shares of the quad: sums of terms of one sign, or
+//! differences of numbers below 1, so that each operation costs a few roundings of 1. Coordinates
+//! that are exactly 0 stay so on edges that stay.
+//! 56 bytes for each operation, 8 for each face if there is one.
+class FaceHistory {
+public:
+    FaceHistory() = default;
+    explicit FaceHistory(Index num_faces) : num_faces_(num_faces) {}
+
+    //! Faces (a, b, c) and (b, a, d) at a half-edge became (a, d, c) and (d, b, c).
+    void add_flip(Index half_edge, Index twin, const QuadShares& shares);
+    //! Face (a, b, c) became (a, m, c), and (m, b, c) the new face, which has the highest number.
+    void add_split(Index half_edge, Index new_face);
+
+    [[nodiscard]] bool is_changed(Index face) const {
+        return face < last_.size() && last_[face] != no_index;
+    }
+    [[nodiscard]] std::size_t num_operations() const { return operations_.size(); }
+    [[nodiscard]] std::size_t bytes() const;
+
+    //! Cost: O(operations on the way), each some 20 ns.
+    [[nodiscard]] SurfacePoint forward(SurfacePoint point) const;
+    [[nodiscard]] SurfacePoint backward(SurfacePoint point) const;
+    //! Appends the parts of a straight segment within one face, in their order.
+    void forward(const FaceSegment& segment, std::vector<FaceSegment>& parts) const;
+    void backward(const FaceSegment& segment, std::vector<FaceSegment>& parts) const;
+
+private:
+    // Slot 0: the face of the half-edge; slot 1: that of the twin (flips only). New faces likewise:
+    // (a, d, c) is slot 0, (d, b, c) slot 1. A link is 2 * operation + slot.
+    struct Operation {
+        std::array<Index, 2> half_edge;
+        std::array<Index, 2> new_face;
+        std::array<Index, 2> next{no_index, no_index};      // What changes the new faces.
+        std::array<Index, 2> previous{no_index, no_index};  // What made the old ones.
+        QuadShares shares;
+    };
+    enum class Way : std::uint8_t { Forward, Backward };
+    struct Step;
+
+    void add(Operation operation);
+    [[nodiscard]] Index first_link(Way way, Index face) const;
+    [[nodiscard]] SurfacePoint carry(Way way, SurfacePoint point) const;
+    void carry(Way way, const FaceSegment& segment, std::vector<FaceSegment>& parts) const;
+
+    Index num_faces_ = 0;  // Of the beginning.
+    std::vector<Operation> operations_;
+    std::vector<Index> first_;  // By face of the beginning: the link that changes it first.
+    std::vector<Index> last_;   // By face of the end: the link that made it.
+};
+
+}  // namespace agvd::detail

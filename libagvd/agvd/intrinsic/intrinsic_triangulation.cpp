@@ -1,0 +1,195 @@
+#include "agvd/intrinsic/intrinsic_triangulation.h"
+
+#include <algorithm>
+#include <queue>
+#include <string>
+#include <utility>
+
+#include "agvd/core/error.h"
+#include "agvd/intrinsic/delaunay_queue.h"
+
+namespace agvd {
+namespace {
+
+using detail::DelaunayQueue;
+using detail::EdgeSplit;
+using detail::FaceHistory;
+using detail::FaceSegment;
+
+// Flips end after so many for each edge, with an outcome. The worst part met, of needles, took 6.
+constexpr std::size_t most_flips = 1000;
+
+void check_options(const Surface& input, const IntrinsicOptions& options) {
+    if (!(options.max_length > 0)) {
+        throw InvalidOption("max_length of the intrinsic triangulation is not above 0");
+    }
+    if (!options.is_kept.empty() && options.is_kept.size() != input.num_edges()) {
+        throw InvalidOption("is_kept has " + std::to_string(options.is_kept.size()) +
+                            " entries for " + std::to_string(input.num_edges()) + " edges");
+    }
+}
+
+// Splits edges, longest first, and flips after each split.
+class Refinement {
+public:
+    Refinement(Surface& surface, FaceHistory& history, DelaunayQueue& flips,
+               std::vector<std::uint8_t>& is_kept, double max_length)
+        : surface_(surface),
+          history_(history),
+          flips_(flips),
+          is_kept_(is_kept),
+          max_length_(max_length) {}
+
+    // \param added  gets the new vertices, on the input.
+    // \return false if flips ended early.
+    bool run(std::size_t flips_per_edge, std::vector<SurfacePoint>& added) {
+        while (find_long_edges()) {
+            while (!queue_.empty()) {
+                const auto [length, key] = queue_.top();
+                queue_.pop();
+                const Index edge = ~key;
+                if (surface_.length[edge] != length) continue;
+                split(edge, added);
+                if (!flips_.flip_all(flips_per_edge * surface_.num_edges())) return false;
+                for (const Index e : fresh_) push(e);
+            }
+        }
+        return true;
+    }
+
+private:
+    // Those that flips have made farther away are found by the next search.
+    bool find_long_edges() {
+        for (Index e = 0; e < surface_.num_edges(); ++e) push(e);
+        return !queue_.empty();
+    }
+    void push(Index edge) {
+        if (surface_.length[edge] > max_length_) queue_.emplace(surface_.length[edge], ~edge);
+    }
+
+    void split(Index edge, std::vector<SurfacePoint>& added) {
+        const Index h = surface_.edge_half[edge];
+        SurfacePoint middle{FaceId(Surface::face(h)), {0, 0, 0}};
+        middle.barycentric[h % 3] = middle.barycentric[Surface::next(h) % 3] = 0.5;
+        added.push_back(history_.backward(middle));
+        const Index vertex = surface_.num_vertices();
+        surface_.mesh.positions.push_back({});
+        surface_.outgoing.push_back(no_index);
+        surface_.can_turn.push_back(0);
+        const Index first_new_edge = surface_.num_edges();
+        const EdgeSplit made = detail::split_edge(surface_, h, vertex);
+        if (!is_kept_.empty()) {
+            is_kept_.resize(surface_.num_edges(), 0);
+            is_kept_[made.new_edge] = is_kept_[edge];
+        }
+        fresh_.clear();
+        fresh_.push_back(edge);
+        for (Index e = first_new_edge; e < surface_.num_edges(); ++e) fresh_.push_back(e);
+        for (const EdgeSplit::Side& side : made.side) {
+            if (side.half_edge == no_index) continue;
+            history_.add_split(side.half_edge, side.new_face);
+            for (const Index face : {Surface::face(side.half_edge), side.new_face}) {
+                for (Index k = 3 * face; k < 3 * face + 3; ++k) {
+                    flips_.push(surface_.edge[k]);
+                    fresh_.push_back(surface_.edge[k]);
+                }
+            }
+        }
+    }
+
+    Surface& surface_;
+    FaceHistory& history_;
+    DelaunayQueue& flips_;
+    std::vector<std::uint8_t>& is_kept_;
+    double max_length_;
+    std::priority_queue<std::pair<double, Index>> queue_;  // Length, and the edge's complement.
+    std::vector<Index> fresh_;
+};
+
+}  // namespace
+
+struct IntrinsicTriangulation::History : FaceHistory {
+    using FaceHistory::FaceHistory;
+};
+
+IntrinsicTriangulation::IntrinsicTriangulation(const Surface& input,
+                                               const IntrinsicOptions& options)
+    : input_(&input), surface_(input), history_(std::make_unique<History>(input.num_faces())) {
+    check_options(input, options);
+    counts_.flat_faces = detail::raise_flat_faces(surface_);
+    std::vector<std::uint8_t> is_kept(options.is_kept.begin(), options.is_kept.end());
+    DelaunayQueue flips(surface_, *history_, is_kept);
+    for (Index e = 0; e < surface_.num_edges(); ++e) flips.push(e);
+    counts_.is_delaunay = flips.flip_all(most_flips * surface_.num_edges());
+    Refinement refinement(surface_, *history_, flips, is_kept, options.max_length);
+    counts_.is_delaunay = refinement.run(most_flips, added_) && counts_.is_delaunay;
+    counts_.flips = flips.num_flips();
+    counts_.splits = static_cast<Index>(added_.size());
+    for (Index i = 0; i < added_.size(); ++i) {
+        surface_.mesh.positions[input.num_vertices() + i] = position(input.mesh.view(), added_[i]);
+    }
+}
+
+IntrinsicTriangulation::IntrinsicTriangulation(IntrinsicTriangulation&&) noexcept = default;
+IntrinsicTriangulation& IntrinsicTriangulation::operator=(IntrinsicTriangulation&&) noexcept =
+    default;
+IntrinsicTriangulation::~IntrinsicTriangulation() = default;
+
+bool IntrinsicTriangulation::is_changed(Index face) const { return history_->is_changed(face); }
+
+SurfacePoint IntrinsicTriangulation::to_intrinsic(const SurfacePoint& on_input) const {
+    return history_->forward(on_input);
+}
+
+SurfacePoint IntrinsicTriangulation::to_input(const SurfacePoint& on_base) const {
+    return history_->backward(on_base);
+}
+
+std::vector<SurfacePoint> IntrinsicTriangulation::to_intrinsic(
+    std::span<const SurfacePoint> on_input) const {
+    std::vector<SurfacePoint> points(on_input.begin(), on_input.end());
+    for (SurfacePoint& point : points) point = to_intrinsic(point);
+    return points;
+}
+
+std::vector<SurfacePoint> IntrinsicTriangulation::to_input(
+    std::span<const SurfacePoint> on_base) const {
+    std::vector<SurfacePoint> points(on_base.begin(), on_base.end());
+    for (SurfacePoint& point : points) point = to_input(point);
+    return points;
+}
+
+namespace {
+
+void append(const std::vector<FaceSegment>& segments, std::vector<SurfacePoint>& parts) {
+    for (const auto& [begin, end] : segments) {
+        parts.push_back(begin);
+        parts.push_back(end);
+    }
+}
+
+}  // namespace
+
+void IntrinsicTriangulation::to_input(const SurfacePoint& begin, const SurfacePoint& end,
+                                      std::vector<SurfacePoint>& parts) const {
+    std::vector<FaceSegment> segments;
+    history_->backward({begin, end}, segments);
+    append(segments, parts);
+}
+
+void IntrinsicTriangulation::to_intrinsic(const SurfacePoint& begin, const SurfacePoint& end,
+                                          std::vector<SurfacePoint>& parts) const {
+    std::vector<FaceSegment> segments;
+    history_->forward({begin, end}, segments);
+    append(segments, parts);
+}
+
+std::size_t IntrinsicTriangulation::bytes() const {
+    const std::size_t half_edges = surface_.twin.capacity() * (2 * sizeof(Index) + sizeof(Vec2));
+    const std::size_t vertices = surface_.mesh.positions.capacity() * (sizeof(Vec3) + 8);
+    const std::size_t edges = surface_.edge_half.capacity() * (sizeof(Index) + sizeof(double));
+    return half_edges + vertices + edges + surface_.mesh.triangles.capacity() * sizeof(Triangle) +
+           history_->bytes();
+}
+
+}  // namespace agvd

@@ -1,0 +1,97 @@
+//! \file
+//! A better triangulation of the same surface: the intrinsic base under propagation, diagram and
+//! labels.
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_point.h"
+
+namespace agvd {
+
+//! Lengths in mesh units. `{}` flips only.
+struct IntrinsicOptions {
+    //! Longer edges are split at their middles until none is left, > 0.
+    double max_length = std::numeric_limits<double>::infinity();
+    //! #E of the input: 1 for edges that stay, as those of the boundary always do (they may be
+    //! split); or empty.
+    std::span<const std::uint8_t> is_kept = {};
+};
+
+struct IntrinsicCounts {
+    std::size_t flips = 0;
+    Index splits = 0;       //!< Edges split: vertices added.
+    Index flat_faces = 0;   //!< Faces of the input without area in double, which got the least one.
+    bool is_delaunay = true;  //!< False: flips ended before the condition held everywhere.
+};
+
+//! The input's surface and vertices, other edges. An edge of the input with two triangles beside it
+//! that fail the Delaunay condition is replaced by the other diagonal of these, unfolded into one
+//! plane ([bobenko2007], [fisher2007], [sharp2019]): distances on the surface stay what they are, and
+//! needles are gone. What is made of it depends on the surface, not on its triangles.
+//!
+//! The result is a Surface in the plane of each face: its lengths and apexes are true, its corners
+//! lie where the mesh says, but in space its faces do not lie on the surface. It is a
+//! Delta-complex: an edge may join a vertex to itself, two faces may share two edges, a face may be
+//! its own neighbour. Faces that nothing has changed keep number and corners.
+//!
+//! Immutable; threads may share it. Movable, not copyable.
+class IntrinsicTriangulation {
+public:
+    //! \param input  build_surface(); outlives this.
+    //! \throw InvalidOption  an option is out of range.
+    //! Cost: a pass over the edges and O(log n) for each flip. The number of flips has no useful bound
+    //! in theory; in practice it is some ten for each needle.
+    explicit IntrinsicTriangulation(const Surface& input, const IntrinsicOptions& options = {});
+    IntrinsicTriangulation(IntrinsicTriangulation&&) noexcept;
+    IntrinsicTriangulation& operator=(IntrinsicTriangulation&&) noexcept;
+    ~IntrinsicTriangulation();
+
+    [[nodiscard]] const Surface& input() const { return *input_; }
+    //! Vertices of the input first, then added ones, at their places on the input.
+    [[nodiscard]] const Surface& surface() const { return surface_; }
+    [[nodiscard]] const IntrinsicCounts& counts() const { return counts_; }
+
+    //! The face is not one of the input's.
+    [[nodiscard]] bool is_changed(Index face) const;
+    //! Where an added vertex lies on the input. \param vertex  >= input().num_vertices().
+    [[nodiscard]] const SurfacePoint& place_of_added(Index vertex) const {
+        return added_[vertex - input_->num_vertices()];
+    }
+
+    //! The same point of the surface. Errors are a few roundings of the faces' size; points of faces
+    //! that nothing has changed come back as they are. On edges that both have, and on vertices,
+    //! coordinates that are 0 stay exactly 0.
+    //! Cost: some 20 ns for each operation that concerned the face there: none to hundreds.
+    [[nodiscard]] SurfacePoint to_intrinsic(const SurfacePoint& on_input) const;
+    [[nodiscard]] SurfacePoint to_input(const SurfacePoint& on_base) const;
+    [[nodiscard]] std::vector<SurfacePoint> to_intrinsic(std::span<const SurfacePoint> on_input) const;
+    [[nodiscard]] std::vector<SurfacePoint> to_input(std::span<const SurfacePoint> on_base) const;
+
+    //! A straight segment in one face of this, as a polyline on the input: two points for each face
+    //! crossed, both as points of that face; the second lies where the first of the next does.
+    //! \param begin, end  of one face. \param parts  appended to.
+    void to_input(const SurfacePoint& begin, const SurfacePoint& end,
+                  std::vector<SurfacePoint>& parts) const;
+    //! The same for a segment in one face of the input.
+    void to_intrinsic(const SurfacePoint& begin, const SurfacePoint& end,
+                      std::vector<SurfacePoint>& parts) const;
+
+    //! Beyond the input.
+    [[nodiscard]] std::size_t bytes() const;
+
+private:
+    struct History;
+
+    const Surface* input_;
+    Surface surface_;
+    IntrinsicCounts counts_;
+    std::vector<SurfacePoint> added_;  // On the input.
+    std::unique_ptr<History> history_;
+};
+
+}  // namespace agvd
