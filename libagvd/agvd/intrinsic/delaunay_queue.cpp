@@ -9,9 +9,9 @@ void DelaunayQueue::push(Index edge) {
     const Index twin = surface_.twin[h];
     if (twin == no_index || Surface::face(h) == Surface::face(twin)) return;
     if (!is_kept_.empty() && is_kept_[edge] != 0) return;
-    const Quad quad(surface_, h);
-    if (!quad.should_flip() || !quad.is_convex()) return;
-    heap_.push_back({quad.flipped_length() / quad.length, edge});
+    const Quad quad = quad_at(surface_, h);
+    if (!quad.should_flip()) return;
+    heap_.push_back({quad.shortening(), edge});
     std::push_heap(heap_.begin(), heap_.end());
 }
 
@@ -23,14 +23,14 @@ bool DelaunayQueue::flip_all(std::size_t most_flips) {
         const Index h = surface_.edge_half[next.edge];
         const Index twin = surface_.twin[h];
         if (Surface::face(h) == Surface::face(twin)) continue;
-        const Quad quad(surface_, h);
-        // The faces have changed since: then the edge waits once more if it fails still.
-        if (quad.flipped_length() / quad.length != next.shortening) continue;
+        // Where its faces have changed since, the edge waits once more if it fails still.
+        if (quad_at(surface_, h).shortening() != next.shortening) continue;
+        const Quad quad = quad_at(surface_, charts_, h);
         if (!quad.should_flip() || !quad.is_convex()) continue;
         if (num_flips_ == most_flips) return false;
         const std::array<Index, 2> faces{Surface::face(h), Surface::face(twin)};
         history_.add_flip(h, twin, quad.shares());
-        flip(surface_, h, quad);
+        flip(surface_, charts_, h, quad);
         ++num_flips_;
         for (const Index face : faces) {
             for (Index side = 3 * face; side < 3 * face + 3; ++side) {

@@ -14,8 +14,9 @@ namespace agvd::detail {
 class DelaunayQueue {
 public:
     //! \param is_kept  by edge: 1 for edges that stay; or empty. May grow.
-    DelaunayQueue(Surface& surface, FaceHistory& history, const std::vector<std::uint8_t>& is_kept)
-        : surface_(surface), history_(history), is_kept_(is_kept) {}
+    DelaunayQueue(Surface& surface, FaceCharts& charts, FaceHistory& history,
+                  const std::vector<std::uint8_t>& is_kept)
+        : surface_(surface), charts_(charts), history_(history), is_kept_(is_kept) {}
 
     //! Looks at an edge, and lets it wait if it fails.
     void push(Index edge);
@@ -38,6 +39,7 @@ private:
     };
 
     Surface& surface_;
+    FaceCharts& charts_;
     FaceHistory& history_;
     const std::vector<std::uint8_t>& is_kept_;
     std::vector<Waiting> heap_;

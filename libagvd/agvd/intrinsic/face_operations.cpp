@@ -20,17 +20,16 @@ double longest_side(const Surface& surface, Index face) {
                      surface.length_of(3 * face + 2)});
 }
 
-// Sets the three apexes of a face from its corners in the plane, counter-clockwise.
-void set_apexes(Surface& surface, Index face, const std::array<Vec2, 3>& corner) {
+// Sets the three apexes of a face from its chart. Each in a frame whose axis is as long as the
+// chart has it, which may differ from the edge's length by rounding.
+void set_apexes(Surface& surface, Index face, const FaceChart& chart) {
     const double longest = longest_side(surface, face);
-    const double doubled_area = std::max(cross(corner[1] - corner[0], corner[2] - corner[0]),
-                                         least_doubled_area * longest * longest);
-    for (Index k = 0; k < 3; ++k) {
-        const double length = surface.length_of(3 * face + k);
-        const Vec2& tail = corner[k];
-        const Vec2 along = corner[(k + 1) % 3] - tail;
-        const Vec2 up = corner[(k + 2) % 3] - tail;
-        surface.apex[3 * face + k] = {along.dot(up) / length, doubled_area / length};
+    const double doubled_area =
+        std::max(-cross(chart.side[0], chart.side[2]), least_doubled_area * longest * longest);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double length = chart.side[k].norm();
+        surface.apex[3 * face + k] = {-chart.side[k].dot(chart.side[(k + 2) % 3]) / length,
+                                      doubled_area / length};
     }
 }
 
@@ -82,7 +81,8 @@ void renew_outgoing(Surface& surface, std::span<const Index> faces) {
 void forget_outgoing(Surface& surface, std::span<const Index> faces) {
     for (const Index face : faces) {
         for (Index h = 3 * face; h < 3 * face + 3; ++h) {
-            if (surface.outgoing[surface.tail(h)] == h) surface.outgoing[surface.tail(h)] = no_index;
+            if (surface.outgoing[surface.tail(h)] == h)
+                surface.outgoing[surface.tail(h)] = no_index;
         }
     }
 }
@@ -90,15 +90,21 @@ void forget_outgoing(Surface& surface, std::span<const Index> faces) {
 // Cuts a face at the middle of one of its sides, whose halves stay without twins. Corners of the
 // face may stay without an outgoing half-edge.
 // \return the half-edges from the tail to the middle and from there to the head.
-std::array<Index, 2> cut_face(Surface& surface, Index half_edge, Index middle, Index near_edge,
-                              Index far_edge) {
+std::array<Index, 2> cut_face(Surface& surface, FaceCharts& charts, Index half_edge, Index middle,
+                              Index near_edge, Index far_edge) {
     const Index face = Surface::face(half_edge);
     const auto added = surface.num_faces();
     const Index next = Surface::next(half_edge), previous = Surface::previous(half_edge);
     const Index a = surface.tail(half_edge), b = surface.tail(next), c = surface.tail(previous);
     const std::array sides{side_of(surface, next), side_of(surface, previous)};
-    const double length = surface.length[near_edge];  // Of half the side.
-    const Vec2 apex = surface.apex[half_edge];
+    const FaceChart whole = charts.of(face);
+    const std::size_t k = half_edge % 3, k_next = next % 3, k_previous = previous % 3;
+    const Vec2 half = whole.side[k] / 2;
+    const Vec2 cut = -whole.side[k_previous] - half;  // From the middle to the apex.
+    const FaceChart near_chart{{half, cut, whole.side[k_previous]},
+                               {whole.turn[k], Vec2(1, 0), whole.turn[k_previous]}};
+    const FaceChart far_chart{{half, whole.side[k_next], -cut},
+                              {whole.turn[k], whole.turn[k_next], Vec2(1, 0)}};
 
     forget_outgoing(surface, std::span(&face, 1));
     surface.mesh.triangles[face] = {a, middle, c};
@@ -106,16 +112,18 @@ std::array<Index, 2> cut_face(Surface& surface, Index half_edge, Index middle, I
     surface.twin.resize(surface.twin.size() + 3, no_index);
     surface.edge.resize(surface.edge.size() + 3, no_index);
     surface.apex.resize(surface.apex.size() + 3);
-    move_sides(surface, sides, {3 * added + 1, 3 * face + 2});
-    const Index cut = surface.num_edges();
-    surface.length.push_back((apex - Vec2(length, 0)).norm());
+    move_sides<2>(surface, sides, {3 * added + 1, 3 * face + 2});
+    const Index cut_edge = surface.num_edges();
+    surface.length.push_back(cut.norm());
     surface.edge_half.push_back(no_index);
-    join(surface, 3 * face + 1, 3 * added + 2, cut);
-    surface.edge[3 * added + 2] = cut;
+    surface.edge[3 * added + 2] = cut_edge;
+    join(surface, 3 * face + 1, 3 * added + 2, cut_edge);
     join(surface, 3 * face, no_index, near_edge);
     join(surface, 3 * added, no_index, far_edge);
-    set_apexes(surface, face, {Vec2(0, 0), Vec2(length, 0), apex});
-    set_apexes(surface, added, {Vec2(length, 0), Vec2(2 * length, 0), apex});
+    charts.of(face) = near_chart;
+    charts.add(added, far_chart);
+    set_apexes(surface, face, near_chart);
+    set_apexes(surface, added, far_chart);
     return {3 * face, 3 * added};
 }
 
@@ -135,62 +143,96 @@ Index raise_flat_faces(Surface& surface) {
     return raised;
 }
 
-Quad::Quad(const Surface& surface, Index half_edge)
-    : length(surface.length_of(half_edge)),
-      apex(surface.apex[half_edge]),
-      across(length - surface.apex[surface.twin[half_edge]].x(),
-             -surface.apex[surface.twin[half_edge]].y()) {}
+Quad quad_at(const Surface& surface, Index half_edge) {
+    const double length = surface.length_of(half_edge);
+    const Vec2& beyond = surface.apex[surface.twin[half_edge]];
+    return {{length, 0}, surface.apex[half_edge], {length - beyond.x(), -beyond.y()}};
+}
+
+Quad quad_at(const Surface& surface, FaceCharts& charts, Index half_edge) {
+    const Index twin = surface.twin[half_edge];
+    const Vec2 beyond = charts.of(Surface::face(twin)).side[Surface::next(twin) % 3];
+    const FaceChart& chart = charts.of(Surface::face(half_edge));
+    return {chart.side[half_edge % 3], -chart.side[Surface::previous(half_edge) % 3],
+            turned_by(beyond, chart.turn[half_edge % 3])};
+}
+
+double Quad::shortening() const { return (apex - across).norm() / head.norm(); }
 
 // The angles opposite to the edge sum to more than pi.
 bool Quad::should_flip() const {
-    const Vec2 head(length, 0);
-    const double cos_apex = (-apex).dot(head - apex), sin_apex = length * apex.y();
-    const double cos_across = (-across).dot(head - across), sin_across = -length * across.y();
-    const double scale = apex.norm() * (head - apex).norm() * across.norm() * (head - across).norm();
+    const double cos_apex = (-apex).dot(head - apex), sin_apex = cross(head, apex);
+    const double cos_across = (-across).dot(head - across), sin_across = cross(across, head);
+    const double scale =
+        apex.norm() * (head - apex).norm() * across.norm() * (head - across).norm();
     const double sine = cos_apex * sin_across + sin_apex * cos_across;
     if (std::abs(sine) > on_circle * scale) return sine < 0;
-    return length > (1 + on_circle) * flipped_length();
+    return head.norm() > (1 + on_circle) * (apex - across).norm();
 }
 
-// Head and tail are computed alike, so that a flip means the same from both sides.
 QuadShares Quad::shares() const {
-    const double share = across.y() / apex.y();
-    return {((length - across.x()) - share * (length - apex.x())) / length,
-            (across.x() - share * apex.x()) / length, share};
+    const double longest = std::max({head.norm(), apex.norm(), (head - apex).norm()});
+    const double whole = std::max(cross(head, apex), least_doubled_area * longest * longest);
+    return {cross(head - across, apex - across) / whole, cross(across, apex) / whole,
+            -cross(across, head) / whole};
 }
 
 bool Quad::is_convex() const {
     const QuadShares share = shares();
     const double sum = std::abs(share.tail) + std::abs(share.head) - share.apex;
-    return std::isfinite(sum) && share.tail > least_share * sum && share.head > least_share * sum;
+    return share.tail > least_share * sum && share.head > least_share * sum;
 }
 
-void flip(Surface& surface, Index half_edge, const Quad& quad) {
+void flip(Surface& surface, FaceCharts& charts, Index half_edge, const Quad& quad) {
     const Index twin = surface.twin[half_edge];
     const Index f = Surface::face(half_edge), g = Surface::face(twin);
     const Index a = surface.tail(half_edge), b = surface.tail(twin);
     const Index c = surface.tail(Surface::previous(half_edge));
     const Index d = surface.tail(Surface::previous(twin));
     const Index edge = surface.edge[half_edge];
-    const std::array sides{side_of(surface, Surface::next(twin)),      // a d
-                           side_of(surface, Surface::previous(twin)),  // d b
-                           side_of(surface, Surface::next(half_edge)),  // b c
+    const std::array sides{side_of(surface, Surface::next(twin)),            // a d
+                           side_of(surface, Surface::previous(twin)),        // d b
+                           side_of(surface, Surface::next(half_edge)),       // b c
                            side_of(surface, Surface::previous(half_edge))};  // c a
+    const FaceChart& chart_f = charts.of(f);
+    const Vec2 turn = chart_f.turn[half_edge % 3];
+    // Both new faces keep the directions of the first. So do those across, but where they are
+    // these.
+    std::array<Vec2, 4> turns;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Index h = sides[i].half_edge;
+        turns[i] = charts.of(Surface::face(h)).turn[h % 3];
+        if (Surface::face(h) == g) turns[i] = turned_by(turns[i], turn);
+        if (sides[i].twin != no_index && Surface::face(sides[i].twin) == g) {
+            turns[i] = turned_by(turns[i], conjugate(turn));
+        }
+        turns[i].normalize();
+    }
     const std::array changed{f, g};
     forget_outgoing(surface, changed);
     surface.mesh.triangles[f] = {a, d, c};
     surface.mesh.triangles[g] = {d, b, c};
-    move_sides(surface, sides, {3 * f, 3 * g, 3 * g + 1, 3 * f + 2});
+    move_sides<4>(surface, sides, {3 * f, 3 * g, 3 * g + 1, 3 * f + 2});
     surface.edge[3 * g + 2] = edge;
     join(surface, 3 * f + 1, 3 * g + 2, edge);
-    surface.length[edge] = quad.flipped_length();
-    set_apexes(surface, f, {Vec2(0, 0), quad.across, quad.apex});
-    set_apexes(surface, g, {quad.across, Vec2(quad.length, 0), quad.apex});
+    const Vec2 diagonal = quad.apex - quad.across;
+    surface.length[edge] = diagonal.norm();
+    charts.of(f) = {{quad.across, diagonal, -quad.apex}, {turns[0], Vec2(1, 0), turns[3]}};
+    charts.of(g) = {{quad.head - quad.across, quad.apex - quad.head, -diagonal},
+                    {turns[1], turns[2], Vec2(1, 0)}};
+    charts.share_turns(f);
+    charts.share_turns(g);
+    set_apexes(surface, f, charts.of(f));
+    set_apexes(surface, g, charts.of(g));
     renew_outgoing(surface, changed);
 }
 
-EdgeSplit split_edge(Surface& surface, Index half_edge, Index middle) {
+EdgeSplit split_edge(Surface& surface, FaceCharts& charts, Index half_edge, Index middle) {
     EdgeSplit result;
+    (void)charts.of(Surface::face(half_edge));  // While the edge has its length.
+    if (surface.twin[half_edge] != no_index) {
+        (void)charts.of(Surface::face(surface.twin[half_edge]));
+    }
     const Index near_edge = surface.edge[half_edge];
     const Index far_edge = result.new_edge = surface.num_edges();
     surface.length[near_edge] /= 2;
@@ -208,13 +250,13 @@ EdgeSplit split_edge(Surface& surface, Index half_edge, Index middle) {
             twin = 3 * face + 2;
         }
     }
-    auto halves = cut_face(surface, half_edge, middle, near_edge, far_edge);
+    auto halves = cut_face(surface, charts, half_edge, middle, near_edge, far_edge);
     std::array<Index, 4> changed{face, result.side[0].new_face, face, face};
     if (twin != no_index) {
         result.side[1] = {twin, surface.num_faces()};
         changed[2] = Surface::face(twin);
         changed[3] = result.side[1].new_face;
-        const std::array others = cut_face(surface, twin, middle, far_edge, near_edge);
+        const std::array others = cut_face(surface, charts, twin, middle, far_edge, near_edge);
         for (Index& half : halves) {  // The second cut moves them where it meets the same face.
             if (half == Surface::next(twin)) {
                 half = 3 * changed[3] + 1;

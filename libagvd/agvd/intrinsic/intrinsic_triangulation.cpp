@@ -13,6 +13,7 @@ namespace {
 
 using detail::DelaunayQueue;
 using detail::EdgeSplit;
+using detail::FaceCharts;
 using detail::FaceHistory;
 using detail::FaceSegment;
 
@@ -32,9 +33,10 @@ void check_options(const Surface& input, const IntrinsicOptions& options) {
 // Splits edges, longest first, and flips after each split.
 class Refinement {
 public:
-    Refinement(Surface& surface, FaceHistory& history, DelaunayQueue& flips,
+    Refinement(Surface& surface, FaceCharts& charts, FaceHistory& history, DelaunayQueue& flips,
                std::vector<std::uint8_t>& is_kept, double max_length)
         : surface_(surface),
+          charts_(charts),
           history_(history),
           flips_(flips),
           is_kept_(is_kept),
@@ -77,7 +79,7 @@ private:
         surface_.outgoing.push_back(no_index);
         surface_.can_turn.push_back(0);
         const Index first_new_edge = surface_.num_edges();
-        const EdgeSplit made = detail::split_edge(surface_, h, vertex);
+        const EdgeSplit made = detail::split_edge(surface_, charts_, h, vertex);
         if (!is_kept_.empty()) {
             is_kept_.resize(surface_.num_edges(), 0);
             is_kept_[made.new_edge] = is_kept_[edge];
@@ -98,6 +100,7 @@ private:
     }
 
     Surface& surface_;
+    FaceCharts& charts_;
     FaceHistory& history_;
     DelaunayQueue& flips_;
     std::vector<std::uint8_t>& is_kept_;
@@ -118,10 +121,11 @@ IntrinsicTriangulation::IntrinsicTriangulation(const Surface& input,
     check_options(input, options);
     counts_.flat_faces = detail::raise_flat_faces(surface_);
     std::vector<std::uint8_t> is_kept(options.is_kept.begin(), options.is_kept.end());
-    DelaunayQueue flips(surface_, *history_, is_kept);
+    FaceCharts charts(surface_);
+    DelaunayQueue flips(surface_, charts, *history_, is_kept);
     for (Index e = 0; e < surface_.num_edges(); ++e) flips.push(e);
     counts_.is_delaunay = flips.flip_all(most_flips * surface_.num_edges());
-    Refinement refinement(surface_, *history_, flips, is_kept, options.max_length);
+    Refinement refinement(surface_, charts, *history_, flips, is_kept, options.max_length);
     counts_.is_delaunay = refinement.run(most_flips, added_) && counts_.is_delaunay;
     counts_.flips = flips.num_flips();
     counts_.splits = static_cast<Index>(added_.size());

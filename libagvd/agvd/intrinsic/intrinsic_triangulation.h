@@ -24,15 +24,15 @@ struct IntrinsicOptions {
 
 struct IntrinsicCounts {
     std::size_t flips = 0;
-    Index splits = 0;       //!< Edges split: vertices added.
-    Index flat_faces = 0;   //!< Faces of the input without area in double, which got the least one.
+    Index splits = 0;      //!< Edges split: vertices added.
+    Index flat_faces = 0;  //!< Faces of the input without area in double, which got the least one.
     bool is_delaunay = true;  //!< False: flips ended before the condition held everywhere.
 };
 
 //! The input's surface and vertices, other edges. An edge of the input with two triangles beside it
 //! that fail the Delaunay condition is replaced by the other diagonal of these, unfolded into one
-//! plane ([bobenko2007], [fisher2007], [sharp2019]): distances on the surface stay what they are, and
-//! needles are gone. What is made of it depends on the surface, not on its triangles.
+//! plane ([bobenko2007], [fisher2007], [sharp2019]): distances on the surface stay what they are,
+//! and needles are gone. What is made of it depends on the surface, not on its triangles.
 //!
 //! The result is a Surface in the plane of each face: its lengths and apexes are true, its corners
 //! lie where the mesh says, but in space its faces do not lie on the surface. It is a
@@ -44,8 +44,8 @@ class IntrinsicTriangulation {
 public:
     //! \param input  build_surface(); outlives this.
     //! \throw InvalidOption  an option is out of range.
-    //! Cost: a pass over the edges and O(log n) for each flip. The number of flips has no useful bound
-    //! in theory; in practice it is some ten for each needle.
+    //! Cost: a pass over the edges and O(log n) for each flip. The number of flips has no useful
+    //! bound in theory; in practice it is some ten for each needle.
     explicit IntrinsicTriangulation(const Surface& input, const IntrinsicOptions& options = {});
     IntrinsicTriangulation(IntrinsicTriangulation&&) noexcept;
     IntrinsicTriangulation& operator=(IntrinsicTriangulation&&) noexcept;
@@ -63,13 +63,14 @@ public:
         return added_[vertex - input_->num_vertices()];
     }
 
-    //! The same point of the surface. Errors are a few roundings of the faces' size; points of faces
-    //! that nothing has changed come back as they are. On edges that both have, and on vertices,
-    //! coordinates that are 0 stay exactly 0.
-    //! Cost: some 20 ns for each operation that concerned the face there: none to hundreds.
+    //! The same point of the surface. Errors are a few roundings of the faces' size; points of
+    //! faces that nothing has changed come back as they are. On edges that both have, and on
+    //! vertices, coordinates that are 0 stay exactly 0. Cost: some 20 ns for each operation that
+    //! concerned the face there: none to hundreds.
     [[nodiscard]] SurfacePoint to_intrinsic(const SurfacePoint& on_input) const;
     [[nodiscard]] SurfacePoint to_input(const SurfacePoint& on_base) const;
-    [[nodiscard]] std::vector<SurfacePoint> to_intrinsic(std::span<const SurfacePoint> on_input) const;
+    [[nodiscard]] std::vector<SurfacePoint> to_intrinsic(
+        std::span<const SurfacePoint> on_input) const;
     [[nodiscard]] std::vector<SurfacePoint> to_input(std::span<const SurfacePoint> on_base) const;
 
     //! A straight segment in one face of this, as a polyline on the input: two points for each face

@@ -1,0 +1,53 @@
+#include "agvd/intrinsic/face_charts.h"
+
+namespace agvd::detail {
+
+// Of a side, in the chart that a face has at first, whose x axis is side 0. From the angles, since
+// the difference of two long sides would tell little about a short one.
+Vec2 FaceCharts::direction(Index half_edge) const {
+    const Index first = half_edge - half_edge % 3;
+    switch (half_edge % 3) {
+        case 0:
+            return {1, 0};
+        case 1:
+            return -conjugate(surface_.apex[first + 1].normalized());
+        default:
+            return -surface_.apex[first].normalized();
+    }
+}
+
+FaceChart& FaceCharts::of(Index face) {
+    if (has(face)) return charts_[place_[face]];
+    FaceChart chart;
+    for (Index k = 0; k < 3; ++k) {
+        const Index h = 3 * face + k;
+        const Index twin = surface_.twin[h];
+        const Vec2 along = direction(h);
+        chart.side[k] = surface_.length_of(h) * along;
+        if (twin == no_index) {
+            chart.turn[k] = {1, 0};
+        } else if (has(Surface::face(twin))) {
+            chart.turn[k] = conjugate(charts_[place_[Surface::face(twin)]].turn[twin % 3]);
+        } else {
+            chart.turn[k] = turned_by(along, conjugate(-direction(twin))).normalized();
+        }
+    }
+    add(face, chart);
+    return charts_.back();
+}
+
+void FaceCharts::add(Index face, const FaceChart& chart) {
+    if (face >= place_.size()) place_.resize(surface_.num_faces(), no_index);
+    place_[face] = static_cast<Index>(charts_.size());
+    charts_.push_back(chart);
+}
+
+void FaceCharts::share_turns(Index face) {
+    for (Index k = 0; k < 3; ++k) {
+        const Index twin = surface_.twin[3 * face + k];
+        if (twin == no_index || !has(Surface::face(twin))) continue;
+        charts_[place_[Surface::face(twin)]].turn[twin % 3] = conjugate(of(face).turn[k]);
+    }
+}
+
+}  // namespace agvd::detail
