@@ -4,9 +4,9 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "agvd/intrinsic/face_pieces.h"
 #include "agvd/mesh/distinct_points.h"
 #include "agvd/mesh/point_faces.h"
-#include "agvd/mesh/refine.h"
 #include "remesh/pipeline/stage_clock.h"
 #include "remesh/pipeline/valid_dual.h"
 #include "remesh/placement/fit_vertices.h"
@@ -15,7 +15,6 @@
 #include "remesh/repair/carry_sites.h"
 #include "remesh/repair/drop_components.h"
 #include "remesh/repair/farthest_corner.h"
-#include "remesh/repair/flat_edges.h"
 #include "remesh/repair/reduce_vertices.h"
 #include "remesh/sampling/boundary_curves.h"
 
@@ -33,6 +32,8 @@ using agvd::Vec3;
 // 1.5 costs .012 of the mean quality at 10 000 and 50 000 samples on fandisk, .05 at 2000 on
 // slivers; .7 gains little and costs twice the time.
 constexpr double longest_edge = 1;
+// What one piece of a bent face stands for: a share of a cell.
+constexpr double piece_share = 1.0 / 16;
 // Rounds of putting vertices back onto the surface there.
 constexpr int max_unfits = 4;
 
@@ -51,7 +52,7 @@ public:
 
     RemeshResult run() {
         clean();
-        refine();
+        triangulate();
         place_sites();
         relax();
         drop_duplicates();
@@ -78,28 +79,32 @@ private:
         agvd::poll(progress_of(Stage::Clean, options_), 1);
     }
 
-    // Edges that span several cells are flipped or split; the surface stays what it is.
-    void refine() {
+    // Where edges span several cells, the intrinsic triangulation has vertices of its own.
+    void triangulate() {
         const StageClock clock(Stage::Clean, result_);
         double area = 0;
         for (const ComponentTopology& c : result_.input_topology.components) area += c.area;
         const std::size_t num_sites =
             options_.sites ? options_.sites->size() : options_.num_samples;
-        spacing_ = std::sqrt(area / static_cast<double>(std::max<std::size_t>(num_sites, 1)));
-        unrefined_ = clean_.mesh;
-        flip_flat_edges(clean_.mesh, longest_edge * spacing_);
-        agvd::RefinedMesh refined =
-            agvd::split_long_edges(clean_.mesh.view(), longest_edge * spacing_);
-        clean_.mesh = std::move(refined.mesh);
-        component_.reserve(refined.face_origin.size());
-        for (Index& origin : refined.face_origin) {
-            component_.push_back(result_.input_topology.face_component[origin]);
-            origin = clean_.face_origin[origin];
-        }
-        clean_.face_origin = std::move(refined.face_origin);
-        result_.refined_faces = static_cast<Index>(clean_.mesh.triangles.size());
+        const double cell_area = area / static_cast<double>(std::max<std::size_t>(num_sites, 1));
+        spacing_ = std::sqrt(cell_area);
         surface_ = agvd::build_surface(clean_.mesh.view());
-        layout_.emplace(surface_, options_.num_threads);
+        base_.emplace(surface_, agvd::IntrinsicOptions{.max_length = longest_edge * spacing_});
+        pieces_.emplace(*base_, cell_area * piece_share);
+        layout_.emplace(base_->surface(), options_.num_threads);
+        find_components();
+        result_.refined_faces = base_->surface().num_faces();
+    }
+
+    // Of the base's faces: those of the input keep their numbers, and flips their components.
+    void find_components() {
+        component_ = result_.input_topology.face_component;
+        const agvd::Surface& base = base_->surface();
+        component_.reserve(base.num_faces());
+        for (Index f = surface_.num_faces(); f < base.num_faces(); ++f) {
+            const SurfacePoint place = base_->to_input({agvd::FaceId(f), {1, 0, 0}});
+            component_.push_back(component_[place.face.value()]);
+        }
     }
 
     void place_sites() {
@@ -144,9 +149,10 @@ private:
                                  .corners = corners_,
                                  .num_threads = options_.num_threads,
                                  .progress = progress_of(Stage::Relax, options_)};
-        RelaxResult relaxed = is_coarse_to_fine()
-                                  ? sample_relaxed_sites(surface_, *layout_, sampling(), relax)
-                                  : relax_sites(surface_, *layout_, std::move(sites_), relax);
+        RelaxResult relaxed =
+            is_coarse_to_fine()
+                ? sample_relaxed_sites(*base_, *layout_, *pieces_, sampling(), relax)
+                : relax_sites(*base_, *layout_, *pieces_, std::move(sites_), relax);
         sites_ = std::move(relaxed.sites);
         result_.relaxation = std::move(relaxed.levels);
     }
@@ -160,10 +166,13 @@ private:
     // The dual with the count asked for. Where it runs through itself more often than the input, it
     // is built again with more sites there; the best counts.
     void build_mesh() {
-        const Ground ground{surface_, *layout_, result_.input_topology.components, component_,
-                            corners_};
+        const Ground ground{base_->surface(), *layout_, result_.input_topology.components,
+                            component_, corners_};
+        on_base_ = base_->to_intrinsic(sites_);
+        const std::vector<SurfacePoint> first_on_base = on_base_;
         for (int mends = 0;; ++mends) {
-            ValidDual dual = build_valid_dual(ground, sites_, options_, result_);
+            ValidDual dual = build_valid_dual(ground, on_base_, options_, result_);
+            take_back_sites(first_on_base);
             if (mends == 0) set_target(dual.diagram);
             const Index num_removed = reduce(dual);
             if (dual.mesh.points.size() > target_ && options_.vertex_count == VertexCount::Exact) {
@@ -188,6 +197,21 @@ private:
         }
     }
 
+    // Sites on the input, as repair has changed those on the base.
+    void take_back_sites(const std::vector<SurfacePoint>& first_on_base) {
+        sites_.resize(first_on_base.size());
+        for (Index s = 0; s < on_base_.size(); ++s) {
+            if (s >= sites_.size()) {
+                sites_.push_back(base_->to_input(on_base_[s]));
+            } else if (!is_same(on_base_[s], first_on_base[s])) {
+                sites_[s] = base_->to_input(on_base_[s]);
+            }
+        }
+    }
+    [[nodiscard]] static bool is_same(const SurfacePoint& a, const SurfacePoint& b) {
+        return a.face == b.face && a.barycentric == b.barycentric;
+    }
+
     void set_target(const agvd::Diagram& diagram) {
         target_ = options_.num_samples;
         if (!options_.sites) return;
@@ -203,29 +227,30 @@ private:
         const bool adds = options_.vertex_count == VertexCount::Add;
         // A component from its faces has more vertices than it was to have sites.
         if (adds && result_.components_from_faces == 0) return 0;
-        const Index target = adds ? static_cast<Index>(sites_.size()) : target_;
+        const Index target = adds ? static_cast<Index>(on_base_.size()) : target_;
         if (num_vertices <= target) return 0;
         const StageClock clock(Stage::Dual, result_);
-        std::vector<bool> is_corner(surface_.num_vertices(), false);
+        const Surface& base = base_->surface();
+        std::vector<bool> is_corner(base.num_vertices(), false);
         for (const Index v : corners_) is_corner[v] = true;
         std::vector<std::uint8_t> keep(num_vertices, 0);
         for (Index i = 0; i < num_vertices; ++i) {
-            const auto v = agvd::vertex_of(surface_, dual.mesh.points[i]);
+            const auto v = agvd::vertex_of(base, dual.mesh.points[i]);
             const Index site = dual.site[i];
             keep[i] = (v && is_corner[*v]) ||
                       (site != no_index && site < is_wanted_.size() && is_wanted_[site]);
         }
         const std::vector<Index> gone =
-            reduce_vertices(positions_of(dual.mesh), dual.mesh.triangles, target, keep);
+            reduce_vertices(positions_of(places_of(dual)), dual.mesh.triangles, target, keep);
         compact(dual, gone);
         return static_cast<Index>(gone.size());
     }
 
     DelaunayCounts flip_edges(ValidDual& dual) {
         const StageClock clock(Stage::Delaunay, result_);
-        DelaunayResult made =
-            make_delaunay(surface_, dual.mesh.points, dual.site, dual.diagram, dual.mesh.triangles,
-                          {.mode = options_.delaunay, .num_threads = options_.num_threads});
+        DelaunayResult made = make_delaunay(
+            base_->surface(), dual.mesh.points, dual.site, dual.diagram, dual.mesh.triangles,
+            {.mode = options_.delaunay, .num_threads = options_.num_threads});
         dual.mesh.triangles = std::move(made.triangles);
         return made.counts;
     }
@@ -247,10 +272,22 @@ private:
         }
     }
 
-    [[nodiscard]] std::vector<Vec3> positions_of(const SurfaceMesh& mesh) const {
+    // Where the vertices of the dual lie on the input.
+    [[nodiscard]] std::vector<SurfacePoint> places_of(const ValidDual& dual) const {
+        std::vector<SurfacePoint> places;
+        places.reserve(dual.site.size());
+        for (Index v = 0; v < dual.site.size(); ++v) {
+            const Index site = dual.site[v];
+            places.push_back(site != no_index ? sites_[site]
+                                              : base_->to_input(dual.mesh.points[v]));
+        }
+        return places;
+    }
+
+    [[nodiscard]] std::vector<Vec3> positions_of(const std::vector<SurfacePoint>& points) const {
         std::vector<Vec3> positions;
-        positions.reserve(mesh.points.size());
-        for (const SurfacePoint& point : mesh.points) {
+        positions.reserve(points.size());
+        for (const SurfacePoint& point : points) {
             positions.push_back(position(surface_.mesh.view(), point));
         }
         return positions;
@@ -263,9 +300,9 @@ private:
     PlacedMesh place(const ValidDual& dual) {
         const StageClock clock(Stage::Place, result_);
         agvd::poll(progress_of(Stage::Place, options_), 0);
-        PlacedMesh placed{dual.mesh.points, {}, dual.mesh.triangles};
+        PlacedMesh placed{places_of(dual), {}, dual.mesh.triangles};
         placed.offsets.assign(placed.points.size(), Vec3::Zero());
-        std::vector<Index> vertex(sites_.size(), no_index);
+        std::vector<Index> vertex(on_base_.size(), no_index);
         for (Index v = 0; v < dual.site.size(); ++v) {
             if (dual.site[v] != no_index) vertex[dual.site[v]] = v;
         }
@@ -273,8 +310,8 @@ private:
         for (const agvd::SiteId site : dual.diagram.nearest_site) {
             nearest.push_back(site.is_valid() ? vertex[site.value()] : no_index);
         }
-        if (options_.fit.value_or(is_relaxed())) fit_vertices(surface_, nearest, placed);
-        if (is_relaxed()) improve_shape(surface_, nearest, placed);
+        if (options_.fit.value_or(is_relaxed())) fit_vertices(*base_, *pieces_, nearest, placed);
+        if (is_relaxed()) improve_shape(*base_, *pieces_, nearest, placed);
         agvd::poll(progress_of(Stage::Place, options_), 1);
         return placed;
     }
@@ -317,7 +354,7 @@ private:
         CrossingFaces found = find_self_intersections(placed.view(), options_.num_threads);
         if (found && !found->empty() && !has_judged_input_) {
             result_.input_self_intersections = static_cast<Index>(
-                find_self_intersections(unrefined_.view(), options_.num_threads)->size());
+                find_self_intersections(surface_.mesh.view(), options_.num_threads)->size());
             has_judged_input_ = true;
         }
         return found;
@@ -329,7 +366,7 @@ private:
                       const ValidDual& dual) {
         const std::vector<Index> farthest = farthest_corners(dual.diagram);
         std::vector<Index> corners;
-        is_wanted_.resize(sites_.size(), false);
+        is_wanted_.resize(on_base_.size(), false);
         for (const auto& [f, g] : crossings) {
             for (const Index face : {f, g}) {
                 for (const Index v : dual.mesh.triangles[face]) {
@@ -343,8 +380,8 @@ private:
         if (corners.empty()) return false;
         std::sort(corners.begin(), corners.end());
         corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-        for (const Index v : corners) sites_.push_back(dual.diagram.vertices[v]);
-        is_wanted_.resize(sites_.size(), true);
+        for (const Index v : corners) on_base_.push_back(dual.diagram.vertices[v]);
+        is_wanted_.resize(on_base_.size(), true);
         result_.sites_added += static_cast<Index>(corners.size());
         result_.added_because["runs through another part"] += static_cast<Index>(corners.size());
         return true;
@@ -365,17 +402,19 @@ private:
     const RemeshOptions& options_;
     const int most_mends_;
     RemeshResult result_;
-    agvd::TriangleMesh unrefined_;  // Cleaned.
-    CleanResult clean_;             // Cleaned, then refined.
-    std::vector<Index> component_;  // #F of it.
-    double spacing_ = 0;            // Mean distance of the sites.
-    Surface surface_;
+    CleanResult clean_;
+    double spacing_ = 0;                                // Mean distance of the sites.
+    Surface surface_;                                   // Of the cleaned mesh.
+    std::optional<agvd::IntrinsicTriangulation> base_;  // Of it.
+    std::optional<agvd::FacePieces> pieces_;
     std::optional<agvd::SurfaceLayout> layout_;
-    std::vector<SurfacePoint> sites_;
-    std::vector<Index> corners_;   // Boundary vertices, ascending.
-    Index num_distinct_ = 0;       // Given sites.
-    Index target_ = 0;             // Vertices of the result.
-    std::vector<bool> is_wanted_;  // By site: stays where vertices are taken away.
+    std::vector<Index> component_;       // #F of the base.
+    std::vector<SurfacePoint> sites_;    // On the cleaned mesh.
+    std::vector<SurfacePoint> on_base_;  // The same, and those that repair has added.
+    std::vector<Index> corners_;         // Boundary vertices, ascending.
+    Index num_distinct_ = 0;             // Given sites.
+    Index target_ = 0;                   // Vertices of the result.
+    std::vector<bool> is_wanted_;        // By site: stays where vertices are taken away.
     bool has_judged_input_ = false;
 };
 

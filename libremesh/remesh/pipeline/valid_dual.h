@@ -10,15 +10,15 @@ namespace remesh::detail {
 
 //! The surface with all that is worth keeping between propagations.
 struct Ground {
-    const agvd::Surface& surface;
-    const agvd::SurfaceLayout& layout;
+    const agvd::Surface& surface;       //!< That of the intrinsic triangulation.
+    const agvd::SurfaceLayout& layout;  //!< SurfaceLayout(surface).
     std::span<const ComponentTopology> components;
-    std::span<const agvd::Index> component;  //!< #F: index into components.
+    std::span<const agvd::Index> component;  //!< #F of it: index into components.
     std::span<const agvd::Index> corners;    //!< Boundary vertices that need a site.
 };
 
 struct ValidDual {
-    SurfaceMesh mesh;
+    SurfaceMesh mesh;               //!< Points of the intrinsic triangulation.
     std::vector<agvd::Index> site;  //!< Per vertex: its site; no_index: a component's own vertex.
     agvd::Diagram diagram;          //!< Of `sites`.
 };
@@ -28,7 +28,7 @@ struct ValidDual {
 //! rounds are over, or where that would take several times the sites, gets its own faces instead.
 //! Whatever the sites, each component of the result is an oriented manifold of its topology.
 //!
-//! \param sites   changed: moved, and new ones at the end.
+//! \param sites   on ground.surface; changed: moved, and new ones at the end.
 //! \param result  its counts and times are added to.
 //! Cost: a propagation and a diagram per round.
 [[nodiscard]] ValidDual build_valid_dual(const Ground& ground,

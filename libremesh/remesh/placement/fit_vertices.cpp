@@ -75,16 +75,17 @@ double dot(const Field& a, const Field& b) {
 
 class Fit {
 public:
-    Fit(const agvd::Surface& surface, std::span<const Index> nearest_vertex, PlacedMesh& mesh)
-        : surface_(surface),
+    Fit(const agvd::IntrinsicTriangulation& base, const agvd::FacePieces& pieces,
+        std::span<const Index> nearest_vertex, PlacedMesh& mesh)
+        : surface_(base.input()),
           mesh_(mesh),
           around_(mesh.triangles, mesh.points.size()),
-          ground_(surface, nearest_vertex, num_vertices()) {
+          ground_(base, nearest_vertex, num_vertices()) {
         for (Index v = 0; v < num_vertices(); ++v) {
-            at_.push_back(mesh.position(surface.mesh.view(), v));
-            stays_.push_back(agvd::is_on_boundary(surface, mesh.points[v]) ? 1 : 0);
+            at_.push_back(mesh.position(surface_.mesh.view(), v));
+            stays_.push_back(agvd::is_on_boundary(surface_, mesh.points[v]) ? 1 : 0);
         }
-        take_samples(nearest_vertex);
+        take_samples(base.surface(), pieces, nearest_vertex);
     }
 
     void run() {
@@ -103,18 +104,21 @@ public:
 private:
     [[nodiscard]] Index num_vertices() const { return static_cast<Index>(mesh_.points.size()); }
 
-    void take_samples(std::span<const Index> nearest_vertex) {
-        const auto& p = surface_.mesh.positions;
+    void take_samples(const agvd::Surface& base, const agvd::FacePieces& pieces,
+                      std::span<const Index> nearest_vertex) {
+        const auto& p = base.mesh.positions;
         const bool is_dense = p.size() >= enough_vertices * mesh_.points.size();
         std::vector<double> area(p.size(), 0);
-        for (Index f = 0; f < surface_.num_faces(); ++f) {
-            const Triangle& t = surface_.mesh.triangles[f];
-            const double whole = agvd::face_area(surface_, f);
+        for (Index f = 0; f < base.num_faces(); ++f) {
+            const Triangle& t = base.mesh.triangles[f];
+            const double whole = agvd::face_area(base, f);
             // With the centroid three quarters: exact for what is quadratic on the face.
             for (const Index v : t) area[v] += is_dense ? whole / 3 : whole / 12;
             if (is_dense || nearest_vertex[t[0]] == no_index) continue;
-            samples_.push_back(
-                {(p[t[0]] + p[t[1]] + p[t[2]]) / 3, whole * 3 / 4, nearest_vertex[t[0]]});
+            pieces.for_each(f, [&](const agvd::SurfacePiece& piece) {
+                samples_.push_back(
+                    {piece.position, piece.vector.norm() * 3 / 4, nearest_vertex[t[0]]});
+            });
         }
         for (Index v = 0; v < p.size(); ++v) {
             if (nearest_vertex[v] != no_index)
@@ -363,10 +367,10 @@ private:
 
 }  // namespace
 
-void fit_vertices(const agvd::Surface& surface, std::span<const Index> nearest_vertex,
-                  PlacedMesh& mesh) {
+void fit_vertices(const agvd::IntrinsicTriangulation& base, const agvd::FacePieces& pieces,
+                  std::span<const Index> nearest_vertex, PlacedMesh& mesh) {
     mesh.offsets.resize(mesh.points.size(), Vec3::Zero());
-    Fit(surface, nearest_vertex, mesh).run();
+    Fit(base, pieces, nearest_vertex, mesh).run();
 }
 
 }  // namespace remesh

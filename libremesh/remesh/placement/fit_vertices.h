@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "agvd/mesh/surface.h"
+#include "agvd/intrinsic/face_pieces.h"
 #include "remesh/placement/placed_mesh.h"
 
 namespace remesh {
@@ -16,10 +16,11 @@ namespace remesh {
 //! are equilateral, but slides to the edge where planes meet at an angle. Vertices on the boundary
 //! stay, and no triangle turns over.
 //!
-//! \param nearest_vertex  per vertex of the surface: that of the mesh in whose cell it lies;
+//! \param pieces          of the base's faces.
+//! \param nearest_vertex  per vertex of the base: that of the mesh in whose cell it lies;
 //!                        agvd::no_index: none.
 //! Cost: O(#surface + #mesh), about 2 us for each vertex of the surface.
-void fit_vertices(const agvd::Surface& surface, std::span<const agvd::Index> nearest_vertex,
-                  PlacedMesh& mesh);
+void fit_vertices(const agvd::IntrinsicTriangulation& base, const agvd::FacePieces& pieces,
+                  std::span<const agvd::Index> nearest_vertex, PlacedMesh& mesh);
 
 }  // namespace remesh

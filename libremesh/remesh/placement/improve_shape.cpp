@@ -49,23 +49,24 @@ double quality(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 class Improvement {
 public:
-    Improvement(const agvd::Surface& surface, std::span<const Index> nearest_vertex,
-                PlacedMesh& mesh)
-        : surface_(surface),
+    Improvement(const agvd::IntrinsicTriangulation& base, const agvd::FacePieces& pieces,
+                std::span<const Index> nearest_vertex, PlacedMesh& mesh)
+        : surface_(base.input()),
           mesh_(mesh),
           around_(mesh.triangles, mesh.points.size()),
           at_(mesh.points.size()),
           facing_(mesh.points.size()),
           planes_(mesh.points.size()) {
         for (Index v = 0; v < at_.size(); ++v) locate(v);
-        const auto& p = surface.mesh.positions;
-        for (const Triangle& t : surface.mesh.triangles) {
-            const Vec3 vector = (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]) / 6;
-            const double area = vector.norm();
-            for (const Index corner : t) {
-                const Index v = nearest_vertex[corner];
-                if (v != agvd::no_index && area > 0) planes_[v].add(vector, area, p[t[0]]);
-            }
+        for (Index f = 0; f < base.surface().num_faces(); ++f) {
+            pieces.for_each(f, [&](const agvd::SurfacePiece& piece) {
+                const double area = piece.vector.norm() / 3;
+                for (const Index corner : base.surface().mesh.triangles[f]) {
+                    const Index v = nearest_vertex[corner];
+                    if (v == agvd::no_index || !(area > 0)) continue;
+                    planes_[v].add(piece.vector / 3, area, piece.position);
+                }
+            });
         }
     }
 
@@ -186,9 +187,9 @@ private:
 
 }  // namespace
 
-void improve_shape(const agvd::Surface& surface, std::span<const Index> nearest_vertex,
-                   PlacedMesh& mesh) {
-    Improvement(surface, nearest_vertex, mesh).run();
+void improve_shape(const agvd::IntrinsicTriangulation& base, const agvd::FacePieces& pieces,
+                   std::span<const Index> nearest_vertex, PlacedMesh& mesh) {
+    Improvement(base, pieces, nearest_vertex, mesh).run();
 }
 
 }  // namespace remesh

@@ -2,6 +2,8 @@
 
 #include <limits>
 
+#include "agvd/mesh/one_ring.h"
+
 namespace remesh::detail {
 
 using agvd::Index;
@@ -9,9 +11,16 @@ using agvd::no_index;
 using agvd::Surface;
 using agvd::Vec3;
 
-NearestInCells::NearestInCells(const Surface& surface, std::span<const Index> nearest_vertex,
-                               Index num_cells)
-    : surface_(surface), begin_(std::size_t{num_cells} + 1, 0) {
+namespace {
+
+// Faces passed on the way to a nearer point.
+constexpr int most_steps = 1000;
+
+}  // namespace
+
+NearestInCells::NearestInCells(const agvd::IntrinsicTriangulation& base,
+                               std::span<const Index> nearest_vertex, Index num_cells)
+    : base_(base), input_(base.input()), begin_(std::size_t{num_cells} + 1, 0) {
     for (const Index cell : nearest_vertex) {
         if (cell != no_index) ++begin_[std::size_t{cell} + 1];
     }
@@ -23,7 +32,7 @@ NearestInCells::NearestInCells(const Surface& surface, std::span<const Index> ne
         if (nearest_vertex[v] == no_index) continue;
         const Index slot = next[nearest_vertex[v]]++;
         vertices_[slot] = v;
-        at_[slot] = surface.mesh.positions[v];
+        at_[slot] = base.surface().mesh.positions[v];
     }
 }
 
@@ -40,19 +49,40 @@ agvd::ClosestPoint NearestInCells::query(const Vec3& point, std::span<const Inde
             nearest = vertices_[slot];
         }
     }
-    if (nearest == no_index || surface_.outgoing[nearest] == no_index) return result;
-    const auto& p = surface_.mesh.positions;
-    const Index first = surface_.outgoing[nearest];
-    Index h = first;
-    do {
-        const Index face = Surface::face(h);
-        const auto& [a, b, c] = surface_.mesh.triangles[face];
-        const agvd::ClosestPoint here =
-            agvd::closest_point_on_triangle({p[a], p[b], p[c]}, agvd::FaceId(face), point);
-        if (here.distance_sq < result.distance_sq) result = here;
-        h = surface_.twin[Surface::previous(h)];
-    } while (h != no_index && h != first);
+    if (nearest == no_index) return result;
+    if (nearest >= input_.num_vertices()) {
+        result = closest(base_.place_of_added(nearest).face.value(), point);
+    } else {
+        agvd::for_each_outgoing(input_, nearest, [&](Index h) {
+            const agvd::ClosestPoint here = closest(Surface::face(h), point);
+            if (here.distance_sq < result.distance_sq) result = here;
+        });
+    }
+    descend(point, result);
     return result;
+}
+
+agvd::ClosestPoint NearestInCells::closest(Index face, const Vec3& point) const {
+    const auto& [a, b, c] = input_.mesh.triangles[face];
+    const auto& p = input_.mesh.positions;
+    return agvd::closest_point_on_triangle({p[a], p[b], p[c]}, agvd::FaceId(face), point);
+}
+
+// The faces around a vertex may be needles, and the nearest point lie on others beyond.
+void NearestInCells::descend(const Vec3& point, agvd::ClosestPoint& nearest) const {
+    bool is_nearer = true;
+    for (int step = 0; step < most_steps && is_nearer; ++step) {
+        is_nearer = false;
+        const agvd::SurfacePoint from = nearest.point;
+        for (Index k = 0; k < 3; ++k) {  // Across the edges that the point lies on.
+            const Index twin = input_.twin[3 * from.face.value() + k];
+            if (from.barycentric[(k + 2) % 3] != 0 || twin == no_index) continue;
+            const agvd::ClosestPoint beyond = closest(Surface::face(twin), point);
+            if (!(beyond.distance_sq < nearest.distance_sq)) continue;
+            nearest = beyond;
+            is_nearer = true;
+        }
+    }
 }
 
 }  // namespace remesh::detail

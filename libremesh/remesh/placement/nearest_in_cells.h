@@ -5,28 +5,31 @@
 #include <span>
 #include <vector>
 
+#include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/mesh/closest_point.h"
-#include "agvd/mesh/surface.h"
 
 namespace remesh::detail {
 
-//! Looks at the faces around the nearest vertex in a few cells only: quick, and never on the far
-//! side of a wall.
+//! Looks at the faces around the nearest vertex in a few cells only, and goes on from face to face
+//! while that leads nearer: quick, and never to the far side of a wall.
 class NearestInCells {
 public:
-    //! \param surface         stays as long as this.
-    //! \param nearest_vertex  per vertex of the surface: in whose cell it lies; agvd::no_index:
-    //! none.
-    NearestInCells(const agvd::Surface& surface, std::span<const agvd::Index> nearest_vertex,
-                   agvd::Index num_cells);
+    //! \param base            outlives this.
+    //! \param nearest_vertex  per vertex of the base: in whose cell it lies; agvd::no_index: none.
+    NearestInCells(const agvd::IntrinsicTriangulation& base,
+                   std::span<const agvd::Index> nearest_vertex, agvd::Index num_cells);
 
-    //! The distance is infinite if there is no vertex in these cells.
+    //! A point of the input. The distance is infinite if there is no vertex in these cells.
     //! Cost: O(vertices in the cells).
     [[nodiscard]] agvd::ClosestPoint query(const agvd::Vec3& point,
                                            std::span<const agvd::Index> cells) const;
 
 private:
-    const agvd::Surface& surface_;
+    [[nodiscard]] agvd::ClosestPoint closest(agvd::Index face, const agvd::Vec3& point) const;
+    void descend(const agvd::Vec3& point, agvd::ClosestPoint& nearest) const;
+
+    const agvd::IntrinsicTriangulation& base_;
+    const agvd::Surface& input_;
     std::vector<agvd::Index> begin_;     // #cells + 1
     std::vector<agvd::Index> vertices_;  // By cell.
     std::vector<agvd::Vec3> at_;         // Likewise: their positions.

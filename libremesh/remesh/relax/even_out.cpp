@@ -115,16 +115,20 @@ private:
 
 class EvenOut {
 public:
-    EvenOut(const Surface& surface, std::vector<SurfacePoint>& sites,
+    EvenOut(const agvd::IntrinsicTriangulation& base, std::vector<SurfacePoint>& sites,
             std::span<const std::uint8_t> is_fixed)
-        : surface_(surface), sites_(sites), components_(find_components(surface)) {
+        : base_(base),
+          surface_(base.surface()),
+          sites_(sites),
+          on_base_(base.to_intrinsic(sites)),
+          components_(find_components(surface_)) {
         may_move_.reserve(sites.size());
         for (Index i = 0; i < sites.size(); ++i) {
             const bool stays = (!is_fixed.empty() && is_fixed[i] != 0) ||
-                               boundary_half_edge(surface, sites[i]).has_value();
+                               boundary_half_edge(base.input(), sites[i]).has_value();
             may_move_.push_back(stays ? 0 : 1);
         }
-        component_of_face_.resize(surface.num_faces());
+        component_of_face_.resize(surface_.num_faces());
         for (Index c = 0; c < components_.size(); ++c) {
             for (const Index f : components_[c].faces) component_of_face_[f] = c;
             area_ += components_[c].area();
@@ -166,7 +170,7 @@ private:
         for (const bool moves : {false, true}) {
             for (Index i = 0; i < sites_.size(); ++i) {
                 if ((may_move_[i] != 0) != moves) continue;
-                const Vec3 at = agvd::position(surface_.mesh.view(), sites_[i]) / cell;
+                const Vec3 at = agvd::position(base_.input().mesh.view(), sites_[i]) / cell;
                 const Vec3 key(std::round(at.x()), std::round(at.y()), std::round(at.z()));
                 if (!taken.insert(key).second && moves) homeless_.push_back(i);
             }
@@ -177,7 +181,7 @@ private:
     // Of the sites that each component has, by area.
     [[nodiscard]] std::vector<double> shares_of(const Regions& regions) const {
         std::vector<double> count(components_.size(), 0);
-        for (const SurfacePoint& s : sites_) ++count[component_of_face_[s.face.value()]];
+        for (const SurfacePoint& s : on_base_) ++count[component_of_face_[s.face.value()]];
         std::vector<double> shares;
         for (Index r = 0; r < regions.size(); ++r) {
             const Index c = component_of_face_[regions.faces[regions.begin[r]]];
@@ -193,7 +197,7 @@ private:
         std::vector<std::uint8_t> waits(num_sites, 0);
         for (const Index i : homeless_) waits[i] = 1;
         for (Index i = 0; i < num_sites; ++i) {
-            if (waits[i] == 0) residents[regions.of_face[sites_[i].face.value()]].push_back(i);
+            if (waits[i] == 0) residents[regions.of_face[on_base_[i].face.value()]].push_back(i);
         }
         if (homeless_.empty() && is_even(residents, shares)) return;
 
@@ -212,7 +216,8 @@ private:
         Index next = 0;
         for (Index r = 0; r < regions.size(); ++r) {
             for (Index k = 0; k < gets[r]; ++k, ++next) {
-                sites_[homeless_[next]] = regions.draw(r, stream, next);
+                on_base_[homeless_[next]] = regions.draw(r, stream, next);
+                sites_[homeless_[next]] = base_.to_input(on_base_[homeless_[next]]);
             }
         }
         homeless_.clear();
@@ -244,8 +249,10 @@ private:
         }
     }
 
-    const Surface& surface_;
-    std::vector<SurfacePoint>& sites_;
+    const agvd::IntrinsicTriangulation& base_;
+    const Surface& surface_;             // Of the base.
+    std::vector<SurfacePoint>& sites_;   // On the input.
+    std::vector<SurfacePoint> on_base_;  // The same.
     std::vector<Component> components_;
     std::vector<Index> component_of_face_;  // #F
     double area_ = 0;
@@ -256,10 +263,10 @@ private:
 
 }  // namespace
 
-Index even_out(const Surface& surface, const agvd::SurfaceLayout& layout,
+Index even_out(const agvd::IntrinsicTriangulation& base, const agvd::SurfaceLayout& layout,
                std::vector<SurfacePoint>& sites, std::span<const std::uint8_t> is_fixed,
                int num_threads) {
-    return EvenOut(surface, sites, is_fixed).run(layout, num_threads);
+    return EvenOut(base, sites, is_fixed).run(layout, num_threads);
 }
 
 }  // namespace remesh::detail

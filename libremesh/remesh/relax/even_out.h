@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "agvd/mesh/surface_point.h"
+#include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/propagation/surface_layout.h"
 
 namespace remesh::detail {
@@ -19,10 +19,13 @@ namespace remesh::detail {
 //!
 //! Sites on the boundary stay. Components keep their numbers unless these are further from their
 //! share than chance would bring them.
+//! \param base      regions are made of its faces.
+//! \param layout    SurfaceLayout(base.surface()).
+//! \param sites     on base.input().
 //! \param is_fixed  #sites: 1 for sites that stay; or empty.
 //! \return  the number of sites moved.
 //! Cost: O(n log n), a few sweeps over the edges.
-agvd::Index even_out(const agvd::Surface& surface, const agvd::SurfaceLayout& layout,
+agvd::Index even_out(const agvd::IntrinsicTriangulation& base, const agvd::SurfaceLayout& layout,
                      std::vector<agvd::SurfacePoint>& sites, std::span<const std::uint8_t> is_fixed,
                      int num_threads);
 

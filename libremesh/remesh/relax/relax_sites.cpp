@@ -18,6 +18,7 @@ namespace remesh {
 namespace {
 
 using agvd::Index;
+using agvd::IntrinsicTriangulation;
 using agvd::Surface;
 using agvd::SurfaceLayout;
 using agvd::SurfacePoint;
@@ -62,14 +63,17 @@ bool gives_neighbours(const Surface& surface, std::size_t num_sites) {
 }
 
 // By labels; exactly where faces are too large for those.
-std::vector<agvd::Triangle> triangulate(const Surface& surface, const SurfaceLayout& layout,
+std::vector<agvd::Triangle> triangulate(const IntrinsicTriangulation& base,
+                                        const SurfaceLayout& layout,
                                         const agvd::DistanceBounds& labels,
                                         std::span<const SurfacePoint> sites, int num_threads) {
+    const Surface& surface = base.surface();
     if (gives_neighbours(surface, sites.size())) return detail::label_triangles(surface, labels);
+    const std::vector<SurfacePoint> on_base = base.to_intrinsic(sites);
     const agvd::Propagation propagation = agvd::propagate(
-        surface, layout, sites, {.max_error = neighbour_error, .num_threads = num_threads});
+        surface, layout, on_base, {.max_error = neighbour_error, .num_threads = num_threads});
     return build_dual(
-        surface, agvd::build_diagram(surface, sites, propagation, {.num_threads = num_threads}));
+        surface, agvd::build_diagram(surface, on_base, propagation, {.num_threads = num_threads}));
 }
 
 // Triangles as large as the features of the surface: what is even on them is not on the surface.
@@ -84,10 +88,12 @@ bool is_hopeless(const Relaxation& relaxation) {
 
 class Levels {
 public:
-    Levels(const Surface& surface, const SurfaceLayout& layout, const RelaxOptions& options,
-           int num_levels)
-        : surface_(surface),
+    Levels(const IntrinsicTriangulation& base, const SurfaceLayout& layout,
+           const agvd::FacePieces& pieces, const RelaxOptions& options, int num_levels)
+        : base_(base),
+          surface_(base.surface()),
           layout_(layout),
+          pieces_(pieces),
           options_(options),
           steps_planned_(options.steps * num_levels) {}
 
@@ -113,7 +119,7 @@ public:
     }
 
     [[nodiscard]] agvd::DistanceBounds label(std::span<const SurfacePoint> sites) const {
-        return detail::label_vertices(surface_, layout_, sites, options_.num_threads);
+        return detail::label_vertices(base_, layout_, sites, options_.num_threads);
     }
 
     RelaxResult finish(std::vector<SurfacePoint> sites) {
@@ -131,10 +137,9 @@ private:
         const auto num_sites = static_cast<Index>(relaxation.sites().size());
         if (!gives_cells(num_sites)) return;
         if (options_.boundary == Boundary::Keep) {
-            relaxation.move_to_boundary(
-                detail::boundary_places(surface_, labels, num_sites, corners));
+            relaxation.move_to_boundary(detail::boundary_places(base_, labels, num_sites, corners));
         }
-        relaxation.set_density(detail::measure_cells(surface_, labels, num_sites));
+        relaxation.set_density(detail::measure_cells(surface_, pieces_, labels, num_sites));
     }
 
     // Looks at the surface again.
@@ -149,13 +154,15 @@ private:
         if (flaws > 0 && (is_cheap || is_worth_it)) {
             if (!is_cheap) num_mended_ = result_.levels.size();
             relaxation.mend(
-                triangulate(surface_, layout_, labels, relaxation.sites(), options_.num_threads));
+                triangulate(base_, layout_, labels, relaxation.sites(), options_.num_threads));
         }
         look(relaxation, labels, corners);
     }
 
-    const Surface& surface_;
+    const IntrinsicTriangulation& base_;
+    const Surface& surface_;  // Of the base.
     const SurfaceLayout& layout_;
+    const agvd::FacePieces& pieces_;
     const RelaxOptions& options_;
     int steps_planned_;
     int steps_done_ = 0;
@@ -179,16 +186,17 @@ std::optional<Index> coarse_count(const Surface& surface, Index count) {
 
 }  // namespace
 
-RelaxResult relax_sites(const Surface& surface, const SurfaceLayout& layout,
-                        std::vector<SurfacePoint> sites, const RelaxOptions& options) {
+RelaxResult relax_sites(const IntrinsicTriangulation& base, const SurfaceLayout& layout,
+                        const agvd::FacePieces& pieces, std::vector<SurfacePoint> sites,
+                        const RelaxOptions& options) {
     check_options(options, sites.size());
-    agvd::check_sites(surface, sites);
-    Levels levels(surface, layout, options, 1);
+    agvd::check_sites(base.input(), sites);
+    Levels levels(base, layout, pieces, options, 1);
     if (options.steps == 0 || sites.empty()) return levels.finish(std::move(sites));
-    detail::even_out(surface, layout, sites, options.is_fixed, options.num_threads);
+    detail::even_out(base, layout, sites, options.is_fixed, options.num_threads);
     const agvd::DistanceBounds labels = levels.label(sites);
-    Relaxation relaxation(surface, sites,
-                          triangulate(surface, layout, labels, sites, options.num_threads),
+    Relaxation relaxation(base.input(), sites,
+                          triangulate(base, layout, labels, sites, options.num_threads),
                           options.is_fixed, {}, options.num_threads);
     if (is_hopeless(relaxation)) return levels.finish(std::move(sites));
     levels.run(relaxation, &labels, options.corners);
@@ -196,34 +204,34 @@ RelaxResult relax_sites(const Surface& surface, const SurfaceLayout& layout,
     return levels.finish(relaxation.sites());
 }
 
-RelaxResult sample_relaxed_sites(const Surface& surface, const SurfaceLayout& layout,
-                                 const SamplingOptions& sampling, const RelaxOptions& options) {
+RelaxResult sample_relaxed_sites(const IntrinsicTriangulation& base, const SurfaceLayout& layout,
+                                 const agvd::FacePieces& pieces, const SamplingOptions& sampling,
+                                 const RelaxOptions& options) {
     check_options(options, 0);
-    const std::optional<Index> coarse = coarse_count(surface, sampling.num_samples);
-    if (!coarse || options.steps == 0) {
-        return relax_sites(surface, layout, sample_sites(surface, sampling), options);
-    }
+    const Surface& input = base.input();
+    const auto one_after_the_other = [&] {
+        return relax_sites(base, layout, pieces, sample_sites(input, sampling), options);
+    };
+    const std::optional<Index> coarse = coarse_count(base.surface(), sampling.num_samples);
+    if (!coarse || options.steps == 0) return one_after_the_other();
     SamplingOptions first = sampling;
     first.num_samples = *coarse;
     first.progress = {};
-    Levels levels(surface, layout, options, 2);
-    std::vector<SurfacePoint> sites = sample_sites(surface, first);
+    Levels levels(base, layout, pieces, options, 2);
+    std::vector<SurfacePoint> sites = sample_sites(input, first);
     agvd::DistanceBounds labels = levels.label(sites);
-    Relaxation relaxation(surface, std::move(sites), detail::label_triangles(surface, labels), {},
-                          {}, options.num_threads);
-    const auto one_after_the_other = [&] {
-        return relax_sites(surface, layout, sample_sites(surface, sampling), options);
-    };
+    Relaxation relaxation(input, std::move(sites), detail::label_triangles(base.surface(), labels),
+                          {}, {}, options.num_threads);
     if (is_hopeless(relaxation)) return one_after_the_other();
     levels.run(relaxation, &labels, {});
     if (is_hopeless(relaxation)) return one_after_the_other();
 
     labels = levels.label(relaxation.sites());
     std::optional<detail::TriangulatedSites> fine =
-        detail::subdivide(surface, relaxation.sites(), relaxation.weights(),
-                          detail::label_dual(surface, labels), sampling.num_samples);
+        detail::subdivide(input, relaxation.sites(), relaxation.weights(),
+                          detail::label_dual(base, labels), sampling.num_samples);
     if (!fine) return one_after_the_other();
-    Relaxation last(surface, std::move(fine->sites), std::move(fine->triangles), {},
+    Relaxation last(input, std::move(fine->sites), std::move(fine->triangles), {},
                     std::move(fine->weights), options.num_threads);
     levels.run(last, nullptr, options.corners);
     if (is_hopeless(last)) return one_after_the_other();

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "agvd/intrinsic/face_pieces.h"
 #include "agvd/propagation/surface_layout.h"
 #include "remesh/sampling/sample_sites.h"
 
@@ -41,13 +42,17 @@ struct RelaxResult {
 //!
 //! Where sites are too few for their triangulation to resemble the surface, they stay where they
 //! are.
-//! \param layout  SurfaceLayout(surface).
+//! \param base    of the surface; vertices and faces of it are labelled.
+//! \param layout  SurfaceLayout(base.surface()).
+//! \param pieces  of the base's faces.
+//! \param sites   on base.input(), as are those of the result.
 //! \throw agvd::InvalidOption  an option is out of range.
 //! \throw agvd::InvalidInput   a site is not on the surface.
 //! \throw agvd::Cancelled      the progress callback returned false.
 //! Cost: O(#F) every ten steps, O(#sites) each.
-[[nodiscard]] RelaxResult relax_sites(const agvd::Surface& surface,
+[[nodiscard]] RelaxResult relax_sites(const agvd::IntrinsicTriangulation& base,
                                       const agvd::SurfaceLayout& layout,
+                                      const agvd::FacePieces& pieces,
                                       std::vector<agvd::SurfacePoint> sites,
                                       const RelaxOptions& options = {});
 
@@ -57,8 +62,9 @@ struct RelaxResult {
 //! than one after the other.
 //!
 //! \throw as these two.
-[[nodiscard]] RelaxResult sample_relaxed_sites(const agvd::Surface& surface,
+[[nodiscard]] RelaxResult sample_relaxed_sites(const agvd::IntrinsicTriangulation& base,
                                                const agvd::SurfaceLayout& layout,
+                                               const agvd::FacePieces& pieces,
                                                const SamplingOptions& sampling,
                                                const RelaxOptions& options = {});
 

@@ -34,27 +34,29 @@ SurfacePoint point_on(Index h, double along, double inside) {
 
 }  // namespace
 
-agvd::DistanceBounds label_vertices(const Surface& surface, const agvd::SurfaceLayout& layout,
+agvd::DistanceBounds label_vertices(const agvd::IntrinsicTriangulation& base,
+                                    const agvd::SurfaceLayout& layout,
                                     std::span<const SurfacePoint> sites, int num_threads) {
-    return agvd::distance_bounds(surface, layout.arcs(), layout.corners().mean_length(), sites,
-                                 num_threads);
+    return agvd::distance_bounds(base.surface(), layout.arcs(), layout.corners().mean_length(),
+                                 base.to_intrinsic(sites), num_threads);
 }
 
-CellMeasures measure_cells(const Surface& surface, const agvd::DistanceBounds& labels,
-                           Index num_sites) {
+CellMeasures measure_cells(const Surface& surface, const agvd::FacePieces& pieces,
+                           const agvd::DistanceBounds& labels, Index num_sites) {
     CellMeasures result{std::vector<double>(num_sites, 0), std::vector<double>(num_sites, 0),
                         std::vector<CellPlanes>(num_sites)};
     std::vector<agvd::Vec3> shadow(num_sites, agvd::Vec3::Zero());  // The largest is so long.
-    const auto& p = surface.mesh.positions;
     for (Index f = 0; f < surface.num_faces(); ++f) {
         const agvd::Triangle& t = surface.mesh.triangles[f];
-        const agvd::Vec3 vector = (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]) / 2;
-        const double area = vector.norm();
         const auto add = [&](Index site, double share) {
             if (site == no_index) return;
-            result.area[site] += share * area;
-            shadow[site] += share * vector;
-            if (share * area > 0) result.planes[site].add(share * vector, share * area, p[t[0]]);
+            pieces.for_each(f, [&](const agvd::SurfacePiece& piece) {
+                const double area = piece.vector.norm();
+                result.area[site] += share * area;
+                shadow[site] += share * piece.vector;
+                if (!(share * area > 0)) return;
+                result.planes[site].add(share * piece.vector, share * area, piece.position);
+            });
         };
         const std::array<Index, 3> site{labels.site[t[0]], labels.site[t[1]], labels.site[t[2]]};
         if (site[0] == site[1] && site[1] == site[2]) {
@@ -94,7 +96,8 @@ std::vector<agvd::Triangle> label_triangles(const Surface& surface,
     return triangles;
 }
 
-SiteDual label_dual(const Surface& surface, const agvd::DistanceBounds& labels) {
+SiteDual label_dual(const agvd::IntrinsicTriangulation& base, const agvd::DistanceBounds& labels) {
+    const Surface& surface = base.surface();
     SiteDual result{label_triangles(surface, labels), {}};
     struct Crossing {
         std::uint64_t pair;
@@ -124,15 +127,17 @@ SiteDual label_dual(const Surface& surface, const agvd::DistanceBounds& labels) 
             meeting_place(labels, surface.tail(h), surface.head(h), surface.length_of(h)),
             end_margin, 1 - end_margin);
         result.middles.push_back({static_cast<Index>(c.pair >> 32), static_cast<Index>(c.pair),
-                                  c.length, point_on(h, along, c.is_inner ? side_margin : 0)});
+                                  c.length,
+                                  base.to_input(point_on(h, along, c.is_inner ? side_margin : 0))});
     }
     return result;
 }
 
-std::vector<std::optional<SurfacePoint>> boundary_places(const Surface& surface,
+std::vector<std::optional<SurfacePoint>> boundary_places(const agvd::IntrinsicTriangulation& base,
                                                          const agvd::DistanceBounds& labels,
                                                          Index num_sites,
                                                          std::span<const Index> corners) {
+    const Surface& surface = base.surface();
     std::vector<Index> nearest(num_sites, no_index);
     for (Index v = 0; v < surface.num_vertices(); ++v) {
         const Index site = labels.site[v];
@@ -143,7 +148,7 @@ std::vector<std::optional<SurfacePoint>> boundary_places(const Surface& surface,
     std::vector<std::optional<SurfacePoint>> places(num_sites);
     for (Index s = 0; s < num_sites; ++s) {
         if (nearest[s] != no_index) {
-            places[s] = point_on(surface.outgoing[nearest[s]], off_vertex, 0);
+            places[s] = base.to_input(point_on(surface.outgoing[nearest[s]], off_vertex, 0));
         }
     }
     std::vector<bool> has_corner(num_sites, false);
@@ -151,7 +156,7 @@ std::vector<std::optional<SurfacePoint>> boundary_places(const Surface& surface,
         const Index site = labels.site[v];
         if (site == no_index || has_corner[site]) continue;
         has_corner[site] = true;
-        places[site] = agvd::point_at(surface, v);
+        places[site] = agvd::point_at(base.input(), v);
     }
     return places;
 }

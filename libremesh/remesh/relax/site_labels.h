@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "agvd/mesh/surface_point.h"
+#include "agvd/intrinsic/face_pieces.h"
 #include "agvd/propagation/distance_bounds.h"
 #include "agvd/propagation/surface_layout.h"
 #include "remesh/relax/cell_planes.h"
@@ -15,7 +15,10 @@
 namespace remesh::detail {
 
 //! Distances along edges and across them: a few per cent too long, for two sweeps over the edges.
-[[nodiscard]] agvd::DistanceBounds label_vertices(const agvd::Surface& surface,
+//!
+//! \param layout  SurfaceLayout(base.surface()).
+//! \param sites   on the input.
+[[nodiscard]] agvd::DistanceBounds label_vertices(const agvd::IntrinsicTriangulation& base,
                                                   const agvd::SurfaceLayout& layout,
                                                   std::span<const agvd::SurfacePoint> sites,
                                                   int num_threads);
@@ -29,15 +32,16 @@ struct CellMeasures {
     std::vector<CellPlanes> planes;  //!< #sites
 };
 
-//! Faces of two labels are cut where these meet. Cost: O(#F).
+//! Faces of two labels are cut where these meet. Cost: O(#F and pieces).
 [[nodiscard]] CellMeasures measure_cells(const agvd::Surface& surface,
+                                         const agvd::FacePieces& pieces,
                                          const agvd::DistanceBounds& labels, agvd::Index num_sites);
 
 //! A point halfway between two sites whose labels meet.
 struct Middle {
     agvd::Index low = 0, high = 0;  //!< The sites.
     double length = 0;              //!< Of a path between them.
-    agvd::SurfacePoint point;       //!< On the boundary if they meet there, else inside a face.
+    agvd::SurfacePoint point;       //!< Of the input: on the boundary if they meet there.
 };
 
 //! The sites as the vertices of a triangulation: a triangle for each face whose corners have three
@@ -53,7 +57,8 @@ struct SiteDual {
 };
 
 //! Cost: sorting the edges whose ends have two labels.
-[[nodiscard]] SiteDual label_dual(const agvd::Surface& surface, const agvd::DistanceBounds& labels);
+[[nodiscard]] SiteDual label_dual(const agvd::IntrinsicTriangulation& base,
+                                  const agvd::DistanceBounds& labels);
 
 //! For each site the corner that it labels, or else the place on the boundary that is nearest by
 //! its labels, off the vertices, so that the site can move along. Nothing for sites that label no
@@ -62,7 +67,7 @@ struct SiteDual {
 //! \param corners  boundary vertices. Of several that a site labels the first one counts.
 //! Cost: O(#V + #sites).
 [[nodiscard]] std::vector<std::optional<agvd::SurfacePoint>> boundary_places(
-    const agvd::Surface& surface, const agvd::DistanceBounds& labels, agvd::Index num_sites,
-    std::span<const agvd::Index> corners);
+    const agvd::IntrinsicTriangulation& base, const agvd::DistanceBounds& labels,
+    agvd::Index num_sites, std::span<const agvd::Index> corners);
 
 }  // namespace remesh::detail

@@ -1,0 +1,62 @@
+#include "agvd/intrinsic/face_pieces.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include "agvd/mesh/face_area.h"
+
+namespace agvd {
+namespace {
+
+constexpr Index most_pieces = 16;
+
+// Evenly spread points of a triangle, the first at its centroid: a lattice whose steps are powers
+// of the plastic number, folded into the triangle.
+std::array<double, 3> spread_point(Index i) {
+    constexpr double step_x = 0.7548776662466927, step_y = 0.5698402909980532;
+    double x = 1.0 / 3 + i * step_x, y = 1.0 / 3 + i * step_y;
+    x -= std::floor(x);
+    y -= std::floor(y);
+    if (x + y > 1) {
+        x = 1 - x;
+        y = 1 - y;
+    }
+    return {1 - x - y, x, y};
+}
+
+Vec3 area_vector(const Surface& surface, Index face) {
+    const auto& [a, b, c] = surface.mesh.triangles[face];
+    const auto& p = surface.mesh.positions;
+    return (p[b] - p[a]).cross(p[c] - p[a]) / 2;
+}
+
+}  // namespace
+
+FacePieces::FacePieces(const IntrinsicTriangulation& base, double piece_area)
+    : input_(base.input()) {
+    assert(piece_area > 0);
+    const Surface& surface = base.surface();
+    for (Index f = 0; f < surface.num_faces(); ++f) {
+        if (!base.is_changed(f)) continue;
+        if (begin_.empty()) begin_.assign(surface.num_faces(), no_index);
+        begin_[f] = static_cast<Index>(pieces_.size());
+        const double area = face_area(surface, f);
+        const auto count = static_cast<Index>(
+            std::clamp(std::ceil(area / piece_area), 1.0, static_cast<double>(most_pieces)));
+        for (Index i = 0; i < count; ++i) {
+            const SurfacePoint place = base.to_input({FaceId(f), spread_point(i)});
+            const Vec3 normal = area_vector(input_, place.face.value()).normalized();
+            pieces_.push_back({agvd::position(input_.mesh.view(), place), area / count * normal});
+            is_last_.push_back(i + 1 == count ? 1 : 0);
+        }
+    }
+}
+
+SurfacePiece FacePieces::whole(Index face) const {
+    const auto& [a, b, c] = input_.mesh.triangles[face];
+    const auto& p = input_.mesh.positions;
+    return {(p[a] + p[b] + p[c]) / 3, area_vector(input_, face)};
+}
+
+}  // namespace agvd
