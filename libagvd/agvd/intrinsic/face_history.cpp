@@ -202,6 +202,70 @@ void FaceHistory::carry(Way way, const FaceSegment& segment,
     }
 }
 
+Index FaceHistory::num_steps_back(SurfacePoint point) const {
+    Index steps = 0;
+    for (Index link = first_link(Way::Backward, point.face.value()); link != no_index; ++steps) {
+        const Step step(operations_[link / 2], Way::Backward, link % 2);
+        const Shares shares = step.shares_of(point);
+        const Index slot = step.side(shares) >= 0 ? 0 : 1;
+        point = step.pass(shares, slot, false);
+        link = step.next_link(slot);
+    }
+    return steps;
+}
+
+namespace {
+
+// The part of a convex polygon where `side` is not below 0, in the order of its corners.
+template <typename Sides>
+FacePolygon clipped(const FacePolygon& polygon, const Sides& side) {
+    FacePolygon result{polygon.face, 0, {}};
+    for (Index i = 0; i < polygon.num_corners; ++i) {
+        const Index next = i + 1 == polygon.num_corners ? 0 : i + 1;
+        if (side[i] >= 0) result.corner[result.num_corners++] = polygon.corner[i];
+        if ((side[i] > 0 && side[next] < 0) || (side[i] < 0 && side[next] > 0)) {
+            result.corner[result.num_corners++] =
+                between(polygon.corner[i], polygon.corner[next], side[i] / (side[i] - side[next]));
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+bool FaceHistory::parts_of(Index face, Index most_steps, std::vector<FacePolygon>& parts) const {
+    struct Waiting {
+        FacePolygon part;
+        Index link;
+    };
+    std::vector<Waiting> waiting{
+        {{face, 3, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}}, first_link(Way::Backward, face)}};
+    for (Index steps = 0; !waiting.empty(); ++steps) {
+        const auto [part, link] = waiting.back();
+        waiting.pop_back();
+        if (link == no_index) {
+            parts.push_back(part);
+            continue;
+        }
+        if (steps == most_steps || part.num_corners + 2 > FacePolygon::most_corners) return false;
+        const Step step(operations_[link / 2], Way::Backward, link % 2);
+        std::array<double, FacePolygon::most_corners> side;
+        for (Index i = 0; i < part.num_corners; ++i) side[i] = step.side(part.corner[i]);
+        for (const Index slot : {0U, 1U}) {
+            FacePolygon piece = clipped(part, side);
+            for (double& s : side) s = -s;  // The other side.
+            if (piece.num_corners < 3) continue;
+            for (Index i = 0; i < piece.num_corners; ++i) {
+                const SurfacePoint point = step.pass(piece.corner[i], slot, false);
+                piece.face = point.face.value();
+                piece.corner[i] = point.barycentric;
+            }
+            waiting.push_back({piece, step.next_link(slot)});
+        }
+    }
+    return true;
+}
+
 SurfacePoint FaceHistory::forward(SurfacePoint point) const { return carry(Way::Forward, point); }
 SurfacePoint FaceHistory::backward(SurfacePoint point) const { return carry(Way::Backward, point); }
 void FaceHistory::forward(const FaceSegment& segment, std::vector<FaceSegment>& parts) const {

@@ -17,6 +17,15 @@ struct FaceSegment {
     SurfacePoint end;  //!< Of the same face.
 };
 
+//! A convex part of a face.
+struct FacePolygon {
+    static constexpr Index most_corners = 12;
+
+    Index face = no_index;
+    Index num_corners = 0;
+    std::array<std::array<double, 3>, most_corners> corner;  //!< Barycentric, counter-clockwise.
+};
+
 //! An operation lays one or two faces out in a plane and cuts them anew. Barycentric coordinates
 //! pass from the old faces to the new ones by the shares of the quad: sums of terms of one sign, or
 //! differences of numbers below 1, so that each operation costs a few roundings of 1. Coordinates
@@ -44,6 +53,15 @@ public:
     //! Appends the parts of a straight segment within one face, in their order.
     void forward(const FaceSegment& segment, std::vector<FaceSegment>& parts) const;
     void backward(const FaceSegment& segment, std::vector<FaceSegment>& parts) const;
+
+    //! Appends the parts of a face of the end in the faces of the beginning.
+    //! \return false if that takes more than `most_steps` passes of a part through an operation, or
+    //! a
+    //!         part with too many corners; then `parts` means nothing.
+    [[nodiscard]] bool parts_of(Index face, Index most_steps,
+                                std::vector<FacePolygon>& parts) const;
+    //! Operations on the way back. Cost: O(that).
+    [[nodiscard]] Index num_steps_back(SurfacePoint point) const;
 
 private:
     // Slot 0: the face of the half-edge; slot 1: that of the twin (flips only). New faces likewise:

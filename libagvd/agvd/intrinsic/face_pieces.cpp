@@ -37,19 +37,37 @@ FacePieces::FacePieces(const IntrinsicTriangulation& base, double piece_area)
     : input_(base.input()) {
     assert(piece_area > 0);
     const Surface& surface = base.surface();
+    std::vector<InputPart> parts;
     for (Index f = 0; f < surface.num_faces(); ++f) {
         if (!base.is_changed(f)) continue;
         if (begin_.empty()) begin_.assign(surface.num_faces(), no_index);
         begin_[f] = static_cast<Index>(pieces_.size());
-        const double area = face_area(surface, f);
-        const auto count = static_cast<Index>(
-            std::clamp(std::ceil(area / piece_area), 1.0, static_cast<double>(most_pieces)));
-        for (Index i = 0; i < count; ++i) {
-            const SurfacePoint place = base.to_input({FaceId(f), spread_point(i)});
-            const Vec3 normal = area_vector(input_, place.face.value()).normalized();
-            pieces_.push_back({agvd::position(input_.mesh.view(), place), area / count * normal});
-            is_last_.push_back(i + 1 == count ? 1 : 0);
+        parts.clear();
+        if (base.parts_of(f, parts) && !parts.empty()) {
+            add_parts(parts);
+        } else {
+            add_samples(base, f, piece_area);
         }
+        is_last_.resize(pieces_.size(), 0);
+        is_last_.back() = 1;
+    }
+}
+
+void FacePieces::add_parts(std::span<const InputPart> parts) {
+    for (const InputPart& part : parts) {
+        pieces_.push_back({agvd::position(input_.mesh.view(), part.centroid),
+                           part.share * area_vector(input_, part.centroid.face.value())});
+    }
+}
+
+void FacePieces::add_samples(const IntrinsicTriangulation& base, Index face, double piece_area) {
+    const double area = face_area(base.surface(), face);
+    const auto count = static_cast<Index>(
+        std::clamp(std::ceil(area / piece_area), 1.0, static_cast<double>(most_pieces)));
+    for (Index i = 0; i < count; ++i) {
+        const SurfacePoint place = base.to_input({FaceId(face), spread_point(i)});
+        const Vec3 normal = area_vector(input_, place.face.value()).normalized();
+        pieces_.push_back({agvd::position(input_.mesh.view(), place), area / count * normal});
     }
 }
 

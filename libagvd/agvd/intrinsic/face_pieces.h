@@ -20,7 +20,7 @@ struct SurfacePiece {
 class FacePieces {
 public:
     //! \param base        outlives this.
-    //! \param piece_area  of a changed face one piece for each so much area, up to 16; > 0.
+    //! \param piece_area  of a face of needles one piece for each so much area, up to 16; > 0.
     //! Cost: a map to the input for each piece of a changed face; 48 bytes.
     FacePieces(const IntrinsicTriangulation& base, double piece_area);
 
@@ -39,6 +39,8 @@ public:
 
 private:
     [[nodiscard]] SurfacePiece whole(Index face) const;
+    void add_parts(std::span<const InputPart> parts);
+    void add_samples(const IntrinsicTriangulation& base, Index face, double piece_area);
 
     const Surface& input_;
     std::vector<Index> begin_;           // By face, if any is changed; no_index: the input's own.

@@ -188,6 +188,43 @@ void IntrinsicTriangulation::to_intrinsic(const SurfacePoint& begin, const Surfa
     append(segments, parts);
 }
 
+namespace {
+
+// Longer ways back are left to samples.
+constexpr Index most_steps_back = 16, most_part_steps = 64;
+
+// Fans of triangles around the first corner; areas in shares of the face.
+InputPart measure(const detail::FacePolygon& polygon) {
+    const auto& corner = polygon.corner;
+    InputPart part{{FaceId(polygon.face), {0, 0, 0}}, 0};
+    for (Index i = 2; i < polygon.num_corners; ++i) {
+        const double share = (corner[i - 1][1] - corner[0][1]) * (corner[i][2] - corner[0][2]) -
+                             (corner[i - 1][2] - corner[0][2]) * (corner[i][1] - corner[0][1]);
+        part.share += share;
+        for (std::size_t k = 0; k < 3; ++k) {
+            part.centroid.barycentric[k] +=
+                share * (corner[0][k] + corner[i - 1][k] + corner[i][k]) / 3;
+        }
+    }
+    for (double& b : part.centroid.barycentric) b = part.share > 0 ? b / part.share : 1.0 / 3;
+    return part;
+}
+
+}  // namespace
+
+bool IntrinsicTriangulation::parts_of(Index face, std::vector<InputPart>& parts) const {
+    constexpr double third = 1.0 / 3;
+    if (history_->num_steps_back({FaceId(face), {third, third, third}}) > most_steps_back)
+        return false;
+    std::vector<detail::FacePolygon> polygons;
+    if (!history_->parts_of(face, most_part_steps, polygons)) return false;
+    for (const detail::FacePolygon& polygon : polygons) {
+        const InputPart part = measure(polygon);
+        if (part.share > 0) parts.push_back(part);
+    }
+    return true;
+}
+
 std::size_t IntrinsicTriangulation::bytes() const {
     const std::size_t half_edges = surface_.twin.capacity() * (2 * sizeof(Index) + sizeof(Vec2));
     const std::size_t vertices = surface_.mesh.positions.capacity() * (sizeof(Vec3) + 8);

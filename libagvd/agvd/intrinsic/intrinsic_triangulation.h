@@ -29,6 +29,12 @@ struct IntrinsicCounts {
     bool is_delaunay = true;  //!< False: flips ended before the condition held everywhere.
 };
 
+//! A convex part of a face of the input.
+struct InputPart {
+    SurfacePoint centroid;
+    double share = 0;  //!< Of the face's area.
+};
+
 //! The input's surface and vertices, other edges. An edge of the input with two triangles beside it
 //! that fail the Delaunay condition is replaced by the other diagonal of these, unfolded into one
 //! plane ([bobenko2007], [fisher2007], [sharp2019]): distances on the surface stay what they are,
@@ -81,6 +87,12 @@ public:
     //! The same for a segment in one face of the input.
     void to_intrinsic(const SurfacePoint& begin, const SurfacePoint& end,
                       std::vector<SurfacePoint>& parts) const;
+
+    //! The convex parts of the input's faces that make up a face of this: what it is in space.
+    //! \param parts  appended to.
+    //! \return false where that would take long, as with hundreds of needles; `parts` is then as it
+    //! was. Cost: some 50 ns for each operation and part, 64 at most.
+    [[nodiscard]] bool parts_of(Index face, std::vector<InputPart>& parts) const;
 
     //! Beyond the input.
     [[nodiscard]] std::size_t bytes() const;
