@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "agvd/diagram/diagram_on_input.h"
 #include "agvd/metrics/compare_diagrams.h"
 #include "arguments.h"
 #include "remesh/io/read_diagram.h"
@@ -64,10 +65,13 @@ void run_diagram(const DiagramArguments& arguments) {
     agvd::PropagationOptions propagating = arguments.propagation;
     propagating.num_threads = arguments.common.threads;
     propagating.progress = progress_of("propagate");
-    const agvd::Propagation propagation = agvd::propagate(surface, sites, propagating);
-    const agvd::Diagram diagram = agvd::build_diagram(
-        surface, sites, propagation,
-        {.num_threads = arguments.common.threads, .progress = progress_of("diagram")});
+    const agvd::IntrinsicTriangulation base(surface);
+    const std::vector<agvd::SurfacePoint> on_base = base.to_intrinsic(sites);
+    const agvd::Propagation propagation = agvd::propagate(base.surface(), on_base, propagating);
+    const agvd::Diagram diagram = agvd::diagram_on_input(
+        base, agvd::build_diagram(
+                  base.surface(), on_base, propagation,
+                  {.num_threads = arguments.common.threads, .progress = progress_of("diagram")}));
 
     cli::stop_if_interrupted();
     for (const fs::path& output : arguments.outputs) {
@@ -144,11 +148,14 @@ agvd::Diagram exact_diagram(const agvd::Surface& surface,
     const auto progress_of = [&](const char* stage) {
         return [&console, stage](double fraction) { return console.progress(stage, fraction); };
     };
+    const agvd::IntrinsicTriangulation base(surface);
+    const std::vector<agvd::SurfacePoint> on_base = base.to_intrinsic(sites);
     const agvd::Propagation propagation = agvd::propagate(
-        surface, sites,
+        base.surface(), on_base,
         {.max_error = 0, .num_threads = threads, .progress = progress_of("propagate")});
-    return agvd::build_diagram(surface, sites, propagation,
-                               {.num_threads = threads, .progress = progress_of("diagram")});
+    return agvd::diagram_on_input(
+        base, agvd::build_diagram(base.surface(), on_base, propagation,
+                                  {.num_threads = threads, .progress = progress_of("diagram")}));
 }
 
 void run_compare(const CompareArguments& arguments) {

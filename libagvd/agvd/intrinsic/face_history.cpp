@@ -202,16 +202,17 @@ void FaceHistory::carry(Way way, const FaceSegment& segment,
     }
 }
 
-Index FaceHistory::num_steps_back(SurfacePoint point) const {
-    Index steps = 0;
-    for (Index link = first_link(Way::Backward, point.face.value()); link != no_index; ++steps) {
+bool FaceHistory::is_near(SurfacePoint point, Index most_steps) const {
+    Index link = first_link(Way::Backward, point.face.value());
+    for (Index steps = 0; link != no_index; ++steps) {
+        if (steps == most_steps) return false;
         const Step step(operations_[link / 2], Way::Backward, link % 2);
         const Shares shares = step.shares_of(point);
         const Index slot = step.side(shares) >= 0 ? 0 : 1;
         point = step.pass(shares, slot, false);
         link = step.next_link(slot);
     }
-    return steps;
+    return true;
 }
 
 namespace {

@@ -60,8 +60,8 @@ public:
     //!         part with too many corners; then `parts` means nothing.
     [[nodiscard]] bool parts_of(Index face, Index most_steps,
                                 std::vector<FacePolygon>& parts) const;
-    //! Operations on the way back. Cost: O(that).
-    [[nodiscard]] Index num_steps_back(SurfacePoint point) const;
+    //! Whether a point passes no more operations than that on its way back.
+    [[nodiscard]] bool is_near(SurfacePoint point, Index most_steps) const;
 
 private:
     // Slot 0: the face of the half-edge; slot 1: that of the twin (flips only). New faces likewise:

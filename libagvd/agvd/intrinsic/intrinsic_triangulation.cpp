@@ -214,8 +214,7 @@ InputPart measure(const detail::FacePolygon& polygon) {
 
 bool IntrinsicTriangulation::parts_of(Index face, std::vector<InputPart>& parts) const {
     constexpr double third = 1.0 / 3;
-    if (history_->num_steps_back({FaceId(face), {third, third, third}}) > most_steps_back)
-        return false;
+    if (!history_->is_near({FaceId(face), {third, third, third}}, most_steps_back)) return false;
     std::vector<detail::FacePolygon> polygons;
     if (!history_->parts_of(face, most_part_steps, polygons)) return false;
     for (const detail::FacePolygon& polygon : polygons) {

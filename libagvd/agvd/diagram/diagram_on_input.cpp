@@ -1,0 +1,83 @@
+#include "agvd/diagram/diagram_on_input.h"
+
+#include "agvd/mesh/point_faces.h"
+
+namespace agvd {
+namespace {
+
+// Draws Voronoi edges point by point.
+class Drawing {
+public:
+    Drawing(const IntrinsicTriangulation& base, const Diagram& diagram)
+        : base_(base), diagram_(diagram) {}
+
+    void run() {
+        edge_points.push_back(0);
+        for (Index e = 0; e < diagram_.edges.size(); ++e) {
+            const Index begin = diagram_.edge_points[e], end = diagram_.edge_points[e + 1];
+            for (Index i = begin; i + 1 < end; ++i) draw(i, i + 1);
+            if (diagram_.edges[e].tail == no_index) {
+                if (begin < end) draw(end - 1, begin);
+            } else {
+                add(base_.to_input(diagram_.points[end - 1]), diagram_.point_distance[end - 1]);
+            }
+            edge_points.push_back(static_cast<Index>(points.size()));
+        }
+    }
+
+    std::vector<SurfacePoint> points;
+    std::vector<double> point_distance;
+    std::vector<Index> edge_points;
+
+private:
+    void add(const SurfacePoint& point, double distance) {
+        points.push_back(point);
+        point_distance.push_back(distance);
+    }
+
+    // A segment but for its end.
+    void draw(Index from, Index to) {
+        const SurfacePoint& a = diagram_.points[from];
+        const SurfacePoint& b = diagram_.points[to];
+        const Index face = common_faces(base_.surface(), a, b).first;
+        if (face == no_index || !base_.is_changed(face)) {
+            add(base_.to_input(a), diagram_.point_distance[from]);
+            return;
+        }
+        parts_.clear();
+        base_.to_input(*seen_from(base_.surface(), a, face), *seen_from(base_.surface(), b, face),
+                       parts_);
+        const MeshView mesh = base_.input().mesh.view();
+        double length = 0;
+        for (std::size_t i = 0; i < parts_.size(); i += 2) {
+            length += (position(mesh, parts_[i + 1]) - position(mesh, parts_[i])).norm();
+        }
+        double passed = 0;
+        for (std::size_t i = 0; i < parts_.size(); i += 2) {
+            const double share = length > 0 ? passed / length : 0;
+            add(parts_[i],
+                (1 - share) * diagram_.point_distance[from] + share * diagram_.point_distance[to]);
+            passed += (position(mesh, parts_[i + 1]) - position(mesh, parts_[i])).norm();
+        }
+    }
+
+    const IntrinsicTriangulation& base_;
+    const Diagram& diagram_;
+    std::vector<SurfacePoint> parts_;
+};
+
+}  // namespace
+
+Diagram diagram_on_input(const IntrinsicTriangulation& base, Diagram diagram) {
+    Drawing drawing(base, diagram);
+    drawing.run();
+    diagram.points = std::move(drawing.points);
+    diagram.point_distance = std::move(drawing.point_distance);
+    diagram.edge_points = std::move(drawing.edge_points);
+    diagram.vertices = base.to_input(diagram.vertices);
+    diagram.nearest_site.resize(base.input().num_vertices());
+    diagram.nearest_distance.resize(base.input().num_vertices());
+    return diagram;
+}
+
+}  // namespace agvd
