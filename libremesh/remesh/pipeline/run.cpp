@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "agvd/mesh/distinct_points.h"
 #include "agvd/mesh/point_faces.h"
@@ -57,6 +58,7 @@ public:
         drop_duplicates();
         build_mesh();
         check_mesh();
+        if (clean_.mesh.triangles.empty()) clean_.mesh = std::move(surface_.mesh);
         result_.sites = to_original(result_.sites, input_, clean_);
         return std::move(result_);
     }
@@ -65,9 +67,11 @@ private:
     void clean() {
         const StageClock clock(Stage::Clean, result_);
         agvd::poll(progress_of(Stage::Clean, options_), 0);
-        clean_ = clean_input(input_);
+        clean_ = clean_input(input_, options_.num_threads);
         result_.cleaned = clean_.counts;
-        result_.input_topology = analyze_topology(clean_.mesh.view());
+        result_.input_topology = clean_.connectivity.twin.empty()
+                                     ? analyze_topology(clean_.mesh.view())
+                                     : analyze_topology(clean_.mesh.view(), clean_.connectivity);
         if (options_.drop_components > 0) {
             result_.components_dropped =
                 drop_components(clean_, result_.input_topology, options_.drop_components);
@@ -86,6 +90,10 @@ private:
         const std::size_t num_sites =
             options_.sites ? options_.sites->size() : options_.num_samples;
         spacing_ = std::sqrt(area / static_cast<double>(std::max<std::size_t>(num_sites, 1)));
+        if (!agvd::has_long_edges(clean_.mesh.view(), longest_edge * spacing_)) {
+            take_as_it_is();
+            return;
+        }
         unrefined_ = clean_.mesh;
         flip_flat_edges(clean_.mesh, longest_edge * spacing_);
         agvd::RefinedMesh refined =
@@ -98,7 +106,20 @@ private:
         }
         clean_.face_origin = std::move(refined.face_origin);
         result_.refined_faces = static_cast<Index>(clean_.mesh.triangles.size());
-        surface_ = agvd::build_surface(clean_.mesh.view());
+        surface_ = agvd::build_surface(clean_.mesh.view(), options_.num_threads);
+        layout_.emplace(surface_, options_.num_threads);
+    }
+
+    // Nothing to refine: what cleaning has found is handed on. The mesh moves, unless given sites
+    // still need it there.
+    void take_as_it_is() {
+        component_ = result_.input_topology.face_component;
+        result_.refined_faces = static_cast<Index>(clean_.mesh.triangles.size());
+        agvd::TriangleMesh mesh = options_.sites ? clean_.mesh : std::exchange(clean_.mesh, {});
+        surface_ = clean_.connectivity.twin.empty()
+                       ? agvd::build_surface(mesh.view(), options_.num_threads)
+                       : agvd::build_surface(std::move(mesh), std::move(clean_.connectivity),
+                                             options_.num_threads);
         layout_.emplace(surface_, options_.num_threads);
     }
 
@@ -316,8 +337,10 @@ private:
         const agvd::TriangleMesh placed{positions_of(mesh), mesh.triangles};
         CrossingFaces found = find_self_intersections(placed.view(), options_.num_threads);
         if (found && !found->empty() && !has_judged_input_) {
+            const bool is_refined = !unrefined_.triangles.empty();
+            const agvd::TriangleMesh& cleaned = is_refined ? unrefined_ : surface_.mesh;
             result_.input_self_intersections = static_cast<Index>(
-                find_self_intersections(unrefined_.view(), options_.num_threads)->size());
+                find_self_intersections(cleaned.view(), options_.num_threads)->size());
             has_judged_input_ = true;
         }
         return found;
@@ -365,8 +388,8 @@ private:
     const RemeshOptions& options_;
     const int most_mends_;
     RemeshResult result_;
-    agvd::TriangleMesh unrefined_;  // Cleaned.
-    CleanResult clean_;             // Cleaned, then refined.
+    agvd::TriangleMesh unrefined_;  // Cleaned; empty where nothing was refined.
+    CleanResult clean_;             // Cleaned, then refined; or its mesh is that of surface_.
     std::vector<Index> component_;  // #F of it.
     double spacing_ = 0;            // Mean distance of the sites.
     Surface surface_;
