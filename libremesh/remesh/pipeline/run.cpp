@@ -294,7 +294,9 @@ private:
         for (const agvd::SiteId site : dual.diagram.nearest_site) {
             nearest.push_back(site.is_valid() ? vertex[site.value()] : no_index);
         }
-        if (options_.fit.value_or(is_relaxed())) fit_vertices(surface_, nearest, placed);
+        if (options_.fit.value_or(is_relaxed())) {
+            fit_vertices(surface_, nearest, placed, options_.num_threads);
+        }
         if (is_relaxed()) improve_shape(surface_, nearest, placed);
         agvd::poll(progress_of(Stage::Place, options_), 1);
         return placed;
