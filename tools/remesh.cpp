@@ -125,7 +125,8 @@ void check_outputs(const Arguments& arguments) {
 void run_job(const Arguments& arguments) {
     cli::Console console(arguments.common);
     check_outputs(arguments);
-    const remesh::MeshFile input = remesh::read_mesh(arguments.input);
+    remesh::MeshFile input = remesh::read_mesh(arguments.input);
+    std::vector<agvd::Index>().swap(input.face_polygon);  // Nobody reads it.
     console.info(cli::describe(arguments.input, input.mesh.view()));
     remesh::RemeshOptions options{.num_samples = arguments.sampling.num_samples,
                                   .vertex_count = arguments.vertex_count,

@@ -66,6 +66,32 @@ TEST(CleanInput, LeavesCleanMeshesAsTheyAre) {
     expect_unchanged(turned(shapes::cube()));
 }
 
+TEST(CleanInput, HandsConnectivityOnWhereNothingWasRepaired) {
+    for (const TriangleMesh& mesh : {shapes::sphere(2), shapes::tube(9, 4)}) {
+        const remesh::CleanResult clean = remesh::clean_input(mesh.view());
+        const auto expected = agvd::find_connectivity(mesh.view(), 1);
+        EXPECT_EQ(clean.connectivity.twin, expected->twin);
+        EXPECT_EQ(clean.connectivity.outgoing, expected->outgoing);
+        EXPECT_EQ(clean.counts, remesh::CleanCounts());
+    }
+    TriangleMesh mesh = shapes::sphere(2);
+    mesh.positions.emplace_back(9, 9, 9);
+    const remesh::CleanResult clean = remesh::clean_input(mesh.view());
+    EXPECT_EQ(clean.counts.isolated_vertices, 1u);
+    EXPECT_TRUE(clean.connectivity.twin.empty());
+}
+
+TEST(CleanInput, DropsOneOfTwoFacesBackToBack) {
+    TriangleMesh mesh = shapes::join(shapes::tetrahedron(), shapes::tetrahedron());
+    mesh.triangles.resize(4);
+    mesh.triangles.push_back({4, 5, 6});
+    mesh.triangles.push_back({4, 6, 5});
+    mesh.positions.pop_back();
+    const remesh::CleanResult clean = remesh::clean_input(mesh.view());
+    EXPECT_EQ(clean.counts.duplicate_faces, 1u);
+    EXPECT_EQ(clean.mesh.triangles.size(), 5u);
+}
+
 TEST(CleanInput, LeavesClosedPartsThatTouchAsTheyAre) {
     TriangleMesh shifted = shapes::cube();
     for (Vec3& p : shifted.positions) p += Vec3(1, 1, 0);

@@ -51,6 +51,8 @@ TEST(Refine, EachFaceIsPartOfItsOrigin) {
 
 TEST(Refine, ShortEdgesLeaveTheMeshAsItIs) {
     const TriangleMesh mesh = shapes::sphere(2);
+    EXPECT_FALSE(has_long_edges(mesh.view(), 3));
+    EXPECT_TRUE(has_long_edges(mesh.view(), 0.2));
     const RefinedMesh refined = split_long_edges(mesh.view(), 3);
     EXPECT_EQ(refined.mesh.triangles, mesh.triangles);
     EXPECT_EQ(refined.mesh.positions, mesh.positions);

@@ -40,3 +40,23 @@ TEST(Topology, DefectsAreSeen) {
     }
     EXPECT_FALSE(analyze_topology(mesh.view()).is_manifold) << "two umbrellas at vertex 0";
 }
+
+TEST(Topology, IsTheSameWhereConnectivityIsKnown) {
+    const agvd::TriangleMesh mixed =
+        shapes::join(shapes::join(shapes::tube(8, 3), shapes::torus(9, 7)),
+                     shapes::join(shapes::grid(4), shapes::cube()));
+    for (const agvd::TriangleMesh& mesh : {shapes::sphere(2), shapes::torus(9, 7), mixed}) {
+        const auto expected = analyze_topology(mesh.view());
+        const auto found = analyze_topology(mesh.view(), *agvd::find_connectivity(mesh.view(), 1));
+        EXPECT_TRUE(found.is_manifold && found.is_oriented);
+        EXPECT_EQ(found.face_component, expected.face_component);
+        ASSERT_EQ(found.components.size(), expected.components.size());
+        for (std::size_t i = 0; i < found.components.size(); ++i) {
+            EXPECT_EQ(found.components[i].faces, expected.components[i].faces);
+            EXPECT_EQ(found.components[i].euler, expected.components[i].euler);
+            EXPECT_EQ(found.components[i].boundary_loops, expected.components[i].boundary_loops);
+            EXPECT_EQ(found.components[i].genus, expected.components[i].genus);
+            EXPECT_EQ(found.components[i].area, expected.components[i].area);
+        }
+    }
+}

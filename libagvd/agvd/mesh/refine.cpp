@@ -93,6 +93,15 @@ private:
 
 }  // namespace
 
+bool has_long_edges(const MeshView& mesh, double max_length) {
+    const auto is_long = [&](Index a, Index b) {
+        return (mesh.positions[a] - mesh.positions[b]).squaredNorm() > max_length * max_length;
+    };
+    return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
+        return is_long(t[0], t[1]) || is_long(t[1], t[2]) || is_long(t[2], t[0]);
+    });
+}
+
 RefinedMesh split_long_edges(const MeshView& mesh, double max_length) {
     assert(max_length > 0);
     return EdgeSplitter(mesh, max_length).run();

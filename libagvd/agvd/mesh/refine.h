@@ -11,6 +11,9 @@ struct RefinedMesh {
     std::vector<Index> face_origin;  //!< #F: the input face that each face is a part of.
 };
 
+//! Whether split_long_edges would split any.
+[[nodiscard]] bool has_long_edges(const MeshView& mesh, double max_length);
+
 //! Halves edges until none is longer than max_length; neighbouring faces stay joined. With no such
 //! edge the mesh comes back as it is.
 //!

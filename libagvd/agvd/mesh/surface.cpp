@@ -2,15 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <string>
+#include <tuple>
 
-#include "agvd/core/bucket_sort.h"
 #include "agvd/core/error.h"
+#include "agvd/core/parallel.h"
 
 namespace agvd {
 namespace {
 
 constexpr const char* remedy = "; repair the mesh first (remesh::clean_input)";
+constexpr Index grain = 1 << 14;  // Vertices, edges or half-edges.
 
 void check_elements(const MeshView& mesh) {
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
@@ -37,100 +40,120 @@ void check_elements(const MeshView& mesh) {
     }
 }
 
-// Pairs half-edges by sorting them under their undirected key.
-void connect(Surface& surface) {
-    struct Key {
-        std::uint64_t ends;
-        Index half_edge;
+// The twins; throws at the first edge that has none.
+std::vector<Index> pair_or_explain(const MeshView& mesh) {
+    struct Side {
+        Index low, high, half_edge;
     };
-    const auto num_half_edges = static_cast<Index>(3 * surface.mesh.triangles.size());
-    std::vector<Key> keys(num_half_edges);
-    for (Index h = 0; h < num_half_edges; ++h) {
-        const Index a = surface.tail(h);
-        const Index b = surface.head(h);
-        keys[h] = {std::uint64_t{std::min(a, b)} << 32 | std::max(a, b), h};
+    const auto tail = [&](Index h) { return mesh.triangles[h / 3][h % 3]; };
+    std::vector<Side> sides;
+    for (Index h = 0; h < 3 * mesh.triangles.size(); ++h) {
+        const auto [low, high] = std::minmax({tail(h), tail(next_half_edge(h))});
+        sides.push_back({low, high, h});
     }
-    keys = sort_in_buckets(
-        keys, surface.num_vertices(),
-        [](const Key& key) { return static_cast<Index>(key.ends >> 32); },
-        [](const Key& a, const Key& b) {
-            return a.ends != b.ends ? a.ends < b.ends : a.half_edge < b.half_edge;
-        });
-    surface.twin.assign(num_half_edges, no_index);
-    for (std::size_t i = 0; i < keys.size();) {
-        std::size_t end = i + 1;
-        while (end < keys.size() && keys[end].ends == keys[i].ends) ++end;
-        const Index h = keys[i].half_edge;
+    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+        return std::tie(a.low, a.high, a.half_edge) < std::tie(b.low, b.high, b.half_edge);
+    });
+    std::vector<Index> twin(sides.size(), no_index);
+    for (std::size_t i = 0, end = 0; i < sides.size(); i = end) {
+        while (end < sides.size() && sides[end].low == sides[i].low &&
+               sides[end].high == sides[i].high) {
+            ++end;
+        }
+        const Index h = sides[i].half_edge;
         if (end - i > 2) {
-            throw InvalidInput("the edge from vertex " + std::to_string(surface.tail(h)) + " to " +
-                               std::to_string(surface.head(h)) + " has " + std::to_string(end - i) +
-                               " faces" + remedy);
+            throw InvalidInput("the edge from vertex " + std::to_string(tail(h)) + " to " +
+                               std::to_string(tail(next_half_edge(h))) + " has " +
+                               std::to_string(end - i) + " faces" + remedy);
         }
-        if (end - i == 2) {
-            const Index other = keys[i + 1].half_edge;
-            if (surface.tail(h) == surface.tail(other)) {
-                throw InvalidInput("faces " + std::to_string(h / 3) + " and " +
-                                   std::to_string(other / 3) + " are oriented differently" +
-                                   remedy);
-            }
-            surface.twin[h] = other;
-            surface.twin[other] = h;
+        if (end - i < 2) continue;
+        const Index other = sides[i + 1].half_edge;
+        if (tail(h) == tail(other)) {
+            throw InvalidInput("faces " + std::to_string(h / 3) + " and " +
+                               std::to_string(other / 3) + " are oriented differently" + remedy);
         }
-        i = end;
+        twin[h] = other;
+        twin[other] = h;
     }
-    // Edges are numbered in the order of their lower half-edge, so that neighbours stay close.
-    surface.edge.assign(num_half_edges, no_index);
-    for (Index h = 0; h < num_half_edges; ++h) {
-        if (surface.edge[h] != no_index) continue;
-        surface.edge[h] = surface.num_edges();
-        if (surface.twin[h] != no_index) surface.edge[surface.twin[h]] = surface.num_edges();
-        surface.edge_half.push_back(h);
-    }
+    return twin;
 }
 
-void find_outgoing(Surface& surface) {
-    const Index num_vertices = surface.num_vertices();
-    std::vector<Index> degree(num_vertices, 0);
-    surface.outgoing.assign(num_vertices, no_index);
-    for (Index h = 0; h < surface.twin.size(); ++h) {
-        const Index v = surface.tail(h);
+// Tells why find_connectivity found nothing.
+[[noreturn]] void explain(const MeshView& mesh) {
+    const std::vector<Index> twin = pair_or_explain(mesh);
+    std::vector<Index> degree(mesh.positions.size(), 0), outgoing(mesh.positions.size(), no_index);
+    for (Index h = 0; h < twin.size(); ++h) {
+        const Index v = mesh.triangles[h / 3][h % 3];
         ++degree[v];
-        if (surface.outgoing[v] == no_index || surface.twin[h] == no_index) surface.outgoing[v] = h;
+        if (outgoing[v] == no_index || twin[h] == no_index) outgoing[v] = h;
     }
-    for (Index v = 0; v < num_vertices; ++v) {
-        if (surface.outgoing[v] == no_index) continue;
+    Index vertex = 0;
+    for (; vertex < degree.size(); ++vertex) {
+        if (degree[vertex] == 0) continue;
         Index seen = 0;
-        Index h = surface.outgoing[v];
+        Index h = outgoing[vertex];
         do {
             ++seen;
-            h = surface.twin[Surface::previous(h)];
-        } while (h != no_index && h != surface.outgoing[v]);
-        if (seen != degree[v]) {
-            throw InvalidInput("the faces around vertex " + std::to_string(v) +
-                               " do not form one fan" + remedy);
-        }
+            h = twin[previous_half_edge(h)];
+        } while (h != no_index && h != outgoing[vertex]);
+        if (seen != degree[vertex]) break;
     }
+    throw InvalidInput("the faces around vertex " + std::to_string(vertex) +
+                       " do not form one fan" + remedy);
 }
 
-void measure(Surface& surface) {
-    surface.length.resize(surface.num_edges());
-    for (Index e = 0; e < surface.num_edges(); ++e) {
-        const Index h = surface.edge_half[e];
-        surface.length[e] =
-            (surface.mesh.positions[surface.head(h)] - surface.mesh.positions[surface.tail(h)])
-                .norm();
-    }
-    surface.apex.resize(surface.twin.size());
-    for (Index h = 0; h < surface.apex.size(); ++h) {
-        const Vec3& origin = surface.mesh.positions[surface.tail(h)];
-        const Vec3 along = surface.mesh.positions[surface.head(h)] - origin;
-        const Vec3 up = surface.mesh.positions[surface.tail(Surface::previous(h))] - origin;
-        const double length = surface.length_of(h);
-        const double doubled_area = along.cross(up).norm();
-        if (!(doubled_area > 0) || !std::isfinite(doubled_area)) {
-            throw InvalidInput("face " + std::to_string(h / 3) + " has no area" + remedy);
+// Edges are numbered in the order of their lower half-edge, so that neighbours stay close.
+void number_edges(Surface& surface, int num_threads) {
+    const auto num_half_edges = static_cast<Index>(surface.twin.size());
+    const auto is_first = [&](Index h) { return surface.twin[h] > h; };  // no_index is, too.
+    std::vector<Index> begin_of(num_chunks(num_half_edges, grain) + 1, 0);
+    parallel_chunks(num_half_edges, grain, num_threads, [&](Index chunk, Index begin, Index end) {
+        Index count = 0;
+        for (Index h = begin; h < end; ++h) count += is_first(h) ? 1 : 0;
+        begin_of[chunk + 1] = count;
+    });
+    std::partial_sum(begin_of.begin(), begin_of.end(), begin_of.begin());
+    surface.edge.resize(num_half_edges);
+    surface.edge_half.resize(begin_of.back());
+    parallel_chunks(num_half_edges, grain, num_threads, [&](Index chunk, Index begin, Index end) {
+        Index edge = begin_of[chunk];
+        for (Index h = begin; h < end; ++h) {
+            if (!is_first(h)) continue;
+            surface.edge[h] = edge;
+            if (surface.twin[h] != no_index) surface.edge[surface.twin[h]] = edge;
+            surface.edge_half[edge++] = h;
         }
-        surface.apex[h] = {along.dot(up) / length, doubled_area / length};
+    });
+}
+
+void measure(Surface& surface, int num_threads) {
+    const auto& p = surface.mesh.positions;
+    surface.length.resize(surface.num_edges());
+    parallel_chunks(surface.num_edges(), grain, num_threads, [&](Index, Index begin, Index end) {
+        for (Index e = begin; e < end; ++e) {
+            const Index h = surface.edge_half[e];
+            surface.length[e] = (p[surface.head(h)] - p[surface.tail(h)]).norm();
+        }
+    });
+    surface.apex.resize(surface.twin.size());
+    const auto num_half_edges = static_cast<Index>(surface.twin.size());
+    std::vector<Index> flat(num_chunks(num_half_edges, grain), no_index);
+    parallel_chunks(num_half_edges, grain, num_threads, [&](Index chunk, Index begin, Index end) {
+        for (Index h = begin; h < end; ++h) {
+            const Vec3& origin = p[surface.tail(h)];
+            const Vec3 along = p[surface.head(h)] - origin;
+            const Vec3 up = p[surface.tail(Surface::previous(h))] - origin;
+            const double length = surface.length_of(h);
+            const double doubled_area = along.cross(up).norm();
+            if (!(doubled_area > 0) || !std::isfinite(doubled_area)) {
+                flat[chunk] = std::min(flat[chunk], h);
+            }
+            surface.apex[h] = {along.dot(up) / length, doubled_area / length};
+        }
+    });
+    const auto first = std::min_element(flat.begin(), flat.end());
+    if (first != flat.end() && *first != no_index) {
+        throw InvalidInput("face " + std::to_string(*first / 3) + " has no area" + remedy);
     }
 }
 
@@ -158,30 +181,43 @@ struct ConeAngle {
     static constexpr double tolerance = 1e-9;
 };
 
-void find_turning_vertices(Surface& surface) {
-    std::vector<ConeAngle> cones(surface.num_vertices());
-    for (Index h = 0; h < surface.twin.size(); ++h) {
-        cones[surface.tail(h)].add(surface.apex[h].normalized());
-    }
+void find_turning_vertices(Surface& surface, int num_threads) {
     surface.can_turn.resize(surface.num_vertices());
-    for (Index v = 0; v < surface.num_vertices(); ++v) {
-        const bool can_turn =
-            surface.is_boundary_vertex(v) ? cones[v].exceeds_pi() : cones[v].exceeds_two_pi();
-        surface.can_turn[v] = can_turn ? 1 : 0;
-    }
+    parallel_chunks(surface.num_vertices(), grain, num_threads, [&](Index, Index begin, Index end) {
+        for (Index v = begin; v < end; ++v) {
+            const Index first = surface.outgoing[v];
+            ConeAngle cone;
+            for (Index h = first; h != no_index;) {
+                cone.add(surface.apex[h].normalized());
+                h = surface.twin[Surface::previous(h)];
+                if (h == first) break;
+            }
+            const bool can_turn =
+                surface.is_boundary_vertex(v) ? cone.exceeds_pi() : cone.exceeds_two_pi();
+            surface.can_turn[v] = can_turn ? 1 : 0;
+        }
+    });
 }
 
 }  // namespace
 
-Surface build_surface(const MeshView& mesh) {
+Surface build_surface(const MeshView& mesh, int num_threads) {
     check_elements(mesh);
+    std::optional<Connectivity> connectivity = find_connectivity(mesh, num_threads);
+    if (!connectivity) explain(mesh);
+    return build_surface({{mesh.positions.begin(), mesh.positions.end()},
+                          {mesh.triangles.begin(), mesh.triangles.end()}},
+                         *std::move(connectivity), num_threads);
+}
+
+Surface build_surface(TriangleMesh mesh, Connectivity connectivity, int num_threads) {
     Surface surface;
-    surface.mesh.positions.assign(mesh.positions.begin(), mesh.positions.end());
-    surface.mesh.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
-    connect(surface);
-    find_outgoing(surface);
-    measure(surface);
-    find_turning_vertices(surface);
+    surface.mesh = std::move(mesh);
+    surface.twin = std::move(connectivity.twin);
+    surface.outgoing = std::move(connectivity.outgoing);
+    number_edges(surface, num_threads);
+    measure(surface, num_threads);
+    find_turning_vertices(surface, num_threads);
     return surface;
 }
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "agvd/core/half_edge.h"
+#include "agvd/mesh/connectivity.h"
 #include "agvd/mesh/mesh_view.h"
 
 namespace agvd {
@@ -50,8 +51,17 @@ struct Surface {
 //!        (repeated corner or zero area in double), two faces are inconsistently oriented, or an
 //!        edge or vertex is not manifold; the text names the element. remesh::clean_input repairs
 //!        all of these.
-//! Cost: O(n log n) time, O(n) space.
-[[nodiscard]] Surface build_surface(const MeshView& mesh);
+//! \param num_threads  >= 0; 0: all cores. The result is the same for any number.
+//! Cost: O(n).
+[[nodiscard]] Surface build_surface(const MeshView& mesh, int num_threads = 0);
+
+//! The same where connectivity is known already; nothing is copied.
+//!
+//! \param connectivity  find_connectivity(mesh).
+//! \param num_threads   >= 0; 0: all cores. The result is the same for any number.
+//! \throw InvalidInput  a face has no area; the text names the first.
+//! Cost: O(n).
+[[nodiscard]] Surface build_surface(TriangleMesh mesh, Connectivity connectivity, int num_threads);
 
 //! Boundary loops: each a cycle of half-edges without twin, head of one = tail of the next, in the
 //! direction that has the surface on the left; loops ordered by their lowest half-edge.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "agvd/intrinsic/face_pieces.h"
 #include "agvd/mesh/distinct_points.h"
@@ -58,6 +59,7 @@ public:
         drop_duplicates();
         build_mesh();
         check_mesh();
+        if (clean_.mesh.triangles.empty()) clean_.mesh = std::move(surface_.mesh);
         result_.sites = to_original(result_.sites, input_, clean_);
         return std::move(result_);
     }
@@ -66,9 +68,11 @@ private:
     void clean() {
         const StageClock clock(Stage::Clean, result_);
         agvd::poll(progress_of(Stage::Clean, options_), 0);
-        clean_ = clean_input(input_);
+        clean_ = clean_input(input_, options_.num_threads);
         result_.cleaned = clean_.counts;
-        result_.input_topology = analyze_topology(clean_.mesh.view());
+        result_.input_topology = clean_.connectivity.twin.empty()
+                                     ? analyze_topology(clean_.mesh.view())
+                                     : analyze_topology(clean_.mesh.view(), clean_.connectivity);
         if (options_.drop_components > 0) {
             result_.components_dropped =
                 drop_components(clean_, result_.input_topology, options_.drop_components);
@@ -88,12 +92,21 @@ private:
             options_.sites ? options_.sites->size() : options_.num_samples;
         const double cell_area = area / static_cast<double>(std::max<std::size_t>(num_sites, 1));
         spacing_ = std::sqrt(cell_area);
-        surface_ = agvd::build_surface(clean_.mesh.view());
+        build_input_surface();
         base_.emplace(surface_, agvd::IntrinsicOptions{.max_length = longest_edge * spacing_});
         pieces_.emplace(*base_, cell_area * piece_share);
         layout_.emplace(base_->surface(), options_.num_threads);
         find_components();
         result_.refined_faces = base_->surface().num_faces();
+    }
+
+    // What cleaning has found is handed on. The mesh moves, unless given sites still need it there.
+    void build_input_surface() {
+        agvd::TriangleMesh mesh = options_.sites ? clean_.mesh : std::exchange(clean_.mesh, {});
+        surface_ = clean_.connectivity.twin.empty()
+                       ? agvd::build_surface(mesh.view(), options_.num_threads)
+                       : agvd::build_surface(std::move(mesh), std::move(clean_.connectivity),
+                                             options_.num_threads);
     }
 
     // Of the base's faces: those of the input keep their numbers, and flips their components.
@@ -310,7 +323,9 @@ private:
         for (const agvd::SiteId site : dual.diagram.nearest_site) {
             nearest.push_back(site.is_valid() ? vertex[site.value()] : no_index);
         }
-        if (options_.fit.value_or(is_relaxed())) fit_vertices(*base_, *pieces_, nearest, placed);
+        if (options_.fit.value_or(is_relaxed())) {
+            fit_vertices(*base_, *pieces_, nearest, placed, options_.num_threads);
+        }
         if (is_relaxed()) improve_shape(*base_, *pieces_, nearest, placed);
         agvd::poll(progress_of(Stage::Place, options_), 1);
         return placed;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "agvd/core/parallel.h"
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/face_area.h"
 #include "agvd/mesh/point_faces.h"
@@ -45,6 +46,8 @@ constexpr double inner_share = 0.05;
 // Conjugate gradients end there: residuals fall by that share.
 constexpr double residual_share = 1e-3;
 constexpr int most_iterations = 40;
+constexpr std::size_t samples_per_block = std::size_t{1} << 15;  // 2 MB: they stay in a cache.
+constexpr Index grain = 256;                                     // Samples or triangles.
 
 // A point of the surface and what it stands for.
 struct Sample {
@@ -52,6 +55,14 @@ struct Sample {
     double area;
     Index vertex;  // Of the mesh.
     Index triangle = no_index;
+};
+
+// Of a point of the surface from its triangle.
+struct Gap {
+    std::array<double, 3> barycentric{};  // Of the triangle's nearest point.
+    double from_plane = 0;
+    double from_end = 0;            // Where the triangle ends before the surface does; else 0.
+    Vec3 direction = Vec3::Zero();  // From that end, of length 1.
 };
 
 // Least squares over the points that are nearest to one triangle: of their barycentric coordinates.
@@ -76,8 +87,9 @@ double dot(const Field& a, const Field& b) {
 class Fit {
 public:
     Fit(const agvd::IntrinsicTriangulation& base, const agvd::FacePieces& pieces,
-        std::span<const Index> nearest_vertex, PlacedMesh& mesh)
+        std::span<const Index> nearest_vertex, PlacedMesh& mesh, int num_threads)
         : surface_(base.input()),
+          num_threads_(num_threads),
           mesh_(mesh),
           around_(mesh.triangles, mesh.points.size()),
           ground_(base, nearest_vertex, num_vertices()) {
@@ -194,25 +206,21 @@ private:
         }
     }
 
+    // Sums run in the order of the samples, so that they do not depend on the threads; what they
+    // are made of is found block by block, side by side.
     void add_distances_of_surface() {
         sums_.assign(mesh_.triangles.size(), {});
-        for (Sample& sample : samples_) {
-            const agvd::ClosestPoint nearest = find_nearest(sample);
-            if (sample.triangle == no_index) continue;
-            const Index i = sample.triangle;
-            const std::array<double, 3>& b = nearest.point.barycentric;
-            const double gap = normal_[i].dot(sample.position - at_[mesh_.triangles[i][0]]);
-            const double distance = std::sqrt(nearest.distance_sq);
-            if (distance > overhang * std::abs(gap)) {
-                add_overhang(sample, b, (sample.position - nearest.position) / distance, distance);
-                continue;
-            }
-            TriangleSums& sums = sums_[i];
-            for (std::size_t k = 0; k < 3; ++k) {
-                sums.squares[k] += sample.area * b[k] * b[k];
-                sums.products[k] += sample.area * b[k] * b[(k + 1) % 3];
-                sums.gaps[k] += sample.area * b[k] * gap;
-            }
+        std::vector<Gap> gaps(std::min(samples_.size(), samples_per_block));
+        for (std::size_t first = 0; first < samples_.size(); first += samples_per_block) {
+            const auto block =
+                std::span(samples_).subspan(first, std::min(samples_.size() - first, gaps.size()));
+            agvd::parallel_chunks(static_cast<Index>(block.size()), grain, num_threads_,
+                                  [&](Index, Index begin, Index end) {
+                                      for (Index i = begin; i < end; ++i) {
+                                          gaps[i] = measure_gap(block[i]);
+                                      }
+                                  });
+            for (std::size_t i = 0; i < block.size(); ++i) add_gap(block[i], gaps[i]);
         }
         for (Index i = 0; i < mesh_.triangles.size(); ++i) {
             const Mat3 plane = normal_[i] * normal_[i].transpose();
@@ -221,6 +229,33 @@ private:
                 diagonal_[v] += sums_[i].squares[k] * plane;
                 right_[v] += sums_[i].gaps[k] * normal_[i];
             }
+        }
+    }
+    [[nodiscard]] Gap measure_gap(Sample& sample) const {
+        const agvd::ClosestPoint nearest = find_nearest(sample);
+        if (sample.triangle == no_index) return {};
+        const Index i = sample.triangle;
+        Gap gap{nearest.point.barycentric,
+                normal_[i].dot(sample.position - at_[mesh_.triangles[i][0]]), 0, Vec3::Zero()};
+        const double distance = std::sqrt(nearest.distance_sq);
+        if (distance > overhang * std::abs(gap.from_plane)) {
+            gap.from_end = distance;
+            gap.direction = (sample.position - nearest.position) / distance;
+        }
+        return gap;
+    }
+    void add_gap(const Sample& sample, const Gap& gap) {
+        if (sample.triangle == no_index) return;
+        const std::array<double, 3>& b = gap.barycentric;
+        if (gap.from_end > 0) {
+            add_overhang(sample, b, gap.direction, gap.from_end);
+            return;
+        }
+        TriangleSums& sums = sums_[sample.triangle];
+        for (std::size_t k = 0; k < 3; ++k) {
+            sums.squares[k] += sample.area * b[k] * b[k];
+            sums.products[k] += sample.area * b[k] * b[(k + 1) % 3];
+            sums.gaps[k] += sample.area * b[k] * gap.from_plane;
         }
     }
     // Corners are drawn there each by itself: an upper bound of the squares of all together.
@@ -234,18 +269,26 @@ private:
     }
 
     void add_distances_of_mesh() {
+        ways_.resize(std::max(at_.size(), mesh_.triangles.size()));
+        find_ways(num_vertices(),
+                  [&](Index v) { return way_to_surface(at_[v], std::span(&v, 1)); });
         for (Index v = 0; v < num_vertices(); ++v) {
-            const Vec3 way = way_to_surface(at_[v], std::span(&v, 1));
+            const Vec3& way = ways_[v];
             if (way.isZero(0)) continue;
             const Vec3 direction = way.normalized();
             diagonal_[v] += vertex_weight * area_[v] * direction * direction.transpose();
             right_[v] += vertex_weight * area_[v] * way;
         }
-        middle_.assign(mesh_.triangles.size(), {});
-        for (Index i = 0; i < mesh_.triangles.size(); ++i) {
+        const auto num_triangles = static_cast<Index>(mesh_.triangles.size());
+        find_ways(num_triangles, [&](Index i) {
             const auto& [a, b, c] = mesh_.triangles[i];
-            const Vec3 way = way_to_surface((at_[a] + at_[b] + at_[c]) / 3, mesh_.triangles[i]);
+            return way_to_surface((at_[a] + at_[b] + at_[c]) / 3, mesh_.triangles[i]);
+        });
+        middle_.assign(num_triangles, {});
+        for (Index i = 0; i < num_triangles; ++i) {
+            const Vec3& way = ways_[i];
             if (way.isZero(0)) continue;
+            const auto& [a, b, c] = mesh_.triangles[i];
             const double area = (at_[b] - at_[a]).cross(at_[c] - at_[a]).norm() / 2;
             MiddleSum& sum = middle_[i];
             sum = {way.normalized(), middle_weight * area / 9};
@@ -255,6 +298,12 @@ private:
                 right_[v] += 3 * sum.weight * way;
             }
         }
+    }
+    template <typename Way>
+    void find_ways(Index count, const Way& way) {
+        agvd::parallel_chunks(count, grain, num_threads_, [&](Index, Index begin, Index end) {
+            for (Index i = begin; i < end; ++i) ways_[i] = way(i);
+        });
     }
     // From a point of the mesh; zero if nothing is known.
     [[nodiscard]] Vec3 way_to_surface(const Vec3& point, std::span<const Index> cells) const {
@@ -350,6 +399,7 @@ private:
     }
 
     const agvd::Surface& surface_;
+    int num_threads_;
     PlacedMesh& mesh_;
     detail::VertexTriangles around_;
     detail::NearestInCells ground_;
@@ -361,6 +411,7 @@ private:
     Field facing_;                     // #V: normals of the mesh, of length 1.
     std::vector<TriangleSums> sums_;   // #triangles
     std::vector<MiddleSum> middle_;    // #triangles
+    std::vector<Vec3> ways_;           // #V or #triangles: to the surface.
     std::vector<Mat3> diagonal_;       // #V: the equations' blocks.
     Field right_;                      // #V: their right sides.
 };
@@ -368,9 +419,9 @@ private:
 }  // namespace
 
 void fit_vertices(const agvd::IntrinsicTriangulation& base, const agvd::FacePieces& pieces,
-                  std::span<const Index> nearest_vertex, PlacedMesh& mesh) {
+                  std::span<const Index> nearest_vertex, PlacedMesh& mesh, int num_threads) {
     mesh.offsets.resize(mesh.points.size(), Vec3::Zero());
-    Fit(base, pieces, nearest_vertex, mesh).run();
+    Fit(base, pieces, nearest_vertex, mesh, num_threads).run();
 }
 
 }  // namespace remesh

@@ -19,8 +19,10 @@ namespace remesh {
 //! \param pieces          of the base's faces.
 //! \param nearest_vertex  per vertex of the base: that of the mesh in whose cell it lies;
 //!                        agvd::no_index: none.
-//! Cost: O(#surface + #mesh), about 2 us for each vertex of the surface.
+//! \param num_threads     >= 0; 0: all cores. The result is the same for any number.
+//! Cost: O(#base + #mesh), about 1 us for each vertex of the base.
 void fit_vertices(const agvd::IntrinsicTriangulation& base, const agvd::FacePieces& pieces,
-                  std::span<const agvd::Index> nearest_vertex, PlacedMesh& mesh);
+                  std::span<const agvd::Index> nearest_vertex, PlacedMesh& mesh,
+                  int num_threads = 0);
 
 }  // namespace remesh

@@ -6,7 +6,9 @@
 #include <numeric>
 
 #include "agvd/core/bucket_sort.h"
+#include "agvd/core/half_edge.h"
 #include "remesh/quality/edge_sides.h"
+#include "remesh/sampling/components.h"
 
 namespace remesh {
 namespace {
@@ -39,6 +41,12 @@ bool has_bad_faces(const agvd::MeshView& mesh) {
         sorted, static_cast<Index>(mesh.positions.size()), [](const Triangle& t) { return t[0]; },
         std::less<>());
     return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+}
+
+double face_area(const agvd::MeshView& mesh, Index face) {
+    const auto& [a, b, c] = mesh.triangles[face];
+    const agvd::Vec3& origin = mesh.positions[a];
+    return 0.5 * (mesh.positions[b] - origin).cross(mesh.positions[c] - origin).norm();
 }
 
 // One umbrella per vertex: the corners at a vertex hang together through the edges at it.
@@ -108,10 +116,7 @@ Topology analyze_topology(const agvd::MeshView& mesh) {
         ComponentTopology& c = result.components[id];
         ++c.faces;
         ++c.euler;
-        const auto& [a, b, d] = mesh.triangles[f];
-        c.area += 0.5 * (mesh.positions[b] - mesh.positions[a])
-                            .cross(mesh.positions[d] - mesh.positions[a])
-                            .norm();
+        c.area += face_area(mesh, f);
     }
 
     // A vertex counts once for each component that meets there.
@@ -147,6 +152,37 @@ Topology analyze_topology(const agvd::MeshView& mesh) {
         if (counted[root]) continue;
         counted[root] = true;
         ++result.components[result.face_component[face]].boundary_loops;
+    }
+    for (ComponentTopology& c : result.components) c.genus = (2 - c.euler - c.boundary_loops) / 2;
+    return result;
+}
+
+Topology analyze_topology(const agvd::MeshView& mesh, const agvd::Connectivity& connectivity) {
+    const auto& [twin, outgoing] = connectivity;
+    detail::FaceLabels labels = detail::label_components(twin);
+    Topology result{true, true, std::vector<ComponentTopology>(labels.count),
+                    std::move(labels.of_face)};
+    const auto component_of = [&](Index half_edge) -> ComponentTopology& {
+        return result.components[result.face_component[half_edge / 3]];
+    };
+    for (Index f = 0; f < result.face_component.size(); ++f) {
+        ComponentTopology& c = component_of(3 * f);
+        ++c.faces;
+        ++c.euler;
+        c.area += face_area(mesh, f);
+        for (Index h = 3 * f; h < 3 * f + 3; ++h) c.euler -= twin[h] > h ? 1 : 0;  // Edges.
+    }
+    for (const Index h : outgoing) {
+        if (h != no_index) ++component_of(h).euler;
+    }
+    std::vector<bool> is_seen(twin.size(), false);
+    for (Index start = 0; start < twin.size(); ++start) {
+        if (twin[start] != no_index || is_seen[start]) continue;
+        ++component_of(start).boundary_loops;
+        for (Index h = start; !is_seen[h];) {
+            is_seen[h] = true;
+            h = outgoing[mesh.triangles[h / 3][agvd::next_half_edge(h) % 3]];
+        }
     }
     for (ComponentTopology& c : result.components) c.genus = (2 - c.euler - c.boundary_loops) / 2;
     return result;

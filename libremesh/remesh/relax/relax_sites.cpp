@@ -173,12 +173,12 @@ private:
 // How many sites to begin with so that they and the middles between them are `count`; nothing if
 // these would be too few.
 std::optional<Index> coarse_count(const Surface& surface, Index count) {
-    const std::vector<detail::Component> components = detail::find_components(surface);
-    double euler = 0;
-    for (const detail::Component& c : components) euler += c.euler;
+    const Index num_components = detail::label_components(surface.twin).count;
+    double euler = static_cast<double>(surface.num_faces()) - surface.num_edges();
+    for (const Index h : surface.outgoing) euler += h != agvd::no_index ? 1 : 0;
     // V + E, with E = 3 V - 3 chi; edges on the boundary are a little fewer.
     const double coarse = coarse_margin * (count + 3 * euler) / 4 + 1;
-    if (coarse < static_cast<double>(least_coarse_sites * components.size())) return std::nullopt;
+    if (coarse < static_cast<double>(least_coarse_sites * num_components)) return std::nullopt;
     const auto result = static_cast<Index>(coarse);
     if (result > count || !gives_neighbours(surface, result)) return std::nullopt;
     return result;

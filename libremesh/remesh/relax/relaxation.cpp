@@ -169,10 +169,11 @@ void Relaxation::set_density(const CellMeasures& cells) {
 
 void Relaxation::step() {
     choose_moves();
-    const std::vector<SurfacePoint> sites_before = sites_;
-    const std::vector<Vec3> at_before = at_, facing_before = facing_;
+    sites_before_ = sites_;
+    at_before_ = at_;
+    facing_before_ = facing_;
     walk();
-    take_back(sites_before, at_before, facing_before);
+    take_back();
     measure_energy(mesh_, at_, weight_, now_);
     // What flips change is measured by the next step: they are few.
     flip_towards_delaunay(mesh_, at_, now_.cotangent);
@@ -196,35 +197,53 @@ void Relaxation::locate(Index i) {
 }
 
 void Relaxation::choose_moves() {
-    double uphill = 0;
-    std::vector<Vec3> half_slope(move_.size());
-    for (std::size_t i = 0; i < move_.size(); ++i) {
-        const Vec3 off = planes_[i].half_slope(at_[i]);
-        const Vec3 along = off - facing_[i].dot(off) * facing_[i];
-        half_slope[i] = now_.cells[i].slope / 2 + plane_weight * weight_[i] * along;
-        uphill += half_slope[i].dot(move_[i]);
-    }
-    const double keep = uphill > 0 ? 0 : momentum;
-    for (std::size_t i = 0; i < move_.size(); ++i) {
-        const CvtEnergy::Cell& cell = now_.cells[i];
-        if (is_fixed_[i] != 0 || is_stuck_[i] != 0 || !(cell.mass > 0)) {
-            move_[i].setZero();
-            continue;
+    const auto num_sites = static_cast<Index>(move_.size());
+    half_slope_.resize(num_sites);
+    agvd::parallel_chunks(num_sites, grain, num_threads_, [&](Index, Index begin, Index end) {
+        for (Index i = begin; i < end; ++i) {
+            const Vec3 off = planes_[i].half_slope(at_[i]);
+            const Vec3 along = off - facing_[i].dot(off) * facing_[i];
+            half_slope_[i] = now_.cells[i].slope / 2 + plane_weight * weight_[i] * along;
         }
-        const Mat3 along = Mat3::Identity() - facing_[i] * facing_[i].transpose();
-        const Mat3 stiffness = cell.mass * Mat3::Identity() +
-                               plane_weight * weight_[i] * along * planes_[i].spread * along;
-        Vec3 move = keep * move_[i] - stretch * (stiffness.inverse() * half_slope[i]);
-        move -= cell.normal.dot(move) * cell.normal;
-        const double most = longest_move * std::sqrt(std::max(cell.area, 0.0));
-        const double length = move.norm();
-        move_[i] = length > most ? Vec3(most / length * move) : move;
+    });
+    double uphill = 0;
+    for (Index i = 0; i < num_sites; ++i) uphill += half_slope_[i].dot(move_[i]);
+    const double keep = uphill > 0 ? 0 : momentum;
+    agvd::parallel_chunks(num_sites, grain, num_threads_, [&](Index, Index begin, Index end) {
+        for (Index i = begin; i < end; ++i) choose_move(i, keep);
+    });
+}
+
+void Relaxation::choose_move(Index i, double keep) {
+    const CvtEnergy::Cell& cell = now_.cells[i];
+    if (is_fixed_[i] != 0 || is_stuck_[i] != 0 || !(cell.mass > 0)) {
+        move_[i].setZero();
+        return;
     }
+    const Mat3 along = Mat3::Identity() - facing_[i] * facing_[i].transpose();
+    const Mat3 stiffness = cell.mass * Mat3::Identity() +
+                           plane_weight * weight_[i] * along * planes_[i].spread * along;
+    Vec3 move = keep * move_[i] - stretch * (stiffness.inverse() * half_slope_[i]);
+    move -= cell.normal.dot(move) * cell.normal;
+    const double most = longest_move * std::sqrt(std::max(cell.area, 0.0));
+    const double length = move.norm();
+    move_[i] = length > most ? Vec3(most / length * move) : move;
+}
+
+// Sites stand in no order on the surface: what a walk reads is not in the cache.
+[[gnu::always_inline]] inline void Relaxation::prefetch(Index i) const {
+    const std::size_t f = sites_[i].face.value();
+    __builtin_prefetch(&surface_.mesh.triangles[f]);
+    __builtin_prefetch(&surface_.edge[3 * f]);
+    __builtin_prefetch(&surface_.twin[3 * f]);
+    __builtin_prefetch(&surface_.apex[3 * f]);
 }
 
 void Relaxation::walk() {
+    constexpr Index ahead = 4;  // Sites.
     const auto body = [&](Index, Index begin, Index end) {
         for (Index i = begin; i < end; ++i) {
+            if (i + ahead < end) prefetch(i + ahead);
             if (move_[i].isZero(0)) continue;
             sites_[i] = boundary_[i] != no_index
                             ? walk_boundary(surface_, sites_[i], boundary_[i], move_[i])
@@ -236,22 +255,20 @@ void Relaxation::walk() {
 }
 
 // Takes back the moves by which triangles have turned over.
-void Relaxation::take_back(const std::vector<SurfacePoint>& sites_before,
-                           const std::vector<Vec3>& at_before,
-                           const std::vector<Vec3>& facing_before) {
+void Relaxation::take_back() {
     find_turned(mesh_, at_, facing_, turned_);
     for (int round = 0; round < most_rounds; ++round) {
         bool is_done = true;
         for (const Index turned : turned_) {
             const agvd::Triangle& t = mesh_.triangles[turned];
             const Vec3 normal =
-                (at_before[t[1]] - at_before[t[0]]).cross(at_before[t[2]] - at_before[t[0]]);
-            const Vec3 facing = facing_before[t[0]] + facing_before[t[1]] + facing_before[t[2]];
+                (at_before_[t[1]] - at_before_[t[0]]).cross(at_before_[t[2]] - at_before_[t[0]]);
+            const Vec3 facing = facing_before_[t[0]] + facing_before_[t[1]] + facing_before_[t[2]];
             if (!(normal.dot(facing) > 0)) continue;  // It was so before.
             for (const Index i : t) {
-                if (at_[i] == at_before[i]) continue;
+                if (at_[i] == at_before_[i]) continue;
                 is_done = false;
-                sites_[i] = sites_before[i];
+                sites_[i] = sites_before_[i];
                 locate(i);
                 move_[i].setZero();
             }

@@ -1,9 +1,13 @@
 #include "remesh/repair/clean_input.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cmath>
 #include <numeric>
+#include <optional>
 
 #include "agvd/core/error.h"
+#include "agvd/core/parallel.h"
 #include "remesh/repair/soup.h"
 
 namespace remesh {
@@ -14,6 +18,8 @@ using agvd::Index;
 using agvd::InvalidInput;
 using agvd::no_index;
 using agvd::Triangle;
+
+constexpr Index grain = 1 << 14;  // Faces.
 
 void check_elements(const agvd::MeshView& mesh) {
     if (mesh.triangles.size() > no_index / 3 || mesh.positions.size() >= no_index) {
@@ -43,6 +49,41 @@ Soup as_soup(const agvd::MeshView& mesh) {
     std::iota(soup.vertex_origin.begin(), soup.vertex_origin.end(), Index{0});
     std::iota(soup.face_origin.begin(), soup.face_origin.end(), Index{0});
     return soup;
+}
+
+// The input as it is, if nothing is to be done: linear passes only.
+std::optional<CleanResult> take_clean(const agvd::MeshView& mesh, int num_threads) {
+    std::optional<agvd::Connectivity> found = agvd::find_connectivity(mesh, num_threads);
+    if (!found || found->outgoing.empty()) return std::nullopt;
+    const auto& [twin, outgoing] = *found;
+    if (std::find(outgoing.begin(), outgoing.end(), no_index) != outgoing.end()) {
+        return std::nullopt;  // An isolated vertex.
+    }
+    const auto apex = [&](Index h) {
+        return mesh.triangles[h / 3][agvd::previous_half_edge(h) % 3];
+    };
+    std::atomic<bool> is_clean = true;
+    const auto num_faces = static_cast<Index>(mesh.triangles.size());
+    agvd::parallel_chunks(num_faces, grain, num_threads, [&](Index, Index begin, Index end) {
+        for (Index f = begin; f < end; ++f) {
+            const double area = smallest_doubled_area(mesh.positions, mesh.triangles[f]);
+            bool is_good = area > 0 && std::isfinite(area);
+            for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+                is_good = is_good && (twin[h] == no_index || apex(h) != apex(twin[h]));
+            }
+            if (!is_good) is_clean.store(false, std::memory_order_relaxed);
+        }
+    });
+    if (!is_clean) return std::nullopt;
+    std::vector<bool> is_boundary(outgoing.size());
+    for (Index v = 0; v < outgoing.size(); ++v) is_boundary[v] = twin[outgoing[v]] == no_index;
+    if (share_positions(mesh.positions, is_boundary)) return std::nullopt;  // A crack, perhaps.
+    Soup soup = as_soup(mesh);
+    return CleanResult{{std::move(soup.positions), std::move(soup.triangles)},
+                       std::move(soup.vertex_origin),
+                       std::move(soup.face_origin),
+                       {},
+                       *std::move(found)};
 }
 
 // Erases the marked faces and returns how many they were.
@@ -119,9 +160,10 @@ void drop_isolated_vertices(Soup& soup) {
 
 }  // namespace detail
 
-CleanResult clean_input(const agvd::MeshView& mesh) {
+CleanResult clean_input(const agvd::MeshView& mesh, int num_threads) {
     using namespace detail;
     check_elements(mesh);
+    if (std::optional<CleanResult> clean = take_clean(mesh, num_threads)) return *std::move(clean);
     Soup soup = as_soup(mesh);
 
     std::vector<EdgeUse> uses = edge_uses(soup);
@@ -143,7 +185,8 @@ CleanResult clean_input(const agvd::MeshView& mesh) {
     return {{std::move(soup.positions), std::move(soup.triangles)},
             std::move(soup.vertex_origin),
             std::move(soup.face_origin),
-            soup.counts};
+            soup.counts,
+            {}};
 }
 
 }  // namespace remesh

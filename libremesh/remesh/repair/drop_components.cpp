@@ -24,6 +24,7 @@ Index drop_components(CleanResult& clean, const Topology& topology, double perce
                                   " components has less than " + std::to_string(percent) +
                                   " % of the area, so that none is left; drop fewer");
     }
+    clean.connectivity = {};
     std::vector<Index> number(clean.mesh.positions.size(), no_index);
     Index num_faces = 0;
     for (Index f = 0; f < clean.mesh.triangles.size(); ++f) {

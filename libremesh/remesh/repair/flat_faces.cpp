@@ -22,20 +22,6 @@ using agvd::Vec3;
 // Flips per flat face before the rest is dropped. One is the rule; a chain takes a few.
 constexpr std::size_t most_flips = 32;
 
-// The same products as agvd::build_surface, which rejects the face if one of them vanishes.
-double smallest_doubled_area(const std::vector<Vec3>& positions, const Triangle& t) {
-    double smallest = std::numeric_limits<double>::infinity();
-    for (std::size_t k = 0; k < 3; ++k) {
-        const Vec3& origin = positions[t[k]];
-        const Vec3 along = positions[t[(k + 1) % 3]] - origin;
-        const Vec3 up = positions[t[(k + 2) % 3]] - origin;
-        const double doubled_area = along.cross(up).norm();
-        if (!std::isfinite(doubled_area)) return doubled_area;
-        smallest = std::min(smallest, doubled_area);
-    }
-    return smallest;
-}
-
 bool is_flat(const std::vector<Vec3>& positions, const Triangle& t) {
     return smallest_doubled_area(positions, t) == 0;
 }
@@ -163,6 +149,19 @@ private:
 };
 
 }  // namespace
+
+double smallest_doubled_area(std::span<const Vec3> positions, const Triangle& t) {
+    double smallest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Vec3& origin = positions[t[k]];
+        const Vec3 along = positions[t[(k + 1) % 3]] - origin;
+        const Vec3 up = positions[t[(k + 2) % 3]] - origin;
+        const double doubled_area = along.cross(up).norm();
+        if (!std::isfinite(doubled_area)) return doubled_area;
+        smallest = std::min(smallest, doubled_area);
+    }
+    return smallest;
+}
 
 void remove_flat_faces(Soup& soup, std::vector<Index>& twin) { FlatFaces(soup, twin).remove(); }
 

@@ -61,6 +61,9 @@ void erase_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<agvd:
 // The passes, in the order in which they run. Those that return bool tell whether they changed a
 // triangle, so that sorted uses must be made anew.
 
+//! Whether two of the vertices that are wanted have the same position.
+[[nodiscard]] bool share_positions(std::span<const agvd::Vec3> positions,
+                                   const std::vector<bool>& is_wanted);
 //! Boundary edges between the same two positions become one edge.
 bool weld_cracks(Soup& soup, std::span<const EdgeUse> uses);
 //! Different corners of a face at one position become one vertex.
@@ -71,6 +74,10 @@ bool drop_duplicates(Soup& soup, std::span<const EdgeUse> uses);
 bool orient_faces(Soup& soup, std::span<const EdgeUse> uses);
 //! The twins. At an edge of more than two faces the flattest pairs stay together, the rest is cut.
 [[nodiscard]] std::vector<agvd::Index> pair_sheets(Soup& soup, std::span<const EdgeUse> uses);
+//! Twice the least area that agvd::build_surface finds at the three corners of a face: it rejects
+//! those of 0 and what is not finite.
+[[nodiscard]] double smallest_doubled_area(std::span<const agvd::Vec3> positions,
+                                           const agvd::Triangle& face);
 //! Faces without area are absorbed by their neighbours, or dropped.
 //! \throw agvd::InvalidInput  a face is so large that its area overflows.
 void remove_flat_faces(Soup& soup, std::vector<agvd::Index>& twin);

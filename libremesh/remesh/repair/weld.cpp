@@ -13,7 +13,7 @@ using agvd::no_index;
 using agvd::Vec3;
 
 // For each vertex that `is_wanted`, the first such vertex at its position.
-std::vector<Index> first_at_position(const std::vector<Vec3>& positions,
+std::vector<Index> first_at_position(std::span<const Vec3> positions,
                                      const std::vector<bool>& is_wanted) {
     const auto wanted =
         static_cast<std::size_t>(std::count(is_wanted.begin(), is_wanted.end(), true));
@@ -63,6 +63,14 @@ private:
 };
 
 }  // namespace
+
+bool share_positions(std::span<const Vec3> positions, const std::vector<bool>& is_wanted) {
+    const std::vector<Index> first = first_at_position(positions, is_wanted);
+    for (Index v = 0; v < first.size(); ++v) {
+        if (first[v] != no_index && first[v] != v) return true;
+    }
+    return false;
+}
 
 // Only edges are welded, and only boundary edges: parts that touch at a point, and closed parts
 // that touch anywhere, are manifold as they are.

@@ -1,42 +1,44 @@
 #include "remesh/sampling/components.h"
 
 namespace remesh::detail {
-namespace {
 
 using agvd::Index;
 using agvd::no_index;
 using agvd::Surface;
 
-// #F: the number of each face's component.
-std::vector<Index> label_faces(const Surface& surface, Index& num_components) {
-    std::vector<Index> label(surface.num_faces(), no_index);
+FaceLabels label_components(std::span<const Index> twin) {
+    FaceLabels labels{std::vector<Index>(twin.size() / 3, no_index), 0};
+    std::vector<Index>& label = labels.of_face;
     std::vector<Index> stack;
     for (Index seed = 0; seed < label.size(); ++seed) {
         if (label[seed] != no_index) continue;
-        label[seed] = num_components;
+        label[seed] = labels.count;
         stack.push_back(seed);
         while (!stack.empty()) {
             const Index face = stack.back();
             stack.pop_back();
             for (Index h = 3 * face; h < 3 * face + 3; ++h) {
-                if (surface.twin[h] == no_index) continue;
-                const Index other = Surface::face(surface.twin[h]);
+                if (twin[h] == no_index) continue;
+                const Index other = Surface::face(twin[h]);
                 if (label[other] != no_index) continue;
-                label[other] = num_components;
+                label[other] = labels.count;
                 stack.push_back(other);
             }
         }
-        ++num_components;
+        ++labels.count;
     }
-    return label;
+    return labels;
 }
 
-}  // namespace
-
 std::vector<Component> find_components(const Surface& surface) {
-    Index num_components = 0;
-    const std::vector<Index> label = label_faces(surface, num_components);
-    std::vector<Component> components(num_components);
+    const auto [label, count] = label_components(surface.twin);
+    std::vector<Component> components(count);
+    std::vector<Index> num_faces(count, 0);
+    for (const Index component : label) ++num_faces[component];
+    for (Index i = 0; i < count; ++i) {
+        components[i].faces.reserve(num_faces[i]);
+        components[i].area_up_to.reserve(num_faces[i]);
+    }
     for (Index f = 0; f < label.size(); ++f) {
         Component& component = components[label[f]];
         const double before = component.faces.empty() ? 0 : component.area();

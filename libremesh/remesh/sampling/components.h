@@ -2,6 +2,8 @@
 //! The connected components of a surface, with what sampling needs to know of each.
 #pragma once
 
+#include <span>
+
 #include "agvd/mesh/surface.h"
 
 namespace remesh::detail {
@@ -15,6 +17,15 @@ struct Component {
     [[nodiscard]] double area() const { return area_up_to.back(); }
     [[nodiscard]] int genus() const { return (2 - euler - boundary_loops) / 2; }
 };
+
+//! Which faces hang together through edges.
+struct FaceLabels {
+    std::vector<agvd::Index> of_face;  //!< #F: numbers from 0, by lowest face.
+    agvd::Index count = 0;             //!< Of components.
+};
+
+//! \param twin  as agvd::Surface has it. Cost: O(#F).
+[[nodiscard]] FaceLabels label_components(std::span<const agvd::Index> twin);
 
 //! By lowest face. Linear time, as connectivity is given (analyze_topology sorts it out of
 //! indices).

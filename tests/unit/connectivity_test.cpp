@@ -1,0 +1,125 @@
+#include "agvd/mesh/connectivity.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "agvd/mesh/surface.h"
+#include "support/shapes.h"
+
+using namespace agvd;
+
+namespace {
+
+// Its last vertex is in every face.
+TriangleMesh umbrella(Index num_faces) {
+    TriangleMesh mesh;
+    for (Index i = 0; i < num_faces; ++i) {
+        const double angle = 2 * std::acos(-1.0) * i / num_faces;
+        mesh.positions.emplace_back(std::cos(angle), std::sin(angle), 0);
+        mesh.triangles.push_back({i, (i + 1) % num_faces, num_faces});
+    }
+    mesh.positions.emplace_back(0, 0, 1);
+    return mesh;
+}
+
+bool is_found(const TriangleMesh& mesh) {
+    const bool found = find_connectivity(mesh.view(), 1).has_value();
+    EXPECT_EQ(find_connectivity(mesh.view(), 2).has_value(), found);
+    return found;
+}
+
+}  // namespace
+
+TEST(Connectivity, TwinsAreTheHalfEdgesThatRunBack) {
+    for (const TriangleMesh& mesh :
+         {shapes::sphere(3), shapes::torus(9, 7), shapes::tube(12, 5), shapes::grid(6)}) {
+        const auto found = find_connectivity(mesh.view(), 1);
+        ASSERT_TRUE(found);
+        const auto end = [&](Index h) { return mesh.triangles[h / 3][next_half_edge(h) % 3]; };
+        const auto tail = [&](Index h) { return mesh.triangles[h / 3][h % 3]; };
+        for (Index h = 0; h < 3 * mesh.triangles.size(); ++h) {
+            Index twin = no_index;
+            for (Index g = 0; g < 3 * mesh.triangles.size(); ++g) {
+                if (tail(g) == end(h) && end(g) == tail(h)) twin = g;
+            }
+            EXPECT_EQ(found->twin[h], twin);
+        }
+        for (Index v = 0; v < mesh.positions.size(); ++v) {
+            const Index h = found->outgoing[v];
+            EXPECT_EQ(tail(h), v);
+            if (found->twin[h] == no_index) continue;
+            for (Index g = 0; g < found->twin.size(); ++g) {
+                const bool is_boundary = tail(g) == v && found->twin[g] == no_index;
+                EXPECT_FALSE(is_boundary) << "the boundary comes first";
+            }
+        }
+    }
+}
+
+TEST(Connectivity, IsTheSameForAnyNumberOfThreads) {
+    // Several chunks, and vertices far apart in the list.
+    const TriangleMesh mesh = shapes::subdivide(shapes::join(shapes::sphere(5), shapes::grid(70)));
+    const auto alone = find_connectivity(mesh.view(), 1);
+    for (const int threads : {2, 8}) {
+        const auto shared = find_connectivity(mesh.view(), threads);
+        EXPECT_EQ(shared->twin, alone->twin);
+        EXPECT_EQ(shared->outgoing, alone->outgoing);
+    }
+}
+
+TEST(Connectivity, IsolatedVerticesHaveNoHalfEdge) {
+    TriangleMesh mesh = shapes::tetrahedron();
+    mesh.positions.emplace_back(5, 5, 5);
+    EXPECT_EQ(find_connectivity(mesh.view(), 1)->outgoing[4], no_index);
+}
+
+TEST(Connectivity, HubsOfThousandsOfFacesAreFine) {
+    TriangleMesh high = umbrella(5000);
+    EXPECT_TRUE(is_found(high));
+    // The same with the hub as vertex 0, where all its edges run up.
+    TriangleMesh low = high;
+    std::swap(low.positions.front(), low.positions.back());
+    for (Triangle& t : low.triangles) {
+        for (Index& v : t) v = v == 5000 ? 0 : v == 0 ? 5000 : v;
+    }
+    EXPECT_TRUE(is_found(low));
+    low.triangles.push_back(low.triangles[17]);
+    EXPECT_FALSE(is_found(low));
+}
+
+TEST(Connectivity, ThereIsNoneOfWhatIsNotAnOrientedManifold) {
+    TriangleMesh mesh = shapes::grid(2);
+    mesh.triangles.push_back({0, 1, 1});
+    EXPECT_FALSE(is_found(mesh)) << "a repeated corner";
+    const auto pages = [](std::vector<Triangle> triangles) {
+        TriangleMesh made;
+        for (int i = 0; i < 6; ++i) made.positions.emplace_back(i, i * i, i * i * i);
+        made.triangles = std::move(triangles);
+        return made;
+    };
+    EXPECT_TRUE(is_found(pages({{0, 1, 2}, {1, 0, 3}})));
+    EXPECT_FALSE(is_found(pages({{0, 1, 2}, {0, 1, 3}}))) << "both run up";
+    EXPECT_FALSE(is_found(pages({{1, 0, 2}, {1, 0, 3}}))) << "both run down";
+    EXPECT_FALSE(is_found(pages({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}))) << "three faces";
+    EXPECT_FALSE(is_found(pages({{0, 1, 2}, {1, 0, 3}, {1, 0, 4}}))) << "three faces";
+    EXPECT_FALSE(is_found(pages({{0, 1, 2}, {0, 3, 4}}))) << "two fans";
+}
+
+TEST(Connectivity, GivesTheSurfaceThatTheMeshAloneGives) {
+    for (const TriangleMesh& mesh : {shapes::jitter(shapes::sphere(4), 0.01, 3),
+                                     shapes::jitter(shapes::tube(40, 20), 0.01, 5)}) {
+        const Surface expected = build_surface(mesh.view(), 1);
+        for (const int threads : {1, 2, 8}) {
+            const Surface s =
+                build_surface(mesh, *find_connectivity(mesh.view(), threads), threads);
+            EXPECT_EQ(s.twin, expected.twin);
+            EXPECT_EQ(s.edge, expected.edge);
+            EXPECT_EQ(s.edge_half, expected.edge_half);
+            EXPECT_EQ(s.length, expected.length);
+            EXPECT_EQ(s.apex, expected.apex);
+            EXPECT_EQ(s.outgoing, expected.outgoing);
+            EXPECT_EQ(s.can_turn, expected.can_turn);
+        }
+    }
+}

@@ -1,0 +1,50 @@
+// Large arrays in large pages, for the programs: a library leaves it to its user how memory is had.
+//
+// A mesh of a million faces is a few hundred megabytes that are read all over. In pages of 4 kB the
+// first touch of each is a fault, and most reads elsewhere miss the processor's table of pages.
+// Measured on 1.4 M faces, N = 2000, one thread: 8.7 s of user and 2.2 s of system time became 7.0
+// and 1.3; no more memory.
+#include <sys/mman.h>
+
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+constexpr std::size_t page_size = std::size_t{1} << 21;
+// Below, what is lost to rounding would count.
+constexpr std::size_t least_size = 2 * page_size;
+
+// Whole pages only: the rest of the array stays in small ones, so that nothing is wasted.
+void* allocate(std::size_t size, std::size_t alignment) {
+    const bool is_large = size >= least_size;
+    const std::size_t aligned_to = is_large ? page_size : alignment;
+    while (true) {
+        void* memory = nullptr;
+        if (aligned_to <= __STDCPP_DEFAULT_NEW_ALIGNMENT__) {
+            memory = std::malloc(size > 0 ? size : 1);
+        } else if (::posix_memalign(&memory, aligned_to, size) != 0) {
+            memory = nullptr;
+        }
+        if (memory != nullptr) {
+            // A wish: where the system has no large pages, nothing changes.
+            if (is_large) ::madvise(memory, size / page_size * page_size, MADV_HUGEPAGE);
+            return memory;
+        }
+        const std::new_handler handler = std::get_new_handler();
+        if (handler == nullptr) throw std::bad_alloc();
+        handler();
+    }
+}
+
+}  // namespace
+
+// The forms that are not replaced call these.
+void* operator new(std::size_t size) { return allocate(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+    return allocate(size, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
