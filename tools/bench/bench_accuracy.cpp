@@ -1,5 +1,6 @@
 // Error of the diagram against the exact one.
 
+#include "agvd/diagram/diagram_on_input.h"
 #include "agvd/metrics/compare.h"
 #include "agvd/propagation/propagate.h"
 #include "bench/method.h"
@@ -26,20 +27,23 @@ const std::vector<bench::Column> columns{
 };
 
 // One row for each method; all share the exact distances.
-nlohmann::ordered_json measure(const std::string& mesh, const Surface& surface,
+nlohmann::ordered_json measure(const std::string& mesh, const IntrinsicTriangulation& base,
                                const std::vector<SurfacePoint>& sites, std::uint64_t seed,
                                const std::vector<bench::Method>& methods,
                                const CompareOptions& compare) {
+    const Surface& surface = base.input();
+    const std::vector<SurfacePoint> on_base = base.to_intrinsic(sites);
     std::vector<Propagation> propagations;
     std::vector<Diagram> diagrams;
     for (const bench::Method& method : methods) {
-        propagations.push_back(propagate(surface, sites, method.options));
-        diagrams.push_back(build_diagram(surface, sites, propagations.back(),
-                                         {.num_threads = compare.num_threads}));
+        propagations.push_back(propagate(base.surface(), on_base, method.options));
+        diagrams.push_back(
+            diagram_on_input(base, build_diagram(base.surface(), on_base, propagations.back(),
+                                                 {.num_threads = compare.num_threads})));
     }
     std::vector<Approximation> approximations;
     for (std::size_t i = 0; i < diagrams.size(); ++i) {
-        approximations.push_back({propagations[i], diagrams[i]});
+        approximations.push_back({propagations[i], diagrams[i], &base});
     }
     const auto errors = compare_with_exact(surface, sites, approximations, compare);
     nlohmann::ordered_json rows = nlohmann::ordered_json::array();
@@ -88,11 +92,12 @@ int main(int argc, char** argv) {
         bench::print_heading(columns);
         for (const auto& path : options.meshes) {
             const Surface surface = bench::load(path, 0);
+            const IntrinsicTriangulation base(surface);
             for (const Index count : options.sites) {
                 cli::stop_if_interrupted();
                 const auto sites = bench::random_sites(surface, count, options.place, options.seed);
                 for (const auto& row :
-                     measure(path.stem(), surface, sites, options.seed, methods, compare)) {
+                     measure(path.stem(), base, sites, options.seed, methods, compare)) {
                     bench::print_row(columns, row);
                     rows.push_back(row);
                 }

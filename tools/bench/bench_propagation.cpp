@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "agvd/diagram/diagram.h"
+#include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "arguments.h"
 #include "bench/exact.h"
 #include "bench/medians.h"
@@ -31,9 +32,11 @@ struct Arguments {
 
 struct Case {
     std::string mesh;
-    const Surface& surface;
+    const Surface& input;
+    const Surface& surface;  // Its intrinsic triangulation.
     const SurfaceLayout& layout;
-    const std::vector<SurfacePoint>& sites;
+    const std::vector<SurfacePoint>& sites;    // On the input,
+    const std::vector<SurfacePoint>& on_base;  // and on its triangulation.
 };
 
 std::vector<bench::Column> columns_for(const Arguments& arguments) {
@@ -46,6 +49,7 @@ std::vector<bench::Column> columns_for(const Arguments& arguments) {
                                        {"propagate_ms", "cpu ms", 1, 9},
                                        {"propagate_p0", "cpu P0", 2, 7},
                                        {"propagate_beside_p0", "beside", 2, 7},
+                                       {"base_ms", "base ms", 1, 7},
                                        {"layout_p0", "layout", 2, 6},
                                        {"propagate_spread", "spread", 2, 6},
                                        {"propagate_ns_per_face", "ns/face", 0, 7},
@@ -128,13 +132,13 @@ void run(const Case& c, const std::optional<bench::ExactRun>& exact, bool with_d
     options.num_threads = contestant.threads;
     Propagation propagation;
     const bench::Seconds propagating =
-        bench::time([&] { propagation = propagate(c.surface, c.layout, c.sites, options); });
+        bench::time([&] { propagation = propagate(c.surface, c.layout, c.on_base, options); });
     bench::Seconds building;
     if (with_diagram) {
         Diagram diagram;
         building = bench::time([&] {
-            diagram =
-                build_diagram(c.surface, c.sites, propagation, {.num_threads = contestant.threads});
+            diagram = build_diagram(c.surface, c.on_base, propagation,
+                                    {.num_threads = contestant.threads});
         });
     }
     if (contestant.result.empty()) contestant.result = describe(c, propagation, exact);
@@ -182,18 +186,18 @@ Json row_of(const Case& c, const Contestant& contestant, double p0,
 // All contestants in turn, with the sweep between them, so that all meet the same disturbances.
 std::vector<Json> measure(const Case& c, const std::vector<bench::Method>& methods,
                           const Arguments& arguments) {
-    bench::P0 sweep(c.surface, c.sites);
+    bench::P0 sweep(c.input, c.sites);
     bench::SweepSeconds last_sweeps = sweep.seconds();
     double p0 = last_sweeps.quickest;
     std::optional<bench::ExactRun> exact;
     if (c.surface.num_faces() <= arguments.exact_limit) {
-        exact = bench::run_exact(c.surface, c.sites);
+        exact = bench::run_exact(c.input, c.sites);
     }
     std::vector<Contestant> contestants;
     for (const bench::Method& method : methods) {
         for (const int threads : arguments.threads) contestants.push_back({method, threads});
     }
-    std::vector<double> layout;
+    std::vector<double> layout, base;
     for (int i = 0; i < arguments.repetitions; ++i) {
         for (Contestant& contestant : contestants) {
             cli::stop_if_interrupted();
@@ -201,6 +205,7 @@ std::vector<Json> measure(const Case& c, const std::vector<bench::Method>& metho
             p0 = std::min(p0, last_sweeps.quickest);
         }
         layout.push_back(bench::time([&] { (void)SurfaceLayout(c.surface, 1); }).cpu);
+        base.push_back(bench::time([&] { (void)IntrinsicTriangulation(c.input); }).cpu);
     }
     std::vector<Json> rows;
     if (exact) {
@@ -213,6 +218,7 @@ std::vector<Json> measure(const Case& c, const std::vector<bench::Method>& metho
     }
     for (const Contestant& contestant : contestants) {
         rows.push_back(row_of(c, contestant, p0, contestants));
+        rows.back()["base_ms"] = 1e3 * bench::quickest(base);
         rows.back()["layout_p0"] = bench::quickest(layout) / p0;
     }
     return rows;
@@ -265,12 +271,15 @@ int main(int argc, char** argv) {
         Json rows = Json::array();
         bench::print_heading(columns);
         for (const auto& path : common.meshes) {
-            const Surface surface = bench::load(path, arguments.min_faces);
-            const SurfaceLayout layout(surface);
+            const Surface input = bench::load(path, arguments.min_faces);
+            const IntrinsicTriangulation base(input);
+            const SurfaceLayout layout(base.surface());
             for (const Index count : common.sites) {
-                const auto sites = bench::random_sites(surface, count, common.place, common.seed);
+                const auto sites = bench::random_sites(input, count, common.place, common.seed);
+                const auto on_base = base.to_intrinsic(sites);
                 for (const Json& row :
-                     measure({path.stem(), surface, layout, sites}, methods, arguments)) {
+                     measure({path.stem(), input, base.surface(), layout, sites, on_base}, methods,
+                             arguments)) {
                     rows.push_back(row);
                     bench::print_row(columns, row);
                 }

@@ -62,12 +62,13 @@ void ask_bisectors(const Surface& surface, const Diagram& diagram, Questions& qu
     }
 }
 
-void ask_labels(const Surface& surface, const Propagation& propagation,
+void ask_labels(const Surface& surface, const Approximation& approximation,
                 std::span<const SurfacePoint> samples, const NearestSites& exact,
                 Questions& questions, Open& open) {
-    PointLabels labels(surface, propagation);
+    const IntrinsicTriangulation* base = approximation.base;
+    PointLabels labels(base ? base->surface() : surface, approximation.propagation);
     for (std::size_t i = 0; i < samples.size(); ++i) {
-        const SiteId ours = labels(samples[i]).site;
+        const SiteId ours = labels(base ? base->to_intrinsic(samples[i]) : samples[i]).site;
         if (ours == exact.site[i]) continue;
         if (ours.is_valid() && exact.site[i].is_valid()) {
             open.doubtful_labels.push_back({questions.ask(ours, samples[i]), exact.distance[i]});
@@ -125,10 +126,9 @@ std::vector<DiagramError> compare_with_exact(const Surface& surface,
     Questions questions(sites.size());
     std::vector<Open> open(approximations.size());
     for (std::size_t i = 0; i < approximations.size(); ++i) {
-        const auto& [propagation, diagram] = approximations[i];
-        ask_bisectors(surface, diagram, questions, open[i]);
-        ask_labels(surface, propagation, std::span(targets).first(num_samples), exact, questions,
-                   open[i]);
+        ask_bisectors(surface, approximations[i].diagram, questions, open[i]);
+        ask_labels(surface, approximations[i], std::span(targets).first(num_samples), exact,
+                   questions, open[i]);
     }
     questions.answer(surface, sites, options.num_threads);
 

@@ -18,8 +18,9 @@ struct DiagramError {
 
 //! What is judged; both belong to the same sites.
 struct Approximation {
-    const Propagation& propagation;
-    const Diagram& diagram;
+    const Propagation& propagation;  //!< Of the surface, or of `base` if there is one.
+    const Diagram& diagram;          //!< Drawn on the surface: see diagram_on_input().
+    const IntrinsicTriangulation* base = nullptr;  //!< Of the surface; outlives this.
 };
 
 struct CompareOptions {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "agvd/core/parallel.h"
+#include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/metrics/patch.h"
 #include "agvd/propagation/propagate.h"
 
@@ -19,9 +20,11 @@ constexpr std::size_t most_points = 200;
 // Exact distances of the patch's vertices from one of them.
 std::vector<double> distances_from(const TriangleMesh& mesh, Index vertex) {
     const Surface surface = build_surface(mesh.view());
+    const IntrinsicTriangulation base(surface);
     SurfacePoint site{FaceId(Surface::face(surface.outgoing[vertex])), {0, 0, 0}};
     site.barycentric[surface.outgoing[vertex] % 3] = 1;
-    return propagate(surface, {&site, 1},
+    site = base.to_intrinsic(site);
+    return propagate(base.surface(), {&site, 1},
                      {.engine = Engine::Window, .max_error = 0, .num_threads = 1})
         .vertex_distance;
 }
