@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "agvd/intrinsic/face_pieces.h"
 #include "agvd/mesh/distinct_points.h"
 #include "agvd/mesh/point_faces.h"
 #include "remesh/pipeline/stage_clock.h"
@@ -28,13 +27,6 @@ using agvd::Surface;
 using agvd::SurfacePoint;
 using agvd::Vec3;
 
-// Longest edge that propagation gets to see, in mean spacings of the sites: the Steiner points of a
-// longer one resolve no cell, and relaxation finds neighbours by the labels of vertices. Measured:
-// 1.5 costs .012 of the mean quality at 10 000 and 50 000 samples on fandisk, .05 at 2000 on
-// slivers; .7 gains little and costs twice the time.
-constexpr double longest_edge = 0.85;
-// What one piece of a bent face stands for: a share of a cell.
-constexpr double piece_share = 1.0 / 16;
 // Rounds of putting vertices back onto the surface there.
 constexpr int max_unfits = 4;
 
@@ -86,18 +78,12 @@ private:
     // Where edges span several cells, the intrinsic triangulation has vertices of its own.
     void triangulate() {
         const StageClock clock(Stage::Clean, result_);
-        double area = 0;
-        for (const ComponentTopology& c : result_.input_topology.components) area += c.area;
-        const std::size_t num_sites =
-            options_.sites ? options_.sites->size() : options_.num_samples;
-        const double cell_area = area / static_cast<double>(std::max<std::size_t>(num_sites, 1));
-        spacing_ = std::sqrt(cell_area);
         build_input_surface();
-        base_.emplace(surface_, agvd::IntrinsicOptions{.max_length = longest_edge * spacing_});
-        pieces_.emplace(*base_, cell_area * piece_share);
-        layout_.emplace(base_->surface(), options_.num_threads);
+        spacing_ =
+            mean_spacing(surface_, options_.sites ? options_.sites->size() : options_.num_samples);
+        prepared_.emplace(surface_, spacing_, options_.num_threads);
         find_components();
-        result_.refined_faces = base_->surface().num_faces();
+        result_.refined_faces = base().num_faces();
     }
 
     // What cleaning has found is handed on. The mesh moves, unless given sites still need it there.
@@ -109,13 +95,15 @@ private:
                                              options_.num_threads);
     }
 
+    // What propagation runs on.
+    [[nodiscard]] const Surface& base() const { return prepared_->base.surface(); }
+
     // Of the base's faces: those of the input keep their numbers, and flips their components.
     void find_components() {
         component_ = result_.input_topology.face_component;
-        const agvd::Surface& base = base_->surface();
-        component_.reserve(base.num_faces());
-        for (Index f = surface_.num_faces(); f < base.num_faces(); ++f) {
-            const SurfacePoint place = base_->to_input({agvd::FaceId(f), {1, 0, 0}});
+        component_.reserve(base().num_faces());
+        for (Index f = surface_.num_faces(); f < base().num_faces(); ++f) {
+            const SurfacePoint place = prepared_->base.to_input({agvd::FaceId(f), {1, 0, 0}});
             component_.push_back(component_[place.face.value()]);
         }
     }
@@ -162,10 +150,9 @@ private:
                                  .corners = corners_,
                                  .num_threads = options_.num_threads,
                                  .progress = progress_of(Stage::Relax, options_)};
-        RelaxResult relaxed =
-            is_coarse_to_fine()
-                ? sample_relaxed_sites(*base_, *layout_, *pieces_, sampling(), relax)
-                : relax_sites(*base_, *layout_, *pieces_, std::move(sites_), relax);
+        RelaxResult relaxed = is_coarse_to_fine()
+                                  ? sample_relaxed_sites(*prepared_, sampling(), relax)
+                                  : relax_sites(*prepared_, std::move(sites_), relax);
         sites_ = std::move(relaxed.sites);
         result_.relaxation = std::move(relaxed.levels);
     }
@@ -179,9 +166,9 @@ private:
     // The dual with the count asked for. Where it runs through itself more often than the input, it
     // is built again with more sites there; the best counts.
     void build_mesh() {
-        const Ground ground{base_->surface(), *layout_, result_.input_topology.components,
+        const Ground ground{base(), prepared_->layout, result_.input_topology.components,
                             component_, corners_};
-        on_base_ = base_->to_intrinsic(sites_);
+        on_base_ = prepared_->base.to_intrinsic(sites_);
         const std::vector<SurfacePoint> first_on_base = on_base_;
         for (int mends = 0;; ++mends) {
             ValidDual dual = build_valid_dual(ground, on_base_, options_, result_);
@@ -215,9 +202,9 @@ private:
         sites_.resize(first_on_base.size());
         for (Index s = 0; s < on_base_.size(); ++s) {
             if (s >= sites_.size()) {
-                sites_.push_back(base_->to_input(on_base_[s]));
+                sites_.push_back(prepared_->base.to_input(on_base_[s]));
             } else if (!is_same(on_base_[s], first_on_base[s])) {
-                sites_[s] = base_->to_input(on_base_[s]);
+                sites_[s] = prepared_->base.to_input(on_base_[s]);
             }
         }
     }
@@ -243,12 +230,11 @@ private:
         const Index target = adds ? static_cast<Index>(on_base_.size()) : target_;
         if (num_vertices <= target) return 0;
         const StageClock clock(Stage::Dual, result_);
-        const Surface& base = base_->surface();
-        std::vector<bool> is_corner(base.num_vertices(), false);
+        std::vector<bool> is_corner(base().num_vertices(), false);
         for (const Index v : corners_) is_corner[v] = true;
         std::vector<std::uint8_t> keep(num_vertices, 0);
         for (Index i = 0; i < num_vertices; ++i) {
-            const auto v = agvd::vertex_of(base, dual.mesh.points[i]);
+            const auto v = agvd::vertex_of(base(), dual.mesh.points[i]);
             const Index site = dual.site[i];
             keep[i] = (v && is_corner[*v]) ||
                       (site != no_index && site < is_wanted_.size() && is_wanted_[site]);
@@ -261,9 +247,9 @@ private:
 
     DelaunayCounts flip_edges(ValidDual& dual) {
         const StageClock clock(Stage::Delaunay, result_);
-        DelaunayResult made = make_delaunay(
-            base_->surface(), dual.mesh.points, dual.site, dual.diagram, dual.mesh.triangles,
-            {.mode = options_.delaunay, .num_threads = options_.num_threads});
+        DelaunayResult made =
+            make_delaunay(base(), dual.mesh.points, dual.site, dual.diagram, dual.mesh.triangles,
+                          {.mode = options_.delaunay, .num_threads = options_.num_threads});
         dual.mesh.triangles = std::move(made.triangles);
         return made.counts;
     }
@@ -292,7 +278,7 @@ private:
         for (Index v = 0; v < dual.site.size(); ++v) {
             const Index site = dual.site[v];
             places.push_back(site != no_index ? sites_[site]
-                                              : base_->to_input(dual.mesh.points[v]));
+                                              : prepared_->base.to_input(dual.mesh.points[v]));
         }
         return places;
     }
@@ -324,9 +310,9 @@ private:
             nearest.push_back(site.is_valid() ? vertex[site.value()] : no_index);
         }
         if (options_.fit.value_or(is_relaxed())) {
-            fit_vertices(*base_, *pieces_, nearest, placed, options_.num_threads);
+            fit_vertices(*prepared_, nearest, placed, options_.num_threads);
         }
-        if (is_relaxed()) improve_shape(*base_, *pieces_, nearest, placed);
+        if (is_relaxed()) improve_shape(*prepared_, nearest, placed);
         agvd::poll(progress_of(Stage::Place, options_), 1);
         return placed;
     }
@@ -418,11 +404,9 @@ private:
     const int most_mends_;
     RemeshResult result_;
     CleanResult clean_;
-    double spacing_ = 0;                                // Mean distance of the sites.
-    Surface surface_;                                   // Of the cleaned mesh.
-    std::optional<agvd::IntrinsicTriangulation> base_;  // Of it.
-    std::optional<agvd::FacePieces> pieces_;
-    std::optional<agvd::SurfaceLayout> layout_;
+    double spacing_ = 0;  // Mean distance of the sites.
+    Surface surface_;     // Of the cleaned mesh.
+    std::optional<PreparedSurface> prepared_;
     std::vector<Index> component_;       // #F of the base.
     std::vector<SurfacePoint> sites_;    // On the cleaned mesh.
     std::vector<SurfacePoint> on_base_;  // The same, and those that repair has added.

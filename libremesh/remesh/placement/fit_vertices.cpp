@@ -86,18 +86,18 @@ double dot(const Field& a, const Field& b) {
 
 class Fit {
 public:
-    Fit(const agvd::IntrinsicTriangulation& base, const agvd::FacePieces& pieces,
-        std::span<const Index> nearest_vertex, PlacedMesh& mesh, int num_threads)
-        : surface_(base.input()),
+    Fit(const PreparedSurface& surface, std::span<const Index> nearest_vertex, PlacedMesh& mesh,
+        int num_threads)
+        : surface_(surface.input()),
           num_threads_(num_threads),
           mesh_(mesh),
           around_(mesh.triangles, mesh.points.size()),
-          ground_(base, nearest_vertex, num_vertices()) {
+          ground_(surface.base, nearest_vertex, num_vertices()) {
         for (Index v = 0; v < num_vertices(); ++v) {
             at_.push_back(mesh.position(surface_.mesh.view(), v));
             stays_.push_back(agvd::is_on_boundary(surface_, mesh.points[v]) ? 1 : 0);
         }
-        take_samples(base.surface(), pieces, nearest_vertex);
+        take_samples(surface, nearest_vertex);
     }
 
     void run() {
@@ -116,8 +116,8 @@ public:
 private:
     [[nodiscard]] Index num_vertices() const { return static_cast<Index>(mesh_.points.size()); }
 
-    void take_samples(const agvd::Surface& base, const agvd::FacePieces& pieces,
-                      std::span<const Index> nearest_vertex) {
+    void take_samples(const PreparedSurface& surface, std::span<const Index> nearest_vertex) {
+        const agvd::Surface& base = surface.base.surface();
         const auto& p = base.mesh.positions;
         const bool is_dense = p.size() >= enough_vertices * mesh_.points.size();
         std::vector<double> area(p.size(), 0);
@@ -127,7 +127,7 @@ private:
             // With the centroid three quarters: exact for what is quadratic on the face.
             for (const Index v : t) area[v] += is_dense ? whole / 3 : whole / 12;
             if (is_dense || nearest_vertex[t[0]] == no_index) continue;
-            pieces.for_each(f, [&](const agvd::SurfacePiece& piece) {
+            surface.pieces.for_each(f, [&](const agvd::SurfacePiece& piece) {
                 samples_.push_back(
                     {piece.position, piece.vector.norm() * 3 / 4, nearest_vertex[t[0]]});
             });
@@ -418,10 +418,10 @@ private:
 
 }  // namespace
 
-void fit_vertices(const agvd::IntrinsicTriangulation& base, const agvd::FacePieces& pieces,
-                  std::span<const Index> nearest_vertex, PlacedMesh& mesh, int num_threads) {
+void fit_vertices(const PreparedSurface& surface, std::span<const Index> nearest_vertex,
+                  PlacedMesh& mesh, int num_threads) {
     mesh.offsets.resize(mesh.points.size(), Vec3::Zero());
-    Fit(base, pieces, nearest_vertex, mesh, num_threads).run();
+    Fit(surface, nearest_vertex, mesh, num_threads).run();
 }
 
 }  // namespace remesh

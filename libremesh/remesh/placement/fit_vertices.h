@@ -4,8 +4,8 @@
 
 #include <span>
 
-#include "agvd/intrinsic/face_pieces.h"
 #include "remesh/placement/placed_mesh.h"
+#include "remesh/relax/prepared_surface.h"
 
 namespace remesh {
 
@@ -16,13 +16,11 @@ namespace remesh {
 //! are equilateral, but slides to the edge where planes meet at an angle. Vertices on the boundary
 //! stay, and no triangle turns over.
 //!
-//! \param pieces          of the base's faces.
-//! \param nearest_vertex  per vertex of the base: that of the mesh in whose cell it lies;
+//! \param nearest_vertex  per vertex of surface.base: that of the mesh in whose cell it lies;
 //!                        agvd::no_index: none.
 //! \param num_threads     >= 0; 0: all cores. The result is the same for any number.
 //! Cost: O(#base + #mesh), about 1 us for each vertex of the base.
-void fit_vertices(const agvd::IntrinsicTriangulation& base, const agvd::FacePieces& pieces,
-                  std::span<const agvd::Index> nearest_vertex, PlacedMesh& mesh,
-                  int num_threads = 0);
+void fit_vertices(const PreparedSurface& surface, std::span<const agvd::Index> nearest_vertex,
+                  PlacedMesh& mesh, int num_threads = 0);
 
 }  // namespace remesh

@@ -49,19 +49,20 @@ double quality(const Vec3& a, const Vec3& b, const Vec3& c) {
 
 class Improvement {
 public:
-    Improvement(const agvd::IntrinsicTriangulation& base, const agvd::FacePieces& pieces,
-                std::span<const Index> nearest_vertex, PlacedMesh& mesh)
-        : surface_(base.input()),
+    Improvement(const PreparedSurface& surface, std::span<const Index> nearest_vertex,
+                PlacedMesh& mesh)
+        : surface_(surface.input()),
           mesh_(mesh),
           around_(mesh.triangles, mesh.points.size()),
           at_(mesh.points.size()),
           facing_(mesh.points.size()),
           planes_(mesh.points.size()) {
         for (Index v = 0; v < at_.size(); ++v) locate(v);
-        for (Index f = 0; f < base.surface().num_faces(); ++f) {
-            pieces.for_each(f, [&](const agvd::SurfacePiece& piece) {
+        const agvd::Surface& base = surface.base.surface();
+        for (Index f = 0; f < base.num_faces(); ++f) {
+            surface.pieces.for_each(f, [&](const agvd::SurfacePiece& piece) {
                 const double area = piece.vector.norm() / 3;
-                for (const Index corner : base.surface().mesh.triangles[f]) {
+                for (const Index corner : base.mesh.triangles[f]) {
                     const Index v = nearest_vertex[corner];
                     if (v == agvd::no_index || !(area > 0)) continue;
                     planes_[v].add(piece.vector / 3, area, piece.position);
@@ -187,9 +188,9 @@ private:
 
 }  // namespace
 
-void improve_shape(const agvd::IntrinsicTriangulation& base, const agvd::FacePieces& pieces,
-                   std::span<const Index> nearest_vertex, PlacedMesh& mesh) {
-    Improvement(base, pieces, nearest_vertex, mesh).run();
+void improve_shape(const PreparedSurface& surface, std::span<const Index> nearest_vertex,
+                   PlacedMesh& mesh) {
+    Improvement(surface, nearest_vertex, mesh).run();
 }
 
 }  // namespace remesh

@@ -4,8 +4,8 @@
 
 #include <span>
 
-#include "agvd/intrinsic/face_pieces.h"
 #include "remesh/placement/placed_mesh.h"
+#include "remesh/relax/prepared_surface.h"
 
 namespace remesh {
 
@@ -14,11 +14,10 @@ namespace remesh {
 //! by more than it costs to leave the planes of the surface nearby: so vertices at a crease stay at
 //! it. All other vertices and those on the boundary stay. No triangle turns over.
 //!
-//! \param pieces          of the base's faces.
-//! \param nearest_vertex  per vertex of the base: that of the mesh in whose cell it lies;
+//! \param nearest_vertex  per vertex of surface.base: that of the mesh in whose cell it lies;
 //!                        agvd::no_index: none.
 //! Cost: O(#surface + #triangles), and about 20 us for each vertex at such a triangle.
-void improve_shape(const agvd::IntrinsicTriangulation& base, const agvd::FacePieces& pieces,
-                   std::span<const agvd::Index> nearest_vertex, PlacedMesh& mesh);
+void improve_shape(const PreparedSurface& surface, std::span<const agvd::Index> nearest_vertex,
+                   PlacedMesh& mesh);
 
 }  // namespace remesh

@@ -263,10 +263,9 @@ private:
 
 }  // namespace
 
-Index even_out(const agvd::IntrinsicTriangulation& base, const agvd::SurfaceLayout& layout,
-               std::vector<SurfacePoint>& sites, std::span<const std::uint8_t> is_fixed,
-               int num_threads) {
-    return EvenOut(base, sites, is_fixed).run(layout, num_threads);
+Index even_out(const PreparedSurface& surface, std::vector<SurfacePoint>& sites,
+               std::span<const std::uint8_t> is_fixed, int num_threads) {
+    return EvenOut(surface.base, sites, is_fixed).run(surface.layout, num_threads);
 }
 
 }  // namespace remesh::detail

@@ -5,8 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "agvd/intrinsic/intrinsic_triangulation.h"
-#include "agvd/propagation/surface_layout.h"
+#include "remesh/relax/prepared_surface.h"
 
 namespace remesh::detail {
 
@@ -19,14 +18,12 @@ namespace remesh::detail {
 //!
 //! Sites on the boundary stay. Components keep their numbers unless these are further from their
 //! share than chance would bring them.
-//! \param base      regions are made of its faces.
-//! \param layout    SurfaceLayout(base.surface()).
-//! \param sites     on base.input().
+//! \param surface   regions are made of its base's faces.
+//! \param sites     on surface.input().
 //! \param is_fixed  #sites: 1 for sites that stay; or empty.
 //! \return  the number of sites moved.
 //! Cost: O(n log n), a few sweeps over the edges.
-agvd::Index even_out(const agvd::IntrinsicTriangulation& base, const agvd::SurfaceLayout& layout,
-                     std::vector<agvd::SurfacePoint>& sites, std::span<const std::uint8_t> is_fixed,
-                     int num_threads);
+agvd::Index even_out(const PreparedSurface& surface, std::vector<agvd::SurfacePoint>& sites,
+                     std::span<const std::uint8_t> is_fixed, int num_threads);
 
 }  // namespace remesh::detail

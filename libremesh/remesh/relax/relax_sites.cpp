@@ -18,9 +18,7 @@ namespace remesh {
 namespace {
 
 using agvd::Index;
-using agvd::IntrinsicTriangulation;
 using agvd::Surface;
-using agvd::SurfaceLayout;
 using agvd::SurfacePoint;
 using detail::Relaxation;
 
@@ -63,15 +61,15 @@ bool gives_neighbours(const Surface& surface, std::size_t num_sites) {
 }
 
 // By labels; exactly where faces are too large for those.
-std::vector<agvd::Triangle> triangulate(const IntrinsicTriangulation& base,
-                                        const SurfaceLayout& layout,
+std::vector<agvd::Triangle> triangulate(const PreparedSurface& prepared,
                                         const agvd::DistanceBounds& labels,
                                         std::span<const SurfacePoint> sites, int num_threads) {
-    const Surface& surface = base.surface();
+    const Surface& surface = prepared.base.surface();
     if (gives_neighbours(surface, sites.size())) return detail::label_triangles(surface, labels);
-    const std::vector<SurfacePoint> on_base = base.to_intrinsic(sites);
-    const agvd::Propagation propagation = agvd::propagate(
-        surface, layout, on_base, {.max_error = neighbour_error, .num_threads = num_threads});
+    const std::vector<SurfacePoint> on_base = prepared.base.to_intrinsic(sites);
+    const agvd::Propagation propagation =
+        agvd::propagate(surface, prepared.layout, on_base,
+                        {.max_error = neighbour_error, .num_threads = num_threads});
     return build_dual(
         surface, agvd::build_diagram(surface, on_base, propagation, {.num_threads = num_threads}));
 }
@@ -88,12 +86,9 @@ bool is_hopeless(const Relaxation& relaxation) {
 
 class Levels {
 public:
-    Levels(const IntrinsicTriangulation& base, const SurfaceLayout& layout,
-           const agvd::FacePieces& pieces, const RelaxOptions& options, int num_levels)
-        : base_(base),
-          surface_(base.surface()),
-          layout_(layout),
-          pieces_(pieces),
+    Levels(const PreparedSurface& prepared, const RelaxOptions& options, int num_levels)
+        : prepared_(prepared),
+          surface_(prepared.base.surface()),
           options_(options),
           steps_planned_(options.steps * num_levels) {}
 
@@ -119,7 +114,7 @@ public:
     }
 
     [[nodiscard]] agvd::DistanceBounds label(std::span<const SurfacePoint> sites) const {
-        return detail::label_vertices(base_, layout_, sites, options_.num_threads);
+        return detail::label_vertices(prepared_, sites, options_.num_threads);
     }
 
     RelaxResult finish(std::vector<SurfacePoint> sites) {
@@ -137,9 +132,10 @@ private:
         const auto num_sites = static_cast<Index>(relaxation.sites().size());
         if (!gives_cells(num_sites)) return;
         if (options_.boundary == Boundary::Keep) {
-            relaxation.move_to_boundary(detail::boundary_places(base_, labels, num_sites, corners));
+            relaxation.move_to_boundary(
+                detail::boundary_places(prepared_.base, labels, num_sites, corners));
         }
-        relaxation.set_density(detail::measure_cells(surface_, pieces_, labels, num_sites));
+        relaxation.set_density(detail::measure_cells(prepared_, labels, num_sites));
     }
 
     // Looks at the surface again.
@@ -154,15 +150,13 @@ private:
         if (flaws > 0 && (is_cheap || is_worth_it)) {
             if (!is_cheap) num_mended_ = result_.levels.size();
             relaxation.mend(
-                triangulate(base_, layout_, labels, relaxation.sites(), options_.num_threads));
+                triangulate(prepared_, labels, relaxation.sites(), options_.num_threads));
         }
         look(relaxation, labels, corners);
     }
 
-    const IntrinsicTriangulation& base_;
-    const Surface& surface_;  // Of the base.
-    const SurfaceLayout& layout_;
-    const agvd::FacePieces& pieces_;
+    const PreparedSurface& prepared_;
+    const Surface& surface_;  // Of its base.
     const RelaxOptions& options_;
     int steps_planned_;
     int steps_done_ = 0;
@@ -186,17 +180,16 @@ std::optional<Index> coarse_count(const Surface& surface, Index count) {
 
 }  // namespace
 
-RelaxResult relax_sites(const IntrinsicTriangulation& base, const SurfaceLayout& layout,
-                        const agvd::FacePieces& pieces, std::vector<SurfacePoint> sites,
+RelaxResult relax_sites(const PreparedSurface& surface, std::vector<SurfacePoint> sites,
                         const RelaxOptions& options) {
     check_options(options, sites.size());
-    agvd::check_sites(base.input(), sites);
-    Levels levels(base, layout, pieces, options, 1);
+    agvd::check_sites(surface.input(), sites);
+    Levels levels(surface, options, 1);
     if (options.steps == 0 || sites.empty()) return levels.finish(std::move(sites));
-    detail::even_out(base, layout, sites, options.is_fixed, options.num_threads);
+    detail::even_out(surface, sites, options.is_fixed, options.num_threads);
     const agvd::DistanceBounds labels = levels.label(sites);
-    Relaxation relaxation(base.input(), sites,
-                          triangulate(base, layout, labels, sites, options.num_threads),
+    Relaxation relaxation(surface.input(), sites,
+                          triangulate(surface, labels, sites, options.num_threads),
                           options.is_fixed, {}, options.num_threads);
     if (is_hopeless(relaxation)) return levels.finish(std::move(sites));
     levels.run(relaxation, &labels, options.corners);
@@ -204,24 +197,24 @@ RelaxResult relax_sites(const IntrinsicTriangulation& base, const SurfaceLayout&
     return levels.finish(relaxation.sites());
 }
 
-RelaxResult sample_relaxed_sites(const IntrinsicTriangulation& base, const SurfaceLayout& layout,
-                                 const agvd::FacePieces& pieces, const SamplingOptions& sampling,
+RelaxResult sample_relaxed_sites(const PreparedSurface& surface, const SamplingOptions& sampling,
                                  const RelaxOptions& options) {
     check_options(options, 0);
-    const Surface& input = base.input();
+    const Surface& input = surface.input();
     const auto one_after_the_other = [&] {
-        return relax_sites(base, layout, pieces, sample_sites(input, sampling), options);
+        return relax_sites(surface, sample_sites(input, sampling), options);
     };
-    const std::optional<Index> coarse = coarse_count(base.surface(), sampling.num_samples);
+    const std::optional<Index> coarse = coarse_count(surface.base.surface(), sampling.num_samples);
     if (!coarse || options.steps == 0) return one_after_the_other();
     SamplingOptions first = sampling;
     first.num_samples = *coarse;
     first.progress = {};
-    Levels levels(base, layout, pieces, options, 2);
+    Levels levels(surface, options, 2);
     std::vector<SurfacePoint> sites = sample_sites(input, first);
     agvd::DistanceBounds labels = levels.label(sites);
-    Relaxation relaxation(input, std::move(sites), detail::label_triangles(base.surface(), labels),
-                          {}, {}, options.num_threads);
+    Relaxation relaxation(input, std::move(sites),
+                          detail::label_triangles(surface.base.surface(), labels), {}, {},
+                          options.num_threads);
     if (is_hopeless(relaxation)) return one_after_the_other();
     levels.run(relaxation, &labels, {});
     if (is_hopeless(relaxation)) return one_after_the_other();
@@ -229,7 +222,7 @@ RelaxResult sample_relaxed_sites(const IntrinsicTriangulation& base, const Surfa
     labels = levels.label(relaxation.sites());
     std::optional<detail::TriangulatedSites> fine =
         detail::subdivide(input, relaxation.sites(), relaxation.weights(),
-                          detail::label_dual(base, labels), sampling.num_samples);
+                          detail::label_dual(surface.base, labels), sampling.num_samples);
     if (!fine) return one_after_the_other();
     Relaxation last(input, std::move(fine->sites), std::move(fine->triangles), {},
                     std::move(fine->weights), options.num_threads);

@@ -4,8 +4,7 @@
 
 #include <span>
 
-#include "agvd/intrinsic/face_pieces.h"
-#include "agvd/propagation/surface_layout.h"
+#include "remesh/relax/prepared_surface.h"
 #include "remesh/sampling/sample_sites.h"
 
 namespace remesh {
@@ -42,17 +41,13 @@ struct RelaxResult {
 //!
 //! Where sites are too few for their triangulation to resemble the surface, they stay where they
 //! are.
-//! \param base    of the surface; vertices and faces of it are labelled.
-//! \param layout  SurfaceLayout(base.surface()).
-//! \param pieces  of the base's faces.
-//! \param sites   on base.input(), as are those of the result.
+//! \param surface  prepared for the spacing of the sites.
+//! \param sites    on surface.input(), as are those of the result.
 //! \throw agvd::InvalidOption  an option is out of range.
 //! \throw agvd::InvalidInput   a site is not on the surface.
 //! \throw agvd::Cancelled      the progress callback returned false.
 //! Cost: O(#F) every ten steps, O(#sites) each.
-[[nodiscard]] RelaxResult relax_sites(const agvd::IntrinsicTriangulation& base,
-                                      const agvd::SurfaceLayout& layout,
-                                      const agvd::FacePieces& pieces,
+[[nodiscard]] RelaxResult relax_sites(const PreparedSurface& surface,
                                       std::vector<agvd::SurfacePoint> sites,
                                       const RelaxOptions& options = {});
 
@@ -62,9 +57,7 @@ struct RelaxResult {
 //! than one after the other.
 //!
 //! \throw as these two.
-[[nodiscard]] RelaxResult sample_relaxed_sites(const agvd::IntrinsicTriangulation& base,
-                                               const agvd::SurfaceLayout& layout,
-                                               const agvd::FacePieces& pieces,
+[[nodiscard]] RelaxResult sample_relaxed_sites(const PreparedSurface& surface,
                                                const SamplingOptions& sampling,
                                                const RelaxOptions& options = {});
 

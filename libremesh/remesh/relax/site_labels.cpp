@@ -34,15 +34,16 @@ SurfacePoint point_on(Index h, double along, double inside) {
 
 }  // namespace
 
-agvd::DistanceBounds label_vertices(const agvd::IntrinsicTriangulation& base,
-                                    const agvd::SurfaceLayout& layout,
+agvd::DistanceBounds label_vertices(const PreparedSurface& surface,
                                     std::span<const SurfacePoint> sites, int num_threads) {
-    return agvd::distance_bounds(base.surface(), layout.arcs(), layout.corners().mean_length(),
-                                 base.to_intrinsic(sites), num_threads);
+    return agvd::distance_bounds(surface.base.surface(), surface.layout.arcs(),
+                                 surface.layout.corners().mean_length(),
+                                 surface.base.to_intrinsic(sites), num_threads);
 }
 
-CellMeasures measure_cells(const Surface& surface, const agvd::FacePieces& pieces,
-                           const agvd::DistanceBounds& labels, Index num_sites) {
+CellMeasures measure_cells(const PreparedSurface& prepared, const agvd::DistanceBounds& labels,
+                           Index num_sites) {
+    const Surface& surface = prepared.base.surface();
     CellMeasures result{std::vector<double>(num_sites, 0), std::vector<double>(num_sites, 0),
                         std::vector<CellPlanes>(num_sites)};
     std::vector<agvd::Vec3> shadow(num_sites, agvd::Vec3::Zero());  // The largest is so long.
@@ -50,7 +51,7 @@ CellMeasures measure_cells(const Surface& surface, const agvd::FacePieces& piece
         const agvd::Triangle& t = surface.mesh.triangles[f];
         const auto add = [&](Index site, double share) {
             if (site == no_index) return;
-            pieces.for_each(f, [&](const agvd::SurfacePiece& piece) {
+            prepared.pieces.for_each(f, [&](const agvd::SurfacePiece& piece) {
                 const double area = piece.vector.norm();
                 result.area[site] += share * area;
                 shadow[site] += share * piece.vector;

@@ -7,19 +7,16 @@
 #include <span>
 #include <vector>
 
-#include "agvd/intrinsic/face_pieces.h"
 #include "agvd/propagation/distance_bounds.h"
-#include "agvd/propagation/surface_layout.h"
 #include "remesh/relax/cell_planes.h"
+#include "remesh/relax/prepared_surface.h"
 
 namespace remesh::detail {
 
 //! Distances along edges and across them: a few per cent too long, for two sweeps over the edges.
 //!
-//! \param layout  SurfaceLayout(base.surface()).
-//! \param sites   on the input.
-[[nodiscard]] agvd::DistanceBounds label_vertices(const agvd::IntrinsicTriangulation& base,
-                                                  const agvd::SurfaceLayout& layout,
+//! \return  of the vertices of surface.base.
+[[nodiscard]] agvd::DistanceBounds label_vertices(const PreparedSurface& surface,
                                                   std::span<const agvd::SurfacePoint> sites,
                                                   int num_threads);
 
@@ -33,8 +30,7 @@ struct CellMeasures {
 };
 
 //! Faces of two labels are cut where these meet. Cost: O(#F and pieces).
-[[nodiscard]] CellMeasures measure_cells(const agvd::Surface& surface,
-                                         const agvd::FacePieces& pieces,
+[[nodiscard]] CellMeasures measure_cells(const PreparedSurface& surface,
                                          const agvd::DistanceBounds& labels, agvd::Index num_sites);
 
 //! A point halfway between two sites whose labels meet.

@@ -1,0 +1,32 @@
+#include "remesh/relax/prepared_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "agvd/mesh/face_area.h"
+
+namespace remesh {
+namespace {
+
+// Longest edge in spacings: relaxation finds neighbours by the labels of vertices, and Steiner
+// points of longer edges resolve no cell. Mean Q at N = 2000, with 1 / .85 / .7 / .55: fertility
+// .921 / .930 / .932 / .934, part 58011 .878 / .887 / .890 / .900, fandisk .913 / .914 / .914 /
+// .921; with .7 fandisk takes 1.25 times the instructions of .85.
+constexpr double longest_edge = 0.85;
+// Of a cell: what one piece of a face of needles stands for.
+constexpr double piece_share = 1.0 / 16;
+
+}  // namespace
+
+PreparedSurface::PreparedSurface(const agvd::Surface& input, double spacing, int num_threads)
+    : base(input, {.max_length = longest_edge * spacing}),
+      pieces(base, piece_share * spacing * spacing),
+      layout(base.surface(), num_threads) {}
+
+double mean_spacing(const agvd::Surface& surface, std::size_t num_sites) {
+    double area = 0;
+    for (agvd::Index f = 0; f < surface.num_faces(); ++f) area += agvd::face_area(surface, f);
+    return std::sqrt(area / static_cast<double>(std::max<std::size_t>(num_sites, 1)));
+}
+
+}  // namespace remesh

@@ -1,0 +1,27 @@
+//! \file
+//! A surface with all that is made of it once, for sites of a given spacing.
+#pragma once
+
+#include "agvd/intrinsic/face_pieces.h"
+#include "agvd/propagation/surface_layout.h"
+
+namespace remesh {
+
+//! Labels, propagation and diagram run on `base`; what happens in space on its input.
+struct PreparedSurface {
+    //! \param input    outlives this.
+    //! \param spacing  mean distance of the sites, > 0: the base's edges are not much longer.
+    //! Cost: that of the base, and O(#F) for the rest. 600 bytes a face.
+    PreparedSurface(const agvd::Surface& input, double spacing, int num_threads = 0);
+
+    agvd::IntrinsicTriangulation base;
+    agvd::FacePieces pieces;     //!< Of the base's faces.
+    agvd::SurfaceLayout layout;  //!< Of base.surface().
+
+    [[nodiscard]] const agvd::Surface& input() const { return base.input(); }
+};
+
+//! Root of the area for each site.
+[[nodiscard]] double mean_spacing(const agvd::Surface& surface, std::size_t num_sites);
+
+}  // namespace remesh
