@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 #include <numbers>
 
 #include "agvd/diagram/diagram.h"
@@ -20,26 +21,33 @@ using remesh::PlacedMesh;
 
 namespace {
 
+// A spacing that asks for no vertices besides the surface's own.
+constexpr double unrefined = 1e9;
+
 struct Remeshed {
+    explicit Remeshed(const TriangleMesh& input)
+        : surface(build_surface(input.view())), prepared(surface, unrefined) {}
+    Remeshed(const Remeshed&) = delete;
+
     Surface surface;
+    remesh::PreparedSurface prepared;
     PlacedMesh mesh;
     std::vector<Index> nearest_vertex;
 };
 
 // The dual of `count` sites, relaxed in some steps, with its vertices at the sites.
-Remeshed remeshed(const TriangleMesh& input, Index count, int steps) {
-    Remeshed result{build_surface(input.view()), {}, {}};
-    const Surface& surface = result.surface;
-    const SurfaceLayout layout(surface);
-    result.mesh.points =
-        remesh::sample_relaxed_sites(surface, layout, {.num_samples = count}, {.steps = steps})
-            .sites;
-    const auto& sites = result.mesh.points;
+std::unique_ptr<Remeshed> remeshed(const TriangleMesh& input, Index count, int steps) {
+    auto result = std::make_unique<Remeshed>(input);
+    const remesh::PreparedSurface& prepared = result->prepared;
+    result->mesh.points =
+        remesh::sample_relaxed_sites(prepared, {.num_samples = count}, {.steps = steps}).sites;
+    const Surface& base = prepared.base.surface();
+    const auto sites = prepared.base.to_intrinsic(result->mesh.points);
     const Diagram diagram =
-        build_diagram(surface, sites, propagate(surface, layout, sites, {.max_error = 1e-3}));
-    result.mesh.triangles = remesh::build_dual(surface, diagram);
-    result.mesh.offsets.assign(count, Vec3::Zero());
-    for (const SiteId site : diagram.nearest_site) result.nearest_vertex.push_back(site.value());
+        build_diagram(base, sites, propagate(base, prepared.layout, sites, {.max_error = 1e-3}));
+    result->mesh.triangles = remesh::build_dual(base, diagram);
+    result->mesh.offsets.assign(count, Vec3::Zero());
+    for (const SiteId site : diagram.nearest_site) result->nearest_vertex.push_back(site.value());
     return result;
 }
 
@@ -72,9 +80,10 @@ std::vector<TriangleMesh> smooth_shapes() {
 
 TEST(FitVertices, TheMeshComesNearerToTheSurface) {
     for (const TriangleMesh& input : smooth_shapes()) {
-        Remeshed r = remeshed(input, 300, 20);
+        const auto owner = remeshed(input, 300, 20);
+        Remeshed& r = *owner;
         const double before = mean_square_distance(r);
-        remesh::fit_vertices(r.surface, r.nearest_vertex, r.mesh);
+        remesh::fit_vertices(r.prepared, r.nearest_vertex, r.mesh);
         // Vertices on the boundary cannot help.
         const double share = boundary_loops(r.surface).empty() ? 0.4 : 0.9;
         EXPECT_LT(mean_square_distance(r), share * before);
@@ -82,8 +91,9 @@ TEST(FitVertices, TheMeshComesNearerToTheSurface) {
 }
 
 TEST(FitVertices, AFlatMeshStaysFlatAndVerticesOnTheBoundaryStay) {
-    Remeshed r = remeshed(shapes::grid(40), 200, 20);
-    remesh::fit_vertices(r.surface, r.nearest_vertex, r.mesh);
+    const auto owner = remeshed(shapes::grid(40), 200, 20);
+    Remeshed& r = *owner;
+    remesh::fit_vertices(r.prepared, r.nearest_vertex, r.mesh);
     int num_boundary = 0;
     for (Index v = 0; v < r.mesh.points.size(); ++v) {
         EXPECT_NEAR(r.mesh.offsets[v].z(), 0, 1e-9);
@@ -97,17 +107,19 @@ TEST(FitVertices, AFlatMeshStaysFlatAndVerticesOnTheBoundaryStay) {
 TEST(FitVertices, ItFindsTheEdgesOfACube) {
     TriangleMesh cube = shapes::cube();
     for (int i = 0; i < 5; ++i) cube = shapes::subdivide(cube);
-    Remeshed r = remeshed(cube, 500, 20);
+    const auto owner = remeshed(cube, 500, 20);
+    Remeshed& r = *owner;
     const double before = mean_square_distance(r);
-    remesh::fit_vertices(r.surface, r.nearest_vertex, r.mesh);
+    remesh::fit_vertices(r.prepared, r.nearest_vertex, r.mesh);
     EXPECT_LT(mean_square_distance(r), 0.4 * before);
 }
 
 TEST(FitVertices, ShapesGetBetter) {
     for (const TriangleMesh& input : smooth_shapes()) {
-        Remeshed r = remeshed(input, 300, 20);
+        const auto owner = remeshed(input, 300, 20);
+        Remeshed& r = *owner;
         const double before = remesh::measure_triangles(shape_of(r).view()).mean_quality;
-        remesh::fit_vertices(r.surface, r.nearest_vertex, r.mesh);
+        remesh::fit_vertices(r.prepared, r.nearest_vertex, r.mesh);
         EXPECT_GT(remesh::measure_triangles(shape_of(r).view()).mean_quality, before + 0.005);
     }
 }
@@ -116,8 +128,9 @@ TEST(FitVertices, NoVertexGoesFarOffTheSurface) {
     // Around the rim of a flat lens the planes of the two sides meet far outside.
     TriangleMesh lens = shapes::sphere(5);
     for (Vec3& p : lens.positions) p.z() *= 0.1;
-    Remeshed r = remeshed(lens, 300, 20);
-    remesh::fit_vertices(r.surface, r.nearest_vertex, r.mesh);
+    const auto owner = remeshed(lens, 300, 20);
+    Remeshed& r = *owner;
+    remesh::fit_vertices(r.prepared, r.nearest_vertex, r.mesh);
     const ClosestPointTree tree(lens.view());
     const double spacing = std::sqrt(2 * std::numbers::pi / 300);
     for (const Vec3& p : shape_of(r).positions) {
@@ -128,9 +141,10 @@ TEST(FitVertices, NoVertexGoesFarOffTheSurface) {
 TEST(FitVertices, NoTriangleTurnsOver) {
     for (const TriangleMesh& input :
          {shapes::jitter(shapes::sphere(5), 0.02, 3), shapes::torus(90, 45, 0.1)}) {
-        Remeshed r = remeshed(input, 400, 5);
+        const auto owner = remeshed(input, 400, 5);
+        Remeshed& r = *owner;
         const TriangleMesh before = shape_of(r);
-        remesh::fit_vertices(r.surface, r.nearest_vertex, r.mesh);
+        remesh::fit_vertices(r.prepared, r.nearest_vertex, r.mesh);
         const TriangleMesh after = shape_of(r);
         for (const auto& [a, b, c] : r.mesh.triangles) {
             const auto normal = [&](const std::vector<Vec3>& p) {
@@ -143,11 +157,12 @@ TEST(FitVertices, NoTriangleTurnsOver) {
 
 TEST(ImproveShape, TheWorstTriangleGetsBetterAndVerticesStayOnTheSurface) {
     for (const TriangleMesh& input : smooth_shapes()) {
-        Remeshed r = remeshed(input, 300, 0);
+        const auto owner = remeshed(input, 300, 0);
+        Remeshed& r = *owner;
         const std::vector<SurfacePoint> points = r.mesh.points;
         const double before = remesh::measure_triangles(shape_of(r).view()).min_quality;
         ASSERT_LT(before, 0.55);
-        remesh::improve_shape(r.surface, r.nearest_vertex, r.mesh);
+        remesh::improve_shape(r.prepared, r.nearest_vertex, r.mesh);
         EXPECT_GT(remesh::measure_triangles(shape_of(r).view()).min_quality, before + 0.05);
         for (Index v = 0; v < points.size(); ++v) {
             EXPECT_EQ(r.mesh.offsets[v], Vec3(Vec3::Zero()));
@@ -163,21 +178,23 @@ TEST(ImproveShape, TheWorstTriangleGetsBetterAndVerticesStayOnTheSurface) {
 TEST(ImproveShape, VerticesStayAtTheEdgesOfACube) {
     TriangleMesh cube = shapes::cube();
     for (int i = 0; i < 5; ++i) cube = shapes::subdivide(cube);
-    Remeshed r = remeshed(cube, 500, 0);
-    remesh::fit_vertices(r.surface, r.nearest_vertex, r.mesh);
+    const auto owner = remeshed(cube, 500, 0);
+    Remeshed& r = *owner;
+    remesh::fit_vertices(r.prepared, r.nearest_vertex, r.mesh);
     const double distance = mean_square_distance(r);
     const double quality = remesh::measure_triangles(shape_of(r).view()).min_quality;
-    remesh::improve_shape(r.surface, r.nearest_vertex, r.mesh);
+    remesh::improve_shape(r.prepared, r.nearest_vertex, r.mesh);
     EXPECT_GT(remesh::measure_triangles(shape_of(r).view()).min_quality, quality + 0.02);
     EXPECT_LT(mean_square_distance(r), 1.2 * distance);
 }
 
 TEST(ImproveShape, WhatIsGoodStays) {
-    Remeshed r = remeshed(shapes::sphere(5), 300, 100);
-    remesh::improve_shape(r.surface, r.nearest_vertex, r.mesh);
+    const auto owner = remeshed(shapes::sphere(5), 300, 100);
+    Remeshed& r = *owner;
+    remesh::improve_shape(r.prepared, r.nearest_vertex, r.mesh);
     const std::vector<SurfacePoint> points = r.mesh.points;
     ASSERT_GE(remesh::measure_triangles(shape_of(r).view()).min_quality, 0.6);
-    remesh::improve_shape(r.surface, r.nearest_vertex, r.mesh);
+    remesh::improve_shape(r.prepared, r.nearest_vertex, r.mesh);
     for (Index v = 0; v < points.size(); ++v) {
         EXPECT_EQ(r.mesh.points[v].face, points[v].face);
         EXPECT_EQ(r.mesh.points[v].barycentric, points[v].barycentric);

@@ -22,10 +22,10 @@
 
 using agvd::Index;
 using agvd::Surface;
-using agvd::SurfaceLayout;
 using agvd::SurfacePoint;
 using agvd::Vec3;
 using remesh::Init;
+using remesh::PreparedSurface;
 using remesh::relax_sites;
 using remesh::RelaxResult;
 using remesh::sample_relaxed_sites;
@@ -33,6 +33,9 @@ using remesh::sample_sites;
 using remesh::detail::even_out;
 
 namespace {
+
+// A spacing that asks for no vertices besides the surface's own.
+constexpr double unrefined = 1e9;
 
 std::vector<agvd::TriangleMesh> all_shapes() {
     return {shapes::sphere(4),
@@ -85,11 +88,11 @@ void expect_on_surface(const Surface& surface, const std::vector<SurfacePoint>& 
 TEST(RelaxSites, TheEnergyFallsAndHardlyEverRises) {
     for (const agvd::TriangleMesh& mesh : all_shapes()) {
         const Surface surface = agvd::build_surface(mesh.view());
-        const SurfaceLayout layout(surface);
+        const PreparedSurface prepared(surface, unrefined);
         const bool is_closed = boundary_loops(surface).empty();
         for (const Init init : {Init::Random, Init::BlueNoise}) {
             const auto start = sample_sites(surface, {.num_samples = 180, .init = init});
-            const RelaxResult result = relax_sites(surface, layout, start, {.steps = 60});
+            const RelaxResult result = relax_sites(prepared, start, {.steps = 60});
             expect_on_surface(surface, result.sites);
             ASSERT_EQ(result.levels.size(), 1u);
             const std::vector<double>& e = result.levels[0].energy;
@@ -110,7 +113,7 @@ TEST(RelaxSites, SitesStayOnTheirComponent) {
     const std::size_t num_sphere_faces = shapes::sphere(3).triangles.size();
     const auto on_sphere = [&](const SurfacePoint& s) { return s.face.value() < num_sphere_faces; };
     const auto start = sample_sites(surface, {.num_samples = 150, .init = Init::Random});
-    const auto end = relax_sites(surface, SurfaceLayout(surface), start).sites;
+    const auto end = relax_sites(PreparedSurface(surface, unrefined), start).sites;
     ASSERT_EQ(start.size(), end.size());
     for (std::size_t i = 0; i < start.size(); ++i) {
         EXPECT_EQ(on_sphere(start[i]), on_sphere(end[i])) << i;
@@ -120,7 +123,7 @@ TEST(RelaxSites, SitesStayOnTheirComponent) {
 TEST(RelaxSites, NoSiteCrossesAThinWall) {
     const Surface surface = agvd::build_surface(thin_plate().view());
     const auto start = sample_sites(surface, {.num_samples = 400});
-    const auto end = relax_sites(surface, SurfaceLayout(surface), start).sites;
+    const auto end = relax_sites(PreparedSurface(surface, unrefined), start).sites;
     int num_inner = 0;
     for (std::size_t i = 0; i < start.size(); ++i) {
         const Vec3 a = position(surface.mesh.view(), start[i]);
@@ -148,7 +151,7 @@ TEST(RelaxSites, BoundarySitesStayOnTheBoundaryAndFixedOnesWhereTheyAre) {
     ASSERT_GT(num_boundary, 10u);
     std::vector<std::uint8_t> is_fixed(start.size(), 0);
     for (std::size_t i = 0; i < start.size(); i += 7) is_fixed[i] = 1;
-    const auto end = relax_sites(surface, SurfaceLayout(surface), start,
+    const auto end = relax_sites(PreparedSurface(surface, unrefined), start,
                                  {.is_fixed = is_fixed, .boundary = remesh::Boundary::Free})
                          .sites;
     Index num_moved_along = 0;
@@ -167,28 +170,26 @@ TEST(RelaxSites, BoundarySitesStayOnTheBoundaryAndFixedOnesWhereTheyAre) {
 // As far as labels tell: those that the diagram sees besides are few.
 TEST(RelaxSites, SitesWhoseCellsMeetTheBoundaryMoveOntoIt) {
     const Surface surface = agvd::build_surface(shapes::grid(60).view());
-    const SurfaceLayout layout(surface);
+    const PreparedSurface prepared(surface, unrefined);
     const std::vector<Index> corners =
         remesh::find_corners(surface, agvd::boundary_loops(surface).front(), 1 / std::sqrt(200.0));
     ASSERT_EQ(corners.size(), 4u);
     const auto start =
         sample_sites(surface, {.num_samples = 200, .boundary = remesh::Boundary::Free});
     const auto num_fixes = [&](const std::vector<SurfacePoint>& sites) {
-        const auto diagram =
-            agvd::build_diagram(surface, sites, agvd::propagate(surface, layout, sites));
+        const auto diagram = agvd::build_diagram(surface, sites, agvd::propagate(surface, sites));
         const auto fixes = remesh::find_boundary_fixes(surface, diagram, sites, corners);
         return fixes.moved.size() + fixes.added.size();
     };
     EXPECT_GT(num_fixes(start), 30u);
-    const auto end = relax_sites(surface, layout, start, {.corners = corners}).sites;
+    const auto end = relax_sites(prepared, start, {.corners = corners}).sites;
     EXPECT_LE(num_fixes(end), 2u);
     for (const Index v : corners) {
         EXPECT_TRUE(std::any_of(end.begin(), end.end(), [&](const SurfacePoint& site) {
             return agvd::vertex_of(surface, site) == v;
         })) << v;
     }
-    const auto free =
-        relax_sites(surface, layout, start, {.boundary = remesh::Boundary::Free}).sites;
+    const auto free = relax_sites(prepared, start, {.boundary = remesh::Boundary::Free}).sites;
     EXPECT_GT(num_fixes(free), 30u);
 }
 
@@ -202,12 +203,12 @@ TEST(RelaxSites, FromOneSpotItGetsAsFarAsFromBlueNoise) {
     }
     for (const auto& [name, mesh] : meshes) {
         const Surface surface = agvd::build_surface(mesh.view());
-        const SurfaceLayout layout(surface);
+        const PreparedSurface prepared(surface, unrefined);
         const Index count = 1000;
         const std::vector<SurfacePoint> spot(count, SurfacePoint{agvd::FaceId(7), {0.2, 0.3, 0.5}});
-        const auto from_spot = relax_sites(surface, layout, spot, {.steps = 100});
+        const auto from_spot = relax_sites(prepared, spot, {.steps = 100});
         const auto from_noise =
-            sample_relaxed_sites(surface, layout, {.num_samples = count}, {.steps = 100});
+            sample_relaxed_sites(prepared, {.num_samples = count}, {.steps = 100});
         EXPECT_LT(energy(surface, from_spot.sites), 1.02 * energy(surface, from_noise.sites))
             << name;
     }
@@ -215,13 +216,13 @@ TEST(RelaxSites, FromOneSpotItGetsAsFarAsFromBlueNoise) {
 
 TEST(RelaxSites, FromOneSpotOfASheetItGetsAsFarAsFromBlueNoise) {
     const Surface surface = agvd::build_surface(shapes::grid(60).view());
-    const SurfaceLayout layout(surface);
+    const PreparedSurface prepared(surface, unrefined);
     const std::vector<Index> corners =
         remesh::find_corners(surface, agvd::boundary_loops(surface).front(), 1 / std::sqrt(300.0));
     const std::vector<SurfacePoint> spot(300, SurfacePoint{agvd::FaceId(7), {0.2, 0.3, 0.5}});
-    const auto from_spot = relax_sites(surface, layout, spot, {.steps = 100, .corners = corners});
-    const auto from_noise = sample_relaxed_sites(surface, layout, {.num_samples = 300},
-                                                 {.steps = 100, .corners = corners});
+    const auto from_spot = relax_sites(prepared, spot, {.steps = 100, .corners = corners});
+    const auto from_noise =
+        sample_relaxed_sites(prepared, {.num_samples = 300}, {.steps = 100, .corners = corners});
     const double told = from_noise.levels.back().energy.back();
     EXPECT_NEAR(told, energy(surface, from_noise.sites), 0.5 * told);
     for (const double e : from_spot.levels.back().energy) {
@@ -237,7 +238,7 @@ TEST(RelaxSites, TheEnergyDoesNotDependOnTheStart) {
     for (const agvd::TriangleMesh& mesh :
          {shapes::jitter(shapes::sphere(5), 0.01, 3), shapes::torus(120, 60)}) {
         const Surface surface = agvd::build_surface(mesh.view());
-        const SurfaceLayout layout(surface);
+        const PreparedSurface prepared(surface, unrefined);
         const SurfacePoint spot{agvd::FaceId(7), {0.2, 0.3, 0.5}};
         const auto half = sample_sites(surface, {.num_samples = count / 2});
         const auto in_disc = [&](double share) {
@@ -272,10 +273,9 @@ TEST(RelaxSites, TheEnergyDoesNotDependOnTheStart) {
         for (const int steps : {remesh::RelaxOptions{}.steps, 100}) {
             const double best = energy(
                 surface,
-                sample_relaxed_sites(surface, layout, {.num_samples = count}, {.steps = steps})
-                    .sites);
+                sample_relaxed_sites(prepared, {.num_samples = count}, {.steps = steps}).sites);
             for (const auto& [name, start] : starts) {
-                const auto end = relax_sites(surface, layout, start, {.steps = steps}).sites;
+                const auto end = relax_sites(prepared, start, {.steps = steps}).sites;
                 EXPECT_LT(energy(surface, end), 1.02 * best) << name << ", " << steps;
             }
         }
@@ -285,16 +285,16 @@ TEST(RelaxSites, TheEnergyDoesNotDependOnTheStart) {
 TEST(EvenOut, StartsAsEvenAsRandomOnesStayAsTheyAre) {
     for (const agvd::TriangleMesh& mesh : all_shapes()) {
         const Surface surface = agvd::build_surface(mesh.view());
-        const SurfaceLayout layout(surface);
+        const PreparedSurface prepared(surface, unrefined);
         for (const Index count : {20u, 150u, 600u}) {
             for (const Init init : {Init::Random, Init::BlueNoise, Init::Farthest}) {
                 const auto start = sample_sites(surface, {.num_samples = count, .init = init});
                 auto sites = start;
-                EXPECT_EQ(even_out(surface, layout, sites, {}, 0), 0u) << count;
+                EXPECT_EQ(even_out(prepared, sites, {}, 0), 0u) << count;
                 EXPECT_TRUE(same_sites(sites, start));
             }
-            auto relaxed = sample_relaxed_sites(surface, layout, {.num_samples = count}).sites;
-            EXPECT_EQ(even_out(surface, layout, relaxed, {}, 0), 0u) << count;
+            auto relaxed = sample_relaxed_sites(prepared, {.num_samples = count}).sites;
+            EXPECT_EQ(even_out(prepared, relaxed, {}, 0), 0u) << count;
         }
     }
 }
@@ -307,7 +307,7 @@ TEST(EvenOut, EveryPartGetsItsShareAndFixedSitesStay) {
     std::vector<SurfacePoint> sites(400, spot);
     std::vector<std::uint8_t> is_fixed(400, 0);
     is_fixed[0] = is_fixed[300] = 1;
-    EXPECT_EQ(even_out(surface, SurfaceLayout(surface), sites, is_fixed, 0), 398u);
+    EXPECT_EQ(even_out(PreparedSurface(surface, unrefined), sites, is_fixed, 0), 398u);
     expect_on_surface(surface, sites);
     EXPECT_TRUE(same_sites({sites[0], sites[300]}, {spot, spot}));
     const auto even = sample_sites(surface, {.num_samples = 400});
@@ -322,10 +322,9 @@ TEST(EvenOut, EveryPartGetsItsShareAndFixedSitesStay) {
 TEST(RelaxSites, TheSameBytesForAnyNumberOfThreads) {
     for (const agvd::TriangleMesh& mesh : all_shapes()) {
         const Surface surface = agvd::build_surface(mesh.view());
-        const SurfaceLayout layout(surface);
+        const PreparedSurface prepared(surface, unrefined);
         const auto run = [&](int threads) {
-            return sample_relaxed_sites(surface, layout,
-                                        {.num_samples = 700, .num_threads = threads},
+            return sample_relaxed_sites(prepared, {.num_samples = 700, .num_threads = threads},
                                         {.num_threads = threads})
                 .sites;
         };
@@ -338,11 +337,11 @@ TEST(RelaxSites, TheSameBytesForAnyNumberOfThreads) {
 TEST(RelaxSites, CoarseToFineGivesTheExactCount) {
     for (const agvd::TriangleMesh& mesh : all_shapes()) {
         const Surface surface = agvd::build_surface(mesh.view());
-        const SurfaceLayout layout(surface);
+        const PreparedSurface prepared(surface, unrefined);
         bool is_coarse = false;
         for (const Index count : {40u, 200u, 333u, 500u, 1000u}) {
             const RelaxResult result =
-                sample_relaxed_sites(surface, layout, {.num_samples = count}, {.steps = 8});
+                sample_relaxed_sites(prepared, {.num_samples = count}, {.steps = 8});
             EXPECT_EQ(result.sites.size(), count);
             expect_on_surface(surface, result.sites);
             is_coarse = is_coarse || result.levels.size() == 2;
@@ -354,9 +353,9 @@ TEST(RelaxSites, CoarseToFineGivesTheExactCount) {
 TEST(RelaxSites, ManySitesOnFewFaces) {
     for (const agvd::TriangleMesh& mesh : {shapes::cube(), shapes::grid(2), shapes::sphere(1)}) {
         const Surface surface = agvd::build_surface(mesh.view());
-        const SurfaceLayout layout(surface);
+        const PreparedSurface prepared(surface, unrefined);
         const auto start = sample_sites(surface, {.num_samples = 300, .init = Init::Random});
-        const auto result = relax_sites(surface, layout, start, {.steps = 20});
+        const auto result = relax_sites(prepared, start, {.steps = 20});
         expect_on_surface(surface, result.sites);
         EXPECT_LT(result.levels[0].energy.back(), 0.8 * result.levels[0].energy.front());
     }
@@ -364,40 +363,38 @@ TEST(RelaxSites, ManySitesOnFewFaces) {
 
 TEST(RelaxSites, ZeroStepsAndNoSitesChangeNothing) {
     const Surface surface = agvd::build_surface(shapes::sphere(2).view());
-    const SurfaceLayout layout(surface);
+    const PreparedSurface prepared(surface, unrefined);
     const auto start = sample_sites(surface, {.num_samples = 30});
-    EXPECT_TRUE(same_sites(relax_sites(surface, layout, start, {.steps = 0}).sites, start));
-    EXPECT_TRUE(relax_sites(surface, layout, {}).sites.empty());
+    EXPECT_TRUE(same_sites(relax_sites(prepared, start, {.steps = 0}).sites, start));
+    EXPECT_TRUE(relax_sites(prepared, {}).sites.empty());
 }
 
 TEST(RelaxSites, WrongOptionsAndSitesAreRefused) {
     const Surface surface = agvd::build_surface(shapes::sphere(2).view());
-    const SurfaceLayout layout(surface);
+    const PreparedSurface prepared(surface, unrefined);
     const auto start = sample_sites(surface, {.num_samples = 30});
-    EXPECT_THROW((void)relax_sites(surface, layout, start, {.steps = -1}), agvd::InvalidOption);
-    EXPECT_THROW((void)relax_sites(surface, layout, start, {.tolerance = -1}), agvd::InvalidOption);
-    EXPECT_THROW((void)relax_sites(surface, layout, start, {.is_fixed = {1}}), agvd::InvalidOption);
-    EXPECT_THROW((void)relax_sites(surface, layout, start, {.num_threads = -1}),
-                 agvd::InvalidOption);
-    EXPECT_THROW((void)relax_sites(surface, layout, {{agvd::FaceId(99999), {1, 0, 0}}}),
+    EXPECT_THROW((void)relax_sites(prepared, start, {.steps = -1}), agvd::InvalidOption);
+    EXPECT_THROW((void)relax_sites(prepared, start, {.tolerance = -1}), agvd::InvalidOption);
+    EXPECT_THROW((void)relax_sites(prepared, start, {.is_fixed = {1}}), agvd::InvalidOption);
+    EXPECT_THROW((void)relax_sites(prepared, start, {.num_threads = -1}), agvd::InvalidOption);
+    EXPECT_THROW((void)relax_sites(prepared, {{agvd::FaceId(99999), {1, 0, 0}}}),
                  agvd::InvalidInput);
-    EXPECT_THROW(
-        (void)relax_sites(surface, layout, start, {.progress = [](double) { return false; }}),
-        agvd::Cancelled);
+    EXPECT_THROW((void)relax_sites(prepared, start, {.progress = [](double) { return false; }}),
+                 agvd::Cancelled);
 }
 
 TEST(Relaxation, SitesAreDrawnToThePlanesOfTheirCells) {
     agvd::TriangleMesh cube = shapes::cube();
     for (int i = 0; i < 5; ++i) cube = shapes::subdivide(cube);
     const Surface surface = agvd::build_surface(cube.view());
-    const SurfaceLayout layout(surface);
+    const PreparedSurface prepared(surface, unrefined);
     const std::vector<SurfacePoint> sites = sample_sites(surface, {.num_samples = 300});
-    const agvd::DistanceBounds labels = remesh::detail::label_vertices(surface, layout, sites, 1);
+    const agvd::DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
     const remesh::detail::CellMeasures cells =
-        remesh::detail::measure_cells(surface, labels, static_cast<Index>(sites.size()));
+        remesh::detail::measure_cells(prepared, labels, static_cast<Index>(sites.size()));
     const auto distance_after_steps = [&](const remesh::detail::CellMeasures& known) {
         remesh::detail::Relaxation relaxation(
-            surface, sites, remesh::detail::label_dual(surface, labels).triangles, {}, {}, 1);
+            surface, sites, remesh::detail::label_dual(prepared.base, labels).triangles, {}, {}, 1);
         relaxation.set_density(known);
         for (int step = 0; step < 5; ++step) relaxation.step();
         double sum = 0;

@@ -30,7 +30,8 @@ TEST(NearestInCells, ItIsTheNearestPointOfTheSurface) {
     const agvd::Surface sphere = agvd::build_surface(shapes::sphere(4).view());
     std::vector<Index> cell;
     for (const Vec3& p : sphere.mesh.positions) cell.push_back(octant(p));
-    const NearestInCells nearest(sphere, cell, 8);
+    const agvd::IntrinsicTriangulation base(sphere);
+    const NearestInCells nearest(base, cell, 8);
     const agvd::ClosestPointTree tree(sphere.mesh.view());
     const std::array<Index, 8> all{0, 1, 2, 3, 4, 5, 6, 7};
     for (std::uint64_t i = 0; i < 500; ++i) {
@@ -46,7 +47,8 @@ TEST(NearestInCells, OtherCellsAreNotLookedAt) {
     for (const Vec3& p : sphere.mesh.positions) {
         cell.push_back(p.z() > 0.1 ? 0 : p.z() < -0.1 ? 1 : agvd::no_index);
     }
-    const NearestInCells nearest(sphere, cell, 3);
+    const agvd::IntrinsicTriangulation base(sphere);
+    const NearestInCells nearest(base, cell, 3);
     for (std::uint64_t i = 0; i < 100; ++i) {
         const Vec3 p = near_sphere(i);
         const std::array<Index, 1> above{0}, below{1}, empty{2};

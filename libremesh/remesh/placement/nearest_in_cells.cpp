@@ -1,5 +1,6 @@
 #include "remesh/placement/nearest_in_cells.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "agvd/mesh/one_ring.h"
@@ -58,7 +59,7 @@ agvd::ClosestPoint NearestInCells::query(const Vec3& point, std::span<const Inde
             if (here.distance_sq < result.distance_sq) result = here;
         });
     }
-    descend(point, result);
+    descend(point, nearest, result);
     return result;
 }
 
@@ -69,7 +70,12 @@ agvd::ClosestPoint NearestInCells::closest(Index face, const Vec3& point) const 
 }
 
 // The faces around a vertex may be needles, and the nearest point lie on others beyond.
-void NearestInCells::descend(const Vec3& point, agvd::ClosestPoint& nearest) const {
+void NearestInCells::descend(const Vec3& point, Index vertex, agvd::ClosestPoint& nearest) const {
+    const Surface& base = base_.surface();
+    const Vec3& start = base.mesh.positions[vertex];
+    double reach = 0;
+    agvd::for_each_outgoing(base, vertex,
+                            [&](Index h) { reach = std::max(reach, base.length_of(h)); });
     bool is_nearer = true;
     for (int step = 0; step < most_steps && is_nearer; ++step) {
         is_nearer = false;
@@ -79,6 +85,7 @@ void NearestInCells::descend(const Vec3& point, agvd::ClosestPoint& nearest) con
             if (from.barycentric[(k + 2) % 3] != 0 || twin == no_index) continue;
             const agvd::ClosestPoint beyond = closest(Surface::face(twin), point);
             if (!(beyond.distance_sq < nearest.distance_sq)) continue;
+            if ((beyond.position - start).squaredNorm() > reach * reach) continue;
             nearest = beyond;
             is_nearer = true;
         }

@@ -11,7 +11,8 @@
 namespace remesh::detail {
 
 //! Looks at the faces around the nearest vertex in a few cells only, and goes on from face to face
-//! while that leads nearer: quick, and never to the far side of a wall.
+//! while that leads nearer, no farther than the base's edges there are long: quick, and never to
+//! the far side of a wall.
 class NearestInCells {
 public:
     //! \param base            outlives this.
@@ -26,7 +27,7 @@ public:
 
 private:
     [[nodiscard]] agvd::ClosestPoint closest(agvd::Index face, const agvd::Vec3& point) const;
-    void descend(const agvd::Vec3& point, agvd::ClosestPoint& nearest) const;
+    void descend(const agvd::Vec3& point, agvd::Index vertex, agvd::ClosestPoint& nearest) const;
 
     const agvd::IntrinsicTriangulation& base_;
     const agvd::Surface& input_;
