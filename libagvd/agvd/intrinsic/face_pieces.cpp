@@ -31,6 +31,19 @@ Vec3 area_vector(const Surface& surface, Index face) {
     return (p[b] - p[a]).cross(p[c] - p[a]) / 2;
 }
 
+// Its sides are straight in space, so that they lie on the surface; between them no surface is as
+// small as the triangle but itself.
+bool is_flat(const Surface& surface, Index face) {
+    constexpr double rounding = 1e-9;  // Of a side.
+    const auto& p = surface.mesh.positions;
+    for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+        const double length = surface.length_of(h);
+        if (!((p[surface.head(h)] - p[surface.tail(h)]).norm() > (1 - rounding) * length))
+            return false;
+    }
+    return true;
+}
+
 }  // namespace
 
 FacePieces::FacePieces(const IntrinsicTriangulation& base, double piece_area)
@@ -43,7 +56,11 @@ FacePieces::FacePieces(const IntrinsicTriangulation& base, double piece_area)
         if (begin_.empty()) begin_.assign(surface.num_faces(), no_index);
         begin_[f] = static_cast<Index>(pieces_.size());
         parts.clear();
-        if (base.parts_of(f, parts) && !parts.empty()) {
+        if (is_flat(surface, f)) {
+            const auto& [a, b, c] = surface.mesh.triangles[f];
+            const auto& p = surface.mesh.positions;
+            pieces_.push_back({(p[a] + p[b] + p[c]) / 3, area_vector(surface, f)});
+        } else if (base.parts_of(f, parts) && !parts.empty()) {
             add_parts(parts);
         } else {
             add_samples(base, f, piece_area);

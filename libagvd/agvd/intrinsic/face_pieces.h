@@ -14,7 +14,8 @@ struct SurfacePiece {
     Vec3 vector;    //!< Its normal, as long as its area.
 };
 
-//! Faces that are the input's own are one piece each. A changed face may be bent in space: its
+//! Faces that are the input's own are one piece each, and so are changed faces whose sides are as
+//! long in space as on the surface: these are flat. Other changed faces are bent in space: its
 //! pieces are points spread evenly over it, each for an equal share of the area, with the normal of
 //! the input there. Immutable; threads may share it.
 class FacePieces {

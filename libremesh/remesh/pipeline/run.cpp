@@ -103,8 +103,11 @@ private:
         component_ = result_.input_topology.face_component;
         component_.reserve(base().num_faces());
         for (Index f = surface_.num_faces(); f < base().num_faces(); ++f) {
-            const SurfacePoint place = prepared_->base.to_input({agvd::FaceId(f), {1, 0, 0}});
-            component_.push_back(component_[place.face.value()]);
+            const Index corner = base().mesh.triangles[f][0];
+            const Index face = corner < surface_.num_vertices()
+                                   ? Surface::face(surface_.outgoing[corner])
+                                   : prepared_->base.place_of_added(corner).face.value();
+            component_.push_back(component_[face]);
         }
     }
 
