@@ -81,9 +81,15 @@ double slope(const Window& w, double at, double distance) {
 // chord, since distances are convex.
 bool may_win_between(const Window& loser, double low, double high, double lost_low,
                      double lost_high, double won_low, double won_high) {
+    const double width = high - low;
+    // Mostly one tangent does alone, which needs no division.
+    const double tie = rounding * won_low;
+    if ((lost_low + tie - won_high) * (lost_low - loser.weight) + (low - loser.x) * width >= 0 ||
+        (lost_high + tie - won_low) * (lost_high - loser.weight) - (high - loser.x) * width >= 0) {
+        return false;
+    }
     const double slope_low = slope(loser, low, lost_low);
     const double slope_high = slope(loser, high, lost_high);
-    const double width = high - low;
     const double turn = slope_high - slope_low;
     if (!(turn > 0)) return false;
     const double t = std::clamp((lost_low - lost_high + slope_high * width) / turn, 0.0, width);
@@ -124,6 +130,9 @@ Duel fight(const Window& a, const Window& b, double low, double high) {
     return duel;
 }
 
+// An interval that is none.
+bool is_rounding(double from, double to) { return !(to - from > 1e-15 * to); }
+
 // Writes the envelope from left to right.
 class Writer {
 public:
@@ -151,24 +160,47 @@ public:
     }
 
 private:
-    static bool is_rounding(double from, double to) { return !(to - from > 1e-15 * to); }
-
     const Window& window_;
     std::vector<Window>& out_;
     // Where the new window's last piece ends, if it was written last.
     double new_end_ = std::numeric_limits<double>::quiet_NaN();
 };
 
+// Where the window begins in the last one of the envelope, ends behind it and wins at most the last
+// part of what both cover, as most windows do that come in order. False if it does not.
+bool append_window(const Window& window, std::vector<Window>& envelope) {
+    Window& last = envelope.back();
+    if (!(last.begin <= window.begin && last.end <= window.end)) return false;
+    const Duel duel = fight(window, last, window.begin, last.end);
+    if (duel.first_wins || duel.num_cuts > 1) return false;
+    double begin = last.end;
+    if (duel.num_cuts == 1) {
+        const double cut = duel.cuts[0];
+        if (is_rounding(last.begin, cut) || is_rounding(cut, last.end)) return false;
+        last.at_end = last.distance(cut);
+        last.end = begin = cut;
+    }
+    if (is_rounding(begin, window.end)) return true;
+    envelope.push_back(window);
+    Window& added = envelope.back();
+    added.at_begin = window.distance(begin);
+    added.begin = begin;
+    return true;
+}
+
 }  // namespace
 
 void insert_window(const Window& window, std::vector<Window>& scratch,
                    std::vector<Window>& envelope) {
-    auto first = envelope.end();
-    while (first != envelope.begin() && (first - 1)->end > window.begin) --first;
-    if (first == envelope.end()) {
+    if (envelope.empty() || !(envelope.back().end > window.begin)) {
         envelope.push_back(window);
         return;
     }
+    const bool is_behind_others =
+        envelope.size() == 1 || !((envelope.end() - 2)->end > window.begin);
+    if (is_behind_others && append_window(window, envelope)) return;
+    auto first = envelope.end();
+    while (first != envelope.begin() && (first - 1)->end > window.begin) --first;
     scratch.assign(first, envelope.end());
     envelope.erase(first, envelope.end());
     Writer writer(window, envelope);
