@@ -15,7 +15,7 @@ namespace {
 double at(const Window& w, double x) { return w.weight + std::hypot(x - w.x, w.y); }
 
 Window window(double x, double y, double weight, double begin, double end) {
-    Window w{x, y, weight, begin, end, 0, 0};
+    Window w{x, y, weight, begin, end, 0, 0, 0, false};
     w.at_begin = at(w, begin);
     w.at_end = at(w, end);
     return w;

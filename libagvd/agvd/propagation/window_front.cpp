@@ -11,10 +11,12 @@
 
 namespace agvd {
 
-WindowFront::WindowFront(const Surface& surface, const Corners& corners, double max_error)
+WindowFront::WindowFront(const Surface& surface, const Corners& corners, double max_error,
+                         Index small_run)
     : surface_(surface),
       corners_(corners),
       max_error_(max_error),
+      small_run_(small_run),
       close_factor_((1 + max_error) * (1 + max_error) * (1 + max_error) * (1 + 1e-9)),
       vertex_slot_(surface.num_vertices(), 0),
       edge_slot_(surface.twin.size(), 0),
@@ -151,10 +153,8 @@ std::vector<Index> WindowFront::records_by_arrival() const {
 // results are those of a run that keeps everything. With one site on bunny this takes the memory
 // of a run from 290 to 5 MB.
 
-// Runs of fewer half-edges fit into the caches as they are.
 bool WindowFront::may_close() const {
-    constexpr Index small = 2048;
-    return keeps_ != nullptr && edges_.size() > small &&
+    return keeps_ != nullptr && num_arrivals_ > small_run_ &&
            queue_.order() == WindowQueue::Order::Buckets;
 }
 
@@ -185,7 +185,7 @@ void WindowFront::close_or_watch(Index record) {
         return;
     }
     if ((*keeps_)(Surface::face(edge.half_edge))) return;
-    if (edge.windows != no_index) store_.give_back(edge.windows);
+    if (edge.windows != no_index) store_.give_back(std::exchange(edge.windows, no_index));
     edge.half_edge = no_index;
     edge.next = std::exchange(free_edge_, record);
 }

@@ -28,7 +28,10 @@ class WindowFront {
 public:
     //! \param surface, corners  outlive the front; Corners(surface).
     //! \param max_error    relative; 0: no window is merged.
-    WindowFront(const Surface& surface, const Corners& corners, double max_error);
+    //! \param small_run    half-edges of a run that gives no windows back; the default fits into the
+    //!                     caches as it is.
+    WindowFront(const Surface& surface, const Corners& corners, double max_error,
+                Index small_run = 2048);
 
     //! Propagates from one site. Windows die where `bounds` are lower.
     //!
@@ -172,6 +175,7 @@ private:
     const Surface& surface_;
     const Corners& corners_;
     double max_error_;
+    Index small_run_;
     double close_factor_;
     std::span<const float> bounds_;
     const KeptFaces* keeps_ = nullptr;  // During a run; null: all.
