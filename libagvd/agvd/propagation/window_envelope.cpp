@@ -166,12 +166,11 @@ private:
     double new_end_ = std::numeric_limits<double>::quiet_NaN();
 };
 
-// Where the window begins in the last one of the envelope, ends behind it and wins at most the last
-// part of what both cover, as most windows do that come in order. False if it does not.
-bool append_window(const Window& window, std::vector<Window>& envelope) {
-    Window& last = envelope.back();
-    if (!(last.begin <= window.begin && last.end <= window.end)) return false;
-    const Duel duel = fight(window, last, window.begin, last.end);
+}  // namespace
+
+bool cut_where_they_change(Window& last, Window& next) {
+    if (!(last.begin <= next.begin && last.end <= next.end)) return false;
+    const Duel duel = fight(next, last, next.begin, last.end);
     if (duel.first_wins || duel.num_cuts > 1) return false;
     double begin = last.end;
     if (duel.num_cuts == 1) {
@@ -180,27 +179,19 @@ bool append_window(const Window& window, std::vector<Window>& envelope) {
         last.at_end = last.distance(cut);
         last.end = begin = cut;
     }
-    if (is_rounding(begin, window.end)) return true;
-    envelope.push_back(window);
-    Window& added = envelope.back();
-    added.at_begin = window.distance(begin);
-    added.begin = begin;
+    next.at_begin = next.distance(begin);
+    next.begin = is_rounding(begin, next.end) ? next.end : begin;
     return true;
 }
 
-}  // namespace
-
 void insert_window(const Window& window, std::vector<Window>& scratch,
                    std::vector<Window>& envelope) {
-    if (envelope.empty() || !(envelope.back().end > window.begin)) {
+    auto first = envelope.end();
+    while (first != envelope.begin() && (first - 1)->end > window.begin) --first;
+    if (first == envelope.end()) {
         envelope.push_back(window);
         return;
     }
-    const bool is_behind_others =
-        envelope.size() == 1 || !((envelope.end() - 2)->end > window.begin);
-    if (is_behind_others && append_window(window, envelope)) return;
-    auto first = envelope.end();
-    while (first != envelope.begin() && (first - 1)->end > window.begin) --first;
     scratch.assign(first, envelope.end());
     envelope.erase(first, envelope.end());
     Writer writer(window, envelope);

@@ -70,7 +70,9 @@ std::size_t WindowFront::bytes() const {
 // What an item needs after its corners, and what is seldom in the cache.
 [[gnu::always_inline]] inline void WindowFront::prefetch(Index item) const {
     if (item % 2 == 1) return;
-    const Index half_edge = edges_[item / 2].half_edge;
+    const EdgeRecord& edge = edges_[item / 2];
+    if (edge.waiting != no_index) store_.prefetch(edge.waiting);
+    const Index half_edge = edge.half_edge;
     const Corner& next = corners_[Surface::next(half_edge)];
     const Corner& previous = corners_[Surface::previous(half_edge)];
     __builtin_prefetch(&vertex_slot_[previous.tail]);

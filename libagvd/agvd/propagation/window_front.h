@@ -131,6 +131,11 @@ private:
     struct Division {
         WindowPart right, left;
     };
+    // Windows on their way to a half-edge.
+    struct Arrivals {
+        Index run, count;
+        double nearest;  // The least of their distances.
+    };
     // Paths that arrive at a vertex around which they may turn.
     struct Turn {
         Index vertex;     // Its record; of a free one the next.
@@ -162,12 +167,21 @@ private:
     void close_edges();
     void close_or_watch(Index record);
 
-    void send(Index half_edge, Index tail, Index head, std::span<const Window> windows);
+    void send(Index half_edge, Index tail, Index head, const Window& window);
+    void wait(const Arrivals& arrivals, Index half_edge, Index tail, Index head);
     void serve_edge(Index record);
     void take_in(EdgeRecord& edge, const WindowFace& face);
-    void merge_neighbours();
+    [[nodiscard]] Index gather(Index waiting, Index envelope);
+    [[nodiscard]] Index insert_rest(Index run, Index kept, Index i, const WindowFace& face);
+    [[nodiscard]] Index settle(Index run, Index count);
+    [[nodiscard]] Index merge_neighbours(std::span<Window> windows);
+    [[nodiscard]] Division divide(const Window& window, EdgeRecord& edge, const WindowFace& face);
     void reach_bent(const WindowFace& face, double distance, double at, float error);
-    [[nodiscard]] Division divide(Window& window, EdgeRecord& edge, const WindowFace& face);
+    double reach_apex(const Window& window, double ray, const WindowFace& face);
+    [[nodiscard]] static Division split(const Window& window, double ray, double at_apex,
+                                        EdgeRecord& edge);
+    template <auto part>
+    [[nodiscard]] Arrivals pass_on(const WindowFace& face, Index most);
     void emit(const Turn& turn);
     bool emit_fan(Index first, const Vec2* from, Index last, const Vec2* to, const VertexRecord& v);
     void emit_into(Index half_edge, double weight, float error, const Vec2* from, const Vec2* to);
@@ -196,7 +210,6 @@ private:
     std::vector<Window> envelope_, scratch_;
     RunArray<const Window*> order_;
     RunArray<Division> divisions_;
-    RunArray<Window> children_;
     double relative_error_ = 0;
     std::size_t num_served_ = 0;
 };

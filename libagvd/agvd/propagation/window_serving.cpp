@@ -27,50 +27,72 @@ inline Index WindowFront::edge_record(Index half_edge, Index tail, Index head) {
     return slot;
 }
 
-void WindowFront::send(Index half_edge, Index tail, Index head, std::span<const Window> windows) {
-    if (windows.empty()) return;
+void WindowFront::send(Index half_edge, Index tail, Index head, const Window& window) {
+    const Index run = store_.take(1);
+    store_[run].front() = window;
+    wait({run, 1, window.nearest()}, half_edge, tail, head);
+}
+
+// Windows in a run that is larger wait until the half-edge is served.
+void WindowFront::wait(const Arrivals& arrivals, Index half_edge, Index tail, Index head) {
+    if (arrivals.count == 0) {
+        store_.give_back(arrivals.run);
+        return;
+    }
+    store_.resize(arrivals.run, arrivals.count);
     const Index record = edge_record(half_edge, tail, head);
     EdgeRecord& edge = edges_[record];
-    const Index run = store_.take(static_cast<Index>(windows.size()));
-    store_.next(run) = edge.waiting;
-    edge.waiting = run;
-    double nearest = infinity;
-    Window* to = store_[run].data();
-    for (const Window& window : windows) {
-        nearest = std::min(nearest, window.nearest());
-        *to++ = window;
-    }
-    queue_.push(edge_item(record), nearest, edge.bucket);
+    store_.next(arrivals.run) = std::exchange(edge.waiting, arrivals.run);
+    queue_.push(edge_item(record), arrivals.nearest, edge.bucket);
     if (edge.bucket != no_index) edge.last_bucket = std::max(edge.last_bucket, edge.bucket);
+}
+
+// By the paths around the half-edge's ends, which meet at `middle`.
+inline bool is_beaten(const Window& w, const WindowFace& face, double middle) {
+    const double at = std::min(std::max(w.begin, middle), w.end);
+    const double around = std::min(face.tail_bound + at, face.head_bound + face.length - at) -
+                          w.weight + path_rounding * (w.at_begin + face.length);
+    return (around <= 0) | (around * around < (at - w.x) * (at - w.x) + w.y * w.y);
 }
 
 // Merges the windows that wait, which come in ascending runs, into the envelope of the half-edge.
 inline void WindowFront::take_in(EdgeRecord& edge, const WindowFace& face) {
-    const auto is_beaten = [&](const Window& w) {
-        const double at =
-            meeting_point(face.tail_bound, face.head_bound, face.length, w.begin, w.end);
-        const double around = std::min(face.tail_bound + at, face.head_bound + face.length - at) -
-                              w.weight + path_rounding * (w.at_begin + face.length);
-        return (around <= 0) | (around * around < (at - w.x) * (at - w.x) + w.y * w.y);
-    };
-    const Index only = edge.waiting;
-    edge.waiting = no_index;
-    const bool is_alone = edge.windows == no_index && store_.next(only) == no_index;
-    if (is_alone && store_[only].size() == 1) {  // Nine of ten at 2000 sites: it stays where it is.
-        if (is_beaten(store_[only].front())) {
-            store_.give_back(only);
-        } else {
-            edge.windows = only;
+    const Index waiting = std::exchange(edge.waiting, no_index);
+    Index run = waiting;
+    if (edge.windows != no_index || store_.next(waiting) != no_index) {
+        run = gather(waiting, edge.windows);
+        edge.windows = no_index;
+    }
+    const std::span<Window> windows = store_[run];
+    const double middle = (face.head_bound + face.length - face.tail_bound) / 2;
+    Index kept = 0;
+    for (Index i = 0; i < windows.size(); ++i) {
+        Window& w = windows[i];
+        // The envelope's own are served and stay.
+        if (!w.is_served && is_beaten(w, face, middle)) continue;
+        if (kept > 0 && windows[kept - 1].end > w.begin) {
+            const bool is_in_order = kept == 1 || !(windows[kept - 2].end > w.begin);
+            if (!is_in_order || !cut_where_they_change(windows[kept - 1], w)) {
+                edge.windows = insert_rest(run, kept, i, face);
+                return;
+            }
+            if (w.begin == w.end) continue;
         }
-        return;
+        if (kept < i) windows[kept] = w;
+        ++kept;
     }
+    edge.windows = settle(run, kept);
+}
+
+// Copies all windows, in order of their beginnings, into one run; where windows begin together, the
+// envelope's come first and then the last that came. The others are given back.
+Index WindowFront::gather(Index waiting, Index envelope) {
     order_.clear();
-    if (edge.windows != no_index) {
-        for (const Window& window : store_[edge.windows]) order_.push(&window);
+    if (envelope != no_index) {
+        for (const Window& window : store_[envelope]) order_.push(&window);
     }
-    for (Index run = only; run != no_index; run = store_.next(run)) {
+    for (Index run = waiting; run != no_index; run = store_.next(run)) {
         for (const Window& window : store_[run]) {
-            if (is_beaten(window)) continue;
             Index place = order_.extend(1);
             for (; place > 0 && window.begin < order_[place - 1]->begin; --place) {
                 order_[place] = order_[place - 1];
@@ -78,22 +100,51 @@ inline void WindowFront::take_in(EdgeRecord& edge, const WindowFace& face) {
             order_[place] = &window;
         }
     }
-    envelope_.clear();
-    for (const Window* window : order_) insert_window(*window, scratch_, envelope_);
-    if (max_error_ > 0) merge_neighbours();
-    for (Index run = only; run != no_index;) store_.give_back(std::exchange(run, store_.next(run)));
-    if (edge.windows != no_index) store_.give_back(edge.windows);
-    edge.windows = no_index;
-    if (envelope_.empty()) return;
-    edge.windows = store_.take(static_cast<Index>(envelope_.size()));
-    std::copy(envelope_.begin(), envelope_.end(), store_[edge.windows].begin());
+    const Index all = store_.take(order_.size());
+    Window* to = store_[all].data();
+    for (const Window* window : order_) *to++ = *window;
+    for (Index run = waiting; run != no_index;) {
+        store_.give_back(std::exchange(run, store_.next(run)));
+    }
+    if (envelope != no_index) store_.give_back(envelope);
+    return all;
 }
 
-void WindowFront::merge_neighbours() {
-    std::size_t kept = 0;
-    for (std::size_t i = 1; i < envelope_.size(); ++i) {
-        Window& last = envelope_[kept];
-        const Window& next = envelope_[i];
+// Where the windows from place i on are not so simple.
+Index WindowFront::insert_rest(Index run, Index kept, Index i, const WindowFace& face) {
+    const std::span<Window> windows = store_[run];
+    const double middle = (face.head_bound + face.length - face.tail_bound) / 2;
+    envelope_.assign(windows.begin(), windows.begin() + kept);
+    for (; i < windows.size(); ++i) {
+        const Window& w = windows[i];
+        if (w.is_served || !is_beaten(w, face, middle)) insert_window(w, scratch_, envelope_);
+    }
+    const auto count = static_cast<Index>(envelope_.size());
+    if (count > store_.room(run)) {
+        store_.give_back(run);
+        run = store_.take(count);
+    }
+    store_.resize(run, count);
+    std::copy(envelope_.begin(), envelope_.end(), store_[run].begin());
+    return settle(run, count);
+}
+
+// The envelope, of which `count` windows are left.
+inline Index WindowFront::settle(Index run, Index count) {
+    if (max_error_ > 0 && count > 0) count = merge_neighbours(store_[run].first(count));
+    if (count == 0) {
+        store_.give_back(run);
+        return no_index;
+    }
+    store_.resize(run, count);
+    return run;
+}
+
+Index WindowFront::merge_neighbours(std::span<Window> windows) {
+    Index kept = 0;
+    for (Index i = 1; i < windows.size(); ++i) {
+        Window& last = windows[kept];
+        const Window& next = windows[i];
         if (!last.is_served && !next.is_served) {
             if (const auto merged = merge_windows(last, next, max_error_)) {
                 last = *merged;
@@ -101,9 +152,9 @@ void WindowFront::merge_neighbours() {
                 continue;
             }
         }
-        envelope_[++kept] = next;
+        windows[++kept] = next;
     }
-    if (!envelope_.empty()) envelope_.resize(kept + 1);
+    return kept + 1;
 }
 
 void WindowFront::reach_bent(const WindowFace& face, double distance, double at, float error) {
@@ -114,10 +165,8 @@ void WindowFront::reach_bent(const WindowFace& face, double distance, double at,
 }
 
 // Reaches the apex, and decides which part of the window goes on to the right and to the left.
-inline WindowFront::Division WindowFront::divide(Window& w, EdgeRecord& edge, const WindowFace& face) {
-    w.is_served = true;
-    ++num_served_;
-    ++edge.num_served;
+inline WindowFront::Division WindowFront::divide(const Window& w, EdgeRecord& edge,
+                                                 const WindowFace& face) {
     const double ray = (w.x * face.apex_y - w.y * face.apex_x) / (face.apex_y - w.y);
     const double slack =
         grazing * std::min(face.length, std::min(w.at_begin, w.at_end) - w.weight) +
@@ -127,41 +176,69 @@ inline WindowFront::Division WindowFront::divide(Window& w, EdgeRecord& edge, co
     } else if (ray > w.end + slack) {
         reach_bent(face, w.at_end, w.end, w.error);
     } else {
-        const Vec2 to_image(w.x - face.apex_x, w.y - face.apex_y);
-        const double at_apex = w.weight + to_image.norm();
-        // A merged window's end ray touches the apex on one side only, and others go past it on
-        // the other side in other directions.
-        const bool touches = w.error > 0 && !(w.begin < ray && ray < w.end);
-        const VertexRecord& apex = vertices_[face.apex_record];
-        const bool may_turn = max_error_ > 0 && surface_.can_turn[apex.vertex] != 0;
-        if (at_apex < apex.low || may_turn) {
-            reach_vertex(face.apex_record, at_apex, w.error,
-                         touches ? no_index : Surface::previous(face.half_edge),
-                         into(Vec2(-face.left_x, -face.left_y), to_image));
-        } else {
-            bound_vertex(face.apex_record, at_apex + w.error);
-        }
-        if (w.begin < ray && ray < w.end) {
-            Division division{{&w, ray, true}, {&w, ray, true}};
-            // One angle, one split: rays that cross the best one on its way to the apex lead
-            // nowhere.
-            if (at_apex < edge.apex_distance) {
-                if (at_apex + w.error < edge.apex_distance) {
-                    edge.apex_distance = at_apex + w.error;
-                    edge.apex_ray = ray;
-                }
-            } else if (ray < edge.apex_ray) {
-                division.right = {&w, edge.apex_ray, false};
-                if (!(edge.apex_ray < w.end)) division.right.window = nullptr;
-            } else {
-                division.left = {&w, edge.apex_ray, false};
-                if (!(w.begin < edge.apex_ray)) division.left.window = nullptr;
-            }
-            return division;
-        }
+        const double at_apex = reach_apex(w, ray, face);
+        if (w.begin < ray && ray < w.end) return split(w, ray, at_apex, edge);
     }
     if (ray <= w.begin) return {{&w, w.begin, false}, {}};
     return {{}, {&w, w.end, false}};
+}
+
+// \return the distance of the apex.
+double WindowFront::reach_apex(const Window& w, double ray, const WindowFace& face) {
+    const Vec2 to_image(w.x - face.apex_x, w.y - face.apex_y);
+    const double at_apex = w.weight + to_image.norm();
+    // A merged window's end ray touches the apex on one side only, and others go past it on
+    // the other side in other directions.
+    const bool touches = w.error > 0 && !(w.begin < ray && ray < w.end);
+    const VertexRecord& apex = vertices_[face.apex_record];
+    const bool may_turn = max_error_ > 0 && surface_.can_turn[apex.vertex] != 0;
+    if (at_apex < apex.low || may_turn) {
+        reach_vertex(face.apex_record, at_apex, w.error,
+                     touches ? no_index : Surface::previous(face.half_edge),
+                     into(Vec2(-face.left_x, -face.left_y), to_image));
+    } else {
+        bound_vertex(face.apex_record, at_apex + w.error);
+    }
+    return at_apex;
+}
+
+// At the ray to the apex. One angle, one split: rays that cross the best one on its way to the apex
+// lead nowhere.
+WindowFront::Division WindowFront::split(const Window& w, double ray, double at_apex,
+                                         EdgeRecord& edge) {
+    Division division{{&w, ray, true}, {&w, ray, true}};
+    if (at_apex < edge.apex_distance) {
+        if (at_apex + w.error < edge.apex_distance) {
+            edge.apex_distance = at_apex + w.error;
+            edge.apex_ray = ray;
+        }
+    } else if (ray < edge.apex_ray) {
+        division.right = {edge.apex_ray < w.end ? &w : nullptr, edge.apex_ray, false};
+    } else {
+        division.left = {w.begin < edge.apex_ray ? &w : nullptr, edge.apex_ray, false};
+    }
+    return division;
+}
+
+// The parts to one side that live.
+template <auto part>
+WindowFront::Arrivals WindowFront::pass_on(const WindowFace& face, Index most) {
+    Arrivals arrivals{store_.take(most), 0, infinity};
+    Window* child = store_[arrivals.run].data();
+    for (const Division& division : divisions_) {
+        if ((division.*part).window == nullptr) continue;
+        bool lives;
+        if constexpr (part == &Division::right) {
+            lives = pass_right(division.right, face, *child);
+        } else {
+            lives = pass_left(division.left, face, *child);
+        }
+        if (!lives) continue;
+        arrivals.nearest = std::min(arrivals.nearest, child->nearest());
+        ++child;
+        ++arrivals.count;
+    }
+    return arrivals;
 }
 
 // Takes in the windows that wait, and sends on what has not been sent on.
@@ -177,31 +254,25 @@ void WindowFront::serve_edge(Index record) {
     face.apex_record = vertex_record(face.previous.tail);
 
     divisions_.clear();
+    Index num_right = 0, num_left = 0;
     for (Window& window : store_[edge.windows]) {
-        if (!window.is_served) divisions_.push(divide(window, edge, face));
+        if (window.is_served) continue;
+        window.is_served = true;
+        const Division division = divide(window, edge, face);
+        num_right += division.right.window == nullptr ? 0 : 1;
+        num_left += division.left.window == nullptr ? 0 : 1;
+        divisions_.push(division);
     }
+    edge.num_served += divisions_.size();
+    num_served_ += divisions_.size();
     face.apex_bound = vertices_[face.apex_record].bound;
-    children_.clear();
-    children_.extend(2 * divisions_.size());
-    Index num_right = 0;
-    if (face.next.twin != no_index) {
-        for (const auto& [right, left] : divisions_) {
-            if (right.window == nullptr) continue;
-            num_right += pass_right(right, face, children_[num_right]) ? 1 : 0;
-        }
+    const Index tail = edge.tail, head = edge.head;  // Records may move.
+    if (num_right > 0 && face.next.twin != no_index) {
+        wait(pass_on<&Division::right>(face, num_right), face.next.twin, face.apex_record, head);
     }
-    Index count = num_right;
-    if (face.previous.twin != no_index) {
-        for (const auto& [right, left] : divisions_) {
-            if (left.window == nullptr) continue;
-            count += pass_left(left, face, children_[count]) ? 1 : 0;
-        }
+    if (num_left > 0 && face.previous.twin != no_index) {
+        wait(pass_on<&Division::left>(face, num_left), face.previous.twin, tail, face.apex_record);
     }
-    const Index tail = edge.tail;
-    const Index head = edge.head;
-    const std::span<const Window> children{&children_[0], count};
-    send(face.next.twin, face.apex_record, head, children.first(num_right));
-    send(face.previous.twin, tail, face.apex_record, children.subspan(num_right));
 }
 
 }  // namespace agvd

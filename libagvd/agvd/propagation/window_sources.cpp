@@ -29,7 +29,7 @@ void WindowFront::start(const SurfacePoint& site) {
             const Window window{
                 image.x(), image.y(), 0, 0, length, image.norm(), (image - Vec2(length, 0)).norm(), 0, false};
             send(surface_.twin[h], vertex_record(surface_.head(h)), vertex_record(surface_.tail(h)),
-                 {&window, 1});
+                 window);
         }
     };
     const auto half_edge = half_edge_of(site);
@@ -88,7 +88,7 @@ void WindowFront::emit_into(Index half_edge, double weight, float error, const V
     }
     if (opposite.twin == no_index || !(begin < end)) return;
     window = window.part(begin, end);
-    send(opposite.twin, apex, head, {&window, 1});
+    send(opposite.twin, apex, head, window);
 }
 
 // The shadow behind a saddle or boundary vertex: the directions that make an angle of pi or more

@@ -32,7 +32,7 @@ public:
         if (free_run == no_index) {
             const std::size_t size = std::size_t{1} << size_class;
             if (room_.size() < size) open_block(size);
-            const Index run = runs_.push({room_.data(), count, no_index});
+            const Index run = runs_.push({room_.data(), count, no_index, size_class});
             room_ = room_.subspan(size);
             return run;
         }
@@ -42,17 +42,25 @@ public:
         return run;
     }
     void give_back(Index run) {
-        Index& free_run =
-            free_runs_[static_cast<std::size_t>(std::bit_width(runs_[run].count - 1))];
+        Index& free_run = free_runs_[static_cast<std::size_t>(runs_[run].size_class)];
         runs_[run].next = free_run;
         free_run = run;
     }
+
+    [[nodiscard]] Index room(Index run) const { return Index{1} << runs_[run].size_class; }
+    //! \param count  of windows that the run has from now on, up to its room.
+    void resize(Index run, Index count) { runs_[run].count = count; }
 
     [[nodiscard]] std::span<Window> operator[](Index run) {
         return {runs_[run].first, runs_[run].count};
     }
     [[nodiscard]] std::span<const Window> operator[](Index run) const {
         return {runs_[run].first, runs_[run].count};
+    }
+    //! Starts to load the first windows of a run.
+    [[gnu::always_inline]] void prefetch(Index run) const {
+        const Window* const first = runs_[run].first;
+        for (Index i = 0; i < 4; ++i) __builtin_prefetch(first + i);
     }
     //! Of a run that is in use: free for lists of its owner.
     [[nodiscard]] Index& next(Index run) { return runs_[run].next; }
@@ -68,6 +76,7 @@ private:
         Window* first;
         Index count;
         Index next;
+        int size_class;
     };
     struct Block {
         std::unique_ptr<Window[]> windows;
