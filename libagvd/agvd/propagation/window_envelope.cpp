@@ -12,6 +12,7 @@ constexpr double rounding = 1e-14;
 // Who wins where on an interval: at first `first_wins`, then turn about at each cut.
 struct Duel {
     bool first_wins;
+    bool is_tie = false;  // At both ends.
     int num_cuts = 0;
     std::array<double, 2> cuts{};
 };
@@ -106,6 +107,8 @@ Duel fight(const Window& a, const Window& b, double low, double high) {
     const bool wins_low = a_low < b_low - tie;
     const bool wins_high = a_high < b_high - tie;
     Duel duel{wins_low};
+    duel.is_tie = (std::abs(a_low - b_low) <= rounding * b_low) &
+                  (std::abs(a_high - b_high) <= rounding * b_high);
     if (wins_low != wins_high) {
         if ((a_low < b_low) == (a_high < b_high)) {  // They tie at one end.
             duel.first_wins = a_low < b_low;
@@ -166,21 +169,55 @@ private:
     double new_end_ = std::numeric_limits<double>::quiet_NaN();
 };
 
+// Nothing is left of a window.
+void drop(Window& window) { window.begin = window.end; }
+
+// False if nothing would be left.
+bool end_at(Window& window, double end) {
+    if (is_rounding(window.begin, end)) return false;
+    window.at_end = window.distance(end);
+    window.end = end;
+    return true;
+}
+
+void begin_at(Window& window, double begin) {
+    window.at_begin = window.distance(begin);
+    window.begin = is_rounding(begin, window.end) ? window.end : begin;
+}
+
+// Beams on both sides of a ray that touches a vertex tie along it. Where that of the vertex holds
+// the ray, wider by its grazing, the two overlap on every edge from there on.
+bool gives_way(const Window& last, const Window& next, const Duel& duel) {
+    constexpr double narrow = 1e-8;
+    return duel.is_tie && duel.num_cuts == 0 && !last.is_served && next.weight < last.weight &&
+           last.end - next.begin < narrow * last.end;
+}
+
 }  // namespace
 
 bool cut_where_they_change(Window& last, Window& next) {
-    if (!(last.begin <= next.begin && last.end <= next.end)) return false;
-    const Duel duel = fight(next, last, next.begin, last.end);
-    if (duel.first_wins || duel.num_cuts > 1) return false;
+    if (is_rounding(next.begin, last.end)) {
+        begin_at(next, last.end);
+        return true;
+    }
+    if (next.begin < last.begin) return false;
+    const double high = std::min(last.end, next.end);
+    const Duel duel = fight(next, last, next.begin, high);
+    if (duel.num_cuts > 1) return false;
+    if (high < last.end) {  // The last one lies on both sides.
+        if (duel.first_wins || duel.num_cuts == 1) return false;
+        drop(next);
+        return true;
+    }
+    if (duel.first_wins || gives_way(last, next, duel)) {
+        return duel.num_cuts == 0 && end_at(last, next.begin);
+    }
     double begin = last.end;
     if (duel.num_cuts == 1) {
-        const double cut = duel.cuts[0];
-        if (is_rounding(last.begin, cut) || is_rounding(cut, last.end)) return false;
-        last.at_end = last.distance(cut);
-        last.end = begin = cut;
+        begin = duel.cuts[0];
+        if (is_rounding(begin, last.end) || !end_at(last, begin)) return false;
     }
-    next.at_begin = next.distance(begin);
-    next.begin = is_rounding(begin, next.end) ? next.end : begin;
+    begin_at(next, begin);
     return true;
 }
 

@@ -10,9 +10,9 @@
 
 namespace agvd {
 
-//! Makes two windows that overlap disjoint, if the second begins in the first, ends behind it and
-//! wins at most the last part of what both cover, as nearly all do that come in order. The second
-//! ends where it begins if nothing is left of it. False if they are not so, and stay as they are.
+//! Makes two windows that overlap disjoint, if that takes one cut, as it nearly always does where
+//! windows come in order. The second ends where it begins if nothing is left of it. False if it
+//! takes more; then they stay as they are.
 [[nodiscard]] bool cut_where_they_change(Window& last, Window& next);
 
 //! Adds a window to an envelope: disjoint windows, in order. Where two windows give the same
