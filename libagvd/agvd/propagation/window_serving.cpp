@@ -55,6 +55,15 @@ inline bool is_beaten(const Window& w, const WindowFace& face, double middle) {
     return (around <= 0) | (around * around < (at - w.x) * (at - w.x) + w.y * w.y);
 }
 
+// Cuts a window off from the last one of an envelope; it ends where it begins if nothing is left. False
+// if that is not enough.
+inline bool comes_in_order(std::span<Window> envelope, Window& window) {
+    const std::size_t size = envelope.size();
+    if (size == 0 || !(envelope[size - 1].end > window.begin)) return true;
+    if (size > 1 && envelope[size - 2].end > window.begin) return false;
+    return cut_where_they_change(envelope[size - 1], window);
+}
+
 // Merges the windows that wait, which come in ascending runs, into the envelope of the half-edge.
 inline void WindowFront::take_in(EdgeRecord& edge, const WindowFace& face) {
     const Index waiting = std::exchange(edge.waiting, no_index);
@@ -70,14 +79,11 @@ inline void WindowFront::take_in(EdgeRecord& edge, const WindowFace& face) {
         Window& w = windows[i];
         // The envelope's own are served and stay.
         if (!w.is_served && is_beaten(w, face, middle)) continue;
-        if (kept > 0 && windows[kept - 1].end > w.begin) {
-            const bool is_in_order = kept == 1 || !(windows[kept - 2].end > w.begin);
-            if (!is_in_order || !cut_where_they_change(windows[kept - 1], w)) {
-                edge.windows = insert_rest(run, kept, i, face);
-                return;
-            }
-            if (w.begin == w.end) continue;
+        if (!comes_in_order(windows.first(kept), w)) {
+            edge.windows = insert_rest(run, kept, i, face);
+            return;
         }
+        if (w.begin == w.end) continue;
         if (kept < i) windows[kept] = w;
         ++kept;
     }
@@ -116,8 +122,13 @@ Index WindowFront::insert_rest(Index run, Index kept, Index i, const WindowFace&
     const double middle = (face.head_bound + face.length - face.tail_bound) / 2;
     envelope_.assign(windows.begin(), windows.begin() + kept);
     for (; i < windows.size(); ++i) {
-        const Window& w = windows[i];
-        if (w.is_served || !is_beaten(w, face, middle)) insert_window(w, scratch_, envelope_);
+        Window& w = windows[i];
+        if (!w.is_served && is_beaten(w, face, middle)) continue;
+        if (!comes_in_order(envelope_, w)) {
+            insert_window(w, scratch_, envelope_);
+        } else if (w.begin < w.end) {
+            envelope_.push_back(w);
+        }
     }
     const auto count = static_cast<Index>(envelope_.size());
     if (count > store_.room(run)) {
