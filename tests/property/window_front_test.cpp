@@ -48,9 +48,8 @@ void expect_same_windows(const std::vector<HalfEdgeWindows>& a,
 
 std::vector<std::pair<Index, double>> vertices_of(const WindowFront& front) {
     std::vector<std::pair<Index, double>> result;
-    front.for_each_vertex([&](const WindowFront::ReachedVertex& v) {
-        result.emplace_back(v.vertex, v.distance);
-    });
+    front.for_each_vertex(
+        [&](const WindowFront::ReachedVertex& v) { result.emplace_back(v.vertex, v.distance); });
     return result;
 }
 
@@ -99,9 +98,8 @@ TEST(WindowFront, OnlyTheWindowsNearTheFrontAreHeld) {
     WindowFront front(s, corners, 0);
     const auto num_held = [&] {
         std::size_t held = 0;
-        front.for_each_half_edge([&](Index, std::span<const Window> windows) {
-            held += windows.size();
-        });
+        front.for_each_half_edge(
+            [&](Index, std::span<const Window> windows) { held += windows.size(); });
         return held;
     };
     front.run(sites[0], bounds.distance, default_work_cap, [](Index) { return false; });

@@ -155,12 +155,12 @@ private:
         const auto count = static_cast<Index>(order.size());
         const Index batch = std::max(count / most_batches, least_batch);
         for (Index first = 0; first < count; first += batch) {
-            const auto tasks =
-                run_tasks(std::span(order).subspan(first, std::min(batch, count - first)), workers,
-                          [&](Index site, Index face) { return is_collected(site, face); },
-                          [&](Index site, const WindowFront& front, TaskResult& task) {
-                              collect(site, front, task);
-                          });
+            const auto tasks = run_tasks(
+                std::span(order).subspan(first, std::min(batch, count - first)), workers,
+                [&](Index site, Index face) { return is_collected(site, face); },
+                [&](Index site, const WindowFront& front, TaskResult& task) {
+                    collect(site, front, task);
+                });
             for (const TaskResult& task : tasks) take_vertices(task);
             poll(options_.progress, static_cast<double>(first + 1) / (count + 1));
         }

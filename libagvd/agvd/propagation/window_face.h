@@ -22,17 +22,17 @@ inline constexpr double path_rounding = 1e-12;
 //! Of the edge: what a frame's coordinates may be off by after some turns.
 inline constexpr double frame_rounding = 1e-14;
 
-//! Where the paths along the edge from both its ends meet, inside an interval: if a window is beaten
-//! there it is beaten everywhere, by the tail before and by the head behind.
+//! Where the paths along the edge from both its ends meet, inside an interval: if a window is
+//! beaten there it is beaten everywhere, by the tail before and by the head behind.
 inline double meeting_point(double tail_bound, double head_bound, double length, double begin,
-                     double end) {
+                            double end) {
     return std::min(std::max(begin, (head_bound + length - tail_bound) / 2), end);
 }
 
 //! The face above a half-edge: tail at (0, 0), head at (length, 0). Windows leave it through the
 //! next half-edge (right) and the previous one (left); the frames of their twins start at the apex
-//! and at the tail. Plain numbers, since compilers tear vectors apart and stall where they join them
-//! again.
+//! and at the tail. Plain numbers, since compilers tear vectors apart and stall where they join
+//! them again.
 struct WindowFace {
     WindowFace(const Corners& corners, Index base_half_edge)
         : half_edge(base_half_edge),
@@ -68,23 +68,24 @@ struct WindowPart {
 
 //! Whether a child may matter: it is wide enough, and no path around the ends of its edge or past
 //! the corner behind it is shorter.
-inline bool lives(const Window& child, double begin_bound, double end_bound,
-                               double length, double spare, double to_corner) {
+inline bool lives(const Window& child, double begin_bound, double end_bound, double length,
+                  double spare, double to_corner) {
     const double to_begin = child.at_begin - child.weight;
     const double to_end = child.at_end - child.weight;
     const double at = meeting_point(begin_bound, end_bound, length, child.begin, child.end);
     const double around = std::min(begin_bound + at, end_bound + length - at) - child.weight +
                           path_rounding * (child.at_begin + length);
-    const bool is_wide = ((child.begin - child.end) * child.y > negligible_beam * to_begin * to_end) |
-                         ((child.begin < child.x) & (child.x < child.end) & (child.y < 0));
+    const bool is_wide =
+        ((child.begin - child.end) * child.y > negligible_beam * to_begin * to_end) |
+        ((child.begin < child.x) & (child.x < child.end) & (child.y < 0));
     return is_wide & (around >= 0) &
            (around * around >= (at - child.x) * (at - child.x) + child.y * child.y) &
            ((spare <= 0) | (to_corner >= spare * spare));
 }
 
 //! The part that goes on through the next half-edge. In the frame beyond, the apex is at 0, and a
-//! point of the base at a distance s before the head is at (length, 0) - s (right_x, sine). False if
-//! it dies; found without branches, since that cannot be predicted.
+//! point of the base at a distance s before the head is at (length, 0) - s (right_x, sine). False
+//! if it dies; found without branches, since that cannot be predicted.
 inline bool pass_right(const WindowPart& part, const WindowFace& face, Window& child) {
     const Window& w = *part.window;
     const double length = face.next.length;
@@ -141,7 +142,8 @@ inline bool pass_left(const WindowPart& part, const WindowFace& face, Window& ch
     const double head_y = -face.length * face.left_y;
     const double to_head = (head_x - begin) * (head_x - begin) + head_y * head_y;
     return lives(child, face.tail_bound, face.apex_bound, length,
-                 child.at_begin - face.head_bound - path_rounding * (child.at_begin + length), to_head);
+                 child.at_begin - face.head_bound - path_rounding * (child.at_begin + length),
+                 to_head);
 }
 
 }  // namespace agvd

@@ -178,8 +178,8 @@ void WindowFront::close_edges() {
 
 void WindowFront::close_or_watch(Index record) {
     EdgeRecord& edge = edges_[record];
-    const double around = vertices_[edge.tail].bound + vertices_[edge.head].bound +
-                          corners_.length(edge.half_edge);
+    const double around =
+        vertices_[edge.tail].bound + vertices_[edge.head].bound + corners_.length(edge.half_edge);
     const Index bucket =
         std::max(queue_.bucket_of(around / 2 * close_factor_), edge.last_bucket) + 1;
     if (bucket > num_closed_buckets_ || edge.waiting != no_index) {

@@ -28,7 +28,8 @@ class WindowFront {
 public:
     //! \param surface, corners  outlive the front; Corners(surface).
     //! \param max_error    relative; 0: no window is merged.
-    //! \param small_run    half-edges of a run that gives no windows back; the default fits into the
+    //! \param small_run    half-edges of a run that gives no windows back; the default fits into
+    //! the
     //!                     caches as it is.
     WindowFront(const Surface& surface, const Corners& corners, double max_error,
                 Index small_run = 2048);
@@ -138,8 +139,8 @@ private:
     };
     // Paths that arrive at a vertex around which they may turn.
     struct Turn {
-        Index vertex;     // Its record; of a free one the next.
-        Index half_edge;  // Leaves the vertex; no_index: the direction is not known.
+        Index vertex;                 // Its record; of a free one the next.
+        Index half_edge;              // Leaves the vertex; no_index: the direction is not known.
         double arrival_x, arrival_y;  // Towards where they come from, in the half-edge's frame.
         double distance;
     };

@@ -55,8 +55,8 @@ inline bool is_beaten(const Window& w, const WindowFace& face, double middle) {
     return (around <= 0) | (around * around < (at - w.x) * (at - w.x) + w.y * w.y);
 }
 
-// Cuts a window off from the last one of an envelope; it ends where it begins if nothing is left. False
-// if that is not enough.
+// Cuts a window off from the last one of an envelope; it ends where it begins if nothing is left.
+// False if that is not enough.
 inline bool comes_in_order(std::span<Window> envelope, Window& window) {
     const std::size_t size = envelope.size();
     if (size == 0 || !(envelope[size - 1].end > window.begin)) return true;

@@ -27,7 +27,8 @@ void WindowFront::start(const SurfacePoint& site) {
             const Vec2 image(length - p.x(), -p.y());
             if (!(image.y() < 0)) continue;
             const Window window{
-                image.x(), image.y(), 0, 0, length, image.norm(), (image - Vec2(length, 0)).norm(), 0, false};
+                image.x(), image.y(), 0, 0, length, image.norm(), (image - Vec2(length, 0)).norm(),
+                0,         false};
             send(surface_.twin[h], vertex_record(surface_.head(h)), vertex_record(surface_.tail(h)),
                  window);
         }
