@@ -163,7 +163,10 @@ private:
     [[nodiscard]] Index edge_record(Index half_edge, Index tail, Index head);
     [[nodiscard]] std::vector<Index> records_by_arrival() const;
 
-    [[nodiscard]] bool may_close() const;
+    [[nodiscard]] bool may_close() const {
+        return keeps_ != nullptr && num_arrivals_ > small_run_ &&
+               queue_.order() == WindowQueue::Order::Buckets;
+    }
     void watch(Index record, Index bucket);
     void close_edges();
     void close_or_watch(Index record);

@@ -33,8 +33,8 @@ void WindowFront::send(Index half_edge, Index tail, Index head, const Window& wi
     wait({run, 1, window.nearest()}, half_edge, tail, head);
 }
 
-// Windows in a run that is larger wait until the half-edge is served.
-void WindowFront::wait(const Arrivals& arrivals, Index half_edge, Index tail, Index head) {
+// The windows wait until the half-edge is served.
+inline void WindowFront::wait(const Arrivals& arrivals, Index half_edge, Index tail, Index head) {
     if (arrivals.count == 0) {
         store_.give_back(arrivals.run);
         return;
@@ -168,7 +168,8 @@ Index WindowFront::merge_neighbours(std::span<Window> windows) {
     return kept + 1;
 }
 
-void WindowFront::reach_bent(const WindowFace& face, double distance, double at, float error) {
+inline void WindowFront::reach_bent(const WindowFace& face, double distance, double at,
+                                    float error) {
     const VertexRecord& apex = vertices_[face.apex_record];
     const Vec2 rest(face.apex_x - at, face.apex_y);
     if (!is_within(rest, apex.upper - error - distance)) return;
@@ -195,7 +196,7 @@ inline WindowFront::Division WindowFront::divide(const Window& w, EdgeRecord& ed
 }
 
 // \return the distance of the apex.
-double WindowFront::reach_apex(const Window& w, double ray, const WindowFace& face) {
+inline double WindowFront::reach_apex(const Window& w, double ray, const WindowFace& face) {
     const Vec2 to_image(w.x - face.apex_x, w.y - face.apex_y);
     const double at_apex = w.weight + to_image.norm();
     // A merged window's end ray touches the apex on one side only, and others go past it on
@@ -215,8 +216,8 @@ double WindowFront::reach_apex(const Window& w, double ray, const WindowFace& fa
 
 // At the ray to the apex. One angle, one split: rays that cross the best one on its way to the apex
 // lead nowhere.
-WindowFront::Division WindowFront::split(const Window& w, double ray, double at_apex,
-                                         EdgeRecord& edge) {
+inline WindowFront::Division WindowFront::split(const Window& w, double ray, double at_apex,
+                                                EdgeRecord& edge) {
     Division division{{&w, ray, true}, {&w, ray, true}};
     if (at_apex < edge.apex_distance) {
         if (at_apex + w.error < edge.apex_distance) {
@@ -233,7 +234,7 @@ WindowFront::Division WindowFront::split(const Window& w, double ray, double at_
 
 // The parts to one side that live.
 template <auto part>
-WindowFront::Arrivals WindowFront::pass_on(const WindowFace& face, Index most) {
+inline WindowFront::Arrivals WindowFront::pass_on(const WindowFace& face, Index most) {
     Arrivals arrivals{store_.take(most), 0, infinity};
     Window* child = store_[arrivals.run].data();
     for (const Division& division : divisions_) {
