@@ -8,7 +8,8 @@ namespace agvd {
 namespace {
 
 // By which share the bound from another site may exceed that from the nearest where windows of both
-// may come: as much as bounds exceed distances.
+// may come: as much as bounds exceed distances. With .05 some 30 of 423 sites ran twice, with .08
+// six.
 constexpr double slack = 0.08;
 
 // Of the distance from its site: nearer to a border the exact one may lie anywhere. Where that is

@@ -153,7 +153,7 @@ std::vector<Index> WindowFront::records_by_arrival() const {
 // their errors, which close_factor_ allows for more than once, since vertices hand errors on. No
 // point of the half-edge is farther than half the way around both its ends. So whatever came there
 // would be beaten by the bounds of its ends, and all results are those of a run that keeps
-// everything. One site on bunny holds 5 MB instead of 290.
+// everything. One site on bunny holds 5 MB of windows instead of 290.
 void WindowFront::watch(Index record, Index bucket) {
     const Index next = num_closed_buckets_ + 1;
     const Index place = std::clamp(bucket, next, next + most_watched_ahead - 1);
