@@ -71,6 +71,20 @@ TEST_P(MovingSitesOn, ChangesGiveWhatAFreshRunGives) {
 INSTANTIATE_TEST_SUITE_P(RandomMeshes, MovingSitesOn, testing::ValuesIn(random_meshes::families()),
                          [](const auto& family) { return std::string(family.param); });
 
+// Moving sites keep all windows; a fresh run gives those behind the front back.
+TEST(MovingSites, FewSitesOnManyFacesHaveTheRelaysOfAFreshRun) {
+    const Surface surface = build_surface(shapes::jitter(shapes::torus(120, 60), 0.01, 3).view());
+    const SurfaceLayout layout(surface);
+    for (const Index count : {1, 2, 5}) {
+        for (const double max_error : {0.0, 1e-3}) {
+            const PropagationOptions options{.max_error = max_error, .num_threads = 2};
+            MovingSites moving(surface, layout, points::scattered(surface, count, 5), options);
+            EXPECT_EQ(moving.propagation().mixed_faces.empty(), count == 1);
+            expect_fresh(surface, moving, options);
+        }
+    }
+}
+
 TEST(MovingSites, OnlyNeighboursPropagateAgain) {
     const Surface surface = build_surface(shapes::jitter(shapes::torus(60, 40), 0.01, 3).view());
     const SurfaceLayout layout(surface);

@@ -295,6 +295,19 @@ TEST(WindowEngine, KeepsRelaysOnlyWhereLabelsMeet) {
     EXPECT_LT(few.mixed_faces.size(), s.num_faces() / 4);
 }
 
+// 100 bytes of a face are the layout; one site gives some 20 windows of 64 bytes to each.
+TEST(WindowEngine, FewSitesNeedLittleMoreMemoryThanTheLayout) {
+    const Surface s = build_surface(shapes::jitter(shapes::sphere(6), 0.003, 3).view());
+    const auto bytes_per_face = [&](Index count, double max_error) {
+        const Propagation p = propagate(s, points::scattered(s, count, 1),
+                                        {.max_error = max_error, .num_threads = 1});
+        return static_cast<double>(p.peak_bytes) / s.num_faces();
+    };
+    EXPECT_LT(bytes_per_face(1, 0), 300);
+    EXPECT_LT(bytes_per_face(1, 1e-3), 250);
+    EXPECT_LT(bytes_per_face(10, 0), 600);
+}
+
 TEST(WindowEngine, RefusesErrorsOutOfRange) {
     const Surface s = build_surface(shapes::cube().view());
     const auto sites = points::scattered(s, 2, 1);

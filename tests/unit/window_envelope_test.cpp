@@ -15,7 +15,7 @@ namespace {
 double at(const Window& w, double x) { return w.weight + std::hypot(x - w.x, w.y); }
 
 Window window(double x, double y, double weight, double begin, double end) {
-    Window w{x, y, weight, begin, end, 0, 0};
+    Window w{x, y, weight, begin, end, 0, 0, 0, false};
     w.at_begin = at(w, begin);
     w.at_end = at(w, end);
     return w;
@@ -130,6 +130,57 @@ TEST(WindowEnvelope, PiecesOfOneWindowStayTogether) {
     ASSERT_EQ(envelope.size(), 1u);
     EXPECT_EQ(envelope[0].begin, 0);
     EXPECT_EQ(envelope[0].end, 1);
+}
+
+// Where it says that one cut does, the two are the least of both; else they are untouched.
+TEST(WindowEnvelope, OneCutMakesTwoWindowsDisjoint) {
+    int num_cut = 0;
+    for (std::uint64_t seed = 0; seed < 4000; ++seed) {
+        std::vector<Window> both = random_windows(seed, 2, seed % 3 != 0);
+        if (both[1].begin < both[0].begin) std::swap(both[0], both[1]);
+        if (!(both[1].begin < both[0].end)) continue;
+        const std::vector<Window> before = both;
+        if (!cut_where_they_change(both[0], both[1])) {
+            for (int i : {0, 1}) {
+                EXPECT_EQ(both[i].begin, before[i].begin);
+                EXPECT_EQ(both[i].end, before[i].end);
+            }
+            continue;
+        }
+        ++num_cut;
+        EXPECT_LT(both[0].begin, both[0].end);
+        if (both[1].begin == both[1].end) both.pop_back();
+        if (both.size() == 2) {
+            EXPECT_LE(both[0].end, both[1].begin);
+        }
+        for (const Window& w : both) {
+            EXPECT_NEAR(w.at_begin, at(w, w.begin), 1e-12);
+            EXPECT_NEAR(w.at_end, at(w, w.end), 1e-12);
+        }
+        for (int k = 0; k <= 100; ++k) {
+            const double x = k / 100.0;
+            const double expected = least(before, x);
+            if (std::isinf(expected)) continue;
+            EXPECT_NEAR(least(both, x), expected, 1e-11) << "seed " << seed << " at " << x;
+        }
+    }
+    EXPECT_GT(num_cut, 1000);
+}
+
+// The beam from a vertex overlaps the one that passes it by the grazing of its ray.
+TEST(WindowEnvelope, TheBeamThatPassesAVertexHoldsTheRay) {
+    const double grazing = 1e-10;
+    const Window passing = window(0.5, -2, 0, 0.5, 1);  // From (0.5, -2) past the vertex (0.5, -1).
+    const Window turned = window(0.5, -1, 1, 0.2, 0.5 + grazing);
+    Window last = turned, next = passing;
+    ASSERT_TRUE(cut_where_they_change(last, next));
+    EXPECT_EQ(last.end, 0.5);
+    EXPECT_EQ(next.begin, 0.5);
+    last = turned;
+    next = passing;
+    last.is_served = true;  // Then it stays.
+    ASSERT_TRUE(cut_where_they_change(last, next));
+    EXPECT_EQ(next.begin, 0.5 + grazing);
 }
 
 // Below both, above both less the error, and with a beam that holds both beams.

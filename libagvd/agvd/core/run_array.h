@@ -3,7 +3,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdlib>
 #include <memory>
+#include <new>
 #include <type_traits>
 
 #include "agvd/core/types.h"
@@ -11,16 +13,18 @@
 namespace agvd {
 
 //! A vector of plain data that never gives memory back and leaves what is new unwritten unless
-//! pushed. Its size is one number, which std::vector must work out by a division.
+//! pushed. Its size is one number, which std::vector must work out by a division. It grows by
+//! realloc, which moves pages instead of copying what is in them, and touches none ahead of time:
+//! a page that is new to the process costs as much as 50 windows.
 template <typename T>
 class RunArray {
-    static_assert(std::is_trivially_destructible_v<T>);
+    static_assert(std::is_trivially_copyable_v<T>);
 
 public:
     [[nodiscard]] Index size() const { return size_; }
     [[nodiscard]] bool empty() const { return size_ == 0; }
-    [[nodiscard]] T& operator[](Index i) { return data_[i]; }
-    [[nodiscard]] const T& operator[](Index i) const { return data_[i]; }
+    [[nodiscard]] T& operator[](Index i) { return data_.get()[i]; }
+    [[nodiscard]] const T& operator[](Index i) const { return data_.get()[i]; }
     [[nodiscard]] const T* begin() const { return data_.get(); }
     [[nodiscard]] const T* end() const { return data_.get() + size_; }
 
@@ -35,23 +39,29 @@ public:
     //! \return its place.
     Index push(const T& element) {
         const Index place = extend(1);
-        data_[place] = element;
+        data_.get()[place] = element;
         return place;
     }
     [[nodiscard]] std::size_t bytes() const { return capacity_ * sizeof(T); }
 
 private:
+    struct Free {
+        void operator()(T* data) const { std::free(data); }
+    };
+
     [[gnu::noinline]] void grow(Index count) {
         constexpr Index least = 64;
-        capacity_ = std::max({2 * capacity_, size_ + count, least});
-        auto grown = std::make_unique_for_overwrite<T[]>(capacity_);
-        std::copy(begin(), end(), grown.get());
-        data_ = std::move(grown);
+        const Index capacity = std::max({capacity_ + capacity_ / 2, size_ + count, least});
+        void* const grown = std::realloc(data_.get(), capacity * sizeof(T));
+        if (grown == nullptr) throw std::bad_alloc();
+        (void)data_.release();  // Realloc has freed it.
+        data_.reset(static_cast<T*>(grown));
+        capacity_ = capacity;
     }
 
     Index size_ = 0;
     Index capacity_ = 0;
-    std::unique_ptr<T[]> data_;
+    std::unique_ptr<T, Free> data_;
 };
 
 }  // namespace agvd

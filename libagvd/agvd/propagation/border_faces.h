@@ -10,9 +10,9 @@
 
 namespace agvd {
 
-//! #F: 1 for the faces within two rings of a change of label, and for those nearer to one than a
-//! share of their distance from the site. The labels come from bounds: the borders of exact
-//! distances lie farther off on few faces.
+//! #F: 1 for the faces within two rings of a change of label, and for those where a path from
+//! across the change is nearly as short as the bound. The labels come from bounds: the borders of
+//! exact distances lie farther off on few faces.
 //!
 //! \param corners  Corners(surface).
 //! Cost: O(#F).

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 #include "agvd/core/types.h"
 
@@ -18,8 +19,8 @@ struct Window {
     double weight;
     double begin, end;
     double at_begin, at_end;  //!< Distances of the interval's ends.
-    float error = 0;
-    bool is_served = false;  //!< Its children have been sent on.
+    float error;
+    bool is_served;  //!< Its children have been sent on.
 
     //! Distance of a point of the edge; the ends cost nothing.
     [[nodiscard]] double distance(double at) const {
@@ -43,5 +44,6 @@ struct Window {
     }
 };
 static_assert(sizeof(Window) == 64);
+static_assert(std::is_trivial_v<Window>);  // New memory is not written before it is used.
 
 }  // namespace agvd

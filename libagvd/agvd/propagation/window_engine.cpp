@@ -155,11 +155,12 @@ private:
         const auto count = static_cast<Index>(order.size());
         const Index batch = std::max(count / most_batches, least_batch);
         for (Index first = 0; first < count; first += batch) {
-            const auto tasks =
-                run_tasks(std::span(order).subspan(first, std::min(batch, count - first)), workers,
-                          [&](Index site, const WindowFront& front, TaskResult& task) {
-                              collect(site, front, task);
-                          });
+            const auto tasks = run_tasks(
+                std::span(order).subspan(first, std::min(batch, count - first)), workers,
+                [&](Index site, Index face) { return is_collected(site, face); },
+                [&](Index site, const WindowFront& front, TaskResult& task) {
+                    collect(site, front, task);
+                });
             for (const TaskResult& task : tasks) take_vertices(task);
             poll(options_.progress, static_cast<double>(first + 1) / (count + 1));
         }
@@ -173,10 +174,11 @@ private:
         return result;
     }
 
-    // Runs sites in tasks of equal size, and keeps the relays of each.
-    template <typename Collect>
+    // Runs sites in tasks of equal size, and keeps the relays of each. Collects the windows of the
+    // faces with keeps(site, face).
+    template <typename Keeps, typename Collect>
     std::vector<TaskResult> run_tasks(std::span<const Index> order, WorkerPool& workers,
-                                      const Collect& collect) {
+                                      const Keeps& keeps, const Collect& collect) {
         const auto count = static_cast<Index>(order.size());
         const Index grain = std::max(count / tasks_of_a_batch, Index{1});
         std::vector<TaskResult> tasks(num_chunks(count, grain));
@@ -187,7 +189,8 @@ private:
                             for (Index i = begin; i < end; ++i) {
                                 WindowFront& front = worker->front;
                                 TaskResult& result = worker->result;
-                                front.run(sites_[order[i]], bounds_, work_cap_);
+                                front.run(sites_[order[i]], bounds_, work_cap_,
+                                          [&](Index face) { return keeps(order[i], face); });
                                 result.num_windows += front.num_windows();
                                 result.error = std::max(result.error, front.relative_error());
                                 collect(order[i], front, result);
@@ -202,6 +205,10 @@ private:
             strays_.insert(strays_.end(), task.strays.begin(), task.strays.end());
         }
         return tasks;
+    }
+
+    [[nodiscard]] bool is_collected(Index site, Index face) const {
+        return borders_[face] != 0 || label_of(face) != site;
     }
 
     void collect(Index site, const WindowFront& front, TaskResult& task) {
@@ -248,11 +255,13 @@ private:
         sort_by_face(again);
         again.erase(std::unique(again.begin(), again.end()), again.end());
         const auto num_strays = static_cast<std::ptrdiff_t>(strays_.size());
+        const auto keeps = [&](Index site, Index face) {
+            return is_late[face] && label_of(face) == site;
+        };
         (void)run_tasks(
-            again, workers, [&](Index site, const WindowFront& front, TaskResult& task) {
+            again, workers, keeps, [&](Index site, const WindowFront& front, TaskResult& task) {
                 front.for_each_half_edge([&](Index half_edge, std::span<const Window> windows) {
-                    const Index face = Surface::face(half_edge);
-                    if (!is_late[face] || label_of(face) != site) return;
+                    if (!keeps(site, Surface::face(half_edge))) return;
                     task.add_strays(windows, site, half_edge);
                 });
             });

@@ -3,126 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "agvd/propagation/window_duel.h"
+
 namespace agvd {
 namespace {
 
-// Distances that differ by less, relative to their size, are rounding.
-constexpr double rounding = 1e-14;
-
-// Who wins where on an interval: at first `first_wins`, then turn about at each cut.
-struct Duel {
-    bool first_wins;
-    int num_cuts = 0;
-    std::array<double, 2> cuts{};
-};
-
-// Where the distances of two windows are equal: roots of a quadratic, ascending (the squared
-// equation also holds where the roots' difference has the other sign; callers check).
-std::optional<std::array<double, 2>> equal_distances(const Window& a, const Window& b) {
-    const double delta = b.weight - a.weight;  // |a - x| = |b - x| + delta
-    const double c0 = (a.x - b.x) * (a.x + b.x) + (a.y - b.y) * (a.y + b.y) - delta * delta;
-    const double c1 = -2 * (a.x - b.x);
-    if (delta == 0) {
-        if (c1 == 0) return std::nullopt;
-        return std::array{-c0 / c1, -c0 / c1};
-    }
-    const double d2 = 4 * delta * delta;  // (c0 + c1 x)^2 = d2 ((x - b.x)^2 + b.y^2)
-    const double p2 = c1 * c1 - d2;
-    const double p1 = c0 * c1 + d2 * b.x;  // Half the linear coefficient.
-    const double p0 = c0 * c0 - d2 * (b.x * b.x + b.y * b.y);
-    const double discriminant = p1 * p1 - p2 * p0;
-    if (!(discriminant >= 0)) return std::nullopt;
-    const double q = -(p1 + std::copysign(std::sqrt(discriminant), p1));
-    if (q == 0) return std::nullopt;
-    const double other = p0 / q;
-    if (p2 == 0) return std::array{other, other};
-    return std::array{std::min(q / p2, other), std::max(q / p2, other)};
-}
-
-// The one change of sign of a - b in [low, high].
-double crossing(const Window& a, const Window& b, double low, double high, double at_low,
-                double at_high) {
-    const double scale = rounding * 16 * a.distance(low);
-    const auto gap = [&](double x) { return a.distance(x) - b.distance(x); };
-    if (const auto roots = equal_distances(a, b)) {
-        for (const double x : *roots) {
-            if (low < x && x < high && std::abs(gap(x)) <= scale) return x;
-        }
-    }
-    // Regula falsi (Illinois): the closed form has lost its digits or an end is nearly a root.
-    int side = 0;
-    double middle = low;
-    for (int i = 0; i < 60 && high - low > 1e-14 * (std::abs(low) + std::abs(high)); ++i) {
-        middle = (low * at_high - high * at_low) / (at_high - at_low);
-        if (!(low <= middle && middle <= high)) middle = (low + high) / 2;
-        const double value = gap(middle);
-        if (std::abs(value) <= scale) return middle;
-        if ((value < 0) == (at_low < 0)) {
-            low = middle;
-            at_low = value;
-            if (side == -1) at_high /= 2;
-            side = -1;
-        } else {
-            high = middle;
-            at_high = value;
-            if (side == 1) at_low /= 2;
-            side = 1;
-        }
-    }
-    return middle;
-}
-
-double slope(const Window& w, double at, double distance) {
-    const double run = distance - w.weight;
-    return run > 0 ? (at - w.x) / run : 0;
-}
-
-// Can `loser`, behind at both ends, win in between? Not if its tangents stay above the other's
-// chord, since distances are convex.
-bool may_win_between(const Window& loser, double low, double high, double lost_low,
-                     double lost_high, double won_low, double won_high) {
-    const double slope_low = slope(loser, low, lost_low);
-    const double slope_high = slope(loser, high, lost_high);
-    const double width = high - low;
-    const double turn = slope_high - slope_low;
-    if (!(turn > 0)) return false;
-    const double t = std::clamp((lost_low - lost_high + slope_high * width) / turn, 0.0, width);
-    const double tangent = lost_low + slope_low * t;
-    const double chord = won_low + (won_high - won_low) * (t / width);
-    return tangent < chord;
-}
-
-Duel fight(const Window& a, const Window& b, double low, double high) {
-    const double a_low = a.distance(low), a_high = a.distance(high);
-    const double b_low = b.distance(low), b_high = b.distance(high);
-    // b holds the ground where they tie.
-    const double tie = a.is_served && !b.is_served ? -rounding * b_low : rounding * b_low;
-    const bool wins_low = a_low < b_low - tie;
-    const bool wins_high = a_high < b_high - tie;
-    Duel duel{wins_low};
-    if (wins_low != wins_high) {
-        if ((a_low < b_low) == (a_high < b_high)) {  // They tie at one end.
-            duel.first_wins = a_low < b_low;
-            return duel;
-        }
-        duel.num_cuts = 1;
-        duel.cuts[0] = crossing(a, b, low, high, a_low - b_low, a_high - b_high);
-        return duel;
-    }
-    if (a.weight == b.weight) return duel;
-    const bool may_change = wins_low ? may_win_between(b, low, high, b_low, b_high, a_low, a_high)
-                                     : may_win_between(a, low, high, a_low, a_high, b_low, b_high);
-    if (!may_change) return duel;
-    const auto roots = equal_distances(a, b);
-    if (!roots || !(low < (*roots)[0]) || !((*roots)[0] < (*roots)[1]) || !((*roots)[1] < high)) {
-        return duel;
-    }
-    const double middle = ((*roots)[0] + (*roots)[1]) / 2;
-    if ((a.distance(middle) < b.distance(middle) - tie) == wins_low) return duel;
-    duel.num_cuts = 2;
-    duel.cuts = *roots;
-    return duel;
-}
+// An interval that is none.
+bool is_rounding(double from, double to) { return !(to - from > 1e-15 * to); }
 
 // Writes the envelope from left to right.
 class Writer {
@@ -151,15 +38,63 @@ public:
     }
 
 private:
-    static bool is_rounding(double from, double to) { return !(to - from > 1e-15 * to); }
-
     const Window& window_;
     std::vector<Window>& out_;
     // Where the new window's last piece ends, if it was written last.
     double new_end_ = std::numeric_limits<double>::quiet_NaN();
 };
 
+// Nothing is left of a window.
+void drop(Window& window) { window.begin = window.end; }
+
+// False if nothing would be left.
+bool end_at(Window& window, double end) {
+    if (is_rounding(window.begin, end)) return false;
+    window.at_end = window.distance(end);
+    window.end = end;
+    return true;
+}
+
+void begin_at(Window& window, double begin) {
+    window.at_begin = window.distance(begin);
+    window.begin = is_rounding(begin, window.end) ? window.end : begin;
+}
+
+// Beams on both sides of a ray that touches a vertex tie along it. Where that of the vertex holds
+// the ray, wider by its grazing, the two overlap on every edge from there on.
+bool gives_way(const Window& last, const Window& next, const Duel& duel) {
+    constexpr double narrow = 1e-8;
+    return duel.is_tie && duel.num_cuts == 0 && !last.is_served && next.weight < last.weight &&
+           last.end - next.begin < narrow * last.end;
+}
+
 }  // namespace
+
+bool cut_where_they_change(Window& last, Window& next) {
+    if (is_rounding(next.begin, last.end)) {
+        begin_at(next, last.end);
+        return true;
+    }
+    if (next.begin < last.begin) return false;
+    const double high = std::min(last.end, next.end);
+    const Duel duel = fight(next, last, next.begin, high);
+    if (duel.num_cuts > 1) return false;
+    if (high < last.end) {  // The last one lies on both sides.
+        if (duel.first_wins || duel.num_cuts == 1) return false;
+        drop(next);
+        return true;
+    }
+    if (duel.first_wins || gives_way(last, next, duel)) {
+        return duel.num_cuts == 0 && end_at(last, next.begin);
+    }
+    double begin = last.end;
+    if (duel.num_cuts == 1) {
+        begin = duel.cuts[0];
+        if (is_rounding(begin, last.end) || !end_at(last, begin)) return false;
+    }
+    begin_at(next, begin);
+    return true;
+}
 
 void insert_window(const Window& window, std::vector<Window>& scratch,
                    std::vector<Window>& envelope) {

@@ -10,6 +10,11 @@
 
 namespace agvd {
 
+//! Makes two windows that overlap disjoint, if that takes one cut, as it nearly always does where
+//! windows come in order. The second ends where it begins if nothing is left of it. False if it
+//! takes more; then they stay as they are.
+[[nodiscard]] bool cut_where_they_change(Window& last, Window& next);
+
 //! Adds a window to an envelope: disjoint windows, in order. Where two windows give the same
 //! distance up to rounding, one that is served keeps its ground, else the one that came first.
 //!

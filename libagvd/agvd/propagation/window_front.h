@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <limits>
 #include <span>
 #include <vector>
@@ -13,16 +14,25 @@
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_point.h"
 #include "agvd/propagation/corners.h"
-#include "agvd/propagation/window.h"
+#include "agvd/propagation/window_face.h"
+#include "agvd/propagation/window_queue.h"
+#include "agvd/propagation/window_store.h"
 
 namespace agvd {
+
+//! True for the faces whose windows are asked for after the run; empty: for all.
+using KeptFaces = std::function<bool(Index face)>;
 
 //! The memory of one run, which the next one reuses. Not for use by two threads at once.
 class WindowFront {
 public:
     //! \param surface, corners  outlive the front; Corners(surface).
     //! \param max_error    relative; 0: no window is merged.
-    WindowFront(const Surface& surface, const Corners& corners, double max_error);
+    //! \param small_run    half-edges of a run that gives no windows back; the default fits into
+    //! the
+    //!                     caches as it is.
+    WindowFront(const Surface& surface, const Corners& corners, double max_error,
+                Index small_run = 2048);
 
     //! Propagates from one site. Windows die where `bounds` are lower.
     //!
@@ -30,7 +40,10 @@ public:
     //!                  any rounding of it.
     //! \param work_cap  the most windows that may be served through one half-edge in order of
     //!                  buckets; if more are, the run starts again with the nearest window first.
-    void run(const SurfacePoint& site, std::span<const float> bounds, Index work_cap);
+    //! \param keeps     windows of other faces may be given back once nothing can come there any
+    //!                  more. That changes nothing else.
+    void run(const SurfacePoint& site, std::span<const float> bounds, Index work_cap,
+             const KeptFaces& keeps = {});
 
     struct ReachedVertex {
         Index vertex;
@@ -43,16 +56,22 @@ public:
             if (std::min(v.low, v.upper) <= v.outer_bound) each(ReachedVertex{v.vertex, v.upper});
         }
     }
-    //! Calls each(half_edge, windows) for the half-edges that windows came through.
+    //! Calls each(half_edge, windows) for the half-edges that windows came through, in the order in
+    //! which the run came to them: all into kept faces, some into others.
     template <typename Each>
     void for_each_half_edge(const Each& each) const {
-        for (const EdgeRecord& e : edges_) {
-            if (e.windows != no_index) each(e.half_edge, windows_of(e.windows));
+        const auto tell = [&](const EdgeRecord& e) {
+            if (e.windows != no_index) each(e.half_edge, store_[e.windows]);
+        };
+        if (num_arrivals_ == edges_.size()) {
+            for (const EdgeRecord& e : edges_) tell(e);
+        } else {
+            for (const Index record : records_by_arrival()) tell(edges_[record]);
         }
     }
 
     //! Vertices whose bounds mattered, and half-edges, have places in the order in which the last
-    //! run came to them.
+    //! run came to them. Half-edges only if the run kept all faces.
     [[nodiscard]] Index num_vertices() const { return vertices_.size(); }
     [[nodiscard]] Index num_half_edges() const { return edges_.size(); }
     //! no_index: the run did not come there.
@@ -73,7 +92,7 @@ public:
     //! May be none.
     [[nodiscard]] std::span<const Window> windows_at(Index place) const {
         const Index run = edges_[place].windows;
-        return run == no_index ? std::span<const Window>() : windows_of(run);
+        return run == no_index ? std::span<const Window>() : store_[run];
     }
 
     //! Largest error of a window that was merged in the last run over its least distance; 0 if none
@@ -86,110 +105,115 @@ public:
 private:
     static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-    // In which order half-edges are served. Any order gives the same distances up to rounding.
-    enum class Order : std::uint8_t {
-        Buckets,  // By a third of the mean edge length: quick, but how often a half-edge is served
-                  // has no useful bound.
-        Nearest,  // Nearest window first: slower, and bounded as in [mitchell1987].
-    };
     struct EdgeRecord {
-        Index half_edge;
+        Index half_edge;                  // no_index: waits to be used again.
         Index tail, head;                 // Records of its ends.
+        Index arrival;                    // How many half-edges came before.
         Index waiting = no_index;         // List of runs of windows.
         Index windows = no_index;         // Run: the envelope of those that came.
         Index bucket = no_index;          // Where the half-edge waits.
+        Index last_bucket = 0;            // The last one that may still name it.
         Index num_served = 0;             // Windows, against the cap.
         double apex_distance = infinity;  // Best distance of the opposite corner through this edge,
         double apex_ray = 0;              // and where its ray crosses the edge.
+        Index next = no_index;            // In a list of watched_, or of free records.
+        bool is_watched = false;
     };
     struct VertexRecord {
         Index vertex;
-        double bound;                    // The lower of the two that follow.
-        double outer_bound;              // Given by the caller.
+        float outer_bound;               // Given by the caller.
+        double bound;                    // The lower of that and `upper`.
         double upper = infinity;         // Of a path from this site.
         double low = infinity;           // Least that a window gives.
         double last_arrival = infinity;  // The last one that may turn here,
         Index num_turns = 0;             // and how many there were.
     };
-    // Windows of a half-edge in ascending order along it. Their place has room for the next power
-    // of two.
-    struct Run {
-        Index first;  // In pool_.
-        Index count;
-        Index next;
-    };
-    // The part of a window up to or from a limit, which may be the ray to the apex.
-    struct Part {
-        const Window* window = nullptr;  // In pool_.
-        double limit = 0;
-        bool is_apex = false;
-    };
     // What of a window goes on through the other two half-edges.
     struct Division {
-        Part right, left;
+        WindowPart right, left;
+    };
+    // Windows on their way to a half-edge.
+    struct Arrivals {
+        Index run, count;
+        double nearest;  // The least of their distances.
     };
     // Paths that arrive at a vertex around which they may turn.
     struct Turn {
-        Index vertex;     // Its record.
-        Index half_edge;  // Leaves the vertex; no_index: the direction is not known.
-        Vec2 arrival;     // Towards where they come from, in the frame of the half-edge.
+        Index vertex;                 // Its record; of a free one the next.
+        Index half_edge;              // Leaves the vertex; no_index: the direction is not known.
+        double arrival_x, arrival_y;  // Towards where they come from, in the half-edge's frame.
         double distance;
     };
-    struct Face;
 
-    [[nodiscard]] bool run_in(Order order, const SurfacePoint& site, Index work_cap);
+    [[nodiscard]] bool run_in(WindowQueue::Order order, const SurfacePoint& site, Index work_cap);
     void start(const SurfacePoint& site);
+    [[nodiscard]] Index next_item();
+    void prefetch(Index item) const;
+    [[nodiscard]] static constexpr Index turn_item(Index turn) { return 2 * turn + 1; }
+    [[nodiscard]] static constexpr Index edge_item(Index record) { return 2 * record; }
     [[nodiscard]] Index vertex_record(Index vertex);
-    [[nodiscard]] Index edge_record(Index half_edge, Index tail, Index head);
     void reach_vertex(Index record, double distance, float error, Index half_edge,
                       const Vec2& arrival);
-    void bound_vertex(Index record, double distance);
-    void send(Index half_edge, Index tail, Index head, std::span<const Window> windows);
-    [[nodiscard]] std::span<const Window> windows_of(Index run) const {
-        return {&pool_[runs_[run].first], runs_[run].count};
+    // By any path on the surface.
+    void bound_vertex(Index record, double distance) {
+        VertexRecord& v = vertices_[record];
+        v.upper = std::min(v.upper, distance);
+        v.bound = std::min(v.bound, v.upper);
     }
-    [[nodiscard]] Index take_run(Index count);
-    void give_back(Index run);
-    void schedule(Index item, Index& bucket, double distance);
-    [[nodiscard]] bool next_item(Index& item);
-    void prefetch(Index item) const;
+    [[nodiscard]] Index edge_record(Index half_edge, Index tail, Index head);
+    [[nodiscard]] std::vector<Index> records_by_arrival() const;
+
+    [[nodiscard]] bool may_close() const {
+        return keeps_ != nullptr && num_arrivals_ > small_run_ &&
+               queue_.order() == WindowQueue::Order::Buckets;
+    }
+    void watch(Index record, Index bucket);
+    void close_edges();
+    void close_or_watch(Index record);
+
+    void send(Index half_edge, Index tail, Index head, const Window& window);
+    void wait(const Arrivals& arrivals, Index half_edge, Index tail, Index head);
     void serve_edge(Index record);
-    void take_in(EdgeRecord& edge, const Face& face);
-    void merge_neighbours();
-    void reach_bent(const Face& face, double distance, double at, float error);
-    [[nodiscard]] Division divide(Window& window, EdgeRecord& edge, const Face& face);
-    [[nodiscard]] static bool lives(const Window& child, double begin_bound, double end_bound,
-                                    double length, double spare, double to_corner);
-    [[nodiscard]] static bool pass_right(const Part& part, const Face& face, Window& child);
-    [[nodiscard]] static bool pass_left(const Part& part, const Face& face, Window& child);
+    void take_in(EdgeRecord& edge, const WindowFace& face);
+    [[nodiscard]] Index gather(Index waiting, Index envelope);
+    [[nodiscard]] Index insert_rest(Index run, Index kept, Index i, const WindowFace& face);
+    [[nodiscard]] Index settle(Index run, Index count);
+    [[nodiscard]] Index merge_neighbours(std::span<Window> windows);
+    [[nodiscard]] Division divide(const Window& window, EdgeRecord& edge, const WindowFace& face);
+    void reach_bent(const WindowFace& face, double distance, double at, float error);
+    double reach_apex(const Window& window, double ray, const WindowFace& face);
+    [[nodiscard]] static Division split(const Window& window, double ray, double at_apex,
+                                        EdgeRecord& edge);
+    template <auto part>
+    [[nodiscard]] Arrivals pass_on(const WindowFace& face, Index most);
     void emit(const Turn& turn);
     bool emit_fan(Index first, const Vec2* from, Index last, const Vec2* to, const VertexRecord& v);
     void emit_into(Index half_edge, double weight, float error, const Vec2* from, const Vec2* to);
 
     const Surface& surface_;
     const Corners& corners_;
-    double per_bucket_;
     double max_error_;
+    Index small_run_;
+    double close_factor_;
     std::span<const float> bounds_;
-    Order queue_order_ = Order::Buckets;
+    const KeptFaces* keeps_ = nullptr;  // During a run; null: all.
 
     std::vector<Index> vertex_slot_;  // #V, #H: the record, if that record names it.
     std::vector<Index> edge_slot_;
     RunArray<VertexRecord> vertices_;
     RunArray<EdgeRecord> edges_;
+    Index num_arrivals_ = 0;  // Of half-edges; more than records if some were used again.
+    Index free_edge_ = no_index;
     RunArray<Turn> turns_;
-    RunArray<Window> pool_;
-    RunArray<Run> runs_;
-    std::array<Index, 33> free_runs_;  // By size class: list of runs.
+    Index free_turn_ = no_index;
+    WindowStore store_;
+    WindowQueue queue_;
+    static constexpr Index most_watched_ahead = 15;
+    std::array<Index, most_watched_ahead + 1> watched_{};  // By bucket: list of records.
+    Index num_closed_buckets_ = 0;
     std::vector<Window> envelope_, scratch_;
     RunArray<const Window*> order_;
     RunArray<Division> divisions_;
-    RunArray<Window> children_;
-    std::vector<std::vector<Index>> buckets_;
-    std::vector<std::pair<double, Index>> heap_;  // Order::Nearest.
-    Index current_bucket_ = 0;
-    Index next_in_bucket_ = 0;
-    std::size_t num_waiting_ = 0;
     double relative_error_ = 0;
     std::size_t num_served_ = 0;
 };

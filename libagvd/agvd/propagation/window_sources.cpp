@@ -27,9 +27,10 @@ void WindowFront::start(const SurfacePoint& site) {
             const Vec2 image(length - p.x(), -p.y());
             if (!(image.y() < 0)) continue;
             const Window window{
-                image.x(), image.y(), 0, 0, length, image.norm(), (image - Vec2(length, 0)).norm()};
+                image.x(), image.y(), 0, 0, length, image.norm(), (image - Vec2(length, 0)).norm(),
+                0,         false};
             send(surface_.twin[h], vertex_record(surface_.head(h)), vertex_record(surface_.tail(h)),
-                 {&window, 1});
+                 window);
         }
     };
     const auto half_edge = half_edge_of(site);
@@ -62,7 +63,7 @@ void WindowFront::emit_into(Index half_edge, double weight, float error, const V
     const Vec2 image(length - vertex.x(), -vertex.y());
     Window window{
         image.x(), image.y(), weight, 0, length, weight + last.length, weight + first.length,
-        error};
+        error,     false};
     const Vec2 axis = (Vec2(first.length, 0) - corners_.apex(half_edge)) / length;
     const auto meets_at = [&](const Vec2& ray) {
         const Vec2 direction = into(axis, ray);
@@ -88,7 +89,7 @@ void WindowFront::emit_into(Index half_edge, double weight, float error, const V
     }
     if (opposite.twin == no_index || !(begin < end)) return;
     window = window.part(begin, end);
-    send(opposite.twin, apex, head, {&window, 1});
+    send(opposite.twin, apex, head, window);
 }
 
 // The shadow behind a saddle or boundary vertex: the directions that make an angle of pi or more
@@ -105,7 +106,7 @@ void WindowFront::emit(const Turn& turn) {
     // Counter-clockwise: the arrival in the frame of each next half-edge turns clockwise, and has
     // turned by pi where it comes up again.
     Index first = no_index;
-    Vec2 from = turn.arrival;
+    Vec2 from(turn.arrival_x, turn.arrival_y);
     for (Index h = turn.half_edge; h != no_index;) {
         const Vec2 turned = into(corners_[h].turn, from);
         if (h != turn.half_edge && from.y() <= 0 && turned.y() > 0) {
@@ -118,7 +119,7 @@ void WindowFront::emit(const Turn& turn) {
     }
     // Clockwise, the other way round.
     Index last = no_index;
-    Vec2 to = turn.arrival;
+    Vec2 to(turn.arrival_x, turn.arrival_y);
     for (Index twin = corners_[turn.half_edge].twin; twin != no_index;) {
         const Index h = Surface::next(twin);
         if (h == turn.half_edge) break;

@@ -1,0 +1,27 @@
+//! \file
+//! Two windows over the same interval of an edge: who is nearer where.
+#pragma once
+
+#include <array>
+
+#include "agvd/propagation/window.h"
+
+namespace agvd {
+
+//! Distances that differ by less, relative to their size, are rounding.
+inline constexpr double distance_rounding = 1e-14;
+
+//! Who wins where on an interval: at first `first_wins`, then turn about at each cut.
+struct Duel {
+    bool first_wins;
+    bool is_tie = false;  //!< At both ends.
+    int num_cuts = 0;
+    std::array<double, 2> cuts{};
+};
+
+//! \param low, high  an interval that both cover. Where they tie, b holds the ground, unless only a
+//! is
+//!                   served.
+[[nodiscard]] Duel fight(const Window& a, const Window& b, double low, double high);
+
+}  // namespace agvd

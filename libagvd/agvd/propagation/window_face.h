@@ -1,0 +1,149 @@
+//! \file
+//! One face that windows cross: what of them leaves it on the other side.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "agvd/propagation/corners.h"
+#include "agvd/propagation/window.h"
+
+namespace agvd {
+
+//! Sine of the angle of a beam: a narrower one carries nothing but rounding. What it would have
+//! reached is reached along the beams beside it, longer by the square of this.
+inline constexpr double negligible_beam = 1e-13;
+
+//! Of a distance and an edge: what two ways to compute it may differ by after thousands of faces,
+//! and beside a vertex. A path along edges must not kill the straight one that it is.
+inline constexpr double path_rounding = 1e-12;
+
+//! Of the edge: what a frame's coordinates may be off by after some turns.
+inline constexpr double frame_rounding = 1e-14;
+
+//! Where the paths along the edge from both its ends meet, inside an interval: if a window is
+//! beaten there it is beaten everywhere, by the tail before and by the head behind.
+inline double meeting_point(double tail_bound, double head_bound, double length, double begin,
+                            double end) {
+    return std::min(std::max(begin, (head_bound + length - tail_bound) / 2), end);
+}
+
+//! The face above a half-edge: tail at (0, 0), head at (length, 0). Windows leave it through the
+//! next half-edge (right) and the previous one (left); the frames of their twins start at the apex
+//! and at the tail. Plain numbers, since compilers tear vectors apart and stall where they join
+//! them again.
+struct WindowFace {
+    WindowFace(const Corners& corners, Index base_half_edge)
+        : half_edge(base_half_edge),
+          base(corners[half_edge]),
+          next(corners[Surface::next(half_edge)]),
+          previous(corners[Surface::previous(half_edge)]),
+          length(base.length),
+          apex_x(base.turn.x() * length),
+          apex_y(base.turn.y() * length),
+          right_x((length - apex_x) / next.length),
+          right_y(-apex_y / next.length),
+          left_x(apex_x / previous.length),
+          left_y(apex_y / previous.length) {}
+
+    Index half_edge;
+    const Corner& base;
+    const Corner& next;
+    const Corner& previous;
+    double length;
+    double apex_x, apex_y;
+    double right_x, right_y;  // Unit vector from the apex to the head.
+    double left_x, left_y;    // From the tail to the apex.
+    double tail_bound = 0, head_bound = 0, apex_bound = 0;
+    Index apex_record = no_index;
+};
+
+//! The part of a window up to or from a limit, which may be the ray to the apex.
+struct WindowPart {
+    const Window* window = nullptr;
+    double limit = 0;
+    bool is_apex = false;
+};
+
+//! Whether a child may matter: it is wide enough, and no path around the ends of its edge or past
+//! the corner behind it is shorter.
+inline bool lives(const Window& child, double begin_bound, double end_bound, double length,
+                  double spare, double to_corner) {
+    const double to_begin = child.at_begin - child.weight;
+    const double to_end = child.at_end - child.weight;
+    const double at = meeting_point(begin_bound, end_bound, length, child.begin, child.end);
+    const double around = std::min(begin_bound + at, end_bound + length - at) - child.weight +
+                          path_rounding * (child.at_begin + length);
+    const bool is_wide =
+        ((child.begin - child.end) * child.y > negligible_beam * to_begin * to_end) |
+        ((child.begin < child.x) & (child.x < child.end) & (child.y < 0));
+    return is_wide & (around >= 0) &
+           (around * around >= (at - child.x) * (at - child.x) + child.y * child.y) &
+           ((spare <= 0) | (to_corner >= spare * spare));
+}
+
+//! The part that goes on through the next half-edge. In the frame beyond, the apex is at 0, and a
+//! point of the base at a distance s before the head is at (length, 0) - s (right_x, sine). False
+//! if it dies; found without branches, since that cannot be predicted.
+inline bool pass_right(const WindowPart& part, const WindowFace& face, Window& child) {
+    const Window& w = *part.window;
+    const double length = face.next.length;
+    const double sine = face.apex_y / length;  // Of the angle at the head.
+    const double dx = w.x - face.apex_x;
+    const double dy = w.y - face.apex_y;
+    const double x = dx * face.right_x + dy * face.right_y;
+    const double y = dy * face.right_x - dx * face.right_y;
+    const auto seen_at = [&](double at) {
+        const double s = face.length - at;
+        const double from_x = length - s * face.right_x;
+        return x + (from_x - x) * y / (y + s * sine);
+    };
+    const double begin = part.is_apex ? 0.0 : std::max(seen_at(part.limit), 0.0);
+    const double end = w.end == face.length ? length : std::min(seen_at(w.end), length);
+    child = {x,
+             y,
+             w.weight,
+             begin,
+             end,
+             w.weight + std::sqrt((begin - x) * (begin - x) + y * y),
+             w.weight + std::sqrt((end - x) * (end - x) + y * y),
+             w.error,
+             false};
+    const double tail_x = length - face.length * face.right_x;
+    const double tail_y = -face.length * sine;
+    const double to_tail = (tail_x - end) * (tail_x - end) + tail_y * tail_y;
+    return lives(child, face.apex_bound, face.head_bound, length,
+                 child.at_end - face.tail_bound - path_rounding * (child.at_end + length), to_tail);
+}
+
+//! The same through the previous half-edge: the tail at 0, the apex at `length`.
+inline bool pass_left(const WindowPart& part, const WindowFace& face, Window& child) {
+    const Window& w = *part.window;
+    const double length = face.previous.length;
+    const double x = w.x * face.left_x + w.y * face.left_y;
+    const double y = w.y * face.left_x - w.x * face.left_y;
+    const auto seen_at = [&](double at) {
+        return x + (at * face.left_x - x) * y / (y + at * face.left_y);
+    };
+    const double begin = w.begin == 0 ? 0.0 : std::max(seen_at(w.begin), 0.0);
+    const std::array ends{std::min(seen_at(part.limit), length), length};
+    const double end = ends[static_cast<std::size_t>(part.is_apex)];
+    child = {x,
+             y,
+             w.weight,
+             begin,
+             end,
+             w.weight + std::sqrt((begin - x) * (begin - x) + y * y),
+             w.weight + std::sqrt((end - x) * (end - x) + y * y),
+             w.error,
+             false};
+    const double head_x = face.length * face.left_x;
+    const double head_y = -face.length * face.left_y;
+    const double to_head = (head_x - begin) * (head_x - begin) + head_y * head_y;
+    return lives(child, face.tail_bound, face.apex_bound, length,
+                 child.at_begin - face.head_bound - path_rounding * (child.at_begin + length),
+                 to_head);
+}
+
+}  // namespace agvd
