@@ -27,7 +27,7 @@ TEST(CellPlanes, ACornerOfNoAreaHasNone) {
     agvd::DistanceBounds labels;  // The first vertex is no nearer to its site than across an edge.
     labels.distance = {9, 0, 0, 0};
     labels.site = {0, 1, 1, 1};
-    const auto cells = remesh::detail::measure_cells(surface, labels, 2);
+    const auto cells = remesh::detail::measure_cells(surface, labels, 2, 1);
     EXPECT_EQ(cells.area[0], 0);
     EXPECT_EQ(cells.planes[0].spread, Eigen::Matrix3d::Zero());
     EXPECT_EQ(cells.planes[0].lift, Vec3(Vec3::Zero()));

@@ -42,8 +42,9 @@ TEST(Topology, DefectsAreSeen) {
 }
 
 TEST(Topology, IsTheSameWhereConnectivityIsKnown) {
-    const agvd::TriangleMesh mixed = shapes::join(
-        shapes::join(shapes::tube(8, 3), shapes::torus(9, 7)), shapes::join(shapes::grid(4), shapes::cube()));
+    const agvd::TriangleMesh mixed =
+        shapes::join(shapes::join(shapes::tube(8, 3), shapes::torus(9, 7)),
+                     shapes::join(shapes::grid(4), shapes::cube()));
     for (const agvd::TriangleMesh& mesh : {shapes::sphere(2), shapes::torus(9, 7), mixed}) {
         const auto expected = analyze_topology(mesh.view());
         const auto found = analyze_topology(mesh.view(), *agvd::find_connectivity(mesh.view(), 1));

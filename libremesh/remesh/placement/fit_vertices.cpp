@@ -61,7 +61,7 @@ struct Sample {
 struct Gap {
     std::array<double, 3> barycentric{};  // Of the triangle's nearest point.
     double from_plane = 0;
-    double from_end = 0;  // Where the triangle ends before the surface does; else 0.
+    double from_end = 0;            // Where the triangle ends before the surface does; else 0.
     Vec3 direction = Vec3::Zero();  // From that end, of length 1.
 };
 

@@ -134,7 +134,8 @@ private:
             relaxation.move_to_boundary(
                 detail::boundary_places(surface_, labels, num_sites, corners));
         }
-        relaxation.set_density(detail::measure_cells(surface_, labels, num_sites));
+        relaxation.set_density(
+            detail::measure_cells(surface_, labels, num_sites, options_.num_threads));
     }
 
     // Looks at the surface again.

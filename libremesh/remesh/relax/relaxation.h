@@ -75,16 +75,16 @@ private:
     int num_threads_;
     SiteMesh mesh_;
     std::vector<agvd::SurfacePoint> sites_;
-    std::vector<agvd::Vec3> at_, facing_;  // #sites: positions, normals of their faces.
-    std::vector<agvd::SurfacePoint> sites_before_;        // The last step began there.
+    std::vector<agvd::Vec3> at_, facing_;           // #sites: positions, normals of their faces.
+    std::vector<agvd::SurfacePoint> sites_before_;  // The last step began there.
     std::vector<agvd::Vec3> at_before_, facing_before_;  // Likewise.
-    std::vector<agvd::Vec3> move_;                        // #sites: the last move.
-    std::vector<agvd::Vec3> half_slope_;                  // #sites
-    std::vector<double> weight_;           // #sites
-    std::vector<CellPlanes> planes_;       // #sites
-    std::vector<std::uint8_t> is_fixed_;   // #sites
-    std::vector<std::uint8_t> is_stuck_;   // #sites: the triangles around do not close.
-    std::vector<agvd::Index> boundary_;    // #sites: the boundary half-edge, or no_index.
+    std::vector<agvd::Vec3> move_;                       // #sites: the last move.
+    std::vector<agvd::Vec3> half_slope_;                 // #sites
+    std::vector<double> weight_;                         // #sites
+    std::vector<CellPlanes> planes_;                     // #sites
+    std::vector<std::uint8_t> is_fixed_;                 // #sites
+    std::vector<std::uint8_t> is_stuck_;  // #sites: the triangles around do not close.
+    std::vector<agvd::Index> boundary_;   // #sites: the boundary half-edge, or no_index.
     agvd::Index num_stuck_ = 0;
     std::vector<agvd::Index> turned_;  // Triangles that face against the surface.
     CvtEnergy now_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "agvd/core/parallel.h"
 #include "agvd/mesh/point_faces.h"
 
 namespace remesh::detail {
@@ -32,31 +33,25 @@ SurfacePoint point_on(Index h, double along, double inside) {
     return point;
 }
 
-}  // namespace
-
-agvd::DistanceBounds label_vertices(const Surface& surface, const agvd::SurfaceLayout& layout,
-                                    std::span<const SurfacePoint> sites, int num_threads) {
-    return agvd::distance_bounds(surface, layout.arcs(), layout.corners().mean_length(), sites,
-                                 num_threads);
-}
-
-CellMeasures measure_cells(const Surface& surface, const agvd::DistanceBounds& labels,
-                           Index num_sites) {
-    CellMeasures result{std::vector<double>(num_sites, 0), std::vector<double>(num_sites, 0),
-                        std::vector<CellPlanes>(num_sites)};
-    std::vector<agvd::Vec3> shadow(num_sites, agvd::Vec3::Zero());  // The largest is so long.
+// Adds what the sites of one part hold, face by face: sites count off by part.
+void add_part(const Surface& surface, const agvd::DistanceBounds& labels, Index part,
+              Index num_parts, CellMeasures& result, std::vector<agvd::Vec3>& shadow) {
     const auto& p = surface.mesh.positions;
+    const auto is_of_part = [&](Index site) {
+        return site != no_index && (site & (num_parts - 1)) == part;
+    };
     for (Index f = 0; f < surface.num_faces(); ++f) {
         const agvd::Triangle& t = surface.mesh.triangles[f];
+        const std::array<Index, 3> site{labels.site[t[0]], labels.site[t[1]], labels.site[t[2]]};
+        if (std::none_of(site.begin(), site.end(), is_of_part)) continue;
         const agvd::Vec3 vector = (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]) / 2;
         const double area = vector.norm();
-        const auto add = [&](Index site, double share) {
-            if (site == no_index) return;
-            result.area[site] += share * area;
-            shadow[site] += share * vector;
-            if (share * area > 0) result.planes[site].add(share * vector, share * area, p[t[0]]);
+        const auto add = [&](Index s, double share) {
+            if (!is_of_part(s)) return;
+            result.area[s] += share * area;
+            shadow[s] += share * vector;
+            if (share * area > 0) result.planes[s].add(share * vector, share * area, p[t[0]]);
         };
-        const std::array<Index, 3> site{labels.site[t[0]], labels.site[t[1]], labels.site[t[2]]};
         if (site[0] == site[1] && site[1] == site[2]) {
             add(site[0], 1);
             continue;
@@ -76,6 +71,27 @@ CellMeasures measure_cells(const Surface& surface, const agvd::DistanceBounds& l
         add(site[k], cut);
         add(site[next], 1 - cut);
     }
+}
+
+}  // namespace
+
+agvd::DistanceBounds label_vertices(const Surface& surface, const agvd::SurfaceLayout& layout,
+                                    std::span<const SurfacePoint> sites, int num_threads) {
+    return agvd::distance_bounds(surface, layout.arcs(), layout.corners().mean_length(), sites,
+                                 num_threads);
+}
+
+CellMeasures measure_cells(const Surface& surface, const agvd::DistanceBounds& labels,
+                           Index num_sites, int num_threads) {
+    CellMeasures result{std::vector<double>(num_sites, 0), std::vector<double>(num_sites, 0),
+                        std::vector<CellPlanes>(num_sites)};
+    std::vector<agvd::Vec3> shadow(num_sites, agvd::Vec3::Zero());  // The largest is so long.
+    // Each part passes all faces, so that sums run in one order: one of two takes two thirds of the
+    // time of all.
+    const Index num_parts = num_threads == 1 ? 1 : 2;
+    agvd::parallel_chunks(num_parts, 1, num_threads, [&](Index part, Index, Index) {
+        add_part(surface, labels, part, num_parts, result, shadow);
+    });
     for (Index i = 0; i < num_sites; ++i) {
         if (result.area[i] > 0) {
             result.bending[i] = std::max(0.0, 1 - shadow[i].norm() / result.area[i]);
