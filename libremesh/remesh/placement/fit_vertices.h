@@ -19,7 +19,7 @@ namespace remesh {
 //! \param nearest_vertex  per vertex of the surface: that of the mesh in whose cell it lies;
 //!                        agvd::no_index: none.
 //! \param num_threads     >= 0; 0: all cores. The result is the same for any number.
-//! Cost: O(#surface + #mesh), about 1 us for each vertex of the surface.
+//! Cost: O(#surface + #mesh), about 2 us for each vertex of the surface.
 void fit_vertices(const agvd::Surface& surface, std::span<const agvd::Index> nearest_vertex,
                   PlacedMesh& mesh, int num_threads = 0);
 
