@@ -90,6 +90,17 @@ TEST(FitVertices, TheMeshComesNearerToTheSurface) {
     }
 }
 
+TEST(FitVertices, OffsetsAreTheSameForAnyNumberOfThreads) {
+    const Remeshed r = remeshed(shapes::sphere(5), 300, 20);
+    remesh::PlacedMesh alone = r.mesh;
+    remesh::fit_vertices(r.surface, r.nearest_vertex, alone, 1);
+    for (const int threads : {2, 8}) {
+        remesh::PlacedMesh shared = r.mesh;
+        remesh::fit_vertices(r.surface, r.nearest_vertex, shared, threads);
+        EXPECT_EQ(shared.offsets, alone.offsets);
+    }
+}
+
 TEST(FitVertices, AFlatMeshStaysFlatAndVerticesOnTheBoundaryStay) {
     const auto owner = remeshed(shapes::grid(40), 200, 20);
     Remeshed& r = *owner;

@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 #include "agvd/core/random.h"
 #include "agvd/diagram/diagram.h"
 #include "agvd/mesh/point_faces.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/io/read_mesh.h"
+#include "remesh/quality/topology.h"
 #include "remesh/relax/even_out.h"
 #include "remesh/relax/relaxation.h"
 #include "remesh/relax/walk.h"
@@ -391,7 +393,7 @@ TEST(Relaxation, SitesAreDrawnToThePlanesOfTheirCells) {
     const std::vector<SurfacePoint> sites = sample_sites(surface, {.num_samples = 300});
     const agvd::DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
     const remesh::detail::CellMeasures cells =
-        remesh::detail::measure_cells(prepared, labels, static_cast<Index>(sites.size()));
+        remesh::detail::measure_cells(prepared, labels, static_cast<Index>(sites.size()), 1);
     const auto distance_after_steps = [&](const remesh::detail::CellMeasures& known) {
         remesh::detail::Relaxation relaxation(
             surface, sites, remesh::detail::label_dual(prepared.base, labels).triangles, {}, {}, 1);
@@ -406,4 +408,25 @@ TEST(Relaxation, SitesAreDrawnToThePlanesOfTheirCells) {
     remesh::detail::CellMeasures without_planes = cells;
     for (auto& planes : without_planes.planes) planes = {};
     EXPECT_LT(distance_after_steps(cells), 0.9 * distance_after_steps(without_planes));
+}
+
+TEST(Relaxation, CellsMeasureTheSameForAnyNumberOfThreads) {
+    const Surface surface =
+        agvd::build_surface(shapes::jitter(shapes::torus(60, 30), 0.01, 3).view());
+    const PreparedSurface prepared(surface, unrefined);
+    const std::vector<SurfacePoint> sites = sample_sites(surface, {.num_samples = 101});
+    const agvd::DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
+    const auto alone = remesh::detail::measure_cells(prepared, labels, 101, 1);
+    EXPECT_NEAR(std::accumulate(alone.area.begin(), alone.area.end(), 0.0),
+                remesh::analyze_topology(surface.mesh.view()).components[0].area, 1e-12);
+    for (const int threads : {2, 8}) {
+        const auto shared = remesh::detail::measure_cells(prepared, labels, 101, threads);
+        EXPECT_EQ(shared.area, alone.area);
+        EXPECT_EQ(shared.bending, alone.bending);
+        for (std::size_t i = 0; i < sites.size(); ++i) {
+            EXPECT_EQ(shared.planes[i].spread, alone.planes[i].spread);
+            EXPECT_EQ(shared.planes[i].lift, alone.planes[i].lift);
+            EXPECT_EQ(shared.planes[i].constant, alone.planes[i].constant);
+        }
+    }
 }

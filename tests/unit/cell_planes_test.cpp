@@ -28,7 +28,7 @@ TEST(CellPlanes, ACornerOfNoAreaHasNone) {
     labels.distance = {9, 0, 0, 0};
     labels.site = {0, 1, 1, 1};
     const remesh::PreparedSurface prepared(surface, 1e9);
-    const auto cells = remesh::detail::measure_cells(prepared, labels, 2);
+    const auto cells = remesh::detail::measure_cells(prepared, labels, 2, 1);
     EXPECT_EQ(cells.area[0], 0);
     EXPECT_EQ(cells.planes[0].spread, Eigen::Matrix3d::Zero());
     EXPECT_EQ(cells.planes[0].lift, Vec3(Vec3::Zero()));

@@ -89,21 +89,24 @@ TEST(Connectivity, HubsOfThousandsOfFacesAreFine) {
 }
 
 TEST(Connectivity, ThereIsNoneOfWhatIsNotAnOrientedManifold) {
-    TriangleMesh mesh = shapes::grid(2);
-    mesh.triangles.push_back({0, 1, 1});
-    EXPECT_FALSE(is_found(mesh)) << "a repeated corner";
     const auto pages = [](std::vector<Triangle> triangles) {
         TriangleMesh made;
         for (int i = 0; i < 6; ++i) made.positions.emplace_back(i, i * i, i * i * i);
         made.triangles = std::move(triangles);
         return made;
     };
+    EXPECT_FALSE(is_found(pages({{0, 1, 1}}))) << "a repeated corner";
     EXPECT_TRUE(is_found(pages({{0, 1, 2}, {1, 0, 3}})));
     EXPECT_FALSE(is_found(pages({{0, 1, 2}, {0, 1, 3}}))) << "both run up";
     EXPECT_FALSE(is_found(pages({{1, 0, 2}, {1, 0, 3}}))) << "both run down";
     EXPECT_FALSE(is_found(pages({{0, 1, 2}, {1, 0, 3}, {0, 1, 4}}))) << "three faces";
     EXPECT_FALSE(is_found(pages({{0, 1, 2}, {1, 0, 3}, {1, 0, 4}}))) << "three faces";
     EXPECT_FALSE(is_found(pages({{0, 1, 2}, {0, 3, 4}}))) << "two fans";
+    // A tetrahedron with a flap, whose faces could be taken for one fan around each vertex.
+    const std::vector<Triangle> up{{0, 1, 4}, {0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
+    const std::vector<Triangle> down{{1, 0, 2}, {1, 2, 3}, {1, 3, 0}, {0, 3, 2}, {1, 0, 4}};
+    EXPECT_FALSE(is_found(pages(up)));
+    EXPECT_FALSE(is_found(pages(down)));
 }
 
 TEST(Connectivity, GivesTheSurfaceThatTheMeshAloneGives) {

@@ -61,16 +61,16 @@ private:
         Index head, half_edge;
     };
 
-    // Calls each(half-edge, tail, head) for the sides of all faces; `each` of one chunk in order.
+    // Calls each(half-edge, tail, head) for the sides of all faces.
     template <typename Each>
     void for_each_side(const Each& each) const {
         parallel_chunks(static_cast<Index>(triangles_.size()), grain, num_threads_,
-                        [&](Index chunk, Index begin, Index end) {
+                        [&](Index, Index begin, Index end) {
                             for (Index f = begin; f < end; ++f) {
                                 const Triangle& t = triangles_[f];
-                                each(chunk, 3 * f, t[0], t[1]);
-                                each(chunk, 3 * f + 1, t[1], t[2]);
-                                each(chunk, 3 * f + 2, t[2], t[0]);
+                                each(3 * f, t[0], t[1]);
+                                each(3 * f + 1, t[1], t[2]);
+                                each(3 * f + 2, t[2], t[0]);
                             }
                         });
     }
@@ -78,14 +78,14 @@ private:
     // False if a face repeats a corner.
     bool list_ups() {
         std::atomic<bool> has_loop = false;
-        for_each_side([&](Index, Index, Index tail, Index head) {
+        for_each_side([&](Index, Index tail, Index head) {
             if (tail < head) Access::add_one(end_[tail + 1]);
             if (tail == head) has_loop.store(true, relaxed);
         });
         if (has_loop) return false;
         std::partial_sum(end_.begin(), end_.end(), end_.begin());
         ups_.resize(end_.back());
-        for_each_side([&](Index, Index h, Index tail, Index head) {
+        for_each_side([&](Index h, Index tail, Index head) {
             if (tail < head) ups_[Access::add_one(end_[tail])] = {head, h};
         });
         return true;  // end_[v] has moved to the end of the list of v.
@@ -130,46 +130,30 @@ private:
         return up != list.end() ? up->half_edge : no_index;
     }
 
-    // False if two faces run down along the same edge.
+    // False if two faces run down along an edge that one runs up.
     bool join_downs() {
         std::vector<Index>& twin = result_.twin;
-        const auto num_faces = static_cast<Index>(triangles_.size());
-        std::vector<std::vector<Up>> alone(num_chunks(num_faces, grain));
         std::atomic<bool> has_equal = false;
-        for_each_side([&](Index chunk, Index h, Index tail, Index head) {
+        for_each_side([&](Index h, Index tail, Index head) {
             if (tail < head) return;
             const Index up = find_up(head, tail);
-            if (up == no_index) {
-                alone[chunk].push_back({head, h});
-                return;
-            }
+            if (up == no_index) return;
             twin[h] = up;
             if (Access::exchange(twin[up], h) != no_index) has_equal.store(true, relaxed);
         });
-        return !has_equal && !have_equal_ends(alone);
-    }
-
-    // Of those that found nothing: on the boundary, unless they are two.
-    [[nodiscard]] bool have_equal_ends(const std::vector<std::vector<Up>>& alone) const {
-        std::vector<std::pair<Index, Index>> ends;
-        for (const std::vector<Up>& part : alone) {
-            for (const auto& [head, h] : part) {
-                ends.emplace_back(head, triangles_[h / 3][h % 3]);
-            }
-        }
-        std::sort(ends.begin(), ends.end());
-        return std::adjacent_find(ends.begin(), ends.end()) != ends.end();
+        return !has_equal;
     }
 
     void find_outgoing() {
         std::vector<Index>& outgoing = result_.outgoing;
-        for_each_side([&](Index, Index h, Index tail, Index) { Access::lower(outgoing[tail], h); });
+        for_each_side([&](Index h, Index tail, Index) { Access::lower(outgoing[tail], h); });
         for (Index h = 0; h < result_.twin.size(); ++h) {
             if (result_.twin[h] == no_index) outgoing[triangles_[h / 3][h % 3]] = h;
         }
     }
 
-    // The walks around all vertices pass every half-edge only if none leaves out a fan.
+    // The walks around all vertices pass every half-edge only if none leaves out a fan. Two faces
+    // that run the same way along an edge that no third has begin two fans.
     [[nodiscard]] bool are_single_fans() const {
         const auto num_vertices = static_cast<Index>(result_.outgoing.size());
         std::vector<std::size_t> seen(num_chunks(num_vertices, grain), 0);

@@ -19,7 +19,7 @@ namespace remesh {
 //! \param nearest_vertex  per vertex of surface.base: that of the mesh in whose cell it lies;
 //!                        agvd::no_index: none.
 //! \param num_threads     >= 0; 0: all cores. The result is the same for any number.
-//! Cost: O(#base + #mesh), about 1 us for each vertex of the base.
+//! Cost: O(#base + #mesh), about 2 us for each vertex of the base.
 void fit_vertices(const PreparedSurface& surface, std::span<const agvd::Index> nearest_vertex,
                   PlacedMesh& mesh, int num_threads = 0);
 

@@ -35,7 +35,7 @@ struct Topology {
 //!
 //! \param connectivity  agvd::find_connectivity(mesh), of which no two faces may have the same
 //!                      corners, as in what clean_input returns.
-//! Cost: O(n), a fifth of the time.
+//! Cost: O(n).
 [[nodiscard]] Topology analyze_topology(const agvd::MeshView& mesh,
                                         const agvd::Connectivity& connectivity);
 

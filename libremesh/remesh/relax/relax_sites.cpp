@@ -135,7 +135,8 @@ private:
             relaxation.move_to_boundary(
                 detail::boundary_places(prepared_.base, labels, num_sites, corners));
         }
-        relaxation.set_density(detail::measure_cells(prepared_, labels, num_sites));
+        relaxation.set_density(
+            detail::measure_cells(prepared_, labels, num_sites, options_.num_threads));
     }
 
     // Looks at the surface again.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "agvd/core/parallel.h"
 #include "agvd/mesh/point_faces.h"
 
 namespace remesh::detail {
@@ -32,34 +33,27 @@ SurfacePoint point_on(Index h, double along, double inside) {
     return point;
 }
 
-}  // namespace
-
-agvd::DistanceBounds label_vertices(const PreparedSurface& surface,
-                                    std::span<const SurfacePoint> sites, int num_threads) {
-    return agvd::distance_bounds(surface.base.surface(), surface.layout.arcs(),
-                                 surface.layout.corners().mean_length(),
-                                 surface.base.to_intrinsic(sites), num_threads);
-}
-
-CellMeasures measure_cells(const PreparedSurface& prepared, const agvd::DistanceBounds& labels,
-                           Index num_sites) {
+// Adds what the sites of one part hold, face by face: sites count off by part.
+void add_part(const PreparedSurface& prepared, const agvd::DistanceBounds& labels, Index part,
+              Index num_parts, CellMeasures& result, std::vector<agvd::Vec3>& shadow) {
     const Surface& surface = prepared.base.surface();
-    CellMeasures result{std::vector<double>(num_sites, 0), std::vector<double>(num_sites, 0),
-                        std::vector<CellPlanes>(num_sites)};
-    std::vector<agvd::Vec3> shadow(num_sites, agvd::Vec3::Zero());  // The largest is so long.
+    const auto is_of_part = [&](Index site) {
+        return site != no_index && (site & (num_parts - 1)) == part;
+    };
     for (Index f = 0; f < surface.num_faces(); ++f) {
         const agvd::Triangle& t = surface.mesh.triangles[f];
-        const auto add = [&](Index site, double share) {
-            if (site == no_index) return;
+        const std::array<Index, 3> site{labels.site[t[0]], labels.site[t[1]], labels.site[t[2]]};
+        if (std::none_of(site.begin(), site.end(), is_of_part)) continue;
+        const auto add = [&](Index s, double share) {
+            if (!is_of_part(s)) return;
             prepared.pieces.for_each(f, [&](const agvd::SurfacePiece& piece) {
                 const double area = piece.vector.norm();
-                result.area[site] += share * area;
-                shadow[site] += share * piece.vector;
+                result.area[s] += share * area;
+                shadow[s] += share * piece.vector;
                 if (!(share * area > 0)) return;
-                result.planes[site].add(share * piece.vector, share * area, piece.position);
+                result.planes[s].add(share * piece.vector, share * area, piece.position);
             });
         };
-        const std::array<Index, 3> site{labels.site[t[0]], labels.site[t[1]], labels.site[t[2]]};
         if (site[0] == site[1] && site[1] == site[2]) {
             add(site[0], 1);
             continue;
@@ -79,6 +73,28 @@ CellMeasures measure_cells(const PreparedSurface& prepared, const agvd::Distance
         add(site[k], cut);
         add(site[next], 1 - cut);
     }
+}
+
+}  // namespace
+
+agvd::DistanceBounds label_vertices(const PreparedSurface& surface,
+                                    std::span<const SurfacePoint> sites, int num_threads) {
+    return agvd::distance_bounds(surface.base.surface(), surface.layout.arcs(),
+                                 surface.layout.corners().mean_length(),
+                                 surface.base.to_intrinsic(sites), num_threads);
+}
+
+CellMeasures measure_cells(const PreparedSurface& surface, const agvd::DistanceBounds& labels,
+                           Index num_sites, int num_threads) {
+    CellMeasures result{std::vector<double>(num_sites, 0), std::vector<double>(num_sites, 0),
+                        std::vector<CellPlanes>(num_sites)};
+    std::vector<agvd::Vec3> shadow(num_sites, agvd::Vec3::Zero());  // The largest is so long.
+    // Each part passes all faces, so that sums run in one order: one of two takes two thirds of the
+    // time of all.
+    const Index num_parts = num_threads == 1 ? 1 : 2;
+    agvd::parallel_chunks(num_parts, 1, num_threads, [&](Index part, Index, Index) {
+        add_part(surface, labels, part, num_parts, result, shadow);
+    });
     for (Index i = 0; i < num_sites; ++i) {
         if (result.area[i] > 0) {
             result.bending[i] = std::max(0.0, 1 - shadow[i].norm() / result.area[i]);

@@ -29,9 +29,11 @@ struct CellMeasures {
     std::vector<CellPlanes> planes;  //!< #sites
 };
 
-//! Faces of two labels are cut where these meet. Cost: O(#F and pieces).
+//! Faces of two labels are cut where these meet. The same for any number of threads.
+//! Cost: O(#F and pieces).
 [[nodiscard]] CellMeasures measure_cells(const PreparedSurface& surface,
-                                         const agvd::DistanceBounds& labels, agvd::Index num_sites);
+                                         const agvd::DistanceBounds& labels, agvd::Index num_sites,
+                                         int num_threads);
 
 //! A point halfway between two sites whose labels meet.
 struct Middle {
