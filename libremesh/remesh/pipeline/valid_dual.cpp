@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "agvd/intrinsic/thin.h"
+#include "agvd/mesh/distinct_points.h"
+#include "agvd/mesh/point_faces.h"
 #include "remesh/dual/build_dual.h"
 #include "remesh/pipeline/stage_clock.h"
 #include "remesh/quality/topology.h"
@@ -23,9 +26,10 @@ using agvd::Vec3;
 // Rounds without fewer violations than ever before: adding sites does not help here.
 constexpr int max_stalled_rounds = 3;
 // Sites may grow to this many times the first ones, and what topology may need of a few, before a
-// component's own faces are the better start.
+// component is thinned to its sites.
 constexpr std::size_t max_growth = 2;
 constexpr std::size_t always_allowed = 300;
+constexpr const char* corner_of_boundary = "a corner of the boundary";
 
 class ValidDualBuilder {
 public:
@@ -36,6 +40,7 @@ public:
           sites_(sites),
           options_(options),
           result_(result),
+          given_(sites),
           most_sites_(max_growth * sites.size() + always_allowed),
           has_failed_(ground.components.size(), false) {}
 
@@ -68,6 +73,7 @@ private:
             if (result_.repair_rounds >= options_.repair_rounds ||
                 stalled_rounds == max_stalled_rounds || sites_.size() >= most_sites_) {
                 name_failed_components(fixes, violations);
+                if (reset_failed_components()) build_diagram();
                 return;
             }
             ++result_.repair_rounds;
@@ -142,7 +148,7 @@ private:
         }
         result_.sites_moved += static_cast<Index>(fixes.moved.size());
         first_new_ = sites_.size();
-        for (const SurfacePoint& place : fixes.added) add(place, "a corner of the boundary");
+        for (const SurfacePoint& place : fixes.added) add(place, corner_of_boundary);
         for (const ClosedBallViolation& violation : violations) {
             bool is_free = true;
             for (const agvd::SiteId site : {violation.site, violation.other}) {
@@ -163,8 +169,55 @@ private:
                         [&](const SurfacePoint& site) { return position(mesh, site) == where; });
         if (is_there) return;
         sites_.push_back(place);
+        reasons_.push_back(reason);
         ++result_.sites_added;
         ++result_.added_because[reason];
+    }
+
+    // In components where nothing has helped, sites go back to where they were, those added are
+    // dropped, and the boundary's corners get theirs. False if that changes nothing.
+    bool reset_failed_components() {
+        bool is_changed = false;
+        for (Index s = 0; s < given_.size(); ++s) {
+            if (!has_failed_[component_of(given_[s])] || !has_failed_[component_of(sites_[s])]) {
+                continue;
+            }
+            is_changed =
+                is_changed || place_of(surface_, sites_[s]) != place_of(surface_, given_[s]);
+            sites_[s] = given_[s];
+        }
+        std::size_t num_left = given_.size();
+        for (std::size_t s = given_.size(); s < sites_.size(); ++s) {
+            const char* reason = reasons_[s - given_.size()];
+            if (has_failed_[component_of(sites_[s])]) {
+                --result_.sites_added;
+                const auto count = result_.added_because.find(reason);
+                if (--count->second == 0) result_.added_because.erase(count);
+                is_changed = true;
+                continue;
+            }
+            sites_[num_left] = sites_[s];
+            reasons_[num_left++ - given_.size()] = reason;
+        }
+        sites_.resize(num_left);
+        reasons_.resize(num_left - given_.size());
+        return add_corners() || is_changed;
+    }
+
+    bool add_corners() {
+        std::vector<bool> has_site(surface_.num_vertices(), false);
+        for (const SurfacePoint& site : sites_) {
+            if (const auto v = agvd::vertex_of(surface_, site)) has_site[*v] = true;
+        }
+        first_new_ = sites_.size();
+        for (const Index v : ground_.corners) {
+            const Index h = surface_.outgoing[v];
+            if (has_site[v] || !has_failed_[ground_.component[Surface::face(h)]]) continue;
+            SurfacePoint corner{agvd::FaceId(Surface::face(h)), {0, 0, 0}};
+            corner.barycentric[h % 3] = 1;
+            add(corner, corner_of_boundary);
+        }
+        return sites_.size() > first_new_;
     }
 
     [[nodiscard]] Index component_of(const SurfacePoint& point) const {
@@ -180,7 +233,7 @@ private:
         for (const SurfacePoint& place : fixes.added) has_failed_[component_of(place)] = true;
     }
 
-    // Vertices in the order of their sites, then those of components from faces.
+    // Vertices in the order of their sites, then those of thinned components.
     void build_mesh() {
         std::vector<std::vector<Triangle>> triangles(ground_.components.size());
         for (const Triangle& t : build_dual(surface_, dual_.diagram)) {
@@ -204,7 +257,7 @@ private:
         }
         for (Index c = 0; c < triangles.size(); ++c) {
             if (has_failed_[c]) {
-                append_own_faces(c);
+                append_thinned(c);
                 continue;
             }
             for (const auto& [i, j, k] : triangles[c]) {
@@ -235,18 +288,22 @@ private:
                topology.components[0].same_type(wanted);
     }
 
-    // With as many vertices as the component has sites, or more.
-    void append_own_faces(Index component) {
+    // The component itself, thinned to its sites, and to what it needs besides.
+    void append_thinned(Index component) {
         std::vector<Index> faces;
         for (Index f = 0; f < surface_.num_faces(); ++f) {
             if (ground_.component[f] == component) faces.push_back(f);
         }
-        const auto num_sites = std::count_if(
-            sites_.begin(), sites_.end(),
-            [&](const SurfacePoint& site) { return component_of(site) == component; });
-        const SurfaceMesh part = component_mesh(surface_, faces, static_cast<Index>(num_sites));
         const auto first = static_cast<Index>(dual_.mesh.points.size());
-        dual_.mesh.points.insert(dual_.mesh.points.end(), part.points.begin(), part.points.end());
+        std::vector<SurfacePoint> points;
+        for (const Index s : agvd::distinct_points(surface_, sites_)) {
+            if (component_of(sites_[s]) != component) continue;
+            points.push_back(sites_[s]);
+            dual_.site.push_back(s);
+        }
+        const agvd::ThinnedMesh part = agvd::thin(surface_, faces, points);
+        points.insert(points.end(), part.extra.begin(), part.extra.end());
+        dual_.mesh.points.insert(dual_.mesh.points.end(), points.begin(), points.end());
         dual_.site.resize(dual_.mesh.points.size(), no_index);
         for (const auto& [i, j, k] : part.triangles) {
             dual_.mesh.triangles.push_back({i + first, j + first, k + first});
@@ -259,9 +316,11 @@ private:
     std::vector<SurfacePoint>& sites_;
     const RemeshOptions& options_;
     RemeshResult& result_;
+    const std::vector<SurfacePoint> given_;  // Sites at first.
     const std::size_t most_sites_;
-    std::size_t first_new_ = 0;     // Of this round.
-    std::vector<bool> has_failed_;  // By component.
+    std::vector<const char*> reasons_;  // Of the sites added since.
+    std::size_t first_new_ = 0;         // Of this round.
+    std::vector<bool> has_failed_;      // By component.
     ValidDual dual_;
 };
 
