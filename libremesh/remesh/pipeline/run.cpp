@@ -162,8 +162,9 @@ private:
     void build_mesh() {
         const Ground ground{surface_, *layout_, result_.input_topology.components, component_,
                             corners_};
+        std::vector<bool> is_thinned;  // By component.
         for (int mends = 0;; ++mends) {
-            ValidDual dual = build_valid_dual(ground, sites_, options_, result_);
+            ValidDual dual = build_valid_dual(ground, sites_, is_thinned, options_, result_);
             if (mends == 0) set_target(dual.diagram);
             const Index num_removed = reduce(dual);
             if (dual.mesh.points.size() > target_ && options_.vertex_count == VertexCount::Exact) {

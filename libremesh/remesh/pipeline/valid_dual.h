@@ -35,10 +35,13 @@ struct ValidDual {
 //! the result is an oriented manifold of its topology.
 //!
 //! \param sites   changed: moved, and new ones at the end.
+//! \param is_thinned  by component, empty at first: which are thinned from the start, since cells
+//!                    have failed there before; those that fail now are added.
 //! \param result  its counts and times are added to.
 //! Cost: a propagation and a diagram per round.
 [[nodiscard]] ValidDual build_valid_dual(const Ground& ground,
                                          std::vector<agvd::SurfacePoint>& sites,
+                                         std::vector<bool>& is_thinned,
                                          const RemeshOptions& options, RemeshResult& result);
 
 }  // namespace remesh::detail
