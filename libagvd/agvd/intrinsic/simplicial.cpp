@@ -73,6 +73,8 @@ std::vector<Index> edges_to_cut(const Surface& surface) {
         }
     }
     append_repeated(edges, found);
+    std::sort(found.begin(), found.end());
+    if (!found.empty()) return found;
     std::vector<std::pair<Triangle, Index>> faces;
     for (Index f = 0; f < surface.num_faces(); ++f) {
         Triangle corners = surface.mesh.triangles[f];
