@@ -91,12 +91,13 @@ TEST(FitVertices, TheMeshComesNearerToTheSurface) {
 }
 
 TEST(FitVertices, OffsetsAreTheSameForAnyNumberOfThreads) {
-    const Remeshed r = remeshed(shapes::sphere(5), 300, 20);
+    const auto owner = remeshed(shapes::sphere(5), 300, 20);
+    const Remeshed& r = *owner;
     remesh::PlacedMesh alone = r.mesh;
-    remesh::fit_vertices(r.surface, r.nearest_vertex, alone, 1);
+    remesh::fit_vertices(r.prepared, r.nearest_vertex, alone, 1);
     for (const int threads : {2, 8}) {
         remesh::PlacedMesh shared = r.mesh;
-        remesh::fit_vertices(r.surface, r.nearest_vertex, shared, threads);
+        remesh::fit_vertices(r.prepared, r.nearest_vertex, shared, threads);
         EXPECT_EQ(shared.offsets, alone.offsets);
     }
 }

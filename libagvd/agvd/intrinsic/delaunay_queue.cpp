@@ -21,15 +21,17 @@ bool DelaunayQueue::flip_all(std::size_t most_flips) {
         std::pop_heap(heap_.begin(), heap_.end());
         heap_.pop_back();
         const Index h = surface_.edge_half[next.edge];
+        if (h == no_index) continue;  // The edge went with a vertex.
         const Index twin = surface_.twin[h];
-        if (Surface::face(h) == Surface::face(twin)) continue;
+        if (twin == no_index || Surface::face(h) == Surface::face(twin)) continue;
         // Where its faces have changed since, the edge waits once more if it fails still.
         if (quad_at(surface_, h).shortening() != next.shortening) continue;
         const Quad quad = quad_at(surface_, charts_, h);
         if (!quad.should_flip() || !quad.is_convex()) continue;
         if (num_flips_ == most_flips) return false;
+        if (may_flip_ && !may_flip_(h)) continue;
         const std::array<Index, 2> faces{Surface::face(h), Surface::face(twin)};
-        history_.add_flip(h, twin, quad.shares());
+        if (history_ != nullptr) history_->add_flip(h, twin, quad.shares());
         flip(surface_, charts_, h, quad);
         ++num_flips_;
         for (const Index face : faces) {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "agvd/intrinsic/face_history.h"
@@ -13,10 +15,17 @@ namespace agvd::detail {
 //! on a part of 14 740 needles that is 130 000 flips where first in, first out takes 317 000.
 class DelaunayQueue {
 public:
+    //! \param history  is told of every flip; or null.
     //! \param is_kept  by edge: 1 for edges that stay; or empty. May grow.
-    DelaunayQueue(Surface& surface, FaceCharts& charts, FaceHistory& history,
-                  const std::vector<std::uint8_t>& is_kept)
-        : surface_(surface), charts_(charts), history_(history), is_kept_(is_kept) {}
+    //! \param may_flip  asked for the half-edge of an edge before it flips; or none.
+    DelaunayQueue(Surface& surface, FaceCharts& charts, FaceHistory* history,
+                  const std::vector<std::uint8_t>& is_kept,
+                  std::function<bool(Index half_edge)> may_flip = {})
+        : surface_(surface),
+          charts_(charts),
+          history_(history),
+          is_kept_(is_kept),
+          may_flip_(std::move(may_flip)) {}
 
     //! Looks at an edge, and lets it wait if it fails.
     void push(Index edge);
@@ -40,8 +49,9 @@ private:
 
     Surface& surface_;
     FaceCharts& charts_;
-    FaceHistory& history_;
+    FaceHistory* history_;
     const std::vector<std::uint8_t>& is_kept_;
+    std::function<bool(Index half_edge)> may_flip_;
     std::vector<Waiting> heap_;
     std::size_t num_flips_ = 0;
 };

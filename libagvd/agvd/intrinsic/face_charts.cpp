@@ -42,6 +42,22 @@ void FaceCharts::add(Index face, const FaceChart& chart) {
     charts_.push_back(chart);
 }
 
+void FaceCharts::renew(Index face) {
+    if (!has(face)) return;
+    FaceChart& chart = charts_[place_[face]];
+    for (Index k = 0; k < 3; ++k) {
+        chart.side[k] = surface_.length_of(3 * face + k) * direction(3 * face + k);
+    }
+    for (Index k = 0; k < 3; ++k) {
+        const Index twin = surface_.twin[3 * face + k];
+        if (twin == no_index) continue;
+        const Index across = Surface::face(twin);
+        const Vec2 along = has(across) ? charts_[place_[across]].side[twin % 3] : direction(twin);
+        chart.turn[k] = turned_by(chart.side[k], -conjugate(along)).normalized();
+    }
+    share_turns(face);
+}
+
 void FaceCharts::share_turns(Index face) {
     for (Index k = 0; k < 3; ++k) {
         const Index twin = surface_.twin[3 * face + k];

@@ -41,6 +41,8 @@ public:
     FaceChart& of(Index face);
     //! Gives a new face, which has the highest number, its chart.
     void add(Index face, const FaceChart& chart);
+    //! Makes the face's chart anew where its lengths have changed, and tells those across.
+    void renew(Index face);
     //! Tells the charts across a face's sides of its turns.
     void share_turns(Index face);
 

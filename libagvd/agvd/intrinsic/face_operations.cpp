@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "agvd/intrinsic/face_sides.h"
+
 namespace agvd::detail {
 namespace {
 
@@ -13,85 +15,11 @@ constexpr double on_circle = 1e-9;
 // Of the quad's shares: with less the quad has no corner there.
 constexpr double least_share = 1e-13;
 
-double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-double longest_side(const Surface& surface, Index face) {
-    return std::max({surface.length_of(3 * face), surface.length_of(3 * face + 1),
-                     surface.length_of(3 * face + 2)});
-}
-
-// Sets the three apexes of a face from its chart. Each in a frame whose axis is as long as the
-// chart has it, which may differ from the edge's length by rounding.
-void set_apexes(Surface& surface, Index face, const FaceChart& chart) {
-    const double longest = longest_side(surface, face);
-    const double doubled_area =
-        std::max(-cross(chart.side[0], chart.side[2]), least_doubled_area * longest * longest);
-    for (std::size_t k = 0; k < 3; ++k) {
-        const double length = chart.side[k].norm();
-        surface.apex[3 * face + k] = {-chart.side[k].dot(chart.side[(k + 2) % 3]) / length,
-                                      doubled_area / length};
-    }
-}
-
-// An edge of a face, as other faces see it.
-struct Side {
-    Index half_edge;
-    Index twin;
-    Index edge;
-};
-
-Side side_of(const Surface& surface, Index half_edge) {
-    return {half_edge, surface.twin[half_edge], surface.edge[half_edge]};
-}
-
-void join(Surface& surface, Index half_edge, Index twin, Index edge) {
-    surface.twin[half_edge] = twin;
-    surface.edge[half_edge] = edge;
-    if (twin != no_index) surface.twin[twin] = half_edge;
-    surface.edge_half[edge] = std::min(half_edge, twin);
-}
-
-// Gives sides their new half-edges. A side may be the twin of another one: then both have moved.
-template <std::size_t N>
-void move_sides(Surface& surface, const std::array<Side, N>& sides,
-                const std::array<Index, N>& places) {
-    for (std::size_t i = 0; i < N; ++i) {
-        Index twin = sides[i].twin;
-        for (std::size_t k = 0; k < N; ++k) {
-            if (twin != no_index && sides[k].half_edge == twin) {
-                twin = places[k];
-                break;
-            }
-        }
-        join(surface, places[i], twin, sides[i].edge);
-    }
-}
-
-// Gives vertices an outgoing half-edge that have none; on the boundary the one without twin.
-void renew_outgoing(Surface& surface, std::span<const Index> faces) {
-    for (const Index face : faces) {
-        for (Index h = 3 * face; h < 3 * face + 3; ++h) {
-            Index& outgoing = surface.outgoing[surface.tail(h)];
-            if (surface.twin[h] == no_index || outgoing == no_index) outgoing = h;
-        }
-    }
-}
-
-// Vertices whose outgoing half-edge lies in one of the faces, which are about to change, have none.
-void forget_outgoing(Surface& surface, std::span<const Index> faces) {
-    for (const Index face : faces) {
-        for (Index h = 3 * face; h < 3 * face + 3; ++h) {
-            if (surface.outgoing[surface.tail(h)] == h)
-                surface.outgoing[surface.tail(h)] = no_index;
-        }
-    }
-}
-
-// Cuts a face at the middle of one of its sides, whose halves stay without twins. Corners of the
-// face may stay without an outgoing half-edge.
-// \return the half-edges from the tail to the middle and from there to the head.
-std::array<Index, 2> cut_face(Surface& surface, FaceCharts& charts, Index half_edge, Index middle,
-                              Index near_edge, Index far_edge) {
+// Cuts a face from a point of one of its sides, `at` of the way along, to the apex; the parts of
+// the side stay without twins. Corners of the face may stay without an outgoing half-edge.
+// \return the half-edges from the tail to the new vertex and from there to the head.
+std::array<Index, 2> cut_face(Surface& surface, FaceCharts& charts, Index half_edge, double at,
+                              Index middle, Index near_edge, Index far_edge) {
     const Index face = Surface::face(half_edge);
     const auto added = surface.num_faces();
     const Index next = Surface::next(half_edge), previous = Surface::previous(half_edge);
@@ -99,11 +27,11 @@ std::array<Index, 2> cut_face(Surface& surface, FaceCharts& charts, Index half_e
     const std::array sides{side_of(surface, next), side_of(surface, previous)};
     const FaceChart whole = charts.of(face);
     const std::size_t k = half_edge % 3, k_next = next % 3, k_previous = previous % 3;
-    const Vec2 half = whole.side[k] / 2;
-    const Vec2 cut = -whole.side[k_previous] - half;  // From the middle to the apex.
-    const FaceChart near_chart{{half, cut, whole.side[k_previous]},
+    const Vec2 near = at * whole.side[k];
+    const Vec2 cut = -whole.side[k_previous] - near;  // From the new vertex to the apex.
+    const FaceChart near_chart{{near, cut, whole.side[k_previous]},
                                {whole.turn[k], Vec2(1, 0), whole.turn[k_previous]}};
-    const FaceChart far_chart{{half, whole.side[k_next], -cut},
+    const FaceChart far_chart{{(1 - at) * whole.side[k], whole.side[k_next], -cut},
                               {whole.turn[k], whole.turn[k_next], Vec2(1, 0)}};
 
     forget_outgoing(surface, std::span(&face, 1));
@@ -227,7 +155,8 @@ void flip(Surface& surface, FaceCharts& charts, Index half_edge, const Quad& qua
     renew_outgoing(surface, changed);
 }
 
-EdgeSplit split_edge(Surface& surface, FaceCharts& charts, Index half_edge, Index middle) {
+EdgeSplit split_edge(Surface& surface, FaceCharts& charts, Index half_edge, double at,
+                     Index middle) {
     EdgeSplit result;
     (void)charts.of(Surface::face(half_edge));  // While the edge has its length.
     if (surface.twin[half_edge] != no_index) {
@@ -235,8 +164,8 @@ EdgeSplit split_edge(Surface& surface, FaceCharts& charts, Index half_edge, Inde
     }
     const Index near_edge = surface.edge[half_edge];
     const Index far_edge = result.new_edge = surface.num_edges();
-    surface.length[near_edge] /= 2;
-    surface.length.push_back(surface.length[near_edge]);
+    surface.length.push_back((1 - at) * surface.length[near_edge]);
+    surface.length[near_edge] *= at;
     surface.edge_half.push_back(no_index);
 
     Index twin = surface.twin[half_edge];
@@ -250,13 +179,14 @@ EdgeSplit split_edge(Surface& surface, FaceCharts& charts, Index half_edge, Inde
             twin = 3 * face + 2;
         }
     }
-    auto halves = cut_face(surface, charts, half_edge, middle, near_edge, far_edge);
+    auto halves = cut_face(surface, charts, half_edge, at, middle, near_edge, far_edge);
     std::array<Index, 4> changed{face, result.side[0].new_face, face, face};
     if (twin != no_index) {
         result.side[1] = {twin, surface.num_faces()};
         changed[2] = Surface::face(twin);
         changed[3] = result.side[1].new_face;
-        const std::array others = cut_face(surface, charts, twin, middle, far_edge, near_edge);
+        const std::array others =
+            cut_face(surface, charts, twin, 1 - at, middle, far_edge, near_edge);
         for (Index& half : halves) {  // The second cut moves them where it meets the same face.
             if (half == Surface::next(twin)) {
                 half = 3 * changed[3] + 1;

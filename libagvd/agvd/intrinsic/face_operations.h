@@ -59,9 +59,10 @@ struct EdgeSplit {
     Index new_edge = no_index;  //!< The half of the edge at its head; the other keeps its number.
 };
 
-//! Cuts the faces at an edge from its middle to their apexes: face (a, b, c) becomes (a, m, c), and
-//! (m, b, c) is added. The vertex m must be the last of the mesh, without faces.
-[[nodiscard]] EdgeSplit split_edge(Surface& surface, FaceCharts& charts, Index half_edge,
+//! Cuts the faces at an edge from a point of it to their apexes: face (a, b, c) becomes (a, m, c),
+//! and (m, b, c) is added. The vertex m must be one of the mesh, without faces.
+//! \param at  where m lies: the share of the way from the tail to the head, in (0, 1).
+[[nodiscard]] EdgeSplit split_edge(Surface& surface, FaceCharts& charts, Index half_edge, double at,
                                    Index middle);
 
 }  // namespace agvd::detail

@@ -79,7 +79,7 @@ private:
         surface_.outgoing.push_back(no_index);
         surface_.can_turn.push_back(0);
         const Index first_new_edge = surface_.num_edges();
-        const EdgeSplit made = detail::split_edge(surface_, charts_, h, vertex);
+        const EdgeSplit made = detail::split_edge(surface_, charts_, h, 0.5, vertex);
         if (!is_kept_.empty()) {
             is_kept_.resize(surface_.num_edges(), 0);
             is_kept_[made.new_edge] = is_kept_[edge];
@@ -122,7 +122,7 @@ IntrinsicTriangulation::IntrinsicTriangulation(const Surface& input,
     counts_.flat_faces = detail::raise_flat_faces(surface_);
     std::vector<std::uint8_t> is_kept(options.is_kept.begin(), options.is_kept.end());
     FaceCharts charts(surface_);
-    DelaunayQueue flips(surface_, charts, *history_, is_kept);
+    DelaunayQueue flips(surface_, charts, history_.get(), is_kept);
     for (Index e = 0; e < surface_.num_edges(); ++e) flips.push(e);
     counts_.is_delaunay = flips.flip_all(most_flips * surface_.num_edges());
     Refinement refinement(surface_, charts, *history_, flips, is_kept, options.max_length);

@@ -161,7 +161,7 @@ std::string to_text(const RemeshResult& result, const RunInfo& info) {
     }
     if (result.components_from_faces > 0) {
         text += "\n" + counted(result.components_from_faces, "component") +
-                " thinned out of the input's faces, as no cells would do";
+                " thinned to the sites, as no cells would do";
     }
     if (result.components_dropped > 0) {
         text += "\n" + counted(result.components_dropped, "component") + " left out as too small";

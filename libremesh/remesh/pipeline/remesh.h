@@ -51,7 +51,7 @@ struct RemeshOptions {
     std::optional<double> max_error = {};
     int steiner_points = 8;  //!< Steiner engine, m: Steiner points on each edge, in [0, 1000].
     double lambda = 1;       //!< Steiner engine: triangles are retired every lambda * #F pops, > 0.
-    int repair_rounds = 12;  //!< Rounds of adding sites, >= 0; then a component's own faces serve.
+    int repair_rounds = 12;  //!< Rounds of adding sites, >= 0; then components are thinned.
     //! Which edges to flip: those that fail by geodesic or by straight lengths, or none.
     Delaunay delaunay = DelaunayOptions{}.mode;
     int num_threads = 0;  //!< >= 0; 0: all cores.
@@ -76,8 +76,8 @@ struct RemeshResult {
     int repair_rounds = 0;              //!< Rounds of moving and adding.
     agvd::Index unfitted_vertices = 0;  //!< Back on the surface: triangles met there.
     std::vector<RelaxLevel> relaxation = {};  //!< Empty: the sites were not relaxed.
-    //! Components whose cells could not be made to give their topology; their vertices are chosen
-    //! from the input's faces instead.
+    //! Components whose cells could not be made to give their topology: the surface was thinned to
+    //! their sites instead (agvd::thin).
     agvd::Index components_from_faces = 0;
     DelaunayCounts delaunay = {};  //!< Edges that failed, were flipped, still fail.
     //! Self-intersecting pairs of faces of the result, and, if that is not 0, of the cleaned input.

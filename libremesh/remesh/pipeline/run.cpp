@@ -173,8 +173,9 @@ private:
                             component_, corners_};
         on_base_ = prepared_->base.to_intrinsic(sites_);
         const std::vector<SurfacePoint> first_on_base = on_base_;
+        std::vector<bool> is_thinned;  // By component.
         for (int mends = 0;; ++mends) {
-            ValidDual dual = build_valid_dual(ground, on_base_, options_, result_);
+            ValidDual dual = build_valid_dual(ground, on_base_, is_thinned, options_, result_);
             take_back_sites(first_on_base);
             if (mends == 0) set_target(dual.diagram);
             const Index num_removed = reduce(dual);

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "agvd/intrinsic/thin.h"
+#include "agvd/mesh/distinct_points.h"
+#include "agvd/mesh/point_faces.h"
 #include "remesh/dual/build_dual.h"
 #include "remesh/pipeline/stage_clock.h"
 #include "remesh/quality/topology.h"
@@ -23,21 +26,27 @@ using agvd::Vec3;
 // Rounds without fewer violations than ever before: adding sites does not help here.
 constexpr int max_stalled_rounds = 3;
 // Sites may grow to this many times the first ones, and what topology may need of a few, before a
-// component's own faces are the better start.
+// component is thinned to its sites.
 constexpr std::size_t max_growth = 2;
 constexpr std::size_t always_allowed = 300;
+constexpr const char* corner_of_boundary = "a corner of the boundary";
 
 class ValidDualBuilder {
 public:
     ValidDualBuilder(const Ground& ground, std::vector<SurfacePoint>& sites,
-                     const RemeshOptions& options, RemeshResult& result)
+                     std::vector<bool>& is_thinned, const RemeshOptions& options,
+                     RemeshResult& result)
         : ground_(ground),
           surface_(ground.surface),
           sites_(sites),
           options_(options),
           result_(result),
+          given_(sites),
           most_sites_(max_growth * sites.size() + always_allowed),
-          has_failed_(ground.components.size(), false) {}
+          progress_(ground.components.size()),
+          has_failed_(is_thinned) {
+        has_failed_.resize(ground.components.size(), false);
+    }
 
     ValidDual run() {
         mend_sites();
@@ -49,9 +58,15 @@ public:
     }
 
 private:
-    void mend_sites() {
+    // Of a component.
+    struct Progress {
+        std::size_t faults = 0;
         std::size_t fewest = std::numeric_limits<std::size_t>::max();
         int stalled_rounds = 0;
+        bool gave_up = false;  // It is to be thinned.
+    };
+
+    void mend_sites() {
         while (true) {
             build_diagram();
             BoundaryFixes fixes;
@@ -60,19 +75,46 @@ private:
             }
             std::vector<ClosedBallViolation> violations = find_violations();
             move_empty_sites(fixes);
-            const std::size_t num_faults =
-                violations.size() + fixes.moved.size() + fixes.added.size();
-            if (num_faults == 0) return;
-            stalled_rounds = num_faults < fewest ? 0 : stalled_rounds + 1;
-            fewest = std::min(fewest, num_faults);
-            if (result_.repair_rounds >= options_.repair_rounds ||
-                stalled_rounds == max_stalled_rounds || sites_.size() >= most_sites_) {
-                name_failed_components(fixes, violations);
+            leave_failed_components(fixes, violations);
+            count_faults(fixes, violations);
+            leave_failed_components(fixes, violations);
+            if (violations.empty() && fixes.moved.empty() && fixes.added.empty()) {
+                if (reset_given_up()) build_diagram();
                 return;
             }
             ++result_.repair_rounds;
             apply(fixes, violations);
         }
+    }
+
+    // Components fail whose faults too many rounds have not lowered, and at the end all with any.
+    void count_faults(const BoundaryFixes& fixes,
+                      const std::vector<ClosedBallViolation>& violations) {
+        for (Progress& p : progress_) p.faults = 0;
+        for (const ClosedBallViolation& v : violations) ++progress_[component_of(v)].faults;
+        for (const auto& [site, place] : fixes.moved) ++progress_[component_of(place)].faults;
+        for (const SurfacePoint& place : fixes.added) ++progress_[component_of(place)].faults;
+        const bool is_last =
+            result_.repair_rounds >= options_.repair_rounds || sites_.size() >= most_sites_;
+        for (Index c = 0; c < progress_.size(); ++c) {
+            Progress& p = progress_[c];
+            p.stalled_rounds = p.faults < p.fewest ? 0 : p.stalled_rounds + 1;
+            p.fewest = std::min(p.fewest, p.faults);
+            if (p.faults == 0 || (!is_last && p.stalled_rounds < max_stalled_rounds)) continue;
+            has_failed_[c] = true;
+            p.gave_up = true;
+        }
+    }
+
+    // What is thinned needs no mending.
+    void leave_failed_components(BoundaryFixes& fixes,
+                                 std::vector<ClosedBallViolation>& violations) const {
+        const auto has_failed = [&](const SurfacePoint& place) {
+            return has_failed_[component_of(place)];
+        };
+        std::erase_if(violations, [&](const auto& v) { return has_failed_[component_of(v)]; });
+        std::erase_if(fixes.moved, [&](const auto& move) { return has_failed(move.second); });
+        std::erase_if(fixes.added, has_failed);
     }
 
     void build_diagram() {
@@ -104,7 +146,7 @@ private:
     // Components that no site reaches.
     [[nodiscard]] std::vector<ClosedBallViolation> find_missing_sites() const {
         std::vector<ClosedBallViolation> missing;
-        std::vector<bool> is_told(ground_.components.size(), false);
+        std::vector<bool> is_told = has_failed_;
         for (Index f = 0; f < surface_.num_faces(); ++f) {
             const Index component = ground_.component[f];
             const Index v = surface_.mesh.triangles[f][0];
@@ -142,7 +184,7 @@ private:
         }
         result_.sites_moved += static_cast<Index>(fixes.moved.size());
         first_new_ = sites_.size();
-        for (const SurfacePoint& place : fixes.added) add(place, "a corner of the boundary");
+        for (const SurfacePoint& place : fixes.added) add(place, corner_of_boundary);
         for (const ClosedBallViolation& violation : violations) {
             bool is_free = true;
             for (const agvd::SiteId site : {violation.site, violation.other}) {
@@ -163,24 +205,67 @@ private:
                         [&](const SurfacePoint& site) { return position(mesh, site) == where; });
         if (is_there) return;
         sites_.push_back(place);
+        reasons_.push_back(reason);
         ++result_.sites_added;
         ++result_.added_because[reason];
+    }
+
+    // In components where nothing has helped, sites go back to where they were, those added are
+    // dropped, and the boundary's corners get theirs. False if that changes nothing.
+    bool reset_given_up() {
+        const auto gave_up = [&](const SurfacePoint& site) {
+            return progress_[component_of(site)].gave_up;
+        };
+        bool is_changed = false;
+        for (Index s = 0; s < given_.size(); ++s) {
+            if (!gave_up(given_[s]) || !gave_up(sites_[s])) continue;
+            is_changed =
+                is_changed || place_of(surface_, sites_[s]) != place_of(surface_, given_[s]);
+            sites_[s] = given_[s];
+        }
+        std::size_t num_left = given_.size();
+        for (std::size_t s = given_.size(); s < sites_.size(); ++s) {
+            const char* reason = reasons_[s - given_.size()];
+            if (gave_up(sites_[s])) {
+                --result_.sites_added;
+                const auto count = result_.added_because.find(reason);
+                if (--count->second == 0) result_.added_because.erase(count);
+                continue;
+            }
+            sites_[num_left] = sites_[s];
+            reasons_[num_left++ - given_.size()] = reason;
+        }
+        is_changed = is_changed || num_left < sites_.size();
+        sites_.resize(num_left);
+        reasons_.resize(num_left - given_.size());
+        return add_corners() || is_changed;
+    }
+
+    bool add_corners() {
+        std::vector<bool> has_site(surface_.num_vertices(), false);
+        for (const SurfacePoint& site : sites_) {
+            if (const auto v = agvd::vertex_of(surface_, site)) has_site[*v] = true;
+        }
+        first_new_ = sites_.size();
+        for (const Index v : ground_.corners) {
+            const Index h = surface_.outgoing[v];
+            if (has_site[v] || !progress_[ground_.component[Surface::face(h)]].gave_up) continue;
+            SurfacePoint corner{agvd::FaceId(Surface::face(h)), {0, 0, 0}};
+            corner.barycentric[h % 3] = 1;
+            add(corner, corner_of_boundary);
+        }
+        return sites_.size() > first_new_;
     }
 
     [[nodiscard]] Index component_of(const SurfacePoint& point) const {
         return ground_.component[point.face.value()];
     }
-
-    void name_failed_components(const BoundaryFixes& fixes,
-                                const std::vector<ClosedBallViolation>& violations) {
-        for (const ClosedBallViolation& v : violations) {
-            for (const SurfacePoint& place : v.remedies) has_failed_[component_of(place)] = true;
-        }
-        for (const auto& [site, place] : fixes.moved) has_failed_[component_of(place)] = true;
-        for (const SurfacePoint& place : fixes.added) has_failed_[component_of(place)] = true;
+    [[nodiscard]] Index component_of(const ClosedBallViolation& violation) const {
+        return component_of(violation.site.is_valid() ? sites_[violation.site.value()]
+                                                      : violation.remedies.front());
     }
 
-    // Vertices in the order of their sites, then those of components from faces.
+    // Vertices in the order of their sites, then those of thinned components.
     void build_mesh() {
         std::vector<std::vector<Triangle>> triangles(ground_.components.size());
         for (const Triangle& t : build_dual(surface_, dual_.diagram)) {
@@ -202,9 +287,11 @@ private:
             dual_.site.push_back(s);
             dual_.mesh.points.push_back(sites_[s]);
         }
+        result_.components_from_faces = 0;
         for (Index c = 0; c < triangles.size(); ++c) {
             if (has_failed_[c]) {
-                append_own_faces(c);
+                ++result_.components_from_faces;
+                append_thinned(c);
                 continue;
             }
             for (const auto& [i, j, k] : triangles[c]) {
@@ -235,23 +322,26 @@ private:
                topology.components[0].same_type(wanted);
     }
 
-    // With as many vertices as the component has sites, or more.
-    void append_own_faces(Index component) {
+    // The component itself, thinned to its sites, and to what it needs besides.
+    void append_thinned(Index component) {
         std::vector<Index> faces;
         for (Index f = 0; f < surface_.num_faces(); ++f) {
             if (ground_.component[f] == component) faces.push_back(f);
         }
-        const auto num_sites = std::count_if(
-            sites_.begin(), sites_.end(),
-            [&](const SurfacePoint& site) { return component_of(site) == component; });
-        const SurfaceMesh part = component_mesh(surface_, faces, static_cast<Index>(num_sites));
         const auto first = static_cast<Index>(dual_.mesh.points.size());
-        dual_.mesh.points.insert(dual_.mesh.points.end(), part.points.begin(), part.points.end());
+        std::vector<SurfacePoint> points;
+        for (const Index s : agvd::distinct_points(surface_, sites_)) {
+            if (component_of(sites_[s]) != component) continue;
+            points.push_back(sites_[s]);
+            dual_.site.push_back(s);
+        }
+        const agvd::ThinnedMesh part = agvd::thin(surface_, faces, points);
+        points.insert(points.end(), part.extra.begin(), part.extra.end());
+        dual_.mesh.points.insert(dual_.mesh.points.end(), points.begin(), points.end());
         dual_.site.resize(dual_.mesh.points.size(), no_index);
         for (const auto& [i, j, k] : part.triangles) {
             dual_.mesh.triangles.push_back({i + first, j + first, k + first});
         }
-        ++result_.components_from_faces;
     }
 
     const Ground& ground_;
@@ -259,17 +349,21 @@ private:
     std::vector<SurfacePoint>& sites_;
     const RemeshOptions& options_;
     RemeshResult& result_;
+    const std::vector<SurfacePoint> given_;  // Sites at first.
     const std::size_t most_sites_;
-    std::size_t first_new_ = 0;     // Of this round.
-    std::vector<bool> has_failed_;  // By component.
+    std::vector<const char*> reasons_;  // Of the sites added since.
+    std::vector<Progress> progress_;    // By component.
+    std::vector<bool>& has_failed_;     // By component.
+    std::size_t first_new_ = 0;         // Of this round.
     ValidDual dual_;
 };
 
 }  // namespace
 
 ValidDual build_valid_dual(const Ground& ground, std::vector<SurfacePoint>& sites,
-                           const RemeshOptions& options, RemeshResult& result) {
-    return ValidDualBuilder(ground, sites, options, result).run();
+                           std::vector<bool>& is_thinned, const RemeshOptions& options,
+                           RemeshResult& result) {
+    return ValidDualBuilder(ground, sites, is_thinned, options, result).run();
 }
 
 }  // namespace remesh::detail

@@ -4,7 +4,6 @@
 
 #include "agvd/diagram/diagram.h"
 #include "remesh/pipeline/remesh.h"
-#include "remesh/repair/component_mesh.h"
 
 namespace remesh::detail {
 
@@ -17,22 +16,32 @@ struct Ground {
     std::span<const agvd::Index> corners;    //!< Boundary vertices that need a site.
 };
 
+//! A triangle mesh whose vertices are points of the surface.
+struct SurfaceMesh {
+    std::vector<agvd::SurfacePoint> points;  //!< One per vertex.
+    std::vector<agvd::Triangle> triangles;   //!< Indices into points.
+};
+
 struct ValidDual {
     SurfaceMesh mesh;               //!< Points of the intrinsic triangulation.
-    std::vector<agvd::Index> site;  //!< Per vertex: its site; no_index: a component's own vertex.
+    std::vector<agvd::Index> site;  //!< Per vertex: its site; no_index: it is none.
     agvd::Diagram diagram;          //!< Of `sites`.
 };
 
 //! Propagates, checks cells on the boundary (Boundary::Keep) and the closed-ball property, and adds
 //! or moves sites where they fail, until both hold. A component where they still fail once the
-//! rounds are over, or where that would take several times the sites, gets its own faces instead.
-//! Whatever the sites, each component of the result is an oriented manifold of its topology.
+//! rounds are over, or where that would take several times the sites, is thinned to its first sites
+//! instead (agvd::thin), those added in vain are gone then. Whatever the sites, each component of
+//! the result is an oriented manifold of its topology.
 //!
 //! \param sites   on ground.surface; changed: moved, and new ones at the end.
+//! \param is_thinned  by component, empty at first: which are thinned from the start, since cells
+//!                    have failed there before; those that fail now are added.
 //! \param result  its counts and times are added to.
 //! Cost: a propagation and a diagram per round.
 [[nodiscard]] ValidDual build_valid_dual(const Ground& ground,
                                          std::vector<agvd::SurfacePoint>& sites,
+                                         std::vector<bool>& is_thinned,
                                          const RemeshOptions& options, RemeshResult& result);
 
 }  // namespace remesh::detail
