@@ -36,19 +36,10 @@ private:
     }
 
     [[nodiscard]] SurfacePoint point_on_cut(const Cut& cut, double at) const {
-        const Vec2 from = position_of(cut.face, cut.from);
-        const Vec2 to = position_of(cut.face, cut.to);
+        const auto corners = face_corners(surface_, cut.face);
+        const Vec2 from = position_of(labels_, corners, cut.from);
+        const Vec2 to = position_of(labels_, corners, cut.to);
         return to_surface(surface_, cut.face, (1 - at) * from + at * to);
-    }
-
-    [[nodiscard]] Vec2 position_of(Index face, Index point) const {
-        if (point >= surface_.num_vertices()) {
-            return labels_.inner_points[point - surface_.num_vertices()].position;
-        }
-        const Triangle& triangle = surface_.mesh.triangles[face];
-        return face_corners(surface_, face)[point == triangle[0]   ? 0
-                                            : point == triangle[1] ? 1
-                                                                   : 2];
     }
 
     const Surface& surface_;
