@@ -254,6 +254,7 @@ void expect_same(const Diagram& a, const Diagram& b) {
     EXPECT_EQ(a.num_sites, b.num_sites);
     EXPECT_TRUE(are_same_points(a.points, b.points));
     EXPECT_EQ(a.point_distance, b.point_distance);
+    EXPECT_EQ(a.passages, b.passages);
     EXPECT_EQ(a.edge_points, b.edge_points);
     EXPECT_TRUE(std::equal(a.edges.begin(), a.edges.end(), b.edges.begin(), b.edges.end(),
                            [](const VoronoiEdge& e, const VoronoiEdge& f) {

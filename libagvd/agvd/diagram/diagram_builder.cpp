@@ -216,8 +216,8 @@ private:
             tally_.count_inner_point(point, sign);
         }
         for (const Cut& cut : std::as_const(labels_.cuts)[face.cuts]) {
-            tally_.count_cut(std::as_const(labels_.crossings)[cut.row], labels_.point_site[cut.to.point],
-                             sign);
+            tally_.count_cut(std::as_const(labels_.crossings)[cut.row],
+                             labels_.point_site[cut.to.point], sign);
         }
     }
 

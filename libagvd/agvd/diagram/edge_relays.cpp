@@ -65,7 +65,8 @@ void EdgeRelays::scan_across(Index edge, Index half_edge) {
         if (r.begin <= 0 && begin > 0) slope_tail = std::max(-1.0, -r.x / begin - rounding);
         if (r.end >= length && end > 0) slope_head = std::min(1.0, (length - r.x) / end + rounding);
         if (forward) {
-            candidates_.push_back({tail, head, slope_tail, slope_head, i, r.site.value(), half_edge});
+            candidates_.push_back(
+                {tail, head, slope_tail, slope_head, i, r.site.value(), half_edge});
         } else {
             candidates_.push_back(
                 {head, tail, -slope_head, -slope_tail, i, r.site.value(), half_edge});

@@ -36,8 +36,8 @@ public:
         if (!holds_site_[face]) return {};
         return find_in_face(face);
     }
-    //! The site as seen from `face`, which must hold it: twice if it lies on an edge along which the
-    //! face is glued to itself.
+    //! The site as seen from `face`, which must hold it: twice if it lies on an edge along which
+    //! the face is glued to itself.
     [[nodiscard]] std::span<const PlacedSite> seen_from(Index face, Index site) const;
 
 private:
