@@ -7,6 +7,7 @@
 #include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/mesh/face_area.h"
 #include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/uniform_points.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/dual/build_dual.h"
 #include "remesh/dual/delaunay.h"
@@ -104,8 +105,9 @@ void expect_same_distances(const Case& c, std::span<const SurfacePoint> targets)
     }
     if (targets.empty()) return;
     const arbiter::Distances truth = arbiter::nearest_sites(c.input, c.on_input, targets);
-    for (Index v = 0; v < targets.size(); ++v) {
-        const auto expected = static_cast<double>(truth.distance[v]);
+    for (Index i = 0; i < targets.size(); ++i) {
+        const Index v = *vertex_of(c.input, targets[i]);
+        const auto expected = static_cast<double>(truth.distance[i]);
         if (expected == std::numeric_limits<double>::infinity()) continue;
         EXPECT_NEAR(there.vertex_distance[v], expected, rounding * (expected + size)) << v;
     }
@@ -113,7 +115,9 @@ void expect_same_distances(const Case& c, std::span<const SurfacePoint> targets)
 
 std::vector<SurfacePoint> vertices_of(const Surface& surface) {
     std::vector<SurfacePoint> vertices;
-    for (Index v = 0; v < surface.num_vertices(); ++v) vertices.push_back(point_at(surface, v));
+    for (Index v = 0; v < surface.num_vertices(); ++v) {
+        if (surface.outgoing[v] != no_index) vertices.push_back(point_at(surface, v));
+    }
     return vertices;
 }
 
@@ -160,7 +164,7 @@ TEST_P(DeltaComplexOf, NoEngineFallsShortOfExactDistances) {
                 EXPECT_LE(other.vertex_distance[v], exact.vertex_distance[v] * most + slack) << v;
             }
         };
-        const double any = std::numeric_limits<double>::infinity();
+        const double any = 1e6;
         expect_above({.max_error = 1e-2, .num_threads = 1}, 1.01);
         expect_above({.engine = Engine::Steiner, .num_threads = 1}, any);
         expect_above({.engine = Engine::Vertex, .num_threads = 1}, any);
@@ -206,16 +210,17 @@ TEST_P(DeltaComplexOf, DiagramsOfAllEnginesAreValidComplexes) {
 }
 
 TEST_P(DeltaComplexOf, CellsHaveTheAreasOfThoseOfTheInput) {
-    for_each_case(8, [](const Case& c, std::uint64_t) {
+    for_each_case(1, [](const Case& c, std::uint64_t seed) {
         const PropagationOptions exactly{.max_error = 0, .num_threads = 1};
-        const Diagram here =
-            build_diagram(c.input, c.on_input, propagate(c.input, c.on_input, exactly));
+        const std::vector<SurfacePoint> sites = uniform_points(c.input, 8, seed);
+        const std::vector<SurfacePoint> on_base = c.base.to_intrinsic(sites);
+        const Diagram here = build_diagram(c.input, sites, propagate(c.input, sites, exactly));
         const Diagram there =
-            build_diagram(c.surface(), c.on_base, propagate(c.surface(), c.on_base, exactly));
+            build_diagram(c.surface(), on_base, propagate(c.surface(), on_base, exactly));
         double area = 0;
         for (Index f = 0; f < c.input.num_faces(); ++f) area += face_area(c.input, f);
         // Arcs are sampled to a share of their chords.
-        for (Index s = 0; s < c.on_input.size(); ++s) {
+        for (Index s = 0; s < sites.size(); ++s) {
             EXPECT_NEAR(there.cell_area[s], here.cell_area[s], 2e-2 * area) << s;
         }
     });
@@ -267,7 +272,7 @@ TEST_P(DeltaComplexOf, DualEdgesAreLocallyShortestAndNoShorterThanDistances) {
             for (std::size_t k = 0; k < 3; ++k) {
                 const Index a = made.triangles[t][k], b = made.triangles[t][(k + 1) % 3];
                 const auto truth = arbiter::nearest_sites(
-                    c.surface(), std::span(&c.on_base[a], 1), std::span(&c.on_base[b], 1));
+                    c.input, std::span(&c.on_input[a], 1), std::span(&c.on_input[b], 1));
                 EXPECT_GE(made.side_lengths[t][k],
                           static_cast<double>(truth.distance[0]) * (1 - rounding) - slack);
             }
