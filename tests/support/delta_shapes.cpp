@@ -15,8 +15,8 @@ using agvd::Triangle;
 using agvd::TriangleMesh;
 using agvd::Vec3;
 
-constexpr std::array names{"plane_needles", "finer_needles", "prism_tube", "delta_cone",
-                           "doubled_triangle", "delta_tetrahedron", "spike", "delta_strip"};
+constexpr std::array names{"plane_needles",    "finer_needles",     "prism_tube", "delta_cone",
+                           "doubled_triangle", "delta_tetrahedron", "spike",      "delta_strip"};
 
 // Where each face lies: flips stay within one of the coarse ones.
 struct Pieces {
@@ -181,7 +181,8 @@ TriangleMesh make(std::string_view family, std::uint64_t seed) {
     if (family == "plane_needles") return needles(coarse(), 1e-3, dice);
     if (family == "finer_needles") return needles(coarse(), 1e-6, dice);
     if (family == "prism_tube") return prism_tube(dice);
-    if (family == "delta_cone") return cone(dice.count(3, 60), dice.magnitude(0.1, 30), false, dice);
+    if (family == "delta_cone")
+        return cone(dice.count(3, 60), dice.magnitude(0.1, 30), false, dice);
     if (family == "spike") return cone(dice.count(3, 8), dice.magnitude(2, 50), true, dice);
     if (family == "doubled_triangle") return doubled_triangle(dice);
     if (family == "delta_tetrahedron") return tetrahedron(dice);
