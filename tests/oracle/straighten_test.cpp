@@ -49,8 +49,10 @@ TEST(StraightenAgainstExact, DualEdgesAreShortestPathsUnlessTheSurfaceBends) {
     const Diagram diagram = build_diagram(surface, sites, propagate(surface, sites));
     std::vector<Index> site(sites.size());
     std::iota(site.begin(), site.end(), 0U);
-    const remesh::DelaunayResult result =
-        remesh::make_delaunay(surface, sites, site, diagram, remesh::build_dual(surface, diagram));
+    std::vector<agvd::Vec3> positions;
+    for (const SurfacePoint& point : sites) positions.push_back(position(mesh.view(), point));
+    const remesh::DelaunayResult result = remesh::make_delaunay(
+        surface, sites, positions, site, diagram, remesh::build_dual(surface, diagram));
     Index num_exact = 0, num_sides = 0;
     for (std::size_t t = 0; t < result.triangles.size(); ++t) {
         const auto [a, b, c] = result.triangles[t];

@@ -38,7 +38,7 @@ struct Dual {
     }
 
     [[nodiscard]] DelaunayResult made(Delaunay mode, int num_threads = 1) const {
-        return remesh::make_delaunay(surface, sites, site, diagram, triangles,
+        return remesh::make_delaunay(surface, sites, positions(), site, diagram, triangles,
                                      {.mode = mode, .num_threads = num_threads});
     }
     [[nodiscard]] std::vector<Vec3> positions() const {

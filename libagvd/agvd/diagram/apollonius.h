@@ -24,6 +24,8 @@ struct LocalArc {
     Index left, right;  //!< Sites, walking from tail to head.
     Index first_point;  //!< Its inner polyline points in LocalDiagram::points.
     Index num_points;
+    //! The node, a crossing, lies on the twin of the half-edge that it names.
+    bool tail_is_across = false, head_is_across = false;
 };
 
 //! A point where three cells meet. Counter-clockwise around it: arc_ends[i], then sites[i].

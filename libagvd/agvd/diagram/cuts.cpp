@@ -41,7 +41,10 @@ public:
         triangulation_.reset(corners);
         for (std::size_t k = 0; k < 3; ++k) {
             const Index v = surface_.mesh.triangles[face_][k];
-            points_.push_back({v, corners[k], labels_.point_site[v], labels_.vertex_distance[v]});
+            points_.push_back({{v, static_cast<Index>(k)},
+                               corners[k],
+                               labels_.point_site[v],
+                               labels_.vertex_distance[v]});
         }
         for (const PlacedSite& site : placed) add_site(site);
         if (points_.size() > 3) append_triangles();
@@ -49,7 +52,7 @@ public:
 
 private:
     struct Point {
-        Index name;
+        CutEnd name;
         Vec2 position;
         Index site;
         double distance;
@@ -62,7 +65,7 @@ private:
         find_near(p, distance);
         if (nearest(near_, p).site != placed.site) return;
         points_.push_back(
-            {surface_.num_vertices() + cut_.inner_points.count++, p, placed.site, distance});
+            {{surface_.num_vertices() + cut_.inner_points.count++, 3}, p, placed.site, distance});
         out_.inner_points.push_back({face_, p, placed.site});
         triangulation_.add(p);
     }
@@ -193,14 +196,14 @@ CutFace add_cut_face(const FoundCuts& found, const CutFace& cut, Index num_verti
         return name < Crossing::first_cut ? name : name + result.cuts.begin;
     };
     for (Cut& c : labels.cuts[result.cuts]) {
-        c.from = point(c.from);
-        c.to = point(c.to);
+        c.from.point = point(c.from.point);
+        c.to.point = point(c.to.point);
         auto crossings = copy_of(found.crossings, c.row);
         for (Crossing& crossing : crossings) crossing.line = side(crossing.line);
         c.row = labels.crossings.add(crossings);
     }
     for (CutTriangle& triangle : triangles) {
-        for (Index& name : triangle.points) name = point(name);
+        for (CutEnd& end : triangle.points) end.point = point(end.point);
         for (Index& name : triangle.sides) name = side(name);
     }
     result.triangles = labels.cut_triangles.add(triangles);

@@ -17,6 +17,21 @@ struct VoronoiEdge {
     Index head = no_index;  //!< Voronoi vertex at the last point; no_index: a closed curve.
 };
 
+//! Through which side of the face that names a point the curve passes there. On an ordinary mesh
+//! the points of a piece tell its face; where faces share two edges, or a face has a vertex twice,
+//! this does: see curve_piece().
+struct Passage {
+    static constexpr std::uint8_t none = 3;
+    //! 0 to 2: half-edge 3 f + side; none: the curve comes and goes on in the face. On the
+    //! surface's boundary the half-edge along which the curve goes on (or ends).
+    std::uint8_t side = none;
+    //! The curve goes out of the face; else it comes in. On the boundary: it comes from the
+    //! half-edge before, over a mesh vertex.
+    bool leaves = false;
+
+    friend bool operator==(const Passage&, const Passage&) = default;
+};
+
 //! One end of a Voronoi edge at a Voronoi vertex.
 struct EdgeEnd {
     Index edge = no_index;
@@ -32,6 +47,7 @@ struct Diagram {
     std::vector<SurfacePoint> points;    //!< Polyline points, edge after edge; a closed curve does
                                          //!< not repeat its first point.
     std::vector<double> point_distance;  //!< Distance of each point from the sites it is between.
+    std::vector<Passage> passages;       //!< By point; none in a diagram from a file.
     std::vector<Index> edge_points;      //!< #edges + 1 offsets into points.
     std::vector<VoronoiEdge> edges;
 

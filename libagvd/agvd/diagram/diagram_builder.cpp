@@ -111,7 +111,7 @@ private:
         for_each_outgoing(surface_, v, [&](Index h) {
             const Index face = Surface::face(h);
             const bool is_unlisted = labels_.mixed_index[face] == no_index;
-            if (!is_unlisted || surface_.mesh.triangles[face][0] != v) return;  // Once a face.
+            if (!is_unlisted || h % 3 != 0) return;  // At its first corner: once a face.
             tally_.count_face(face, old_site, -1);
             tally_.count_face(face, site, 1);
         });
@@ -216,8 +216,8 @@ private:
             tally_.count_inner_point(point, sign);
         }
         for (const Cut& cut : std::as_const(labels_.cuts)[face.cuts]) {
-            tally_.count_cut(std::as_const(labels_.crossings)[cut.row], labels_.point_site[cut.to],
-                             sign);
+            tally_.count_cut(std::as_const(labels_.crossings)[cut.row],
+                             labels_.point_site[cut.to.point], sign);
         }
     }
 

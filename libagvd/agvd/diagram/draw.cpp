@@ -30,25 +30,24 @@ public:
         return point;
     }
 
+    // \param is_across  the curve goes on from the twin of the half-edge that the crossing names.
+    [[nodiscard]] Passage passage(Index node, bool is_across) const {
+        if (node >= LocalDiagram::first_branch) return {};
+        const Index line = labels_.crossings[node].line;
+        if (line >= Crossing::first_cut) return {};
+        return {static_cast<std::uint8_t>(line % 3), is_across};
+    }
+
 private:
     [[nodiscard]] const ArcStore::BranchPoint& branch_point(Index node) const {
         return arcs_.branch_points()[node - LocalDiagram::first_branch];
     }
 
     [[nodiscard]] SurfacePoint point_on_cut(const Cut& cut, double at) const {
-        const Vec2 from = position_of(cut.face, cut.from);
-        const Vec2 to = position_of(cut.face, cut.to);
+        const auto corners = face_corners(surface_, cut.face);
+        const Vec2 from = position_of(labels_, corners, cut.from);
+        const Vec2 to = position_of(labels_, corners, cut.to);
         return to_surface(surface_, cut.face, (1 - at) * from + at * to);
-    }
-
-    [[nodiscard]] Vec2 position_of(Index face, Index point) const {
-        if (point >= surface_.num_vertices()) {
-            return labels_.inner_points[point - surface_.num_vertices()].position;
-        }
-        const Triangle& triangle = surface_.mesh.triangles[face];
-        return face_corners(surface_, face)[point == triangle[0]   ? 0
-                                            : point == triangle[1] ? 1
-                                                                   : 2];
     }
 
     const Surface& surface_;
@@ -191,13 +190,17 @@ private:
     void gather_points() {
         std::vector<SurfacePoint>& old_points = in_.points_;
         std::vector<double>& old_distances = in_.point_distance_;
+        std::vector<Passage>& old_passages = in_.passages_;
         std::swap(out_.points, old_points);
         std::swap(out_.point_distance, old_distances);
+        std::swap(out_.passages, old_passages);
         out_.points.clear();
         out_.point_distance.clear();
+        out_.passages.clear();
         const std::size_t num_arcs = arcs_.arcs().size();  // A node an arc, and the ends.
         out_.points.reserve(num_arcs + num_arcs / 4 + arcs_.points().size());
         out_.point_distance.reserve(out_.points.capacity());
+        out_.passages.reserve(out_.points.capacity());
         out_.edge_points.assign(1, 0);
         // Old ones that follow one another are copied together.
         Block kept;
@@ -207,6 +210,7 @@ private:
             };
             copy(old_points, out_.points);
             copy(old_distances, out_.point_distance);
+            copy(old_passages, out_.passages);
             kept = {};
         };
         for (const Index name : in_.order_) {
@@ -229,7 +233,10 @@ private:
 
     void walk(ArcEnd from, ArcEnd last) {
         while (true) {
-            add_node(node_at(arcs_, from));
+            const LocalArc& arc = arcs_.arcs()[from / 2];
+            const Index node = node_at(arcs_, from);
+            const bool is_across = from % 2 == 0 ? arc.tail_is_across : arc.head_is_across;
+            add_node(node, in_.is_vertex(node) ? Passage{} : nodes_.passage(node, is_across));
             add_inner_points(from);
             const ArcEnd to = other_end(from);
             if (to == last) break;
@@ -237,7 +244,7 @@ private:
         }
         // A closed curve does not repeat its first point.
         const Index end = node_at(arcs_, last);
-        if (in_.is_vertex(end)) add_node(end);
+        if (in_.is_vertex(end)) add_node(end, {});
     }
 
     void add_inner_points(ArcEnd from) {
@@ -245,7 +252,7 @@ private:
         for (Index j = 0; j < arc.num_points; ++j) {
             const Index k = arc.first_point + (from % 2 == 0 ? j : arc.num_points - 1 - j);
             const ArcStore::Point& point = arcs_.points()[k];
-            add_point(to_surface(surface_, arc.face, point.position), point.distance);
+            add_point(to_surface(surface_, arc.face, point.position), point.distance, {});
         }
     }
 
@@ -262,14 +269,14 @@ private:
         for (Index i = 0; i < count; ++i) {
             const BoundaryCrossing& from = crossings[i];
             const BoundaryCrossing& to = crossings[(i + 1) % count];
-            add_node(from.node);
+            add_node(from.node, nodes_.passage(from.node, false));
             // The mesh vertices between: tails of the half-edges after `from` up to that of `to`.
             Index steps = (to.position + loop_size - from.position) % loop_size;
             if (steps == 0 && i + 1 == count) steps = loop_size;
             for (Index j = 1; j <= steps; ++j) {
                 add_mesh_vertex(loop[(from.position + j) % loop_size]);
             }
-            add_node(to.node);
+            add_node(to.node, nodes_.passage(to.node, false));
             end_edge();
         }
         for (const BoundaryCrossing& crossing : crossings) {
@@ -278,16 +285,20 @@ private:
         }
     }
 
-    void add_point(const SurfacePoint& point, double distance) {
+    void add_point(const SurfacePoint& point, double distance, const Passage& passage) {
         out_.points.push_back(point);
         out_.point_distance.push_back(distance);
+        out_.passages.push_back(passage);
     }
-    void add_node(Index node) { add_point(nodes_.point(node), nodes_.distance(node)); }
+    void add_node(Index node, const Passage& passage) {
+        add_point(nodes_.point(node), nodes_.distance(node), passage);
+    }
     void add_mesh_vertex(Index half_edge) {
         const Index v = surface_.tail(half_edge);
         SurfacePoint point{FaceId(Surface::face(half_edge)), {0, 0, 0}};
         point.barycentric[half_edge % 3] = 1;
-        add_point(point, labels_.vertex_distance[v]);
+        add_point(point, labels_.vertex_distance[v],
+                  {static_cast<std::uint8_t>(half_edge % 3), true});
     }
     void end_edge() { out_.edge_points.push_back(static_cast<Index>(out_.points.size())); }
 

@@ -29,17 +29,24 @@ struct InnerPoint {
     Index site;     //!< no_index: a released one.
 };
 
+//! An end of a cut: a corner of the face, which may have the same vertex at several, or a point
+//! inside.
+struct CutEnd {
+    Index point;
+    Index corner;  //!< 0 to 2; 3: an inner point.
+};
+
 //! A straight line inside a face between two points, labelled like a mesh edge.
 struct Cut {
     Index face;
-    Index from, to;  //!< Points.
-    Block row;       //!< Of EdgeLabels::crossings.
+    CutEnd from, to;
+    Block row;  //!< Of EdgeLabels::crossings.
 };
 
 //! A face with inner points is cut into triangles at them, so that every cell in it reaches the
 //! boundary of some triangle.
 struct CutTriangle {
-    std::array<Index, 3> points;
+    std::array<CutEnd, 3> points;
     std::array<Index, 3> sides;  //!< From point k to k + 1: a half-edge, or first_cut + c.
 };
 
@@ -75,6 +82,14 @@ struct EdgeLabels {
         return crossings[edge_rows[edge]];
     }
 };
+
+//! \param corners  of the face, in its own frame.
+[[nodiscard]] inline Vec2 position_of(const EdgeLabels& labels, const std::array<Vec2, 3>& corners,
+                                      const CutEnd& end) {
+    if (end.corner < 3) return corners[end.corner];
+    const auto num_vertices = static_cast<Index>(labels.vertex_distance.size());
+    return labels.inner_points[end.point - num_vertices].position;
+}
 
 class CellTally;
 class TouchedParts;

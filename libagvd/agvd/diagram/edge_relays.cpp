@@ -65,30 +65,31 @@ void EdgeRelays::scan_across(Index edge, Index half_edge) {
         if (r.begin <= 0 && begin > 0) slope_tail = std::max(-1.0, -r.x / begin - rounding);
         if (r.end >= length && end > 0) slope_head = std::min(1.0, (length - r.x) / end + rounding);
         if (forward) {
-            candidates_.push_back({tail, head, slope_tail, slope_head, i, r.site.value()});
+            candidates_.push_back(
+                {tail, head, slope_tail, slope_head, i, r.site.value(), half_edge});
         } else {
-            candidates_.push_back({head, tail, -slope_head, -slope_tail, i, r.site.value()});
+            candidates_.push_back(
+                {head, tail, -slope_head, -slope_tail, i, r.site.value(), half_edge});
         }
     }
-    for (const Index i : groups_.inside(mixed)) add_distances(forward, half_edge, i);
+    for (const Index i : groups_.inside(mixed)) add_distances(edge, half_edge, i);
 }
 
 // The others, and the corner opposite.
 void EdgeRelays::scan_others(Index edge, Index half_edge) {
-    const bool forward = surface_.edge_half[edge] == half_edge;
     const Index mixed = labels_.mixed_index[Surface::face(half_edge)];
     const Index next = Surface::next(half_edge);
     const Index previous = Surface::previous(half_edge);
     for (const Index other : {next, previous}) {
-        for (const Index i : groups_.across(mixed, other)) add_distances(forward, half_edge, i);
+        for (const Index i : groups_.across(mixed, other)) add_distances(edge, half_edge, i);
     }
     for (const Index i : groups_.corners(mixed)) {
-        if (propagation_.relays[i].half_edge == previous) add_distances(forward, half_edge, i);
+        if (propagation_.relays[i].half_edge == previous) add_distances(edge, half_edge, i);
     }
 }
 
 // Of a relay of the face that may belong to another half-edge.
-void EdgeRelays::add_distances(bool forward, Index half_edge, Index i) {
+void EdgeRelays::add_distances(Index edge, Index half_edge, Index i) {
     const Relay& relay = propagation_.relays[i];
     const CornerDistances to = corner_distances(relay, surface_.length_of(relay.half_edge),
                                                 surface_.apex[relay.half_edge]);
@@ -101,8 +102,8 @@ void EdgeRelays::add_distances(bool forward, Index half_edge, Index i) {
         tail = to.head;
         head = to.apex;
     }
-    if (!forward) std::swap(tail, head);
-    candidates_.push_back({tail, head, -1, 1, i, relay.site.value()});
+    if (surface_.edge_half[edge] != half_edge) std::swap(tail, head);
+    candidates_.push_back({tail, head, -1, 1, i, relay.site.value(), half_edge});
 }
 
 // Leaves the candidates that could win somewhere.
@@ -117,7 +118,7 @@ void EdgeRelays::scan(Index edge) {
     const double at_head = labels_.vertex_distance[surface_.head(h)];
     Candidate first, last;  // The nearest at the ends.
     const auto find_nearest = [&] {
-        first = last = {infinity, infinity, 0, 0, 0, no_index};
+        first = last = {infinity, infinity, 0, 0, 0, no_index, no_index};
         for (const Candidate& c : candidates_) {
             if (c.lo < first.lo) first = c;
             if (c.hi < last.hi) last = c;
@@ -181,16 +182,15 @@ void EdgeRelays::gather(Index edge, std::vector<LineRelay>& relays) {
 void EdgeRelays::append_all(Index edge, std::vector<LineRelay>& relays) const {
     relays.clear();
     const Index h = surface_.edge_half[edge];
-    const Index twin = surface_.twin[h];
     const double length = surface_.length[edge];
     for (const Candidate& c : candidates_) {
         const Relay& relay = propagation_.relays[c.relay];
-        if (relay.y < 0 && relay.half_edge == h) {
+        if (relay.y >= 0 || relay.half_edge != c.base) {
+            relays.push_back(through_face(c.base, relay));
+        } else if (c.base == h) {
             relays.push_back(through_edge(relay, c.lo, c.hi, true, length));
-        } else if (relay.y < 0 && relay.half_edge == twin) {
-            relays.push_back(through_edge(relay, c.hi, c.lo, false, length));
         } else {
-            relays.push_back(through_face(edge, relay));
+            relays.push_back(through_edge(relay, c.hi, c.lo, false, length));
         }
     }
     const Index a = surface_.tail(h);
@@ -203,11 +203,10 @@ void EdgeRelays::append_all(Index edge, std::vector<LineRelay>& relays) const {
     }
 }
 
-LineRelay EdgeRelays::through_face(Index edge, const Relay& relay) const {
-    const Index h = surface_.edge_half[edge];
+LineRelay EdgeRelays::through_face(Index base, const Relay& relay) const {
+    const Index edge = surface_.edge[base];
     const double length = surface_.length[edge];
-    const bool is_here = Surface::face(relay.half_edge) == Surface::face(h);
-    const Index base = is_here ? h : surface_.twin[h];
+    const bool is_here = surface_.edge_half[edge] == base;
     const Motion motion =
         relay.half_edge == base ? Motion{} : between_half_edges(surface_, relay.half_edge, base);
     const Motion turn{{-1, 0}, {length, 0}};

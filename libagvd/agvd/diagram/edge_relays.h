@@ -30,13 +30,14 @@ private:
         double slope_lo, slope_hi;  // and bounds of their derivatives along the edge.
         Index relay;
         Index site;
+        Index base;  // The half-edge of the edge in whose face the relay is seen.
     };
 
     void scan(Index edge);
     void scan_across(Index edge, Index half_edge);
     void scan_others(Index edge, Index half_edge);
-    void add_distances(bool forward, Index half_edge, Index relay);
-    [[nodiscard]] LineRelay through_face(Index edge, const Relay& relay) const;
+    void add_distances(Index edge, Index half_edge, Index relay);
+    [[nodiscard]] LineRelay through_face(Index base, const Relay& relay) const;
     void append_all(Index edge, std::vector<LineRelay>& relays) const;
 
     const Surface& surface_;

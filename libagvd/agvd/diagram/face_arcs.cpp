@@ -12,7 +12,8 @@ struct Side {
     Vec2 from, to;
     Index to_point;
     Block row;
-    bool forward;  // Whether the crossings of the row run from `from` to `to`.
+    bool forward;    // Whether the crossings of the row run from `from` to `to`.
+    bool is_across;  // Not the half-edge of which the crossings are.
 };
 
 class FaceTracer {
@@ -33,20 +34,22 @@ public:
             const Index h = 3 * face_ + k;
             sides_[k] = mesh_side(h, corners_[k], corners_[(k + 1) % 3]);
         }
-        trace_triangle(corners_, surface_.mesh.triangles[face_]);
+        trace_triangle(corners_, labels_.point_site[surface_.tail(3 * face_)]);
     }
 
     void trace_cut(const CutFace& cut) {
         begin_face(labels_.mixed_index[cut.face]);
         for (const CutTriangle& triangle : labels_.cut_triangles[cut.triangles]) {
             std::array<Vec2, 3> corners;
-            for (std::size_t k = 0; k < 3; ++k) corners[k] = position_of(triangle.points[k]);
+            for (std::size_t k = 0; k < 3; ++k) {
+                corners[k] = position_of(labels_, corners_, triangle.points[k]);
+            }
             for (std::size_t k = 0; k < 3; ++k) {
                 sides_[k] = triangle.sides[k] < Crossing::first_cut
                                 ? mesh_side(triangle.sides[k], corners[k], corners[(k + 1) % 3])
                                 : cut_side(triangle, k, corners);
             }
-            trace_triangle(corners, triangle.points);
+            trace_triangle(corners, labels_.point_site[triangle.points[0].point]);
         }
     }
 
@@ -61,30 +64,27 @@ private:
         has_own_relays_ = has_all_relays_ = false;
     }
 
-    [[nodiscard]] Vec2 position_of(Index point) const {
-        if (point >= surface_.num_vertices()) {
-            return labels_.inner_points[point - surface_.num_vertices()].position;
-        }
-        const Triangle& triangle = surface_.mesh.triangles[face_];
-        return corners_[point == triangle[0] ? 0 : point == triangle[1] ? 1 : 2];
-    }
-
     [[nodiscard]] Side mesh_side(Index h, const Vec2& from, const Vec2& to) const {
         const Index edge = surface_.edge[h];
-        return {from, to, surface_.head(h), labels_.edge_rows[edge], surface_.edge_half[edge] == h};
+        const bool forward = surface_.edge_half[edge] == h;
+        return {from, to, surface_.head(h), labels_.edge_rows[edge], forward, !forward};
     }
 
     [[nodiscard]] Side cut_side(const CutTriangle& triangle, std::size_t k,
                                 const std::array<Vec2, 3>& corners) const {
         const Cut& cut = labels_.cuts[triangle.sides[k] - Crossing::first_cut];
         const std::size_t next = (k + 1) % 3;
-        return {corners[k], corners[next], triangle.points[next], cut.row,
-                cut.from == triangle.points[k]};
+        return {corners[k],
+                corners[next],
+                triangle.points[next].point,
+                cut.row,
+                cut.from.point == triangle.points[k].point,
+                false};
     }
 
-    void trace_triangle(const std::array<Vec2, 3>& corners, const std::array<Index, 3>& points) {
+    // `site`: that of its first corner.
+    void trace_triangle(const std::array<Vec2, 3>& corners, Index site) {
         first_part_ = out_.parts.size();
-        const Index site = labels_.point_site[points[0]];
         collect_joints(site);
         if (joints_.empty()) {
             if (site != no_index) out_.parts.push_back({site, 1, area_of(corners)});
@@ -106,6 +106,21 @@ private:
             out_.parts.resize(first_part_);
             out_.parts.insert(out_.parts.end(), boundary_parts_.begin(), boundary_parts_.end());
             count_parts(before);
+        }
+        name_nodes(before);
+    }
+
+    // Until here joints have their places in the row: a face that is glued to itself meets one
+    // crossing at two of them.
+    void name_nodes(const FaceArcs::Mark& before) {
+        for (std::size_t i = before.arcs; i < out_.local.arcs.size(); ++i) {
+            LocalArc& arc = out_.local.arcs[i];
+            for (const bool at_tail : {true, false}) {
+                Index& node = at_tail ? arc.tail : arc.head;
+                if (node >= LocalDiagram::first_branch) continue;
+                (at_tail ? arc.tail_is_across : arc.head_is_across) = nodes_[node].is_across;
+                node = nodes_[node].name;
+            }
         }
     }
 
@@ -134,6 +149,7 @@ private:
     // Also adds what the boundary contributes to the areas, by Green's theorem.
     void collect_joints(Index site) {
         joints_.clear();
+        nodes_.clear();
         for (const Side& side : sides_) {
             Vec2 last = side.from;
             for (Index j = 0; j < side.row.count; ++j) {
@@ -147,7 +163,9 @@ private:
                 const Index interval =
                     is_last ? side.to_point
                             : FaceArcs::first_interval + (side.forward ? node : node - 1);
-                joints_.push_back({p, c.distance, node, site, interval});
+                const auto place = static_cast<Index>(joints_.size());
+                joints_.push_back({p, c.distance, place, site, interval});
+                nodes_.push_back({node, side.is_across});
                 last = p;
             }
             // Without a joint the area is that of the triangle.
@@ -220,9 +238,7 @@ private:
         if (node >= LocalDiagram::first_branch) {
             return out_.local.branches[node - LocalDiagram::first_branch].position;
         }
-        const auto found = std::find_if(joints_.begin(), joints_.end(),
-                                        [node](const Joint& joint) { return joint.node == node; });
-        return found->position;
+        return joints_[node].position;
     }
 
     void count(Index site, int pieces, double area) {
@@ -255,6 +271,11 @@ private:
     std::vector<FaceArcs::CellPart> boundary_parts_;  // What the boundary alone contributes.
     std::vector<Index> sites_;
     std::vector<Joint> joints_;
+    struct Node {
+        Index name;
+        bool is_across;
+    };
+    std::vector<Node> nodes_;  // By joint.
 };
 
 }  // namespace

@@ -171,7 +171,7 @@ private:
         }
         for (const CutFace& face : labels_.cut_faces) {
             for (const Cut& cut : labels_.cuts[face.cuts]) {
-                if (cut.row.count == 0) unite(cut.from, cut.to);
+                if (cut.row.count == 0) unite(cut.from.point, cut.to.point);
             }
         }
     }
@@ -189,7 +189,7 @@ private:
         }
         for (const CutFace& face : labels_.cut_faces) {
             for (Cut& cut : labels_.cuts[face.cuts]) {
-                if (cut.row.count > 0) callback(cut.row, cut.from, cut.to);
+                if (cut.row.count > 0) callback(cut.row, cut.from.point, cut.to.point);
             }
         }
     }

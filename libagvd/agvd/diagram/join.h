@@ -82,6 +82,7 @@ private:
     // Memory for the next points.
     std::vector<SurfacePoint> points_;
     std::vector<double> point_distance_;
+    std::vector<Passage> passages_;
 };
 
 }  // namespace agvd

@@ -10,8 +10,10 @@ namespace agvd {
 PlaceOnSurface place_of(const Surface& surface, const SurfacePoint& point) {
     if (const auto vertex = vertex_of(surface, point)) return {*vertex, {}};
     if (const auto h = half_edge_of(point)) {
-        const Vec3 at = position(surface.mesh.view(), point);
-        return {surface.num_vertices() + surface.edge[*h], {at.x(), at.y(), at.z()}};
+        const Index edge = surface.edge[*h];
+        double tail = point.barycentric[*h % 3], head = point.barycentric[Surface::next(*h) % 3];
+        if (surface.edge_half[edge] != *h) std::swap(tail, head);
+        return {surface.num_vertices() + edge, {tail, head, 0}};
     }
     return {surface.num_vertices() + surface.num_edges() + point.face.value(), point.barycentric};
 }

@@ -14,8 +14,9 @@ namespace agvd {
 
 //! A vertex, an edge or a face, and where on it: equal for equal points, whatever face names them.
 struct PlaceOnSurface {
-    Index element = no_index;       //!< Vertices first, then edges, then faces.
-    std::array<double, 3> where{};  //!< Vertex: 0. Edge: position. Face: barycentric coordinates.
+    Index element = no_index;  //!< Vertices first, then edges, then faces.
+    //! Vertex: 0. Edge: shares of the ends of its edge_half. Face: barycentric coordinates.
+    std::array<double, 3> where{};
 
     auto operator<=>(const PlaceOnSurface&) const = default;
 };

@@ -9,36 +9,22 @@ constexpr double beside_vertex = 1e-12;  // In edge lengths.
 constexpr double beside_edge = 1e-12;    // In heights of the face,
 constexpr double flat = 1e-3;            // and of the share along the edge.
 
-// Visits the faces that hold the point: one, the two at its edge, or all around its vertex.
-template <typename Visit>
-void for_each_face(const Surface& surface, const SurfacePoint& point, const Visit& visit) {
-    if (const auto vertex = vertex_of(surface, point)) {
-        for (Index h = surface.outgoing[*vertex];;) {
-            visit(Surface::face(h));
-            h = surface.twin[Surface::previous(h)];
-            if (h == no_index || h == surface.outgoing[*vertex]) return;
-        }
-    }
-    visit(point.face.value());
-    const auto half_edge = half_edge_of(point);
-    if (!half_edge) return;
-    const Index across = surface.twin[*half_edge];
-    if (across != no_index) visit(Surface::face(across));
-}
-
 }  // namespace
 
 std::optional<Index> vertex_of(const Surface& surface, const SurfacePoint& point) {
+    const std::optional<Index> corner = corner_of(surface, point);
+    return corner ? std::optional(surface.tail(*corner)) : std::nullopt;
+}
+
+std::optional<Index> corner_of(const Surface& surface, const SurfacePoint& point) {
     const auto& b = point.barycentric;
     for (Index k = 0; k < 3; ++k) {
         const double to_next = b[(k + 1) % 3], to_last = b[(k + 2) % 3];
         if (to_next + to_last > beside_vertex) continue;  // Told without the edges' lengths.
         const Index h = 3 * point.face.value() + k;
-        if (to_next == 0 && to_last == 0) return surface.tail(h);
+        if (to_next == 0 && to_last == 0) return h;
         const double next = surface.length_of(h), last = surface.length_of(Surface::previous(h));
-        if (to_next * next + to_last * last <= beside_vertex * std::min(next, last)) {
-            return surface.tail(h);
-        }
+        if (to_next * next + to_last * last <= beside_vertex * std::min(next, last)) return h;
     }
     return std::nullopt;
 }
@@ -65,23 +51,20 @@ SurfacePoint across_edge(const Surface& surface, const SurfacePoint& point, Inde
 
 std::optional<SurfacePoint> seen_from(const Surface& surface, const SurfacePoint& point,
                                       Index face) {
-    SurfacePoint seen{FaceId(face), {0, 0, 0}};
-    const Triangle& from = surface.mesh.triangles[point.face.value()];
-    const Triangle& to = surface.mesh.triangles[face];
-    for (std::size_t k = 0; k < 3; ++k) {
-        if (point.barycentric[k] == 0) continue;
-        const auto corner = std::find(to.begin(), to.end(), from[k]) - to.begin();
-        if (corner == 3) return std::nullopt;
-        seen.barycentric[static_cast<std::size_t>(corner)] = point.barycentric[k];
-    }
+    if (point.face.value() == face) return point;
+    std::optional<SurfacePoint> seen;
+    for_each_view(surface, point, [&](const SurfacePoint& view) {
+        if (!seen && view.face.value() == face) seen = view;
+    });
     return seen;
 }
 
 CommonFaces common_faces(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {
     CommonFaces found;
-    for_each_face(surface, a, [&](Index face) {
+    for_each_view(surface, a, [&](const SurfacePoint& view) {
+        const Index face = view.face.value();
         if (face == found.first || found.second != no_index) return;
-        if (!seen_from(surface, a, face) || !seen_from(surface, b, face)) return;
+        if (!seen_from(surface, b, face)) return;
         (found.first == no_index ? found.first : found.second) = face;
     });
     return found;

@@ -67,7 +67,7 @@ SitePlacement::SitePlacement(const Surface& surface, std::span<const SurfacePoin
             placed_.push_back({s, across_edge(surface, sites[s], *half_edge)});
         }
     }
-    std::sort(placed_.begin(), placed_.end(), by_face);
+    std::stable_sort(placed_.begin(), placed_.end(), by_face);
     holds_site_.assign(surface.num_faces(), false);
     for (const PlacedSite& placed : placed_) holds_site_[placed.point.face.value()] = true;
 }
@@ -81,11 +81,11 @@ std::span<const PlacedSite> SitePlacement::find_in_face(Index face) const {
     return {first, last};
 }
 
-const SurfacePoint& SitePlacement::seen_from(Index face, Index site) const {
+std::span<const PlacedSite> SitePlacement::seen_from(Index face, Index site) const {
     const PlacedSite key{site, {FaceId(face), {}}};
-    const auto found = std::lower_bound(placed_.begin(), placed_.end(), key, by_face);
-    assert(found != placed_.end() && found->site == site);
-    return found->point;
+    const auto [first, last] = std::equal_range(placed_.begin(), placed_.end(), key, by_face);
+    assert(first != last);
+    return {first, last};
 }
 
 }  // namespace agvd

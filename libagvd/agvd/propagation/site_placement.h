@@ -22,8 +22,8 @@ struct PlacedSite {
     SurfacePoint point;
 };
 
-//! The placed sites of each face that has any; an edge site is listed in both faces, one that lies
-//! where an earlier one does in none.
+//! The placed sites of each face that has any; an edge site is listed once for each side of
+//! its edge, one that lies where an earlier one does in none.
 class SitePlacement {
 public:
     SitePlacement() = default;
@@ -36,8 +36,9 @@ public:
         if (!holds_site_[face]) return {};
         return find_in_face(face);
     }
-    //! The site as seen from `face`, which must hold it.
-    [[nodiscard]] const SurfacePoint& seen_from(Index face, Index site) const;
+    //! The site as seen from `face`, which must hold it: twice if it lies on an edge along which
+    //! the face is glued to itself.
+    [[nodiscard]] std::span<const PlacedSite> seen_from(Index face, Index site) const;
 
 private:
     [[nodiscard]] std::span<const PlacedSite> find_in_face(Index face) const;

@@ -229,7 +229,7 @@ void SteinerFront::serve_onward(Index edge, Index point) {
     const Index j = forward ? point + 1 : counts_[edge] - point;  // From the tail of `out`.
     const Vec2 here(length * j * step, 0);
 
-    const Vec2 p = slot_position(node);
+    const Vec2 p = slot_position(node, Vec2(length, 0) - here);
     const Vec2 parent(length - p.x(), -p.y());
     if (!(parent.y() < 0)) return;  // Came along its own edge: the parent serves both sides.
     const Vec2& apex = surface_.apex[out];
@@ -251,11 +251,16 @@ void SteinerFront::serve_onward(Index edge, Index point) {
                  here, node.distance, node.site, FaceRing::slot(1, j));
 }
 
-// Where the path's previous node lies, in the frame of node.from.
-Vec2 SteinerFront::slot_position(const SteinerNode& node) const {
+// Where the path's previous node lies, in the frame of node.from, in which the node is `here`.
+Vec2 SteinerFront::slot_position(const SteinerNode& node, const Vec2& here) const {
     if (node.parent_slot == FaceRing::site_slot) {
-        const SurfacePoint& site = placement_.seen_from(Surface::face(node.from), node.site);
-        return position_in_frame(surface_, site, node.from);
+        const auto places = placement_.seen_from(Surface::face(node.from), node.site);
+        Vec2 nearest = position_in_frame(surface_, places[0].point, node.from);
+        for (const PlacedSite& other : places.subspan(1)) {
+            const Vec2 p = position_in_frame(surface_, other.point, node.from);
+            if ((p - here).squaredNorm() < (nearest - here).squaredNorm()) nearest = p;
+        }
+        return nearest;
     }
     return FaceRing::position(surface_, counts_, node.from, node.parent_slot);
 }

@@ -46,7 +46,7 @@ private:
     void serve_face(Index face, Index site, const SurfacePoint& point);
     void serve_one_ring(Index vertex);
     void serve_onward(Index edge, Index point);
-    [[nodiscard]] Vec2 slot_position(const SteinerNode& node) const;
+    [[nodiscard]] Vec2 slot_position(const SteinerNode& node, const Vec2& here) const;
     [[nodiscard]] Vec2 parent_spacing(const SteinerNode& node) const;
 
     const Surface& surface_;

@@ -24,15 +24,13 @@ void SteinerInsertion::mark_path(const SteinerFront& front, Index vertex) {
     }
 }
 
-void SteinerInsertion::mark_between(const SurfacePoint& site, Index vertex, double length) {
-    const Vec3 start = position(surface_.mesh.view(), site);
-    const Vec3 end = surface_.mesh.positions[vertex];
+void SteinerInsertion::mark_between(std::span<const double> distance, Index vertex) {
     std::vector<Index> waiting{Surface::face(surface_.outgoing[vertex])};
     visited_for_[waiting[0]] = vertex;
     while (!waiting.empty()) {
         const Index face = waiting.back();
         waiting.pop_back();
-        if (!may_be_crossed(face, start, end, length)) continue;
+        if (!may_be_crossed(face, distance, vertex)) continue;
         mark_face(face);
         for (Index h = 3 * face; h < 3 * face + 3; ++h) {
             const Index twin = surface_.twin[h];
@@ -43,19 +41,21 @@ void SteinerInsertion::mark_between(const SurfacePoint& site, Index vertex, doub
     }
 }
 
-// A point x of the path has |x - start| + |x - end| <= length, and a corner of its face is nearer
-// to x than reach times the longest side.
-bool SteinerInsertion::may_be_crossed(Index face, const Vec3& start, const Vec3& end,
-                                      double length) const {
+// A point x of the path has d(x) + |x - vertex| <= d(vertex), and a corner of its face is nearer to
+// x than reach times the longest side. Faces need not lie in space, but vertices do, no farther
+// apart than over the surface.
+bool SteinerInsertion::may_be_crossed(Index face, std::span<const double> distance,
+                                      Index vertex) const {
     constexpr double reach = 0.58;  // 1 / sqrt(3), rounded up: an equilateral triangle's middle.
+    const std::vector<Vec3>& positions = surface_.mesh.positions;
     double least = std::numeric_limits<double>::infinity();
     double longest = 0;
     for (Index h = 3 * face; h < 3 * face + 3; ++h) {
-        const Vec3& corner = surface_.mesh.positions[surface_.tail(h)];
-        least = std::min(least, (corner - start).norm() + (corner - end).norm());
+        const Index corner = surface_.tail(h);
+        least = std::min(least, distance[corner] + (positions[corner] - positions[vertex]).norm());
         longest = std::max(longest, surface_.length_of(h));
     }
-    return least <= length + 2 * reach * longest;
+    return least <= distance[vertex] + 2 * reach * longest;
 }
 
 bool SteinerInsertion::insert() {

@@ -22,8 +22,9 @@ public:
     //! \param front  has run and kept all nodes.
     void mark_path(const SteinerFront& front, Index vertex);
 
-    //! Marks the edges of all faces that a path of this length from `site` to a vertex can cross.
-    void mark_between(const SurfacePoint& site, Index vertex, double length);
+    //! Marks the edges of all faces that a shortest path from a site to a vertex can cross.
+    //! \param distance  #V: from the nearest site.
+    void mark_between(std::span<const double> distance, Index vertex);
 
     //! Halves the spacing on the marked edges, as far as there is room, and takes the marks away;
     //! false if there was no room.
@@ -37,8 +38,8 @@ public:
 private:
     void mark_face(Index face);
     void mark_around(Index vertex);
-    [[nodiscard]] bool may_be_crossed(Index face, const Vec3& start, const Vec3& end,
-                                      double length) const;
+    [[nodiscard]] bool may_be_crossed(Index face, std::span<const double> distance,
+                                      Index vertex) const;
 
     const Surface& surface_;
     std::vector<std::uint16_t> points_;  // #E

@@ -110,10 +110,7 @@ Propagation propagate_steiner_within(const Surface& surface, std::span<const Sur
             if (errors[v] <= max_error) continue;
             insertion.mark_path(front, v);
             // Another site's path, or one over other faces, may be the shortest.
-            if (errors.is_stuck(v)) {
-                const SurfacePoint& site = sites[exact.vertex_site[v].value()];
-                insertion.mark_between(site, v, exact.vertex_distance[v]);
-            }
+            if (errors.is_stuck(v)) insertion.mark_between(exact.vertex_distance, v);
         }
         const char* reason = nullptr;
         if (round == max_rounds) {

@@ -42,7 +42,7 @@ void SteinerRelays::collect(Index face, std::vector<Relay>& out) {
     }
     for (Index h = 3 * face; h < 3 * face + 3; ++h) {
         const SteinerNode& corner = vertices_[surface_.tail(h)];
-        if (corner.from == no_index || Surface::face(corner.from) != face) {
+        if (corner.from != h) {  // Else its parent in this face stands for it.
             add_relay(h, {0, 0}, corner.distance, corner.site, out);
         }
         const Index twin = surface_.twin[h];

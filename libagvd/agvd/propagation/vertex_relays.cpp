@@ -43,7 +43,7 @@ void VertexRelays::collect(Index face, std::vector<Relay>& out) const {
     for (Index k = 0; k < 3; ++k) source[k] = source_of(views_[corners_.tail(3 * face + k)]);
     for (Index k = 0; k < 3; ++k) {
         const Index h = 3 * face + k;
-        if (!is_served(h, source[k], out)) {
+        if (!is_served(h, out)) {
             const VertexReach& reach = reach_[corners_.tail(h)];
             add_point(h, {0, 0}, reach.distance, reach.site, out);
         }
@@ -89,9 +89,9 @@ Index VertexRelays::source_of(const VertexView& view) const {
     return no_index;
 }
 
-// Whether another relay of the face stands for the corner at the tail of h, which was reached from
-// `source`; adds that which the corner sees through an edge.
-bool VertexRelays::is_served(Index h, Index source, std::vector<Relay>& out) const {
+// Whether another relay of the face stands for the corner at the tail of h; adds that which the
+// corner sees through an edge. By half-edges: the face may have the vertex at another corner, too.
+bool VertexRelays::is_served(Index h, std::vector<Relay>& out) const {
     const Index vertex = corners_.tail(h);
     const VertexView& view = views_[vertex];
     if (view.kind == ViewKind::Site) return false;
@@ -112,16 +112,17 @@ bool VertexRelays::is_served(Index h, Index source, std::vector<Relay>& out) con
         }
         return false;
     }
+    // In the neighbours: opposite to the corner, and from it to their far corner.
+    const bool is_beside[2] = {across[0] != no_index, across[1] != no_index};
     if (view.kind == ViewKind::Face) {  // The site is a relay of its face and of the next ones.
-        const Index face = Surface::face(view.half_edge);
-        return face == Surface::face(h) || std::any_of(across, across + 2, [face](Index twin) {
-                   return twin != no_index && Surface::face(twin) == face;
-               });
+        return view.half_edge == Surface::next(h) ||
+               (is_beside[0] && view.half_edge == Surface::previous(across[0])) ||
+               (is_beside[1] && view.half_edge == Surface::next(across[1]));
     }
-    return source == corners_.head(h) || source == corners_.tail(previous) ||
-           std::any_of(across, across + 2, [&](Index twin) {
-               return twin != no_index && source == corners_.apex_vertex(twin);
-           });
+    const Index along = surface_.edge[view.half_edge];
+    return along == surface_.edge[h] || along == surface_.edge[previous] ||
+           (is_beside[0] && along == surface_.edge[Surface::next(across[0])]) ||
+           (is_beside[1] && along == surface_.edge[Surface::previous(across[1])]);
 }
 
 // The view of one end of half-edge h, in the face across h: what of it passes h.

@@ -48,7 +48,7 @@ public:
 
 private:
     [[nodiscard]] Index source_of(const VertexView& view) const;
-    [[nodiscard]] bool is_served(Index half_edge, Index source, std::vector<Relay>& out) const;
+    [[nodiscard]] bool is_served(Index half_edge, std::vector<Relay>& out) const;
     void collect_sites(Index face, std::vector<Relay>& out) const;
     void add_point(Index half_edge, const Vec2& point, double weight, Index site,
                    std::vector<Relay>& out) const;

@@ -1,5 +1,7 @@
 #include "remesh/dual/degenerate_edges.h"
 
+#include "agvd/diagram/curve_piece.h"
+
 namespace remesh {
 
 using agvd::Index;
@@ -22,18 +24,13 @@ bool is_inner_vertex(const agvd::Diagram& diagram, Index vertex) {
 std::vector<bool> find_degenerate_edges(const agvd::Surface& surface,
                                         const agvd::Diagram& diagram) {
     std::vector<bool> result(diagram.edges.size(), false);
-    const agvd::MeshView mesh = surface.mesh.view();
     for (Index e = 0; e < diagram.edges.size(); ++e) {
         const agvd::VoronoiEdge& edge = diagram.edges[e];
         if (edge.tail == agvd::no_index || edge.tail == edge.head || !edge.right.is_valid())
             continue;
         if (!is_inner_vertex(diagram, edge.tail) || !is_inner_vertex(diagram, edge.head)) continue;
-        double length = 0;
-        for (Index i = diagram.edge_points[e]; i + 1 < diagram.edge_points[e + 1]; ++i) {
-            length +=
-                (position(mesh, diagram.points[i + 1]) - position(mesh, diagram.points[i])).norm();
-        }
-        result[e] = length <= relative_length * diagram.vertex_distance[edge.tail];
+        result[e] = curve_length(surface, diagram, e) <=
+                    relative_length * diagram.vertex_distance[edge.tail];
     }
     return result;
 }

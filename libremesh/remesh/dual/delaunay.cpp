@@ -12,15 +12,6 @@ using agvd::Vec3;
 
 namespace {
 
-std::vector<Vec3> positions_of(const Surface& surface, std::span<const SurfacePoint> points) {
-    std::vector<Vec3> positions;
-    positions.reserve(points.size());
-    for (const SurfacePoint& point : points) {
-        positions.push_back(position(surface.mesh.view(), point));
-    }
-    return positions;
-}
-
 Index count_inner(const FlippableMesh& mesh) {
     Index count = 0;
     for (Index e = 0; e < mesh.num_edges(); ++e) count += mesh.is_inner(e) ? 1 : 0;
@@ -55,13 +46,12 @@ std::vector<double> flip_in_space(FlippableMesh& mesh, std::span<const Vec3> pos
 }
 
 std::vector<double> flip_on_surface(const Surface& surface, const DualVertices& vertices,
-                                    std::span<const Vec3> positions, int num_threads,
-                                    FlippableMesh& mesh, DelaunayCounts& counts) {
+                                    int num_threads, FlippableMesh& mesh, DelaunayCounts& counts) {
     std::vector<SurfacePoint> points;
     points.reserve(vertices.points.size());
     for (const SurfacePoint& point : vertices.points) points.push_back(snapped(surface, point));
-    std::vector<EdgePath> paths =
-        find_edge_paths(surface, {points, vertices.site, vertices.diagram}, mesh, num_threads);
+    std::vector<EdgePath> paths = find_edge_paths(
+        surface, {points, vertices.site, vertices.diagram, vertices.positions}, mesh, num_threads);
     mend_triangles(surface, mesh, paths);
     std::vector<double> length(paths.size());
     for (Index e = 0; e < paths.size(); ++e) length[e] = paths[e].length;
@@ -73,7 +63,7 @@ std::vector<double> flip_on_surface(const Surface& surface, const DualVertices& 
         return diagonal.length;
     };
     const auto accept = [&](Index edge) { paths[edge] = std::move(diagonal); };
-    flip(mesh, length, positions, {measure, accept}, counts);
+    flip(mesh, length, vertices.positions, {measure, accept}, counts);
     for (const EdgePath& path : paths) counts.not_locally_shortest += !path.is_locally_shortest;
     return length;
 }
@@ -93,7 +83,8 @@ const char* delaunay_name(Delaunay delaunay) {
 }
 
 DelaunayResult make_delaunay(const Surface& surface, std::span<const SurfacePoint> points,
-                             std::span<const Index> site, const agvd::Diagram& diagram,
+                             std::span<const Vec3> positions, std::span<const Index> site,
+                             const agvd::Diagram& diagram,
                              std::span<const agvd::Triangle> triangles,
                              const DelaunayOptions& options) {
     DelaunayResult result;
@@ -102,11 +93,10 @@ DelaunayResult make_delaunay(const Surface& surface, std::span<const SurfacePoin
         return result;
     }
     FlippableMesh mesh(triangles);
-    const std::vector<Vec3> positions = positions_of(surface, points);
     const std::vector<double> length =
         options.mode == Delaunay::Extrinsic
             ? flip_in_space(mesh, positions, result.counts)
-            : flip_on_surface(surface, {points, site, diagram}, positions, options.num_threads,
+            : flip_on_surface(surface, {points, site, diagram, positions}, options.num_threads,
                               mesh, result.counts);
     result.triangles = mesh.triangles();
     result.side_lengths.reserve(result.triangles.size());

@@ -48,6 +48,7 @@ struct DelaunayResult {
 //! no vertex gets fewer than three edges (two on the boundary), nothing folds over in space.
 //!
 //! \param points     where the vertices lie.
+//! \param positions  the same in space: no two farther apart than over the surface.
 //! \param site       by vertex: its site in the diagram, where it lies too; no_index: it is none.
 //! \param triangles  vertex indices; edges need not be dual to Voronoi edges, and
 //!                   those with other than two sides in opposite directions are left alone. The
@@ -55,6 +56,7 @@ struct DelaunayResult {
 //! Cost: O(size of the complex + faces that the edges cross).
 [[nodiscard]] DelaunayResult make_delaunay(const agvd::Surface& surface,
                                            std::span<const agvd::SurfacePoint> points,
+                                           std::span<const agvd::Vec3> positions,
                                            std::span<const agvd::Index> site,
                                            const agvd::Diagram& diagram,
                                            std::span<const agvd::Triangle> triangles,

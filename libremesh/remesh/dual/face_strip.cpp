@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 #include <optional>
 
+#include "agvd/mesh/face_distance.h"
 #include "agvd/mesh/point_faces.h"
 
 namespace remesh {
@@ -15,15 +17,24 @@ using agvd::SurfacePoint;
 
 namespace {
 
+// Where the face has the point, the nearest to another point of the face; none: nowhere.
+std::optional<SurfacePoint> nearest_view(const Surface& surface, const SurfacePoint& point,
+                                         const SurfacePoint& from) {
+    std::optional<SurfacePoint> nearest;
+    double least = std::numeric_limits<double>::infinity();
+    for_each_view(surface, point, [&](const SurfacePoint& view) {
+        if (view.face != from.face) return;
+        const double distance = face_distance(surface, from, view);
+        if (!(distance < least)) return;
+        least = distance;
+        nearest = view;
+    });
+    return nearest;
+}
+
 bool has_corner(const Surface& surface, Index face, Index vertex) {
     const agvd::Triangle& t = surface.mesh.triangles[face];
     return t[0] == vertex || t[1] == vertex || t[2] == vertex;
-}
-
-// The half-edge of `face` that leaves `vertex`.
-Index leaving(const Surface& surface, Index face, Index vertex) {
-    const agvd::Triangle& t = surface.mesh.triangles[face];
-    return 3 * face + (t[0] == vertex ? 0U : t[1] == vertex ? 1U : 2U);
 }
 
 // The edge of its face with these ends has the point on it.
@@ -58,9 +69,9 @@ FaceStrip joined(const Surface& surface, const FaceStrip& first, const FaceStrip
 SurfacePoint snapped(const Surface& surface, const SurfacePoint& point) {
     SurfacePoint result = point;
     auto& b = result.barycentric;
-    if (const std::optional<Index> vertex = vertex_of(surface, point)) {
+    if (const std::optional<Index> corner = corner_of(surface, point)) {
         b = {0, 0, 0};
-        b[leaving(surface, point.face.value(), *vertex) % 3] = 1;
+        b[*corner % 3] = 1;
     } else if (const std::optional<Index> h = half_edge_of(point)) {
         b[(*h + 2) % 3] = 0;
         const double sum = b[*h % 3] + b[(*h + 1) % 3];
@@ -94,59 +105,67 @@ StripBuilder::StripBuilder(const Surface& surface, const SurfacePoint& source)
     : StripBuilder(surface, FaceStrip{source, source, {}}) {}
 
 StripBuilder::StripBuilder(const Surface& surface, FaceStrip strip)
-    : surface_(surface),
-      strip_(std::move(strip)),
-      face_(strip_.target.face.value()),
-      pivot_(strip_.target) {}
+    : surface_(surface), strip_(std::move(strip)), here_(strip_.target) {}
 
 void StripBuilder::to_vertex(Index vertex) {
-    turn_to([&](Index face) { return has_corner(surface_, face, vertex); });
-    pivot_ = point_at(surface_, vertex);
+    turn_to(
+        [&](const SurfacePoint& view) { return has_corner(surface_, view.face.value(), vertex); });
+    here_ = *nearest_view(surface_, point_at(surface_, vertex), here_);
 }
 
 void StripBuilder::to_face(Index face) {
-    turn_to([&](Index f) { return f == face; });
+    turn_to([&](const SurfacePoint& view) { return view.face.value() == face; });
 }
 
 FaceStrip StripBuilder::finish(const SurfacePoint& target) {
-    turn_to([&](Index face) { return holds(surface_, face, target); });
-    strip_.target = *agvd::seen_from(surface_, target, face_);
+    turn_to([&](const SurfacePoint& view) { return holds(surface_, view.face.value(), target); });
+    strip_.target = *nearest_view(surface_, target, here_);
     return std::move(strip_);
 }
 
+// To the very corner, or side, where the other strip starts.
 FaceStrip StripBuilder::finish(const FaceStrip& onwards) {
-    pivot_ = onwards.source;
-    to_face(onwards.source.face.value());
+    const SurfacePoint& start = onwards.source;
+    const Index corner = corner_of(surface_, start).value_or(no_index);
+    const Index side = half_edge_of(start).value_or(no_index);
+    turn_to([&](const SurfacePoint& view) {
+        if (view.face != start.face) return false;
+        if (corner != no_index) return corner_of(surface_, view) == corner;
+        return side == no_index || half_edge_of(view) == side;
+    });
     for (const Index h : onwards.crossed) cross(surface_, h, strip_.crossed);
     strip_.target = onwards.target;
     return std::move(strip_);
 }
 
-// Turns around the pivot the shorter way.
+// Turns around the point the shorter way.
 template <typename IsGoal>
 void StripBuilder::turn_to(const IsGoal& is_goal) {
-    if (is_goal(face_)) return;
-    const std::optional<Index> vertex = vertex_of(surface_, pivot_);
-    if (!vertex) {
-        for (Index h = 3 * face_; h < 3 * face_ + 3; ++h) {
-            const Index twin = surface_.twin[h];
-            if (twin == no_index || !is_goal(Surface::face(twin))) continue;
-            cross(surface_, h, strip_.crossed);
-            face_ = Surface::face(twin);
-            return;
-        }
-        assert(false);
+    if (is_goal(here_)) return;
+    const std::optional<Index> corner = corner_of(surface_, here_);
+    if (!corner) {
+        const std::optional<Index> h = half_edge_of(here_);
+        assert(h && surface_.twin[*h] != no_index);
+        if (!h || surface_.twin[*h] == no_index) return;
+        cross(surface_, *h, strip_.crossed);
+        here_ = across_edge(surface_, here_, *h);
+        assert(is_goal(here_));
         return;
     }
+    const auto at = [](Index leaving) {
+        SurfacePoint view{agvd::FaceId(Surface::face(leaving)), {0, 0, 0}};
+        view.barycentric[leaving % 3] = 1;
+        return view;
+    };
     // One step each way in turn, so that the way found is the shorter one.
-    const Index start = leaving(surface_, face_, *vertex);
+    const Index start = *corner;
     Index left = start, right = start;  // They leave the vertex; no_index: at the boundary.
     for (Index steps = 1;; ++steps) {
         if (left != no_index) left = surface_.twin[Surface::previous(left)];
         if (right != no_index) right = surface_.twin[right];
         if (right != no_index) right = Surface::next(right);
-        const bool is_left = left != no_index && is_goal(Surface::face(left));
-        const bool is_right = right != no_index && is_goal(Surface::face(right));
+        const bool is_left = left != no_index && is_goal(at(left));
+        const bool is_right = right != no_index && is_goal(at(right));
         if (is_left || is_right) {
             Index h = start;
             for (Index i = 0; i < steps; ++i) {
@@ -154,7 +173,7 @@ void StripBuilder::turn_to(const IsGoal& is_goal) {
                 cross(surface_, out, strip_.crossed);
                 h = is_left ? surface_.twin[out] : Surface::next(surface_.twin[out]);
             }
-            face_ = Surface::face(h);
+            here_ = at(h);
             return;
         }
         const bool is_around = left == start || (left == no_index && right == no_index);

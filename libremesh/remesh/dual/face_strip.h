@@ -37,7 +37,8 @@ void trim(const agvd::Surface& surface, FaceStrip& strip);
 [[nodiscard]] bool holds(const agvd::Surface& surface, agvd::Index face,
                          const agvd::SurfacePoint& point);
 
-//! Builds a strip along points of which each shares a face with the next.
+//! Builds a strip along points of which each shares a face with the next. Where that face has the
+//! next one at several places, it goes to the nearest.
 class StripBuilder {
 public:
     StripBuilder(const agvd::Surface& surface, const agvd::SurfacePoint& source);
@@ -46,7 +47,7 @@ public:
 
     //! Goes on to `vertex`, which shares a face with where the strip has come to.
     void to_vertex(agvd::Index vertex);
-    //! Goes into `face`, which holds what the strip has come to.
+    //! Goes into `face`, which holds what the strip has come to; at one corner of several.
     void to_face(agvd::Index face);
     //! Ends at `target`, which shares a face with where the strip has come to.
     [[nodiscard]] FaceStrip finish(const agvd::SurfacePoint& target);
@@ -59,8 +60,7 @@ private:
 
     const agvd::Surface& surface_;
     FaceStrip strip_;
-    agvd::Index face_;          // Where the strip has come to.
-    agvd::SurfacePoint pivot_;  // The last point, seen from any of its faces.
+    agvd::SurfacePoint here_;  // The last point, seen from the face that the strip has come to.
 };
 
 }  // namespace remesh

@@ -128,7 +128,7 @@ void SitePaths::search(Index face, Index goal, Way& way) const {
     };
     std::unordered_map<Index, Reached> reached;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-    const Vec3 place = position(surface_.mesh.view(), vertices_.points[goal]);
+    const Vec3& place = vertices_.positions[goal];
     const auto reach = [&](Index v, double length, Index from) {
         const auto [entry, is_new] = reached.try_emplace(v, Reached{length, from, false});
         if (!is_new) {

@@ -14,6 +14,7 @@ struct DualVertices {
     std::span<const agvd::SurfacePoint> points;
     std::span<const agvd::Index> site;  //!< Of each; no_index: it is none.
     const agvd::Diagram& diagram;
+    std::span<const agvd::Vec3> positions;  //!< In space.
 };
 
 //! Finds ways from sites into faces of their cells: down the distances from vertex to vertex, and

@@ -262,8 +262,10 @@ PathStraightener::Detour PathStraightener::find_detour(const std::vector<Index>&
     detour_.clear();
     const Index in = crossed[node.first];
     const Index out = surface_.twin[crossed[node.last]];
-    for (Index k = node.first; k <= node.last; ++k) {  // All the way round is never shorter.
-        if (Surface::face(surface_.twin[crossed[k]]) == Surface::face(in)) return {true, k};
+    // All the way round is never shorter: back to the same corner, not only to the face.
+    const Index around = node.is_left ? Surface::next(in) : Surface::previous(in);
+    for (Index k = node.first; k <= node.last; ++k) {
+        if (surface_.twin[crossed[k]] == around) return {true, k};
     }
     // Angles at the vertex, on the other side: clockwise for a vertex on the left.
     AngleSum angle;

@@ -251,9 +251,9 @@ private:
 
     DelaunayCounts flip_edges(ValidDual& dual) {
         const StageClock clock(Stage::Delaunay, result_);
-        DelaunayResult made =
-            make_delaunay(base(), dual.mesh.points, dual.site, dual.diagram, dual.mesh.triangles,
-                          {.mode = options_.delaunay, .num_threads = options_.num_threads});
+        DelaunayResult made = make_delaunay(
+            base(), dual.mesh.points, positions_of(places_of(dual)), dual.site, dual.diagram,
+            dual.mesh.triangles, {.mode = options_.delaunay, .num_threads = options_.num_threads});
         dual.mesh.triangles = std::move(made.triangles);
         return made.counts;
     }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "agvd/diagram/curve_piece.h"
+#include "agvd/mesh/face_distance.h"
 #include "agvd/mesh/point_faces.h"
 
 namespace remesh {
@@ -14,39 +16,22 @@ using agvd::no_index;
 using agvd::Surface;
 using agvd::SurfacePoint;
 
-double distance(const Surface& surface, const SurfacePoint& a, const SurfacePoint& b) {
-    const agvd::MeshView mesh = surface.mesh.view();
-    return (position(mesh, a) - position(mesh, b)).norm();
-}
-
-double length(const Surface& surface, const Diagram& diagram, Index edge) {
-    double sum = 0;
-    for (Index i = diagram.edge_points[edge]; i + 1 < diagram.edge_points[edge + 1]; ++i) {
-        sum += distance(surface, diagram.points[i], diagram.points[i + 1]);
-    }
-    return sum;
-}
-
 // The point half way along an arc of the boundary.
 SurfacePoint middle(const Surface& surface, const Diagram& diagram, Index edge) {
-    double rest = length(surface, diagram, edge) / 2;
+    double rest = curve_length(surface, diagram, edge) / 2;
     const Index last = diagram.edge_points[edge + 1] - 1;
     for (Index i = diagram.edge_points[edge]; i < last; ++i) {
-        const SurfacePoint& a = diagram.points[i];
-        const SurfacePoint& b = diagram.points[i + 1];
-        const double step = distance(surface, a, b);
+        const auto [from, to] = curve_piece(surface, diagram, edge, i);
+        const double step = face_distance(surface, from, to);
         if (rest > step && i + 1 < last) {
             rest -= step;
             continue;
         }
-        const Index face = agvd::common_faces(surface, a, b).first;
-        if (face == no_index || !(step > 0)) return a;
-        SurfacePoint result = *agvd::seen_from(surface, a, face);
-        const SurfacePoint end = *agvd::seen_from(surface, b, face);
+        if (!(step > 0)) return from;
+        SurfacePoint result = from;
         const double share = std::min(rest / step, 1.0);
         for (std::size_t k = 0; k < 3; ++k) {
-            result.barycentric[k] =
-                (1 - share) * result.barycentric[k] + share * end.barycentric[k];
+            result.barycentric[k] = (1 - share) * from.barycentric[k] + share * to.barycentric[k];
         }
         return result;
     }
@@ -66,7 +51,7 @@ BoundaryFixes find_boundary_fixes(const Surface& surface, const Diagram& diagram
         if (edge.right.is_valid() || edge.tail == no_index) continue;
         const Index site = edge.left.value();
         if (agvd::is_on_boundary(surface, sites[site])) continue;
-        const double along = length(surface, diagram, e);
+        const double along = curve_length(surface, diagram, e);
         if (arc[site] != no_index && along <= arc_length[site]) continue;
         arc[site] = e;
         arc_length[site] = along;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "agvd/diagram/curve_piece.h"
 #include "remesh/dual/degenerate_edges.h"
 
 namespace remesh {
@@ -50,16 +51,6 @@ private:
     [[nodiscard]] const SurfacePoint& middle_point(Index edge) const {
         const Index begin = diagram_.edge_points[edge];
         return diagram_.points[begin + (diagram_.edge_points[edge + 1] - begin) / 2];
-    }
-
-    [[nodiscard]] double length(Index edge) const {
-        const agvd::MeshView mesh = surface_.mesh.view();
-        double sum = 0;
-        for (Index i = diagram_.edge_points[edge]; i + 1 < diagram_.edge_points[edge + 1]; ++i) {
-            sum += (position(mesh, diagram_.points[i + 1]) - position(mesh, diagram_.points[i]))
-                       .norm();
-        }
-        return sum;
     }
 
     void check_discs() {
@@ -148,8 +139,8 @@ private:
                 report(edge.left, edge.right, "meets along a closed curve",
                        {diagram_.points[farthest_point(e)]});
             }
-            arcs.push_back(
-                {std::min(edge.left, edge.right), std::max(edge.left, edge.right), length(e), e});
+            arcs.push_back({std::min(edge.left, edge.right), std::max(edge.left, edge.right),
+                            curve_length(surface_, diagram_, e), e});
         }
         std::sort(arcs.begin(), arcs.end(), [](const Shared& x, const Shared& y) {
             if (x.a != y.a) return x.a < y.a;

@@ -1,0 +1,350 @@
+// On an intrinsic triangulation, a Delta-complex, everything is what it is on the input.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <numeric>
+
+#include "agvd/diagram/moving_diagram.h"
+#include "agvd/diagram/point_label.h"
+#include "agvd/intrinsic/intrinsic_triangulation.h"
+#include "agvd/mesh/face_area.h"
+#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/uniform_points.h"
+#include "agvd/propagation/propagate.h"
+#include "remesh/dual/build_dual.h"
+#include "remesh/dual/delaunay.h"
+#include "remesh/io/read_mesh.h"
+#include "remesh/repair/clean_input.h"
+#include "support/arbiter.h"
+#include "support/checks.h"
+#include "support/delta_shapes.h"
+#include "support/files.h"
+#include "support/points.h"
+#include "support/random_meshes.h"
+#include "support/random_surfaces.h"
+
+using namespace agvd;
+
+namespace {
+
+constexpr double rounding = 1e-9;
+
+double longest_edge(const Surface& surface) {
+    return *std::max_element(surface.length.begin(), surface.length.end());
+}
+
+// A mesh, and a base of it with sites on both.
+struct Case {
+    Surface input;
+    IntrinsicTriangulation base;
+    std::vector<SurfacePoint> on_input, on_base;
+
+    Case(const TriangleMesh& mesh, std::uint64_t seed, Index num_sites)
+        : input(build_surface(mesh.view())), base(input, options(seed)) {
+        Dice dice(seed);
+        while (on_input.size() < num_sites) {
+            on_input.push_back(points::anywhere(dice, dice.count(0, input.num_faces() - 1)));
+        }
+        on_base = base.to_intrinsic(on_input);
+    }
+
+    // Every other one is split.
+    [[nodiscard]] IntrinsicOptions options(std::uint64_t seed) const {
+        if (seed % 2 == 0) return {};
+        return {.max_length = 0.4 * longest_edge(input)};
+    }
+    [[nodiscard]] const Surface& surface() const { return base.surface(); }
+};
+
+TriangleMesh mesh_of(std::string_view family, std::uint64_t seed) {
+    const auto of_deltas = delta_shapes::families();
+    if (std::find(of_deltas.begin(), of_deltas.end(), family) != of_deltas.end()) {
+        return delta_shapes::make(family, seed);
+    }
+    return random_meshes::make(family, seed);
+}
+
+std::vector<const char*> all_families() {
+    std::vector<const char*> all(delta_shapes::families().begin(), delta_shapes::families().end());
+    const auto others = random_meshes::families();
+    all.insert(all.end(), others.begin(), others.end());
+    return all;
+}
+
+// What a mesh cannot have.
+struct Oddities {
+    Index loops = 0, self_glued = 0, twice_shared = 0;
+};
+
+Oddities oddities_of(const Surface& surface) {
+    Oddities found;
+    for (Index h = 0; h < surface.twin.size(); ++h) {
+        if (surface.tail(h) == surface.head(h)) ++found.loops;
+        const Index twin = surface.twin[h];
+        if (twin == no_index) continue;
+        const Index face = Surface::face(h), across = Surface::face(twin);
+        if (face == across) ++found.self_glued;
+        const Index other = surface.twin[Surface::next(h)];
+        if (face != across && other != no_index && Surface::face(other) == across) {
+            ++found.twice_shared;
+        }
+    }
+    return found;
+}
+
+void expect_same_distances(const Case& c, std::span<const SurfacePoint> targets) {
+    const double size = longest_edge(c.input);
+    const PropagationOptions exactly{.max_error = 0, .num_threads = 1};
+    const Propagation here = propagate(c.input, c.on_input, exactly);
+    const Propagation there = propagate(c.surface(), c.on_base, exactly);
+    for (Index v = 0; v < c.input.num_vertices(); ++v) {
+        const double expected = here.vertex_distance[v];
+        if (expected == std::numeric_limits<double>::infinity()) {
+            EXPECT_EQ(there.vertex_distance[v], expected) << v;
+        } else {
+            EXPECT_NEAR(there.vertex_distance[v], expected, rounding * (expected + size)) << v;
+        }
+    }
+    if (targets.empty()) return;
+    const arbiter::Distances truth = arbiter::nearest_sites(c.input, c.on_input, targets);
+    for (Index i = 0; i < targets.size(); ++i) {
+        const Index v = *vertex_of(c.input, targets[i]);
+        const auto expected = static_cast<double>(truth.distance[i]);
+        if (expected == std::numeric_limits<double>::infinity()) continue;
+        EXPECT_NEAR(there.vertex_distance[v], expected, rounding * (expected + size)) << v;
+    }
+}
+
+std::vector<SurfacePoint> vertices_of(const Surface& surface) {
+    std::vector<SurfacePoint> vertices;
+    for (Index v = 0; v < surface.num_vertices(); ++v) {
+        if (surface.outgoing[v] != no_index) vertices.push_back(point_at(surface, v));
+    }
+    return vertices;
+}
+
+}  // namespace
+
+class DeltaComplexOf : public testing::TestWithParam<const char*> {
+protected:
+    static constexpr std::uint64_t num_seeds = 12;
+
+    template <typename Check>
+    void for_each_case(Index num_sites, const Check& check) {
+        for (std::uint64_t seed = 0; seed < num_seeds; ++seed) {
+            SCOPED_TRACE("seed " + std::to_string(seed));
+            const Case c(mesh_of(GetParam(), seed), seed, num_sites);
+            ASSERT_NO_FATAL_FAILURE(check(c, seed));
+        }
+    }
+};
+
+INSTANTIATE_TEST_SUITE_P(Families, DeltaComplexOf, testing::ValuesIn(all_families()),
+                         [](const auto& family) { return std::string(family.param); });
+
+TEST_P(DeltaComplexOf, ExactDistancesAreThoseOfTheInput) {
+    for (const Index num_sites : {1, 5}) {
+        for_each_case(num_sites, [](const Case& c, std::uint64_t) {
+            const bool is_small = c.input.num_faces() < 200;
+            expect_same_distances(c, is_small ? vertices_of(c.input) : std::vector<SurfacePoint>());
+        });
+    }
+}
+
+TEST_P(DeltaComplexOf, NoEngineFallsShortOfExactDistances) {
+    for_each_case(6, [](const Case& c, std::uint64_t) {
+        const Propagation exact =
+            propagate(c.surface(), c.on_base, {.max_error = 0, .num_threads = 1});
+        const double slack = rounding * longest_edge(c.input);
+        const auto expect_above = [&](const PropagationOptions& options, double most) {
+            const Propagation other = propagate(c.surface(), c.on_base, options);
+            for (Index v = 0; v < c.surface().num_vertices(); ++v) {
+                if (!exact.vertex_site[v].is_valid()) continue;
+                const double least = exact.vertex_distance[v] * (1 - rounding) - slack;
+                EXPECT_GE(other.vertex_distance[v], least) << v;
+                EXPECT_LE(other.vertex_distance[v], exact.vertex_distance[v] * most + slack) << v;
+            }
+        };
+        const double any = 1e6;
+        expect_above({.max_error = 1e-2, .num_threads = 1}, 1.01);
+        expect_above({.engine = Engine::Steiner, .num_threads = 1}, any);
+        expect_above({.engine = Engine::Vertex, .num_threads = 1}, any);
+    });
+}
+
+TEST_P(DeltaComplexOf, TheSteinerEngineMeetsItsBound) {
+    for_each_case(3, [](const Case& c, std::uint64_t) {
+        constexpr double bound = 0.02;
+        const Propagation exact =
+            propagate(c.surface(), c.on_base, {.max_error = 0, .num_threads = 1});
+        Propagation within;
+        try {
+            within = propagate(c.surface(), c.on_base,
+                               {.engine = Engine::Steiner, .max_error = bound, .num_threads = 1});
+        } catch (const ConstraintUnmet&) {
+            return;  // Sites that all but lie on a vertex.
+        }
+        for (Index v = 0; v < c.surface().num_vertices(); ++v) {
+            if (!exact.vertex_site[v].is_valid()) continue;
+            EXPECT_LE(within.vertex_distance[v],
+                      exact.vertex_distance[v] * (1 + bound + 1e-11) + 1e-14);
+        }
+    });
+}
+
+TEST_P(DeltaComplexOf, DiagramsOfAllEnginesAreValidComplexes) {
+    for (const Index num_sites : {2, 12}) {
+        for_each_case(num_sites, [](const Case& c, std::uint64_t seed) {
+            for (const auto engine : {Engine::Window, Engine::Steiner, Engine::Vertex}) {
+                SCOPED_TRACE(engine_name(engine));
+                const Propagation p =
+                    propagate(c.surface(), c.on_base, {.engine = engine, .num_threads = 1});
+                const Diagram d = build_diagram(c.surface(), c.on_base, p,
+                                                {.num_threads = static_cast<int>(seed % 2 + 1)});
+                checks::expect_valid_complex(c.surface(), d);
+                const double area = std::accumulate(d.cell_area.begin(), d.cell_area.end(), 0.0);
+                EXPECT_GT(area, 0);
+            }
+        });
+    }
+}
+
+// On faces that are small against cells; against samples of the input's distances.
+TEST_P(DeltaComplexOf, CellsHaveTheAreasOfThoseOfTheInput) {
+    for (std::uint64_t seed = 0; seed < num_seeds; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const Surface input = build_surface(mesh_of(GetParam(), seed).view());
+        const IntrinsicTriangulation base(input, {.max_length = 0.1 * longest_edge(input)});
+        const std::vector<SurfacePoint> sites = uniform_points(input, 8, seed);
+        const std::vector<SurfacePoint> on_base = base.to_intrinsic(sites);
+        const PropagationOptions exactly{.max_error = 0, .num_threads = 1};
+        const Propagation here = propagate(input, sites, exactly);
+        const Propagation there = propagate(base.surface(), on_base, exactly);
+        const Diagram diagram = build_diagram(base.surface(), on_base, there);
+        double area = 0;
+        for (Index f = 0; f < input.num_faces(); ++f) area += face_area(input, f);
+
+        constexpr Index num_samples = 4000;
+        std::vector<double> expected(sites.size(), 0);
+        PointLabels labels_here(input, here), labels_there(base.surface(), there);
+        for (const SurfacePoint& point : uniform_points(input, num_samples, 99)) {
+            const PointLabel truth = labels_here(point);
+            if (!truth.site.is_valid()) continue;
+            expected[truth.site.value()] += area / num_samples;
+            const PointLabel label = labels_there(base.to_intrinsic(point));
+            if (truth.distance && label.distance) {
+                EXPECT_NEAR(*label.distance, *truth.distance, rounding * longest_edge(input));
+            }
+        }
+        // Four standard deviations of a share of a half.
+        const double slack = 4 * 0.5 / std::sqrt(num_samples) * area;
+        for (Index s = 0; s < sites.size(); ++s) {
+            EXPECT_NEAR(diagram.cell_area[s], expected[s], slack) << s;
+        }
+    }
+}
+
+TEST_P(DeltaComplexOf, MovingSitesAndDiagramsAreAsFreshOnes) {
+    for_each_case(10, [](const Case& c, std::uint64_t seed) {
+        const SurfaceLayout layout(c.surface(), 1);
+        const PropagationOptions options{.max_error = 1e-3, .num_threads = 1};
+        MovingDiagram moving(c.surface(), layout, c.on_base, options, {.num_threads = 1});
+        Dice dice(seed + 77);
+        for (int step = 0; step < 5; ++step) {
+            SCOPED_TRACE("step " + std::to_string(step));
+            const auto any = [&] {
+                return points::anywhere(dice, dice.count(0, c.surface().num_faces() - 1));
+            };
+            SiteChanges changes;
+            changes.moved = {{static_cast<Index>(step), any()}, {8, any()}};
+            if (step % 2 == 0) changes.removed = {7};
+            changes.added = {any()};
+            moving.update(changes);
+            const auto& sites = moving.sites().sites();
+            const Propagation fresh = propagate(c.surface(), sites, options);
+            checks::expect_same(moving.sites().propagation(), fresh);
+            checks::expect_same(moving.diagram(),
+                                build_diagram(c.surface(), sites, fresh, {.num_threads = 1}));
+        }
+    });
+}
+
+TEST_P(DeltaComplexOf, DualEdgesAreLocallyShortestAndNoShorterThanDistances) {
+    for_each_case(1, [](const Case& c, std::uint64_t seed) {
+        const std::vector<SurfacePoint> on_input = uniform_points(c.input, 14, seed);
+        const std::vector<SurfacePoint> on_base = c.base.to_intrinsic(on_input);
+        const Propagation p = propagate(c.surface(), on_base, {.num_threads = 1});
+        const Diagram d = build_diagram(c.surface(), on_base, p, {.num_threads = 1});
+        std::vector<Index> site(on_base.size());
+        std::iota(site.begin(), site.end(), 0U);
+        std::vector<Vec3> positions;
+        for (const SurfacePoint& point : on_input) {
+            positions.push_back(position(c.input.mesh.view(), point));
+        }
+        const remesh::DelaunayResult made =
+            remesh::make_delaunay(c.surface(), on_base, positions, site, d,
+                                  remesh::build_dual(c.surface(), d), {.num_threads = 1});
+        EXPECT_EQ(made.counts.not_locally_shortest, 0u);
+        EXPECT_EQ(made.counts.broken_triangles, 0u);
+        const double slack = rounding * longest_edge(c.input);
+        for (Index t = 0; t < made.triangles.size(); ++t) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Index a = made.triangles[t][k], b = made.triangles[t][(k + 1) % 3];
+                const auto truth = arbiter::nearest_sites(c.input, std::span(&on_input[a], 1),
+                                                          std::span(&on_input[b], 1));
+                EXPECT_GE(made.side_lengths[t][k],
+                          static_cast<double>(truth.distance[0]) * (1 - rounding) - slack);
+            }
+        }
+    });
+}
+
+TEST(DeltaComplex, TheFamiliesHoldWhatAMeshCannot) {
+    Oddities all;
+    for (const char* family : delta_shapes::families()) {
+        for (std::uint64_t seed = 0; seed < 12; ++seed) {
+            const Case c(delta_shapes::make(family, seed), seed, 1);
+            const Oddities found = oddities_of(c.surface());
+            all.loops += found.loops;
+            all.self_glued += found.self_glued;
+            all.twice_shared += found.twice_shared;
+        }
+    }
+    EXPECT_GT(all.loops, 20u);
+    EXPECT_GT(all.self_glued, 20u);
+    EXPECT_GT(all.twice_shared, 20u);
+}
+
+// Parts of machines, of needles: the window engine on the base against the same on the input.
+class DirtyMesh : public testing::TestWithParam<const char*> {};
+
+TEST_P(DirtyMesh, ExactDistancesAreThoseOfTheInput) {
+    const auto path = files::real_mesh(std::string("dirty/") + GetParam());
+    if (!std::filesystem::exists(path)) {
+        GTEST_SKIP() << path << " is absent; set AGVD_MESHES to the folder that has it";
+    }
+    const TriangleMesh mesh = remesh::clean_input(remesh::read_mesh(path).mesh.view()).mesh;
+    const Surface input = build_surface(mesh.view());
+    const IntrinsicTriangulation base(input);
+    EXPECT_TRUE(base.counts().is_delaunay);
+    const std::vector<SurfacePoint> on_input = uniform_points(input, 300, 5);
+    const PropagationOptions exactly{.max_error = 0};
+    const Propagation here = propagate(input, on_input, exactly);
+    const std::vector<SurfacePoint> on_base = base.to_intrinsic(on_input);
+    const Propagation there = propagate(base.surface(), on_base, exactly);
+    const double size = longest_edge(input);
+    double worst = 0;
+    for (Index v = 0; v < input.num_vertices(); ++v) {
+        if (!here.vertex_site[v].is_valid()) continue;
+        worst = std::max(worst, std::abs(there.vertex_distance[v] - here.vertex_distance[v]));
+    }
+    EXPECT_LE(worst, rounding * size);
+    checks::expect_valid_complex(base.surface(), build_diagram(base.surface(), on_base, there));
+}
+
+INSTANTIATE_TEST_SUITE_P(Meshes, DirtyMesh,
+                         testing::Values("79741.stl", "58011.stl", "65004.stl", "72214.stl"),
+                         [](const auto& name) {
+                             return "of" + std::string(name.param).substr(0, 5);
+                         });

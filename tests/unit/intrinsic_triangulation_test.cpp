@@ -1,0 +1,333 @@
+#include "agvd/intrinsic/intrinsic_triangulation.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "agvd/core/error.h"
+#include "agvd/intrinsic/face_operations.h"
+#include "agvd/mesh/face_area.h"
+#include "agvd/mesh/face_distance.h"
+#include "agvd/mesh/one_ring.h"
+#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/uniform_points.h"
+#include "support/delta_shapes.h"
+#include "support/dice.h"
+#include "support/points.h"
+#include "support/shapes.h"
+
+using namespace agvd;
+
+namespace {
+
+constexpr std::uint64_t num_seeds = 12;
+
+double longest_edge(const Surface& surface) {
+    return *std::max_element(surface.length.begin(), surface.length.end());
+}
+
+double diagonal(const TriangleMesh& mesh) {
+    Vec3 low = mesh.positions[0], high = low;
+    for (const Vec3& p : mesh.positions) {
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+    }
+    return (high - low).norm();
+}
+
+double area_of(const Surface& surface) {
+    double sum = 0;
+    for (Index f = 0; f < surface.num_faces(); ++f) sum += face_area(surface, f);
+    return sum;
+}
+
+// Twins, edges, ends, lengths, apexes and one-rings fit together.
+void expect_consistent(const Surface& s) {
+    const double size = longest_edge(s);
+    ASSERT_EQ(s.twin.size(), std::size_t{3} * s.num_faces());
+    ASSERT_EQ(s.length.size(), s.edge_half.size());
+    std::vector<Index> num_corners(s.num_vertices(), 0), num_sides(s.num_edges(), 0);
+    for (Index h = 0; h < s.twin.size(); ++h) {
+        ++num_corners[s.tail(h)];
+        ++num_sides[s.edge[h]];
+        const Index twin = s.twin[h];
+        EXPECT_EQ(s.edge_half[s.edge[h]], std::min(h, twin)) << h;
+        if (twin != no_index) {
+            EXPECT_EQ(s.twin[twin], h);
+            EXPECT_EQ(s.edge[twin], s.edge[h]);
+            EXPECT_EQ(s.tail(twin), s.head(h));
+            EXPECT_EQ(s.head(twin), s.tail(h));
+        }
+        const double rounding = 1e-12 * size;
+        EXPECT_NEAR(s.apex[h].norm(), s.length_of(Surface::previous(h)), rounding) << h;
+        EXPECT_NEAR((s.apex[h] - Vec2(s.length_of(h), 0)).norm(), s.length_of(Surface::next(h)),
+                    rounding)
+            << h;
+        EXPECT_GT(s.apex[h].y(), 0) << h;
+    }
+    for (Index e = 0; e < s.num_edges(); ++e) {
+        EXPECT_EQ(num_sides[e], s.twin[s.edge_half[e]] == no_index ? 1u : 2u) << e;
+    }
+    for (Index v = 0; v < s.num_vertices(); ++v) {
+        Index seen = 0;
+        for_each_outgoing(s, v, [&](Index h) {
+            EXPECT_EQ(s.tail(h), v);
+            ++seen;
+        });
+        EXPECT_EQ(seen, num_corners[v]) << v;
+    }
+}
+
+// By the angles opposite: their cosines sum to at least 0 less rounding.
+bool is_delaunay_at(const Surface& s, Index h) {
+    const auto angle = [&](Index half_edge) {
+        const Vec2 to_tail = -s.apex[half_edge];
+        const Vec2 to_head = Vec2(s.length_of(half_edge), 0) - s.apex[half_edge];
+        return std::atan2(to_tail.x() * to_head.y() - to_tail.y() * to_head.x(),
+                          to_tail.dot(to_head));
+    };
+    return angle(h) + angle(s.twin[h]) <= std::acos(-1.0) + 1e-7;
+}
+
+template <typename Check>
+void for_each_mesh(const Check& check) {
+    for (const char* family : delta_shapes::families()) {
+        for (std::uint64_t seed = 0; seed < num_seeds; ++seed) {
+            SCOPED_TRACE(std::string(family) + " " + std::to_string(seed));
+            const TriangleMesh mesh = delta_shapes::make(family, seed);
+            ASSERT_NO_FATAL_FAILURE(check(mesh, build_surface(mesh.view()), seed));
+        }
+    }
+}
+
+IntrinsicOptions options_of(const Surface& input, std::uint64_t seed) {
+    return seed % 2 == 0 ? IntrinsicOptions{}
+                         : IntrinsicOptions{.max_length = 0.3 * longest_edge(input)};
+}
+
+void expect_same_place(const Surface& s, const SurfacePoint& a, const SurfacePoint& b,
+                       double rounding) {
+    EXPECT_LE((position(s.mesh.view(), a) - position(s.mesh.view(), b)).norm(), rounding);
+}
+
+}  // namespace
+
+TEST(FaceOperations, RandomFlipsAndSplitsKeepEverythingConsistent) {
+    Index num_flips = 0, num_self_glued = 0, num_loops = 0;
+    for_each_mesh([&](const TriangleMesh&, Surface surface, std::uint64_t seed) {
+        const double area = area_of(surface);
+        detail::raise_flat_faces(surface);
+        detail::FaceCharts charts(surface);
+        Dice dice(seed);
+        for (int step = 0; step < 60; ++step) {
+            const Index h = dice.count(0, 3 * surface.num_faces() - 1);
+            const Index twin = surface.twin[h];
+            if (dice.one_in(6)) {
+                surface.mesh.positions.emplace_back(Vec3::Zero());
+                surface.outgoing.push_back(no_index);
+                surface.can_turn.push_back(0);
+                (void)detail::split_edge(surface, charts, h, surface.num_vertices() - 1);
+                num_self_glued +=
+                    twin != no_index && Surface::face(h) == Surface::face(twin) ? 1 : 0;
+            } else if (twin != no_index && Surface::face(h) != Surface::face(twin)) {
+                const detail::Quad quad = detail::quad_at(surface, charts, h);
+                const detail::QuadShares share = quad.shares();
+                // No needles of its own making.
+                if (!quad.is_convex() || share.tail < 0.02 || share.head < 0.02) continue;
+                detail::flip(surface, charts, h, quad);
+                ++num_flips;
+                num_loops += surface.tail(h) == surface.head(h) ? 1 : 0;
+            }
+        }
+        expect_consistent(surface);
+        EXPECT_NEAR(area_of(surface), area, 1e-10 * area);
+    });
+    EXPECT_GT(num_flips, 500u);
+    EXPECT_GT(num_self_glued, 5u);
+    EXPECT_GT(num_loops, 5u);
+}
+
+TEST(FaceOperations, AFaceGluedToItselfIsSplitAlongTheSeam) {
+    Index num_seams = 0;
+    for_each_mesh([&](const TriangleMesh&, const Surface& input, std::uint64_t) {
+        const IntrinsicTriangulation base(input);
+        for (Index h = 0; h < base.surface().twin.size(); ++h) {
+            const Index twin = base.surface().twin[h];
+            if (twin == no_index || Surface::face(twin) != Surface::face(h)) continue;
+            ++num_seams;
+            Surface split = base.surface();
+            detail::FaceCharts charts(split);
+            split.mesh.positions.emplace_back(Vec3::Zero());
+            split.outgoing.push_back(no_index);
+            split.can_turn.push_back(0);
+            (void)detail::split_edge(split, charts, h, split.num_vertices() - 1);
+            expect_consistent(split);
+            EXPECT_EQ(split.num_faces(), base.surface().num_faces() + 2);
+            EXPECT_NEAR(area_of(split), area_of(input), 1e-11 * area_of(input));
+        }
+    });
+    EXPECT_GT(num_seams, 10u);
+}
+
+TEST(IntrinsicTriangulation, IsConsistentDelaunayAndOfTheSameArea) {
+    for_each_mesh([](const TriangleMesh&, const Surface& input, std::uint64_t seed) {
+        const IntrinsicOptions options = options_of(input, seed);
+        const IntrinsicTriangulation base(input, options);
+        const Surface& s = base.surface();
+        expect_consistent(s);
+        EXPECT_TRUE(base.counts().is_delaunay);
+        EXPECT_EQ(s.num_vertices(), input.num_vertices() + base.counts().splits);
+        EXPECT_NEAR(area_of(s), area_of(input), 1e-11 * area_of(input));
+        for (Index h = 0; h < s.twin.size(); ++h) {
+            if (s.twin[h] == no_index || Surface::face(s.twin[h]) == Surface::face(h)) continue;
+            EXPECT_TRUE(is_delaunay_at(s, h)) << h;
+        }
+        if (options.max_length == std::numeric_limits<double>::infinity()) return;
+        EXPECT_LE(longest_edge(s), options.max_length);
+        const double squares = area_of(input) / (options.max_length * options.max_length);
+        double boundary = 0;
+        for (Index e = 0; e < input.num_edges(); ++e) {
+            if (input.twin[input.edge_half[e]] == no_index) boundary += input.length[e];
+        }
+        EXPECT_LE(s.num_faces(), 8 * (input.num_faces() + squares + boundary / options.max_length));
+    });
+}
+
+TEST(IntrinsicTriangulation, KeptEdgesStay) {
+    for_each_mesh([](const TriangleMesh&, const Surface& input, std::uint64_t seed) {
+        Dice dice(seed);
+        std::vector<std::uint8_t> is_kept;
+        for (Index e = 0; e < input.num_edges(); ++e) is_kept.push_back(dice.one_in(3) ? 1 : 0);
+        IntrinsicOptions options = options_of(input, seed);
+        options.is_kept = is_kept;
+        const IntrinsicTriangulation base(input, options);
+        expect_consistent(base.surface());
+        for (Index e = 0; e < input.num_edges(); ++e) {
+            if (is_kept[e] == 0) continue;
+            // Points of the edge lie on edges there.
+            const Index h = input.edge_half[e];
+            for (int i = 1; i < 16; ++i) {
+                SurfacePoint point{FaceId(Surface::face(h)), {0, 0, 0}};
+                point.barycentric[h % 3] = 1 - i / 16.0;
+                point.barycentric[Surface::next(h) % 3] = i / 16.0;
+                const auto b = base.to_intrinsic(point).barycentric;
+                EXPECT_EQ(std::min({b[0], b[1], b[2]}), 0) << "edge " << e << " at " << i;
+            }
+        }
+    });
+}
+
+TEST(IntrinsicTriangulation, PointsGoToTheBaseAndBack) {
+    Index num_points = 0;
+    for_each_mesh([&](const TriangleMesh& mesh, const Surface& input, std::uint64_t seed) {
+        const IntrinsicTriangulation base(input, options_of(input, seed));
+        const double rounding = 1e-13 * diagonal(mesh);
+        Dice dice(seed);
+        for (Index i = 0; i < 120; ++i, ++num_points) {
+            const SurfacePoint point = points::anywhere(dice, dice.count(0, input.num_faces() - 1));
+            const SurfacePoint there = base.to_intrinsic(point);
+            double sum = 0;
+            for (const double b : there.barycentric) {
+                EXPECT_GE(b, 0);
+                sum += b;
+            }
+            EXPECT_NEAR(sum, 1, 1e-15);
+            expect_same_place(input, base.to_input(there), point, rounding);
+        }
+    });
+    EXPECT_GE(num_points, 10000u);
+}
+
+TEST(IntrinsicTriangulation, VerticesAndBoundaryEdgesKeepExactZeros) {
+    for_each_mesh([](const TriangleMesh&, const Surface& input, std::uint64_t seed) {
+        const IntrinsicTriangulation base(input, options_of(input, seed));
+        for (Index v = 0; v < input.num_vertices(); ++v) {
+            const SurfacePoint there = base.to_intrinsic(point_at(input, v));
+            EXPECT_EQ(*std::max_element(there.barycentric.begin(), there.barycentric.end()), 1);
+            EXPECT_EQ(vertex_of(base.surface(), there), v);
+            const SurfacePoint back = base.to_input(point_at(base.surface(), v));
+            EXPECT_EQ(*std::max_element(back.barycentric.begin(), back.barycentric.end()), 1);
+            EXPECT_EQ(vertex_of(input, back), v);
+        }
+        for (Index h = 0; h < input.twin.size(); ++h) {
+            if (input.twin[h] != no_index) continue;
+            for (const double at : {0.1, 0.37, 0.8}) {
+                SurfacePoint point{FaceId(Surface::face(h)), {0, 0, 0}};
+                point.barycentric[h % 3] = 1 - at;
+                point.barycentric[Surface::next(h) % 3] = at;
+                EXPECT_TRUE(is_on_boundary(base.surface(), base.to_intrinsic(point)));
+                const auto b = base.to_intrinsic(point).barycentric;
+                EXPECT_EQ(std::min({b[0], b[1], b[2]}), 0);
+            }
+        }
+        for (Index f = 0; f < base.surface().num_faces(); ++f) {
+            if (base.is_changed(f)) continue;
+            const SurfacePoint point{FaceId(f), {0.1, 0.2, 0.7}};
+            EXPECT_EQ(base.to_input(point).face, point.face);
+            EXPECT_EQ(base.to_input(point).barycentric, point.barycentric);
+            EXPECT_EQ(base.to_intrinsic(point).barycentric, point.barycentric);
+        }
+    });
+}
+
+TEST(IntrinsicTriangulation, SegmentsJoinAndKeepTheirLengths) {
+    Index num_segments = 0;
+    for_each_mesh([&](const TriangleMesh& mesh, const Surface& input, std::uint64_t seed) {
+        const IntrinsicTriangulation base(input, options_of(input, seed));
+        const Surface& s = base.surface();
+        const double size = diagonal(mesh);
+        Dice dice(seed);
+        const auto check = [&](const Surface& from, const Surface& to, bool is_to_input) {
+            const Index face = dice.count(0, from.num_faces() - 1);
+            const SurfacePoint begin = points::anywhere(dice, face);
+            const SurfacePoint end = points::anywhere(dice, face);
+            std::vector<SurfacePoint> parts;
+            if (is_to_input) {
+                base.to_input(begin, end, parts);
+            } else {
+                base.to_intrinsic(begin, end, parts);
+            }
+            ASSERT_GE(parts.size(), 2u);
+            ASSERT_EQ(parts.size() % 2, 0u);
+            double sum = 0;
+            for (std::size_t i = 0; i < parts.size(); i += 2) {
+                ASSERT_EQ(parts[i].face, parts[i + 1].face);
+                sum += face_distance(to, parts[i], parts[i + 1]);
+            }
+            EXPECT_NEAR(sum, face_distance(from, begin, end), 1e-12 * size);
+            for (std::size_t i = 1; i + 1 < parts.size(); i += 2) {
+                const auto on_input = [&](const SurfacePoint& p) {
+                    return is_to_input ? p : base.to_input(p);
+                };
+                expect_same_place(input, on_input(parts[i]), on_input(parts[i + 1]), 1e-11 * size);
+            }
+            ++num_segments;
+        };
+        for (int i = 0; i < 8; ++i) {
+            check(input, s, false);
+            check(s, input, true);
+        }
+    });
+    EXPECT_GE(num_segments, 1000u);
+}
+
+TEST(IntrinsicTriangulation, NearlyFlatFacesAreRaisedAndCounted) {
+    TriangleMesh mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0.5, 1e-20, 0}, {0.5, 1, 0}};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {2, 1, 3}};
+    const Surface input = build_surface(mesh.view());
+    const IntrinsicTriangulation base(input);
+    EXPECT_EQ(base.counts().flat_faces, 1u);
+    for (const Vec2& apex : base.surface().apex) EXPECT_GT(apex.y(), 1e-16);
+    EXPECT_NEAR(area_of(base.surface()), 0.5, 1e-12);
+    EXPECT_EQ(IntrinsicTriangulation(build_surface(shapes::cube().view())).counts().flat_faces, 0u);
+}
+
+TEST(IntrinsicTriangulation, InvalidOptionsThrow) {
+    const Surface input = build_surface(shapes::cube().view());
+    for (const double length : {0.0, -1.0, std::nan("")}) {
+        EXPECT_THROW(IntrinsicTriangulation(input, {.max_length = length}), InvalidOption);
+    }
+    const std::vector<std::uint8_t> too_few(3, 0);
+    EXPECT_THROW(IntrinsicTriangulation(input, {.is_kept = too_few}), InvalidOption);
+}
