@@ -6,14 +6,16 @@
 
 #include "agvd/core/bucket_sort.h"
 #include "agvd/core/error.h"
+#include "agvd/core/poller.h"
 
 namespace agvd {
 namespace {
 
 constexpr const char* remedy = "; repair the mesh first (remesh::clean_input)";
 
-void check_elements(const MeshView& mesh) {
+void check_elements(const MeshView& mesh, Ticker& ticker) {
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        ticker.tick();
         if (!mesh.positions[v].allFinite()) {
             throw InvalidInput("vertex " + std::to_string(v) +
                                " has a coordinate that is not finite" + remedy);
@@ -23,6 +25,7 @@ void check_elements(const MeshView& mesh) {
         throw InvalidInput("the mesh has more than 2^32 / 3 faces; split it into parts");
     }
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        ticker.tick();
         const Triangle& t = mesh.triangles[f];
         for (const Index v : t) {
             if (v >= mesh.positions.size()) {
@@ -38,7 +41,7 @@ void check_elements(const MeshView& mesh) {
 }
 
 // Pairs half-edges by sorting them under their undirected key.
-void connect(Surface& surface) {
+void connect(Surface& surface, Ticker& ticker) {
     struct Key {
         std::uint64_t ends;
         Index half_edge;
@@ -46,6 +49,7 @@ void connect(Surface& surface) {
     const auto num_half_edges = static_cast<Index>(3 * surface.mesh.triangles.size());
     std::vector<Key> keys(num_half_edges);
     for (Index h = 0; h < num_half_edges; ++h) {
+        ticker.tick();
         const Index a = surface.tail(h);
         const Index b = surface.head(h);
         keys[h] = {std::uint64_t{std::min(a, b)} << 32 | std::max(a, b), h};
@@ -55,11 +59,13 @@ void connect(Surface& surface) {
         [](const Key& key) { return static_cast<Index>(key.ends >> 32); },
         [](const Key& a, const Key& b) {
             return a.ends != b.ends ? a.ends < b.ends : a.half_edge < b.half_edge;
-        });
+        },
+        ticker);
     surface.twin.assign(num_half_edges, no_index);
     for (std::size_t i = 0; i < keys.size();) {
         std::size_t end = i + 1;
         while (end < keys.size() && keys[end].ends == keys[i].ends) ++end;
+        ticker.tick();
         const Index h = keys[i].half_edge;
         if (end - i > 2) {
             throw InvalidInput("the edge from vertex " + std::to_string(surface.tail(h)) + " to " +
@@ -81,6 +87,7 @@ void connect(Surface& surface) {
     // Edges are numbered in the order of their lower half-edge, so that neighbours stay close.
     surface.edge.assign(num_half_edges, no_index);
     for (Index h = 0; h < num_half_edges; ++h) {
+        ticker.tick();
         if (surface.edge[h] != no_index) continue;
         surface.edge[h] = surface.num_edges();
         if (surface.twin[h] != no_index) surface.edge[surface.twin[h]] = surface.num_edges();
@@ -88,11 +95,12 @@ void connect(Surface& surface) {
     }
 }
 
-void find_outgoing(Surface& surface) {
+void find_outgoing(Surface& surface, Ticker& ticker) {
     const Index num_vertices = surface.num_vertices();
     std::vector<Index> degree(num_vertices, 0);
     surface.outgoing.assign(num_vertices, no_index);
     for (Index h = 0; h < surface.twin.size(); ++h) {
+        ticker.tick();
         const Index v = surface.tail(h);
         ++degree[v];
         if (surface.outgoing[v] == no_index || surface.twin[h] == no_index) surface.outgoing[v] = h;
@@ -105,6 +113,7 @@ void find_outgoing(Surface& surface) {
             ++seen;
             h = surface.twin[Surface::previous(h)];
         } while (h != no_index && h != surface.outgoing[v]);
+        ticker.tick(seen);
         if (seen != degree[v]) {
             throw InvalidInput("the faces around vertex " + std::to_string(v) +
                                " do not form one fan" + remedy);
@@ -112,9 +121,10 @@ void find_outgoing(Surface& surface) {
     }
 }
 
-void measure(Surface& surface) {
+void measure(Surface& surface, Ticker& ticker) {
     surface.length.resize(surface.num_edges());
     for (Index e = 0; e < surface.num_edges(); ++e) {
+        ticker.tick();
         const Index h = surface.edge_half[e];
         surface.length[e] =
             (surface.mesh.positions[surface.head(h)] - surface.mesh.positions[surface.tail(h)])
@@ -122,6 +132,7 @@ void measure(Surface& surface) {
     }
     surface.apex.resize(surface.twin.size());
     for (Index h = 0; h < surface.apex.size(); ++h) {
+        ticker.tick();
         const Vec3& origin = surface.mesh.positions[surface.tail(h)];
         const Vec3 along = surface.mesh.positions[surface.head(h)] - origin;
         const Vec3 up = surface.mesh.positions[surface.tail(Surface::previous(h))] - origin;
@@ -158,9 +169,10 @@ struct ConeAngle {
     static constexpr double tolerance = 1e-9;
 };
 
-void find_turning_vertices(Surface& surface) {
+void find_turning_vertices(Surface& surface, Ticker& ticker) {
     std::vector<ConeAngle> cones(surface.num_vertices());
     for (Index h = 0; h < surface.twin.size(); ++h) {
+        ticker.tick();
         cones[surface.tail(h)].add(surface.apex[h].normalized());
     }
     surface.can_turn.resize(surface.num_vertices());
@@ -173,15 +185,17 @@ void find_turning_vertices(Surface& surface) {
 
 }  // namespace
 
-Surface build_surface(const MeshView& mesh) {
-    check_elements(mesh);
+Surface build_surface(const MeshView& mesh, const Progress& progress) {
+    Poller poller(progress);
+    Ticker ticker(poller);
+    check_elements(mesh, ticker);
     Surface surface;
     surface.mesh.positions.assign(mesh.positions.begin(), mesh.positions.end());
     surface.mesh.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
-    connect(surface);
-    find_outgoing(surface);
-    measure(surface);
-    find_turning_vertices(surface);
+    connect(surface, ticker);
+    find_outgoing(surface, ticker);
+    measure(surface, ticker);
+    find_turning_vertices(surface, ticker);
     return surface;
 }
 

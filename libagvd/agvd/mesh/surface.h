@@ -6,6 +6,7 @@
 #pragma once
 
 #include "agvd/core/half_edge.h"
+#include "agvd/core/progress.h"
 #include "agvd/mesh/mesh_view.h"
 
 namespace agvd {
@@ -50,8 +51,9 @@ struct Surface {
 //!        (repeated corner or zero area in double), two faces are inconsistently oriented, or an
 //!        edge or vertex is not manifold; the text names the element. remesh::clean_input repairs
 //!        all of these.
+//! \throw Cancelled     the progress callback returned false.
 //! Cost: O(n log n) time, O(n) space.
-[[nodiscard]] Surface build_surface(const MeshView& mesh);
+[[nodiscard]] Surface build_surface(const MeshView& mesh, const Progress& progress = {});
 
 //! Boundary loops: each a cycle of half-edges without twin, head of one = tail of the next, in the
 //! direction that has the surface on the left; loops ordered by their lowest half-edge.

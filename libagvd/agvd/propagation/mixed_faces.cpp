@@ -31,10 +31,10 @@ public:
           faces_(surface.num_faces()),
           begins_(logs_.num_ranges() + 1) {}
 
-    void run(int num_threads) {
+    void run(int num_threads, Poller& poller) {
         const Index num_ranges = logs_.num_ranges();
-        parallel_chunks(num_ranges, 1, num_threads,
-                        [&](Index range, Index, Index) { count(range); });
+        parallel_chunks(
+            num_ranges, 1, num_threads, [&](Index range, Index, Index) { count(range); }, poller);
         for (Index range = 0; range < num_ranges; ++range) {
             begins_[range + 1].face += begins_[range].face;
             begins_[range + 1].relay += begins_[range].relay;
@@ -42,8 +42,8 @@ public:
         result_.mixed_faces.resize(begins_.back().face);
         result_.relay_ranges.resize(begins_.back().face);
         result_.relays.resize(begins_.back().relay);
-        parallel_chunks(num_ranges, 1, num_threads,
-                        [&](Index range, Index, Index) { write(range); });
+        parallel_chunks(
+            num_ranges, 1, num_threads, [&](Index range, Index, Index) { write(range); }, poller);
     }
 
 private:
@@ -126,8 +126,8 @@ private:
 }  // namespace
 
 void write_mixed_faces(const Surface& surface, const SitePlacement& placement, RelayLogs logs,
-                       int num_threads, Propagation& result) {
-    MixedFaceWriter(surface, placement, std::move(logs), result).run(num_threads);
+                       int num_threads, Poller& poller, Propagation& result) {
+    MixedFaceWriter(surface, placement, std::move(logs), result).run(num_threads, poller);
 }
 
 }  // namespace agvd

@@ -64,32 +64,36 @@ public:
 private:
     void clean() {
         const StageClock clock(Stage::Clean, result_);
-        agvd::poll(progress_of(Stage::Clean, options_), 0);
-        clean_ = clean_input(input_);
+        const agvd::Progress progress = progress_of(Stage::Clean, options_);
+        agvd::poll(progress, 0);
+        clean_ = clean_input(input_, agvd::within(progress, 0, 0));
         result_.cleaned = clean_.counts;
-        result_.input_topology = analyze_topology(clean_.mesh.view());
+        const agvd::Progress half = agvd::within(progress, 0.5, 0.5);
+        result_.input_topology = analyze_topology(clean_.mesh.view(), half);
         if (options_.drop_components > 0) {
             result_.components_dropped =
                 drop_components(clean_, result_.input_topology, options_.drop_components);
             if (result_.components_dropped > 0) {
-                result_.input_topology = analyze_topology(clean_.mesh.view());
+                result_.input_topology = analyze_topology(clean_.mesh.view(), half);
             }
         }
-        agvd::poll(progress_of(Stage::Clean, options_), 1);
+        agvd::poll(progress, 1);
     }
 
     // Edges that span several cells are flipped or split; the surface stays what it is.
     void refine() {
         const StageClock clock(Stage::Clean, result_);
+        const agvd::Progress all = progress_of(Stage::Clean, options_);
+        const agvd::Progress progress = agvd::within(all, 1, 1);
         double area = 0;
         for (const ComponentTopology& c : result_.input_topology.components) area += c.area;
         const std::size_t num_sites =
             options_.sites ? options_.sites->size() : options_.num_samples;
         spacing_ = std::sqrt(area / static_cast<double>(std::max<std::size_t>(num_sites, 1)));
         unrefined_ = clean_.mesh;
-        flip_flat_edges(clean_.mesh, longest_edge * spacing_);
+        flip_flat_edges(clean_.mesh, longest_edge * spacing_, progress);
         agvd::RefinedMesh refined =
-            agvd::split_long_edges(clean_.mesh.view(), longest_edge * spacing_);
+            agvd::split_long_edges(clean_.mesh.view(), longest_edge * spacing_, progress);
         clean_.mesh = std::move(refined.mesh);
         component_.reserve(refined.face_origin.size());
         for (Index& origin : refined.face_origin) {
@@ -98,8 +102,8 @@ private:
         }
         clean_.face_origin = std::move(refined.face_origin);
         result_.refined_faces = static_cast<Index>(clean_.mesh.triangles.size());
-        surface_ = agvd::build_surface(clean_.mesh.view());
-        layout_.emplace(surface_, options_.num_threads);
+        surface_ = agvd::build_surface(clean_.mesh.view(), progress);
+        layout_.emplace(surface_, options_.num_threads, progress);
     }
 
     void place_sites() {
@@ -216,16 +220,20 @@ private:
                       (site != no_index && site < is_wanted_.size() && is_wanted_[site]);
         }
         const std::vector<Index> gone =
-            reduce_vertices(positions_of(dual.mesh), dual.mesh.triangles, target, keep);
+            reduce_vertices(positions_of(dual.mesh), dual.mesh.triangles, target, keep,
+                            progress_of(Stage::Dual, options_));
         compact(dual, gone);
         return static_cast<Index>(gone.size());
     }
 
     DelaunayCounts flip_edges(ValidDual& dual) {
         const StageClock clock(Stage::Delaunay, result_);
-        DelaunayResult made =
-            make_delaunay(surface_, dual.mesh.points, dual.site, dual.diagram, dual.mesh.triangles,
-                          {.mode = options_.delaunay, .num_threads = options_.num_threads});
+        const agvd::Progress progress = progress_of(Stage::Delaunay, options_);
+        agvd::poll(progress, 0);
+        DelaunayResult made = make_delaunay(
+            surface_, dual.mesh.points, dual.site, dual.diagram, dual.mesh.triangles,
+            {.mode = options_.delaunay, .num_threads = options_.num_threads, .progress = progress});
+        agvd::poll(progress, 1);
         dual.mesh.triangles = std::move(made.triangles);
         return made.counts;
     }
@@ -262,7 +270,8 @@ private:
 
     PlacedMesh place(const ValidDual& dual) {
         const StageClock clock(Stage::Place, result_);
-        agvd::poll(progress_of(Stage::Place, options_), 0);
+        const agvd::Progress progress = progress_of(Stage::Place, options_);
+        agvd::poll(progress, 0);
         PlacedMesh placed{dual.mesh.points, {}, dual.mesh.triangles};
         placed.offsets.assign(placed.points.size(), Vec3::Zero());
         std::vector<Index> vertex(sites_.size(), no_index);
@@ -273,9 +282,13 @@ private:
         for (const agvd::SiteId site : dual.diagram.nearest_site) {
             nearest.push_back(site.is_valid() ? vertex[site.value()] : no_index);
         }
-        if (options_.fit.value_or(is_relaxed())) fit_vertices(surface_, nearest, placed);
-        if (is_relaxed()) improve_shape(surface_, nearest, placed);
-        agvd::poll(progress_of(Stage::Place, options_), 1);
+        if (options_.fit.value_or(is_relaxed())) {
+            fit_vertices(surface_, nearest, placed, agvd::within(progress, 0, 0));
+        }
+        if (is_relaxed()) {
+            improve_shape(surface_, nearest, placed, agvd::within(progress, 0.5, 0.5));
+        }
+        agvd::poll(progress, 1);
         return placed;
     }
 
@@ -313,11 +326,14 @@ private:
     // Of the input only if the result has any.
     CrossingFaces find_crossings(const PlacedMesh& mesh) {
         const StageClock clock(Stage::Check, result_);
+        const agvd::Progress progress = progress_of(Stage::Check, options_);
+        agvd::poll(progress, 0);
         const agvd::TriangleMesh placed{positions_of(mesh), mesh.triangles};
-        CrossingFaces found = find_self_intersections(placed.view(), options_.num_threads);
+        CrossingFaces found =
+            find_self_intersections(placed.view(), options_.num_threads, progress);
         if (found && !found->empty() && !has_judged_input_) {
             result_.input_self_intersections = static_cast<Index>(
-                find_self_intersections(unrefined_.view(), options_.num_threads)->size());
+                find_self_intersections(unrefined_.view(), options_.num_threads, progress)->size());
             has_judged_input_ = true;
         }
         return found;
@@ -353,7 +369,10 @@ private:
     // All before implies this; nothing leaves unchecked all the same.
     void check_mesh() {
         const StageClock clock(Stage::Check, result_);
-        const Topology topology = analyze_topology(result_.mesh.view());
+        const agvd::Progress progress = progress_of(Stage::Check, options_);
+        agvd::poll(progress, 1);
+        const Topology topology =
+            analyze_topology(result_.mesh.view(), agvd::within(progress, 1, 1));
         if (!topology.is_manifold || !topology.is_oriented ||
             !same_topology(topology, result_.input_topology)) {
             throw std::logic_error(

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "agvd/core/poller.h"
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/face_area.h"
 #include "agvd/mesh/point_faces.h"
@@ -75,8 +76,10 @@ double dot(const Field& a, const Field& b) {
 
 class Fit {
 public:
-    Fit(const agvd::Surface& surface, std::span<const Index> nearest_vertex, PlacedMesh& mesh)
+    Fit(const agvd::Surface& surface, std::span<const Index> nearest_vertex, agvd::Ticker ticker,
+        PlacedMesh& mesh)
         : surface_(surface),
+          ticker_(ticker),
           mesh_(mesh),
           around_(mesh.triangles, mesh.points.size()),
           ground_(surface, nearest_vertex, num_vertices()) {
@@ -108,6 +111,7 @@ private:
         const bool is_dense = p.size() >= enough_vertices * mesh_.points.size();
         std::vector<double> area(p.size(), 0);
         for (Index f = 0; f < surface_.num_faces(); ++f) {
+            ticker_.tick();
             const Triangle& t = surface_.mesh.triangles[f];
             const double whole = agvd::face_area(surface_, f);
             // With the centroid three quarters: exact for what is quadratic on the face.
@@ -127,6 +131,7 @@ private:
         area_.assign(at_.size(), 0);
         facing_.assign(at_.size(), Vec3::Zero());
         for (Index i = 0; i < mesh_.triangles.size(); ++i) {
+            ticker_.tick();
             const auto& [a, b, c] = mesh_.triangles[i];
             normal_[i] = (at_[b] - at_[a]).cross(at_[c] - at_[a]);
             for (const Index v : mesh_.triangles[i]) {
@@ -177,6 +182,7 @@ private:
         diagonal_.resize(at_.size());
         right_.resize(at_.size());
         for (Index v = 0; v < num_vertices(); ++v) {
+            ticker_.tick(2);
             const Vec3& n = facing_[v];
             const Mat3 across = n * n.transpose();
             const Mat3 along = Mat3::Identity() - across;
@@ -193,6 +199,7 @@ private:
     void add_distances_of_surface() {
         sums_.assign(mesh_.triangles.size(), {});
         for (Sample& sample : samples_) {
+            ticker_.tick(8);
             const agvd::ClosestPoint nearest = find_nearest(sample);
             if (sample.triangle == no_index) continue;
             const Index i = sample.triangle;
@@ -254,6 +261,7 @@ private:
     }
     // From a point of the mesh; zero if nothing is known.
     [[nodiscard]] Vec3 way_to_surface(const Vec3& point, std::span<const Index> cells) const {
+        ticker_.tick(1 + ground_.num_in(cells) / 16);
         const agvd::ClosestPoint nearest = ground_.query(point, cells);
         if (!std::isfinite(nearest.distance_sq)) return Vec3::Zero();
         return nearest.position - point;
@@ -262,6 +270,7 @@ private:
     void multiply(const Field& x, Field& result) const {
         for (std::size_t v = 0; v < x.size(); ++v) result[v] = diagonal_[v] * x[v];
         for (Index i = 0; i < mesh_.triangles.size(); ++i) {
+            ticker_.tick();
             const Triangle& t = mesh_.triangles[i];
             const std::array<double, 3> up{normal_[i].dot(x[t[0]]), normal_[i].dot(x[t[1]]),
                                            normal_[i].dot(x[t[2]])};
@@ -290,6 +299,7 @@ private:
     [[nodiscard]] Field solve() const {
         std::vector<Mat3> inverse(at_.size());
         for (std::size_t v = 0; v < at_.size(); ++v) {
+            ticker_.tick();
             inverse[v] = diagonal_[v].inverse();
             if (!inverse[v].allFinite()) inverse[v].setZero();
         }
@@ -331,6 +341,7 @@ private:
         for (int round = 0; round < most_guard_rounds; ++round) {
             bool is_done = true;
             for (Index i = 0; i < mesh_.triangles.size(); ++i) {
+                ticker_.tick();
                 const auto& [a, b, c] = mesh_.triangles[i];
                 const Vec3 normal = (at_[b] - at_[a]).cross(at_[c] - at_[a]);
                 if (normal.dot(normal_[i]) > least_normal_cosine * normal.norm()) continue;
@@ -346,6 +357,7 @@ private:
     }
 
     const agvd::Surface& surface_;
+    mutable agvd::Ticker ticker_;
     PlacedMesh& mesh_;
     detail::VertexTriangles around_;
     detail::NearestInCells ground_;
@@ -364,9 +376,10 @@ private:
 }  // namespace
 
 void fit_vertices(const agvd::Surface& surface, std::span<const Index> nearest_vertex,
-                  PlacedMesh& mesh) {
+                  PlacedMesh& mesh, const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
     mesh.offsets.resize(mesh.points.size(), Vec3::Zero());
-    Fit(surface, nearest_vertex, mesh).run();
+    Fit(surface, nearest_vertex, agvd::Ticker(poller), mesh).run();
 }
 
 }  // namespace remesh

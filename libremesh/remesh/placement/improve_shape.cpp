@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "agvd/core/poller.h"
 #include "agvd/mesh/point_faces.h"
 #include "remesh/placement/vertex_triangles.h"
 #include "remesh/relax/cell_planes.h"
@@ -50,8 +51,9 @@ double quality(const Vec3& a, const Vec3& b, const Vec3& c) {
 class Improvement {
 public:
     Improvement(const agvd::Surface& surface, std::span<const Index> nearest_vertex,
-                PlacedMesh& mesh)
+                agvd::Ticker ticker, PlacedMesh& mesh)
         : surface_(surface),
+          ticker_(ticker),
           mesh_(mesh),
           around_(mesh.triangles, mesh.points.size()),
           at_(mesh.points.size()),
@@ -60,6 +62,7 @@ public:
         for (Index v = 0; v < at_.size(); ++v) locate(v);
         const auto& p = surface.mesh.positions;
         for (const Triangle& t : surface.mesh.triangles) {
+            ticker_.tick();
             const Vec3 vector = (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]) / 6;
             const double area = vector.norm();
             for (const Index corner : t) {
@@ -81,6 +84,7 @@ private:
         for (int round = 0; round < most_rounds; ++round) {
             std::vector<std::pair<double, Index>> bad;
             for (const Triangle& t : mesh_.triangles) {
+                ticker_.tick();
                 const double q = quality(at_[t[0]], at_[t[1]], at_[t[2]]);
                 if (q >= least_quality) continue;
                 for (const Index v : t) bad.emplace_back(q, v);
@@ -108,7 +112,8 @@ private:
     }
 
     // The lowest quality around a vertex; less by 1 where a triangle faces against the surface.
-    [[nodiscard]] double worst_around(Index v) const {
+    [[nodiscard]] double worst_around(Index v) {
+        ticker_.tick(around_.of(v).size());
         double worst = 1;
         for (const Index i : around_.of(v)) {
             const auto& [a, b, c] = mesh_.triangles[i];
@@ -176,6 +181,7 @@ private:
     }
 
     const agvd::Surface& surface_;
+    agvd::Ticker ticker_;
     PlacedMesh& mesh_;
     detail::VertexTriangles around_;
     std::vector<Vec3> at_, facing_;           // #V: positions, and normals of the surface.
@@ -187,8 +193,9 @@ private:
 }  // namespace
 
 void improve_shape(const agvd::Surface& surface, std::span<const Index> nearest_vertex,
-                   PlacedMesh& mesh) {
-    Improvement(surface, nearest_vertex, mesh).run();
+                   PlacedMesh& mesh, const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    Improvement(surface, nearest_vertex, agvd::Ticker(poller), mesh).run();
 }
 
 }  // namespace remesh

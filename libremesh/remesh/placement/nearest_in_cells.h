@@ -25,6 +25,13 @@ public:
     [[nodiscard]] agvd::ClosestPoint query(const agvd::Vec3& point,
                                            std::span<const agvd::Index> cells) const;
 
+    //! Vertices in these cells.
+    [[nodiscard]] std::size_t num_in(std::span<const agvd::Index> cells) const {
+        std::size_t count = 0;
+        for (const agvd::Index cell : cells) count += begin_[cell + 1] - begin_[cell];
+        return count;
+    }
+
 private:
     const agvd::Surface& surface_;
     std::vector<agvd::Index> begin_;     // #cells + 1

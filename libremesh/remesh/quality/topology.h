@@ -2,6 +2,7 @@
 //! Is it a manifold, and of which topology?
 #pragma once
 
+#include "agvd/core/progress.h"
 #include "agvd/mesh/mesh_view.h"
 
 namespace remesh {
@@ -29,7 +30,9 @@ struct Topology {
 };
 
 //! Works on any indices in range, manifold or not. Cost: O(n log n).
-[[nodiscard]] Topology analyze_topology(const agvd::MeshView& mesh);
+//! \throw agvd::Cancelled  the progress callback returned false.
+[[nodiscard]] Topology analyze_topology(const agvd::MeshView& mesh,
+                                        const agvd::Progress& progress = {});
 
 //! Same number of components of each (genus, boundary loops) type.
 [[nodiscard]] bool same_topology(const Topology& a, const Topology& b);

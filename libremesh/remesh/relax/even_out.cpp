@@ -75,24 +75,32 @@ struct Regions {
     }
 };
 
+// Steps of a search for the ground of one more region.
+constexpr std::size_t search_work = 256;
+
 // Regions around vertices that are far apart, more and more of them.
 class RegionMaker {
 public:
-    RegionMaker(const Surface& surface, const agvd::SurfaceLayout& layout, int num_threads)
+    RegionMaker(const Surface& surface, const agvd::SurfaceLayout& layout, int num_threads,
+                const agvd::Progress& progress)
         : surface_(surface),
+          progress_(progress),
           search_(surface, layout.arcs(), layout.corners().mean_length(), num_threads),
           farthest_(surface, search_) {}
 
     // At least `count`, and one for each component.
     Regions make(Index count) {
+        agvd::Poller poller(progress_);
+        agvd::Ticker ticker(poller);
         while (!farthest_.is_empty()) {
+            ticker.tick(search_work);
             const Index v = farthest_.pop();
             if (num_centers_ >= count && std::isfinite(search_.distance(v))) {
                 farthest_.push(v);
                 break;
             }
             search_.add(agvd::point_at(surface_, v), num_centers_++);
-            search_.run();
+            search_.run(progress_);
         }
         // By the first corner; regions without a face get no number.
         std::vector<Index> number(num_centers_, no_index);
@@ -108,6 +116,7 @@ public:
 
 private:
     const Surface& surface_;
+    const agvd::Progress& progress_;
     agvd::BoundsSearch search_;
     FarthestVertex farthest_;
     Index num_centers_ = 0;
@@ -133,7 +142,7 @@ public:
         find_homeless();
     }
 
-    Index run(const agvd::SurfaceLayout& layout, int num_threads) {
+    Index run(const agvd::SurfaceLayout& layout, int num_threads, const agvd::Progress& progress) {
         const auto num_sites = static_cast<Index>(sites_.size());
         const Regions components(surface_, component_of_face_,
                                  static_cast<Index>(components_.size()));
@@ -148,7 +157,7 @@ public:
         }
         balance(components, shares, components_.size());
 
-        RegionMaker maker(surface_, layout, num_threads);
+        RegionMaker maker(surface_, layout, num_threads, progress);
         for (const double per_region : sites_per_region) {
             const auto count = static_cast<Index>(num_sites / per_region);
             if (count < 2 || count * vertices_per_region > surface_.num_vertices()) continue;
@@ -258,8 +267,8 @@ private:
 
 Index even_out(const Surface& surface, const agvd::SurfaceLayout& layout,
                std::vector<SurfacePoint>& sites, std::span<const std::uint8_t> is_fixed,
-               int num_threads) {
-    return EvenOut(surface, sites, is_fixed).run(layout, num_threads);
+               int num_threads, const agvd::Progress& progress) {
+    return EvenOut(surface, sites, is_fixed).run(layout, num_threads, progress);
 }
 
 }  // namespace remesh::detail

@@ -24,6 +24,6 @@ namespace remesh::detail {
 //! Cost: O(n log n), a few sweeps over the edges.
 agvd::Index even_out(const agvd::Surface& surface, const agvd::SurfaceLayout& layout,
                      std::vector<agvd::SurfacePoint>& sites, std::span<const std::uint8_t> is_fixed,
-                     int num_threads);
+                     int num_threads, const agvd::Progress& progress = {});
 
 }  // namespace remesh::detail

@@ -64,12 +64,16 @@ bool gives_neighbours(const Surface& surface, std::size_t num_sites) {
 // By labels; exactly where faces are too large for those.
 std::vector<agvd::Triangle> triangulate(const Surface& surface, const SurfaceLayout& layout,
                                         const agvd::DistanceBounds& labels,
-                                        std::span<const SurfacePoint> sites, int num_threads) {
+                                        std::span<const SurfacePoint> sites, int num_threads,
+                                        const agvd::Progress& progress) {
     if (gives_neighbours(surface, sites.size())) return detail::label_triangles(surface, labels);
     const agvd::Propagation propagation = agvd::propagate(
-        surface, layout, sites, {.max_error = neighbour_error, .num_threads = num_threads});
-    return build_dual(
-        surface, agvd::build_diagram(surface, sites, propagation, {.num_threads = num_threads}));
+        surface, layout, sites,
+        {.max_error = neighbour_error, .num_threads = num_threads, .progress = progress});
+    return build_dual(surface,
+                      agvd::build_diagram(surface, sites, propagation,
+                                          {.num_threads = num_threads, .progress = progress}),
+                      progress);
 }
 
 // Triangles as large as the features of the surface: what is even on them is not on the surface.
@@ -89,7 +93,14 @@ public:
         : surface_(surface),
           layout_(layout),
           options_(options),
-          steps_planned_(options.steps * num_levels) {}
+          steps_planned_(options.steps * num_levels) {
+        if (options.progress) progress_ = [this](double) { return options_.progress(fraction()); };
+    }
+    Levels(const Levels&) = delete;
+    Levels& operator=(const Levels&) = delete;
+
+    // For all that a step is made of: tells how many steps are done.
+    [[nodiscard]] const agvd::Progress& progress() const { return progress_; }
 
     // \param labels   of the sites; null: the relaxation knows its weights.
     // \param corners  boundary vertices that sites go to: of the spacing that these sites have.
@@ -104,7 +115,8 @@ public:
         for (int step = 1; step <= options_.steps; ++step) {
             relaxation.step();
             level.energy.push_back(relaxation.energy().energy);
-            agvd::poll(options_.progress, static_cast<double>(++steps_done_) / steps_planned_);
+            ++steps_done_;
+            agvd::poll(options_.progress, fraction());
             if (step % steps_per_sweep != 0 || step == options_.steps) continue;
             if (last - relaxation.objective() < options_.tolerance * last) break;
             sweep(relaxation, corners);
@@ -113,7 +125,7 @@ public:
     }
 
     [[nodiscard]] agvd::DistanceBounds label(std::span<const SurfacePoint> sites) const {
-        return detail::label_vertices(surface_, layout_, sites, options_.num_threads);
+        return detail::label_vertices(surface_, layout_, sites, options_.num_threads, progress_);
     }
 
     RelaxResult finish(std::vector<SurfacePoint> sites) {
@@ -122,6 +134,10 @@ public:
     }
 
 private:
+    [[nodiscard]] double fraction() const {
+        return static_cast<double>(steps_done_) / std::max(steps_planned_, 1);
+    }
+
     [[nodiscard]] bool gives_cells(Index num_sites) const {
         return surface_.num_vertices() >= vertices_per_cell * num_sites;
     }
@@ -134,7 +150,7 @@ private:
             relaxation.move_to_boundary(
                 detail::boundary_places(surface_, labels, num_sites, corners));
         }
-        relaxation.set_density(detail::measure_cells(surface_, labels, num_sites));
+        relaxation.set_density(detail::measure_cells(surface_, labels, num_sites, progress_));
     }
 
     // Looks at the surface again.
@@ -148,8 +164,8 @@ private:
             num_mended_ < result_.levels.size() && flaws > most_flaws * num_sites;
         if (flaws > 0 && (is_cheap || is_worth_it)) {
             if (!is_cheap) num_mended_ = result_.levels.size();
-            relaxation.mend(
-                triangulate(surface_, layout_, labels, relaxation.sites(), options_.num_threads));
+            relaxation.mend(triangulate(surface_, layout_, labels, relaxation.sites(),
+                                        options_.num_threads, progress_));
         }
         look(relaxation, labels, corners);
     }
@@ -157,6 +173,7 @@ private:
     const Surface& surface_;
     const SurfaceLayout& layout_;
     const RelaxOptions& options_;
+    agvd::Progress progress_;
     int steps_planned_;
     int steps_done_ = 0;
     std::size_t num_mended_ = 0;  // Levels up to the last one that has paid for a propagation.
@@ -185,11 +202,13 @@ RelaxResult relax_sites(const Surface& surface, const SurfaceLayout& layout,
     agvd::check_sites(surface, sites);
     Levels levels(surface, layout, options, 1);
     if (options.steps == 0 || sites.empty()) return levels.finish(std::move(sites));
-    detail::even_out(surface, layout, sites, options.is_fixed, options.num_threads);
+    detail::even_out(surface, layout, sites, options.is_fixed, options.num_threads,
+                     levels.progress());
     const agvd::DistanceBounds labels = levels.label(sites);
-    Relaxation relaxation(surface, sites,
-                          triangulate(surface, layout, labels, sites, options.num_threads),
-                          options.is_fixed, {}, options.num_threads);
+    Relaxation relaxation(
+        surface, sites,
+        triangulate(surface, layout, labels, sites, options.num_threads, levels.progress()),
+        options.is_fixed, {}, options.num_threads, levels.progress());
     if (is_hopeless(relaxation)) return levels.finish(std::move(sites));
     levels.run(relaxation, &labels, options.corners);
     if (is_hopeless(relaxation)) return levels.finish(std::move(sites));
@@ -205,12 +224,12 @@ RelaxResult sample_relaxed_sites(const Surface& surface, const SurfaceLayout& la
     }
     SamplingOptions first = sampling;
     first.num_samples = *coarse;
-    first.progress = {};
     Levels levels(surface, layout, options, 2);
+    first.progress = levels.progress();
     std::vector<SurfacePoint> sites = sample_sites(surface, first);
     agvd::DistanceBounds labels = levels.label(sites);
     Relaxation relaxation(surface, std::move(sites), detail::label_triangles(surface, labels), {},
-                          {}, options.num_threads);
+                          {}, options.num_threads, levels.progress());
     const auto one_after_the_other = [&] {
         return relax_sites(surface, layout, sample_sites(surface, sampling), options);
     };
@@ -224,7 +243,7 @@ RelaxResult sample_relaxed_sites(const Surface& surface, const SurfaceLayout& la
                           detail::label_dual(surface, labels), sampling.num_samples);
     if (!fine) return one_after_the_other();
     Relaxation last(surface, std::move(fine->sites), std::move(fine->triangles), {},
-                    std::move(fine->weights), options.num_threads);
+                    std::move(fine->weights), options.num_threads, levels.progress());
     levels.run(last, nullptr, options.corners);
     if (is_hopeless(last)) return one_after_the_other();
     return levels.finish(last.sites());

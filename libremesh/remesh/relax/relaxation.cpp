@@ -49,9 +49,11 @@ constexpr double flat_quality = 0.1;
 
 Relaxation::Relaxation(const agvd::Surface& surface, std::vector<SurfacePoint> sites,
                        std::vector<agvd::Triangle> triangles, std::vector<std::uint8_t> is_fixed,
-                       std::vector<double> weights, int num_threads)
+                       std::vector<double> weights, int num_threads, const agvd::Progress& progress)
     : surface_(surface),
       num_threads_(num_threads),
+      poller_(progress),
+      ticker_(poller_),
       sites_(std::move(sites)),
       at_(sites_.size()),
       facing_(sites_.size()),
@@ -64,6 +66,7 @@ Relaxation::Relaxation(const agvd::Surface& surface, std::vector<SurfacePoint> s
     is_fixed_.resize(sites_.size(), 0);
     for (Index i = 0; i < sites_.size(); ++i) {
         locate(i);
+        ticker_.tick();
         // A corner of the boundary, or a place that is as good as any on its loop.
         if (boundary_[i] != no_index && agvd::vertex_of(surface_, sites_[i])) is_fixed_[i] = 1;
     }
@@ -71,12 +74,12 @@ Relaxation::Relaxation(const agvd::Surface& surface, std::vector<SurfacePoint> s
 }
 
 void Relaxation::take_triangles(std::vector<agvd::Triangle> triangles) {
-    mesh_ = build_site_mesh(std::move(triangles), static_cast<Index>(sites_.size()));
+    mesh_ = build_site_mesh(std::move(triangles), static_cast<Index>(sites_.size()), ticker_);
     find_stuck();
-    measure_energy(mesh_, at_, weight_, now_);
+    measure_energy(mesh_, at_, weight_, ticker_, now_);
     for (int round = 0; round < most_flip_rounds; ++round) {
-        if (flip_towards_delaunay(mesh_, at_, now_.cotangent) == 0) break;
-        measure_energy(mesh_, at_, weight_, now_);
+        if (flip_towards_delaunay(mesh_, at_, now_.cotangent, ticker_) == 0) break;
+        measure_energy(mesh_, at_, weight_, ticker_, now_);
     }
     find_turned(mesh_, at_, facing_, turned_);
 }
@@ -97,7 +100,7 @@ void Relaxation::mend(const std::vector<agvd::Triangle>& triangles) {
     if (num_flaws() < flaws) return;
     mesh_ = std::move(before);
     find_stuck();
-    measure_energy(mesh_, at_, weight_, now_);
+    measure_energy(mesh_, at_, weight_, ticker_, now_);
     find_turned(mesh_, at_, facing_, turned_);
 }
 
@@ -164,18 +167,20 @@ void Relaxation::set_density(const CellMeasures& cells) {
         weight_[i] = std::min(lost * bent, most_weight);
     }
     planes_ = cells.planes;
-    measure_energy(mesh_, at_, weight_, now_);
+    measure_energy(mesh_, at_, weight_, ticker_, now_);
 }
 
 void Relaxation::step() {
     choose_moves();
+    poller_.poll();
     const std::vector<SurfacePoint> sites_before = sites_;
     const std::vector<Vec3> at_before = at_, facing_before = facing_;
     walk();
+    poller_.poll();
     take_back(sites_before, at_before, facing_before);
-    measure_energy(mesh_, at_, weight_, now_);
+    measure_energy(mesh_, at_, weight_, ticker_, now_);
     // What flips change is measured by the next step: they are few.
-    flip_towards_delaunay(mesh_, at_, now_.cotangent);
+    flip_towards_delaunay(mesh_, at_, now_.cotangent, ticker_);
 }
 
 double Relaxation::objective() const {
@@ -206,6 +211,7 @@ void Relaxation::choose_moves() {
     }
     const double keep = uphill > 0 ? 0 : momentum;
     for (std::size_t i = 0; i < move_.size(); ++i) {
+        ticker_.tick(4);
         const CvtEnergy::Cell& cell = now_.cells[i];
         if (is_fixed_[i] != 0 || is_stuck_[i] != 0 || !(cell.mass > 0)) {
             move_[i].setZero();
@@ -232,7 +238,7 @@ void Relaxation::walk() {
             locate(i);
         }
     };
-    agvd::parallel_chunks(static_cast<Index>(sites_.size()), grain, num_threads_, body);
+    agvd::parallel_chunks(static_cast<Index>(sites_.size()), grain, num_threads_, body, poller_);
 }
 
 // Takes back the moves by which triangles have turned over.

@@ -35,18 +35,22 @@ SurfacePoint point_on(Index h, double along, double inside) {
 }  // namespace
 
 agvd::DistanceBounds label_vertices(const Surface& surface, const agvd::SurfaceLayout& layout,
-                                    std::span<const SurfacePoint> sites, int num_threads) {
+                                    std::span<const SurfacePoint> sites, int num_threads,
+                                    const agvd::Progress& progress) {
     return agvd::distance_bounds(surface, layout.arcs(), layout.corners().mean_length(), sites,
-                                 num_threads);
+                                 num_threads, progress);
 }
 
 CellMeasures measure_cells(const Surface& surface, const agvd::DistanceBounds& labels,
-                           Index num_sites) {
+                           Index num_sites, const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    agvd::Ticker ticker(poller);
     CellMeasures result{std::vector<double>(num_sites, 0), std::vector<double>(num_sites, 0),
                         std::vector<CellPlanes>(num_sites)};
     std::vector<agvd::Vec3> shadow(num_sites, agvd::Vec3::Zero());  // The largest is so long.
     const auto& p = surface.mesh.positions;
     for (Index f = 0; f < surface.num_faces(); ++f) {
+        ticker.tick();
         const agvd::Triangle& t = surface.mesh.triangles[f];
         const agvd::Vec3 vector = (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]) / 2;
         const double area = vector.norm();

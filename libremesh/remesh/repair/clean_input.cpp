@@ -15,16 +15,18 @@ using agvd::InvalidInput;
 using agvd::no_index;
 using agvd::Triangle;
 
-void check_elements(const agvd::MeshView& mesh) {
+void check_elements(const agvd::MeshView& mesh, agvd::Ticker& ticker) {
     if (mesh.triangles.size() > no_index / 3 || mesh.positions.size() >= no_index) {
         throw InvalidInput("the mesh has more than 2^32 / 3 faces; split it into parts");
     }
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        ticker.tick();
         if (mesh.positions[v].allFinite()) continue;
         throw InvalidInput("vertex " + std::to_string(v) +
                            " has a coordinate that is not finite; correct or delete it");
     }
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        ticker.tick();
         for (const Index v : mesh.triangles[f]) {
             if (v < mesh.positions.size()) continue;
             throw InvalidInput("face " + std::to_string(f) + " names vertex " + std::to_string(v) +
@@ -63,6 +65,7 @@ void check_not_empty(const Soup& soup) {
 bool drop_repeated_corners(Soup& soup) {
     std::vector<bool> is_dead(soup.triangles.size());
     for (std::size_t f = 0; f < is_dead.size(); ++f) {
+        soup.ticker.tick();
         const auto& [a, b, c] = soup.triangles[f];
         is_dead[f] = a == b || b == c || c == a;
     }
@@ -76,6 +79,7 @@ bool drop_duplicates(Soup& soup, std::span<const EdgeUse> uses) {
     std::vector<bool> is_dead(soup.triangles.size(), false);
     std::vector<std::pair<Index, Index>> sheets;  // (third corner, face)
     for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
+        soup.ticker.tick(edge.size());
         if (edge.size() < 2) return;
         if (edge.size() == 2 && soup.apex(edge[0].half_edge) != soup.apex(edge[1].half_edge)) {
             return;  // By far the most frequent case.
@@ -96,9 +100,9 @@ bool drop_duplicates(Soup& soup, std::span<const EdgeUse> uses) {
 
 void drop_isolated_vertices(Soup& soup) {
     std::vector<Index> new_vertex(soup.positions.size(), no_index);
-    for (const Triangle& t : soup.triangles) {
+    agvd::for_each_ticked(soup.triangles, soup.ticker, [&](const Triangle& t) {
         for (const Index v : t) new_vertex[v] = 0;
-    }
+    });
     Index count = 0;
     for (Index v = 0; v < new_vertex.size(); ++v) {
         if (new_vertex[v] == no_index) continue;
@@ -119,10 +123,13 @@ void drop_isolated_vertices(Soup& soup) {
 
 }  // namespace detail
 
-CleanResult clean_input(const agvd::MeshView& mesh) {
+CleanResult clean_input(const agvd::MeshView& mesh, const agvd::Progress& progress) {
     using namespace detail;
-    check_elements(mesh);
+    agvd::Poller poller(progress);
+    agvd::Ticker ticker(poller);
+    check_elements(mesh, ticker);
     Soup soup = as_soup(mesh);
+    soup.ticker = ticker;
 
     std::vector<EdgeUse> uses = edge_uses(soup);
     const auto refresh = [&](bool is_changed) {

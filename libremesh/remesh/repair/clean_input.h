@@ -2,6 +2,7 @@
 //! Turns any triangle soup into oriented 2-manifold pieces, and tells what it did.
 #pragma once
 
+#include "agvd/core/progress.h"
 #include "agvd/mesh/mesh_view.h"
 
 namespace remesh {
@@ -51,6 +52,8 @@ struct CleanResult {
 //! \throw agvd::InvalidInput  an index is out of range, a coordinate is not finite, an area
 //!        overflows, a piece is not orientable (each names the element), or no face is left.
 //! Cost: O(n log n).
-[[nodiscard]] CleanResult clean_input(const agvd::MeshView& mesh);
+//! \throw agvd::Cancelled     the progress callback returned false.
+[[nodiscard]] CleanResult clean_input(const agvd::MeshView& mesh,
+                                      const agvd::Progress& progress = {});
 
 }  // namespace remesh

@@ -1,5 +1,7 @@
 #include "remesh/sampling/components.h"
 
+#include "agvd/core/poller.h"
+
 namespace remesh::detail {
 namespace {
 
@@ -8,7 +10,8 @@ using agvd::no_index;
 using agvd::Surface;
 
 // #F: the number of each face's component.
-std::vector<Index> label_faces(const Surface& surface, Index& num_components) {
+std::vector<Index> label_faces(const Surface& surface, agvd::Ticker& ticker,
+                               Index& num_components) {
     std::vector<Index> label(surface.num_faces(), no_index);
     std::vector<Index> stack;
     for (Index seed = 0; seed < label.size(); ++seed) {
@@ -16,6 +19,7 @@ std::vector<Index> label_faces(const Surface& surface, Index& num_components) {
         label[seed] = num_components;
         stack.push_back(seed);
         while (!stack.empty()) {
+            ticker.tick();
             const Index face = stack.back();
             stack.pop_back();
             for (Index h = 3 * face; h < 3 * face + 3; ++h) {
@@ -33,11 +37,14 @@ std::vector<Index> label_faces(const Surface& surface, Index& num_components) {
 
 }  // namespace
 
-std::vector<Component> find_components(const Surface& surface) {
+std::vector<Component> find_components(const Surface& surface, const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    agvd::Ticker ticker(poller);
     Index num_components = 0;
-    const std::vector<Index> label = label_faces(surface, num_components);
+    const std::vector<Index> label = label_faces(surface, ticker, num_components);
     std::vector<Component> components(num_components);
     for (Index f = 0; f < label.size(); ++f) {
+        ticker.tick();
         Component& component = components[label[f]];
         const double before = component.faces.empty() ? 0 : component.area();
         const double doubled_area = surface.length_of(3 * f) * surface.apex[3 * f].y();

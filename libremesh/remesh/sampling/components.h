@@ -18,6 +18,7 @@ struct Component {
 
 //! By lowest face. Linear time, as connectivity is given (analyze_topology sorts it out of
 //! indices).
-[[nodiscard]] std::vector<Component> find_components(const agvd::Surface& surface);
+[[nodiscard]] std::vector<Component> find_components(const agvd::Surface& surface,
+                                                     const agvd::Progress& progress = {});
 
 }  // namespace remesh::detail

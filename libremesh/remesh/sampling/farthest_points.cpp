@@ -1,6 +1,7 @@
 #include "remesh/sampling/farthest_points.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <unordered_set>
 #include <utility>
@@ -28,6 +29,8 @@ constexpr double longest_edge = 0.4;
 constexpr double pieces_per_half_edge = 1, pieces_per_point = 16;
 // How far a point lies from its vertex, in heights of the face: least and most.
 constexpr double least_offset = 0.02, most_offset = 0.1;
+// Steps of a search for the ground of one more point.
+constexpr std::size_t search_work = 256;
 // Least barycentric coordinate of a point in its face.
 constexpr double interior_margin = 1e-6;
 
@@ -57,13 +60,16 @@ double longest_piece(const Surface& surface, const Component& component, Index c
     return std::max(longest_edge * spacing, length / most_pieces);
 }
 
-Ground make_ground(const Surface& surface, const Component& component, double max_length) {
+Ground make_ground(const Surface& surface, const Component& component, double max_length,
+                   const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    agvd::Ticker ticker(poller);
     std::vector<Index> vertices;
     for (const Index f : component.faces) {
         const agvd::Triangle& t = surface.mesh.triangles[f];
         vertices.insert(vertices.end(), t.begin(), t.end());
     }
-    std::sort(vertices.begin(), vertices.end());
+    agvd::sort_ticked(vertices, ticker, std::less<>());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     agvd::TriangleMesh mesh;
     const Vec3 origin = surface.mesh.positions[vertices.front()];
@@ -71,6 +77,7 @@ Ground make_ground(const Surface& surface, const Component& component, double ma
     for (const Index v : vertices) mesh.positions.push_back(surface.mesh.positions[v] - origin);
     mesh.triangles.reserve(component.faces.size());
     for (const Index f : component.faces) {
+        ticker.tick(4);
         agvd::Triangle& t = mesh.triangles.emplace_back(surface.mesh.triangles[f]);
         for (Index& v : t) {
             const auto found = std::lower_bound(vertices.begin(), vertices.end(), v);
@@ -78,21 +85,23 @@ Ground make_ground(const Surface& surface, const Component& component, double ma
         }
     }
     // Halves of slivers may vanish in rounding; then wholes must do.
-    agvd::RefinedMesh refined = agvd::split_long_edges(mesh.view(), max_length);
+    agvd::RefinedMesh refined = agvd::split_long_edges(mesh.view(), max_length, progress);
     if (!has_area(refined.mesh)) {
-        return {agvd::build_surface(mesh.view()), origin, component.faces};
+        return {agvd::build_surface(mesh.view(), progress), origin, component.faces};
     }
     for (Index& face : refined.face_origin) face = component.faces[face];
-    return {agvd::build_surface(refined.mesh.view()), origin, std::move(refined.face_origin)};
+    return {agvd::build_surface(refined.mesh.view(), progress), origin,
+            std::move(refined.face_origin)};
 }
 
 class FarthestPoints {
 public:
     FarthestPoints(const Surface& whole, Ground ground, std::uint64_t seed, std::uint64_t stream,
-                   int num_threads)
+                   int num_threads, const agvd::Progress& progress)
         : whole_(whole),
           ground_(std::move(ground)),
-          layout_(ground_.surface, num_threads),
+          progress_(progress),
+          layout_(ground_.surface, num_threads, progress),
           search_(ground_.surface, layout_.arcs(), layout_.corners().mean_length(), num_threads),
           seed_(seed),
           stream_(stream) {}
@@ -103,14 +112,17 @@ public:
     std::vector<SurfacePoint> run(Index count) {
         std::vector<SurfacePoint> result;
         result.reserve(count);
-        search_.run();
+        search_.run(progress_);
+        agvd::Poller poller(progress_);
+        agvd::Ticker ticker(poller);
         FarthestVertex farthest(ground_.surface, search_);
         for (std::uint64_t i = 0; result.size() < count && !farthest.is_empty(); ++i) {
             const Index v = farthest.pop();
             const SurfacePoint near = draw(v, i);
             const SurfacePoint point = to_whole(near);
             if (!take(near, point)) continue;  // So near a point that there is no room for another.
-            search_.run();
+            search_.run(progress_);
+            ticker.tick(search_work);
             result.push_back(point);
             farthest.push(v);
         }
@@ -182,6 +194,7 @@ private:
 
     const Surface& whole_;
     const Ground ground_;
+    const agvd::Progress& progress_;
     const agvd::SurfaceLayout layout_;
     agvd::BoundsSearch search_;
     std::uint64_t seed_, stream_;
@@ -194,11 +207,11 @@ private:
 std::vector<SurfacePoint> farthest_points(const Surface& surface, const Component& component,
                                           std::span<const SurfacePoint> fixed, Index count,
                                           double spacing, std::uint64_t seed, std::uint64_t stream,
-                                          int num_threads) {
+                                          int num_threads, const agvd::Progress& progress) {
     if (count == 0) return {};
     const double max_length = longest_piece(surface, component, count, spacing);
-    FarthestPoints points(surface, make_ground(surface, component, max_length), seed, stream,
-                          num_threads);
+    FarthestPoints points(surface, make_ground(surface, component, max_length, progress), seed,
+                          stream, num_threads, progress);
     for (const SurfacePoint& point : fixed) points.add(point);
     if (!fixed.empty()) return points.run(count);
     const SurfacePoint first = scatter(surface, component, 1, seed, stream).front().point;
