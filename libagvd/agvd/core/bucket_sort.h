@@ -22,7 +22,9 @@ template <typename Item, typename BucketOf, typename Less>
     std::vector<Index> end(std::size_t{num_buckets} + 1, 0);
     for_each_ticked(items, ticker, [&](const Item& item) { ++end[bucket_of(item) + 1]; });
     for (Index i = 0; i < num_buckets; ++i) end[i + 1] += end[i];
+    ticker.poll();
     std::vector<Item> sorted(items.size());
+    ticker.poll();
     for_each_ticked(items, ticker,
                     [&](const Item& item) { sorted[end[bucket_of(item)]++] = item; });
     Index begin = 0;

@@ -68,13 +68,17 @@ public:
     //! \param poller  outlives this.
     explicit Ticker(Poller& poller) : poller_(&poller) {}
 
+    //! After a large allocation, or before a step that has no ticks. \throw Cancelled
+    void poll() {
+        if (poller_ != nullptr) poller_->poll();
+    }
     //! \param work  steps done since the last call. \throw Cancelled
     void tick(std::size_t work = 1) {
         if (work < left_) {
             left_ -= work;
         } else {
             left_ = interval;
-            if (poller_ != nullptr) poller_->poll();
+            poll();
         }
     }
 

@@ -17,6 +17,7 @@ public:
         result_.mesh.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
         result_.face_origin.resize(mesh.triangles.size());
         for (Index f = 0; f < result_.face_origin.size(); ++f) result_.face_origin[f] = f;
+        ticker_.poll();
     }
 
     RefinedMesh run() {
@@ -46,6 +47,7 @@ private:
             append_parts(t, m, triangles);
             origin.resize(triangles.size(), result_.face_origin[f]);
         }
+        ticker_.poll();
         mesh.triangles = std::move(triangles);
         result_.face_origin = std::move(origin);
         return !middle_.empty();

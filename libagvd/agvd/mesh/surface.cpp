@@ -48,6 +48,7 @@ void connect(Surface& surface, Ticker& ticker) {
     };
     const auto num_half_edges = static_cast<Index>(3 * surface.mesh.triangles.size());
     std::vector<Key> keys(num_half_edges);
+    ticker.poll();
     for (Index h = 0; h < num_half_edges; ++h) {
         ticker.tick();
         const Index a = surface.tail(h);
@@ -61,6 +62,7 @@ void connect(Surface& surface, Ticker& ticker) {
             return a.ends != b.ends ? a.ends < b.ends : a.half_edge < b.half_edge;
         },
         ticker);
+    ticker.poll();
     surface.twin.assign(num_half_edges, no_index);
     for (std::size_t i = 0; i < keys.size();) {
         std::size_t end = i + 1;
@@ -86,6 +88,7 @@ void connect(Surface& surface, Ticker& ticker) {
     }
     // Edges are numbered in the order of their lower half-edge, so that neighbours stay close.
     surface.edge.assign(num_half_edges, no_index);
+    ticker.poll();
     for (Index h = 0; h < num_half_edges; ++h) {
         ticker.tick();
         if (surface.edge[h] != no_index) continue;
@@ -99,6 +102,7 @@ void find_outgoing(Surface& surface, Ticker& ticker) {
     const Index num_vertices = surface.num_vertices();
     std::vector<Index> degree(num_vertices, 0);
     surface.outgoing.assign(num_vertices, no_index);
+    ticker.poll();
     for (Index h = 0; h < surface.twin.size(); ++h) {
         ticker.tick();
         const Index v = surface.tail(h);
@@ -131,6 +135,7 @@ void measure(Surface& surface, Ticker& ticker) {
                 .norm();
     }
     surface.apex.resize(surface.twin.size());
+    ticker.poll();
     for (Index h = 0; h < surface.apex.size(); ++h) {
         ticker.tick();
         const Vec3& origin = surface.mesh.positions[surface.tail(h)];
@@ -171,12 +176,14 @@ struct ConeAngle {
 
 void find_turning_vertices(Surface& surface, Ticker& ticker) {
     std::vector<ConeAngle> cones(surface.num_vertices());
+    ticker.poll();
     for (Index h = 0; h < surface.twin.size(); ++h) {
         ticker.tick();
         cones[surface.tail(h)].add(surface.apex[h].normalized());
     }
     surface.can_turn.resize(surface.num_vertices());
     for (Index v = 0; v < surface.num_vertices(); ++v) {
+        ticker.tick();
         const bool can_turn =
             surface.is_boundary_vertex(v) ? cones[v].exceeds_pi() : cones[v].exceeds_two_pi();
         surface.can_turn[v] = can_turn ? 1 : 0;
@@ -192,6 +199,7 @@ Surface build_surface(const MeshView& mesh, const Progress& progress) {
     Surface surface;
     surface.mesh.positions.assign(mesh.positions.begin(), mesh.positions.end());
     surface.mesh.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
+    ticker.poll();
     connect(surface, ticker);
     find_outgoing(surface, ticker);
     measure(surface, ticker);

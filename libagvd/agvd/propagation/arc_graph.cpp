@@ -35,8 +35,10 @@ ArcGraph::ArcGraph(const Surface& surface, const Corners& corners, const Progres
     for (Index v = 0; v < surface.num_vertices(); ++v) {
         offsets[v + 1] += offsets[v] + (surface.is_boundary_vertex(v) ? 1 : 0);
     }
+    ticker.poll();
     ends.assign(offsets.begin(), offsets.end() - 1);
     arcs.resize(offsets.back());
+    ticker.poll();
     const auto add = [this](Index a, Index b, double length) {
         const float rounded = static_cast<float>(length) * round_up;
         arcs[ends[a]++] = {b, rounded};

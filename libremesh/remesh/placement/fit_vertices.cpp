@@ -121,6 +121,7 @@ private:
                 {(p[t[0]] + p[t[1]] + p[t[2]]) / 3, whole * 3 / 4, nearest_vertex[t[0]]});
         }
         for (Index v = 0; v < p.size(); ++v) {
+            ticker_.tick();
             if (nearest_vertex[v] != no_index)
                 samples_.push_back({p[v], area[v], nearest_vertex[v]});
         }

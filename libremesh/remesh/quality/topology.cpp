@@ -31,6 +31,7 @@ void unite(std::vector<Index>& parent, Index a, Index b) {
 
 bool has_bad_faces(const agvd::MeshView& mesh, agvd::Ticker& ticker) {
     std::vector<Triangle> sorted(mesh.triangles.begin(), mesh.triangles.end());
+    ticker.poll();
     for (Triangle& t : sorted) {
         ticker.tick();
         std::sort(t.begin(), t.end());
@@ -47,6 +48,7 @@ bool has_one_umbrella_each(const agvd::MeshView& mesh, const std::vector<EdgeSid
                            agvd::Ticker& ticker) {
     std::vector<Index> corner(3 * mesh.triangles.size());
     std::iota(corner.begin(), corner.end(), Index{0});
+    ticker.poll();
     const auto corner_of = [&](Index face, Index vertex) {
         const Triangle& t = mesh.triangles[face];
         return 3 * face + (t[0] == vertex ? 0u : t[1] == vertex ? 1u : 2u);
@@ -151,6 +153,7 @@ Topology analyze_topology(const agvd::MeshView& mesh, const agvd::Progress& prog
         unite(boundary, begin->low(), begin->high());
         boundary_ends.emplace_back(begin->low(), begin->face());
     });
+    ticker.poll();
     std::vector<bool> counted(mesh.positions.size(), false);
     for (const auto& [vertex, face] : boundary_ends) {
         ticker.tick();

@@ -36,14 +36,17 @@ void check_elements(const agvd::MeshView& mesh, agvd::Ticker& ticker) {
     }
 }
 
-Soup as_soup(const agvd::MeshView& mesh) {
+Soup as_soup(const agvd::MeshView& mesh, agvd::Ticker ticker) {
     Soup soup;
+    soup.ticker = ticker;
     soup.positions.assign(mesh.positions.begin(), mesh.positions.end());
     soup.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
+    ticker.poll();
     soup.vertex_origin.resize(soup.positions.size());
     soup.face_origin.resize(soup.triangles.size());
     std::iota(soup.vertex_origin.begin(), soup.vertex_origin.end(), Index{0});
     std::iota(soup.face_origin.begin(), soup.face_origin.end(), Index{0});
+    ticker.poll();
     return soup;
 }
 
@@ -128,8 +131,7 @@ CleanResult clean_input(const agvd::MeshView& mesh, const agvd::Progress& progre
     agvd::Poller poller(progress);
     agvd::Ticker ticker(poller);
     check_elements(mesh, ticker);
-    Soup soup = as_soup(mesh);
-    soup.ticker = ticker;
+    Soup soup = as_soup(mesh, ticker);
 
     std::vector<EdgeUse> uses = edge_uses(soup);
     const auto refresh = [&](bool is_changed) {

@@ -23,6 +23,7 @@ std::vector<EdgeUse> sort_edge_uses(const std::vector<EdgeUse>& uses, Index num_
 std::vector<EdgeUse> edge_uses(const Soup& soup) {
     std::vector<EdgeUse> uses(soup.num_half_edges());
     agvd::Ticker ticker = soup.ticker;
+    ticker.poll();
     for (Index h = 0; h < uses.size(); ++h) {
         ticker.tick();
         const auto [low, high] = std::minmax({soup.tail(h), soup.head(h)});

@@ -52,10 +52,11 @@ std::vector<Component> find_components(const Surface& surface, const agvd::Progr
         component.area_up_to.push_back(before + doubled_area / 2);
         ++component.euler;
     }
-    for (const Index h : surface.edge_half) --components[label[Surface::face(h)]].euler;
-    for (const Index h : surface.outgoing) {
+    agvd::for_each_ticked(surface.edge_half, ticker,
+                          [&](Index h) { --components[label[Surface::face(h)]].euler; });
+    agvd::for_each_ticked(surface.outgoing, ticker, [&](Index h) {
         if (h != no_index) ++components[label[Surface::face(h)]].euler;
-    }
+    });
     for (const std::vector<Index>& loop : agvd::boundary_loops(surface)) {
         ++components[label[Surface::face(loop[0])]].boundary_loops;
     }
