@@ -56,7 +56,13 @@ public:
                                      " mesh has area; there is no surface to measure");
         }
         tree_.insert(triangles_.begin(), triangles_.end());
-        tree_.build();
+        const auto& traits = tree_.traits();
+        const auto split = traits.split_primitives_object();
+        tree_.custom_build(traits.compute_bbox_object(), [&](auto first, auto beyond, auto box) {
+            ticker.tick(static_cast<std::size_t>(beyond - first));
+            split(first, beyond, box);
+        });
+        ticker.poll();
         // To start each search from the answer to the one before was 7 to 14 times slower on scans.
         tree_.accelerate_distance_queries();
     }
