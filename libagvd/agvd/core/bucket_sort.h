@@ -23,8 +23,13 @@ template <typename Item, typename BucketOf, typename Less>
     for_each_ticked(items, ticker, [&](const Item& item) { ++end[bucket_of(item) + 1]; });
     for (Index i = 0; i < num_buckets; ++i) end[i + 1] += end[i];
     ticker.poll();
-    std::vector<Item> sorted(items.size());
-    ticker.poll();
+    std::vector<Item> sorted;
+    sorted.reserve(items.size());
+    while (sorted.size() < items.size()) {  // New pages take longer than all else.
+        constexpr std::size_t step = 1 << 18;
+        sorted.resize(std::min(items.size(), sorted.size() + step));
+        ticker.poll();
+    }
     for_each_ticked(items, ticker,
                     [&](const Item& item) { sorted[end[bucket_of(item)]++] = item; });
     Index begin = 0;

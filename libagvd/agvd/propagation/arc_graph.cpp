@@ -1,5 +1,7 @@
 #include "agvd/propagation/arc_graph.h"
 
+#include <algorithm>
+
 #include "agvd/core/poller.h"
 
 namespace agvd {
@@ -37,8 +39,12 @@ ArcGraph::ArcGraph(const Surface& surface, const Corners& corners, const Progres
     }
     ticker.poll();
     ends.assign(offsets.begin(), offsets.end() - 1);
-    arcs.resize(offsets.back());
-    ticker.poll();
+    arcs.reserve(offsets.back());
+    while (arcs.size() < offsets.back()) {  // New pages take longer than all else.
+        constexpr std::size_t step = 1 << 19;
+        arcs.resize(std::min<std::size_t>(offsets.back(), arcs.size() + step));
+        ticker.poll();
+    }
     const auto add = [this](Index a, Index b, double length) {
         const float rounded = static_cast<float>(length) * round_up;
         arcs[ends[a]++] = {b, rounded};

@@ -43,7 +43,14 @@ public:
         }
         result_.mixed_faces.resize(begins_.back().face);
         result_.relay_ranges.resize(begins_.back().face);
-        result_.relays.resize(begins_.back().relay);
+        poller.poll();
+        result_.relays.reserve(begins_.back().relay);
+        while (result_.relays.size() < begins_.back().relay) {  // New pages take long.
+            constexpr std::size_t step = 1 << 17;
+            result_.relays.resize(
+                std::min<std::size_t>(begins_.back().relay, result_.relays.size() + step));
+            poller.poll();
+        }
         parallel_chunks(
             num_ranges, 1, num_threads,
             [&](Index range, Index, Index) { write(range, Ticker(poller)); }, poller);

@@ -125,8 +125,8 @@ private:
 class EvenOut {
 public:
     EvenOut(const Surface& surface, std::vector<SurfacePoint>& sites,
-            std::span<const std::uint8_t> is_fixed)
-        : surface_(surface), sites_(sites), components_(find_components(surface)) {
+            std::span<const std::uint8_t> is_fixed, const agvd::Progress& progress)
+        : surface_(surface), sites_(sites), components_(find_components(surface, progress)) {
         may_move_.reserve(sites.size());
         for (Index i = 0; i < sites.size(); ++i) {
             const bool stays = (!is_fixed.empty() && is_fixed[i] != 0) ||
@@ -268,7 +268,7 @@ private:
 Index even_out(const Surface& surface, const agvd::SurfaceLayout& layout,
                std::vector<SurfacePoint>& sites, std::span<const std::uint8_t> is_fixed,
                int num_threads, const agvd::Progress& progress) {
-    return EvenOut(surface, sites, is_fixed).run(layout, num_threads, progress);
+    return EvenOut(surface, sites, is_fixed, progress).run(layout, num_threads, progress);
 }
 
 }  // namespace remesh::detail

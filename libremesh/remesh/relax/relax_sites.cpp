@@ -182,8 +182,9 @@ private:
 
 // How many sites to begin with so that they and the middles between them are `count`; nothing if
 // these would be too few.
-std::optional<Index> coarse_count(const Surface& surface, Index count) {
-    const std::vector<detail::Component> components = detail::find_components(surface);
+std::optional<Index> coarse_count(const Surface& surface, Index count,
+                                  const agvd::Progress& progress) {
+    const std::vector<detail::Component> components = detail::find_components(surface, progress);
     double euler = 0;
     for (const detail::Component& c : components) euler += c.euler;
     // V + E, with E = 3 V - 3 chi; edges on the boundary are a little fewer.
@@ -218,7 +219,8 @@ RelaxResult relax_sites(const Surface& surface, const SurfaceLayout& layout,
 RelaxResult sample_relaxed_sites(const Surface& surface, const SurfaceLayout& layout,
                                  const SamplingOptions& sampling, const RelaxOptions& options) {
     check_options(options, 0);
-    const std::optional<Index> coarse = coarse_count(surface, sampling.num_samples);
+    const std::optional<Index> coarse =
+        coarse_count(surface, sampling.num_samples, agvd::within(options.progress, 0, 0));
     if (!coarse || options.steps == 0) {
         return relax_sites(surface, layout, sample_sites(surface, sampling), options);
     }
