@@ -92,11 +92,13 @@ TEST(ParallelChunks, CallsBackOnTheCallingThreadOnly) {
 TEST(ParallelChunks, StopsALongChunkOfAnotherThread) {
     const auto caller = std::this_thread::get_id();
     std::atomic<bool> has_begun = false;
-    const Progress progress = [&](double) { return !has_begun; };
+    bool is_waiting = false;  // The calling thread has no chunk left.
+    const Progress progress = [&](double) { return !is_waiting; };
     Poller poller(progress);
     const auto body = [&](Index, Index, Index) {
         if (std::this_thread::get_id() == caller) {
             while (!has_begun) std::this_thread::yield();
+            is_waiting = true;
             return;
         }
         has_begun = true;
