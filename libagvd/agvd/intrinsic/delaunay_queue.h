@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "agvd/core/poller.h"
 #include "agvd/intrinsic/face_history.h"
 
 namespace agvd::detail {
@@ -14,9 +15,14 @@ namespace agvd::detail {
 class DelaunayQueue {
 public:
     //! \param is_kept  by edge: 1 for edges that stay; or empty. May grow.
+    //! \param ticker   outlives this: flips tick it.
     DelaunayQueue(Surface& surface, FaceCharts& charts, FaceHistory& history,
-                  const std::vector<std::uint8_t>& is_kept)
-        : surface_(surface), charts_(charts), history_(history), is_kept_(is_kept) {}
+                  const std::vector<std::uint8_t>& is_kept, Ticker& ticker)
+        : surface_(surface),
+          charts_(charts),
+          history_(history),
+          is_kept_(is_kept),
+          ticker_(ticker) {}
 
     //! Looks at an edge, and lets it wait if it fails.
     void push(Index edge);
@@ -42,6 +48,7 @@ private:
     FaceCharts& charts_;
     FaceHistory& history_;
     const std::vector<std::uint8_t>& is_kept_;
+    Ticker& ticker_;
     std::vector<Waiting> heap_;
     std::size_t num_flips_ = 0;
 };

@@ -70,11 +70,13 @@ struct WindowFront::Face {
     Index apex_record = no_index;
 };
 
-WindowFront::WindowFront(const Surface& surface, const Corners& corners, double max_error)
+WindowFront::WindowFront(const Surface& surface, const Corners& corners, double max_error,
+                         Ticker ticker)
     : surface_(surface),
       corners_(corners),
       per_bucket_(3 / corners.mean_length()),
       max_error_(max_error),
+      ticker_(ticker),
       vertex_slot_(surface.num_vertices(), 0),
       edge_slot_(surface.twin.size(), 0) {}
 
@@ -299,15 +301,20 @@ inline void WindowFront::take_in(EdgeRecord& edge, const Face& face) {
     for (Index run = only; run != no_index; run = runs_[run].next) {
         for (const Window& window : windows_of(run)) {
             if (is_beaten(window)) continue;
-            Index place = order_.extend(1);
+            const Index last = order_.extend(1);
+            Index place = last;
             for (; place > 0 && window.begin < order_[place - 1]->begin; --place) {
                 order_[place] = order_[place - 1];
             }
             order_[place] = &window;
+            ticker_.tick(1 + (last - place) / 16);  // Moves are quick.
         }
     }
     envelope_.clear();
-    for (const Window* window : order_) insert_window(*window, scratch_, envelope_);
+    for (const Window* window : order_) {
+        insert_window(*window, scratch_, envelope_);
+        ticker_.tick();
+    }
     if (max_error_ > 0) merge_neighbours();
     for (Index run = only; run != no_index;) give_back(std::exchange(run, runs_[run].next));
     if (edge.windows != no_index) give_back(edge.windows);
@@ -480,6 +487,7 @@ void WindowFront::serve_edge(Index record) {
     face.apex_record = vertex_record(face.previous.tail);
 
     const Run run = runs_[edge.windows];
+    ticker_.tick(run.count);
     divisions_.clear();
     for (Index i = run.first; i < run.first + run.count; ++i) {
         if (!pool_[i].is_served) divisions_.push(divide(pool_[i], edge, face));

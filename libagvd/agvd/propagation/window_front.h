@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "agvd/core/poller.h"
 #include "agvd/core/run_array.h"
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_point.h"
@@ -22,7 +23,9 @@ class WindowFront {
 public:
     //! \param surface, corners  outlive the front; Corners(surface).
     //! \param max_error    relative; 0: no window is merged.
-    WindowFront(const Surface& surface, const Corners& corners, double max_error);
+    //! \param ticker       of the thread that runs it.
+    WindowFront(const Surface& surface, const Corners& corners, double max_error,
+                Ticker ticker = {});
 
     //! Propagates from one site. Windows die where `bounds` are lower.
     //!
@@ -30,6 +33,7 @@ public:
     //!                  any rounding of it.
     //! \param work_cap  the most windows that may be served through one half-edge in order of
     //!                  buckets; if more are, the run starts again with the nearest window first.
+    //! \throw Cancelled  the next run begins anew.
     void run(const SurfacePoint& site, std::span<const float> bounds, Index work_cap);
 
     struct ReachedVertex {
@@ -170,6 +174,7 @@ private:
     const Corners& corners_;
     double per_bucket_;
     double max_error_;
+    Ticker ticker_;
     std::span<const float> bounds_;
     Order queue_order_ = Order::Buckets;
 

@@ -97,7 +97,10 @@ private:
 
     [[nodiscard]] std::vector<ClosedBallViolation> find_violations() const {
         std::vector<ClosedBallViolation> found = find_missing_sites();
-        if (found.empty()) found = find_closed_ball_violations(surface_, dual_.diagram);
+        if (found.empty()) {
+            found = find_closed_ball_violations(surface_, dual_.diagram,
+                                                progress_of(Stage::Dual, options_));
+        }
         return found;
     }
 
@@ -183,7 +186,9 @@ private:
     // Vertices in the order of their sites, then those of components from faces.
     void build_mesh() {
         std::vector<std::vector<Triangle>> triangles(ground_.components.size());
-        for (const Triangle& t : build_dual(surface_, dual_.diagram)) {
+        const agvd::Progress progress = progress_of(Stage::Dual, options_);
+        for (const Triangle& t :
+             build_dual(surface_, dual_.diagram, agvd::within(progress, 0, 0))) {
             triangles[component_of(sites_[t[0]])].push_back(t);
         }
         std::vector<bool> has_vertex(sites_.size(), false);
@@ -244,7 +249,8 @@ private:
         const auto num_sites = std::count_if(
             sites_.begin(), sites_.end(),
             [&](const SurfacePoint& site) { return component_of(site) == component; });
-        const SurfaceMesh part = component_mesh(surface_, faces, static_cast<Index>(num_sites));
+        const SurfaceMesh part = component_mesh(surface_, faces, static_cast<Index>(num_sites),
+                                                progress_of(Stage::Dual, options_));
         const auto first = static_cast<Index>(dual_.mesh.points.size());
         dual_.mesh.points.insert(dual_.mesh.points.end(), part.points.begin(), part.points.end());
         dual_.site.resize(dual_.mesh.points.size(), no_index);

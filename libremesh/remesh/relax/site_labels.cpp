@@ -35,19 +35,23 @@ SurfacePoint point_on(Index h, double along, double inside) {
 }  // namespace
 
 agvd::DistanceBounds label_vertices(const PreparedSurface& surface,
-                                    std::span<const SurfacePoint> sites, int num_threads) {
+                                    std::span<const SurfacePoint> sites, int num_threads,
+                                    const agvd::Progress& progress) {
     return agvd::distance_bounds(surface.base.surface(), surface.layout.arcs(),
                                  surface.layout.corners().mean_length(),
-                                 surface.base.to_intrinsic(sites), num_threads);
+                                 surface.base.to_intrinsic(sites), num_threads, progress);
 }
 
 CellMeasures measure_cells(const PreparedSurface& prepared, const agvd::DistanceBounds& labels,
-                           Index num_sites) {
+                           Index num_sites, const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    agvd::Ticker ticker(poller);
     const Surface& surface = prepared.base.surface();
     CellMeasures result{std::vector<double>(num_sites, 0), std::vector<double>(num_sites, 0),
                         std::vector<CellPlanes>(num_sites)};
     std::vector<agvd::Vec3> shadow(num_sites, agvd::Vec3::Zero());  // The largest is so long.
     for (Index f = 0; f < surface.num_faces(); ++f) {
+        ticker.tick();
         const agvd::Triangle& t = surface.mesh.triangles[f];
         const auto add = [&](Index site, double share) {
             if (site == no_index) return;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "agvd/core/poller.h"
 #include "agvd/mesh/refine.h"
 
 namespace remesh {
@@ -39,11 +40,14 @@ SurfacePoint point_in_face(const Surface& surface, Index face, const Vec3& posit
 }  // namespace
 
 SurfaceMesh component_mesh(const Surface& surface, const std::vector<Index>& faces,
-                           Index least_vertices) {
+                           Index least_vertices, const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    agvd::Ticker ticker(poller);
     agvd::TriangleMesh mesh;
     std::vector<Index> number(surface.num_vertices(), no_index);
     double longest = 0;
     for (const Index f : faces) {
+        ticker.tick();
         agvd::Triangle t = surface.mesh.triangles[f];
         for (Index& v : t) {
             if (number[v] == no_index) {
@@ -60,7 +64,7 @@ SurfaceMesh component_mesh(const Surface& surface, const std::vector<Index>& fac
     std::vector<Index> origin = faces;
     while (mesh.positions.size() < least_vertices) {
         longest *= shrinking;
-        agvd::RefinedMesh refined = agvd::split_long_edges(mesh.view(), longest);
+        agvd::RefinedMesh refined = agvd::split_long_edges(mesh.view(), longest, progress);
         mesh = std::move(refined.mesh);
         for (Index& f : refined.face_origin) f = origin[f];
         origin = std::move(refined.face_origin);
@@ -68,6 +72,7 @@ SurfaceMesh component_mesh(const Surface& surface, const std::vector<Index>& fac
 
     SurfaceMesh result{std::vector<SurfacePoint>(mesh.positions.size()), std::move(mesh.triangles)};
     for (Index f = 0; f < result.triangles.size(); ++f) {
+        ticker.tick();
         for (const Index v : result.triangles[f]) {
             result.points[v] = point_in_face(surface, origin[f], mesh.positions[v]);
         }

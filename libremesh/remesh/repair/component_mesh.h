@@ -19,6 +19,7 @@ struct SurfaceMesh {
 //! Cost: O(size of the result * log of it).
 [[nodiscard]] SurfaceMesh component_mesh(const agvd::Surface& surface,
                                          const std::vector<agvd::Index>& faces,
-                                         agvd::Index least_vertices);
+                                         agvd::Index least_vertices,
+                                         const agvd::Progress& progress = {});
 
 }  // namespace remesh
