@@ -41,41 +41,42 @@ void check_outputs(const DiagramArguments& arguments) {
     }
 }
 
-void run_diagram(const DiagramArguments& arguments) {
-    cli::Console console(arguments.common);
+void run_diagram(const DiagramArguments& arguments, cli::Console& console) {
     check_outputs(arguments);
-    const remesh::MeshFile input = remesh::read_mesh(arguments.input);
+    const remesh::MeshFile input = cli::read_input(arguments, console);
     const agvd::MeshView mesh = input.mesh.view();
     console.info(cli::describe(arguments.input, mesh));
-    const remesh::CleanResult clean =
-        cli::naming_file(arguments.input, [&] { return remesh::clean_input(mesh); });
+    const remesh::CleanResult clean = cli::naming_file(arguments.input, [&] {
+        return remesh::clean_input(mesh, arguments.common.threads, console.progress_of("clean"));
+    });
     console.info(remesh::to_text(clean.counts));
-    const agvd::Surface surface = agvd::build_surface(clean.mesh.view());
+    const agvd::Surface surface = agvd::build_surface(clean.mesh.view(), arguments.common.threads,
+                                                      console.progress_of("clean"));
 
-    const auto progress_of = [&](const char* stage) {
-        return [&console, stage](double fraction) { return console.progress(stage, fraction); };
-    };
     remesh::SamplingOptions sampling = arguments.sampling;
     sampling.num_threads = arguments.common.threads;
-    sampling.progress = progress_of("sample");
+    sampling.progress = console.progress_of("sample");
     const std::vector<agvd::SurfacePoint> sites =
         arguments.sites.empty()
             ? remesh::sample_sites(surface, sampling)
-            : remesh::to_cleaned(remesh::read_sites(arguments.sites, mesh), mesh, clean);
+            : remesh::to_cleaned(
+                  remesh::read_sites(arguments.sites, mesh, console.progress_of("read")), mesh,
+                  clean);
     agvd::PropagationOptions propagating = arguments.propagation;
     propagating.num_threads = arguments.common.threads;
-    propagating.progress = progress_of("propagate");
-    const agvd::IntrinsicTriangulation base(surface);
+    propagating.progress = console.progress_of("propagate");
+    const agvd::IntrinsicTriangulation base(surface, {.progress = console.progress_of("clean")});
     const std::vector<agvd::SurfacePoint> on_base = base.to_intrinsic(sites);
     const agvd::Propagation propagation = agvd::propagate(base.surface(), on_base, propagating);
+    const agvd::Progress drawing = console.progress_of("diagram");
     const agvd::Diagram diagram = agvd::diagram_on_input(
-        base, agvd::build_diagram(
-                  base.surface(), on_base, propagation,
-                  {.num_threads = arguments.common.threads, .progress = progress_of("diagram")}));
+        base,
+        agvd::build_diagram(base.surface(), on_base, propagation,
+                            {.num_threads = arguments.common.threads, .progress = drawing}),
+        drawing);
 
-    cli::stop_if_interrupted();
     for (const fs::path& output : arguments.outputs) {
-        remesh::write_diagram(output, surface, sites, diagram);
+        remesh::write_diagram(output, surface, sites, diagram, console.progress_of("write"));
     }
     const auto unreached =
         std::count_if(propagation.vertex_site.begin(), propagation.vertex_site.end(),
@@ -145,53 +146,55 @@ void check_same_input(const CompareArguments& arguments, const remesh::DiagramFi
 agvd::Diagram exact_diagram(const agvd::Surface& surface,
                             const std::vector<agvd::SurfacePoint>& sites, int threads,
                             cli::Console& console) {
-    const auto progress_of = [&](const char* stage) {
-        return [&console, stage](double fraction) { return console.progress(stage, fraction); };
-    };
-    const agvd::IntrinsicTriangulation base(surface);
+    const agvd::IntrinsicTriangulation base(surface, {.progress = console.progress_of("clean")});
     const std::vector<agvd::SurfacePoint> on_base = base.to_intrinsic(sites);
     const agvd::Propagation propagation = agvd::propagate(
         base.surface(), on_base,
-        {.max_error = 0, .num_threads = threads, .progress = progress_of("propagate")});
+        {.max_error = 0, .num_threads = threads, .progress = console.progress_of("propagate")});
+    const agvd::Progress drawing = console.progress_of("diagram");
     return agvd::diagram_on_input(
-        base, agvd::build_diagram(base.surface(), on_base, propagation,
-                                  {.num_threads = threads, .progress = progress_of("diagram")}));
+        base,
+        agvd::build_diagram(base.surface(), on_base, propagation,
+                            {.num_threads = threads, .progress = drawing}),
+        drawing);
 }
 
-void run_compare(const CompareArguments& arguments) {
-    cli::Console console(arguments.common);
+void run_compare(const CompareArguments& arguments, cli::Console& console) {
     const bool is_json_on_stdout = arguments.json == "-";
     const bool is_exact = arguments.b == "exact";
     if (!arguments.json.empty() && !is_json_on_stdout) {
         cli::check_output(arguments.json,
                           {arguments.a, is_exact ? fs::path() : fs::path(arguments.b)}, false);
     }
-    const remesh::DiagramFile a = remesh::read_diagram(arguments.a);
-    const agvd::Surface surface =
-        cli::naming_file(arguments.a, [&] { return agvd::build_surface(a.mesh.view()); });
+    const remesh::DiagramFile a = remesh::read_diagram(arguments.a, console.progress_of("read"));
     const int threads = arguments.common.threads;
+    const agvd::Surface surface = cli::naming_file(arguments.a, [&] {
+        return agvd::build_surface(a.mesh.view(), threads, console.progress_of("read"));
+    });
     agvd::Diagram b;
     if (is_exact) {
         b = cli::naming_file(arguments.a,
                              [&] { return exact_diagram(surface, a.sites, threads, console); });
     } else {
-        remesh::DiagramFile file = remesh::read_diagram(arguments.b);
+        remesh::DiagramFile file = remesh::read_diagram(arguments.b, console.progress_of("read"));
         check_same_input(arguments, a, file);
         b = std::move(file.diagram);
     }
     agvd::DiagramCompareOptions options = arguments.options;
     options.num_threads = threads;
+    options.progress = console.progress_of("compare");
     remesh::Comparison comparison;
     comparison.sites = a.diagram.num_sites;
     comparison.difference = agvd::compare_diagrams(surface, a.diagram, b, options);
-    cli::stop_if_interrupted();
     if (arguments.points > 0) {
         const std::array<const agvd::Diagram*, 2> diagrams{&a.diagram, &b};
-        const auto errors = agvd::exact_bisector_errors(
-            surface, a.sites, diagrams, {.max_points = arguments.points, .num_threads = threads});
+        const auto errors =
+            agvd::exact_bisector_errors(surface, a.sites, diagrams,
+                                        {.max_points = arguments.points,
+                                         .num_threads = threads,
+                                         .progress = console.progress_of("compare")});
         comparison.bisectors_a = errors[0];
         comparison.bisectors_b = errors[1];
-        cli::stop_if_interrupted();
     }
     const remesh::ComparisonInfo info{
         .version = REMESH_VERSION, .a = arguments.a.string(), .b = arguments.b};
@@ -254,9 +257,11 @@ int main(int argc, char** argv) {
     add_compare(app, for_compare);
     return cli::run(app, argc, argv, [&] {
         if (diagram->parsed()) {
-            run_diagram(for_diagram);
+            cli::Console console(for_diagram.common, cli::limit_of(for_diagram));
+            console.run([&] { run_diagram(for_diagram, console); });
         } else {
-            run_compare(for_compare);
+            cli::Console console(for_compare.common);
+            console.run([&] { run_compare(for_compare, console); });
         }
     });
 }

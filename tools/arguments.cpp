@@ -23,6 +23,13 @@ std::string check_max_error(const std::string& text) {
     return "the error " + text + " is no number from 0 (exact) to below 1";
 }
 
+// An empty text: it will do.
+std::string check_memory_limit(const std::string& text) {
+    if (parse_bytes(text)) return {};
+    return "the memory limit " + text +
+           " is no number of bytes above 0 (such as 500M or 2G) and no percentage (such as 50%)";
+}
+
 // CLI::Range lets NaN through.
 std::string check_lambda(const std::string& text) {
     double lambda = 0;
@@ -97,8 +104,29 @@ void add_diagram_options(CLI::App& app, DiagramArguments& arguments) {
         ->check(CLI::Validator(check_lambda, ""))
         ->type_name("L")
         ->capture_default_str();
+    arguments.memory_limit = machine_memory() / 4 * 3;
+    app.add_option_function<std::string>(
+           "--memory-limit",
+           [&arguments](const std::string& text) {
+               arguments.memory_limit = parse_bytes(text).value();
+           },
+           "Stop where more would be used: bytes, with K, M, G or T, or % of the machine's memory")
+        ->check(CLI::Validator(check_memory_limit, ""))
+        ->type_name("BYTES")
+        ->default_str("75%");
     app.add_flag("--force", arguments.force, "Allow an output to overwrite an input");
     add_common_options(app, arguments.common);
+}
+
+MemoryLimit limit_of(const DiagramArguments& arguments) {
+    return {.bytes = arguments.memory_limit, .engine = arguments.propagation.engine};
+}
+
+remesh::MeshFile read_input(const DiagramArguments& arguments, Console& console) {
+    std::error_code none;  // Reading will tell what is wrong.
+    const std::uintmax_t size = std::filesystem::file_size(arguments.input, none);
+    console.require_memory("read", none ? 0 : static_cast<std::size_t>(size));
+    return remesh::read_mesh(arguments.input, console.progress_of("read"));
 }
 
 std::string describe(const std::filesystem::path& path, const agvd::MeshView& mesh) {

@@ -8,6 +8,7 @@
 
 #include "agvd/propagation/propagate.h"
 #include "cli.h"
+#include "remesh/io/read_mesh.h"
 #include "remesh/sampling/sample_sites.h"
 
 namespace cli {
@@ -18,6 +19,7 @@ struct DiagramArguments {
     std::filesystem::path sites;  //!< Empty: sample.
     remesh::SamplingOptions sampling;
     agvd::PropagationOptions propagation;
+    std::size_t memory_limit = 0;  //!< Bytes; 0: unknown what the machine has.
     bool force = false;
     CommonOptions common;
 };
@@ -26,8 +28,15 @@ struct DiagramArguments {
 [[nodiscard]] std::map<std::string, agvd::Engine> engines_by_name();
 
 //! Adds IN, --samples, --init, --seed, --sites, --engine, --max-error, --steiner-points, --lambda,
-//! --force and the common options.
+//! --memory-limit, --force and the common options.
 void add_diagram_options(CLI::App& app, DiagramArguments& arguments);
+
+//! The limit for a Console.
+[[nodiscard]] MemoryLimit limit_of(const DiagramArguments& arguments);
+
+//! Reads IN; the file must fit into the memory allowed.
+//! \throw OutOfMemory  it does not.
+[[nodiscard]] remesh::MeshFile read_input(const DiagramArguments& arguments, Console& console);
 
 //! "FILE: N vertices, M faces", for the log.
 [[nodiscard]] std::string describe(const std::filesystem::path& path, const agvd::MeshView& mesh);

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 const char* const exit_code_help =
     "Exit codes:\n"
     "  0  done (warnings on stderr)          4  the mesh cannot be used\n"
-    "  1  internal error                     5  a constraint cannot be met, nothing written\n"
+    "  1  internal error, not enough memory  5  a constraint cannot be met, nothing written\n"
     "  2  wrong usage                        130, 143  interrupted, nothing written\n"
     "  3  a file cannot be read or written";
 
@@ -45,7 +45,7 @@ void catch_signals() {
         ::sigaction(number, nullptr, &action);
         if (action.sa_handler == SIG_IGN) continue;
         action.sa_handler = on_signal;
-        action.sa_flags = SA_RESTART;
+        action.sa_flags = 0;  // A pipe that keeps us waiting lets go.
         ::sigaction(number, &action, nullptr);
     }
 }
@@ -105,10 +105,10 @@ int run(CLI::App& app, int argc, const char* const* argv, const std::function<vo
     } catch (const agvd::Cancelled&) {
         std::fprintf(stderr, "%s: interrupted, nothing was written\n", name.c_str());
         return 128 + caught_signal;
+    } catch (const OutOfMemory& error) {
+        return fail(ExitCode::Internal, error.what());
     } catch (const std::bad_alloc&) {
-        return fail(
-            ExitCode::Internal,
-            "not enough memory; try fewer Steiner points, a coarser input or a larger machine");
+        return fail(ExitCode::Internal, "not enough memory; use a smaller mesh");
     } catch (const std::exception& error) {
         return fail(ExitCode::Internal,
                     std::string("internal error: ") + error.what() +
@@ -136,6 +136,7 @@ void check_output(const fs::path& path, std::initializer_list<fs::path> inputs, 
 void print(std::string_view text) {
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() ||
         std::fflush(stdout) != 0) {
+        stop_if_interrupted();
         throw agvd::IoError("cannot write to standard output: " +
                             std::generic_category().message(errno));
     }
@@ -145,7 +146,7 @@ void write_text(const fs::path& path, std::string_view text) {
     if (path == "-") {
         print(text);
     } else {
-        remesh::write_file_atomically(path, text);
+        remesh::write_file_atomically(path, text, [](double) { return !interrupted(); });
     }
 }
 
@@ -165,7 +166,53 @@ void Console::warn(std::string_view text) {
 }
 
 bool Console::progress(std::string_view stage, double fraction) {
+    constexpr std::chrono::milliseconds between_looks{5};
+    const auto now = std::chrono::steady_clock::now();
+    if (now >= next_look_ || stage != stage_) {
+        next_look_ = now + between_looks;
+        look(stage, fraction);
+    }
+    return !is_over_limit_ && !interrupted();
+}
+
+agvd::Progress Console::progress_of(const char* stage) {
+    return [this, stage](double fraction) { return progress(stage, fraction); };
+}
+
+void Console::run(const std::function<void()>& job) {
+    try {
+        job();
+    } catch (const agvd::Cancelled&) {
+        if (is_over_limit_ && !interrupted()) throw out_of_memory();
+        throw;
+    } catch (const std::bad_alloc&) {
+        throw out_of_memory();
+    }
+}
+
+void Console::require_memory(const char* stage, std::size_t bytes) {
+    look(stage, 0);
+    if (limit_.bytes == 0 || resident_memory() + bytes <= limit_.bytes) return;
+    is_over_limit_ = true;
+    throw out_of_memory();
+}
+
+OutOfMemory Console::out_of_memory() const {
+    std::string text = "not enough memory";
+    if (is_over_limit_) {
+        text += ": more than the " + format_bytes(limit_.bytes) + " of --memory-limit";
+    }
+    if (!stage_.empty()) text += " (stage: " + stage_ + ")";
+    text += "; " + memory_remedy(stage_, limit_.engine);
+    return OutOfMemory(is_over_limit_ ? text + ", or allow more" : text);
+}
+
+// The stage's name stays as it was where the limit was reached.
+void Console::look(std::string_view stage, double fraction) {
     static constexpr std::size_t width = 30;
+    if (is_over_limit_) return;
+    stage_ = stage;
+    is_over_limit_ = limit_.bytes > 0 && resident_memory() > limit_.bytes;
     if (!options_.quiet && ::isatty(STDERR_FILENO) == 1) {
         const auto filled = static_cast<std::size_t>(std::clamp(fraction, 0.0, 1.0) * width);
         std::ostringstream bar;
@@ -176,7 +223,6 @@ bool Console::progress(std::string_view stage, double fraction) {
             std::fputs(bar_.c_str(), stderr);
         }
     }
-    return !interrupted();
 }
 
 void Console::clear_bar() {

@@ -2,13 +2,15 @@
 //! What all programs share: exit codes, log and progress bar, interruption, checks of output paths.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
 #include <string>
 #include <string_view>
 
-#include "agvd/core/error.h"
+#include "agvd/core/progress.h"
+#include "memory_limit.h"
 
 namespace CLI {
 class App;
@@ -19,7 +21,7 @@ namespace cli {
 //! Also 130 after SIGINT and 143 after SIGTERM; then nothing was written.
 enum class ExitCode {
     Done = 0,
-    Internal = 1,    //!< Our bug, or no memory.
+    Internal = 1,    //!< Our bug, or not enough memory: see OutOfMemory.
     Usage = 2,       //!< Command line, agvd::InvalidOption.
     File = 3,        //!< agvd::IoError.
     Mesh = 4,        //!< agvd::InvalidInput.
@@ -71,12 +73,21 @@ auto naming_file(const std::filesystem::path& path, const Work& work) {
 void print(std::string_view text);
 
 //! Writes a text to `path`, all or nothing, or to stdout if the path is "-".
+//! \throw agvd::Cancelled  if interrupted(): an old file is as it was.
 void write_text(const std::filesystem::path& path, std::string_view text);
 
-//! What a program tells on stderr: texts a line each, and a progress bar on a terminal only.
+//! How much memory a job may use.
+struct MemoryLimit {
+    std::size_t bytes = 0;                       //!< 0: as much as the system gives.
+    agvd::Engine engine = agvd::Engine::Window;  //!< For the remedy.
+};
+
+//! What a program tells on stderr: texts a line each, and a progress bar on a terminal only. It
+//! also ends the job where it is interrupted or needs too much memory.
 class Console {
 public:
-    explicit Console(const CommonOptions& options) : options_(options) {}
+    explicit Console(const CommonOptions& options, const MemoryLimit& limit = {})
+        : options_(options), limit_(limit) {}
     Console(const Console&) = delete;
     Console& operator=(const Console&) = delete;
     ~Console() { clear_bar(); }
@@ -85,13 +96,29 @@ public:
     void info(std::string_view text);    //!< Unless --quiet.
     void warn(std::string_view text);    //!< Always.
 
-    //! A progress callback: draws the bar, and returns false once interrupted().
+    //! A progress callback: draws the bar, and returns false once interrupted() or above the
+    //! memory limit. Cheap: it looks at memory and terminal every few milliseconds only.
     [[nodiscard]] bool progress(std::string_view stage, double fraction);
+    //! The same for one stage; this must outlive it.
+    [[nodiscard]] agvd::Progress progress_of(const char* stage);
+
+    //! Calls the job, whose callbacks are those above.
+    //! \throw OutOfMemory  in place of the agvd::Cancelled or std::bad_alloc that this causes.
+    void run(const std::function<void()>& job);
+    //! Call before a stage that takes so much at once.
+    //! \throw OutOfMemory  that would be above the limit.
+    void require_memory(const char* stage, std::size_t bytes);
 
 private:
+    void look(std::string_view stage, double fraction);
     void clear_bar();
+    [[nodiscard]] OutOfMemory out_of_memory() const;
 
     const CommonOptions& options_;
+    MemoryLimit limit_;
+    std::string stage_;  // As last told.
+    std::chrono::steady_clock::time_point next_look_;
+    bool is_over_limit_ = false;
     std::string bar_;  // As on the screen now; empty: none.
 };
 

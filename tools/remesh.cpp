@@ -122,10 +122,9 @@ void check_outputs(const Arguments& arguments) {
     }
 }
 
-void run_job(const Arguments& arguments) {
-    cli::Console console(arguments.common);
+void run_job(const Arguments& arguments, cli::Console& console) {
     check_outputs(arguments);
-    remesh::MeshFile input = remesh::read_mesh(arguments.input);
+    remesh::MeshFile input = cli::read_input(arguments, console);
     std::vector<agvd::Index>().swap(input.face_polygon);  // Nobody reads it.
     console.info(cli::describe(arguments.input, input.mesh.view()));
     remesh::RemeshOptions options{.num_samples = arguments.sampling.num_samples,
@@ -147,13 +146,13 @@ void run_job(const Arguments& arguments) {
                                       return console.progress(remesh::stage_name(stage), fraction);
                                   }};
     if (!arguments.sites.empty()) {
-        options.sites = remesh::read_sites(arguments.sites, input.mesh.view());
+        options.sites =
+            remesh::read_sites(arguments.sites, input.mesh.view(), console.progress_of("read"));
     }
     const remesh::RemeshResult result = cli::naming_file(
         arguments.input, [&] { return remesh::remesh(input.mesh.view(), options); });
     judge(result, arguments.strict, console);
-    cli::stop_if_interrupted();
-    remesh::write_mesh(arguments.output, result.mesh.view());
+    remesh::write_mesh(arguments.output, result.mesh.view(), console.progress_of("write"));
     const remesh::RunInfo info{.version = REMESH_VERSION,
                                .input_path = arguments.input.string(),
                                .output_path = arguments.output.string(),
@@ -171,5 +170,8 @@ int main(int argc, char** argv) {
     Arguments arguments;
     add_options(app, arguments);
     app.footer(std::string(footer) + cli::exit_code_help);
-    return cli::run(app, argc, argv, [&] { run_job(arguments); });
+    return cli::run(app, argc, argv, [&] {
+        cli::Console console(arguments.common, cli::limit_of(arguments));
+        console.run([&] { run_job(arguments, console); });
+    });
 }

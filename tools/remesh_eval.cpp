@@ -24,18 +24,20 @@ struct Arguments {
     remesh::EvaluationOptions options;
 };
 
-void run_job(const Arguments& arguments) {
+void run_job(Arguments& arguments, cli::Console& console) {
     const bool is_json_on_stdout = arguments.json == "-";
     if (!arguments.json.empty() && !is_json_on_stdout) {
         cli::check_output(arguments.json, {arguments.original, arguments.result}, false);
     }
-    const remesh::MeshFile original = remesh::read_mesh(arguments.original);
-    const remesh::MeshFile result = remesh::read_mesh(arguments.result);
+    const remesh::MeshFile original =
+        remesh::read_mesh(arguments.original, console.progress_of("read"));
+    const remesh::MeshFile result =
+        remesh::read_mesh(arguments.result, console.progress_of("read"));
+    arguments.options.progress = console.progress_of("measure");
     const std::string both = arguments.original.string() + " against " + arguments.result.string();
     const remesh::Evaluation evaluation = cli::naming_file(both, [&] {
         return remesh::evaluate(original.mesh.view(), result.mesh.view(), arguments.options);
     });
-    cli::stop_if_interrupted();
     const remesh::EvaluationInfo info{.version = REMESH_VERSION,
                                       .original_path = arguments.original.string(),
                                       .result_path = arguments.result.string()};
@@ -59,5 +61,9 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(0, 4096))
         ->capture_default_str();
     app.footer(std::string(footer) + cli::exit_code_help);
-    return cli::run(app, argc, argv, [&] { run_job(arguments); });
+    return cli::run(app, argc, argv, [&] {
+        const cli::CommonOptions quietly{.quiet = true};  // It has no such option.
+        cli::Console console(quietly);
+        console.run([&] { run_job(arguments, console); });
+    });
 }

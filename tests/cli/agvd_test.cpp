@@ -53,6 +53,17 @@ TEST_F(AgvdDiagram, TellsTheEngineAndWhatItCertifies) {
     EXPECT_NE(outcome.err.find("steiner engine, error unknown"), std::string::npos) << outcome.err;
 }
 
+TEST_F(AgvdDiagram, StopsAboveTheMemoryLimitAndNamesTheStage) {
+    const std::string in = put("in.off", shapes::sphere(2));
+    put("out.ply", "old");
+    const auto outcome =
+        run(AGVD_PROGRAM, {"diagram", in, "-n", "5", "-o", at("out.ply"), "--memory-limit", "1M"});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_NE(outcome.err.find("stage: read"), std::string::npos) << outcome.err;
+    EXPECT_EQ(bytes("out.ply"), "old");
+    EXPECT_EQ(num_files(), 2u);
+}
+
 TEST_F(AgvdDiagram, ExitCodes) {
     const std::string in = put("in.off", shapes::sphere(1));
     EXPECT_EQ(run(AGVD_PROGRAM, {}).exit_code, 2);

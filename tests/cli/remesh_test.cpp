@@ -246,6 +246,50 @@ TEST_F(Remesh, OverwritesAnInputOnlyWithForce) {
     EXPECT_NE(bytes("in.off"), old);
 }
 
+TEST_F(Remesh, StopsAboveTheMemoryLimitAndNamesTheStage) {
+    const std::string in = put("in.ply", shapes::sphere(3));
+    put("out.ply", "old");
+    auto outcome = remesh({in, at("out.ply"), "-n", "50", "--memory-limit", "1M"});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_NE(outcome.err.find("1M of --memory-limit"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("stage: read"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("use a smaller mesh"), std::string::npos) << outcome.err;
+    EXPECT_EQ(bytes("out.ply"), "old");
+    EXPECT_EQ(num_files(), 2u);
+
+    // Some 250 MB of Steiner points.
+    outcome = remesh({in, at("out.ply"), "-n", "50", "--relax", "0", "--engine", "steiner",
+                      "--steiner-points", "1000", "--lambda", "1e9", "--memory-limit", "50M"});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_NE(outcome.err.find("stage: propagate"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("--steiner-points"), std::string::npos) << outcome.err;
+    EXPECT_EQ(bytes("out.ply"), "old");
+    EXPECT_EQ(num_files(), 2u);
+}
+
+// More than the machine could read: told before anything is.
+TEST_F(Remesh, RefusesAFileThatCannotFit) {
+    const std::string in = put("in.off", "OFF\n");
+    fs::resize_file(in, std::uintmax_t{1} << 38);
+    const auto outcome = remesh({in, at("out.ply"), "--memory-limit", "4G"});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_NE(outcome.err.find("stage: read"), std::string::npos) << outcome.err;
+}
+
+TEST_F(Remesh, TakesMemoryLimitsWithSuffixesAndRefusesGarbage) {
+    const std::string in = put("in.ply", shapes::sphere(2));
+    for (const char* limit :
+         {"500M", "2G", "1.5g", "1t", "4000000000", "90%", "100%", "3000000K"}) {
+        const auto outcome = remesh({in, at("out.ply"), "-n", "30", "--memory-limit", limit});
+        EXPECT_EQ(outcome.exit_code, 0) << limit << outcome.err;
+    }
+    for (const char* limit : {"", "0", "0%", "-1G", "101%", "G", "2X", "2GB", "nan", "inf", "1e400",
+                              "2 G", "99999999999T"}) {
+        const auto outcome = remesh({in, at("out.ply"), "-n", "30", "--memory-limit", limit});
+        EXPECT_EQ(outcome.exit_code, 2) << limit << outcome.err;
+    }
+}
+
 TEST_F(Remesh, ASignalEndsItWithTheOldFileUntouched) {
     // Work for minutes, so that the signal always finds it at work.
     const std::string in = put("in.ply", shapes::sphere(6));

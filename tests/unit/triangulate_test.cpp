@@ -16,7 +16,8 @@ std::vector<Triangle> cut(const std::vector<Vec3>& positions) {
     std::vector<Index> polygon(positions.size());
     std::iota(polygon.begin(), polygon.end(), Index{0});
     std::vector<Triangle> triangles;
-    remesh::append_triangles(polygon, positions, triangles);
+    agvd::Ticker ticker;
+    remesh::append_triangles(polygon, positions, ticker, triangles);
     return triangles;
 }
 

@@ -5,6 +5,7 @@
 
 #include <functional>
 
+#include "agvd/core/poller.h"
 #include "agvd/core/types.h"
 
 namespace agvd {
@@ -13,7 +14,15 @@ namespace agvd {
 //!
 //! \param grain        chunk size, >= 1; chunk c is [c * grain, min((c + 1) * grain, count)).
 //! \param num_threads  >= 0; 0: all cores. With 1, chunks run in order on the calling thread.
-//! The body must not throw: record the failure and throw the lowest after the loop.
+//! \param poller       polled between chunks, and by the calling thread while it waits for the
+//!                     others. A long body polls it as well.
+//! The body must not throw but for Cancelled (of the poller) and std::bad_alloc: it is thrown here
+//! once no thread is in the body any more. Record other failures and throw the lowest after the
+//! loop.
+void parallel_chunks(Index count, Index grain, int num_threads,
+                     const std::function<void(Index chunk, Index begin, Index end)>& body,
+                     Poller& poller);
+//! The same for short loops that poll nothing.
 void parallel_chunks(Index count, Index grain, int num_threads,
                      const std::function<void(Index chunk, Index begin, Index end)>& body);
 

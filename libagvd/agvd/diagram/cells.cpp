@@ -1,6 +1,7 @@
 #include "agvd/diagram/cells.h"
 
 #include <algorithm>
+#include <functional>
 
 namespace agvd {
 namespace {
@@ -33,7 +34,7 @@ using Side = Index;
     return next;
 }
 
-void collect_loops(const Diagram& diagram, Cells& cells) {
+void collect_loops(const Diagram& diagram, Ticker& ticker, Cells& cells) {
     const std::vector<Side> next = next_sides(diagram);
     std::vector<std::vector<DirectedEdge>> loops;
     std::vector<std::pair<SiteId, Index>> loop_of;  // (site, loop)
@@ -43,6 +44,7 @@ void collect_loops(const Diagram& diagram, Cells& cells) {
         loop_of.emplace_back(site_of(diagram, start), static_cast<Index>(loops.size()));
         auto& loop = loops.emplace_back();
         for (Side side = start; !seen[side]; side = next[side]) {
+            ticker.tick();
             seen[side] = true;
             loop.push_back({side / 2, side % 2 == 1});
         }
@@ -58,14 +60,14 @@ void collect_loops(const Diagram& diagram, Cells& cells) {
     for (Index s = 0; s < diagram.num_sites; ++s) cells.cell_loops[s + 1] += cells.cell_loops[s];
 }
 
-void collect_neighbours(const Diagram& diagram, Cells& cells) {
+void collect_neighbours(const Diagram& diagram, Ticker& ticker, Cells& cells) {
     std::vector<std::pair<SiteId, SiteId>> pairs;
     for (const VoronoiEdge& edge : diagram.edges) {
         if (!edge.right.is_valid()) continue;
         pairs.emplace_back(edge.left, edge.right);
         pairs.emplace_back(edge.right, edge.left);
     }
-    std::sort(pairs.begin(), pairs.end());
+    sort_ticked(pairs, ticker, std::less<>());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     cells.neighbour_offsets.assign(diagram.num_sites + 1, 0);
     for (const auto& [site, neighbour] : pairs) {
@@ -79,10 +81,10 @@ void collect_neighbours(const Diagram& diagram, Cells& cells) {
 
 }  // namespace
 
-Cells build_cells(const Diagram& diagram) {
+Cells build_cells(const Diagram& diagram, Ticker ticker) {
     Cells cells;
-    collect_loops(diagram, cells);
-    collect_neighbours(diagram, cells);
+    collect_loops(diagram, ticker, cells);
+    collect_neighbours(diagram, ticker, cells);
     return cells;
 }
 

@@ -2,6 +2,7 @@
 //! The diagram seen cell by cell: boundary loops and neighbours.
 #pragma once
 
+#include "agvd/core/poller.h"
 #include "agvd/diagram/diagram.h"
 
 namespace agvd {
@@ -24,6 +25,6 @@ struct Cells {
 };
 
 //! Cost: O(size of the complex).
-[[nodiscard]] Cells build_cells(const Diagram& diagram);
+[[nodiscard]] Cells build_cells(const Diagram& diagram, Ticker ticker = {});
 
 }  // namespace agvd

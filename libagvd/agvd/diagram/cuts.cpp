@@ -218,20 +218,24 @@ CutFace add_cut_face(const FoundCuts& found, const CutFace& cut, Index num_verti
 
 void cut_faces(const Surface& surface, const Propagation& propagation,
                const SitePlacement& placement, const RelayGroups& groups,
-               std::span<const Index> mixed, int num_threads, EdgeLabels& labels) {
+               std::span<const Index> mixed, int num_threads, Poller& poller, EdgeLabels& labels) {
     if (placement.is_empty()) return;
     constexpr Index grain = 512;
     const auto count = static_cast<Index>(mixed.size());
     std::vector<FoundCuts> found(num_chunks(count, grain));
-    parallel_chunks(count, grain, num_threads, [&](Index chunk, Index begin, Index end) {
+    const auto cut_chunk = [&](Index chunk, Index begin, Index end) {
         FaceCutter cutter(surface, propagation, groups, labels, found[chunk]);
+        Ticker ticker(poller);
         for (Index i = begin; i < end; ++i) {
             const auto placed = placement.in_face(propagation.mixed_faces[mixed[i]]);
             if (!placed.empty()) cutter.cut(mixed[i], placed);
+            ticker.tick(1 + relays_of(propagation, mixed[i]).size() * placed.size());
         }
-    });
+    };
+    parallel_chunks(count, grain, num_threads, cut_chunk, poller);
     const auto num_before = static_cast<std::ptrdiff_t>(labels.cut_faces.size());
     for (const FoundCuts& part : found) {
+        poller.poll();
         for (const CutFace& cut : part.faces) {
             labels.cut_faces.push_back(add_cut_face(part, cut, surface.num_vertices(), labels));
         }

@@ -13,7 +13,7 @@ namespace agvd {
 //! Parallel. Cost: the relays near it, a site inside a listed face, and sorting the face's relays.
 void cut_faces(const Surface& surface, const Propagation& propagation,
                const SitePlacement& placement, const RelayGroups& groups,
-               std::span<const Index> mixed, int num_threads, EdgeLabels& labels);
+               std::span<const Index> mixed, int num_threads, Poller& poller, EdgeLabels& labels);
 
 //! Takes out what belongs to a face, if it is cut, but for its entry in cut_faces.
 void release_cut(const CutFace& cut, Index num_vertices, EdgeLabels& labels);

@@ -31,25 +31,34 @@ public:
         count_unlisted_faces();
         const std::vector<Index> candidates = mixed_candidates();
         RelayGroups groups = group_relays(candidates);
-        label_edges(surface_, propagation_, groups, candidates, options_.num_threads, touched_,
-                    labels_, tally_);
+        label_edges(surface_, propagation_, groups, candidates, options_.num_threads, poller_,
+                    touched_, labels_, tally_);
         const std::vector<Index> mixed = touched_.is_all() ? candidates : clear_stale();
-        cut_faces(surface_, propagation_, placement, groups, mixed, options_.num_threads, labels_);
+        cut_faces(surface_, propagation_, placement, groups, mixed, options_.num_threads, poller_,
+                  labels_);
         count_cuts_in(mixed);
-        poll(options_.progress, 0.5);
+        poller_.tell(0.5);
         trace(mixed, groups);
-        poll(options_.progress, 0.9);
-
-        // From here on nothing throws.
-        diagram.num_sites = static_cast<Index>(sites_.size());
-        kept_.joiner.join(labels_, arcs_, faces_at(mixed));
+        poller_.tell(0.9);
+        kept_.joiner.join(labels_, arcs_, faces_at(mixed), Ticker(poller_));
         absorb_all_islands(groups);
-        kept_.joiner.draw(surface_, labels_, arcs_, diagram);
+        if (touched_.is_all()) {
+            Diagram whole;
+            write(Ticker(poller_), whole);
+            diagram = std::move(whole);
+        } else {
+            write({}, diagram);  // Nothing throws.
+        }
+    }
+
+private:
+    void write(Ticker ticker, Diagram& diagram) {
+        diagram.num_sites = static_cast<Index>(sites_.size());
+        kept_.joiner.draw(surface_, labels_, arcs_, ticker, diagram);
         tally_.write(diagram);
         set_nearest(diagram);
     }
 
-private:
     void set_nearest(Diagram& diagram) {
         if (std::exchange(kept_.is_renumbered, false) || touched_.is_all()) {
             diagram.nearest_distance = labels_.vertex_distance;
@@ -133,7 +142,9 @@ private:
             tally_.count_face(face, old_labels_[i], -1);
             tally_.count_face(face, label, 1);
         }
+        Ticker ticker(poller_);
         for (Index f = 0; touched_.is_all() && f < surface_.num_faces(); ++f) {
+            ticker.tick();
             tally_.count_face(f, label_of(f), 1);
         }
     }
@@ -147,7 +158,7 @@ private:
         }
         label_vertices(surface_, propagation_, touched_,
                        touched_.is_all() ? all_mixed() : places_of(touched_.faces()),
-                       options_.num_threads, labels_);
+                       options_.num_threads, poller_, labels_);
         for (Index i = 0; i < before.size(); ++i) {
             const Index v = touched_.vertices()[i];
             const auto& [site, distance] = before[i];
@@ -222,8 +233,8 @@ private:
     }
 
     // For labelling and tracing these faces.
-    [[nodiscard]] RelayGroups group_relays(std::span<const Index> mixed) const {
-        if (touched_.is_all()) return {propagation_, mixed, options_.num_threads};
+    [[nodiscard]] RelayGroups group_relays(std::span<const Index> mixed) {
+        if (touched_.is_all()) return {propagation_, mixed, options_.num_threads, poller_};
         std::vector<Index> faces = faces_at(mixed);
         for (const Index i : mixed) {
             const Index first = 3 * propagation_.mixed_faces[i];
@@ -233,7 +244,7 @@ private:
         }
         std::sort(faces.begin(), faces.end());
         faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
-        return {propagation_, places_of(faces), options_.num_threads};
+        return {propagation_, places_of(faces), options_.num_threads, poller_};
     }
 
     // Faces come in lots, so that what is traced is stored while it is in the cache.
@@ -244,12 +255,13 @@ private:
         for (std::size_t begin = 0; begin < mixed.size(); begin += most) {
             const auto some =
                 mixed.subspan(begin, std::min<std::size_t>(most, mixed.size() - begin));
+            const auto trace_chunk = [&](Index chunk, Index first, Index last) {
+                trace_faces(surface_, propagation_, groups, labels_, options_.chord_tolerance,
+                            some.subspan(first, last - first), Ticker(poller_), chunks[chunk]);
+            };
             parallel_chunks(static_cast<Index>(some.size()), grain, options_.num_threads,
-                            [&](Index chunk, Index first, Index last) {
-                                trace_faces(surface_, propagation_, groups, labels_,
-                                            options_.chord_tolerance,
-                                            some.subspan(first, last - first), chunks[chunk]);
-                            });
+                            trace_chunk, poller_);
+            poller_.poll();
             // Places that were released are for one face at a time.
             store(faces_at(some), chunks, is_first ? grain : 1);
             if (begin == 0 && is_first) {
@@ -272,6 +284,7 @@ private:
         kept_.mended_faces.clear();
         find_displaced(surface_, sites_, labels_, touched_, kept_.displaced);
         while (true) {
+            poller_.poll();
             CellSet asked = tally_.take_changed();
             asked.insert(kept_.in_doubt);
             kept_.in_doubt = cells_in_doubt(
@@ -296,7 +309,7 @@ private:
             for (const Index face : stale) clear_arcs(face);
             if (!touched_.is_all()) groups = group_relays(mixed);
             trace(mixed, groups);
-            kept_.joiner.join(labels_, arcs_, stale);
+            kept_.joiner.join(labels_, arcs_, stale, Ticker(poller_));
             kept_.mended_faces.insert(kept_.mended_faces.end(), stale.begin(), stale.end());
         }
     }
@@ -305,6 +318,7 @@ private:
 
     const Surface& surface_;
     const DiagramOptions& options_;
+    Poller poller_{options_.progress};
     Kept& kept_;
     EdgeLabels& labels_;
     ArcStore& arcs_;

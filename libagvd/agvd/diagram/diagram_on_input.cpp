@@ -1,5 +1,6 @@
 #include "agvd/diagram/diagram_on_input.h"
 
+#include "agvd/core/poller.h"
 #include "agvd/mesh/point_faces.h"
 
 namespace agvd {
@@ -8,8 +9,8 @@ namespace {
 // Draws Voronoi edges point by point.
 class Drawing {
 public:
-    Drawing(const IntrinsicTriangulation& base, const Diagram& diagram)
-        : base_(base), diagram_(diagram) {}
+    Drawing(const IntrinsicTriangulation& base, const Diagram& diagram, Ticker ticker)
+        : base_(base), diagram_(diagram), ticker_(ticker) {}
 
     void run() {
         edge_points.push_back(0);
@@ -37,6 +38,8 @@ private:
 
     // A segment but for its end.
     void draw(Index from, Index to) {
+        constexpr std::size_t segment_work = 16;  // Steps that a segment counts for.
+        ticker_.tick(segment_work);
         const SurfacePoint& a = diagram_.points[from];
         const SurfacePoint& b = diagram_.points[to];
         const Index face = common_faces(base_.surface(), a, b).first;
@@ -63,13 +66,16 @@ private:
 
     const IntrinsicTriangulation& base_;
     const Diagram& diagram_;
+    Ticker ticker_;
     std::vector<SurfacePoint> parts_;
 };
 
 }  // namespace
 
-Diagram diagram_on_input(const IntrinsicTriangulation& base, Diagram diagram) {
-    Drawing drawing(base, diagram);
+Diagram diagram_on_input(const IntrinsicTriangulation& base, Diagram diagram,
+                         const Progress& progress) {
+    Poller poller(progress);
+    Drawing drawing(base, diagram, Ticker(poller));
     drawing.run();
     diagram.points = std::move(drawing.points);
     diagram.point_distance = std::move(drawing.point_distance);

@@ -58,12 +58,13 @@ private:
 // One call of draw().
 class ArcJoiner::Drawing {
 public:
-    Drawing(const Surface& surface, const EdgeLabels& labels, const ArcStore& arcs,
+    Drawing(const Surface& surface, const EdgeLabels& labels, const ArcStore& arcs, Ticker ticker,
             ArcJoiner& joiner, Diagram& diagram)
         : surface_(surface),
           labels_(labels),
           arcs_(arcs),
           nodes_(surface, labels, arcs),
+          ticker_(ticker),
           in_(joiner),
           out_(diagram) {}
 
@@ -113,6 +114,7 @@ private:
         numbers_.resize(in_.edges_.size());
         out_.edges.clear();
         for (const Index name : in_.order_) {
+            ticker_.tick();
             numbers_[name] = static_cast<Index>(out_.edges.size());
             const Edge& edge = in_.edges_[name];
             out_.edges.push_back({SiteId(edge.left), SiteId(edge.right), no_index, no_index});
@@ -138,6 +140,7 @@ private:
     void add_branches() {
         Index vertex = 0;
         for (const FaceBranches& in_face : in_.branches_) {
+            ticker_.tick();
             for (const ArcStore::Branch& branch : arcs_.branches()[in_face.branches]) {
                 for (std::size_t k = 0; k < 3; ++k) {
                     attach(edge_end(branch.ends[k]), branch.sites[k], vertex);
@@ -233,6 +236,7 @@ private:
 
     void walk(ArcEnd from, ArcEnd last) {
         while (true) {
+            ticker_.tick();
             const LocalArc& arc = arcs_.arcs()[from / 2];
             const Index node = node_at(arcs_, from);
             const bool is_across = from % 2 == 0 ? arc.tail_is_across : arc.head_is_across;
@@ -306,6 +310,7 @@ private:
     const EdgeLabels& labels_;
     const ArcStore& arcs_;
     Nodes nodes_;
+    Ticker ticker_;
     ArcJoiner& in_;
     Diagram& out_;
     std::vector<Index> numbers_;  // By edge of the joiner, in the diagram.
@@ -313,8 +318,8 @@ private:
 };
 
 void ArcJoiner::draw(const Surface& surface, const EdgeLabels& labels, const ArcStore& arcs,
-                     Diagram& diagram) {
-    Drawing(surface, labels, arcs, *this, diagram).run();
+                     Ticker ticker, Diagram& diagram) {
+    Drawing(surface, labels, arcs, ticker, *this, diagram).run();
 }
 
 }  // namespace agvd

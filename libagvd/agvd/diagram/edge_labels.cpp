@@ -207,7 +207,7 @@ void list_mixed_faces(const Surface& surface, const Propagation& propagation, Ed
 
 void label_vertices(const Surface& surface, const Propagation& propagation,
                     const TouchedParts& touched, std::span<const Index> mixed, int num_threads,
-                    EdgeLabels& labels) {
+                    Poller& poller, EdgeLabels& labels) {
     if (touched.is_all()) {
         labels.vertex_distance = propagation.vertex_distance;
         labels.point_site.clear();
@@ -221,11 +221,12 @@ void label_vertices(const Surface& surface, const Propagation& propagation,
     const std::vector<std::uint8_t> is_fixed = fixed_vertices(surface, labels, touched);
     const auto count = static_cast<Index>(mixed.size());
     std::vector<std::vector<ShorterPath>> found(num_chunks(count, grain));
-    parallel_chunks(count, grain, num_threads, [&](Index chunk, Index begin, Index end) {
+    const auto find = [&](Index chunk, Index begin, Index end) {
         for (Index i = begin; i < end; ++i) {
             find_shorter_paths(surface, propagation, is_fixed, mixed[i], found[chunk]);
         }
-    });
+    };
+    parallel_chunks(count, grain, num_threads, find, poller);
     for (const auto& paths : found) {
         for (const ShorterPath& path : paths) {
             double& distance = labels.vertex_distance[path.vertex];
@@ -238,13 +239,14 @@ void label_vertices(const Surface& surface, const Propagation& propagation,
 }
 
 void label_edges(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
-                 std::span<const Index> mixed, int num_threads, TouchedParts& touched,
-                 EdgeLabels& labels, CellTally& tally) {
+                 std::span<const Index> mixed, int num_threads, Poller& poller,
+                 TouchedParts& touched, EdgeLabels& labels, CellTally& tally) {
     const auto count = static_cast<Index>(mixed.size());
     std::vector<FoundRows> found(num_chunks(count, grain));
-    parallel_chunks(count, grain, num_threads, [&](Index chunk, Index begin, Index end) {
+    const auto label_chunk = [&](Index chunk, Index begin, Index end) {
         EdgeLabeller labeller(surface, labels, {surface, propagation, groups, labels},
                               found[chunk]);
+        Ticker ticker(poller);
         for (Index i = begin; i < end; ++i) {
             constexpr Index ahead = 2;
             for (const bool relays_too : {true, false}) {
@@ -257,10 +259,13 @@ void label_edges(const Surface& surface, const Propagation& propagation, const R
             for (Index h = 3 * face; h < 3 * face + 3; ++h) {
                 if (is_labelled(surface, labels, h) && !touched.holds_on_edge(h)) labeller.label(h);
             }
+            ticker.tick(1 + relays_of(propagation, mixed[i]).size());
         }
-    });
+    };
+    parallel_chunks(count, grain, num_threads, label_chunk, poller);
     if (touched.is_all()) reserve_crossings(found, labels);
     for (const FoundRows& part : found) {
+        poller.poll();
         for (const FoundRow& row : part.rows) {
             replace_row(row.edge,
                         std::span(part.crossings).subspan(row.crossings.begin, row.crossings.count),

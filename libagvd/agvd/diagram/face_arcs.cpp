@@ -282,13 +282,14 @@ private:
 
 void trace_faces(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
                  const EdgeLabels& labels, double chord_tolerance, std::span<const Index> mixed,
-                 FaceArcs& out) {
+                 Ticker ticker, FaceArcs& out) {
     out.clear();
     FaceTracer tracer(surface, propagation, groups, labels, chord_tolerance, out);
     const auto comes_before = [](const CutFace& cut, Index face) { return cut.face < face; };
     auto cut = labels.cut_faces.begin();
     for (const Index i : mixed) {
         out.faces.push_back(out.mark());
+        ticker.tick(1 + relays_of(propagation, i).size());
         const Index face = propagation.mixed_faces[i];
         cut = std::lower_bound(cut, labels.cut_faces.end(), face, comes_before);
         if (cut != labels.cut_faces.end() && cut->face == face) {

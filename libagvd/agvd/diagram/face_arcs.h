@@ -56,6 +56,6 @@ struct FaceArcs {
 //! they do not agree with each other, what the edges hand on does.
 void trace_faces(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
                  const EdgeLabels& labels, double chord_tolerance, std::span<const Index> mixed,
-                 FaceArcs& out);
+                 Ticker ticker, FaceArcs& out);
 
 }  // namespace agvd

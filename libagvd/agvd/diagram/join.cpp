@@ -35,8 +35,8 @@ void ArcJoiner::forget(const ArcStore& arcs, Index face) {
 // One call of join().
 class ArcJoiner::Run {
 public:
-    Run(const EdgeLabels& labels, const ArcStore& arcs, ArcJoiner& joiner)
-        : labels_(labels), arcs_(arcs), in_(joiner) {}
+    Run(const EdgeLabels& labels, const ArcStore& arcs, Ticker ticker, ArcJoiner& joiner)
+        : labels_(labels), arcs_(arcs), ticker_(ticker), in_(joiner) {}
 
     void run(std::span<const Index> new_faces) {
         std::vector<Index> gone;
@@ -60,6 +60,7 @@ private:
         in_.crossing_ends_.resize(labels_.crossings.size(), {no_index, no_index});
         for (const Index face : new_faces) {
             const Block& block = arcs_.of_face(face).arcs;
+            ticker_.tick(1 + block.count);
             for (Index arc = block.begin; arc < block.end(); ++arc) {
                 for (const ArcEnd end : {tail_of(arc), head_of(arc)}) {
                     const Index node = node_at(end);
@@ -91,6 +92,7 @@ private:
     void add_open_edges(std::span<const Index> new_faces) {
         for (const Index face : new_faces) {
             const Block& block = arcs_.of_face(face).arcs;
+            ticker_.tick(1 + block.count);
             for (ArcEnd end = tail_of(block.begin); end < tail_of(block.end()); ++end) {
                 if (!is_joined(end / 2) && is_vertex(node_at(end))) add_edge(end, false);
             }
@@ -101,6 +103,7 @@ private:
     void add_other_edges(std::span<const Index> new_faces) {
         for (const Index face : new_faces) {
             const Block& block = arcs_.of_face(face).arcs;
+            ticker_.tick(1 + block.count);
             for (Index arc = block.begin; arc < block.end(); ++arc) {
                 if (!is_joined(arc)) add_edge_through(arc);
             }
@@ -138,6 +141,7 @@ private:
         ArcEnd to;
         while (true) {
             in_.edge_of_arc_[from / 2] = name;
+            ticker_.tick();
             to = other_end(from);
             if (!is_closed && is_vertex(node_at(to))) break;
             from = across(to);
@@ -176,12 +180,13 @@ private:
 
     const EdgeLabels& labels_;
     const ArcStore& arcs_;
+    Ticker ticker_;
     ArcJoiner& in_;
 };
 
 void ArcJoiner::join(const EdgeLabels& labels, const ArcStore& arcs,
-                     std::span<const Index> new_faces) {
-    Run(labels, arcs, *this).run(new_faces);
+                     std::span<const Index> new_faces, Ticker ticker) {
+    Run(labels, arcs, ticker, *this).run(new_faces);
 }
 
 void ArcJoiner::renumber(const Renumbering& renumbering) {

@@ -2,6 +2,7 @@
 //! Joins the arcs of all faces into Voronoi edges, and the boundary into arcs between them.
 #pragma once
 
+#include "agvd/core/poller.h"
 #include "agvd/diagram/cell_set.h"
 #include "agvd/diagram/diagram.h"
 
@@ -18,7 +19,8 @@ public:
     //! Joins new arcs with each other and with old ones.
     //! Cost: O(arcs of the new edges + edges).
     //! \param new_faces  ascending: those whose arcs are new since the last call.
-    void join(const EdgeLabels& labels, const ArcStore& arcs, std::span<const Index> new_faces);
+    void join(const EdgeLabels& labels, const ArcStore& arcs, std::span<const Index> new_faces,
+              Ticker ticker);
 
     //! How many loops bound each of these cells; 0 for others. Cost: O(edges + boundary).
     [[nodiscard]] std::vector<Index> count_loops(const Surface& surface, const EdgeLabels& labels,
@@ -28,8 +30,8 @@ public:
     //! their ends in the faces, closed ones behind, then those on the boundary; branches become the
     //! first Voronoi vertices, then the label changes on the boundary. All that whatever was kept.
     //! Cost: O(edges + points of new ones + boundary), and copying the points of the others.
-    //! \param diagram  as the last call left it.
-    void draw(const Surface& surface, const EdgeLabels& labels, const ArcStore& arcs,
+    //! \param diagram  as the last call left it; of no use any more if the ticker throws.
+    void draw(const Surface& surface, const EdgeLabels& labels, const ArcStore& arcs, Ticker ticker,
               Diagram& diagram);
 
     void renumber(const Renumbering& renumbering);

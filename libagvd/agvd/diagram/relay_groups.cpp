@@ -7,14 +7,14 @@
 namespace agvd {
 
 RelayGroups::RelayGroups(const Propagation& propagation, std::span<const Index> mixed,
-                         int num_threads)
+                         int num_threads, Poller& poller)
     : ranges_(propagation.relay_ranges) {
     constexpr Index grain = 512;
     const auto num_mixed = static_cast<Index>(propagation.mixed_faces.size());
     relays_ = std::make_unique_for_overwrite<Index[]>(propagation.relays.size());
     begins_ = std::make_unique_for_overwrite<Index[]>(std::size_t{stride} * num_mixed);
     const auto count = static_cast<Index>(mixed.size());
-    parallel_chunks(count, grain, num_threads, [&](Index, Index begin, Index end) {
+    const auto group_chunk = [&](Index, Index begin, Index end) {
         std::vector<Index> groups;
         for (const Index i : mixed.subspan(begin, end - begin)) {
             const Index first_half_edge = 3 * propagation.mixed_faces[i];
@@ -37,7 +37,8 @@ RelayGroups::RelayGroups(const Propagation& propagation, std::span<const Index> 
                 relays_[next[groups[r]]++] = first + r;
             }
         }
-    });
+    };
+    parallel_chunks(count, grain, num_threads, group_chunk, poller);
 }
 
 }  // namespace agvd

@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "agvd/core/poller.h"
 #include "agvd/diagram/face_relays.h"
 
 namespace agvd {
@@ -13,7 +14,8 @@ class RelayGroups {
 public:
     //! Parallel; O(relays of those faces). Keeps a reference.
     //! \param mixed  the mixed indices that will be asked for.
-    RelayGroups(const Propagation& propagation, std::span<const Index> mixed, int num_threads);
+    RelayGroups(const Propagation& propagation, std::span<const Index> mixed, int num_threads,
+                Poller& poller);
 
     //! The relays whose image lies across a half-edge of a mixed face. As all that follow in their
     //! order.

@@ -16,7 +16,9 @@ void DelaunayQueue::push(Index edge) {
 }
 
 bool DelaunayQueue::flip_all(std::size_t most_flips) {
+    constexpr std::size_t flip_work = 16;  // Steps that a flip counts for.
     while (!heap_.empty()) {
+        if (ticker_ != nullptr) ticker_->tick(flip_work);
         const Waiting next = heap_.front();
         std::pop_heap(heap_.begin(), heap_.end());
         heap_.pop_back();

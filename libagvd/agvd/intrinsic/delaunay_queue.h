@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "agvd/core/poller.h"
 #include "agvd/intrinsic/face_history.h"
 
 namespace agvd::detail {
@@ -17,14 +18,16 @@ class DelaunayQueue {
 public:
     //! \param history  is told of every flip; or null.
     //! \param is_kept  by edge: 1 for edges that stay; or empty. May grow.
+    //! \param ticker    outlives this: flips tick it; or null.
     //! \param may_flip  asked for the half-edge of an edge before it flips; or none.
     DelaunayQueue(Surface& surface, FaceCharts& charts, FaceHistory* history,
-                  const std::vector<std::uint8_t>& is_kept,
+                  const std::vector<std::uint8_t>& is_kept, Ticker* ticker = nullptr,
                   std::function<bool(Index half_edge)> may_flip = {})
         : surface_(surface),
           charts_(charts),
           history_(history),
           is_kept_(is_kept),
+          ticker_(ticker),
           may_flip_(std::move(may_flip)) {}
 
     //! Looks at an edge, and lets it wait if it fails.
@@ -51,6 +54,7 @@ private:
     FaceCharts& charts_;
     FaceHistory* history_;
     const std::vector<std::uint8_t>& is_kept_;
+    Ticker* ticker_;
     std::function<bool(Index half_edge)> may_flip_;
     std::vector<Waiting> heap_;
     std::size_t num_flips_ = 0;

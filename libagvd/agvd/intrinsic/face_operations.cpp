@@ -57,9 +57,10 @@ std::array<Index, 2> cut_face(Surface& surface, FaceCharts& charts, Index half_e
 
 }  // namespace
 
-Index raise_flat_faces(Surface& surface) {
+Index raise_flat_faces(Surface& surface, Ticker& ticker) {
     Index raised = 0;
     for (Index f = 0; f < surface.num_faces(); ++f) {
+        ticker.tick();
         const double longest = longest_side(surface, f);
         const double least = least_doubled_area * longest * longest;
         if (surface.length_of(3 * f) * surface.apex[3 * f].y() >= least) continue;

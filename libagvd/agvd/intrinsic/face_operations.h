@@ -2,6 +2,7 @@
 //! Flips and splits of a triangulation by its lengths, in place. Private to intrinsic.
 #pragma once
 
+#include "agvd/core/poller.h"
 #include "agvd/intrinsic/face_charts.h"
 #include "agvd/mesh/surface.h"
 
@@ -21,7 +22,7 @@ inline constexpr double least_doubled_area = 0x1p-50;
 
 //! Gives a height to every face that has less than `least_doubled_area`.
 //! \return the number of such faces. Cost: O(#F).
-Index raise_flat_faces(Surface& surface);
+Index raise_flat_faces(Surface& surface, Ticker& ticker);
 
 //! Two faces with a common edge, laid out in one plane: the tail of the half-edge at (0, 0), the
 //! apex on its left, the corner across on its right.

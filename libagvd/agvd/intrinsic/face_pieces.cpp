@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "agvd/core/poller.h"
 #include "agvd/mesh/face_area.h"
 
 namespace agvd {
@@ -46,12 +47,17 @@ bool is_flat(const Surface& surface, Index face) {
 
 }  // namespace
 
-FacePieces::FacePieces(const IntrinsicTriangulation& base, double piece_area)
+FacePieces::FacePieces(const IntrinsicTriangulation& base, double piece_area,
+                       const Progress& progress)
     : input_(base.input()) {
     assert(piece_area > 0);
+    constexpr std::size_t piece_work = 16;  // Steps that a piece counts for.
+    Poller poller(progress);
+    Ticker ticker(poller);
     const Surface& surface = base.surface();
     std::vector<InputPart> parts;
     for (Index f = 0; f < surface.num_faces(); ++f) {
+        ticker.tick();
         if (!base.is_changed(f)) continue;
         if (begin_.empty()) begin_.assign(surface.num_faces(), no_index);
         begin_[f] = static_cast<Index>(pieces_.size());
@@ -65,6 +71,7 @@ FacePieces::FacePieces(const IntrinsicTriangulation& base, double piece_area)
         } else {
             add_samples(base, f, piece_area);
         }
+        ticker.tick(piece_work * (pieces_.size() - begin_[f]));
         is_last_.resize(pieces_.size(), 0);
         is_last_.back() = 1;
     }

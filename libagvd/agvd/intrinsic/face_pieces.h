@@ -23,7 +23,9 @@ public:
     //! \param base        outlives this.
     //! \param piece_area  of a face of needles one piece for each so much area, up to 16; > 0.
     //! Cost: a map to the input for each piece of a changed face; 48 bytes.
-    FacePieces(const IntrinsicTriangulation& base, double piece_area);
+    //! \throw Cancelled  the progress callback returned false.
+    FacePieces(const IntrinsicTriangulation& base, double piece_area,
+               const Progress& progress = {});
 
     //! Calls each(SurfacePiece) for the pieces of a face of base.surface().
     template <typename Each>

@@ -19,6 +19,8 @@ using detail::FaceSegment;
 
 // Flips end after so many for each edge, with an outcome. The worst part met, of needles, took 6.
 constexpr std::size_t most_flips = 1000;
+// Steps that a split counts for.
+constexpr std::size_t split_work = 16;
 
 void check_options(const Surface& input, const IntrinsicOptions& options) {
     if (!(options.max_length > 0)) {
@@ -34,13 +36,14 @@ void check_options(const Surface& input, const IntrinsicOptions& options) {
 class Refinement {
 public:
     Refinement(Surface& surface, FaceCharts& charts, FaceHistory& history, DelaunayQueue& flips,
-               std::vector<std::uint8_t>& is_kept, double max_length)
+               std::vector<std::uint8_t>& is_kept, double max_length, Ticker& ticker)
         : surface_(surface),
           charts_(charts),
           history_(history),
           flips_(flips),
           is_kept_(is_kept),
-          max_length_(max_length) {}
+          max_length_(max_length),
+          ticker_(ticker) {}
 
     // \param added  gets the new vertices, on the input.
     // \return false if flips ended early.
@@ -49,6 +52,7 @@ public:
             while (!queue_.empty()) {
                 const auto [length, key] = queue_.top();
                 queue_.pop();
+                ticker_.tick(split_work);
                 const Index edge = ~key;
                 if (surface_.length[edge] != length) continue;
                 split(edge, added);
@@ -62,7 +66,10 @@ public:
 private:
     // Those that flips have made farther away are found by the next search.
     bool find_long_edges() {
-        for (Index e = 0; e < surface_.num_edges(); ++e) push(e);
+        for (Index e = 0; e < surface_.num_edges(); ++e) {
+            ticker_.tick();
+            push(e);
+        }
         return !queue_.empty();
     }
     void push(Index edge) {
@@ -75,7 +82,7 @@ private:
         middle.barycentric[h % 3] = middle.barycentric[Surface::next(h) % 3] = 0.5;
         added.push_back(history_.backward(middle));
         const Index vertex = surface_.num_vertices();
-        surface_.mesh.positions.push_back({});
+        surface_.mesh.positions.push_back(Vec3::Zero());  // Known at the end.
         surface_.outgoing.push_back(no_index);
         surface_.can_turn.push_back(0);
         const Index first_new_edge = surface_.num_edges();
@@ -105,6 +112,7 @@ private:
     DelaunayQueue& flips_;
     std::vector<std::uint8_t>& is_kept_;
     double max_length_;
+    Ticker& ticker_;
     std::priority_queue<std::pair<double, Index>> queue_;  // Length, and the edge's complement.
     std::vector<Index> fresh_;
 };
@@ -119,13 +127,19 @@ IntrinsicTriangulation::IntrinsicTriangulation(const Surface& input,
                                                const IntrinsicOptions& options)
     : input_(&input), surface_(input), history_(std::make_unique<History>(input.num_faces())) {
     check_options(input, options);
-    counts_.flat_faces = detail::raise_flat_faces(surface_);
+    Poller poller(options.progress);
+    Ticker ticker(poller);
+    ticker.poll();
+    counts_.flat_faces = detail::raise_flat_faces(surface_, ticker);
     std::vector<std::uint8_t> is_kept(options.is_kept.begin(), options.is_kept.end());
     FaceCharts charts(surface_);
-    DelaunayQueue flips(surface_, charts, history_.get(), is_kept);
-    for (Index e = 0; e < surface_.num_edges(); ++e) flips.push(e);
+    DelaunayQueue flips(surface_, charts, history_.get(), is_kept, &ticker);
+    for (Index e = 0; e < surface_.num_edges(); ++e) {
+        ticker.tick();
+        flips.push(e);
+    }
     counts_.is_delaunay = flips.flip_all(most_flips * surface_.num_edges());
-    Refinement refinement(surface_, charts, *history_, flips, is_kept, options.max_length);
+    Refinement refinement(surface_, charts, *history_, flips, is_kept, options.max_length, ticker);
     counts_.is_delaunay = refinement.run(most_flips, added_) && counts_.is_delaunay;
     counts_.flips = flips.num_flips();
     counts_.splits = static_cast<Index>(added_.size());

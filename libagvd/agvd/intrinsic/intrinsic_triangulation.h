@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "agvd/core/progress.h"
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_point.h"
 
@@ -20,6 +21,7 @@ struct IntrinsicOptions {
     //! #E of the input: 1 for edges that stay, as those of the boundary always do (they may be
     //! split); or empty.
     std::span<const std::uint8_t> is_kept = {};
+    Progress progress = {};  //!< Tells the fraction 0 until it is done.
 };
 
 struct IntrinsicCounts {
@@ -50,6 +52,7 @@ class IntrinsicTriangulation {
 public:
     //! \param input  build_surface(); outlives this.
     //! \throw InvalidOption  an option is out of range.
+    //! \throw Cancelled      the progress callback returned false.
     //! Cost: a pass over the edges and O(log n) for each flip. The number of flips has no useful
     //! bound in theory; in practice it is some ten for each needle.
     explicit IntrinsicTriangulation(const Surface& input, const IntrinsicOptions& options = {});

@@ -31,7 +31,8 @@ public:
           charts_(charts),
           number_(number),
           stamp_(surface.num_vertices(), 0),
-          flips_(surface, charts, nullptr, none_kept_, [this](Index h) { return may_flip(h); }) {}
+          flips_(surface, charts, nullptr, none_kept_, nullptr,
+                 [this](Index h) { return may_flip(h); }) {}
 
     std::size_t run() {
         for (Index e = 0; e < surface_.num_edges(); ++e) flips_.push(e);

@@ -81,7 +81,9 @@ ClosestPoint closest_point_on_triangle(const std::array<Vec3, 3>& corners, FaceI
     return best;
 }
 
-ClosestPointTree::ClosestPointTree(const MeshView& mesh) {
+ClosestPointTree::ClosestPointTree(const MeshView& mesh, const Progress& progress) {
+    Poller poller(progress);
+    Ticker ticker(poller);
     const auto num_faces = static_cast<Index>(mesh.triangles.size());
     if (num_faces == 0) {
         throw InvalidInput("the mesh has no face, so no point is nearest; check the input");
@@ -100,7 +102,7 @@ ClosestPointTree::ClosestPointTree(const MeshView& mesh) {
     std::vector<Index> faces(num_faces);
     std::iota(faces.begin(), faces.end(), Index{0});
     nodes_.reserve(num_faces);
-    build(centers, faces, 0, num_faces);
+    build(centers, faces, 0, num_faces, ticker);
 
     for (Index slot = 0; slot < num_faces; ++slot) {
         corners_[slot] = corners_of(faces[slot]);
@@ -109,6 +111,7 @@ ClosestPointTree::ClosestPointTree(const MeshView& mesh) {
     // The children of a node follow it, so that backwards they are ready.
     const Node& root = nodes_.front();
     for (auto node = nodes_.rbegin(); node != nodes_.rend(); ++node) {
+        ticker.tick();
         if (node->right != 0) {
             const Node& first = *(&*node + 1);
             node->low = first.low.cwiseMin(nodes_[node->right].low);
@@ -132,7 +135,8 @@ ClosestPointTree::ClosestPointTree(const MeshView& mesh) {
 }
 
 void ClosestPointTree::build(const std::vector<Vec3>& centers, std::vector<Index>& faces,
-                             Index begin, Index end) {
+                             Index begin, Index end, Ticker& ticker) {
+    ticker.tick();
     const auto self = static_cast<Index>(nodes_.size());
     nodes_.push_back({.begin = begin, .end = end});
     if (end - begin <= leaf_size) return;
@@ -146,11 +150,12 @@ void ClosestPointTree::build(const std::vector<Vec3>& centers, std::vector<Index
     const Index middle = begin + (end - begin) / 2;
     std::nth_element(faces.begin() + begin, faces.begin() + middle, faces.begin() + end,
                      [&](Index a, Index b) {
+                         ticker.tick();
                          return std::tie(centers[a][axis], a) < std::tie(centers[b][axis], b);
                      });
-    build(centers, faces, begin, middle);
+    build(centers, faces, begin, middle, ticker);
     nodes_[self].right = static_cast<Index>(nodes_.size());
-    build(centers, faces, middle, end);
+    build(centers, faces, middle, end, ticker);
 }
 
 ClosestPoint ClosestPointTree::query(const Vec3& point) const {

@@ -2,6 +2,7 @@
 //! Nearest point of a mesh, by a tree of bounding boxes.
 #pragma once
 
+#include "agvd/core/poller.h"
 #include "agvd/mesh/surface_point.h"
 
 namespace agvd {
@@ -24,7 +25,8 @@ public:
     //! \param mesh  any triangles, degenerate and non-manifold ones too; finite, indices in range.
     //! \throw InvalidInput  there is no face.
     //! Cost: O(n log n).
-    explicit ClosestPointTree(const MeshView& mesh);
+    //! \throw Cancelled     the progress callback returned false.
+    explicit ClosestPointTree(const MeshView& mesh, const Progress& progress = {});
 
     //! The nearest point; of equally near ones that in the lowest face. Any thread may ask.
     //! Cost: O(log n) near the surface.
@@ -36,7 +38,8 @@ private:
         Index right = 0;   // Second child (the first follows its parent); 0 for a leaf.
         Vec3 low = Vec3::Zero(), high = Vec3::Zero();  // Box.
     };
-    void build(const std::vector<Vec3>& centers, std::vector<Index>& faces, Index begin, Index end);
+    void build(const std::vector<Vec3>& centers, std::vector<Index>& faces, Index begin, Index end,
+               Ticker& ticker);
 
     std::vector<std::array<Vec3, 3>> corners_;  // Per slot, in leaf order.
     std::vector<FaceId> face_;                  // Per slot.

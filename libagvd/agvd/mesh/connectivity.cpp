@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -40,9 +41,10 @@ struct Alone {
 template <typename Access>
 class Pairing {
 public:
-    Pairing(const MeshView& mesh, int num_threads)
+    Pairing(const MeshView& mesh, int num_threads, const Progress& progress)
         : triangles_(mesh.triangles),
           num_threads_(num_threads),
+          poller_(progress),
           end_(mesh.positions.size() + 1, 0),
           result_{std::vector<Index>(3 * mesh.triangles.size(), no_index),
                   std::vector<Index>(mesh.positions.size(), no_index)} {}
@@ -63,16 +65,16 @@ private:
 
     // Calls each(half-edge, tail, head) for the sides of all faces.
     template <typename Each>
-    void for_each_side(const Each& each) const {
-        parallel_chunks(static_cast<Index>(triangles_.size()), grain, num_threads_,
-                        [&](Index, Index begin, Index end) {
-                            for (Index f = begin; f < end; ++f) {
-                                const Triangle& t = triangles_[f];
-                                each(3 * f, t[0], t[1]);
-                                each(3 * f + 1, t[1], t[2]);
-                                each(3 * f + 2, t[2], t[0]);
-                            }
-                        });
+    void for_each_side(const Each& each) {
+        const auto body = [&](Index, Index begin, Index end) {
+            for (Index f = begin; f < end; ++f) {
+                const Triangle& t = triangles_[f];
+                each(3 * f, t[0], t[1]);
+                each(3 * f + 1, t[1], t[2]);
+                each(3 * f + 2, t[2], t[0]);
+            }
+        };
+        parallel_chunks(static_cast<Index>(triangles_.size()), grain, num_threads_, body, poller_);
     }
 
     // False if a face repeats a corner.
@@ -84,7 +86,9 @@ private:
         });
         if (has_loop) return false;
         std::partial_sum(end_.begin(), end_.end(), end_.begin());
+        poller_.poll();
         ups_.resize(end_.back());
+        poller_.poll();
         for_each_side([&](Index h, Index tail, Index head) {
             if (tail < head) ups_[Access::add_one(end_[tail])] = {head, h};
         });
@@ -100,11 +104,12 @@ private:
     bool check_lists() {
         std::atomic<bool> has_equal = false;
         const auto num_vertices = static_cast<Index>(result_.outgoing.size());
-        parallel_chunks(num_vertices, grain, num_threads_, [&](Index, Index begin, Index end) {
+        const auto body = [&](Index, Index begin, Index end) {
+            Ticker ticker(poller_);
             for (Index v = begin; v < end; ++v) {
                 const std::span<Up> list = list_of(v);
                 const bool is_long = list.size() >= long_list;
-                if (is_long) std::sort(list.begin(), list.end(), has_lower_head);
+                if (is_long) sort_ticked(list, ticker, has_lower_head);
                 for (std::size_t i = 0; i < list.size(); ++i) {
                     const std::size_t last = is_long ? std::min(i + 2, list.size()) : list.size();
                     for (std::size_t j = i + 1; j < last; ++j) {
@@ -112,7 +117,8 @@ private:
                     }
                 }
             }
-        });
+        };
+        parallel_chunks(num_vertices, grain, num_threads_, body, poller_);
         return !has_equal;
     }
 
@@ -147,17 +153,19 @@ private:
     void find_outgoing() {
         std::vector<Index>& outgoing = result_.outgoing;
         for_each_side([&](Index h, Index tail, Index) { Access::lower(outgoing[tail], h); });
+        Ticker ticker(poller_);
         for (Index h = 0; h < result_.twin.size(); ++h) {
+            ticker.tick();
             if (result_.twin[h] == no_index) outgoing[triangles_[h / 3][h % 3]] = h;
         }
     }
 
     // The walks around all vertices pass every half-edge only if none leaves out a fan. Two faces
     // that run the same way along an edge that no third has begin two fans.
-    [[nodiscard]] bool are_single_fans() const {
+    [[nodiscard]] bool are_single_fans() {
         const auto num_vertices = static_cast<Index>(result_.outgoing.size());
         std::vector<std::size_t> seen(num_chunks(num_vertices, grain), 0);
-        parallel_chunks(num_vertices, grain, num_threads_, [&](Index c, Index begin, Index end) {
+        const auto body = [&](Index chunk, Index begin, Index end) {
             std::size_t count = 0;
             for (Index v = begin; v < end; ++v) {
                 const Index first = result_.outgoing[v];
@@ -168,13 +176,15 @@ private:
                     h = result_.twin[previous_half_edge(h)];
                 } while (h != no_index && h != first);
             }
-            seen[c] = count;
-        });
+            seen[chunk] = count;
+        };
+        parallel_chunks(num_vertices, grain, num_threads_, body, poller_);
         return std::accumulate(seen.begin(), seen.end(), std::size_t{0}) == result_.twin.size();
     }
 
     std::span<const Triangle> triangles_;
     int num_threads_;
+    Poller poller_;
     std::vector<Index> end_;  // #V + 1: of the vertices' lists.
     std::vector<Up> ups_;     // By tail.
     Connectivity result_;
@@ -182,9 +192,10 @@ private:
 
 }  // namespace
 
-std::optional<Connectivity> find_connectivity(const MeshView& mesh, int num_threads) {
-    if (num_threads == 1) return Pairing<Alone>(mesh, num_threads).run();
-    return Pairing<Shared>(mesh, num_threads).run();
+std::optional<Connectivity> find_connectivity(const MeshView& mesh, int num_threads,
+                                              const Progress& progress) {
+    if (num_threads == 1) return Pairing<Alone>(mesh, num_threads, progress).run();
+    return Pairing<Shared>(mesh, num_threads, progress).run();
 }
 
 }  // namespace agvd

@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "agvd/core/progress.h"
 #include "agvd/mesh/mesh_view.h"
 
 namespace agvd {
@@ -21,7 +22,9 @@ struct Connectivity {
 //!
 //! \param mesh         indices in range; positions are not read.
 //! \param num_threads  >= 0; 0: all cores. The result is the same for any number.
+//! \throw Cancelled  the progress callback returned false.
 //! Cost: O(n); 8 bytes per edge and 4 per vertex beyond the result.
-[[nodiscard]] std::optional<Connectivity> find_connectivity(const MeshView& mesh, int num_threads);
+[[nodiscard]] std::optional<Connectivity> find_connectivity(const MeshView& mesh, int num_threads,
+                                                            const Progress& progress = {});
 
 }  // namespace agvd

@@ -4,17 +4,20 @@
 #include <cassert>
 #include <unordered_map>
 
+#include "agvd/core/poller.h"
+
 namespace agvd {
 namespace {
 
 class EdgeSplitter {
 public:
-    EdgeSplitter(const MeshView& mesh, double max_length)
-        : max_length_sq_(max_length * max_length) {
+    EdgeSplitter(const MeshView& mesh, double max_length, Ticker ticker)
+        : max_length_sq_(max_length * max_length), ticker_(ticker) {
         result_.mesh.positions.assign(mesh.positions.begin(), mesh.positions.end());
         result_.mesh.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
         result_.face_origin.resize(mesh.triangles.size());
         for (Index f = 0; f < result_.face_origin.size(); ++f) result_.face_origin[f] = f;
+        ticker_.poll();
     }
 
     RefinedMesh run() {
@@ -32,6 +35,7 @@ private:
         triangles.reserve(mesh.triangles.size());
         origin.reserve(mesh.triangles.size());
         for (Index f = 0; f < mesh.triangles.size(); ++f) {
+            ticker_.tick();
             const Triangle t = mesh.triangles[f];
             std::array<Index, 3> m{};
             for (std::size_t k = 0; k < 3; ++k) m[k] = middle_of(t[k], t[(k + 1) % 3]);
@@ -43,6 +47,7 @@ private:
             append_parts(t, m, triangles);
             origin.resize(triangles.size(), result_.face_origin[f]);
         }
+        ticker_.poll();
         mesh.triangles = std::move(triangles);
         result_.face_origin = std::move(origin);
         return !middle_.empty();
@@ -87,6 +92,7 @@ private:
     }
 
     double max_length_sq_;
+    Ticker ticker_;
     RefinedMesh result_;
     std::unordered_map<std::uint64_t, Index> middle_;  // Looked up only: its order does not matter.
 };
@@ -102,9 +108,10 @@ bool has_long_edges(const MeshView& mesh, double max_length) {
     });
 }
 
-RefinedMesh split_long_edges(const MeshView& mesh, double max_length) {
+RefinedMesh split_long_edges(const MeshView& mesh, double max_length, const Progress& progress) {
     assert(max_length > 0);
-    return EdgeSplitter(mesh, max_length).run();
+    Poller poller(progress);
+    return EdgeSplitter(mesh, max_length, Ticker(poller)).run();
 }
 
 }  // namespace agvd

@@ -2,6 +2,7 @@
 //! Splits long edges without changing the surface.
 #pragma once
 
+#include "agvd/core/progress.h"
 #include "agvd/mesh/mesh_view.h"
 
 namespace agvd {
@@ -21,7 +22,9 @@ struct RefinedMesh {
 //! points lie too far apart for any of them, and splitting it costs less than more points on every
 //! edge.
 //! \param max_length > 0, mesh units.
+//! \throw Cancelled  the progress callback returned false.
 //! Cost: O(n log(longest / max_length)) plus the size of the result.
-[[nodiscard]] RefinedMesh split_long_edges(const MeshView& mesh, double max_length);
+[[nodiscard]] RefinedMesh split_long_edges(const MeshView& mesh, double max_length,
+                                           const Progress& progress = {});
 
 }  // namespace agvd

@@ -15,8 +15,9 @@ namespace {
 constexpr const char* remedy = "; repair the mesh first (remesh::clean_input)";
 constexpr Index grain = 1 << 14;  // Vertices, edges or half-edges.
 
-void check_elements(const MeshView& mesh) {
+void check_elements(const MeshView& mesh, Ticker& ticker) {
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        ticker.tick();
         if (!mesh.positions[v].allFinite()) {
             throw InvalidInput("vertex " + std::to_string(v) +
                                " has a coordinate that is not finite" + remedy);
@@ -26,6 +27,7 @@ void check_elements(const MeshView& mesh) {
         throw InvalidInput("the mesh has more than 2^32 / 3 faces; split it into parts");
     }
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        ticker.tick();
         const Triangle& t = mesh.triangles[f];
         for (const Index v : t) {
             if (v >= mesh.positions.size()) {
@@ -41,17 +43,18 @@ void check_elements(const MeshView& mesh) {
 }
 
 // The twins; throws at the first edge that has none.
-std::vector<Index> pair_or_explain(const MeshView& mesh) {
+std::vector<Index> pair_or_explain(const MeshView& mesh, Ticker& ticker) {
     struct Side {
         Index low, high, half_edge;
     };
     const auto tail = [&](Index h) { return mesh.triangles[h / 3][h % 3]; };
     std::vector<Side> sides;
     for (Index h = 0; h < 3 * mesh.triangles.size(); ++h) {
+        ticker.tick();
         const auto [low, high] = std::minmax({tail(h), tail(next_half_edge(h))});
         sides.push_back({low, high, h});
     }
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+    sort_ticked(sides, ticker, [](const Side& a, const Side& b) {
         return std::tie(a.low, a.high, a.half_edge) < std::tie(b.low, b.high, b.half_edge);
     });
     std::vector<Index> twin(sides.size(), no_index);
@@ -60,6 +63,7 @@ std::vector<Index> pair_or_explain(const MeshView& mesh) {
                sides[end].high == sides[i].high) {
             ++end;
         }
+        ticker.tick(end - i);
         const Index h = sides[i].half_edge;
         if (end - i > 2) {
             throw InvalidInput("the edge from vertex " + std::to_string(tail(h)) + " to " +
@@ -79,10 +83,11 @@ std::vector<Index> pair_or_explain(const MeshView& mesh) {
 }
 
 // Tells why find_connectivity found nothing.
-[[noreturn]] void explain(const MeshView& mesh) {
-    const std::vector<Index> twin = pair_or_explain(mesh);
+[[noreturn]] void explain(const MeshView& mesh, Ticker& ticker) {
+    const std::vector<Index> twin = pair_or_explain(mesh, ticker);
     std::vector<Index> degree(mesh.positions.size(), 0), outgoing(mesh.positions.size(), no_index);
     for (Index h = 0; h < twin.size(); ++h) {
+        ticker.tick();
         const Index v = mesh.triangles[h / 3][h % 3];
         ++degree[v];
         if (outgoing[v] == no_index || twin[h] == no_index) outgoing[v] = h;
@@ -96,6 +101,7 @@ std::vector<Index> pair_or_explain(const MeshView& mesh) {
             ++seen;
             h = twin[previous_half_edge(h)];
         } while (h != no_index && h != outgoing[vertex]);
+        ticker.tick(seen);
         if (seen != degree[vertex]) break;
     }
     throw InvalidInput("the faces around vertex " + std::to_string(vertex) +
@@ -103,19 +109,21 @@ std::vector<Index> pair_or_explain(const MeshView& mesh) {
 }
 
 // Edges are numbered in the order of their lower half-edge, so that neighbours stay close.
-void number_edges(Surface& surface, int num_threads) {
+void number_edges(Surface& surface, int num_threads, Poller& poller) {
     const auto num_half_edges = static_cast<Index>(surface.twin.size());
     const auto is_first = [&](Index h) { return surface.twin[h] > h; };  // no_index is, too.
     std::vector<Index> begin_of(num_chunks(num_half_edges, grain) + 1, 0);
-    parallel_chunks(num_half_edges, grain, num_threads, [&](Index chunk, Index begin, Index end) {
+    const auto count_first = [&](Index chunk, Index begin, Index end) {
         Index count = 0;
         for (Index h = begin; h < end; ++h) count += is_first(h) ? 1 : 0;
         begin_of[chunk + 1] = count;
-    });
+    };
+    parallel_chunks(num_half_edges, grain, num_threads, count_first, poller);
     std::partial_sum(begin_of.begin(), begin_of.end(), begin_of.begin());
     surface.edge.resize(num_half_edges);
     surface.edge_half.resize(begin_of.back());
-    parallel_chunks(num_half_edges, grain, num_threads, [&](Index chunk, Index begin, Index end) {
+    poller.poll();
+    const auto number = [&](Index chunk, Index begin, Index end) {
         Index edge = begin_of[chunk];
         for (Index h = begin; h < end; ++h) {
             if (!is_first(h)) continue;
@@ -123,22 +131,25 @@ void number_edges(Surface& surface, int num_threads) {
             if (surface.twin[h] != no_index) surface.edge[surface.twin[h]] = edge;
             surface.edge_half[edge++] = h;
         }
-    });
+    };
+    parallel_chunks(num_half_edges, grain, num_threads, number, poller);
 }
 
-void measure(Surface& surface, int num_threads) {
+void measure(Surface& surface, int num_threads, Poller& poller) {
     const auto& p = surface.mesh.positions;
     surface.length.resize(surface.num_edges());
-    parallel_chunks(surface.num_edges(), grain, num_threads, [&](Index, Index begin, Index end) {
+    const auto measure_edges = [&](Index, Index begin, Index end) {
         for (Index e = begin; e < end; ++e) {
             const Index h = surface.edge_half[e];
             surface.length[e] = (p[surface.head(h)] - p[surface.tail(h)]).norm();
         }
-    });
+    };
+    parallel_chunks(surface.num_edges(), grain, num_threads, measure_edges, poller);
     surface.apex.resize(surface.twin.size());
+    poller.poll();
     const auto num_half_edges = static_cast<Index>(surface.twin.size());
     std::vector<Index> flat(num_chunks(num_half_edges, grain), no_index);
-    parallel_chunks(num_half_edges, grain, num_threads, [&](Index chunk, Index begin, Index end) {
+    const auto find_apexes = [&](Index chunk, Index begin, Index end) {
         for (Index h = begin; h < end; ++h) {
             const Vec3& origin = p[surface.tail(h)];
             const Vec3 along = p[surface.head(h)] - origin;
@@ -150,7 +161,8 @@ void measure(Surface& surface, int num_threads) {
             }
             surface.apex[h] = {along.dot(up) / length, doubled_area / length};
         }
-    });
+    };
+    parallel_chunks(num_half_edges, grain, num_threads, find_apexes, poller);
     const auto first = std::min_element(flat.begin(), flat.end());
     if (first != flat.end() && *first != no_index) {
         throw InvalidInput("face " + std::to_string(*first / 3) + " has no area" + remedy);
@@ -181,9 +193,9 @@ struct ConeAngle {
     static constexpr double tolerance = 1e-9;
 };
 
-void find_turning_vertices(Surface& surface, int num_threads) {
+void find_turning_vertices(Surface& surface, int num_threads, Poller& poller) {
     surface.can_turn.resize(surface.num_vertices());
-    parallel_chunks(surface.num_vertices(), grain, num_threads, [&](Index, Index begin, Index end) {
+    const auto find_turning = [&](Index, Index begin, Index end) {
         for (Index v = begin; v < end; ++v) {
             const Index first = surface.outgoing[v];
             ConeAngle cone;
@@ -196,28 +208,33 @@ void find_turning_vertices(Surface& surface, int num_threads) {
                 surface.is_boundary_vertex(v) ? cone.exceeds_pi() : cone.exceeds_two_pi();
             surface.can_turn[v] = can_turn ? 1 : 0;
         }
-    });
+    };
+    parallel_chunks(surface.num_vertices(), grain, num_threads, find_turning, poller);
 }
 
 }  // namespace
 
-Surface build_surface(const MeshView& mesh, int num_threads) {
-    check_elements(mesh);
-    std::optional<Connectivity> connectivity = find_connectivity(mesh, num_threads);
-    if (!connectivity) explain(mesh);
+Surface build_surface(const MeshView& mesh, int num_threads, const Progress& progress) {
+    Poller poller(progress);
+    Ticker ticker(poller);
+    check_elements(mesh, ticker);
+    std::optional<Connectivity> connectivity = find_connectivity(mesh, num_threads, progress);
+    if (!connectivity) explain(mesh, ticker);
     return build_surface({{mesh.positions.begin(), mesh.positions.end()},
                           {mesh.triangles.begin(), mesh.triangles.end()}},
-                         *std::move(connectivity), num_threads);
+                         *std::move(connectivity), num_threads, progress);
 }
 
-Surface build_surface(TriangleMesh mesh, Connectivity connectivity, int num_threads) {
+Surface build_surface(TriangleMesh mesh, Connectivity connectivity, int num_threads,
+                      const Progress& progress) {
+    Poller poller(progress);
     Surface surface;
     surface.mesh = std::move(mesh);
     surface.twin = std::move(connectivity.twin);
     surface.outgoing = std::move(connectivity.outgoing);
-    number_edges(surface, num_threads);
-    measure(surface, num_threads);
-    find_turning_vertices(surface, num_threads);
+    number_edges(surface, num_threads, poller);
+    measure(surface, num_threads, poller);
+    find_turning_vertices(surface, num_threads, poller);
     return surface;
 }
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "agvd/core/half_edge.h"
+#include "agvd/core/progress.h"
 #include "agvd/mesh/connectivity.h"
 #include "agvd/mesh/mesh_view.h"
 
@@ -51,17 +52,21 @@ struct Surface {
 //!        (repeated corner or zero area in double), two faces are inconsistently oriented, or an
 //!        edge or vertex is not manifold; the text names the element. remesh::clean_input repairs
 //!        all of these.
+//! \throw Cancelled     the progress callback returned false.
 //! \param num_threads  >= 0; 0: all cores. The result is the same for any number.
 //! Cost: O(n).
-[[nodiscard]] Surface build_surface(const MeshView& mesh, int num_threads = 0);
+[[nodiscard]] Surface build_surface(const MeshView& mesh, int num_threads = 0,
+                                    const Progress& progress = {});
 
 //! The same where connectivity is known already; nothing is copied.
 //!
 //! \param connectivity  find_connectivity(mesh).
 //! \param num_threads   >= 0; 0: all cores. The result is the same for any number.
 //! \throw InvalidInput  a face has no area; the text names the first.
+//! \throw Cancelled     the progress callback returned false.
 //! Cost: O(n).
-[[nodiscard]] Surface build_surface(TriangleMesh mesh, Connectivity connectivity, int num_threads);
+[[nodiscard]] Surface build_surface(TriangleMesh mesh, Connectivity connectivity, int num_threads,
+                                    const Progress& progress = {});
 
 //! Boundary loops: each a cycle of half-edges without twin, head of one = tail of the next, in the
 //! direction that has the surface on the left; loops ordered by their lowest half-edge.

@@ -45,8 +45,8 @@ void check(const Surface& surface, const Diagram& a, const Diagram& b,
 class LoopMatcher {
 public:
     LoopMatcher(std::span<const std::vector<Vec3>> a, std::span<const std::vector<Vec3>> b,
-                double spacing, Index max_points)
-        : a_(a), b_(b), spacing_(spacing), max_points_(max_points) {}
+                double spacing, Index max_points, Ticker ticker)
+        : a_(a), b_(b), spacing_(spacing), max_points_(max_points), ticker_(ticker) {}
 
     void add_to(FrechetError& error) const {
         struct Pair {
@@ -94,13 +94,14 @@ private:
     [[nodiscard]] double distance(std::span<const Vec3> a, std::span<const Vec3> b) const {
         const Index count = num_points(std::max(closed_length(a), closed_length(b)));
         return closed_frechet_distance(resampled(a, count),
-                                       resampled(b, count, nearest_on_loop(b, a[0])));
+                                       resampled(b, count, nearest_on_loop(b, a[0])), ticker_);
     }
 
     [[nodiscard]] double diameter(std::span<const Vec3> loop) const {
         const auto points = resampled(loop, num_points(closed_length(loop)));
         double farthest_sq = 0;
         for (std::size_t i = 0; i < points.size(); ++i) {
+            ticker_.tick(1 + i / 8);
             for (std::size_t j = 0; j < i; ++j) {
                 farthest_sq = std::max(farthest_sq, (points[i] - points[j]).squaredNorm());
             }
@@ -111,22 +112,26 @@ private:
     std::span<const std::vector<Vec3>> a_, b_;
     double spacing_;
     Index max_points_;
+    mutable Ticker ticker_;
 };
 
 FrechetError frechet_error(const Surface& surface, const Diagram& a, const Diagram& b,
-                           double cell_radius, const DiagramCompareOptions& options) {
-    const LoopCurves curves_a = loop_curves(surface, a);
-    const LoopCurves curves_b = loop_curves(surface, b);
+                           double cell_radius, const DiagramCompareOptions& options,
+                           Poller& poller) {
+    const LoopCurves curves_a = loop_curves(surface, a, Ticker(poller));
+    const LoopCurves curves_b = loop_curves(surface, b, Ticker(poller));
     const auto loops_of = [](const LoopCurves& curves, Index site) {
         const Index begin = curves.cell_loops[site];
         return std::span(curves.loops).subspan(begin, curves.cell_loops[site + 1] - begin);
     };
     const double spacing = options.spacing * cell_radius;
     std::vector<FrechetError> cells(a.num_sites);
-    parallel_chunks(a.num_sites, 1, options.num_threads, [&](Index, Index s, Index) {
-        LoopMatcher(loops_of(curves_a, s), loops_of(curves_b, s), spacing, options.max_loop_points)
+    const auto match = [&](Index, Index s, Index) {
+        LoopMatcher(loops_of(curves_a, s), loops_of(curves_b, s), spacing, options.max_loop_points,
+                    Ticker(poller))
             .add_to(cells[s]);
-    });
+    };
+    parallel_chunks(a.num_sites, 1, options.num_threads, match, poller);
     FrechetError error{.unit = cell_radius, .spacing = spacing};
     for (const FrechetError& cell : cells) {
         error.sum += cell.sum;
@@ -139,11 +144,13 @@ FrechetError frechet_error(const Surface& surface, const Diagram& a, const Diagr
 }
 
 double wrong_label_area(const Surface& surface, const Diagram& a, const Diagram& b,
-                        const DiagramCompareOptions& options) {
+                        const DiagramCompareOptions& options, Ticker ticker) {
     const CellLocator in_a(surface, a), in_b(surface, b);
     const auto samples = uniform_points(surface, options.area_samples, options.seed);
-    const auto wrong = std::count_if(samples.begin(), samples.end(),
-                                     [&](const SurfacePoint& p) { return in_a(p) != in_b(p); });
+    const auto wrong = std::count_if(samples.begin(), samples.end(), [&](const SurfacePoint& p) {
+        ticker.tick(8);
+        return in_a(p) != in_b(p);
+    });
     return static_cast<double>(wrong) / static_cast<double>(samples.size());
 }
 
@@ -166,37 +173,43 @@ TriangleMesh network(const Surface& surface, const Diagram& diagram) {
 }
 
 // Farthest that a piece of `from` lies from `to`; pieces are measured at points one spacing apart.
-double directed_hausdorff(const TriangleMesh& from, const TriangleMesh& to, double spacing) {
-    const ClosestPointTree tree(to.view());
+double directed_hausdorff(const TriangleMesh& from, const TriangleMesh& to, double spacing,
+                          Poller& poller) {
+    const Progress progress = poller.progress();
+    const ClosestPointTree tree(to.view(), progress);
+    Ticker ticker(poller);
     double farthest_sq = 0;
     for (const Triangle& piece : from.triangles) {
         const Vec3& a = from.positions[piece[0]];
         const Vec3 along = from.positions[piece[1]] - a;
         const double steps = std::max(1.0, std::ceil(along.norm() / spacing));
         for (double i = 0; i <= steps; ++i) {
+            ticker.tick(16);
             farthest_sq = std::max(farthest_sq, tree.query(a + i / steps * along).distance_sq);
         }
     }
     return std::sqrt(farthest_sq);
 }
 
-double hausdorff(const Surface& surface, const Diagram& a, const Diagram& b, double spacing) {
+double hausdorff(const Surface& surface, const Diagram& a, const Diagram& b, double spacing,
+                 Poller& poller) {
     const TriangleMesh of_a = network(surface, a);
     const TriangleMesh of_b = network(surface, b);
     if (of_a.triangles.empty() && of_b.triangles.empty()) return 0;
     if (of_a.triangles.empty() || of_b.triangles.empty()) return infinity;
-    return std::max(directed_hausdorff(of_a, of_b, spacing),
-                    directed_hausdorff(of_b, of_a, spacing));
+    return std::max(directed_hausdorff(of_a, of_b, spacing, poller),
+                    directed_hausdorff(of_b, of_a, spacing, poller));
 }
 
 }  // namespace
 
-LoopCurves loop_curves(const Surface& surface, const Diagram& diagram) {
-    const Cells cells = build_cells(diagram);
+LoopCurves loop_curves(const Surface& surface, const Diagram& diagram, Ticker ticker) {
+    const Cells cells = build_cells(diagram, ticker);
     LoopCurves curves{cells.cell_loops, {}};
     for (std::size_t l = 0; l + 1 < cells.loop_edges.size(); ++l) {
         std::vector<Vec3>& loop = curves.loops.emplace_back();
         for (Index i = cells.loop_edges[l]; i < cells.loop_edges[l + 1]; ++i) {
+            ticker.tick(2);
             const auto [edge, reversed] = cells.edges[i];
             const Index begin = diagram.edge_points[edge];
             const Index count = diagram.edge_points[edge + 1] - begin;
@@ -214,11 +227,13 @@ LoopCurves loop_curves(const Surface& surface, const Diagram& diagram) {
 DiagramDifference compare_diagrams(const Surface& surface, const Diagram& a, const Diagram& b,
                                    const DiagramCompareOptions& options) {
     check(surface, a, b, options);
+    Poller poller(options.progress);
     DiagramDifference difference;
     difference.cell_radius = mean_cell_radius(surface, a.num_sites);
-    difference.frechet = frechet_error(surface, a, b, difference.cell_radius, options);
-    difference.wrong_label_area = wrong_label_area(surface, a, b, options);
-    difference.hausdorff = hausdorff(surface, a, b, difference.frechet.spacing);
+    difference.frechet = frechet_error(surface, a, b, difference.cell_radius, options, poller);
+    poller.tell(0.5);
+    difference.wrong_label_area = wrong_label_area(surface, a, b, options, Ticker(poller));
+    difference.hausdorff = hausdorff(surface, a, b, difference.frechet.spacing, poller);
     return difference;
 }
 
@@ -230,6 +245,7 @@ std::vector<BisectorError> exact_bisector_errors(const Surface& surface,
     std::vector<SiteDistanceQuery> queries;  // Left and right site of each sample in turn.
     std::vector<std::size_t> begin{0};       // Of each diagram's.
     for (const Diagram* diagram : diagrams) {
+        poll(options.progress, 0);
         const auto samples = bisector_samples(surface, *diagram);
         const std::size_t step = (samples.size() + options.max_points - 1) / options.max_points;
         for (std::size_t i = 0; i < samples.size(); i += step) {
@@ -239,7 +255,8 @@ std::vector<BisectorError> exact_bisector_errors(const Surface& surface,
         }
         begin.push_back(queries.size());
     }
-    const std::vector<double> exact = site_distances(surface, sites, queries, options.num_threads);
+    const std::vector<double> exact =
+        site_distances(surface, sites, queries, options.num_threads, options.progress);
     const double cell_radius = mean_cell_radius(surface, sites.size());
     std::vector<BisectorError> result;
     for (std::size_t d = 0; d < diagrams.size(); ++d) {

@@ -3,6 +3,7 @@
 //! ones.
 #pragma once
 
+#include "agvd/core/poller.h"
 #include "agvd/diagram/diagram.h"
 #include "agvd/metrics/bisector_error.h"
 
@@ -38,6 +39,7 @@ struct DiagramCompareOptions {
     Index area_samples = 100'000;    //!< Points, uniform by area, whose cells are compared, >= 1.
     std::uint64_t seed = 1;          //!< Same seed, same figures, any num_threads.
     int num_threads = 0;             //!< >= 0; 0: all cores.
+    Progress progress = {};
 };
 
 //! Sets two diagrams of the same surface and sites side by side. Distances between points of curves
@@ -49,6 +51,7 @@ struct DiagramCompareOptions {
 //! loops have the same shape.
 //! \throw InvalidOption  an option is out of range.
 //! \throw InvalidInput   the diagrams differ in their number of sites or do not fit the surface.
+//! \throw Cancelled      the progress callback returned false.
 //! Cost: see closed_frechet_distance for each pair of loops of a cell; O(log n) for each sample.
 [[nodiscard]] DiagramDifference compare_diagrams(const Surface& surface, const Diagram& a,
                                                  const Diagram& b,
@@ -59,12 +62,14 @@ struct LoopCurves {
     std::vector<Index> cell_loops;         //!< #sites + 1 offsets into loops.
     std::vector<std::vector<Vec3>> loops;  //!< First points are not repeated.
 };
-[[nodiscard]] LoopCurves loop_curves(const Surface& surface, const Diagram& diagram);
+[[nodiscard]] LoopCurves loop_curves(const Surface& surface, const Diagram& diagram,
+                                     Ticker ticker = {});
 
 struct BisectorErrorOptions {
     //! >= 1; of more points that a diagram has, every k-th is measured.
     Index max_points = 20'000;
     int num_threads = 0;  //!< >= 0; 0: all cores. Same result for any number.
+    Progress progress = {};
 };
 
 //! |dA - dB| of each diagram, dA and dB being the exact distances (window engine) of points of its
@@ -75,6 +80,7 @@ struct BisectorErrorOptions {
 //! Cost: for each site one exact search as far as its bisectors, in a mesh with their points as
 //! vertices; with random sites, together some 3 to 6 exact propagations. Far more on meshes of
 //! long slivers, where windows are many: measure fewer points there.
+//! \throw Cancelled  the progress callback returned false.
 [[nodiscard]] std::vector<BisectorError> exact_bisector_errors(
     const Surface& surface, std::span<const SurfacePoint> sites,
     std::span<const Diagram* const> diagrams, const BisectorErrorOptions& options = {});

@@ -32,12 +32,13 @@ std::size_t stride(double margin, double step) {
     return static_cast<std::size_t>(std::min(most, margin / step));
 }
 
-double directed_hausdorff(std::span<const Vec3> p, std::span<const Vec3> q) {
+double directed_hausdorff(std::span<const Vec3> p, std::span<const Vec3> q, Ticker& ticker) {
     const double step = longest_step(q);
     double farthest = 0;
     for (const Vec3& point : p) {
         double nearest = infinity;
         for (std::size_t j = 0; j < q.size() && nearest > farthest;) {
+            ticker.tick();
             const double distance = (point - q[j]).norm();
             nearest = std::min(nearest, distance);
             j += stride(distance - nearest, step);
@@ -61,8 +62,8 @@ struct Reached {
 // The pairs of one grid, row by row.
 class PairGrid {
 public:
-    PairGrid(std::span<const Vec3> p, std::span<const Vec3> q)
-        : p_(p), q_(q), step_(longest_step(q)) {}
+    PairGrid(std::span<const Vec3> p, std::span<const Vec3> q, Ticker ticker)
+        : p_(p), q_(q), step_(longest_step(q)), ticker_(ticker) {}
 
     // What paths over pairs of at most `length` reach in the last row. They start in the columns
     // below num_starts of row 0.
@@ -88,6 +89,7 @@ private:
     const std::vector<Index>& near_columns(std::size_t i, double length) {
         columns_.clear();
         for (std::size_t j = 0; j < q_.size();) {
+            ticker_.tick();
             const double distance = (p_[i] - q_[j]).norm();
             if (distance <= length) columns_.push_back(static_cast<Index>(j));
             j += stride(distance - length, step_);
@@ -116,6 +118,7 @@ private:
 
     std::span<const Vec3> p_, q_;
     double step_;
+    Ticker ticker_;
     std::vector<Reached> row_, next_;
     std::vector<Index> columns_;
 };
@@ -123,12 +126,12 @@ private:
 // Decides whether two closed curves have a coupling of a given length.
 class ClosedCouplings {
 public:
-    ClosedCouplings(std::span<const Vec3> p, std::span<const Vec3> q)
+    ClosedCouplings(std::span<const Vec3> p, std::span<const Vec3> q, Ticker ticker)
         : num_columns_(q.size()),
           p_back_(p.rbegin(), p.rend()),
           q_back_(q.rbegin(), q.rend()),
-          forward_(p, q),
-          backward_(p_back_, q_back_) {
+          forward_(p, q, ticker),
+          backward_(p_back_, q_back_, ticker) {
         std::rotate(p_back_.begin(), p_back_.end() - 1, p_back_.end());  // Both begin at p[0].
     }
 
@@ -173,10 +176,10 @@ double frechet_distance(std::span<const Vec3> p, std::span<const Vec3> q) {
     return std::sqrt(row.back());
 }
 
-double closed_frechet_distance(std::span<const Vec3> p, std::span<const Vec3> q) {
+double closed_frechet_distance(std::span<const Vec3> p, std::span<const Vec3> q, Ticker ticker) {
     assert(!p.empty() && !q.empty());
-    ClosedCouplings couplings(p, q);
-    double low = hausdorff_distance(p, q);
+    ClosedCouplings couplings(p, q, ticker);
+    double low = hausdorff_distance(p, q, ticker);
     if (couplings.exists(low)) return low;
     // Rounding of coordinates alone parts curves whose points lie upon each other.
     double high = std::max(low, closed_length(q) * std::numeric_limits<double>::epsilon());
@@ -191,9 +194,9 @@ double closed_frechet_distance(std::span<const Vec3> p, std::span<const Vec3> q)
     return high;
 }
 
-double hausdorff_distance(std::span<const Vec3> p, std::span<const Vec3> q) {
+double hausdorff_distance(std::span<const Vec3> p, std::span<const Vec3> q, Ticker ticker) {
     assert(!p.empty() && !q.empty());
-    return std::max(directed_hausdorff(p, q), directed_hausdorff(q, p));
+    return std::max(directed_hausdorff(p, q, ticker), directed_hausdorff(q, p, ticker));
 }
 
 double closed_length(std::span<const Vec3> loop) {

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "agvd/core/types.h"
+#include "agvd/core/poller.h"
 
 namespace agvd {
 
@@ -24,14 +24,17 @@ namespace agvd {
 //! \param p, q  not empty.
 //! Cost: some 25 passes over the pairs that lie nearer than the result, O(log #q) more for each
 //! point of p; O(#p #q) a pass at worst. O(#q) memory.
-[[nodiscard]] double closed_frechet_distance(std::span<const Vec3> p, std::span<const Vec3> q);
+//! \param ticker  polls in between.
+[[nodiscard]] double closed_frechet_distance(std::span<const Vec3> p, std::span<const Vec3> q,
+                                             Ticker ticker = {});
 
 //! The larger of how far any point of p is from the nearest of q, and any of q from p: a lower
 //! bound of both distances above.
 //! \param p, q  not empty, in the order of a curve: the search skips points by the steps between
 //!              them.
 //! Cost: O(#p #q) at worst, O((#p + #q) log) for curves that run side by side. No memory.
-[[nodiscard]] double hausdorff_distance(std::span<const Vec3> p, std::span<const Vec3> q);
+[[nodiscard]] double hausdorff_distance(std::span<const Vec3> p, std::span<const Vec3> q,
+                                        Ticker ticker = {});
 
 //! Length of a closed polyline.
 [[nodiscard]] double closed_length(std::span<const Vec3> loop);

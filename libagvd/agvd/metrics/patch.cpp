@@ -14,14 +14,17 @@ constexpr double least_share = 1e-6;
 
 class PatchCutter {
 public:
-    PatchCutter(const Surface& surface, std::span<const SurfacePoint> points)
-        : surface_(surface), points_(points) {}
+    PatchCutter(const Surface& surface, std::span<const SurfacePoint> points, Ticker ticker)
+        : surface_(surface), points_(points), ticker_(ticker) {}
 
     Patch cut(const SurfacePoint& center, double radius) {
         gather_faces(center, radius);
         number_corners();
         place_points();
-        for (Index i = 0; i < faces_.size(); ++i) append_face(i);
+        for (Index i = 0; i < faces_.size(); ++i) {
+            ticker_.tick(4);
+            append_face(i);
+        }
         return std::move(patch_);
     }
 
@@ -46,6 +49,7 @@ private:
         };
         patch_.is_whole = take(center.face.value());
         for (std::size_t i = 0; i < faces_.size(); ++i) {
+            ticker_.tick(8);
             for (Index k = 0; k < 3; ++k) {
                 const Index across = surface_.twin[3 * faces_[i] + k];
                 if (across != no_index && !take(Surface::face(across))) patch_.is_whole = false;
@@ -65,6 +69,7 @@ private:
     void number_corners() {
         corner_.assign(3 * faces_.size(), no_index);
         for (Index start = 0; start < corner_.size(); ++start) {
+            ticker_.tick(2);
             if (corner_[start] != no_index) continue;
             const Index vertex =
                 add_vertex(surface_.mesh.positions[surface_.tail(in_surface(start))]);
@@ -268,6 +273,7 @@ private:
 
     const Surface& surface_;
     std::span<const SurfacePoint> points_;
+    Ticker ticker_;
     Patch patch_;
     std::vector<Index> faces_;                // Of the patch, in the order they were found.
     std::unordered_map<Index, Index> local_;  // Place of a face in faces_.
@@ -281,8 +287,8 @@ private:
 }  // namespace
 
 Patch cut_patch(const Surface& surface, const SurfacePoint& center, double radius,
-                std::span<const SurfacePoint> points) {
-    return PatchCutter(surface, points).cut(center, radius);
+                std::span<const SurfacePoint> points, Ticker ticker) {
+    return PatchCutter(surface, points, ticker).cut(center, radius);
 }
 
 }  // namespace agvd

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "agvd/core/poller.h"
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_point.h"
 
@@ -21,6 +22,6 @@ struct Patch {
 //! A point nearer to an edge or another point than 1e-6 of its face is moved onto it, or that far
 //! away from it. Cost: O(#faces taken + #points k), k = points in one face.
 [[nodiscard]] Patch cut_patch(const Surface& surface, const SurfacePoint& center, double radius,
-                              std::span<const SurfacePoint> points);
+                              std::span<const SurfacePoint> points, Ticker ticker = {});
 
 }  // namespace agvd

@@ -18,25 +18,29 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t most_points = 200;
 
 // Exact distances of the patch's vertices from one of them.
-std::vector<double> distances_from(const TriangleMesh& mesh, Index vertex) {
-    const Surface surface = build_surface(mesh.view());
-    const IntrinsicTriangulation base(surface);
+std::vector<double> distances_from(const TriangleMesh& mesh, Index vertex,
+                                   const Progress& progress) {
+    const Surface surface = build_surface(mesh.view(), 1, progress);
+    const IntrinsicTriangulation base(surface, {.progress = progress});
     SurfacePoint site{FaceId(Surface::face(surface.outgoing[vertex])), {0, 0, 0}};
     site.barycentric[surface.outgoing[vertex] % 3] = 1;
     site = base.to_intrinsic(site);
-    return propagate(base.surface(), {&site, 1},
-                     {.engine = Engine::Window, .max_error = 0, .num_threads = 1})
+    return propagate(
+               base.surface(), {&site, 1},
+               {.engine = Engine::Window, .max_error = 0, .num_threads = 1, .progress = progress})
         .vertex_distance;
 }
 
 // \param points  the site itself, then what is asked for.
 std::vector<double> search(const Surface& surface, std::span<const SurfacePoint> points,
-                           double radius) {
+                           double radius, Poller& poller) {
+    const Progress progress = poller.progress();
     // Enough for the site's own face.
     radius = std::max(radius, surface.length_of(3 * points[0].face.value()));
     while (true) {
-        const Patch patch = cut_patch(surface, points[0], radius, points);
-        const std::vector<double> all = distances_from(patch.mesh, patch.vertex[0]);
+        poller.poll();
+        const Patch patch = cut_patch(surface, points[0], radius, points, Ticker(poller));
+        const std::vector<double> all = distances_from(patch.mesh, patch.vertex[0], progress);
         std::vector<double> distance;
         double farthest = 0;
         for (const Index vertex : patch.vertex) {
@@ -51,11 +55,13 @@ std::vector<double> search(const Surface& surface, std::span<const SurfacePoint>
 }  // namespace
 
 std::vector<double> site_distances(const Surface& surface, std::span<const SurfacePoint> sites,
-                                   std::span<const SiteDistanceQuery> queries, int num_threads) {
+                                   std::span<const SiteDistanceQuery> queries, int num_threads,
+                                   const Progress& progress) {
+    Poller poller(progress);
     std::vector<std::vector<Index>> of_site(sites.size());
     for (Index q = 0; q < queries.size(); ++q) of_site[queries[q].site.value()].push_back(q);
     std::vector<double> distance(queries.size());
-    parallel_chunks(static_cast<Index>(sites.size()), 1, num_threads, [&](Index, Index s, Index) {
+    const auto search_from = [&](Index, Index s, Index) {
         // A guess from a sampled curve falls short of it by the height of a chord.
         constexpr double slack = 1.02;
         for (std::size_t begin = 0; begin < of_site[s].size(); begin += most_points) {
@@ -67,10 +73,11 @@ std::vector<double> site_distances(const Surface& surface, std::span<const Surfa
                 points.push_back(queries[q].point);
                 radius = std::max(radius, slack * queries[q].guess);
             }
-            const std::vector<double> found = search(surface, points, radius);
+            const std::vector<double> found = search(surface, points, radius, poller);
             for (std::size_t i = 0; i < count; ++i) distance[part[i]] = found[i + 1];
         }
-    });
+    };
+    parallel_chunks(static_cast<Index>(sites.size()), 1, num_threads, search_from, poller);
     return distance;
 }
 

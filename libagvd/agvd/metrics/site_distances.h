@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "agvd/core/progress.h"
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_point.h"
 
@@ -19,11 +20,13 @@ struct SiteDistanceQuery {
 //! point is moved by at most 1e-6 of its face's edges, so as to split the faces decently.
 //!
 //! \param num_threads  >= 0; 0: all cores. Same result for any number.
+//! \throw Cancelled  the progress callback returned false.
 //! Cost: for each site one exact search over the faces that lie within the largest of its guesses
 //! in space.
 [[nodiscard]] std::vector<double> site_distances(const Surface& surface,
                                                  std::span<const SurfacePoint> sites,
                                                  std::span<const SiteDistanceQuery> queries,
-                                                 int num_threads = 0);
+                                                 int num_threads = 0,
+                                                 const Progress& progress = {});
 
 }  // namespace agvd

@@ -21,7 +21,7 @@ struct ArcGraph {
     std::vector<Arc> arcs;
 
     //! Cost: O(#H) time and space.
-    ArcGraph(const Surface& surface, const Corners& corners);
+    ArcGraph(const Surface& surface, const Corners& corners, const Progress& progress = {});
 
     //! Starts to load the arcs of a vertex, which will be read soon.
     [[gnu::always_inline]] void prefetch(Index tail) const {

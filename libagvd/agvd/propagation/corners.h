@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "agvd/core/progress.h"
 #include "agvd/mesh/surface.h"
 
 namespace agvd {
@@ -20,7 +21,7 @@ struct alignas(32) Corner {
 class Corners {
 public:
     //! Cost: O(#H) time and space.
-    Corners(const Surface& surface, int num_threads);
+    Corners(const Surface& surface, int num_threads, const Progress& progress = {});
 
     [[nodiscard]] const Corner& operator[](Index h) const { return corners_[h]; }
     [[nodiscard]] Index tail(Index h) const { return corners_[h].tail; }

@@ -130,8 +130,10 @@ std::vector<Index> BoundsSearch::remove(std::span<const std::uint8_t> is_removed
     return forgotten;
 }
 
-void BoundsSearch::run() {
+void BoundsSearch::run(const Progress& progress) {
     constexpr Index grain = 512;
+    Poller poller(progress);
+    Ticker ticker(poller);
     std::vector<Index> slab;
     std::vector<Chunk> chunks;
     for (current_ = 0; current_ < slabs_.size(); ++current_) {
@@ -144,16 +146,18 @@ void BoundsSearch::run() {
             }
             slabs_[current_].clear();
             const auto count = static_cast<Index>(slab.size());
+            ticker.tick(count);
             const Index num = num_chunks(count, grain);
             if (chunks.size() < num) chunks.resize(num);
-            parallel_chunks(count, grain, num_threads_, [&](Index chunk, Index begin, Index end) {
+            const auto search = [&](Index chunk, Index begin, Index end) {
                 const auto starts = std::span<const Index>(slab).subspan(begin, end - begin);
                 if (num_threads_ == 1) {
-                    search_slab<lower_alone>(starts, chunks[chunk]);
+                    search_slab<lower_alone>(starts, chunks[chunk], Ticker(poller));
                 } else {
-                    search_slab<lower_shared>(starts, chunks[chunk]);
+                    search_slab<lower_shared>(starts, chunks[chunk], Ticker(poller));
                 }
-            });
+            };
+            parallel_chunks(count, grain, num_threads_, search, poller);
             for (const Chunk& chunk : std::span(chunks).first(num)) {
                 for (const Index v : chunk.beyond) queue(v);
                 if (!tracks_changes_) continue;
@@ -194,7 +198,7 @@ void BoundsSearch::queue(Index vertex) {
 }
 
 template <bool (*lower)(std::uint64_t&, std::uint64_t)>
-void BoundsSearch::search_slab(std::span<const Index> starts, Chunk& chunk) {
+void BoundsSearch::search_slab(std::span<const Index> starts, Chunk& chunk, Ticker ticker) {
     chunk.beyond.clear();
     chunk.changed.clear();
     chunk.steps.resize(num_steps_);
@@ -212,6 +216,7 @@ void BoundsSearch::search_slab(std::span<const Index> starts, Chunk& chunk) {
         for (std::size_t i = 0; i < step.size(); ++i) {
             if (i + 4 < step.size()) graph_.prefetch(step[i + 4].vertex);
             const auto [from, vertex] = step[i];
+            ticker.tick();
             if (key_of(vertex) != from) continue;  // Lowered since, by whoever goes on from there.
             for (Index a = graph_.offsets[vertex]; a < graph_.ends[vertex]; ++a) {
                 const auto [head, length] = graph_.arcs[a];
@@ -230,10 +235,11 @@ void BoundsSearch::search_slab(std::span<const Index> starts, Chunk& chunk) {
 }
 
 DistanceBounds distance_bounds(const Surface& surface, const ArcGraph& graph, double mean_edge,
-                               std::span<const SurfacePoint> sites, int num_threads) {
+                               std::span<const SurfacePoint> sites, int num_threads,
+                               const Progress& progress) {
     BoundsSearch search(surface, graph, mean_edge, num_threads);
     for (Index s = 0; s < sites.size(); ++s) search.add(sites[s], s);
-    search.run();
+    search.run(progress);
     DistanceBounds bounds;
     bounds.distance.reserve(surface.num_vertices());
     bounds.site.reserve(surface.num_vertices());

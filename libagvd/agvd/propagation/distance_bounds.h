@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "agvd/core/poller.h"
 #include "agvd/mesh/surface_point.h"
 #include "agvd/propagation/arc_graph.h"
 
@@ -38,7 +39,8 @@ public:
     //! \return the vertices forgotten.
     std::vector<Index> remove(std::span<const std::uint8_t> is_removed);
     //! Cost: about that of one Dijkstra sweep over the edges, where anything is new.
-    void run();
+    //! \throw Cancelled  the search is of no use any more.
+    void run(const Progress& progress = {});
 
     //! Infinity where no site reaches.
     [[nodiscard]] float distance(Index vertex) const;
@@ -65,7 +67,7 @@ private:
     [[nodiscard]] Index steps_to(float distance) const;
     void queue(Index vertex);
     template <bool (*lower)(std::uint64_t&, std::uint64_t)>
-    void search_slab(std::span<const Index> starts, Chunk& chunk);
+    void search_slab(std::span<const Index> starts, Chunk& chunk, Ticker ticker);
 
     const Surface& surface_;
     const ArcGraph& graph_;
@@ -83,6 +85,6 @@ private:
 //! The bounds of given sites. Parameters as above.
 [[nodiscard]] DistanceBounds distance_bounds(const Surface& surface, const ArcGraph& graph,
                                              double mean_edge, std::span<const SurfacePoint> sites,
-                                             int num_threads);
+                                             int num_threads, const Progress& progress = {});
 
 }  // namespace agvd

@@ -31,19 +31,29 @@ public:
           faces_(surface.num_faces()),
           begins_(logs_.num_ranges() + 1) {}
 
-    void run(int num_threads) {
+    void run(int num_threads, Poller& poller) {
         const Index num_ranges = logs_.num_ranges();
-        parallel_chunks(num_ranges, 1, num_threads,
-                        [&](Index range, Index, Index) { count(range); });
+        poller.poll();
+        parallel_chunks(
+            num_ranges, 1, num_threads,
+            [&](Index range, Index, Index) { count(range, Ticker(poller)); }, poller);
         for (Index range = 0; range < num_ranges; ++range) {
             begins_[range + 1].face += begins_[range].face;
             begins_[range + 1].relay += begins_[range].relay;
         }
         result_.mixed_faces.resize(begins_.back().face);
         result_.relay_ranges.resize(begins_.back().face);
-        result_.relays.resize(begins_.back().relay);
-        parallel_chunks(num_ranges, 1, num_threads,
-                        [&](Index range, Index, Index) { write(range); });
+        poller.poll();
+        result_.relays.reserve(begins_.back().relay);
+        while (result_.relays.size() < begins_.back().relay) {  // New pages take long.
+            constexpr std::size_t step = 1 << 17;
+            result_.relays.resize(
+                std::min<std::size_t>(begins_.back().relay, result_.relays.size() + step));
+            poller.poll();
+        }
+        parallel_chunks(
+            num_ranges, 1, num_threads,
+            [&](Index range, Index, Index) { write(range, Ticker(poller)); }, poller);
     }
 
 private:
@@ -57,8 +67,9 @@ private:
         return std::min((range + 1) * RelayLogs::faces_of_a_range, surface_.num_faces());
     }
 
-    void count(Index range) {
+    void count(Index range, Ticker ticker) {
         for (const std::vector<Relay>& block : logs_.blocks(range)) {
+            ticker.tick(block.size());
             for_each_relay(
                 block, [&](Index face) { __builtin_prefetch(&faces_[face], 1); },
                 [&](const Relay& relay) {
@@ -69,6 +80,7 @@ private:
         }
         Begin& own = begins_[range + 1];
         for (Index f = range * RelayLogs::faces_of_a_range; f < end_of(range); ++f) {
+            ticker.tick();
             FaceRelays& face = faces_[f];
             for (const Index v : surface_.mesh.triangles[f]) {
                 face.add_site(result_.vertex_site[v].value());
@@ -82,7 +94,7 @@ private:
         }
     }
 
-    void write(Index range) {
+    void write(Index range, Ticker ticker) {
         const Index first = begins_[range].face;
         Index end = first;
         Index relays_end = begins_[range].relay;
@@ -96,6 +108,7 @@ private:
             result_.relay_ranges[end++] = {begin, relays_end};
         }
         for (std::vector<Relay>& block : logs_.blocks(range)) {
+            ticker.tick(block.size());
             for_each_relay(
                 block,
                 [&](Index face) {
@@ -109,6 +122,7 @@ private:
             std::vector<Relay>().swap(block);
         }
         for (Index i = first; i < end; ++i) {
+            ticker.tick();
             const Index f = result_.mixed_faces[i];
             write_inner_relays(surface_, placement_.in_face(f), result_, f,
                                result_.relays.data() + faces_[f].count);
@@ -126,8 +140,8 @@ private:
 }  // namespace
 
 void write_mixed_faces(const Surface& surface, const SitePlacement& placement, RelayLogs logs,
-                       int num_threads, Propagation& result) {
-    MixedFaceWriter(surface, placement, std::move(logs), result).run(num_threads);
+                       int num_threads, Poller& poller, Propagation& result) {
+    MixedFaceWriter(surface, placement, std::move(logs), result).run(num_threads, poller);
 }
 
 }  // namespace agvd

@@ -2,6 +2,7 @@
 //! From the windows of all sites to the relays of the faces that may hold more than one label.
 #pragma once
 
+#include "agvd/core/poller.h"
 #include "agvd/propagation/relay_logs.h"
 #include "agvd/propagation/site_placement.h"
 
@@ -13,6 +14,6 @@ namespace agvd {
 //! \param logs  windows of every face that may be mixed; consumed. Relays keep their order.
 //! Cost: O(#F + relays).
 void write_mixed_faces(const Surface& surface, const SitePlacement& placement, RelayLogs logs,
-                       int num_threads, Propagation& result);
+                       int num_threads, Poller& poller, Propagation& result);
 
 }  // namespace agvd

@@ -58,10 +58,11 @@ Propagation propagate(const Surface& surface, std::span<const SurfacePoint> site
                       const PropagationOptions& options) {
     const auto run = [&](std::span<const SurfacePoint> distinct) {
         if (options.engine == Engine::Steiner) return propagate_steiner(surface, distinct, options);
-        const Corners corners(surface, options.num_threads);
+        const Corners corners(surface, options.num_threads, within(options.progress, 0, 0));
         const auto bounds = [&] {  // The arcs go before the windows come.
-            return distance_bounds(surface, ArcGraph(surface, corners), corners.mean_length(),
-                                   distinct, options.num_threads);
+            const Progress begin = within(options.progress, 0, 0);
+            return distance_bounds(surface, ArcGraph(surface, corners, begin),
+                                   corners.mean_length(), distinct, options.num_threads, begin);
         };
         return carry(surface, corners, bounds, distinct, options);
     };
@@ -75,7 +76,7 @@ Propagation propagate(const Surface& surface, const SurfaceLayout& layout,
         const Corners& corners = layout.corners();
         const auto bounds = [&] {
             return distance_bounds(surface, layout.arcs(), corners.mean_length(), distinct,
-                                   options.num_threads);
+                                   options.num_threads, within(options.progress, 0, 0));
         };
         return carry(surface, corners, bounds, distinct, options);
     };

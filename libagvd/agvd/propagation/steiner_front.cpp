@@ -51,7 +51,9 @@ SteinerFront::SteinerFront(const Surface& surface, std::span<const SurfacePoint>
       retirement_(surface, placement_, counts, vertices_, pool_) {}
 
 void SteinerFront::run(double retirement_interval, const Progress& progress) {
-    poll(progress, 0);
+    Poller poller(progress);
+    poller.tell(0);
+    ticker_ = Ticker(poller);
     for (Index s = 0; s < sites_.size(); ++s) start(s);
     double next_retirement = retirement_interval;
     const double all_nodes =
@@ -69,14 +71,15 @@ void SteinerFront::run(double retirement_interval, const Progress& progress) {
             serve_onward(edge, point);
         }
         if (++num_pops_ % poll_interval == 0) {
-            poll(progress, static_cast<double>(num_pops_) / all_nodes);
+            poller.tell(static_cast<double>(num_pops_) / all_nodes);
         }
         if (static_cast<double>(num_pops_) >= next_retirement && refill()) {
             next_retirement += retirement_interval;
             retirement_.retire_behind(queue_.top().distance);
         }
     }
-    poll(progress, 1);
+    poller.tell(1);
+    ticker_ = {};
 }
 
 Propagation SteinerFront::finish() {
@@ -146,6 +149,7 @@ void SteinerFront::relax_points(Index from, Index begin, Index end, const Vec2& 
                                 const Vec2& along, const Vec2& source, double base, Index site,
                                 Index slot) {
     if (begin >= end) return;
+    ticker_.tick(end - begin);
     retirement_.open(Surface::face(from));
     const Index edge = surface_.edge[from];
     if (pool_.is_retired(edge)) return;

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "agvd/core/poller.h"
 #include "agvd/propagation/front_queue.h"
 #include "agvd/propagation/propagate.h"
 #include "agvd/propagation/site_placement.h"
@@ -58,6 +59,7 @@ private:
     SteinerPool pool_;
     FrontQueue queue_;
     SteinerRetirement retirement_;
+    Ticker ticker_;  // Of run().
     std::size_t num_pops_ = 0;
 };
 

@@ -65,12 +65,6 @@ bool is_in_reach(double error, double max_error, Index most_points) {
     throw ConstraintUnmet(text.str());
 }
 
-// Progress of a part of the work.
-Progress within(const Progress& progress, double begin, double end) {
-    if (!progress) return {};
-    return [&progress, begin, end](double x) { return progress(begin + x * (end - begin)); };
-}
-
 }  // namespace
 
 Propagation propagate_steiner_within(const Surface& surface, std::span<const SurfacePoint> sites,

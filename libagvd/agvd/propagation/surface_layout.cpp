@@ -4,9 +4,9 @@
 
 namespace agvd {
 
-SurfaceLayout::SurfaceLayout(const Surface& surface, int num_threads)
-    : corners_(std::make_unique<Corners>(surface, num_threads)),
-      arcs_(std::make_unique<ArcGraph>(surface, *corners_)) {}
+SurfaceLayout::SurfaceLayout(const Surface& surface, int num_threads, const Progress& progress)
+    : corners_(std::make_unique<Corners>(surface, num_threads, progress)),
+      arcs_(std::make_unique<ArcGraph>(surface, *corners_, progress)) {}
 
 SurfaceLayout::SurfaceLayout(SurfaceLayout&&) noexcept = default;
 SurfaceLayout& SurfaceLayout::operator=(SurfaceLayout&&) noexcept = default;

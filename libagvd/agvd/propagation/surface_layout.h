@@ -4,6 +4,7 @@
 
 #include <memory>
 
+#include "agvd/core/progress.h"
 #include "agvd/mesh/surface.h"
 
 namespace agvd {
@@ -17,7 +18,9 @@ class SurfaceLayout {
 public:
     //! \param num_threads  >= 0; 0: all cores.
     //! Cost: O(#H), about that of one Dijkstra sweep over the edges.
-    explicit SurfaceLayout(const Surface& surface, int num_threads = 0);
+    //! \throw Cancelled  the progress callback returned false.
+    explicit SurfaceLayout(const Surface& surface, int num_threads = 0,
+                           const Progress& progress = {});
     SurfaceLayout(SurfaceLayout&&) noexcept;
     SurfaceLayout& operator=(SurfaceLayout&&) noexcept;
     ~SurfaceLayout();

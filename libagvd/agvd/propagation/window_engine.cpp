@@ -58,14 +58,14 @@ struct Worker {
 // Workers that no task holds.
 class WorkerPool {
 public:
-    WorkerPool(const Surface& surface, const Corners& corners, double max_error)
-        : surface_(surface), corners_(corners), max_error_(max_error) {}
+    WorkerPool(const Surface& surface, const Corners& corners, double max_error, Poller& poller)
+        : surface_(surface), corners_(corners), max_error_(max_error), poller_(poller) {}
 
     std::unique_ptr<Worker> take() {
         const std::scoped_lock lock(mutex_);
         if (free_.empty()) {
-            auto worker =
-                std::make_unique<Worker>(Worker{WindowFront(surface_, corners_, max_error_), {}});
+            auto worker = std::make_unique<Worker>(
+                Worker{WindowFront(surface_, corners_, max_error_, Ticker(poller_)), {}});
             worker->result.relays = RelayLogs(surface_.num_faces());
             return worker;
         }
@@ -89,6 +89,7 @@ private:
     const Surface& surface_;
     const Corners& corners_;
     double max_error_;
+    Poller& poller_;
     std::mutex mutex_;
     std::vector<std::unique_ptr<Worker>> free_;
 };
@@ -112,7 +113,7 @@ public:
 
     Propagation run() {
         {
-            WorkerPool workers(surface_, corners_, max_error_);
+            WorkerPool workers(surface_, corners_, max_error_, poller_);
             result_.vertex_distance.assign(surface_.num_vertices(),
                                            std::numeric_limits<double>::infinity());
             result_.vertex_site.assign(surface_.num_vertices(), SiteId());
@@ -126,11 +127,12 @@ public:
         std::vector<float>().swap(bounds_);
         std::vector<Index>().swap(labels_);
         const std::size_t log_bytes = common_bytes();
-        write_mixed_faces(surface_, placement_, std::move(logs_), options_.num_threads, result_);
+        write_mixed_faces(surface_, placement_, std::move(logs_), options_.num_threads, poller_,
+                          result_);
         result_.peak_bytes =
             std::max(result_.peak_bytes, log_bytes + result_.relays.capacity() * sizeof(Relay) +
                                              result_.mixed_faces.capacity() * 3 * sizeof(Index));
-        poll(options_.progress, 1);
+        poller_.tell(1);
         return std::move(result_);
     }
 
@@ -161,8 +163,11 @@ private:
                 [&](Index site, const WindowFront& front, TaskResult& task) {
                     collect(site, front, task);
                 });
-            for (const TaskResult& task : tasks) take_vertices(task);
-            poll(options_.progress, static_cast<double>(first + 1) / (count + 1));
+            for (const TaskResult& task : tasks) {
+                take_vertices(task);
+                poller_.poll();
+            }
+            poller_.tell(static_cast<double>(first + 1) / (count + 1));
         }
     }
 
@@ -182,23 +187,24 @@ private:
         const auto count = static_cast<Index>(order.size());
         const Index grain = std::max(count / tasks_of_a_batch, Index{1});
         std::vector<TaskResult> tasks(num_chunks(count, grain));
-        parallel_chunks(count, grain, options_.num_threads,
-                        [&](Index chunk, Index begin, Index end) {
-                            auto worker = workers.take();
-                            worker->result.clear();
-                            for (Index i = begin; i < end; ++i) {
-                                WindowFront& front = worker->front;
-                                TaskResult& result = worker->result;
-                                front.run(sites_[order[i]], bounds_, work_cap_,
-                                          [&](Index face) { return keeps(order[i], face); });
-                                result.num_windows += front.num_windows();
-                                result.error = std::max(result.error, front.relative_error());
-                                collect(order[i], front, result);
-                            }
-                            tasks[chunk] = hand_over(worker->result);
-                            workers.give_back(std::move(worker));
-                        });
+        const auto body = [&](Index chunk, Index begin, Index end) {
+            auto worker = workers.take();
+            worker->result.clear();
+            for (Index i = begin; i < end; ++i) {
+                WindowFront& front = worker->front;
+                TaskResult& result = worker->result;
+                front.run(sites_[order[i]], bounds_, work_cap_,
+                          [&](Index face) { return keeps(order[i], face); });
+                result.num_windows += front.num_windows();
+                result.error = std::max(result.error, front.relative_error());
+                collect(order[i], front, result);
+            }
+            tasks[chunk] = hand_over(worker->result);
+            workers.give_back(std::move(worker));
+        };
+        parallel_chunks(count, grain, options_.num_threads, body, poller_);
         for (TaskResult& task : tasks) {
+            poller_.poll();
             result_.num_nodes += task.num_windows;
             result_.certified_error = std::max(result_.certified_error, task.error);
             logs_.append(std::move(task.relays));
@@ -245,6 +251,7 @@ private:
     // there is at hand, and their own sites run once more.
     void propagate_again(WorkerPool& workers) {
         std::vector<bool> is_late(surface_.num_faces(), false);
+        poller_.poll();
         for (const Relay& stray : strays_) is_late[Surface::face(stray.half_edge)] = true;
         std::vector<Index> again;
         for (Index face = 0; face < surface_.num_faces(); ++face) {
@@ -254,6 +261,7 @@ private:
         }
         sort_by_face(again);
         again.erase(std::unique(again.begin(), again.end()), again.end());
+        poller_.poll();
         const auto num_strays = static_cast<std::ptrdiff_t>(strays_.size());
         const auto keeps = [&](Index site, Index face) {
             return is_late[face] && label_of(face) == site;
@@ -287,6 +295,7 @@ private:
     const Corners& corners_;
     std::span<const SurfacePoint> sites_;
     const PropagationOptions& options_;
+    Poller poller_{options_.progress};
     double max_error_;
     Index work_cap_;
     SitePlacement placement_;

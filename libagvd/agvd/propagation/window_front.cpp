@@ -12,10 +12,11 @@
 namespace agvd {
 
 WindowFront::WindowFront(const Surface& surface, const Corners& corners, double max_error,
-                         Index small_run)
+                         Ticker ticker, Index small_run)
     : surface_(surface),
       corners_(corners),
       max_error_(max_error),
+      ticker_(ticker),
       small_run_(small_run),
       close_factor_((1 + max_error) * (1 + max_error) * (1 + max_error) * (1 + 1e-9)),
       vertex_slot_(surface.num_vertices(), 0),

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "agvd/core/poller.h"
 #include "agvd/core/run_array.h"
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_point.h"
@@ -28,11 +29,11 @@ class WindowFront {
 public:
     //! \param surface, corners  outlive the front; Corners(surface).
     //! \param max_error    relative; 0: no window is merged.
+    //! \param ticker       of the thread that runs it.
     //! \param small_run    half-edges of a run that gives no windows back; the default fits into
-    //! the
-    //!                     caches as it is.
+    //!                     the caches as it is.
     WindowFront(const Surface& surface, const Corners& corners, double max_error,
-                Index small_run = 2048);
+                Ticker ticker = {}, Index small_run = 2048);
 
     //! Propagates from one site. Windows die where `bounds` are lower.
     //!
@@ -42,6 +43,7 @@ public:
     //!                  buckets; if more are, the run starts again with the nearest window first.
     //! \param keeps     windows of other faces may be given back once nothing can come there any
     //!                  more. That changes nothing else.
+    //! \throw Cancelled  the next run begins anew.
     void run(const SurfacePoint& site, std::span<const float> bounds, Index work_cap,
              const KeptFaces& keeps = {});
 
@@ -193,6 +195,7 @@ private:
     const Surface& surface_;
     const Corners& corners_;
     double max_error_;
+    Ticker ticker_;
     Index small_run_;
     double close_factor_;
     std::span<const float> bounds_;

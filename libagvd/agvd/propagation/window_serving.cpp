@@ -265,6 +265,7 @@ void WindowFront::serve_edge(Index record) {
     if (edge.windows == no_index) return;
     face.apex_record = vertex_record(face.previous.tail);
 
+    ticker_.tick(store_[edge.windows].size());
     divisions_.clear();
     Index num_right = 0, num_left = 0;
     for (Window& window : store_[edge.windows]) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "agvd/core/poller.h"
 #include "remesh/dual/degenerate_edges.h"
 
 namespace remesh {
@@ -20,12 +21,13 @@ SitePair make_pair(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; 
 
 class DualBuilder {
 public:
-    DualBuilder(const Diagram& diagram, std::vector<bool> is_contracted)
-        : diagram_(diagram), is_contracted_(std::move(is_contracted)) {
+    DualBuilder(const Diagram& diagram, std::vector<bool> is_contracted, agvd::Ticker ticker)
+        : diagram_(diagram), is_contracted_(std::move(is_contracted)), ticker_(ticker) {
         keep_forest();
         locate_ends();
         for (Index e = 0; e < diagram.edges.size(); ++e) {
             const agvd::VoronoiEdge& edge = diagram.edges[e];
+            ticker_.tick(4);  // A set is slow.
             if (is_contracted_[e] || !edge.right.is_valid()) continue;
             taken_.insert(make_pair(edge.left.value(), edge.right.value()));
         }
@@ -34,6 +36,7 @@ public:
     std::vector<Triangle> run() {
         std::vector<bool> is_done(diagram_.vertices.size(), false);
         for (Index v = 0; v < diagram_.vertices.size(); ++v) {
+            ticker_.tick();
             if (is_done[v]) continue;
             polygon_.clear();
             collect_polygon(v, is_done);
@@ -128,6 +131,7 @@ private:
 
     const Diagram& diagram_;
     std::vector<bool> is_contracted_;
+    agvd::Ticker ticker_;
     std::vector<Index> end_at_;         // By 2 * edge + (0: tail, 1: head): index in vertex_ends.
     std::vector<Index> vertex_of_end_;  // By index in vertex_ends.
     std::set<SitePair> taken_;          // Edges of the dual so far.
@@ -137,8 +141,11 @@ private:
 
 }  // namespace
 
-std::vector<Triangle> build_dual(const agvd::Surface& surface, const Diagram& diagram) {
-    return DualBuilder(diagram, find_degenerate_edges(surface, diagram)).run();
+std::vector<Triangle> build_dual(const agvd::Surface& surface, const Diagram& diagram,
+                                 const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    const agvd::Ticker ticker(poller);
+    return DualBuilder(diagram, find_degenerate_edges(surface, diagram, ticker), ticker).run();
 }
 
 }  // namespace remesh

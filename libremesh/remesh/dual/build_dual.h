@@ -11,8 +11,10 @@ namespace remesh {
 //! repeat no edge where that is possible. Sites without a cell, and cells without a Voronoi vertex,
 //! occur in no triangle. The caller checks the topology (analyze_topology).
 //!
+//! \throw agvd::Cancelled  the progress callback returned false.
 //! Cost: O(size of the complex) and a sort.
 [[nodiscard]] std::vector<agvd::Triangle> build_dual(const agvd::Surface& surface,
-                                                     const agvd::Diagram& diagram);
+                                                     const agvd::Diagram& diagram,
+                                                     const agvd::Progress& progress = {});
 
 }  // namespace remesh

@@ -21,11 +21,12 @@ bool is_inner_vertex(const agvd::Diagram& diagram, Index vertex) {
 
 }  // namespace
 
-std::vector<bool> find_degenerate_edges(const agvd::Surface& surface,
-                                        const agvd::Diagram& diagram) {
+std::vector<bool> find_degenerate_edges(const agvd::Surface& surface, const agvd::Diagram& diagram,
+                                        agvd::Ticker ticker) {
     std::vector<bool> result(diagram.edges.size(), false);
     for (Index e = 0; e < diagram.edges.size(); ++e) {
         const agvd::VoronoiEdge& edge = diagram.edges[e];
+        ticker.tick(1 + diagram.edge_points[e + 1] - diagram.edge_points[e]);
         if (edge.tail == agvd::no_index || edge.tail == edge.head || !edge.right.is_valid())
             continue;
         if (!is_inner_vertex(diagram, edge.tail) || !is_inner_vertex(diagram, edge.head)) continue;

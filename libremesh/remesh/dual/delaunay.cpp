@@ -19,9 +19,9 @@ Index count_inner(const FlippableMesh& mesh) {
 }
 
 void flip(FlippableMesh& mesh, std::vector<double>& length, std::span<const Vec3> positions,
-          const Diagonals& diagonals, DelaunayCounts& counts) {
+          const Diagonals& diagonals, agvd::Ticker ticker, DelaunayCounts& counts) {
     counts.inner_edges = count_inner(mesh);
-    const FlipCounts flips = flip_to_delaunay(mesh, length, positions, diagonals);
+    const FlipCounts flips = flip_to_delaunay(mesh, length, positions, diagonals, ticker);
     counts.failing_before = flips.failing_before;
     counts.failing_after = flips.failing_after;
     counts.flips = flips.flips;
@@ -29,7 +29,7 @@ void flip(FlippableMesh& mesh, std::vector<double>& length, std::span<const Vec3
 }
 
 std::vector<double> flip_in_space(FlippableMesh& mesh, std::span<const Vec3> positions,
-                                  DelaunayCounts& counts) {
+                                  agvd::Ticker ticker, DelaunayCounts& counts) {
     std::vector<double> length(mesh.num_edges());
     for (Index e = 0; e < mesh.num_edges(); ++e) {
         const Index h = mesh.sides(e)[0];
@@ -41,29 +41,32 @@ std::vector<double> flip_in_space(FlippableMesh& mesh, std::span<const Vec3> pos
                 positions[mesh.tail(FlippableMesh::previous(g))])
             .norm();
     };
-    flip(mesh, length, positions, {measure, [](Index) {}}, counts);
+    flip(mesh, length, positions, {measure, [](Index) {}}, ticker, counts);
     return length;
 }
 
 std::vector<double> flip_on_surface(const Surface& surface, const DualVertices& vertices,
-                                    int num_threads, FlippableMesh& mesh, DelaunayCounts& counts) {
+                                    int num_threads, agvd::Poller& poller, FlippableMesh& mesh,
+                                    DelaunayCounts& counts) {
+    const agvd::Ticker ticker(poller);
     std::vector<SurfacePoint> points;
     points.reserve(vertices.points.size());
     for (const SurfacePoint& point : vertices.points) points.push_back(snapped(surface, point));
-    std::vector<EdgePath> paths = find_edge_paths(
-        surface, {points, vertices.site, vertices.diagram, vertices.positions}, mesh, num_threads);
-    mend_triangles(surface, mesh, paths);
+    std::vector<EdgePath> paths =
+        find_edge_paths(surface, {points, vertices.site, vertices.diagram, vertices.positions},
+                        mesh, num_threads, poller);
+    mend_triangles(surface, mesh, ticker, paths);
     std::vector<double> length(paths.size());
     for (Index e = 0; e < paths.size(); ++e) length[e] = paths[e].length;
 
-    PathStraightener straightener(surface);
+    PathStraightener straightener(surface, ticker);
     EdgePath diagonal;
     const auto measure = [&](Index edge) {
         diagonal = path_across(surface, mesh, paths, edge, straightener);
         return diagonal.length;
     };
     const auto accept = [&](Index edge) { paths[edge] = std::move(diagonal); };
-    flip(mesh, length, vertices.positions, {measure, accept}, counts);
+    flip(mesh, length, vertices.positions, {measure, accept}, ticker, counts);
     for (const EdgePath& path : paths) counts.not_locally_shortest += !path.is_locally_shortest;
     return length;
 }
@@ -92,12 +95,13 @@ DelaunayResult make_delaunay(const Surface& surface, std::span<const SurfacePoin
         result.triangles.assign(triangles.begin(), triangles.end());
         return result;
     }
-    FlippableMesh mesh(triangles);
+    agvd::Poller poller(options.progress);
+    FlippableMesh mesh(triangles, agvd::Ticker(poller));
     const std::vector<double> length =
         options.mode == Delaunay::Extrinsic
-            ? flip_in_space(mesh, positions, result.counts)
+            ? flip_in_space(mesh, positions, agvd::Ticker(poller), result.counts)
             : flip_on_surface(surface, {points, site, diagram, positions}, options.num_threads,
-                              mesh, result.counts);
+                              poller, mesh, result.counts);
     result.triangles = mesh.triangles();
     result.side_lengths.reserve(result.triangles.size());
     for (Index t = 0; t < result.triangles.size(); ++t) {

@@ -21,6 +21,7 @@ enum class Delaunay : std::uint8_t {
 struct DelaunayOptions {
     Delaunay mode = Delaunay::Intrinsic;
     int num_threads = 0;  //!< >= 0; 0: all cores. Same bytes for any number.
+    agvd::Progress progress = {};
 };
 
 //! What was found and done; all 0 with Delaunay::Off.
@@ -53,6 +54,7 @@ struct DelaunayResult {
 //! \param triangles  vertex indices; edges need not be dual to Voronoi edges, and
 //!                   those with other than two sides in opposite directions are left alone. The
 //!                   vertices of a triangle lie on one component.
+//! \throw agvd::Cancelled  the progress callback returned false.
 //! Cost: O(size of the complex + faces that the edges cross).
 [[nodiscard]] DelaunayResult make_delaunay(const agvd::Surface& surface,
                                            std::span<const agvd::SurfacePoint> points,

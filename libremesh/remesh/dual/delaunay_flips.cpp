@@ -68,8 +68,9 @@ struct Quad {
 class Flipper {
 public:
     Flipper(FlippableMesh& mesh, std::vector<double>& length, std::span<const Vec3> positions,
-            const Diagonals& diagonals)
-        : mesh_(mesh),
+            const Diagonals& diagonals, agvd::Ticker ticker)
+        : ticker_(ticker),
+          mesh_(mesh),
           length_(length),
           positions_(positions),
           diagonals_(diagonals),
@@ -78,11 +79,13 @@ public:
     FlipCounts run() {
         FlipCounts counts;
         for (Index e = 0; e < mesh_.num_edges(); ++e) {
+            ticker_.tick(2);
             if (mesh_.is_inner(e) && is_non_delaunay(mesh_, length_, e)) enqueue(e);
         }
         counts.failing_before = counts.failing_after = static_cast<Index>(queue_.size());
         const std::size_t max_flips = max_flips_per_edge * mesh_.num_edges();
         while (!queue_.empty()) {
+            ticker_.tick(8);
             const Index edge = queue_.front();
             queue_.pop_front();
             is_queued_[edge] = false;
@@ -96,6 +99,7 @@ public:
         if (counts.flips == 0) return counts;
         counts.failing_after = 0;
         for (Index e = 0; e < mesh_.num_edges(); ++e) {
+            ticker_.tick(2);
             if (mesh_.is_inner(e) && is_non_delaunay(mesh_, length_, e)) ++counts.failing_after;
         }
         return counts;
@@ -159,6 +163,7 @@ private:
         return !(after >= std::min(before, gentle_fold));
     }
 
+    agvd::Ticker ticker_;
     FlippableMesh& mesh_;
     std::vector<double>& length_;
     std::span<const Vec3> positions_;
@@ -170,8 +175,9 @@ private:
 }  // namespace
 
 FlipCounts flip_to_delaunay(FlippableMesh& mesh, std::vector<double>& length,
-                            std::span<const Vec3> positions, const Diagonals& diagonals) {
-    return Flipper(mesh, length, positions, diagonals).run();
+                            std::span<const Vec3> positions, const Diagonals& diagonals,
+                            agvd::Ticker ticker) {
+    return Flipper(mesh, length, positions, diagonals, ticker).run();
 }
 
 }  // namespace remesh

@@ -31,6 +31,7 @@ struct FlipCounts {
 //! \param length     by edge; follows the flips.
 //! \param positions  by vertex.
 FlipCounts flip_to_delaunay(FlippableMesh& mesh, std::vector<double>& length,
-                            std::span<const agvd::Vec3> positions, const Diagonals& diagonals);
+                            std::span<const agvd::Vec3> positions, const Diagonals& diagonals,
+                            agvd::Ticker ticker = {});
 
 }  // namespace remesh

@@ -107,12 +107,12 @@ std::array<Index, 2> ends_of(const FlippableMesh& mesh, Index edge) {
 
 // Leaves out edges without a Voronoi edge.
 void find_paths_through_gates(const Surface& surface, const DualVertices& vertices,
-                              const FlippableMesh& mesh, int num_threads,
+                              const FlippableMesh& mesh, int num_threads, agvd::Poller& poller,
                               std::vector<EdgePath>& paths) {
     const std::vector<Gate> gates = find_gates(vertices);
-    agvd::parallel_chunks(mesh.num_edges(), grain, num_threads, [&](Index, Index begin, Index end) {
-        PathStraightener straightener(surface);
-        SitePaths site_paths(surface, vertices);
+    const auto find = [&](Index, Index begin, Index end) {
+        PathStraightener straightener(surface, agvd::Ticker(poller));
+        SitePaths site_paths(surface, vertices, agvd::Ticker(poller));
         auto gate = gates.begin();
         for (Index e = begin; e < end; ++e) {
             const auto [a, b] = ends_of(mesh, e);
@@ -123,13 +123,15 @@ void find_paths_through_gates(const Surface& surface, const DualVertices& vertic
             const Index face = vertices.diagram.points[gate->point].face.value();
             paths[e] = path_in(site_paths.through(a, face, b), a, straightener);
         }
-    });
+    };
+    agvd::parallel_chunks(mesh.num_edges(), grain, num_threads, find, poller);
 }
 
 // Rounds, each from the paths of those before: the way round a triangle, or a search for all that
 // are left when that finds no more.
 void find_missing_paths(const Surface& surface, const DualVertices& vertices,
-                        const FlippableMesh& mesh, int num_threads, std::vector<EdgePath>& paths) {
+                        const FlippableMesh& mesh, int num_threads, agvd::Poller& poller,
+                        std::vector<EdgePath>& paths) {
     std::vector<Index> missing;
     for (Index e = 0; e < paths.size(); ++e) {
         if (paths[e].from == no_index) missing.push_back(e);
@@ -137,9 +139,9 @@ void find_missing_paths(const Surface& surface, const DualVertices& vertices,
     for (bool is_stuck = false; !missing.empty();) {
         const auto num_missing = static_cast<Index>(missing.size());
         std::vector<EdgePath> found(num_missing);
-        agvd::parallel_chunks(num_missing, grain, num_threads, [&](Index, Index begin, Index end) {
-            PathStraightener straightener(surface);
-            SitePaths site_paths(surface, vertices);
+        const auto find = [&](Index, Index begin, Index end) {
+            PathStraightener straightener(surface, agvd::Ticker(poller));
+            SitePaths site_paths(surface, vertices, agvd::Ticker(poller));
             for (Index i = begin; i < end; ++i) {
                 const Index h = find_way_round(mesh, paths, missing[i]);
                 if (h != no_index) {
@@ -149,7 +151,8 @@ void find_missing_paths(const Surface& surface, const DualVertices& vertices,
                     found[i] = path_in(site_paths.between(a, b), a, straightener);
                 }
             }
-        });
+        };
+        agvd::parallel_chunks(num_missing, grain, num_threads, find, poller);
         std::vector<Index> still_missing;
         for (Index i = 0; i < num_missing; ++i) {
             if (found[i].from == no_index) {
@@ -166,10 +169,11 @@ void find_missing_paths(const Surface& surface, const DualVertices& vertices,
 }  // namespace
 
 std::vector<EdgePath> find_edge_paths(const Surface& surface, const DualVertices& vertices,
-                                      const FlippableMesh& mesh, int num_threads) {
+                                      const FlippableMesh& mesh, int num_threads,
+                                      agvd::Poller& poller) {
     std::vector<EdgePath> paths(mesh.num_edges());
-    find_paths_through_gates(surface, vertices, mesh, num_threads, paths);
-    find_missing_paths(surface, vertices, mesh, num_threads, paths);
+    find_paths_through_gates(surface, vertices, mesh, num_threads, poller, paths);
+    find_missing_paths(surface, vertices, mesh, num_threads, poller, paths);
     return paths;
 }
 
@@ -196,9 +200,9 @@ bool is_triangle(double a, double b, double c) {
     return longest <= (a + b + c - longest) + length_tolerance * longest;
 }
 
-void mend_triangles(const Surface& surface, const FlippableMesh& mesh,
+void mend_triangles(const Surface& surface, const FlippableMesh& mesh, agvd::Ticker ticker,
                     std::vector<EdgePath>& paths) {
-    PathStraightener straightener(surface);
+    PathStraightener straightener(surface, ticker);
     const auto length = [&](Index half_edge) { return paths[mesh.edge(half_edge)].length; };
     const auto is_sound = [&](Index t) {
         return is_triangle(length(3 * t), length(3 * t + 1), length(3 * t + 2));
@@ -207,6 +211,7 @@ void mend_triangles(const Surface& surface, const FlippableMesh& mesh,
     for (int pass = 0; is_changed && pass < max_passes; ++pass) {
         is_changed = false;
         for (Index t = 0; t < mesh.triangles().size(); ++t) {
+            ticker.tick();
             if (is_sound(t)) continue;
             Index longest = 3 * t;
             for (const Index h : {3 * t + 1, 3 * t + 2}) {

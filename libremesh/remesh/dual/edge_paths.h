@@ -25,7 +25,8 @@ struct EdgePath {
 //! Cost: O(size of the complex + faces crossed).
 [[nodiscard]] std::vector<EdgePath> find_edge_paths(const agvd::Surface& surface,
                                                     const DualVertices& vertices,
-                                                    const FlippableMesh& mesh, int num_threads);
+                                                    const FlippableMesh& mesh, int num_threads,
+                                                    agvd::Poller& poller);
 
 //! The path straightened from the way along two sides of the quad around an inner edge, from the
 //! corner opposite its first side to the other one; the shorter way of the two.
@@ -38,7 +39,7 @@ struct EdgePath {
 
 //! Replaces sides that are longer than the way along the other two of their triangle by the path
 //! straightened from that way, in passes over the triangles until all are sound (or 100).
-void mend_triangles(const agvd::Surface& surface, const FlippableMesh& mesh,
+void mend_triangles(const agvd::Surface& surface, const FlippableMesh& mesh, agvd::Ticker ticker,
                     std::vector<EdgePath>& paths);
 
 }  // namespace remesh

@@ -16,7 +16,7 @@ std::uint64_t key(Index a, Index b) { return std::uint64_t{std::min(a, b)} << 32
 
 }  // namespace
 
-FlippableMesh::FlippableMesh(std::span<const agvd::Triangle> triangles)
+FlippableMesh::FlippableMesh(std::span<const agvd::Triangle> triangles, agvd::Ticker ticker)
     : triangles_(triangles.begin(), triangles.end()), edge_(3 * triangles.size()) {
     Index num_vertices = 0;
     for (const agvd::Triangle& t : triangles_) {
@@ -24,10 +24,11 @@ FlippableMesh::FlippableMesh(std::span<const agvd::Triangle> triangles)
     }
     valence_.assign(num_vertices, 0);
     is_boundary_.assign(num_vertices, false);
-    const std::vector<EdgeSide> sides = sorted_edge_sides(triangles_);
+    const std::vector<EdgeSide> sides = sorted_edge_sides(triangles_, ticker);
     first_ends_.reserve(sides.size() / 2);
     sides_.reserve(sides.size() / 2);
     for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
+        ticker.tick();
         const bool is_inner = end - begin == 2 && begin[0].forward != begin[1].forward;
         for (const EdgeSide* side = begin; side != end; ++side)
             edge_[side->half_edge] = num_edges();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "agvd/core/half_edge.h"
+#include "agvd/core/poller.h"
 
 namespace remesh {
 
@@ -15,7 +16,7 @@ namespace remesh {
 class FlippableMesh {
 public:
     //! Any triangles; edges that have not two sides in opposite directions never flip.
-    explicit FlippableMesh(std::span<const agvd::Triangle> triangles);
+    explicit FlippableMesh(std::span<const agvd::Triangle> triangles, agvd::Ticker ticker = {});
 
     [[nodiscard]] const std::vector<agvd::Triangle>& triangles() const { return triangles_; }
     [[nodiscard]] agvd::Index num_edges() const { return static_cast<agvd::Index>(sides_.size()); }

@@ -88,6 +88,7 @@ void SitePaths::descend(Index face, Index goal, Way& way) const {
         way.assign(1, v);
     }
     while (!way.empty()) {
+        ticker_.tick();
         const Index here = way.back();
         Index next = no_index;
         double least = std::numeric_limits<double>::infinity();
@@ -140,6 +141,7 @@ void SitePaths::search(Index face, Index goal, Way& way) const {
     for (const Index v : surface_.mesh.triangles[face]) reach(v, 0, no_index);
     way.clear();
     while (!queue.empty()) {
+        ticker_.tick(4);  // Hashing is slow.
         const Index here = queue.top().vertex;
         queue.pop();
         Reached& state = reached.at(here);

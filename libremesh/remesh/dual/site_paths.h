@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "agvd/core/poller.h"
 #include "agvd/diagram/diagram.h"
 #include "remesh/dual/face_strip.h"
 
@@ -21,8 +22,9 @@ struct DualVertices {
 //! where that leads nowhere by a search along the edges. Keeps its memory; one for each thread.
 class SitePaths {
 public:
-    SitePaths(const agvd::Surface& surface, const DualVertices& vertices)
-        : surface_(surface), vertices_(vertices) {}
+    //! \param ticker  of the thread.
+    SitePaths(const agvd::Surface& surface, const DualVertices& vertices, agvd::Ticker ticker = {})
+        : surface_(surface), vertices_(vertices), ticker_(ticker) {}
 
     //! From one vertex to another through `face`, by vertices of their cells where that is
     //! possible. Cost: O(mesh vertices on the way), or a search as far as both.
@@ -48,6 +50,7 @@ private:
 
     const agvd::Surface& surface_;
     const DualVertices& vertices_;
+    mutable agvd::Ticker ticker_;
     Way back_, forth_;
 };
 

@@ -76,6 +76,7 @@ GeodesicPath PathStraightener::straighten(FaceStrip& strip) {
     int stalled_rounds = 0;
     for (std::size_t round = 0; round < max_rounds && stalled_rounds <= max_stalled_rounds;
          ++round) {
+        ticker_.tick(1 + strip.crossed.size());
         trim(surface_, strip);
         const double length = find_shortest(strip);
         const bool is_rerouted = reroute(strip.crossed);

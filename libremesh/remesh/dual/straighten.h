@@ -2,6 +2,7 @@
 //! Locally shortest paths over the surface, from any path.
 #pragma once
 
+#include "agvd/core/poller.h"
 #include "remesh/dual/face_strip.h"
 
 namespace remesh {
@@ -25,7 +26,9 @@ struct GeodesicPath {
 //! shorter, until there is no such vertex ([xin2007]).
 class PathStraightener {
 public:
-    explicit PathStraightener(const agvd::Surface& surface) : surface_(surface) {}
+    //! \param ticker  of the thread; where it throws Cancelled, the strip is of no use any more.
+    explicit PathStraightener(const agvd::Surface& surface, agvd::Ticker ticker = {})
+        : surface_(surface), ticker_(ticker) {}
 
     //! Replaces the strip by one of a locally shortest path, never a longer one.
     //!
@@ -65,6 +68,7 @@ private:
                                      const agvd::Vec2& head) const;
 
     const agvd::Surface& surface_;
+    agvd::Ticker ticker_;
     std::vector<Node> nodes_;  // The source, both ends of the first crossing, one for each more;
                                // then the target.
     std::vector<Ends> ends_;   // Of each crossing.

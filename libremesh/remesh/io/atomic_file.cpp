@@ -4,6 +4,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <string>
 #include <system_error>
@@ -35,9 +36,12 @@ fs::path follow_links(const fs::path& path) {
     return target;
 }
 
-void write_all(int fd, std::string_view bytes, const fs::path& path) {
+void write_all(int fd, std::string_view bytes, const fs::path& path,
+               const agvd::Progress& progress) {
+    constexpr std::size_t most = 1 << 22;  // Some milliseconds.
     while (!bytes.empty()) {
-        const ssize_t written = ::write(fd, bytes.data(), bytes.size());
+        agvd::poll(progress, 0);
+        const ssize_t written = ::write(fd, bytes.data(), std::min(most, bytes.size()));
         if (written < 0 && errno == EINTR) continue;
         if (written < 0) fail(path, errno, "free some room, or write elsewhere");
         bytes.remove_prefix(static_cast<std::size_t>(written));
@@ -75,7 +79,9 @@ public:
     TemporaryFile& operator=(const TemporaryFile&) = delete;
     ~TemporaryFile() { discard(); }
 
-    void write(std::string_view bytes) const { write_all(fd_, bytes, target_); }
+    void write(std::string_view bytes, const agvd::Progress& progress) const {
+        write_all(fd_, bytes, target_, progress);
+    }
 
     // Closes before renaming: some file systems tell only then that they are full.
     void rename_to_target() {
@@ -103,12 +109,13 @@ bool is_special(const fs::path& target) {
     return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
 }
 
-void write_directly(const fs::path& target, std::string_view bytes) {
+void write_directly(const fs::path& target, std::string_view bytes,
+                    const agvd::Progress& progress) {
     const int fd = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
     if (fd < 0) fail(target, errno, "check its permissions, or write elsewhere");
     try {
-        write_all(fd, bytes, target);
-    } catch (const agvd::IoError&) {
+        write_all(fd, bytes, target, progress);
+    } catch (...) {
         ::close(fd);
         throw;
     }
@@ -117,11 +124,13 @@ void write_directly(const fs::path& target, std::string_view bytes) {
 
 }  // namespace
 
-void write_file_atomically(const fs::path& path, std::string_view bytes) {
+void write_file_atomically(const fs::path& path, std::string_view bytes,
+                           const agvd::Progress& progress) {
     const fs::path target = follow_links(path);
-    if (is_special(target)) return write_directly(target, bytes);
+    if (is_special(target)) return write_directly(target, bytes, progress);
     TemporaryFile file(target);
-    file.write(bytes);
+    file.write(bytes, progress);
+    agvd::poll(progress, 1);
     file.rename_to_target();
 }
 

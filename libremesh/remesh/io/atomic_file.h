@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <string_view>
 
+#include "agvd/core/progress.h"
+
 namespace remesh {
 
 //! Writes `bytes` to a temporary file in the target's folder and renames it over the target, which
@@ -20,7 +22,10 @@ namespace remesh {
 //! not disturb it. Only a signal that ends the process at once (SIGKILL; SIGINT or SIGTERM without
 //! a handler) can leave a `.remesh-PID-N.tmp` behind; the target is whole even then. \throw
 //! agvd::IoError  naming the path and the system's reason.
-void write_file_atomically(const std::filesystem::path& path, std::string_view bytes);
+//! \throw agvd::Cancelled  the progress callback returned false: the target is as it was, the
+//!        temporary is gone. A pipe may have got a part.
+void write_file_atomically(const std::filesystem::path& path, std::string_view bytes,
+                           const agvd::Progress& progress = {});
 
 //! Finds out before a long computation whether write_file_atomically can begin: creates and removes
 //! the temporary file. \throw agvd::IoError  as above.

@@ -15,15 +15,15 @@ namespace remesh {
 [[nodiscard]] MeshFile read_stl(SourceFile file);
 
 //! The whole file's bytes.
-[[nodiscard]] std::string format_ply(const agvd::MeshView& mesh);
-[[nodiscard]] std::string format_obj(const agvd::MeshView& mesh);
-[[nodiscard]] std::string format_off(const agvd::MeshView& mesh);
-[[nodiscard]] std::string format_stl(const agvd::MeshView& mesh);
+[[nodiscard]] std::string format_ply(const agvd::MeshView& mesh, agvd::Ticker ticker);
+[[nodiscard]] std::string format_obj(const agvd::MeshView& mesh, agvd::Ticker ticker);
+[[nodiscard]] std::string format_off(const agvd::MeshView& mesh, agvd::Ticker ticker);
+[[nodiscard]] std::string format_stl(const agvd::MeshView& mesh, agvd::Ticker ticker);
 
 struct MeshFormat {
     const char* extension;  //!< Lower case, with its dot.
     MeshFile (*read)(SourceFile);
-    std::string (*format)(const agvd::MeshView&);
+    std::string (*format)(const agvd::MeshView&, agvd::Ticker);
     double largest;  //!< Coordinate that it can hold.
 };
 

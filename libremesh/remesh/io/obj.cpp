@@ -40,6 +40,7 @@ MeshFile read_obj(SourceFile file) {
     TextScanner scan(file, 0, {.comment = '#', .continues = true});
     PolygonSoup soup(file, 1);
     while (scan.find_word()) {
+        soup.ticker.tick();
         const std::string_view statement = scan.word();
         if (statement == "v") {
             soup.positions.push_back(scan.point());
@@ -56,10 +57,14 @@ MeshFile read_obj(SourceFile file) {
     return std::move(soup).finish();
 }
 
-std::string format_obj(const agvd::MeshView& mesh) {
+std::string format_obj(const agvd::MeshView& mesh, agvd::Ticker ticker) {
     std::string bytes;
-    for (const agvd::Vec3& p : mesh.positions) append_line(bytes, "v ", p);
+    for (const agvd::Vec3& p : mesh.positions) {
+        ticker.tick(4);
+        append_line(bytes, "v ", p);
+    }
     for (const auto& [a, b, c] : mesh.triangles) {
+        ticker.tick();
         append_line(bytes, "f ", std::array<std::uint64_t, 3>{a + 1ull, b + 1ull, c + 1ull});
     }
     return bytes;

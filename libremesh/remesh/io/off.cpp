@@ -57,6 +57,7 @@ MeshFile read_off(SourceFile file) {
     soup.reserve(num_vertices, num_faces);
     for (std::uint64_t v = 0; v < num_vertices; ++v) {
         find_element(scan, "vertex", v, num_vertices);
+        soup.ticker.tick(2);
         soup.positions.push_back(scan.point());
         scan.skip_line();
     }
@@ -76,11 +77,17 @@ MeshFile read_off(SourceFile file) {
     return std::move(soup).finish();
 }
 
-std::string format_off(const agvd::MeshView& mesh) {
+std::string format_off(const agvd::MeshView& mesh, agvd::Ticker ticker) {
     std::string bytes = "OFF\n" + std::to_string(mesh.positions.size()) + ' ' +
                         std::to_string(mesh.triangles.size()) + " 0\n";
-    for (const agvd::Vec3& p : mesh.positions) append_line(bytes, "", p);
-    for (const auto& [a, b, c] : mesh.triangles) append_line(bytes, "3 ", std::array{a, b, c});
+    for (const agvd::Vec3& p : mesh.positions) {
+        ticker.tick(4);
+        append_line(bytes, "", p);
+    }
+    for (const auto& [a, b, c] : mesh.triangles) {
+        ticker.tick();
+        append_line(bytes, "3 ", std::array{a, b, c});
+    }
     return bytes;
 }
 

@@ -25,6 +25,7 @@ void read_vertices(Values& values, const PlyElement& element, const SourceFile& 
         }
     }
     for (std::uint64_t v = 0; v < element.count; ++v) {
+        soup.ticker.tick(2);
         values.begin(element, v);
         const std::size_t start = values.offset();
         agvd::Vec3 p;
@@ -91,6 +92,7 @@ MeshFile read_body(Values values, const PlyHeader& header, const SourceFile& fil
                                 "faces");
         } else if (!element.properties.empty()) {
             for (std::uint64_t i = 0; i < element.count; ++i) {
+                soup.ticker.tick(element.properties.size());
                 skip_element(values, element, i, file);
             }
         }
@@ -107,7 +109,7 @@ MeshFile read_ply(SourceFile file) {
     return read_body(BinaryValues(file, header), header, file);
 }
 
-std::string format_ply(const agvd::MeshView& mesh) {
+std::string format_ply(const agvd::MeshView& mesh, agvd::Ticker ticker) {
     // "int" is what every reader knows; it does for all but the largest meshes.
     const char* const index_type = mesh.positions.size() <= INT32_MAX ? "int" : "uint";
     std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " +
@@ -116,9 +118,11 @@ std::string format_ply(const agvd::MeshView& mesh) {
                         std::to_string(mesh.triangles.size()) + "\nproperty list uchar " +
                         index_type + " vertex_indices\nend_header\n";
     for (const agvd::Vec3& p : mesh.positions) {
+        ticker.tick();
         for (const double x : p) append(bytes, x);
     }
     for (const agvd::Triangle& triangle : mesh.triangles) {
+        ticker.tick();
         append(bytes, std::uint8_t{3});
         for (const agvd::Index v : triangle) append(bytes, v);
     }

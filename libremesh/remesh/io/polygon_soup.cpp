@@ -67,13 +67,14 @@ MeshFile PolygonSoup::finish() && {
     result.face_polygon.reserve(polygon_end_.size());
     std::size_t begin = 0;
     for (Index p = 0; p < polygon_end_.size(); begin = polygon_end_[p++]) {
+        ticker.tick();
         const auto polygon = std::span(corners_).subspan(begin, polygon_end_[p] - begin);
         if (polygon.size() < 3) {
             ++result.dropped_polygons;
             continue;
         }
         if (polygon.size() > 3) ++result.polygons;
-        append_triangles(polygon, result.mesh.positions, result.mesh.triangles);
+        append_triangles(polygon, result.mesh.positions, ticker, result.mesh.triangles);
         result.face_polygon.resize(result.mesh.triangles.size(), p);
     }
     if (result.mesh.triangles.empty()) {

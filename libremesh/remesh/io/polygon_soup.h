@@ -13,9 +13,11 @@ class PolygonSoup {
 public:
     //! \param file         named in errors; must outlive the soup.
     //! \param first_index  what the format calls its first vertex: 0, or 1 (OBJ).
-    PolygonSoup(const SourceFile& file, int first_index) : file_(file), first_index_(first_index) {}
+    PolygonSoup(const SourceFile& file, int first_index)
+        : ticker(file.ticker), file_(file), first_index_(first_index) {}
 
     std::vector<agvd::Vec3> positions;
+    agvd::Ticker ticker;  //!< For whoever adds positions; polygons tick it by themselves.
 
     //! Makes room for what the file announces, as far as its size makes that believable.
     void reserve(std::uint64_t vertices, std::uint64_t polygons);
@@ -24,7 +26,10 @@ public:
     //! \throw agvd::InvalidInput  it is negative or beyond any index.
     void add_corner(std::int64_t vertex, std::size_t offset);
 
-    void end_polygon() { polygon_end_.push_back(corners_.size()); }
+    void end_polygon() {
+        ticker.tick(2);
+        polygon_end_.push_back(corners_.size());
+    }
 
     [[nodiscard]] std::size_t num_polygons() const { return polygon_end_.size(); }
 

@@ -18,7 +18,7 @@ template <typename Values>
 class DiagramReader {
 public:
     DiagramReader(const SourceFile& file, const PlyHeader& header, DiagramFile& out)
-        : file_(file), values_(file, header), out_(out) {
+        : file_(file), ticker_(file.ticker), values_(file, header), out_(out) {
         for (const PlyElement& element : header.elements) {
             count_.try_emplace(element.name, element.count);
         }
@@ -36,6 +36,7 @@ public:
         diagram.edge_points = diagram.vertex_offsets = {0};
         for (const PlyElement& element : header.elements) {
             for (std::uint64_t i = 0; i < element.count; ++i) {
+                ticker_.tick(8);
                 start_ = values_.offset();
                 if (element.name == "vertex") {
                     read_row(element, i, {"site", "distance"}, {});
@@ -168,6 +169,7 @@ private:
     }
 
     const SourceFile& file_;
+    agvd::Ticker ticker_;
     Values values_;
     DiagramFile& out_;
     std::map<std::string, std::uint64_t> count_;  // Of each element, as announced.
@@ -178,8 +180,9 @@ private:
 
 }  // namespace
 
-DiagramFile read_diagram(const std::filesystem::path& path) {
-    SourceFile file = load_file(path);
+DiagramFile read_diagram(const std::filesystem::path& path, const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    SourceFile file = load_file(path, poller);
     DiagramFile result{.mesh = read_ply(file).mesh, .sites = {}, .diagram = {}};
     const PlyHeader header = read_ply_header(file);
     file.is_binary = header.byte_order.has_value();

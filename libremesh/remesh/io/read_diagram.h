@@ -21,6 +21,8 @@ struct DiagramFile {
 //!                            a diagram; the text names the file, the place and the remedy.
 //! \throw agvd::InvalidInput  the file reads well but an index is out of range, a point is off its
 //!                            face, or counts contradict each other.
-[[nodiscard]] DiagramFile read_diagram(const std::filesystem::path& path);
+//! \throw agvd::Cancelled     the progress callback returned false.
+[[nodiscard]] DiagramFile read_diagram(const std::filesystem::path& path,
+                                       const agvd::Progress& progress = {});
 
 }  // namespace remesh

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "agvd/core/progress.h"
 #include "agvd/mesh/mesh_view.h"
 
 namespace remesh {
@@ -30,6 +31,8 @@ struct MeshFile {
 //!        index out of range, a coordinate that is not finite; the text names file and element.
 //! Cost: O(file size), and O(k^2) for each polygon of k corners. Memory follows the size of the
 //! file, never a count that it announces.
-[[nodiscard]] MeshFile read_mesh(const std::filesystem::path& path);
+//! \throw agvd::Cancelled     the progress callback returned false.
+[[nodiscard]] MeshFile read_mesh(const std::filesystem::path& path,
+                                 const agvd::Progress& progress = {});
 
 }  // namespace remesh

@@ -16,12 +16,18 @@ constexpr double sum_tolerance = 1e-6;  // Seven decimals in a text file are eno
 
 class SiteReader {
 public:
-    SiteReader(const SourceFile& file, const agvd::MeshView& mesh)
-        : file_(file), mesh_(mesh), scan_(file, 0, {.comment = '#'}) {}
+    SiteReader(const SourceFile& file, const agvd::MeshView& mesh, const agvd::Progress& progress)
+
+        : file_(file),
+          mesh_(mesh),
+          progress_(progress),
+          ticker_(file.ticker),
+          scan_(file, 0, {.comment = '#'}) {}
 
     std::vector<SurfacePoint> read() {
         std::vector<SurfacePoint> sites;
         while (scan_.find_word()) {
+            ticker_.tick(16);
             start_ = scan_.offset();
             sites.push_back(read_site());
             if (scan_.has_word()) scan_.fail_expecting("the end of the line");
@@ -41,7 +47,7 @@ private:
         if (kind == "f") return face_site();
         if (kind == "p") {
             const agvd::Vec3 point = scan_.point();
-            if (!tree_) tree_.emplace(mesh_);
+            if (!tree_) tree_.emplace(mesh_, progress_);
             return tree_->query(point).point;
         }
         file_.fail_malformed(start_, "a site begins with v, f or p, not with " + in_quotes(kind) +
@@ -94,6 +100,8 @@ private:
 
     const SourceFile& file_;
     const agvd::MeshView& mesh_;
+    const agvd::Progress& progress_;
+    agvd::Ticker ticker_;
     TextScanner scan_;
     std::size_t start_ = 0;                       // Of the current line's first word.
     std::vector<Index> lowest_corner_;            // #V, made for the first `v`.
@@ -102,10 +110,11 @@ private:
 
 }  // namespace
 
-std::vector<SurfacePoint> read_sites(const std::filesystem::path& path,
-                                     const agvd::MeshView& mesh) {
-    const SourceFile file = load_file(path);
-    return SiteReader(file, mesh).read();
+std::vector<SurfacePoint> read_sites(const std::filesystem::path& path, const agvd::MeshView& mesh,
+                                     const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    const SourceFile file = load_file(path, poller);
+    return SiteReader(file, mesh, progress).read();
 }
 
 }  // namespace remesh

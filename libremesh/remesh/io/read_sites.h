@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "agvd/core/progress.h"
 #include "agvd/mesh/surface_point.h"
 
 namespace remesh {
@@ -30,6 +31,7 @@ namespace remesh {
 //!        finite, or barycentric coordinates are negative or do not sum to 1; names file and line.
 //! Cost: O(file size), and O(#F log #F) once for the first `p`.
 [[nodiscard]] std::vector<agvd::SurfacePoint> read_sites(const std::filesystem::path& path,
-                                                         const agvd::MeshView& mesh);
+                                                         const agvd::MeshView& mesh,
+                                                         const agvd::Progress& progress = {});
 
 }  // namespace remesh

@@ -1,6 +1,7 @@
 #include "remesh/io/source_file.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -26,6 +27,17 @@ struct Descriptor {
     }
 };
 
+// Until there is something to read, or the end; a file is always ready.
+void wait_for_bytes(int fd, agvd::Poller& poller) {
+    constexpr int between_polls = 20;  // Milliseconds.
+    struct pollfd waiting {
+        fd, POLLIN, 0
+    };
+    do {
+        poller.poll();
+    } while (::poll(&waiting, 1, between_polls) == 0);
+}
+
 }  // namespace
 
 std::string SourceFile::place(std::size_t offset) const {
@@ -47,9 +59,10 @@ void SourceFile::fail_unusable(std::size_t offset, const std::string& text) cons
     throw agvd::InvalidInput(place(offset) + text);
 }
 
-SourceFile load_file(const std::filesystem::path& path) {
-    SourceFile file{.path = path, .bytes = {}};
-    const Descriptor in{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+SourceFile load_file(const std::filesystem::path& path, agvd::Poller& poller) {
+    SourceFile file{.path = path, .bytes = {}, .ticker = agvd::Ticker(poller)};
+    // Opening a pipe must not wait for its other end.
+    const Descriptor in{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
     if (in.fd < 0) fail_to_read(path, errno);
     struct stat status {};
     if (::fstat(in.fd, &status) != 0) fail_to_read(path, errno);
@@ -60,8 +73,11 @@ SourceFile load_file(const std::filesystem::path& path) {
     file.bytes.resize(static_cast<std::size_t>(std::max<off_t>(status.st_size, 1 << 16)) + 1);
     std::size_t length = 0;
     while (true) {
-        const ssize_t got = ::read(in.fd, file.bytes.data() + length, file.bytes.size() - length);
-        if (got < 0 && errno == EINTR) continue;
+        constexpr std::size_t most = 1 << 24;  // Some milliseconds.
+        wait_for_bytes(in.fd, poller);
+        const ssize_t got =
+            ::read(in.fd, file.bytes.data() + length, std::min(most, file.bytes.size() - length));
+        if (got < 0 && (errno == EINTR || errno == EAGAIN)) continue;
         if (got < 0) fail_to_read(path, errno);
         if (got == 0) break;
         length += static_cast<std::size_t>(got);

@@ -7,12 +7,15 @@
 #include <string>
 #include <string_view>
 
+#include "agvd/core/poller.h"
+
 namespace remesh {
 
 struct SourceFile {
     std::filesystem::path path;
     std::string bytes;
-    bool is_binary = false;  //!< Errors name bytes instead of lines.
+    bool is_binary = false;    //!< Errors name bytes instead of lines.
+    agvd::Ticker ticker = {};  //!< Of the call that reads it; readers tick copies.
 
     //! "mesh.off: line 12: ", counted here and not while reading, which costs good files nothing.
     [[nodiscard]] std::string place(std::size_t offset) const;
@@ -23,7 +26,8 @@ struct SourceFile {
 };
 
 //! \throw agvd::IoError  cannot be read, or is empty; names the system's reason.
-[[nodiscard]] SourceFile load_file(const std::filesystem::path& path);
+//! \throw agvd::Cancelled  the poller said so, also while a pipe keeps it waiting.
+[[nodiscard]] SourceFile load_file(const std::filesystem::path& path, agvd::Poller& poller);
 
 //! The text in quotes, cut to a readable length, with unprintable bytes shown as '?'.
 [[nodiscard]] std::string in_quotes(std::string_view text);

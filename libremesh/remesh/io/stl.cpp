@@ -144,7 +144,7 @@ MeshFile read_stl(SourceFile file) {
     return file.is_binary ? read_binary(file) : read_ascii(file);
 }
 
-std::string format_stl(const agvd::MeshView& mesh) {
+std::string format_stl(const agvd::MeshView& mesh, agvd::Ticker ticker) {
     std::string bytes = "binary STL";
     bytes.resize(80, ' ');
     append(bytes, static_cast<std::uint32_t>(mesh.triangles.size()));
@@ -152,6 +152,7 @@ std::string format_stl(const agvd::MeshView& mesh) {
         for (const double x : v) append(bytes, static_cast<float>(x));
     };
     for (const auto& [a, b, c] : mesh.triangles) {
+        ticker.tick();
         const Vec3 &p = mesh.positions[a], &q = mesh.positions[b], &r = mesh.positions[c];
         append_vector((q - p).cross(r - p).stableNormalized());
         for (const Vec3& corner : {p, q, r}) append_vector(corner);

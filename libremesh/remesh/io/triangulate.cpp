@@ -101,7 +101,7 @@ struct Ring {
 }  // namespace
 
 void append_triangles(std::span<const Index> polygon, std::span<const Vec3> positions,
-                      std::vector<Triangle>& triangles) {
+                      agvd::Ticker& ticker, std::vector<Triangle>& triangles) {
     if (polygon.size() == 3) {
         triangles.push_back({polygon[0], polygon[1], polygon[2]});
         return;
@@ -117,6 +117,7 @@ void append_triangles(std::span<const Index> polygon, std::span<const Vec3> posi
     };
     std::size_t corner = 1, failed = 0, left = polygon.size();
     for (; left > 3 && failed < left; corner = ring.next[corner]) {
+        ticker.tick(1 + left / 8);  // It looks at all that are left.
         if (!ring.is_ear(corner)) {
             ++failed;
             continue;

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "agvd/core/types.h"
+#include "agvd/core/poller.h"
 
 namespace remesh {
 
@@ -17,6 +17,6 @@ namespace remesh {
 //! \param polygon    at least three indices into positions, which may repeat.
 //! Cost: O(k^2) for k corners, typically; O(1) for k <= 4.
 void append_triangles(std::span<const agvd::Index> polygon, std::span<const agvd::Vec3> positions,
-                      std::vector<agvd::Triangle>& triangles);
+                      agvd::Ticker& ticker, std::vector<agvd::Triangle>& triangles);
 
 }  // namespace remesh

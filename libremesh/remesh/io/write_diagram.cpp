@@ -36,13 +36,16 @@ Index num_edges(const Diagram& diagram) { return static_cast<Index>(diagram.edge
 // A named array of as many lines as there are items; row_of(i) gives the numbers of line i.
 template <typename RowOf>
 void append_array(std::string& bytes, const char* attributes, std::size_t num_lines,
-                  const RowOf& row_of) {
+                  agvd::Ticker& ticker, const RowOf& row_of) {
     bytes += std::string("<DataArray format=\"ascii\" ") + attributes + ">\n";
-    for (std::size_t i = 0; i < num_lines; ++i) append_line(bytes, "", row_of(i));
+    for (std::size_t i = 0; i < num_lines; ++i) {
+        ticker.tick(4);
+        append_line(bytes, "", row_of(i));
+    }
     bytes += "</DataArray>\n";
 }
 
-std::string format_vtp(const Surface& surface, const Diagram& diagram) {
+std::string format_vtp(const Surface& surface, const Diagram& diagram, agvd::Ticker ticker) {
     const std::size_t num_points = diagram.points.size();
     const std::size_t num_lines = diagram.edges.size();
     std::string bytes =
@@ -52,35 +55,38 @@ std::string format_vtp(const Surface& surface, const Diagram& diagram) {
         std::to_string(num_points) + "\" NumberOfVerts=\"0\" NumberOfLines=\"" +
         std::to_string(num_lines) +
         "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<PointData Scalars=\"distance\">\n";
-    append_array(bytes, "type=\"Float64\" Name=\"distance\"", num_points,
+    append_array(bytes, "type=\"Float64\" Name=\"distance\"", num_points, ticker,
                  [&](std::size_t p) { return std::array{diagram.point_distance[p]}; });
     bytes += "</PointData>\n<CellData>\n";
-    append_array(bytes, "type=\"Int32\" Name=\"site_left\"", num_lines,
+    append_array(bytes, "type=\"Int32\" Name=\"site_left\"", num_lines, ticker,
                  [&](std::size_t e) { return std::array{site_number(diagram.edges[e].left)}; });
-    append_array(bytes, "type=\"Int32\" Name=\"site_right\"", num_lines,
+    append_array(bytes, "type=\"Int32\" Name=\"site_right\"", num_lines, ticker,
                  [&](std::size_t e) { return std::array{site_number(diagram.edges[e].right)}; });
     bytes += "</CellData>\n<Points>\n";
-    append_array(bytes, "type=\"Float64\" NumberOfComponents=\"3\"", num_points,
+    append_array(bytes, "type=\"Float64\" NumberOfComponents=\"3\"", num_points, ticker,
                  [&](std::size_t p) { return position(surface.mesh.view(), diagram.points[p]); });
     bytes += "</Points>\n<Lines>\n";
     std::vector<std::size_t> ends;
-    append_array(bytes, "type=\"Int64\" Name=\"connectivity\"", num_lines, [&](std::size_t e) {
-        std::vector<Index> points = polyline(diagram, static_cast<Index>(e), 0);
-        ends.push_back((ends.empty() ? 0 : ends.back()) + points.size());
-        return points;
-    });
-    append_array(bytes, "type=\"Int64\" Name=\"offsets\"", num_lines,
+    append_array(bytes, "type=\"Int64\" Name=\"connectivity\"", num_lines, ticker,
+                 [&](std::size_t e) {
+                     std::vector<Index> points = polyline(diagram, static_cast<Index>(e), 0);
+                     ends.push_back((ends.empty() ? 0 : ends.back()) + points.size());
+                     return points;
+                 });
+    append_array(bytes, "type=\"Int64\" Name=\"offsets\"", num_lines, ticker,
                  [&](std::size_t e) { return std::array{ends[e]}; });
     return bytes + "</Lines>\n</Piece>\n</PolyData>\n</VTKFile>\n";
 }
 
-std::string format_obj_lines(const Surface& surface, const Diagram& diagram) {
+std::string format_obj_lines(const Surface& surface, const Diagram& diagram, agvd::Ticker ticker) {
     std::string bytes = "# Voronoi edges; before each its left and right site (-1: outside)\n";
     for (const agvd::SurfacePoint& point : diagram.points) {
+        ticker.tick(4);
         append_line(bytes, "v ", position(surface.mesh.view(), point));
     }
     for (Index e = 0; e < num_edges(diagram); ++e) {
         const agvd::VoronoiEdge& edge = diagram.edges[e];
+        ticker.tick(4);
         append_line(bytes, "# sites ", std::array{site_number(edge.left), site_number(edge.right)});
         append_line(bytes, "l ", polyline(diagram, e, 1));
     }
@@ -129,14 +135,16 @@ std::string ply_header(const Surface& surface, const Diagram& diagram) {
 }
 
 std::string format_ply_diagram(const Surface& surface, std::span<const agvd::SurfacePoint> sites,
-                               const Diagram& diagram) {
+                               const Diagram& diagram, agvd::Ticker ticker) {
     std::string bytes = ply_header(surface, diagram);
     for (Index v = 0; v < surface.num_vertices(); ++v) {
+        ticker.tick();
         for (const double coordinate : surface.mesh.positions[v]) append(bytes, coordinate);
         append(bytes, site_number(diagram.nearest_site[v]));
         append(bytes, diagram.nearest_distance[v]);
     }
     for (const agvd::Triangle& t : surface.mesh.triangles) {
+        ticker.tick();
         append(bytes, std::uint8_t{3});
         for (const Index v : t) append(bytes, v);
     }
@@ -146,10 +154,12 @@ std::string format_ply_diagram(const Surface& surface, std::span<const agvd::Sur
         append(bytes, std::int32_t{diagram.cell_euler[s]});
     }
     for (std::size_t p = 0; p < diagram.points.size(); ++p) {
+        ticker.tick();
         append_point(bytes, diagram.points[p]);
         append(bytes, diagram.point_distance[p]);
     }
     for (Index e = 0; e < num_edges(diagram); ++e) {
+        ticker.tick();
         const auto& [left, right, tail, head] = diagram.edges[e];
         append(bytes, site_number(left));
         append(bytes, site_number(right));
@@ -158,6 +168,7 @@ std::string format_ply_diagram(const Surface& surface, std::span<const agvd::Sur
         append(bytes, diagram.edge_points[e + 1] - diagram.edge_points[e]);
     }
     for (std::size_t v = 0; v < diagram.vertices.size(); ++v) {
+        ticker.tick();
         append_point(bytes, diagram.vertices[v]);
         append(bytes, diagram.vertex_distance[v]);
         const Index begin = diagram.vertex_offsets[v];
@@ -172,14 +183,17 @@ std::string format_ply_diagram(const Surface& surface, std::span<const agvd::Sur
 }  // namespace
 
 void write_diagram(const std::filesystem::path& path, const Surface& surface,
-                   std::span<const agvd::SurfacePoint> sites, const Diagram& diagram) {
+                   std::span<const agvd::SurfacePoint> sites, const Diagram& diagram,
+                   const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    const agvd::Ticker ticker(poller);
     const std::string extension = lower_extension(path);
     if (extension == ".vtp") {
-        write_file_atomically(path, format_vtp(surface, diagram));
+        write_file_atomically(path, format_vtp(surface, diagram, ticker), progress);
     } else if (extension == ".obj") {
-        write_file_atomically(path, format_obj_lines(surface, diagram));
+        write_file_atomically(path, format_obj_lines(surface, diagram, ticker), progress);
     } else if (extension == ".ply") {
-        write_file_atomically(path, format_ply_diagram(surface, sites, diagram));
+        write_file_atomically(path, format_ply_diagram(surface, sites, diagram, ticker), progress);
     } else {
         throw agvd::IoError(path.string() + ": unknown extension; use .vtp, .obj or .ply");
     }

@@ -23,8 +23,10 @@ namespace remesh {
 //! \param sites  those that the diagram was built from.
 //! \throw agvd::IoError  the extension is unknown or the file cannot be written; says which and
 //!        why.
+//! \throw agvd::Cancelled  the progress callback returned false; an old file is as it was.
 void write_diagram(const std::filesystem::path& path, const agvd::Surface& surface,
-                   std::span<const agvd::SurfacePoint> sites, const agvd::Diagram& diagram);
+                   std::span<const agvd::SurfacePoint> sites, const agvd::Diagram& diagram,
+                   const agvd::Progress& progress = {});
 
 //! True for the extensions that write_diagram knows.
 [[nodiscard]] bool is_known_diagram_extension(const std::filesystem::path& path);

@@ -33,10 +33,12 @@ void check(const std::filesystem::path& path, const MeshFormat& format,
 
 }  // namespace
 
-void write_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh) {
+void write_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
+                const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
     const MeshFormat& format = require_format(path);
     check(path, format, mesh);
-    write_file_atomically(path, format.format(mesh));
+    write_file_atomically(path, format.format(mesh, agvd::Ticker(poller)), progress);
 }
 
 bool is_known_mesh_extension(const std::filesystem::path& path) {

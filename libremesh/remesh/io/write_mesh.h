@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "agvd/core/progress.h"
 #include "agvd/mesh/mesh_view.h"
 
 namespace remesh {
@@ -19,7 +20,9 @@ namespace remesh {
 //! \throw agvd::InvalidInput  read_mesh could not read it back: an index is out of range, a
 //!        coordinate is not finite (STL: beyond float).
 //! Cost: O(n) time; holds the whole file in memory.
-void write_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh);
+//! \throw agvd::Cancelled     the progress callback returned false; an old file is as it was.
+void write_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
+                const agvd::Progress& progress = {});
 
 //! The extensions read_mesh and write_mesh know: true for "out.ply", "out.OBJ", ...
 [[nodiscard]] bool is_known_mesh_extension(const std::filesystem::path& path);

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "agvd/core/poller.h"
 #include "agvd/mesh/distinct_points.h"
 #include "agvd/mesh/point_faces.h"
 #include "remesh/pipeline/stage_clock.h"
@@ -59,50 +60,58 @@ public:
 private:
     void clean() {
         const StageClock clock(Stage::Clean, result_);
-        agvd::poll(progress_of(Stage::Clean, options_), 0);
-        clean_ = clean_input(input_, options_.num_threads);
+        const agvd::Progress progress = progress_of(Stage::Clean, options_);
+        agvd::poll(progress, 0);
+        clean_ = clean_input(input_, options_.num_threads, agvd::within(progress, 0, 0));
         result_.cleaned = clean_.counts;
-        result_.input_topology = clean_.connectivity.twin.empty()
-                                     ? analyze_topology(clean_.mesh.view())
-                                     : analyze_topology(clean_.mesh.view(), clean_.connectivity);
+        const agvd::Progress half = agvd::within(progress, 0.5, 0.5);
+        result_.input_topology =
+            clean_.connectivity.twin.empty()
+                ? analyze_topology(clean_.mesh.view(), half)
+                : analyze_topology(clean_.mesh.view(), clean_.connectivity, half);
         if (options_.drop_components > 0) {
             result_.components_dropped =
                 drop_components(clean_, result_.input_topology, options_.drop_components);
             if (result_.components_dropped > 0) {
-                result_.input_topology = analyze_topology(clean_.mesh.view());
+                result_.input_topology = analyze_topology(clean_.mesh.view(), half);
             }
         }
-        agvd::poll(progress_of(Stage::Clean, options_), 1);
+        agvd::poll(progress, 1);
     }
 
     // Where edges span several cells, the intrinsic triangulation has vertices of its own.
     void triangulate() {
         const StageClock clock(Stage::Clean, result_);
-        build_input_surface();
+        const agvd::Progress all = progress_of(Stage::Clean, options_);
+        const agvd::Progress progress = agvd::within(all, 1, 1);
+        build_input_surface(progress);
         spacing_ =
             mean_spacing(surface_, options_.sites ? options_.sites->size() : options_.num_samples);
-        prepared_.emplace(surface_, spacing_, options_.num_threads);
-        find_components();
+        prepared_.emplace(surface_, spacing_, options_.num_threads, progress);
+        find_components(progress);
         result_.refined_faces = base().num_faces();
     }
 
     // What cleaning has found is handed on. The mesh moves, unless given sites still need it there.
-    void build_input_surface() {
+    void build_input_surface(const agvd::Progress& progress) {
         agvd::TriangleMesh mesh = options_.sites ? clean_.mesh : std::exchange(clean_.mesh, {});
         surface_ = clean_.connectivity.twin.empty()
-                       ? agvd::build_surface(mesh.view(), options_.num_threads)
+                       ? agvd::build_surface(mesh.view(), options_.num_threads, progress)
                        : agvd::build_surface(std::move(mesh), std::move(clean_.connectivity),
-                                             options_.num_threads);
+                                             options_.num_threads, progress);
     }
 
     // What propagation runs on.
     [[nodiscard]] const Surface& base() const { return prepared_->base.surface(); }
 
     // Of the base's faces: those of the input keep their numbers, and flips their components.
-    void find_components() {
+    void find_components(const agvd::Progress& progress) {
+        agvd::Poller poller(progress);
+        agvd::Ticker ticker(poller);
         component_ = result_.input_topology.face_component;
         component_.reserve(base().num_faces());
         for (Index f = surface_.num_faces(); f < base().num_faces(); ++f) {
+            ticker.tick();
             const Index corner = base().mesh.triangles[f][0];
             const Index face = corner < surface_.num_vertices()
                                    ? Surface::face(surface_.outgoing[corner])
@@ -244,16 +253,21 @@ private:
                       (site != no_index && site < is_wanted_.size() && is_wanted_[site]);
         }
         const std::vector<Index> gone =
-            reduce_vertices(positions_of(places_of(dual)), dual.mesh.triangles, target, keep);
+            reduce_vertices(positions_of(places_of(dual)), dual.mesh.triangles, target, keep,
+                            progress_of(Stage::Dual, options_));
         compact(dual, gone);
         return static_cast<Index>(gone.size());
     }
 
     DelaunayCounts flip_edges(ValidDual& dual) {
         const StageClock clock(Stage::Delaunay, result_);
+        const agvd::Progress progress = progress_of(Stage::Delaunay, options_);
+        agvd::poll(progress, 0);
         DelaunayResult made = make_delaunay(
             base(), dual.mesh.points, positions_of(places_of(dual)), dual.site, dual.diagram,
-            dual.mesh.triangles, {.mode = options_.delaunay, .num_threads = options_.num_threads});
+            dual.mesh.triangles,
+            {.mode = options_.delaunay, .num_threads = options_.num_threads, .progress = progress});
+        agvd::poll(progress, 1);
         dual.mesh.triangles = std::move(made.triangles);
         return made.counts;
     }
@@ -302,7 +316,8 @@ private:
 
     PlacedMesh place(const ValidDual& dual) {
         const StageClock clock(Stage::Place, result_);
-        agvd::poll(progress_of(Stage::Place, options_), 0);
+        const agvd::Progress progress = progress_of(Stage::Place, options_);
+        agvd::poll(progress, 0);
         PlacedMesh placed{places_of(dual), {}, dual.mesh.triangles};
         placed.offsets.assign(placed.points.size(), Vec3::Zero());
         std::vector<Index> vertex(on_base_.size(), no_index);
@@ -314,10 +329,13 @@ private:
             nearest.push_back(site.is_valid() ? vertex[site.value()] : no_index);
         }
         if (options_.fit.value_or(is_relaxed())) {
-            fit_vertices(*prepared_, nearest, placed, options_.num_threads);
+            fit_vertices(*prepared_, nearest, placed, options_.num_threads,
+                         agvd::within(progress, 0, 0));
         }
-        if (is_relaxed()) improve_shape(*prepared_, nearest, placed);
-        agvd::poll(progress_of(Stage::Place, options_), 1);
+        if (is_relaxed()) {
+            improve_shape(*prepared_, nearest, placed, agvd::within(progress, 0.5, 0.5));
+        }
+        agvd::poll(progress, 1);
         return placed;
     }
 
@@ -355,11 +373,15 @@ private:
     // Of the input only if the result has any.
     CrossingFaces find_crossings(const PlacedMesh& mesh) {
         const StageClock clock(Stage::Check, result_);
+        const agvd::Progress progress = progress_of(Stage::Check, options_);
+        agvd::poll(progress, 0);
         const agvd::TriangleMesh placed{positions_of(mesh), mesh.triangles};
-        CrossingFaces found = find_self_intersections(placed.view(), options_.num_threads);
+        CrossingFaces found =
+            find_self_intersections(placed.view(), options_.num_threads, progress);
         if (found && !found->empty() && !has_judged_input_) {
             result_.input_self_intersections = static_cast<Index>(
-                find_self_intersections(surface_.mesh.view(), options_.num_threads)->size());
+                find_self_intersections(surface_.mesh.view(), options_.num_threads, progress)
+                    ->size());
             has_judged_input_ = true;
         }
         return found;
@@ -395,7 +417,10 @@ private:
     // All before implies this; nothing leaves unchecked all the same.
     void check_mesh() {
         const StageClock clock(Stage::Check, result_);
-        const Topology topology = analyze_topology(result_.mesh.view());
+        const agvd::Progress progress = progress_of(Stage::Check, options_);
+        agvd::poll(progress, 1);
+        const Topology topology =
+            analyze_topology(result_.mesh.view(), agvd::within(progress, 1, 1));
         if (!topology.is_manifold || !topology.is_oriented ||
             !same_topology(topology, result_.input_topology)) {
             throw std::logic_error(

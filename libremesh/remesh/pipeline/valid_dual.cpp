@@ -139,7 +139,10 @@ private:
 
     [[nodiscard]] std::vector<ClosedBallViolation> find_violations() const {
         std::vector<ClosedBallViolation> found = find_missing_sites();
-        if (found.empty()) found = find_closed_ball_violations(surface_, dual_.diagram);
+        if (found.empty()) {
+            found = find_closed_ball_violations(surface_, dual_.diagram,
+                                                progress_of(Stage::Dual, options_));
+        }
         return found;
     }
 
@@ -268,7 +271,9 @@ private:
     // Vertices in the order of their sites, then those of thinned components.
     void build_mesh() {
         std::vector<std::vector<Triangle>> triangles(ground_.components.size());
-        for (const Triangle& t : build_dual(surface_, dual_.diagram)) {
+        const agvd::Progress progress = progress_of(Stage::Dual, options_);
+        for (const Triangle& t :
+             build_dual(surface_, dual_.diagram, agvd::within(progress, 0, 0))) {
             triangles[component_of(sites_[t[0]])].push_back(t);
         }
         std::vector<bool> has_vertex(sites_.size(), false);

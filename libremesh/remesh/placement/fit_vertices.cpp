@@ -87,9 +87,11 @@ double dot(const Field& a, const Field& b) {
 class Fit {
 public:
     Fit(const PreparedSurface& surface, std::span<const Index> nearest_vertex, PlacedMesh& mesh,
-        int num_threads)
+        int num_threads, agvd::Poller& poller)
         : surface_(surface.input()),
           num_threads_(num_threads),
+          poller_(poller),
+          ticker_(poller),
           mesh_(mesh),
           around_(mesh.triangles, mesh.points.size()),
           ground_(surface.base, nearest_vertex, num_vertices()) {
@@ -122,6 +124,7 @@ private:
         const bool is_dense = p.size() >= enough_vertices * mesh_.points.size();
         std::vector<double> area(p.size(), 0);
         for (Index f = 0; f < base.num_faces(); ++f) {
+            ticker_.tick();
             const Triangle& t = base.mesh.triangles[f];
             const double whole = agvd::face_area(base, f);
             // With the centroid three quarters: exact for what is quadratic on the face.
@@ -133,6 +136,7 @@ private:
             });
         }
         for (Index v = 0; v < p.size(); ++v) {
+            ticker_.tick();
             if (nearest_vertex[v] != no_index)
                 samples_.push_back({p[v], area[v], nearest_vertex[v]});
         }
@@ -143,6 +147,7 @@ private:
         area_.assign(at_.size(), 0);
         facing_.assign(at_.size(), Vec3::Zero());
         for (Index i = 0; i < mesh_.triangles.size(); ++i) {
+            ticker_.tick();
             const auto& [a, b, c] = mesh_.triangles[i];
             normal_[i] = (at_[b] - at_[a]).cross(at_[c] - at_[a]);
             for (const Index v : mesh_.triangles[i]) {
@@ -193,6 +198,7 @@ private:
         diagonal_.resize(at_.size());
         right_.resize(at_.size());
         for (Index v = 0; v < num_vertices(); ++v) {
+            ticker_.tick(2);
             const Vec3& n = facing_[v];
             const Mat3 across = n * n.transpose();
             const Mat3 along = Mat3::Identity() - across;
@@ -214,12 +220,12 @@ private:
         for (std::size_t first = 0; first < samples_.size(); first += samples_per_block) {
             const auto block =
                 std::span(samples_).subspan(first, std::min(samples_.size() - first, gaps.size()));
-            agvd::parallel_chunks(static_cast<Index>(block.size()), grain, num_threads_,
-                                  [&](Index, Index begin, Index end) {
-                                      for (Index i = begin; i < end; ++i) {
-                                          gaps[i] = measure_gap(block[i]);
-                                      }
-                                  });
+            const auto body = [&](Index, Index begin, Index end) {
+                for (Index i = begin; i < end; ++i) gaps[i] = measure_gap(block[i]);
+            };
+            agvd::parallel_chunks(static_cast<Index>(block.size()), grain, num_threads_, body,
+                                  poller_);
+            poller_.poll();
             for (std::size_t i = 0; i < block.size(); ++i) add_gap(block[i], gaps[i]);
         }
         for (Index i = 0; i < mesh_.triangles.size(); ++i) {
@@ -301,9 +307,10 @@ private:
     }
     template <typename Way>
     void find_ways(Index count, const Way& way) {
-        agvd::parallel_chunks(count, grain, num_threads_, [&](Index, Index begin, Index end) {
+        const auto body = [&](Index, Index begin, Index end) {
             for (Index i = begin; i < end; ++i) ways_[i] = way(i);
-        });
+        };
+        agvd::parallel_chunks(count, grain, num_threads_, body, poller_);
     }
     // From a point of the mesh; zero if nothing is known.
     [[nodiscard]] Vec3 way_to_surface(const Vec3& point, std::span<const Index> cells) const {
@@ -312,9 +319,10 @@ private:
         return nearest.position - point;
     }
 
-    void multiply(const Field& x, Field& result) const {
+    void multiply(const Field& x, Field& result) {
         for (std::size_t v = 0; v < x.size(); ++v) result[v] = diagonal_[v] * x[v];
         for (Index i = 0; i < mesh_.triangles.size(); ++i) {
+            ticker_.tick();
             const Triangle& t = mesh_.triangles[i];
             const std::array<double, 3> up{normal_[i].dot(x[t[0]]), normal_[i].dot(x[t[1]]),
                                            normal_[i].dot(x[t[2]])};
@@ -340,9 +348,10 @@ private:
     }
 
     // Conjugate gradients, with the vertices' own blocks as preconditioner.
-    [[nodiscard]] Field solve() const {
+    [[nodiscard]] Field solve() {
         std::vector<Mat3> inverse(at_.size());
         for (std::size_t v = 0; v < at_.size(); ++v) {
+            ticker_.tick();
             inverse[v] = diagonal_[v].inverse();
             if (!inverse[v].allFinite()) inverse[v].setZero();
         }
@@ -384,6 +393,7 @@ private:
         for (int round = 0; round < most_guard_rounds; ++round) {
             bool is_done = true;
             for (Index i = 0; i < mesh_.triangles.size(); ++i) {
+                ticker_.tick();
                 const auto& [a, b, c] = mesh_.triangles[i];
                 const Vec3 normal = (at_[b] - at_[a]).cross(at_[c] - at_[a]);
                 if (normal.dot(normal_[i]) > least_normal_cosine * normal.norm()) continue;
@@ -400,6 +410,8 @@ private:
 
     const agvd::Surface& surface_;
     int num_threads_;
+    agvd::Poller& poller_;
+    agvd::Ticker ticker_;
     PlacedMesh& mesh_;
     detail::VertexTriangles around_;
     detail::NearestInCells ground_;
@@ -419,9 +431,10 @@ private:
 }  // namespace
 
 void fit_vertices(const PreparedSurface& surface, std::span<const Index> nearest_vertex,
-                  PlacedMesh& mesh, int num_threads) {
+                  PlacedMesh& mesh, int num_threads, const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
     mesh.offsets.resize(mesh.points.size(), Vec3::Zero());
-    Fit(surface, nearest_vertex, mesh, num_threads).run();
+    Fit(surface, nearest_vertex, mesh, num_threads, poller).run();
 }
 
 }  // namespace remesh

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "agvd/core/progress.h"
 #include "remesh/placement/placed_mesh.h"
 #include "remesh/relax/prepared_surface.h"
 
@@ -19,8 +20,9 @@ namespace remesh {
 //! \param nearest_vertex  per vertex of surface.base: that of the mesh in whose cell it lies;
 //!                        agvd::no_index: none.
 //! \param num_threads     >= 0; 0: all cores. The result is the same for any number.
+//! \throw agvd::Cancelled  the progress callback returned false; `mesh` is of no use then.
 //! Cost: O(#base + #mesh), about 2 us for each vertex of the base.
 void fit_vertices(const PreparedSurface& surface, std::span<const agvd::Index> nearest_vertex,
-                  PlacedMesh& mesh, int num_threads = 0);
+                  PlacedMesh& mesh, int num_threads = 0, const agvd::Progress& progress = {});
 
 }  // namespace remesh

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "agvd/core/poller.h"
 #include "agvd/mesh/point_faces.h"
 #include "remesh/placement/vertex_triangles.h"
 #include "remesh/relax/cell_planes.h"
@@ -50,8 +51,9 @@ double quality(const Vec3& a, const Vec3& b, const Vec3& c) {
 class Improvement {
 public:
     Improvement(const PreparedSurface& surface, std::span<const Index> nearest_vertex,
-                PlacedMesh& mesh)
+                agvd::Ticker ticker, PlacedMesh& mesh)
         : surface_(surface.input()),
+          ticker_(ticker),
           mesh_(mesh),
           around_(mesh.triangles, mesh.points.size()),
           at_(mesh.points.size()),
@@ -60,6 +62,7 @@ public:
         for (Index v = 0; v < at_.size(); ++v) locate(v);
         const agvd::Surface& base = surface.base.surface();
         for (Index f = 0; f < base.num_faces(); ++f) {
+            ticker_.tick();
             surface.pieces.for_each(f, [&](const agvd::SurfacePiece& piece) {
                 const double area = piece.vector.norm() / 3;
                 for (const Index corner : base.mesh.triangles[f]) {
@@ -83,6 +86,7 @@ private:
         for (int round = 0; round < most_rounds; ++round) {
             std::vector<std::pair<double, Index>> bad;
             for (const Triangle& t : mesh_.triangles) {
+                ticker_.tick();
                 const double q = quality(at_[t[0]], at_[t[1]], at_[t[2]]);
                 if (q >= least_quality) continue;
                 for (const Index v : t) bad.emplace_back(q, v);
@@ -110,7 +114,8 @@ private:
     }
 
     // The lowest quality around a vertex; less by 1 where a triangle faces against the surface.
-    [[nodiscard]] double worst_around(Index v) const {
+    [[nodiscard]] double worst_around(Index v) {
+        ticker_.tick(around_.of(v).size());
         double worst = 1;
         for (const Index i : around_.of(v)) {
             const auto& [a, b, c] = mesh_.triangles[i];
@@ -178,6 +183,7 @@ private:
     }
 
     const agvd::Surface& surface_;
+    agvd::Ticker ticker_;
     PlacedMesh& mesh_;
     detail::VertexTriangles around_;
     std::vector<Vec3> at_, facing_;           // #V: positions, and normals of the surface.
@@ -189,8 +195,9 @@ private:
 }  // namespace
 
 void improve_shape(const PreparedSurface& surface, std::span<const Index> nearest_vertex,
-                   PlacedMesh& mesh) {
-    Improvement(surface, nearest_vertex, mesh).run();
+                   PlacedMesh& mesh, const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    Improvement(surface, nearest_vertex, agvd::Ticker(poller), mesh).run();
 }
 
 }  // namespace remesh

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "agvd/core/progress.h"
 #include "remesh/placement/placed_mesh.h"
 #include "remesh/relax/prepared_surface.h"
 
@@ -16,8 +17,9 @@ namespace remesh {
 //!
 //! \param nearest_vertex  per vertex of surface.base: that of the mesh in whose cell it lies;
 //!                        agvd::no_index: none.
+//! \throw agvd::Cancelled  the progress callback returned false; `mesh` is of no use then.
 //! Cost: O(#surface + #triangles), and about 20 us for each vertex at such a triangle.
 void improve_shape(const PreparedSurface& surface, std::span<const agvd::Index> nearest_vertex,
-                   PlacedMesh& mesh);
+                   PlacedMesh& mesh, const agvd::Progress& progress = {});
 
 }  // namespace remesh

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "agvd/core/poller.h"
 #include "agvd/mesh/mesh_view.h"
 
 namespace remesh {
@@ -23,7 +24,8 @@ struct EdgeSide {
 };
 
 //! 3 #F sides, those of one edge side by side, by face within. Cost: O(n).
-[[nodiscard]] std::vector<EdgeSide> sorted_edge_sides(std::span<const agvd::Triangle> triangles);
+[[nodiscard]] std::vector<EdgeSide> sorted_edge_sides(std::span<const agvd::Triangle> triangles,
+                                                      agvd::Ticker ticker = {});
 
 //! Calls visit(begin, end), pointers into `sides`, once for each edge.
 template <typename Visit>

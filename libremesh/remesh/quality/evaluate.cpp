@@ -8,9 +8,10 @@
 namespace remesh {
 namespace {
 
-CleanResult clean_original(const agvd::MeshView& original) {
+CleanResult clean_original(const agvd::MeshView& original, int num_threads,
+                           const agvd::Progress& progress) {
     try {
-        return clean_input(original);
+        return clean_input(original, num_threads, progress);
     } catch (const agvd::InvalidInput& error) {
         throw agvd::InvalidInput(std::string("original: ") + error.what());
     }
@@ -34,12 +35,12 @@ void check_result(const agvd::MeshView& mesh) {
     }
 }
 
-MeshFigures measure(const agvd::MeshView& mesh, int num_threads) {
+MeshFigures measure(const agvd::MeshView& mesh, int num_threads, const agvd::Progress& progress) {
     return {.vertices = static_cast<agvd::Index>(mesh.positions.size()),
             .faces = static_cast<agvd::Index>(mesh.triangles.size()),
-            .topology = analyze_topology(mesh),
-            .triangles = measure_triangles(mesh),
-            .self_intersections = find_self_intersections(mesh, num_threads)};
+            .topology = analyze_topology(mesh, progress),
+            .triangles = measure_triangles(mesh, progress),
+            .self_intersections = find_self_intersections(mesh, num_threads, progress)};
 }
 
 }  // namespace
@@ -47,12 +48,17 @@ MeshFigures measure(const agvd::MeshView& mesh, int num_threads) {
 Evaluation evaluate(const agvd::MeshView& original, const agvd::MeshView& result,
                     const EvaluationOptions& options) {
     check_result(result);
-    const CleanResult clean = clean_original(original);
+    const agvd::Progress& all = options.progress;
+    const CleanResult clean =
+        clean_original(original, options.num_threads, agvd::within(all, 0, 0.1));
     Evaluation evaluation;
-    evaluation.distance = surface_distance(clean.mesh.view(), result, options);
+    DistanceOptions measuring = options;
+    measuring.progress = agvd::within(all, 0.1, 0.5);
+    evaluation.distance = surface_distance(clean.mesh.view(), result, measuring);
     evaluation.cleaned = clean.counts;
-    evaluation.original = measure(clean.mesh.view(), options.num_threads);
-    evaluation.result = measure(result, options.num_threads);
+    evaluation.original =
+        measure(clean.mesh.view(), options.num_threads, agvd::within(all, 0.5, 0.8));
+    evaluation.result = measure(result, options.num_threads, agvd::within(all, 0.8, 1));
     const Topology& topology = evaluation.result.topology;
     evaluation.topology_kept = topology.is_manifold && topology.is_oriented &&
                                same_topology(evaluation.original.topology, topology);

@@ -39,6 +39,7 @@ struct Evaluation {
 //! \throw agvd::InvalidInput   the original cannot be repaired; or the result has an index out of
 //!        range, a coordinate that is not finite, or no face with area. The text begins with
 //!        "original: " or "result: ".
+//! \throw agvd::Cancelled      the progress callback returned false.
 //! Cost: O((samples + n) log n): about a second for 70 000 faces each and 200 000 samples.
 [[nodiscard]] Evaluation evaluate(const agvd::MeshView& original, const agvd::MeshView& result,
                                   const EvaluationOptions& options = {});

@@ -4,7 +4,9 @@
 #include <CGAL/box_intersection_d.h>
 
 #include <algorithm>
+#include <functional>
 
+#include "agvd/core/bucket_sort.h"
 #include "agvd/core/parallel.h"
 
 // Works on faces that share indices instead of a half-edge structure, so that it can judge meshes
@@ -23,14 +25,18 @@ constexpr Index grain = 4096;
 
 class Soup {
 public:
-    explicit Soup(const agvd::MeshView& mesh) : faces_(mesh.triangles) {
+    Soup(const agvd::MeshView& mesh, agvd::Ticker ticker)
+        : faces_(mesh.triangles), ticker_(ticker) {
         points_.reserve(mesh.positions.size());
-        for (const agvd::Vec3& p : mesh.positions) points_.emplace_back(p.x(), p.y(), p.z());
+        agvd::for_each_ticked(mesh.positions, ticker_, [&](const agvd::Vec3& p) {
+            points_.emplace_back(p.x(), p.y(), p.z());
+        });
     }
 
-    [[nodiscard]] std::vector<Box> boxes() const {
+    [[nodiscard]] std::vector<Box> boxes() {
         std::vector<Box> result;
         for (Index f = 0; f < faces_.size(); ++f) {
+            ticker_.tick();
             const Kernel::Triangle_3 t = triangle(faces_[f]);
             if (!t.is_degenerate()) result.emplace_back(t.bbox(), f);
         }
@@ -82,30 +88,37 @@ private:
 
     std::span<const Triangle> faces_;
     std::vector<Kernel::Point_3> points_;
+    agvd::Ticker ticker_;
 };
 
-std::vector<Pair> overlapping_boxes(std::vector<Box> boxes) {
+// Every face meets its neighbours, so that pairs, and polls with them, keep coming.
+std::vector<Pair> overlapping_boxes(std::vector<Box> boxes, Index num_faces, agvd::Ticker ticker) {
     std::vector<Pair> pairs;
     CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
+        ticker.tick(2);
         pairs.push_back(std::minmax(a.info(), b.info()));
     });
-    std::sort(pairs.begin(), pairs.end());
-    return pairs;
+    return agvd::sort_in_buckets(
+        pairs, num_faces, [](const Pair& pair) { return pair.first; }, std::less<>(), ticker);
 }
 
 }  // namespace
 
 std::optional<std::vector<Pair>> find_self_intersections(const agvd::MeshView& mesh,
-                                                         int num_threads) {
-    const Soup soup(mesh);
-    const std::vector<Pair> candidates = overlapping_boxes(soup.boxes());
+                                                         int num_threads,
+                                                         const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    Soup soup(mesh, agvd::Ticker(poller));
+    const std::vector<Pair> candidates = overlapping_boxes(
+        soup.boxes(), static_cast<Index>(mesh.triangles.size()), agvd::Ticker(poller));
     const auto count = static_cast<Index>(candidates.size());
     std::vector<std::vector<Pair>> found(agvd::num_chunks(count, grain));
-    agvd::parallel_chunks(count, grain, num_threads, [&](Index chunk, Index begin, Index end) {
+    const auto test = [&](Index chunk, Index begin, Index end) {
         for (Index i = begin; i < end; ++i) {
             if (soup.intersect(candidates[i])) found[chunk].push_back(candidates[i]);
         }
-    });
+    };
+    agvd::parallel_chunks(count, grain, num_threads, test, poller);
     std::vector<Pair> all;
     for (const std::vector<Pair>& part : found) all.insert(all.end(), part.begin(), part.end());
     return all;

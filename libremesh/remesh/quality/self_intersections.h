@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "agvd/core/progress.h"
 #include "agvd/mesh/mesh_view.h"
 
 namespace remesh {
@@ -16,9 +17,11 @@ namespace remesh {
 //! manifold or not.
 //!
 //! \param num_threads  >= 0; 0: all cores. Any number gives the same pairs.
+//! \throw agvd::Cancelled  the progress callback returned false.
 //! \return nothing in a build without CGAL, whose box intersection and exact predicates do the
 //! work. Cost: O(n log^3 n) and about 1 us for each pair of neighbouring faces.
 [[nodiscard]] std::optional<std::vector<std::pair<agvd::Index, agvd::Index>>>
-find_self_intersections(const agvd::MeshView& mesh, int num_threads = 0);
+find_self_intersections(const agvd::MeshView& mesh, int num_threads = 0,
+                        const agvd::Progress& progress = {});
 
 }  // namespace remesh

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "agvd/core/progress.h"
 #include "agvd/mesh/mesh_view.h"
 
 namespace remesh {
@@ -13,6 +14,7 @@ struct DistanceOptions {
     agvd::Index samples =
         200'000;          //!< On each of the two surfaces, >= 1; the vertices come on top.
     int num_threads = 0;  //!< >= 0; 0: all cores. Any number gives the same bytes.
+    agvd::Progress progress = {};
 };
 
 //! From one surface to the closest points of another, mesh units.
@@ -51,6 +53,7 @@ struct SurfaceDistance {
 //! \return nothing in a build without CGAL, whose AABB tree finds the closest points.
 //! \throw agvd::InvalidOption  samples < 1 or num_threads < 0.
 //! \throw agvd::InvalidInput   no face of a mesh has area.
+//! \throw agvd::Cancelled      the progress callback returned false.
 //! Cost: O((samples + n) log n), about 2 us a sample.
 [[nodiscard]] std::optional<SurfaceDistance> surface_distance(const agvd::MeshView& original,
                                                               const agvd::MeshView& result,

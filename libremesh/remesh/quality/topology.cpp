@@ -31,15 +31,17 @@ void unite(std::vector<Index>& parent, Index a, Index b) {
     parent[std::max(a, b)] = std::min(a, b);
 }
 
-bool has_bad_faces(const agvd::MeshView& mesh) {
+bool has_bad_faces(const agvd::MeshView& mesh, agvd::Ticker& ticker) {
     std::vector<Triangle> sorted(mesh.triangles.begin(), mesh.triangles.end());
+    ticker.poll();
     for (Triangle& t : sorted) {
+        ticker.tick();
         std::sort(t.begin(), t.end());
         if (t[0] == t[1] || t[1] == t[2]) return true;
     }
     sorted = agvd::sort_in_buckets(
         sorted, static_cast<Index>(mesh.positions.size()), [](const Triangle& t) { return t[0]; },
-        std::less<>());
+        std::less<>(), ticker);
     return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
 }
 
@@ -50,14 +52,17 @@ double face_area(const agvd::MeshView& mesh, Index face) {
 }
 
 // One umbrella per vertex: the corners at a vertex hang together through the edges at it.
-bool has_one_umbrella_each(const agvd::MeshView& mesh, const std::vector<EdgeSide>& sides) {
+bool has_one_umbrella_each(const agvd::MeshView& mesh, const std::vector<EdgeSide>& sides,
+                           agvd::Ticker& ticker) {
     std::vector<Index> corner(3 * mesh.triangles.size());
     std::iota(corner.begin(), corner.end(), Index{0});
+    ticker.poll();
     const auto corner_of = [&](Index face, Index vertex) {
         const Triangle& t = mesh.triangles[face];
         return 3 * face + (t[0] == vertex ? 0u : t[1] == vertex ? 1u : 2u);
     };
     for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
+        ticker.tick();
         if (sides[i].ends != sides[i + 1].ends) continue;
         for (const Index v : {sides[i].low(), sides[i].high()}) {
             unite(corner, corner_of(sides[i].face(), v), corner_of(sides[i + 1].face(), v));
@@ -65,6 +70,7 @@ bool has_one_umbrella_each(const agvd::MeshView& mesh, const std::vector<EdgeSid
     }
     std::vector<Index> umbrella(mesh.positions.size(), no_index);
     for (Index c = 0; c < corner.size(); ++c) {
+        ticker.tick();
         Index& seen = umbrella[mesh.triangles[c / 3][c % 3]];
         const Index root = find_root(corner, c);
         if (seen != no_index && seen != root) return false;
@@ -86,27 +92,31 @@ int Topology::boundary_loops() const {
         [](int sum, const ComponentTopology& c) { return sum + c.boundary_loops; });
 }
 
-Topology analyze_topology(const agvd::MeshView& mesh) {
+Topology analyze_topology(const agvd::MeshView& mesh, const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    agvd::Ticker ticker(poller);
     Topology result;
-    const std::vector<EdgeSide> sides = sorted_edge_sides(mesh.triangles);
+    const std::vector<EdgeSide> sides = sorted_edge_sides(mesh.triangles, ticker);
     const auto num_faces = static_cast<Index>(mesh.triangles.size());
 
     std::vector<Index> parent(num_faces);
     std::iota(parent.begin(), parent.end(), Index{0});
-    result.is_manifold = !has_bad_faces(mesh);
+    result.is_manifold = !has_bad_faces(mesh, ticker);
     result.is_oriented = true;
     for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
+        ticker.tick();
         for (const EdgeSide* side = begin; side != end; ++side) {
             unite(parent, begin->face(), side->face());
         }
         if (end - begin > 2) result.is_manifold = false;
         if (end - begin == 2 && begin[0].forward == begin[1].forward) result.is_oriented = false;
     });
-    if (result.is_manifold) result.is_manifold = has_one_umbrella_each(mesh, sides);
+    if (result.is_manifold) result.is_manifold = has_one_umbrella_each(mesh, sides, ticker);
 
     std::vector<Index> component_of_root(num_faces, no_index);
     result.face_component.resize(num_faces);
     for (Index f = 0; f < num_faces; ++f) {
+        ticker.tick();
         Index& id = component_of_root[find_root(parent, f)];
         if (id == no_index) {
             id = static_cast<Index>(result.components.size());
@@ -125,10 +135,11 @@ Topology analyze_topology(const agvd::MeshView& mesh) {
     if (result.components.size() > 1) {
         by_component = agvd::sort_in_buckets(
             by_component, static_cast<Index>(result.components.size()),
-            [&](Index face) { return result.face_component[face]; }, std::less<>());
+            [&](Index face) { return result.face_component[face]; }, std::less<>(), ticker);
     }
     std::vector<Index> last_component(mesh.positions.size(), no_index);
     for (const Index f : by_component) {
+        ticker.tick();
         for (const Index v : mesh.triangles[f]) {
             if (last_component[v] == result.face_component[f]) continue;
             last_component[v] = result.face_component[f];
@@ -141,13 +152,16 @@ Topology analyze_topology(const agvd::MeshView& mesh) {
     std::iota(boundary.begin(), boundary.end(), Index{0});
     std::vector<std::pair<Index, Index>> boundary_ends;  // (lower vertex, face)
     for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
+        ticker.tick();
         --result.components[result.face_component[begin->face()]].euler;
         if (end - begin != 1) return;
         unite(boundary, begin->low(), begin->high());
         boundary_ends.emplace_back(begin->low(), begin->face());
     });
+    ticker.poll();
     std::vector<bool> counted(mesh.positions.size(), false);
     for (const auto& [vertex, face] : boundary_ends) {
+        ticker.tick();
         const Index root = find_root(boundary, vertex);
         if (counted[root]) continue;
         counted[root] = true;
@@ -157,26 +171,31 @@ Topology analyze_topology(const agvd::MeshView& mesh) {
     return result;
 }
 
-Topology analyze_topology(const agvd::MeshView& mesh, const agvd::Connectivity& connectivity) {
+Topology analyze_topology(const agvd::MeshView& mesh, const agvd::Connectivity& connectivity,
+                          const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    agvd::Ticker ticker(poller);
     const auto& [twin, outgoing] = connectivity;
-    detail::FaceLabels labels = detail::label_components(twin);
+    detail::FaceLabels labels = detail::label_components(twin, ticker);
     Topology result{true, true, std::vector<ComponentTopology>(labels.count),
                     std::move(labels.of_face)};
     const auto component_of = [&](Index half_edge) -> ComponentTopology& {
         return result.components[result.face_component[half_edge / 3]];
     };
     for (Index f = 0; f < result.face_component.size(); ++f) {
+        ticker.tick();
         ComponentTopology& c = component_of(3 * f);
         ++c.faces;
         ++c.euler;
         c.area += face_area(mesh, f);
         for (Index h = 3 * f; h < 3 * f + 3; ++h) c.euler -= twin[h] > h ? 1 : 0;  // Edges.
     }
-    for (const Index h : outgoing) {
+    agvd::for_each_ticked(outgoing, ticker, [&](Index h) {
         if (h != no_index) ++component_of(h).euler;
-    }
+    });
     std::vector<bool> is_seen(twin.size(), false);
     for (Index start = 0; start < twin.size(); ++start) {
+        ticker.tick();
         if (twin[start] != no_index || is_seen[start]) continue;
         ++component_of(start).boundary_loops;
         for (Index h = start; !is_seen[h];) {

@@ -2,6 +2,7 @@
 //! Is it a manifold, and of which topology?
 #pragma once
 
+#include "agvd/core/progress.h"
 #include "agvd/mesh/connectivity.h"
 
 namespace remesh {
@@ -29,15 +30,19 @@ struct Topology {
 };
 
 //! Works on any indices in range, manifold or not. Cost: O(n log n).
-[[nodiscard]] Topology analyze_topology(const agvd::MeshView& mesh);
+//! \throw agvd::Cancelled  the progress callback returned false.
+[[nodiscard]] Topology analyze_topology(const agvd::MeshView& mesh,
+                                        const agvd::Progress& progress = {});
 
 //! The same where connectivity is known; is_manifold and is_oriented are true.
 //!
 //! \param connectivity  agvd::find_connectivity(mesh), of which no two faces may have the same
 //!                      corners, as in what clean_input returns.
+//! \throw agvd::Cancelled  the progress callback returned false.
 //! Cost: O(n).
 [[nodiscard]] Topology analyze_topology(const agvd::MeshView& mesh,
-                                        const agvd::Connectivity& connectivity);
+                                        const agvd::Connectivity& connectivity,
+                                        const agvd::Progress& progress = {});
 
 //! Same number of components of each (genus, boundary loops) type.
 [[nodiscard]] bool same_topology(const Topology& a, const Topology& b);

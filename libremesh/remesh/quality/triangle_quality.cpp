@@ -39,12 +39,14 @@ Shape shape_of(const std::array<Vec3, 3>& p) {
 }
 
 // Fills the figures of the faces and returns the angle opposite each half-edge.
-std::vector<double> measure_faces(const agvd::MeshView& mesh, TriangleQuality& result) {
+std::vector<double> measure_faces(const agvd::MeshView& mesh, agvd::Ticker& ticker,
+                                  TriangleQuality& result) {
     std::vector<double> opposite(3 * mesh.triangles.size());
     result.min_quality = 1;
     result.min_angle = std::numbers::pi;
     Index small = 0;
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        ticker.tick(4);
         const auto& [a, b, c] = mesh.triangles[f];
         const Shape shape = shape_of({mesh.positions[a], mesh.positions[b], mesh.positions[c]});
         const auto [lowest, highest] = std::minmax_element(shape.angle.begin(), shape.angle.end());
@@ -65,9 +67,11 @@ std::vector<double> measure_faces(const agvd::MeshView& mesh, TriangleQuality& r
 }
 
 void measure_edges(const agvd::MeshView& mesh, const std::vector<EdgeSide>& sides,
-                   const std::vector<double>& opposite, TriangleQuality& result) {
+                   const std::vector<double>& opposite, agvd::Ticker& ticker,
+                   TriangleQuality& result) {
     std::vector<double> lengths;
     for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
+        ticker.tick();
         lengths.push_back((mesh.positions[begin->high()] - mesh.positions[begin->low()]).norm());
         if (end - begin != 2) return;
         const double sum = opposite[begin[0].half_edge] + opposite[begin[1].half_edge];
@@ -82,10 +86,11 @@ void measure_edges(const agvd::MeshView& mesh, const std::vector<EdgeSide>& side
 }
 
 void measure_valences(const agvd::MeshView& mesh, const std::vector<EdgeSide>& sides,
-                      TriangleQuality& result) {
+                      agvd::Ticker& ticker, TriangleQuality& result) {
     std::vector<Index> valence(mesh.positions.size(), 0);
     std::vector<bool> on_boundary(mesh.positions.size(), false);
     for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
+        ticker.tick();
         for (const Index v : {begin->low(), begin->high()}) {
             ++valence[v];
             if (end - begin == 1) on_boundary[v] = true;
@@ -101,13 +106,15 @@ void measure_valences(const agvd::MeshView& mesh, const std::vector<EdgeSide>& s
 
 }  // namespace
 
-TriangleQuality measure_triangles(const agvd::MeshView& mesh) {
+TriangleQuality measure_triangles(const agvd::MeshView& mesh, const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    agvd::Ticker ticker(poller);
     TriangleQuality result;
     if (mesh.triangles.empty()) return result;
-    const std::vector<double> opposite = measure_faces(mesh, result);
-    const std::vector<EdgeSide> sides = sorted_edge_sides(mesh.triangles);
-    measure_edges(mesh, sides, opposite, result);
-    measure_valences(mesh, sides, result);
+    const std::vector<double> opposite = measure_faces(mesh, ticker, result);
+    const std::vector<EdgeSide> sides = sorted_edge_sides(mesh.triangles, ticker);
+    measure_edges(mesh, sides, opposite, ticker, result);
+    measure_valences(mesh, sides, ticker, result);
     return result;
 }
 

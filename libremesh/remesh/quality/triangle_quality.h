@@ -2,6 +2,7 @@
 //! How good the triangles of a mesh are.
 #pragma once
 
+#include "agvd/core/progress.h"
 #include "agvd/mesh/mesh_view.h"
 
 namespace remesh {
@@ -29,6 +30,8 @@ struct TriangleQuality {
 //!
 //! \param mesh  #V x 3 finite positions, #F x 3 indices in range; without faces all is 0.
 //! Cost: O(n log n).
-[[nodiscard]] TriangleQuality measure_triangles(const agvd::MeshView& mesh);
+//! \throw agvd::Cancelled  the progress callback returned false.
+[[nodiscard]] TriangleQuality measure_triangles(const agvd::MeshView& mesh,
+                                                const agvd::Progress& progress = {});
 
 }  // namespace remesh

@@ -10,7 +10,7 @@ std::optional<SurfaceDistance> surface_distance(const agvd::MeshView&, const agv
 }
 
 std::optional<std::vector<std::pair<agvd::Index, agvd::Index>>> find_self_intersections(
-    const agvd::MeshView&, int) {
+    const agvd::MeshView&, int, const agvd::Progress&) {
     return std::nullopt;
 }
 

@@ -19,12 +19,13 @@ constexpr double flat_cotangent_at_rim = 5;
 }  // namespace
 
 void measure_energy(const SiteMesh& mesh, std::span<const Vec3> positions,
-                    std::span<const double> weight, CvtEnergy& result) {
+                    std::span<const double> weight, agvd::Ticker& ticker, CvtEnergy& result) {
     result.energy = 0;
     result.weighted = 0;
     result.cells.assign(positions.size(), {Vec3::Zero(), Vec3::Zero(), 0, 0});
     result.cotangent.assign(3 * mesh.triangles.size(), 0);
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        ticker.tick();
         const agvd::Triangle& t = mesh.triangles[i];
         const std::array<Vec3, 3> edge{positions[t[1]] - positions[t[0]],
                                        positions[t[2]] - positions[t[1]],

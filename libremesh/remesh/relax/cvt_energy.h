@@ -30,7 +30,7 @@ struct CvtEnergy {
 //! \param weight  #sites: density, > 0; linear in between.
 //! Cost: O(n).
 void measure_energy(const SiteMesh& mesh, std::span<const agvd::Vec3> positions,
-                    std::span<const double> weight, CvtEnergy& result);
+                    std::span<const double> weight, agvd::Ticker& ticker, CvtEnergy& result);
 
 //! Fills `turned` with the triangles that face against the surface or have no area, ascending.
 //!

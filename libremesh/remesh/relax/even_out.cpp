@@ -75,24 +75,32 @@ struct Regions {
     }
 };
 
+// Steps of a search for the ground of one more region.
+constexpr std::size_t search_work = 256;
+
 // Regions around vertices that are far apart, more and more of them.
 class RegionMaker {
 public:
-    RegionMaker(const Surface& surface, const agvd::SurfaceLayout& layout, int num_threads)
+    RegionMaker(const Surface& surface, const agvd::SurfaceLayout& layout, int num_threads,
+                const agvd::Progress& progress)
         : surface_(surface),
+          progress_(progress),
           search_(surface, layout.arcs(), layout.corners().mean_length(), num_threads),
           farthest_(surface, search_) {}
 
     // At least `count`, and one for each component.
     Regions make(Index count) {
+        agvd::Poller poller(progress_);
+        agvd::Ticker ticker(poller);
         while (!farthest_.is_empty()) {
+            ticker.tick(search_work);
             const Index v = farthest_.pop();
             if (num_centers_ >= count && std::isfinite(search_.distance(v))) {
                 farthest_.push(v);
                 break;
             }
             search_.add(agvd::point_at(surface_, v), num_centers_++);
-            search_.run();
+            search_.run(progress_);
         }
         // By the first corner; regions without a face get no number.
         std::vector<Index> number(num_centers_, no_index);
@@ -108,6 +116,7 @@ public:
 
 private:
     const Surface& surface_;
+    const agvd::Progress& progress_;
     agvd::BoundsSearch search_;
     FarthestVertex farthest_;
     Index num_centers_ = 0;
@@ -116,12 +125,12 @@ private:
 class EvenOut {
 public:
     EvenOut(const agvd::IntrinsicTriangulation& base, std::vector<SurfacePoint>& sites,
-            std::span<const std::uint8_t> is_fixed)
+            std::span<const std::uint8_t> is_fixed, const agvd::Progress& progress)
         : base_(base),
           surface_(base.surface()),
           sites_(sites),
           on_base_(base.to_intrinsic(sites)),
-          components_(find_components(surface_)) {
+          components_(find_components(surface_, progress)) {
         may_move_.reserve(sites.size());
         for (Index i = 0; i < sites.size(); ++i) {
             const bool stays = (!is_fixed.empty() && is_fixed[i] != 0) ||
@@ -137,7 +146,7 @@ public:
         find_homeless();
     }
 
-    Index run(const agvd::SurfaceLayout& layout, int num_threads) {
+    Index run(const agvd::SurfaceLayout& layout, int num_threads, const agvd::Progress& progress) {
         const auto num_sites = static_cast<Index>(sites_.size());
         const Regions components(surface_, component_of_face_,
                                  static_cast<Index>(components_.size()));
@@ -152,7 +161,7 @@ public:
         }
         balance(components, shares, components_.size());
 
-        RegionMaker maker(surface_, layout, num_threads);
+        RegionMaker maker(surface_, layout, num_threads, progress);
         for (const double per_region : sites_per_region) {
             const auto count = static_cast<Index>(num_sites / per_region);
             if (count < 2 || count * vertices_per_region > surface_.num_vertices()) continue;
@@ -264,8 +273,10 @@ private:
 }  // namespace
 
 Index even_out(const PreparedSurface& surface, std::vector<SurfacePoint>& sites,
-               std::span<const std::uint8_t> is_fixed, int num_threads) {
-    return EvenOut(surface.base, sites, is_fixed).run(surface.layout, num_threads);
+               std::span<const std::uint8_t> is_fixed, int num_threads,
+               const agvd::Progress& progress) {
+    return EvenOut(surface.base, sites, is_fixed, progress)
+        .run(surface.layout, num_threads, progress);
 }
 
 }  // namespace remesh::detail

@@ -22,8 +22,10 @@ namespace remesh::detail {
 //! \param sites     on surface.input().
 //! \param is_fixed  #sites: 1 for sites that stay; or empty.
 //! \return  the number of sites moved.
+//! \throw agvd::Cancelled  the progress callback returned false; `sites` is of no use then.
 //! Cost: O(n log n), a few sweeps over the edges.
 agvd::Index even_out(const PreparedSurface& surface, std::vector<agvd::SurfacePoint>& sites,
-                     std::span<const std::uint8_t> is_fixed, int num_threads);
+                     std::span<const std::uint8_t> is_fixed, int num_threads,
+                     const agvd::Progress& progress = {});
 
 }  // namespace remesh::detail

@@ -18,10 +18,11 @@ constexpr double piece_share = 1.0 / 16;
 
 }  // namespace
 
-PreparedSurface::PreparedSurface(const agvd::Surface& input, double spacing, int num_threads)
-    : base(input, {.max_length = longest_edge * spacing}),
-      pieces(base, piece_share * spacing * spacing),
-      layout(base.surface(), num_threads) {}
+PreparedSurface::PreparedSurface(const agvd::Surface& input, double spacing, int num_threads,
+                                 const agvd::Progress& progress)
+    : base(input, {.max_length = longest_edge * spacing, .progress = progress}),
+      pieces(base, piece_share * spacing * spacing, progress),
+      layout(base.surface(), num_threads, progress) {}
 
 double mean_spacing(const agvd::Surface& surface, std::size_t num_sites) {
     double area = 0;

@@ -11,8 +11,10 @@ namespace remesh {
 struct PreparedSurface {
     //! \param input    outlives this.
     //! \param spacing  mean distance of the sites, > 0: the base's edges are not much longer.
+    //! \throw agvd::Cancelled  the progress callback returned false.
     //! Cost: that of the base, and O(#F) for the rest. 600 bytes a face.
-    PreparedSurface(const agvd::Surface& input, double spacing, int num_threads = 0);
+    PreparedSurface(const agvd::Surface& input, double spacing, int num_threads = 0,
+                    const agvd::Progress& progress = {});
 
     agvd::IntrinsicTriangulation base;
     agvd::FacePieces pieces;     //!< Of the base's faces.

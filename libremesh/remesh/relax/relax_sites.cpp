@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "agvd/core/poller.h"
 #include "agvd/diagram/diagram.h"
 #include "agvd/propagation/propagate.h"
 #include "agvd/propagation/site_placement.h"
@@ -63,15 +64,18 @@ bool gives_neighbours(const Surface& surface, std::size_t num_sites) {
 // By labels; exactly where faces are too large for those.
 std::vector<agvd::Triangle> triangulate(const PreparedSurface& prepared,
                                         const agvd::DistanceBounds& labels,
-                                        std::span<const SurfacePoint> sites, int num_threads) {
+                                        std::span<const SurfacePoint> sites, int num_threads,
+                                        const agvd::Progress& progress) {
     const Surface& surface = prepared.base.surface();
     if (gives_neighbours(surface, sites.size())) return detail::label_triangles(surface, labels);
     const std::vector<SurfacePoint> on_base = prepared.base.to_intrinsic(sites);
-    const agvd::Propagation propagation =
-        agvd::propagate(surface, prepared.layout, on_base,
-                        {.max_error = neighbour_error, .num_threads = num_threads});
-    return build_dual(
-        surface, agvd::build_diagram(surface, on_base, propagation, {.num_threads = num_threads}));
+    const agvd::Propagation propagation = agvd::propagate(
+        surface, prepared.layout, on_base,
+        {.max_error = neighbour_error, .num_threads = num_threads, .progress = progress});
+    return build_dual(surface,
+                      agvd::build_diagram(surface, on_base, propagation,
+                                          {.num_threads = num_threads, .progress = progress}),
+                      progress);
 }
 
 // Triangles as large as the features of the surface: what is even on them is not on the surface.
@@ -90,7 +94,14 @@ public:
         : prepared_(prepared),
           surface_(prepared.base.surface()),
           options_(options),
-          steps_planned_(options.steps * num_levels) {}
+          steps_planned_(options.steps * num_levels) {
+        if (options.progress) progress_ = [this](double) { return options_.progress(fraction()); };
+    }
+    Levels(const Levels&) = delete;
+    Levels& operator=(const Levels&) = delete;
+
+    // For all that a step is made of: tells how many steps are done.
+    [[nodiscard]] const agvd::Progress& progress() const { return progress_; }
 
     // \param labels   of the sites; null: the relaxation knows its weights.
     // \param corners  boundary vertices that sites go to: of the spacing that these sites have.
@@ -105,7 +116,8 @@ public:
         for (int step = 1; step <= options_.steps; ++step) {
             relaxation.step();
             level.energy.push_back(relaxation.energy().energy);
-            agvd::poll(options_.progress, static_cast<double>(++steps_done_) / steps_planned_);
+            ++steps_done_;
+            agvd::poll(options_.progress, fraction());
             if (step % steps_per_sweep != 0 || step == options_.steps) continue;
             if (last - relaxation.objective() < options_.tolerance * last) break;
             sweep(relaxation, corners);
@@ -114,7 +126,7 @@ public:
     }
 
     [[nodiscard]] agvd::DistanceBounds label(std::span<const SurfacePoint> sites) const {
-        return detail::label_vertices(prepared_, sites, options_.num_threads);
+        return detail::label_vertices(prepared_, sites, options_.num_threads, progress_);
     }
 
     RelaxResult finish(std::vector<SurfacePoint> sites) {
@@ -123,6 +135,10 @@ public:
     }
 
 private:
+    [[nodiscard]] double fraction() const {
+        return static_cast<double>(steps_done_) / std::max(steps_planned_, 1);
+    }
+
     [[nodiscard]] bool gives_cells(Index num_sites) const {
         return surface_.num_vertices() >= vertices_per_cell * num_sites;
     }
@@ -136,7 +152,7 @@ private:
                 detail::boundary_places(prepared_.base, labels, num_sites, corners));
         }
         relaxation.set_density(
-            detail::measure_cells(prepared_, labels, num_sites, options_.num_threads));
+            detail::measure_cells(prepared_, labels, num_sites, options_.num_threads, progress_));
     }
 
     // Looks at the surface again.
@@ -150,8 +166,8 @@ private:
             num_mended_ < result_.levels.size() && flaws > most_flaws * num_sites;
         if (flaws > 0 && (is_cheap || is_worth_it)) {
             if (!is_cheap) num_mended_ = result_.levels.size();
-            relaxation.mend(
-                triangulate(prepared_, labels, relaxation.sites(), options_.num_threads));
+            relaxation.mend(triangulate(prepared_, labels, relaxation.sites(), options_.num_threads,
+                                        progress_));
         }
         look(relaxation, labels, corners);
     }
@@ -159,6 +175,7 @@ private:
     const PreparedSurface& prepared_;
     const Surface& surface_;  // Of its base.
     const RelaxOptions& options_;
+    agvd::Progress progress_;
     int steps_planned_;
     int steps_done_ = 0;
     std::size_t num_mended_ = 0;  // Levels up to the last one that has paid for a propagation.
@@ -167,8 +184,10 @@ private:
 
 // How many sites to begin with so that they and the middles between them are `count`; nothing if
 // these would be too few.
-std::optional<Index> coarse_count(const Surface& surface, Index count) {
-    const Index num_components = detail::label_components(surface.twin).count;
+std::optional<Index> coarse_count(const Surface& surface, Index count,
+                                  const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    const Index num_components = detail::label_components(surface.twin, agvd::Ticker(poller)).count;
     double euler = static_cast<double>(surface.num_faces()) - surface.num_edges();
     for (const Index h : surface.outgoing) euler += h != agvd::no_index ? 1 : 0;
     // V + E, with E = 3 V - 3 chi; edges on the boundary are a little fewer.
@@ -187,11 +206,12 @@ RelaxResult relax_sites(const PreparedSurface& surface, std::vector<SurfacePoint
     agvd::check_sites(surface.input(), sites);
     Levels levels(surface, options, 1);
     if (options.steps == 0 || sites.empty()) return levels.finish(std::move(sites));
-    detail::even_out(surface, sites, options.is_fixed, options.num_threads);
+    detail::even_out(surface, sites, options.is_fixed, options.num_threads, levels.progress());
     const agvd::DistanceBounds labels = levels.label(sites);
-    Relaxation relaxation(surface.input(), sites,
-                          triangulate(surface, labels, sites, options.num_threads),
-                          options.is_fixed, {}, options.num_threads);
+    Relaxation relaxation(
+        surface.input(), sites,
+        triangulate(surface, labels, sites, options.num_threads, levels.progress()),
+        options.is_fixed, {}, options.num_threads, levels.progress());
     if (is_hopeless(relaxation)) return levels.finish(std::move(sites));
     levels.run(relaxation, &labels, options.corners);
     if (is_hopeless(relaxation)) return levels.finish(std::move(sites));
@@ -205,17 +225,18 @@ RelaxResult sample_relaxed_sites(const PreparedSurface& surface, const SamplingO
     const auto one_after_the_other = [&] {
         return relax_sites(surface, sample_sites(input, sampling), options);
     };
-    const std::optional<Index> coarse = coarse_count(surface.base.surface(), sampling.num_samples);
+    const std::optional<Index> coarse = coarse_count(surface.base.surface(), sampling.num_samples,
+                                                     agvd::within(options.progress, 0, 0));
     if (!coarse || options.steps == 0) return one_after_the_other();
     SamplingOptions first = sampling;
     first.num_samples = *coarse;
-    first.progress = {};
     Levels levels(surface, options, 2);
+    first.progress = levels.progress();
     std::vector<SurfacePoint> sites = sample_sites(input, first);
     agvd::DistanceBounds labels = levels.label(sites);
     Relaxation relaxation(input, std::move(sites),
                           detail::label_triangles(surface.base.surface(), labels), {}, {},
-                          options.num_threads);
+                          options.num_threads, levels.progress());
     if (is_hopeless(relaxation)) return one_after_the_other();
     levels.run(relaxation, &labels, {});
     if (is_hopeless(relaxation)) return one_after_the_other();
@@ -226,7 +247,7 @@ RelaxResult sample_relaxed_sites(const PreparedSurface& surface, const SamplingO
                           detail::label_dual(surface.base, labels), sampling.num_samples);
     if (!fine) return one_after_the_other();
     Relaxation last(input, std::move(fine->sites), std::move(fine->triangles), {},
-                    std::move(fine->weights), options.num_threads);
+                    std::move(fine->weights), options.num_threads, levels.progress());
     levels.run(last, nullptr, options.corners);
     if (is_hopeless(last)) return one_after_the_other();
     return levels.finish(last.sites());

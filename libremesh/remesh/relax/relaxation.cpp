@@ -49,9 +49,11 @@ constexpr double flat_quality = 0.1;
 
 Relaxation::Relaxation(const agvd::Surface& surface, std::vector<SurfacePoint> sites,
                        std::vector<agvd::Triangle> triangles, std::vector<std::uint8_t> is_fixed,
-                       std::vector<double> weights, int num_threads)
+                       std::vector<double> weights, int num_threads, const agvd::Progress& progress)
     : surface_(surface),
       num_threads_(num_threads),
+      poller_(progress),
+      ticker_(poller_),
       sites_(std::move(sites)),
       at_(sites_.size()),
       facing_(sites_.size()),
@@ -64,6 +66,7 @@ Relaxation::Relaxation(const agvd::Surface& surface, std::vector<SurfacePoint> s
     is_fixed_.resize(sites_.size(), 0);
     for (Index i = 0; i < sites_.size(); ++i) {
         locate(i);
+        ticker_.tick();
         // A corner of the boundary, or a place that is as good as any on its loop.
         if (boundary_[i] != no_index && agvd::vertex_of(surface_, sites_[i])) is_fixed_[i] = 1;
     }
@@ -71,12 +74,12 @@ Relaxation::Relaxation(const agvd::Surface& surface, std::vector<SurfacePoint> s
 }
 
 void Relaxation::take_triangles(std::vector<agvd::Triangle> triangles) {
-    mesh_ = build_site_mesh(std::move(triangles), static_cast<Index>(sites_.size()));
+    mesh_ = build_site_mesh(std::move(triangles), static_cast<Index>(sites_.size()), ticker_);
     find_stuck();
-    measure_energy(mesh_, at_, weight_, now_);
+    measure_energy(mesh_, at_, weight_, ticker_, now_);
     for (int round = 0; round < most_flip_rounds; ++round) {
-        if (flip_towards_delaunay(mesh_, at_, now_.cotangent) == 0) break;
-        measure_energy(mesh_, at_, weight_, now_);
+        if (flip_towards_delaunay(mesh_, at_, now_.cotangent, ticker_) == 0) break;
+        measure_energy(mesh_, at_, weight_, ticker_, now_);
     }
     find_turned(mesh_, at_, facing_, turned_);
 }
@@ -97,7 +100,7 @@ void Relaxation::mend(const std::vector<agvd::Triangle>& triangles) {
     if (num_flaws() < flaws) return;
     mesh_ = std::move(before);
     find_stuck();
-    measure_energy(mesh_, at_, weight_, now_);
+    measure_energy(mesh_, at_, weight_, ticker_, now_);
     find_turned(mesh_, at_, facing_, turned_);
 }
 
@@ -164,19 +167,21 @@ void Relaxation::set_density(const CellMeasures& cells) {
         weight_[i] = std::min(lost * bent, most_weight);
     }
     planes_ = cells.planes;
-    measure_energy(mesh_, at_, weight_, now_);
+    measure_energy(mesh_, at_, weight_, ticker_, now_);
 }
 
 void Relaxation::step() {
     choose_moves();
+    poller_.poll();
     sites_before_ = sites_;
     at_before_ = at_;
     facing_before_ = facing_;
     walk();
+    poller_.poll();
     take_back();
-    measure_energy(mesh_, at_, weight_, now_);
+    measure_energy(mesh_, at_, weight_, ticker_, now_);
     // What flips change is measured by the next step: they are few.
-    flip_towards_delaunay(mesh_, at_, now_.cotangent);
+    flip_towards_delaunay(mesh_, at_, now_.cotangent, ticker_);
 }
 
 double Relaxation::objective() const {
@@ -199,19 +204,21 @@ void Relaxation::locate(Index i) {
 void Relaxation::choose_moves() {
     const auto num_sites = static_cast<Index>(move_.size());
     half_slope_.resize(num_sites);
-    agvd::parallel_chunks(num_sites, grain, num_threads_, [&](Index, Index begin, Index end) {
+    const auto find_slopes = [&](Index, Index begin, Index end) {
         for (Index i = begin; i < end; ++i) {
             const Vec3 off = planes_[i].half_slope(at_[i]);
             const Vec3 along = off - facing_[i].dot(off) * facing_[i];
             half_slope_[i] = now_.cells[i].slope / 2 + plane_weight * weight_[i] * along;
         }
-    });
+    };
+    agvd::parallel_chunks(num_sites, grain, num_threads_, find_slopes, poller_);
     double uphill = 0;
     for (Index i = 0; i < num_sites; ++i) uphill += half_slope_[i].dot(move_[i]);
     const double keep = uphill > 0 ? 0 : momentum;
-    agvd::parallel_chunks(num_sites, grain, num_threads_, [&](Index, Index begin, Index end) {
+    const auto choose = [&](Index, Index begin, Index end) {
         for (Index i = begin; i < end; ++i) choose_move(i, keep);
-    });
+    };
+    agvd::parallel_chunks(num_sites, grain, num_threads_, choose, poller_);
 }
 
 void Relaxation::choose_move(Index i, double keep) {
@@ -251,7 +258,7 @@ void Relaxation::walk() {
             locate(i);
         }
     };
-    agvd::parallel_chunks(static_cast<Index>(sites_.size()), grain, num_threads_, body);
+    agvd::parallel_chunks(static_cast<Index>(sites_.size()), grain, num_threads_, body, poller_);
 }
 
 // Takes back the moves by which triangles have turned over.

@@ -25,9 +25,11 @@ public:
     //!
     //! \param is_fixed  #sites: 1 for sites that stay; or empty.
     //! \param weights   #sites: the density at the start; or empty.
+    //! \param progress  outlives this; polled by all that takes long, which then throws Cancelled
+    //!                  and leaves this of no use.
     Relaxation(const agvd::Surface& surface, std::vector<agvd::SurfacePoint> sites,
                std::vector<agvd::Triangle> triangles, std::vector<std::uint8_t> is_fixed,
-               std::vector<double> weights, int num_threads);
+               std::vector<double> weights, int num_threads, const agvd::Progress& progress);
 
     //! By what the cells hold of the surface.
     void set_density(const CellMeasures& cells);
@@ -73,6 +75,8 @@ private:
 
     const agvd::Surface& surface_;
     int num_threads_;
+    agvd::Poller poller_;
+    agvd::Ticker ticker_;
     SiteMesh mesh_;
     std::vector<agvd::SurfacePoint> sites_;
     std::vector<agvd::Vec3> at_, facing_;           // #sites: positions, normals of their faces.

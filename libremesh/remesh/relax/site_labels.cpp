@@ -35,12 +35,14 @@ SurfacePoint point_on(Index h, double along, double inside) {
 
 // Adds what the sites of one part hold, face by face: sites count off by part.
 void add_part(const PreparedSurface& prepared, const agvd::DistanceBounds& labels, Index part,
-              Index num_parts, CellMeasures& result, std::vector<agvd::Vec3>& shadow) {
+              Index num_parts, agvd::Ticker ticker, CellMeasures& result,
+              std::vector<agvd::Vec3>& shadow) {
     const Surface& surface = prepared.base.surface();
     const auto is_of_part = [&](Index site) {
         return site != no_index && (site & (num_parts - 1)) == part;
     };
     for (Index f = 0; f < surface.num_faces(); ++f) {
+        ticker.tick();
         const agvd::Triangle& t = surface.mesh.triangles[f];
         const std::array<Index, 3> site{labels.site[t[0]], labels.site[t[1]], labels.site[t[2]]};
         if (std::none_of(site.begin(), site.end(), is_of_part)) continue;
@@ -78,23 +80,26 @@ void add_part(const PreparedSurface& prepared, const agvd::DistanceBounds& label
 }  // namespace
 
 agvd::DistanceBounds label_vertices(const PreparedSurface& surface,
-                                    std::span<const SurfacePoint> sites, int num_threads) {
+                                    std::span<const SurfacePoint> sites, int num_threads,
+                                    const agvd::Progress& progress) {
     return agvd::distance_bounds(surface.base.surface(), surface.layout.arcs(),
                                  surface.layout.corners().mean_length(),
-                                 surface.base.to_intrinsic(sites), num_threads);
+                                 surface.base.to_intrinsic(sites), num_threads, progress);
 }
 
 CellMeasures measure_cells(const PreparedSurface& surface, const agvd::DistanceBounds& labels,
-                           Index num_sites, int num_threads) {
+                           Index num_sites, int num_threads, const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
     CellMeasures result{std::vector<double>(num_sites, 0), std::vector<double>(num_sites, 0),
                         std::vector<CellPlanes>(num_sites)};
     std::vector<agvd::Vec3> shadow(num_sites, agvd::Vec3::Zero());  // The largest is so long.
     // Each part passes all faces, so that sums run in one order: one of two takes two thirds of the
     // time of all.
     const Index num_parts = num_threads == 1 ? 1 : 2;
-    agvd::parallel_chunks(num_parts, 1, num_threads, [&](Index part, Index, Index) {
-        add_part(surface, labels, part, num_parts, result, shadow);
-    });
+    const auto body = [&](Index part, Index, Index) {
+        add_part(surface, labels, part, num_parts, agvd::Ticker(poller), result, shadow);
+    };
+    agvd::parallel_chunks(num_parts, 1, num_threads, body, poller);
     for (Index i = 0; i < num_sites; ++i) {
         if (result.area[i] > 0) {
             result.bending[i] = std::max(0.0, 1 - shadow[i].norm() / result.area[i]);

@@ -18,7 +18,8 @@ namespace remesh::detail {
 //! \return  of the vertices of surface.base.
 [[nodiscard]] agvd::DistanceBounds label_vertices(const PreparedSurface& surface,
                                                   std::span<const agvd::SurfacePoint> sites,
-                                                  int num_threads);
+                                                  int num_threads,
+                                                  const agvd::Progress& progress = {});
 
 //! What cells hold of the surface.
 struct CellMeasures {
@@ -33,7 +34,7 @@ struct CellMeasures {
 //! Cost: O(#F and pieces).
 [[nodiscard]] CellMeasures measure_cells(const PreparedSurface& surface,
                                          const agvd::DistanceBounds& labels, agvd::Index num_sites,
-                                         int num_threads);
+                                         int num_threads, const agvd::Progress& progress = {});
 
 //! A point halfway between two sites whose labels meet.
 struct Middle {

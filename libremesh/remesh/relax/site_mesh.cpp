@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace remesh::detail {
 namespace {
@@ -24,11 +25,13 @@ double cotangent(const Vec3& a, const Vec3& b) {
 
 class Flipper {
 public:
-    Flipper(SiteMesh& mesh, std::span<const Vec3> positions) : mesh_(mesh), positions_(positions) {}
+    Flipper(SiteMesh& mesh, std::span<const Vec3> positions, agvd::Ticker ticker)
+        : mesh_(mesh), positions_(positions), ticker_(ticker) {}
 
     Index run(std::span<const double> cotangent) {
         Index flips = 0;
         for (Index h = 0; h < mesh_.twin.size(); ++h) {
+            ticker_.tick();
             const Index twin = mesh_.twin[h];
             if (twin == no_index || twin < h) continue;
             if (cotangent[h] + cotangent[twin] >= flip_tolerance) continue;
@@ -98,11 +101,12 @@ private:
 
     SiteMesh& mesh_;
     std::span<const Vec3> positions_;
+    agvd::Ticker ticker_;
 };
 
 }  // namespace
 
-SiteMesh build_site_mesh(std::vector<Triangle> triangles, Index num_sites) {
+SiteMesh build_site_mesh(std::vector<Triangle> triangles, Index num_sites, agvd::Ticker ticker) {
     SiteMesh mesh{std::move(triangles), {}, {}};
     const auto num_half_edges = static_cast<Index>(3 * mesh.triangles.size());
     std::vector<std::pair<std::uint64_t, Index>> keys(num_half_edges);
@@ -110,7 +114,7 @@ SiteMesh build_site_mesh(std::vector<Triangle> triangles, Index num_sites) {
         const std::pair<Index, Index> ends = std::minmax({mesh.tail(h), mesh.head(h)});
         keys[h] = {std::uint64_t{ends.first} << 32 | ends.second, h};
     }
-    std::sort(keys.begin(), keys.end());
+    agvd::sort_ticked(keys, ticker, std::less<>());
     mesh.twin.assign(num_half_edges, no_index);
     mesh.is_rim.assign(num_sites, 0);
     for (std::size_t i = 0, end = 0; i < keys.size(); i = end) {
@@ -127,8 +131,8 @@ SiteMesh build_site_mesh(std::vector<Triangle> triangles, Index num_sites) {
 }
 
 Index flip_towards_delaunay(SiteMesh& mesh, std::span<const Vec3> positions,
-                            std::span<const double> cotangent) {
-    return Flipper(mesh, positions).run(cotangent);
+                            std::span<const double> cotangent, agvd::Ticker ticker) {
+    return Flipper(mesh, positions, ticker).run(cotangent);
 }
 
 }  // namespace remesh::detail

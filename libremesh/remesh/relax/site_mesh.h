@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "agvd/core/half_edge.h"
+#include "agvd/core/poller.h"
 
 namespace remesh::detail {
 
@@ -26,8 +27,8 @@ struct SiteMesh {
 };
 
 //! Any triangles of site indices, manifold or not. Cost: O(n log n).
-[[nodiscard]] SiteMesh build_site_mesh(std::vector<agvd::Triangle> triangles,
-                                       agvd::Index num_sites);
+[[nodiscard]] SiteMesh build_site_mesh(std::vector<agvd::Triangle> triangles, agvd::Index num_sites,
+                                       agvd::Ticker ticker = {});
 
 //! Flips the edges whose opposite angles (in space) sum to more than pi, except where that would
 //! fold the mesh or join two sites twice. Edges that become such by a flip wait for the next call.
@@ -35,6 +36,6 @@ struct SiteMesh {
 //! \param cotangent  #H: of the angle opposite, as it is now.
 //! Returns the number of flips. Cost: O(n).
 agvd::Index flip_towards_delaunay(SiteMesh& mesh, std::span<const agvd::Vec3> positions,
-                                  std::span<const double> cotangent);
+                                  std::span<const double> cotangent, agvd::Ticker ticker = {});
 
 }  // namespace remesh::detail

@@ -21,16 +21,18 @@ using agvd::Triangle;
 
 constexpr Index grain = 1 << 14;  // Faces.
 
-void check_elements(const agvd::MeshView& mesh) {
+void check_elements(const agvd::MeshView& mesh, agvd::Ticker& ticker) {
     if (mesh.triangles.size() > no_index / 3 || mesh.positions.size() >= no_index) {
         throw InvalidInput("the mesh has more than 2^32 / 3 faces; split it into parts");
     }
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        ticker.tick();
         if (mesh.positions[v].allFinite()) continue;
         throw InvalidInput("vertex " + std::to_string(v) +
                            " has a coordinate that is not finite; correct or delete it");
     }
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        ticker.tick();
         for (const Index v : mesh.triangles[f]) {
             if (v < mesh.positions.size()) continue;
             throw InvalidInput("face " + std::to_string(f) + " names vertex " + std::to_string(v) +
@@ -40,20 +42,26 @@ void check_elements(const agvd::MeshView& mesh) {
     }
 }
 
-Soup as_soup(const agvd::MeshView& mesh) {
+Soup as_soup(const agvd::MeshView& mesh, agvd::Ticker ticker) {
     Soup soup;
+    soup.ticker = ticker;
     soup.positions.assign(mesh.positions.begin(), mesh.positions.end());
     soup.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
+    ticker.poll();
     soup.vertex_origin.resize(soup.positions.size());
     soup.face_origin.resize(soup.triangles.size());
     std::iota(soup.vertex_origin.begin(), soup.vertex_origin.end(), Index{0});
     std::iota(soup.face_origin.begin(), soup.face_origin.end(), Index{0});
+    ticker.poll();
     return soup;
 }
 
 // The input as it is, if nothing is to be done: linear passes only.
-std::optional<CleanResult> take_clean(const agvd::MeshView& mesh, int num_threads) {
-    std::optional<agvd::Connectivity> found = agvd::find_connectivity(mesh, num_threads);
+std::optional<CleanResult> take_clean(const agvd::MeshView& mesh, int num_threads,
+                                      const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    agvd::Ticker ticker(poller);
+    std::optional<agvd::Connectivity> found = agvd::find_connectivity(mesh, num_threads, progress);
     if (!found || found->outgoing.empty()) return std::nullopt;
     const auto& [twin, outgoing] = *found;
     if (std::find(outgoing.begin(), outgoing.end(), no_index) != outgoing.end()) {
@@ -64,7 +72,7 @@ std::optional<CleanResult> take_clean(const agvd::MeshView& mesh, int num_thread
     };
     std::atomic<bool> is_clean = true;
     const auto num_faces = static_cast<Index>(mesh.triangles.size());
-    agvd::parallel_chunks(num_faces, grain, num_threads, [&](Index, Index begin, Index end) {
+    const auto check_faces = [&](Index, Index begin, Index end) {
         for (Index f = begin; f < end; ++f) {
             const double area = smallest_doubled_area(mesh.positions, mesh.triangles[f]);
             bool is_good = area > 0 && std::isfinite(area);
@@ -73,12 +81,17 @@ std::optional<CleanResult> take_clean(const agvd::MeshView& mesh, int num_thread
             }
             if (!is_good) is_clean.store(false, std::memory_order_relaxed);
         }
-    });
+    };
+    agvd::parallel_chunks(num_faces, grain, num_threads, check_faces, poller);
     if (!is_clean) return std::nullopt;
     std::vector<bool> is_boundary(outgoing.size());
-    for (Index v = 0; v < outgoing.size(); ++v) is_boundary[v] = twin[outgoing[v]] == no_index;
-    if (share_positions(mesh.positions, is_boundary)) return std::nullopt;  // A crack, perhaps.
-    Soup soup = as_soup(mesh);
+    for (Index v = 0; v < outgoing.size(); ++v) {
+        ticker.tick();
+        is_boundary[v] = twin[outgoing[v]] == no_index;
+    }
+    if (share_positions(mesh.positions, is_boundary, ticker))
+        return std::nullopt;  // A crack, perhaps.
+    Soup soup = as_soup(mesh, ticker);
     return CleanResult{{std::move(soup.positions), std::move(soup.triangles)},
                        std::move(soup.vertex_origin),
                        std::move(soup.face_origin),
@@ -104,6 +117,7 @@ void check_not_empty(const Soup& soup) {
 bool drop_repeated_corners(Soup& soup) {
     std::vector<bool> is_dead(soup.triangles.size());
     for (std::size_t f = 0; f < is_dead.size(); ++f) {
+        soup.ticker.tick();
         const auto& [a, b, c] = soup.triangles[f];
         is_dead[f] = a == b || b == c || c == a;
     }
@@ -117,6 +131,7 @@ bool drop_duplicates(Soup& soup, std::span<const EdgeUse> uses) {
     std::vector<bool> is_dead(soup.triangles.size(), false);
     std::vector<std::pair<Index, Index>> sheets;  // (third corner, face)
     for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
+        soup.ticker.tick(edge.size());
         if (edge.size() < 2) return;
         if (edge.size() == 2 && soup.apex(edge[0].half_edge) != soup.apex(edge[1].half_edge)) {
             return;  // By far the most frequent case.
@@ -137,9 +152,9 @@ bool drop_duplicates(Soup& soup, std::span<const EdgeUse> uses) {
 
 void drop_isolated_vertices(Soup& soup) {
     std::vector<Index> new_vertex(soup.positions.size(), no_index);
-    for (const Triangle& t : soup.triangles) {
+    agvd::for_each_ticked(soup.triangles, soup.ticker, [&](const Triangle& t) {
         for (const Index v : t) new_vertex[v] = 0;
-    }
+    });
     Index count = 0;
     for (Index v = 0; v < new_vertex.size(); ++v) {
         if (new_vertex[v] == no_index) continue;
@@ -160,11 +175,16 @@ void drop_isolated_vertices(Soup& soup) {
 
 }  // namespace detail
 
-CleanResult clean_input(const agvd::MeshView& mesh, int num_threads) {
+CleanResult clean_input(const agvd::MeshView& mesh, int num_threads,
+                        const agvd::Progress& progress) {
     using namespace detail;
-    check_elements(mesh);
-    if (std::optional<CleanResult> clean = take_clean(mesh, num_threads)) return *std::move(clean);
-    Soup soup = as_soup(mesh);
+    agvd::Poller poller(progress);
+    agvd::Ticker ticker(poller);
+    check_elements(mesh, ticker);
+    if (std::optional<CleanResult> clean = take_clean(mesh, num_threads, progress)) {
+        return *std::move(clean);
+    }
+    Soup soup = as_soup(mesh, ticker);
 
     std::vector<EdgeUse> uses = edge_uses(soup);
     const auto refresh = [&](bool is_changed) {

@@ -2,6 +2,7 @@
 //! Turns any triangle soup into oriented 2-manifold pieces, and tells what it did.
 #pragma once
 
+#include "agvd/core/progress.h"
 #include "agvd/mesh/connectivity.h"
 
 namespace remesh {
@@ -52,8 +53,10 @@ struct CleanResult {
 //!
 //! \throw agvd::InvalidInput  an index is out of range, a coordinate is not finite, an area
 //!        overflows, a piece is not orientable (each names the element), or no face is left.
+//! \throw agvd::Cancelled     the progress callback returned false.
 //! \param num_threads  >= 0; 0: all cores. The result is the same for any number.
 //! Cost: O(n log n); O(n) if there is no defect.
-[[nodiscard]] CleanResult clean_input(const agvd::MeshView& mesh, int num_threads = 0);
+[[nodiscard]] CleanResult clean_input(const agvd::MeshView& mesh, int num_threads = 0,
+                                      const agvd::Progress& progress = {});
 
 }  // namespace remesh

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "agvd/core/poller.h"
 #include "agvd/diagram/curve_piece.h"
 #include "remesh/dual/degenerate_edges.h"
 
@@ -15,15 +16,17 @@ using agvd::no_index;
 using agvd::SiteId;
 using agvd::Surface;
 using agvd::SurfacePoint;
+using agvd::Ticker;
 using agvd::VoronoiEdge;
 
 class ClosedBallCheck {
 public:
-    ClosedBallCheck(const Surface& surface, const Diagram& diagram)
+    ClosedBallCheck(const Surface& surface, const Diagram& diagram, Ticker ticker)
         : surface_(surface),
           diagram_(diagram),
-          cells_(build_cells(diagram)),
-          is_degenerate_(find_degenerate_edges(surface, diagram)) {}
+          ticker_(ticker),
+          cells_(build_cells(diagram, ticker)),
+          is_degenerate_(find_degenerate_edges(surface, diagram, ticker)) {}
 
     std::vector<ClosedBallViolation> run() {
         check_discs();
@@ -55,6 +58,7 @@ private:
 
     void check_discs() {
         for (Index s = 0; s < diagram_.num_sites; ++s) {
+            ticker_.tick();
             const Index first = cells_.cell_loops[s];
             const Index num_loops = cells_.cell_loops[s + 1] - first;
             const bool is_empty =
@@ -68,9 +72,10 @@ private:
         }
     }
 
-    [[nodiscard]] SurfacePoint farthest_vertex(SiteId site) const {
+    [[nodiscard]] SurfacePoint farthest_vertex(SiteId site) {
         Index best = no_index;
         for (Index v = 0; v < surface_.num_vertices(); ++v) {
+            ticker_.tick();
             if (diagram_.nearest_site[v] != site || surface_.outgoing[v] == no_index) continue;
             if (best == no_index ||
                 diagram_.nearest_distance[v] > diagram_.nearest_distance[best]) {
@@ -134,6 +139,7 @@ private:
         std::vector<Shared> arcs;
         for (Index e = 0; e < diagram_.edges.size(); ++e) {
             const VoronoiEdge& edge = diagram_.edges[e];
+            ticker_.tick(1 + diagram_.edge_points[e + 1] - diagram_.edge_points[e]);
             if (!edge.right.is_valid() || is_degenerate_[e]) continue;
             if (edge.tail == no_index) {
                 report(edge.left, edge.right, "meets along a closed curve",
@@ -142,7 +148,7 @@ private:
             arcs.push_back({std::min(edge.left, edge.right), std::max(edge.left, edge.right),
                             curve_length(surface_, diagram_, e), e});
         }
-        std::sort(arcs.begin(), arcs.end(), [](const Shared& x, const Shared& y) {
+        agvd::sort_ticked(arcs, ticker_, [](const Shared& x, const Shared& y) {
             if (x.a != y.a) return x.a < y.a;
             if (x.b != y.b) return x.b < y.b;
             return x.length != y.length ? x.length > y.length : x.edge < y.edge;
@@ -161,6 +167,7 @@ private:
         };
         std::vector<Corner> corners;
         for (Index v = 0; v < diagram_.vertices.size(); ++v) {
+            ticker_.tick();
             const Index begin = diagram_.vertex_offsets[v];
             if (diagram_.vertex_offsets[v + 1] - begin != 3 || is_on_boundary(v)) continue;
             if (is_degenerate_[diagram_.vertex_ends[begin].edge] ||
@@ -175,7 +182,7 @@ private:
             std::sort(corner.sites.begin(), corner.sites.end());
             corners.push_back(corner);
         }
-        std::sort(corners.begin(), corners.end(), [&](const Corner& x, const Corner& y) {
+        agvd::sort_ticked(corners, ticker_, [&](const Corner& x, const Corner& y) {
             if (x.sites != y.sites) return x.sites < y.sites;
             return diagram_.vertex_distance[x.vertex] < diagram_.vertex_distance[y.vertex];
         });
@@ -189,6 +196,7 @@ private:
 
     const Surface& surface_;
     const Diagram& diagram_;
+    Ticker ticker_;
     Cells cells_;
     std::vector<bool> is_degenerate_;
     std::vector<ClosedBallViolation> found_;
@@ -197,8 +205,10 @@ private:
 }  // namespace
 
 std::vector<ClosedBallViolation> find_closed_ball_violations(const Surface& surface,
-                                                             const Diagram& diagram) {
-    return ClosedBallCheck(surface, diagram).run();
+                                                             const Diagram& diagram,
+                                                             const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    return ClosedBallCheck(surface, diagram, Ticker(poller)).run();
 }
 
 }  // namespace remesh

@@ -18,8 +18,10 @@ struct ClosedBallViolation {
 //! two Voronoi vertices have the same three cells; a cell meets the boundary in nothing or one arc,
 //! and no single arc cuts the surface apart ([edelsbrunner1997]). Degenerate Voronoi edges count as
 //! points.
+//! \throw agvd::Cancelled  the progress callback returned false.
 //! Cost: O(#V + size of the complex) and a sort.
 [[nodiscard]] std::vector<ClosedBallViolation> find_closed_ball_violations(
-    const agvd::Surface& surface, const agvd::Diagram& diagram);
+    const agvd::Surface& surface, const agvd::Diagram& diagram,
+    const agvd::Progress& progress = {});
 
 }  // namespace remesh

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "agvd/core/poller.h"
 #include "remesh/dual/flippable_mesh.h"
 
 namespace remesh {
@@ -52,14 +53,17 @@ struct Quad {
 
 }  // namespace
 
-Index flip_flat_edges(TriangleMesh& mesh, double max_length) {
+Index flip_flat_edges(TriangleMesh& mesh, double max_length, const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    agvd::Ticker ticker(poller);
     std::vector<Index> long_triangles;
     for (Index t = 0; t < mesh.triangles.size(); ++t) {
+        ticker.tick();
         if (has_long_edge(mesh, mesh.triangles[t], max_length)) long_triangles.push_back(t);
     }
     if (long_triangles.empty()) return 0;
 
-    FlippableMesh flippable(mesh.triangles);
+    FlippableMesh flippable(mesh.triangles, ticker);
     std::vector<bool> waits(flippable.num_edges(), false);
     for (const Index t : long_triangles) {
         for (Index h = 3 * t; h < 3 * t + 3; ++h) waits[flippable.edge(h)] = true;
@@ -70,6 +74,7 @@ Index flip_flat_edges(TriangleMesh& mesh, double max_length) {
     }
     Index num_flips = 0;
     while (!waiting.empty() && num_flips / most_flips < flippable.num_edges()) {
+        ticker.tick(4);
         const Index edge = waiting.back();
         waiting.pop_back();
         waits[edge] = false;

@@ -2,6 +2,7 @@
 //! Better triangles in flat parts, from which long slivers go before they are split.
 #pragma once
 
+#include "agvd/core/progress.h"
 #include "agvd/mesh/mesh_view.h"
 
 namespace remesh {
@@ -17,6 +18,8 @@ namespace remesh {
 //! \return the number of flips.
 //! Cost: O(n log n) without long edges, else that of Lawson's flips, of which there are 64 an edge
 //! at most.
-agvd::Index flip_flat_edges(agvd::TriangleMesh& mesh, double max_length);
+//! \throw agvd::Cancelled  the progress callback returned false; the mesh is as it was.
+agvd::Index flip_flat_edges(agvd::TriangleMesh& mesh, double max_length,
+                            const agvd::Progress& progress = {});
 
 }  // namespace remesh

@@ -81,6 +81,7 @@ public:
     FlatFaces(Soup& soup, std::vector<Index>& twin)
         : soup_(soup), twin_(twin), is_flat_(soup.triangles.size()) {
         for (Index f = 0; f < is_flat_.size(); ++f) {
+            soup.ticker.tick();
             const double area = smallest_doubled_area(soup.positions, soup.triangles[f]);
             if (!std::isfinite(area)) {
                 throw agvd::InvalidInput("face " + std::to_string(soup.face_origin[f]) +
@@ -105,6 +106,7 @@ public:
 private:
     // A flip must leave fewer flat faces, or as many with a shorter edge: so it comes to an end.
     bool try_flip(Index face) {
+        soup_.ticker.tick();
         const Index h = longest_side(soup_, face);
         const Index o = twin_[h];
         if (o == no_index) return false;  // A flat face on the boundary is dropped without a trace.

@@ -24,11 +24,12 @@ struct Patch {
 
 // Spreads from `seed`; `is_turned` is relative to it.
 Patch spread(const Soup& soup, const std::vector<Index>& across, Index seed,
-             std::vector<bool>& is_seen, std::vector<bool>& is_turned) {
+             std::vector<bool>& is_seen, std::vector<bool>& is_turned, agvd::Ticker& ticker) {
     Patch patch;
     patch.faces.push_back(seed);
     is_seen[seed] = true;
     for (std::size_t i = 0; i < patch.faces.size(); ++i) {
+        ticker.tick();
         const Index face = patch.faces[i];
         if (is_turned[face]) ++patch.turned;
         for (Index h = 3 * face; h < 3 * face + 3; ++h) {
@@ -82,6 +83,7 @@ bool orient_faces(Soup& soup, std::span<const EdgeUse> uses) {
     std::vector<Index> across(soup.num_half_edges(), no_index);
     bool is_consistent = true;
     for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
+        soup.ticker.tick();
         if (edge.size() != 2) return;
         const Index a = edge[0].half_edge, b = edge[1].half_edge;
         across[a] = b;
@@ -95,7 +97,7 @@ bool orient_faces(Soup& soup, std::span<const EdgeUse> uses) {
     std::vector<Index> to_turn;
     for (Index seed = 0; seed < num_faces; ++seed) {
         if (is_seen[seed]) continue;
-        const Patch patch = spread(soup, across, seed, is_seen, is_turned);
+        const Patch patch = spread(soup, across, seed, is_seen, is_turned, soup.ticker);
         if (patch.turned == 0) continue;
         const bool first_yields = first_side_yields(soup, patch, is_turned);
         for (const Index face : patch.faces) {

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <queue>
 
+#include "agvd/core/poller.h"
+
 namespace remesh {
 namespace {
 
@@ -40,8 +42,9 @@ struct Collapse {
 class Reducer {
 public:
     Reducer(std::span<const Vec3> positions, std::vector<Triangle>& triangles,
-            std::span<const std::uint8_t> keep)
-        : positions_(positions),
+            std::span<const std::uint8_t> keep, agvd::Ticker ticker)
+        : ticker_(ticker),
+          positions_(positions),
           triangles_(triangles),
           keep_(keep),
           faces_of_(positions.size()),
@@ -54,6 +57,7 @@ public:
         for (Index v = 0; v < faces_of_.size(); ++v) {
             if (!faces_of_[v].empty()) ++num_vertices_;
             collect_ring(v);
+            ticker_.tick(1 + ring_.size());
             for (const Index w : ring_) {
                 if (num_faces_at(v, w) == 1) is_on_boundary_[v] = 1;
             }
@@ -115,6 +119,8 @@ private:
         if (faces_of_[v].empty()) return;
         if (!keep_.empty() && keep_[v] != 0 && !demands_.releases_kept) return;
         collect_ring(v);
+        // Whether an edge may go takes a look at all pairs of faces of its ends.
+        ticker_.tick(4 + ring_.size() * ring_.size() / 4);
         ends_.clear();
         for (const Index w : ring_) {
             ends_.emplace_back((positions_[v] - positions_[w]).squaredNorm(), w);
@@ -203,6 +209,7 @@ private:
         judge(into);
     }
 
+    agvd::Ticker ticker_;
     std::span<const Vec3> positions_;
     std::vector<Triangle>& triangles_;
     std::span<const std::uint8_t> keep_;
@@ -222,8 +229,10 @@ private:
 
 std::vector<Index> reduce_vertices(std::span<const Vec3> positions,
                                    std::vector<Triangle>& triangles, Index target,
-                                   std::span<const std::uint8_t> keep) {
-    return Reducer(positions, triangles, keep).run(target);
+                                   std::span<const std::uint8_t> keep,
+                                   const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    return Reducer(positions, triangles, keep, agvd::Ticker(poller)).run(target);
 }
 
 }  // namespace remesh

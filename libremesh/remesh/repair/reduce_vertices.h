@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <span>
 
+#include "agvd/core/progress.h"
 #include "agvd/mesh/mesh_view.h"
 
 namespace remesh {
@@ -19,10 +20,12 @@ namespace remesh {
 //! have at most max(4, 26 g - 4) vertices, wherever they started ([joret2010]).
 //! \param triangles  edited in place; indices are not renumbered.
 //! \param keep       #V, or empty: 1 for vertices that go last (corners).
+//! \throw agvd::Cancelled  the progress callback returned false; `triangles` are of no use then.
 //! \return the vertices that went, in this order. Cost: O(n log n).
 [[nodiscard]] std::vector<agvd::Index> reduce_vertices(std::span<const agvd::Vec3> positions,
                                                        std::vector<agvd::Triangle>& triangles,
                                                        agvd::Index target,
-                                                       std::span<const std::uint8_t> keep = {});
+                                                       std::span<const std::uint8_t> keep = {},
+                                                       const agvd::Progress& progress = {});
 
 }  // namespace remesh

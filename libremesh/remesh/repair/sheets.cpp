@@ -61,6 +61,7 @@ void separate_fans(Soup& soup, const std::vector<Index>& twin) {
     std::vector<bool> is_taken(soup.positions.size(), false);
     std::vector<bool> is_done(soup.num_half_edges(), false);
     for (Index start = 0; start < soup.num_half_edges(); ++start) {
+        soup.ticker.tick();
         if (is_done[start]) continue;
         Index vertex = soup.tail(start);
         if (is_taken[vertex]) {
@@ -99,6 +100,7 @@ bool is_told_by_indices(const Soup& soup, std::span<const EdgeUse> edge) {
 std::vector<Index> pair_sheets(Soup& soup, std::span<const EdgeUse> uses) {
     std::vector<Index> twin(soup.num_half_edges(), no_index);
     for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
+        soup.ticker.tick(edge.size());
         if (edge.size() == 2) join(twin, edge[0].half_edge, edge[1].half_edge);
         if (edge.size() <= 2) return;
         ++soup.counts.split_edges;
@@ -118,6 +120,7 @@ void split_vertices(Soup& soup, std::vector<Index>& twin) {
     for (bool is_first_round = true;; is_first_round = false) {
         bool is_clear = true;
         for_each_edge(edge_uses(soup), [&](std::span<const EdgeUse> edge) {
+            soup.ticker.tick();
             if (is_told_by_indices(soup, edge)) return;
             is_clear = false;
             for (const EdgeUse& use : edge) {

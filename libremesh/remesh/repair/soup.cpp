@@ -10,27 +10,33 @@ namespace remesh::detail {
 using agvd::Index;
 using agvd::no_index;
 
-std::vector<EdgeUse> sort_edge_uses(const std::vector<EdgeUse>& uses, Index num_vertices) {
+std::vector<EdgeUse> sort_edge_uses(const std::vector<EdgeUse>& uses, Index num_vertices,
+                                    agvd::Ticker ticker) {
     return agvd::sort_in_buckets(
         uses, num_vertices, [](const EdgeUse& use) { return use.low; },
         [](const EdgeUse& a, const EdgeUse& b) {
             return std::tie(a.high, a.half_edge) < std::tie(b.high, b.half_edge);
-        });
+        },
+        ticker);
 }
 
 std::vector<EdgeUse> edge_uses(const Soup& soup) {
     std::vector<EdgeUse> uses(soup.num_half_edges());
+    agvd::Ticker ticker = soup.ticker;
+    ticker.poll();
     for (Index h = 0; h < uses.size(); ++h) {
+        ticker.tick();
         const auto [low, high] = std::minmax({soup.tail(h), soup.head(h)});
         uses[h] = {low, high, h};
     }
-    return sort_edge_uses(uses, static_cast<Index>(soup.positions.size()));
+    return sort_edge_uses(uses, static_cast<Index>(soup.positions.size()), ticker);
 }
 
 void erase_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<Index>& twin) {
     std::vector<Index> new_face(soup.triangles.size(), no_index);
     Index count = 0;
     for (Index f = 0; f < new_face.size(); ++f) {
+        soup.ticker.tick();
         if (is_dead[f]) continue;
         new_face[f] = count;
         soup.triangles[count] = soup.triangles[f];
@@ -41,6 +47,7 @@ void erase_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<Index
     soup.face_origin.resize(count);
     if (twin.empty()) return;
     for (Index f = 0; f < new_face.size(); ++f) {
+        soup.ticker.tick();
         if (new_face[f] == no_index) continue;
         for (Index k = 0; k < 3; ++k) {
             const Index across = twin[3 * f + k];

@@ -8,6 +8,7 @@
 
 #include <span>
 
+#include "agvd/core/poller.h"
 #include "agvd/mesh/surface.h"
 #include "remesh/repair/clean_input.h"
 
@@ -19,6 +20,7 @@ struct Soup {
     std::vector<agvd::Index> vertex_origin;  //!< #V: input vertex.
     std::vector<agvd::Index> face_origin;    //!< #F: input face.
     CleanCounts counts;
+    agvd::Ticker ticker = {};  //!< Of clean_input(): every pass ticks it.
 
     [[nodiscard]] agvd::Index num_half_edges() const {
         return static_cast<agvd::Index>(3 * triangles.size());
@@ -39,7 +41,7 @@ struct EdgeUse {
 
 //! Sorts by (low, high, half_edge) in linear time for bounded vertex degrees.
 [[nodiscard]] std::vector<EdgeUse> sort_edge_uses(const std::vector<EdgeUse>& uses,
-                                                  agvd::Index num_vertices);
+                                                  agvd::Index num_vertices, agvd::Ticker ticker);
 //! All half-edges of the soup, sorted.
 [[nodiscard]] std::vector<EdgeUse> edge_uses(const Soup& soup);
 
@@ -63,7 +65,7 @@ void erase_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<agvd:
 
 //! Whether two of the vertices that are wanted have the same position.
 [[nodiscard]] bool share_positions(std::span<const agvd::Vec3> positions,
-                                   const std::vector<bool>& is_wanted);
+                                   const std::vector<bool>& is_wanted, agvd::Ticker& ticker);
 //! Boundary edges between the same two positions become one edge.
 bool weld_cracks(Soup& soup, std::span<const EdgeUse> uses);
 //! Different corners of a face at one position become one vertex.

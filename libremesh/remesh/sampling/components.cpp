@@ -6,7 +6,7 @@ using agvd::Index;
 using agvd::no_index;
 using agvd::Surface;
 
-FaceLabels label_components(std::span<const Index> twin) {
+FaceLabels label_components(std::span<const Index> twin, agvd::Ticker ticker) {
     FaceLabels labels{std::vector<Index>(twin.size() / 3, no_index), 0};
     std::vector<Index>& label = labels.of_face;
     std::vector<Index> stack;
@@ -15,6 +15,7 @@ FaceLabels label_components(std::span<const Index> twin) {
         label[seed] = labels.count;
         stack.push_back(seed);
         while (!stack.empty()) {
+            ticker.tick();
             const Index face = stack.back();
             stack.pop_back();
             for (Index h = 3 * face; h < 3 * face + 3; ++h) {
@@ -30,8 +31,10 @@ FaceLabels label_components(std::span<const Index> twin) {
     return labels;
 }
 
-std::vector<Component> find_components(const Surface& surface) {
-    const auto [label, count] = label_components(surface.twin);
+std::vector<Component> find_components(const Surface& surface, const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    agvd::Ticker ticker(poller);
+    const auto [label, count] = label_components(surface.twin, ticker);
     std::vector<Component> components(count);
     std::vector<Index> num_faces(count, 0);
     for (const Index component : label) ++num_faces[component];
@@ -40,6 +43,7 @@ std::vector<Component> find_components(const Surface& surface) {
         components[i].area_up_to.reserve(num_faces[i]);
     }
     for (Index f = 0; f < label.size(); ++f) {
+        ticker.tick();
         Component& component = components[label[f]];
         const double before = component.faces.empty() ? 0 : component.area();
         const double doubled_area = surface.length_of(3 * f) * surface.apex[3 * f].y();
@@ -47,10 +51,11 @@ std::vector<Component> find_components(const Surface& surface) {
         component.area_up_to.push_back(before + doubled_area / 2);
         ++component.euler;
     }
-    for (const Index h : surface.edge_half) --components[label[Surface::face(h)]].euler;
-    for (const Index h : surface.outgoing) {
+    agvd::for_each_ticked(surface.edge_half, ticker,
+                          [&](Index h) { --components[label[Surface::face(h)]].euler; });
+    agvd::for_each_ticked(surface.outgoing, ticker, [&](Index h) {
         if (h != no_index) ++components[label[Surface::face(h)]].euler;
-    }
+    });
     for (const std::vector<Index>& loop : agvd::boundary_loops(surface)) {
         ++components[label[Surface::face(loop[0])]].boundary_loops;
     }

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "agvd/core/poller.h"
 #include "agvd/mesh/surface.h"
 
 namespace remesh::detail {
@@ -25,10 +26,12 @@ struct FaceLabels {
 };
 
 //! \param twin  as agvd::Surface has it. Cost: O(#F).
-[[nodiscard]] FaceLabels label_components(std::span<const agvd::Index> twin);
+[[nodiscard]] FaceLabels label_components(std::span<const agvd::Index> twin,
+                                          agvd::Ticker ticker = {});
 
 //! By lowest face. Linear time, as connectivity is given (analyze_topology sorts it out of
 //! indices).
-[[nodiscard]] std::vector<Component> find_components(const agvd::Surface& surface);
+[[nodiscard]] std::vector<Component> find_components(const agvd::Surface& surface,
+                                                     const agvd::Progress& progress = {});
 
 }  // namespace remesh::detail

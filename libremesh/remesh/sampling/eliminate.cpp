@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numeric>
 
 #include "agvd/core/parallel.h"
@@ -45,7 +46,7 @@ constexpr int bits_per_axis = 21;
 constexpr std::uint64_t row = std::uint64_t{1} << bits_per_axis;
 
 Grid build_grid(const agvd::Surface& surface, std::span<const ScatteredPoint> points,
-                double cell_size) {
+                double cell_size, agvd::Ticker ticker) {
     Vec3 low = points[0].position, high = low;
     for (const ScatteredPoint& p : points) {
         low = low.cwiseMin(p.position);
@@ -59,10 +60,11 @@ Grid build_grid(const agvd::Surface& surface, std::span<const ScatteredPoint> po
         const auto along = [&](int axis) { return static_cast<std::uint64_t>(at[axis]) + 1; };
         keys[i] = {(along(2) * row + along(1)) * row + along(0), i};
     }
-    std::sort(keys.begin(), keys.end());
+    agvd::sort_ticked(keys, ticker, std::less<>());
 
     Grid grid;
     for (const auto& [cell, i] : keys) {
+        ticker.tick();
         const agvd::Triangle& t = surface.mesh.triangles[points[i].point.face.value()];
         const auto& p = surface.mesh.positions;
         grid.order.push_back(i);
@@ -96,19 +98,21 @@ std::array<std::pair<Index, Index>, 9> runs_around(const Grid& grid, std::uint64
     return runs;
 }
 
-Neighbours find_neighbours(const Grid& grid, double reach, int num_threads) {
+Neighbours find_neighbours(const Grid& grid, double reach, int num_threads, agvd::Poller& poller) {
     constexpr Index grain = 4096;
     const auto count = static_cast<Index>(grid.order.size());
     Neighbours result{std::vector<std::size_t>(count + 1, 0), {}};
     std::vector<std::vector<Index>> found(agvd::num_chunks(count, grain));
-    agvd::parallel_chunks(count, grain, num_threads, [&](Index chunk, Index begin, Index end) {
+    const auto find = [&](Index chunk, Index begin, Index end) {
         std::array<std::pair<Index, Index>, 9> runs;
+        agvd::Ticker ticker(poller);
         for (Index place = begin; place < end; ++place) {
             if (place == begin || grid.cell[place] != grid.cell[place - 1]) {
                 runs = runs_around(grid, grid.cell[place]);
             }
             const std::size_t before = found[chunk].size();
             for (const auto& [first, last] : runs) {
+                ticker.tick(1 + (last - first) / 8);
                 for (Index other = first; other < last; ++other) {
                     const Vec3 apart = grid.position[place] - grid.position[other];
                     if (other != place && apart.squaredNorm() < reach * reach &&
@@ -119,11 +123,13 @@ Neighbours find_neighbours(const Grid& grid, double reach, int num_threads) {
             }
             result.begin[place + 1] = found[chunk].size() - before;
         }
-    });
+    };
+    agvd::parallel_chunks(count, grain, num_threads, find, poller);
     std::partial_sum(result.begin.begin(), result.begin.end(), result.begin.begin());
     result.data.reserve(result.begin.back());
     for (const std::vector<Index>& part : found) {
         result.data.insert(result.data.end(), part.begin(), part.end());
+        poller.poll();
     }
     return result;
 }
@@ -187,12 +193,16 @@ private:
 
 std::vector<agvd::SurfacePoint> eliminate(const agvd::Surface& surface,
                                           std::span<const ScatteredPoint> points, Index num_fixed,
-                                          Index keep, double spacing, int num_threads) {
+                                          Index keep, double spacing, int num_threads,
+                                          const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    agvd::Ticker ticker(poller);
     const auto first_fixed = static_cast<Index>(points.size()) - num_fixed;
     const Weight weight(spacing, keep, static_cast<double>(first_fixed));
-    const Grid grid = build_grid(surface, points, weight.reach);
-    const Neighbours neighbours = find_neighbours(grid, weight.reach, num_threads);
+    const Grid grid = build_grid(surface, points, weight.reach, ticker);
+    const Neighbours neighbours = find_neighbours(grid, weight.reach, num_threads, poller);
     const auto for_each_neighbour = [&](Index place, const auto& body) {
+        ticker.tick(1 + neighbours.begin[place + 1] - neighbours.begin[place]);
         for (std::size_t i = neighbours.begin[place]; i < neighbours.begin[place + 1]; ++i) {
             const Index other = neighbours.data[i];
             body(other, weight((grid.position[place] - grid.position[other]).norm()));
@@ -214,7 +224,7 @@ std::vector<agvd::SurfacePoint> eliminate(const agvd::Surface& surface,
     for (Index place = 0; place < points.size(); ++place) {
         if (queue.contains(place)) kept.push_back(grid.order[place]);
     }
-    std::sort(kept.begin(), kept.end());
+    agvd::sort_ticked(kept, ticker, std::less<>());
     std::vector<agvd::SurfacePoint> result;
     for (const Index i : kept) result.push_back(points[i].point);
     return result;

@@ -17,6 +17,7 @@ namespace remesh::detail {
 [[nodiscard]] std::vector<agvd::SurfacePoint> eliminate(const agvd::Surface& surface,
                                                         std::span<const ScatteredPoint> points,
                                                         agvd::Index num_fixed, agvd::Index keep,
-                                                        double spacing, int num_threads);
+                                                        double spacing, int num_threads,
+                                                        const agvd::Progress& progress = {});
 
 }  // namespace remesh::detail

@@ -1,6 +1,7 @@
 #include "remesh/sampling/farthest_points.h"
 
 #include <algorithm>
+#include <functional>
 #include <unordered_set>
 
 #include "agvd/core/position_hash.h"
@@ -22,37 +23,44 @@ using agvd::Vec3;
 constexpr double longest_edge = 0.4;
 // How far a point lies from its vertex, in heights of the face: least and most.
 constexpr double least_offset = 0.02, most_offset = 0.1;
+// Steps of a search for the ground of one more point.
+constexpr std::size_t search_work = 256;
 // Least barycentric coordinate of a point in its face.
 constexpr double interior_margin = 1e-6;
 
-Surface component_surface(const Surface& whole, const Component& component) {
+Surface component_surface(const Surface& whole, const Component& component, int num_threads,
+                          const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    agvd::Ticker ticker(poller);
     std::vector<Index> vertices;
     for (const Index f : component.faces) {
         const agvd::Triangle& t = whole.mesh.triangles[f];
         vertices.insert(vertices.end(), t.begin(), t.end());
     }
-    std::sort(vertices.begin(), vertices.end());
+    agvd::sort_ticked(vertices, ticker, std::less<>());
     vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
     agvd::TriangleMesh mesh;
     mesh.positions.reserve(vertices.size());
     for (const Index v : vertices) mesh.positions.push_back(whole.mesh.positions[v]);
     mesh.triangles.reserve(component.faces.size());
     for (const Index f : component.faces) {
+        ticker.tick(4);
         agvd::Triangle& t = mesh.triangles.emplace_back(whole.mesh.triangles[f]);
         for (Index& v : t) {
             const auto found = std::lower_bound(vertices.begin(), vertices.end(), v);
             v = static_cast<Index>(found - vertices.begin());
         }
     }
-    return agvd::build_surface(mesh.view());
+    return agvd::build_surface(mesh.view(), num_threads, progress);
 }
 
 // A component on its own.
 struct Ground {
-    Ground(const Surface& whole, const Component& component, double max_length)
+    Ground(const Surface& whole, const Component& component, double max_length, int num_threads,
+           const agvd::Progress& progress)
         : faces(component.faces),
-          input(component_surface(whole, component)),
-          base(input, {.max_length = max_length}) {}
+          input(component_surface(whole, component, num_threads, progress)),
+          base(input, {.max_length = max_length, .progress = progress}) {}
     Ground(const Ground&) = delete;
 
     std::span<const Index> faces;  // Ascending: those of the whole surface, by face of `input`.
@@ -65,10 +73,11 @@ struct Ground {
 class FarthestPoints {
 public:
     FarthestPoints(const Surface& whole, const Ground& ground, std::uint64_t seed,
-                   std::uint64_t stream, int num_threads)
+                   std::uint64_t stream, int num_threads, const agvd::Progress& progress)
         : whole_(whole),
           ground_(ground),
-          layout_(ground_.surface(), num_threads),
+          progress_(progress),
+          layout_(ground_.surface(), num_threads, progress),
           search_(ground_.surface(), layout_.arcs(), layout_.corners().mean_length(), num_threads),
           seed_(seed),
           stream_(stream) {}
@@ -79,14 +88,17 @@ public:
     std::vector<SurfacePoint> run(Index count) {
         std::vector<SurfacePoint> result;
         result.reserve(count);
-        search_.run();
+        search_.run(progress_);
+        agvd::Poller poller(progress_);
+        agvd::Ticker ticker(poller);
         FarthestVertex farthest(ground_.surface(), search_);
         for (std::uint64_t i = 0; result.size() < count && !farthest.is_empty(); ++i) {
             const Index v = farthest.pop();
             const SurfacePoint near = draw(v, i);
             const SurfacePoint point = to_whole(near);
             if (!take(near, point)) continue;  // So near a point that there is no room for another.
-            search_.run();
+            search_.run(progress_);
+            ticker.tick(search_work);
             result.push_back(point);
             farthest.push(v);
         }
@@ -143,6 +155,7 @@ private:
 
     const Surface& whole_;
     const Ground& ground_;
+    const agvd::Progress& progress_;
     const agvd::SurfaceLayout layout_;
     agvd::BoundsSearch search_;
     std::uint64_t seed_, stream_;
@@ -155,10 +168,10 @@ private:
 std::vector<SurfacePoint> farthest_points(const Surface& surface, const Component& component,
                                           std::span<const SurfacePoint> fixed, Index count,
                                           double spacing, std::uint64_t seed, std::uint64_t stream,
-                                          int num_threads) {
+                                          int num_threads, const agvd::Progress& progress) {
     if (count == 0) return {};
-    const Ground ground(surface, component, longest_edge * spacing);
-    FarthestPoints points(surface, ground, seed, stream, num_threads);
+    const Ground ground(surface, component, longest_edge * spacing, num_threads, progress);
+    FarthestPoints points(surface, ground, seed, stream, num_threads, progress);
     for (const SurfacePoint& point : fixed) points.add(point);
     if (!fixed.empty()) return points.run(count);
     const SurfacePoint first = scatter(surface, component, 1, seed, stream).front().point;

@@ -25,6 +25,6 @@ namespace remesh::detail {
 [[nodiscard]] std::vector<agvd::SurfacePoint> farthest_points(
     const agvd::Surface& surface, const Component& component,
     std::span<const agvd::SurfacePoint> fixed, agvd::Index count, double spacing,
-    std::uint64_t seed, std::uint64_t stream, int num_threads);
+    std::uint64_t seed, std::uint64_t stream, int num_threads, const agvd::Progress& progress = {});
 
 }  // namespace remesh::detail

@@ -76,15 +76,16 @@ std::vector<agvd::SurfacePoint> place_inside(const agvd::Surface& surface,
                                              const Component& component,
                                              const std::vector<agvd::SurfacePoint>& rim,
                                              Index count, double spacing, std::uint64_t stream,
-                                             const SamplingOptions& options) {
+                                             const SamplingOptions& options,
+                                             const agvd::Progress& progress) {
     if (options.init == Init::Farthest) {
         return detail::farthest_points(surface, component, rim, count, spacing, options.seed,
-                                       stream, options.num_threads);
+                                       stream, options.num_threads, progress);
     }
     const bool is_blue = options.init == Init::BlueNoise;
     const Index scattered =
         is_blue ? std::max(candidates_per_site * count, least_candidates) : count;
-    auto points = detail::scatter(surface, component, scattered, options.seed, stream);
+    auto points = detail::scatter(surface, component, scattered, options.seed, stream, progress);
     if (!is_blue || points.size() < count) {
         std::vector<agvd::SurfacePoint> all;
         for (const detail::ScatteredPoint& p : points) all.push_back(p.point);
@@ -94,7 +95,7 @@ std::vector<agvd::SurfacePoint> place_inside(const agvd::Surface& surface,
         points.push_back({p, agvd::position(surface.mesh.view(), p)});
     }
     return detail::eliminate(surface, points, static_cast<Index>(rim.size()), count, spacing,
-                             options.num_threads);
+                             options.num_threads, progress);
 }
 
 }  // namespace
@@ -139,7 +140,8 @@ std::vector<agvd::SurfacePoint> sample_sites(const agvd::Surface& surface,
         throw agvd::InvalidInput("the surface has no face to put samples on; check the input");
     }
     agvd::poll(options.progress, 0);
-    const std::vector<Component> components = detail::find_components(surface);
+    const agvd::Progress begin = agvd::within(options.progress, 0, 0);
+    const std::vector<Component> components = detail::find_components(surface, begin);
     const bool keeps_boundary = options.init != Init::Random && options.boundary == Boundary::Keep;
     const auto loops = find_loops(surface, components);
     std::vector<double> boundary_length(components.size(), 0);
@@ -162,7 +164,9 @@ std::vector<agvd::SurfacePoint> sample_sites(const agvd::Surface& surface,
             rim = sample_boundary(surface, loops[i], spacing, quota[i]);
         }
         const Index inner = quota[i] - static_cast<Index>(rim.size());
-        const auto points = place_inside(surface, components[i], rim, inner, spacing, i, options);
+        const double done = static_cast<double>(sites.size()) / options.num_samples;
+        const auto points = place_inside(surface, components[i], rim, inner, spacing, i, options,
+                                         agvd::within(options.progress, done, done));
         if (points.size() < inner) {
             throw agvd::ConstraintUnmet(
                 "the component of face " + std::to_string(components[i].faces[0]) +

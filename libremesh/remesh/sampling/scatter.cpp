@@ -4,6 +4,7 @@
 #include <cmath>
 #include <unordered_set>
 
+#include "agvd/core/poller.h"
 #include "agvd/core/position_hash.h"
 
 namespace remesh::detail {
@@ -29,13 +30,17 @@ agvd::SurfacePoint draw(const Component& component, double pick, double u, doubl
 }  // namespace
 
 std::vector<ScatteredPoint> scatter(const agvd::Surface& surface, const Component& component,
-                                    Index count, std::uint64_t seed, std::uint64_t stream) {
+                                    Index count, std::uint64_t seed, std::uint64_t stream,
+                                    const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    agvd::Ticker ticker(poller);
     std::vector<ScatteredPoint> points;
     points.reserve(count);
     std::unordered_set<agvd::Vec3, agvd::PositionHash> taken;
     taken.reserve(count);
     const std::uint64_t most_draws = 4 * std::uint64_t{count} + 64;  // One each is the rule.
     for (std::uint64_t i = 0; points.size() < count && i < most_draws; ++i) {
+        ticker.tick(4);
         const auto unit = [&](std::uint64_t k) {
             return agvd::random_unit(seed, stream, 3 * i + k);
         };

@@ -16,6 +16,7 @@ struct ScatteredPoint {
 //! the component is so small for its coordinates that double cannot tell that many apart.
 [[nodiscard]] std::vector<ScatteredPoint> scatter(const agvd::Surface& surface,
                                                   const Component& component, agvd::Index count,
-                                                  std::uint64_t seed, std::uint64_t stream);
+                                                  std::uint64_t seed, std::uint64_t stream,
+                                                  const agvd::Progress& progress = {});
 
 }  // namespace remesh::detail

@@ -1,0 +1,93 @@
+#include "memory_limit.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <utility>
+
+namespace cli {
+namespace {
+
+constexpr std::pair<char, double> units[] = {
+    {'T', 0x1p40}, {'G', 0x1p30}, {'M', 0x1p20}, {'K', 0x1p10}};
+
+// What the suffix stands for; nothing if there is no such suffix.
+std::optional<double> unit_of(std::string_view suffix) {
+    if (suffix.empty()) return 1;
+    if (suffix == "%") return static_cast<double>(machine_memory()) / 100;
+    for (const auto& [letter, bytes] : units) {
+        if (suffix.size() == 1 && (suffix[0] == letter || suffix[0] == letter - 'A' + 'a')) {
+            return bytes;
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+std::size_t machine_memory() {
+    const long pages = ::sysconf(_SC_PHYS_PAGES);
+    const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+    std::size_t bytes = pages > 0 ? static_cast<std::size_t>(pages) * page : 0;
+    std::size_t allowed = 0;
+    if (std::ifstream("/sys/fs/cgroup/memory.max") >> allowed) {  // Else "max", or no such file.
+        bytes = bytes == 0 ? allowed : std::min(bytes, allowed);
+    }
+    return bytes;
+}
+
+std::size_t resident_memory() {
+    std::size_t total = 0, resident = 0;
+    if (!(std::ifstream("/proc/self/statm") >> total >> resident)) return 0;
+    return resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+std::optional<std::size_t> parse_bytes(std::string_view text) {
+    double number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [last, error] = std::from_chars(text.data(), end, number, std::chars_format::fixed);
+    if (error != std::errc{} || !std::isfinite(number) || !(number > 0)) return std::nullopt;
+    const std::string_view suffix(last, static_cast<std::size_t>(end - last));
+    const std::optional<double> unit = unit_of(suffix);
+    if (!unit || (suffix == "%" && number > 100)) return std::nullopt;
+    const double bytes = std::floor(number * *unit);
+    if (!(bytes >= 1 && bytes < 0x1p63)) return std::nullopt;
+    return static_cast<std::size_t>(bytes);
+}
+
+std::string format_bytes(std::size_t bytes) {
+    const auto size = static_cast<double>(bytes);
+    char text[32];
+    for (const auto& [letter, unit] : units) {
+        if (size < unit) continue;
+        std::snprintf(text, sizeof text, "%.3g%c", size / unit, letter);
+        return text;
+    }
+    return std::to_string(bytes);
+}
+
+std::string memory_remedy(std::string_view stage, agvd::Engine engine) {
+    if (stage == "propagate") {
+        switch (engine) {
+            case agvd::Engine::Window:
+                return "try a larger --max-error, fewer --threads or more --samples";
+            case agvd::Engine::Steiner:
+                return "try fewer --steiner-points, a smaller --lambda or a smaller mesh";
+            case agvd::Engine::Vertex:
+                return "use a smaller mesh";
+        }
+    }
+    if (stage == "read") return "use a smaller mesh";
+    if (stage == "clean") return "use a smaller mesh, or ask for fewer --samples";
+    if (stage == "relax") return "use a smaller mesh, fewer --samples or --relax 0";
+    if (stage == "delaunay") return "ask for fewer --samples, or try --delaunay extrinsic or off";
+    if (stage == "compare") return "use a smaller mesh, a larger --spacing or fewer --points";
+    if (stage == "measure") return "use smaller meshes or fewer --samples";
+    return "ask for fewer --samples, or use a smaller mesh";
+}
+
+}  // namespace cli

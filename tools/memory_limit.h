@@ -1,0 +1,38 @@
+//! \file
+//! How much memory a program may use, and what it says when that is not enough.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+
+#include "agvd/propagation/propagate.h"
+
+namespace cli {
+
+//! The limit was reached, or the system gave no more: what was being done, and a remedy.
+class OutOfMemory : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+//! Bytes that the machine has, or fewer where a control group allows no more. 0: unknown.
+[[nodiscard]] std::size_t machine_memory();
+
+//! Bytes of the process in memory, pages of files that it maps included. 0: unknown.
+//! Cost: some microseconds.
+[[nodiscard]] std::size_t resident_memory();
+
+//! A number of bytes above 0: "1000000", with K, M, G or T for powers of 1024 ("500M", "1.5G"), or
+//! a percentage of machine_memory(), above 0 and at most 100 ("60%"). Nothing: it is none of these.
+[[nodiscard]] std::optional<std::size_t> parse_bytes(std::string_view text);
+
+//! As parse_bytes takes it, with three digits.
+[[nodiscard]] std::string format_bytes(std::size_t bytes);
+
+//! What to try where a stage needs too much. \param stage  its name in logs.
+[[nodiscard]] std::string memory_remedy(std::string_view stage, agvd::Engine engine);
+
+}  // namespace cli
