@@ -341,6 +341,13 @@ TEST(DeltaComplex, SitesOnSeamsAreSeenFromBothSides) {
             for (Index i = 0; i < sites.size(); ++i) {
                 EXPECT_NEAR(d.cell_area[i], area[i], 0.06 * whole) << "cell " << i;
             }
+            // Label changes on edges lie where both sites are as near as they say.
+            for (Index i = 0; i < d.points.size(); ++i) {
+                if (d.passages[i].side == Passage::none || d.passages[i].leaves) continue;
+                const PointLabel label = labels_there(d.points[i]);
+                if (!label.distance) continue;
+                EXPECT_NEAR(*label.distance, d.point_distance[i], slack) << i;
+            }
             for (const auto engine : {Engine::Steiner, Engine::Vertex}) {
                 const Propagation other = propagate(s, sites, {.engine = engine, .num_threads = 1});
                 for (Index v = 0; v < s.num_vertices(); ++v) {
