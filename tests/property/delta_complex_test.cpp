@@ -300,6 +300,76 @@ TEST_P(DeltaComplexOf, DualEdgesAreLocallyShortestAndNoShorterThanDistances) {
     });
 }
 
+// On edges along which a face is glued to itself: such a site lies twice in its face.
+TEST(DeltaComplex, SitesOnSeamsAreSeenFromBothSides) {
+    Index num_seams = 0;
+    for (const char* family : {"doubled_triangle", "spike", "delta_tetrahedron", "plane_needles"}) {
+        for (std::uint64_t seed = 0; seed < 24; ++seed) {
+            SCOPED_TRACE(std::string(family) + " " + std::to_string(seed));
+            const Surface input = build_surface(delta_shapes::make(family, seed).view());
+            const IntrinsicTriangulation base(input);
+            const Surface& s = base.surface();
+            std::vector<SurfacePoint> sites;
+            for (Index h = 0; h < s.twin.size(); ++h) {
+                if (s.twin[h] == no_index || Surface::face(s.twin[h]) != Surface::face(h)) continue;
+                SurfacePoint& site = sites.emplace_back();
+                site = {FaceId(Surface::face(h)), {0, 0, 0}};
+                site.barycentric[h % 3] = 0.3;
+                site.barycentric[Surface::next(h) % 3] = 0.7;
+            }
+            num_seams += static_cast<Index>(sites.size()) / 2;
+            if (sites.empty()) continue;
+            const std::vector<SurfacePoint> on_input = base.to_input(sites);
+            const PropagationOptions exactly{.max_error = 0, .num_threads = 1};
+            const Propagation here = propagate(input, on_input, exactly);
+            const Propagation there = propagate(s, sites, exactly);
+            PointLabels labels_here(input, here), labels_there(s, there);
+            std::vector<double> area(sites.size(), 0);
+            constexpr Index num_samples = 2000;
+            const double slack = rounding * longest_edge(input);
+            double whole = 0;
+            for (Index f = 0; f < s.num_faces(); ++f) whole += face_area(s, f);
+            for (const SurfacePoint& point : uniform_points(input, num_samples, seed)) {
+                const PointLabel truth = labels_here(point);
+                area[truth.site.value()] += whole / num_samples;
+                const PointLabel label = labels_there(base.to_intrinsic(point));
+                if (!truth.distance || !label.distance) continue;
+                EXPECT_NEAR(*label.distance, *truth.distance, slack);
+            }
+            const Diagram d = build_diagram(s, sites, there);
+            checks::expect_valid_complex(s, d);
+            for (Index i = 0; i < sites.size(); ++i) {
+                EXPECT_NEAR(d.cell_area[i], area[i], 0.06 * whole) << "cell " << i;
+            }
+            // Label changes on edges lie where both sites are as near as they say.
+            for (Index i = 0; i < d.points.size(); ++i) {
+                if (d.passages[i].side == Passage::none || d.passages[i].leaves) continue;
+                const PointLabel label = labels_there(d.points[i]);
+                if (!label.distance) continue;
+                EXPECT_NEAR(*label.distance, d.point_distance[i], slack) << i;
+            }
+            for (const auto engine : {Engine::Steiner, Engine::Vertex}) {
+                const Propagation other = propagate(s, sites, {.engine = engine, .num_threads = 1});
+                for (Index v = 0; v < s.num_vertices(); ++v) {
+                    EXPECT_GE(other.vertex_distance[v], there.vertex_distance[v] - slack);
+                }
+                PointLabels labels(s, other);
+                for (const SurfacePoint& point : uniform_points(s, 200, seed)) {
+                    const PointLabel label = labels(point), truth = labels_there(point);
+                    if (!label.distance || !truth.distance) continue;
+                    EXPECT_GE(*label.distance, *truth.distance - slack);
+                    // Steiner points: a spacing off at most.
+                    if (engine == Engine::Steiner) {
+                        EXPECT_LE(*label.distance, *truth.distance + 0.15 * longest_edge(s));
+                    }
+                }
+                checks::expect_valid_complex(s, build_diagram(s, sites, other));
+            }
+        }
+    }
+    EXPECT_GT(num_seams, 10u);
+}
+
 TEST(DeltaComplex, TheFamiliesHoldWhatAMeshCannot) {
     Oddities all;
     for (const char* family : delta_shapes::families()) {

@@ -101,10 +101,9 @@ TEST(Straighten, OverAConeItPassesTheApexOnTheNarrowSide) {
     const Surface surface = fan(5, pi / 4);
     const SurfacePoint a = on_spoke(0, 0.5), b = on_spoke(1, 0.8);
     const double chord = std::sqrt(0.25 + 0.64 - 2 * 0.5 * 0.8 * std::cos(pi / 4));
-    remesh::StripBuilder wide(surface, a);
-    for (const Index face : {4U, 3U, 2U, 1U}) wide.to_face(face);
-    const FaceStrip strip = wide.finish(b);
-    ASSERT_EQ(strip.crossed.size(), 4u);
+    FaceStrip strip{a, b, {}};
+    for (const Index face : {0U, 4U, 3U, 2U}) remesh::cross(surface, 3 * face, strip.crossed);
+    ASSERT_EQ(Surface::face(surface.twin[strip.crossed.back()]), b.face.value());
     for (const FaceStrip& start : {strip, through_vertex(surface, a, 0, b)}) {
         const GeodesicPath path = remesh::straightest_path(surface, start);
         EXPECT_NEAR(path.length, chord, 1e-14);
