@@ -395,8 +395,10 @@ TEST(Relaxation, SitesAreDrawnToThePlanesOfTheirCells) {
     const remesh::detail::CellMeasures cells =
         remesh::detail::measure_cells(prepared, labels, static_cast<Index>(sites.size()), 1);
     const auto distance_after_steps = [&](const remesh::detail::CellMeasures& known) {
+        const agvd::Progress none;
         remesh::detail::Relaxation relaxation(
-            surface, sites, remesh::detail::label_dual(prepared.base, labels).triangles, {}, {}, 1);
+            surface, sites, remesh::detail::label_dual(prepared.base, labels).triangles, {}, {}, 1,
+            none);
         relaxation.set_density(known);
         for (int step = 0; step < 5; ++step) relaxation.step();
         double sum = 0;

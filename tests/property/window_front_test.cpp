@@ -72,7 +72,7 @@ TEST_P(WindowFrontOn, GivingWindowsBackChangesNothingElse) {
         const KeptFaces keeps = [&](Index face) { return face % 4 == seed % 4; };
         for (const double max_error : {0.0, 1e-3, 0.2}) {
             WindowFront all(s, corners, max_error);
-            WindowFront some(s, corners, max_error, 0);
+            WindowFront some(s, corners, max_error, {}, 0);
             for (const SurfacePoint& site : sites) {
                 all.run(site, bounds.distance, default_work_cap);
                 some.run(site, bounds.distance, default_work_cap, keeps);

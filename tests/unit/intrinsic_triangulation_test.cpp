@@ -116,7 +116,8 @@ TEST(FaceOperations, RandomFlipsAndSplitsKeepEverythingConsistent) {
     Index num_flips = 0, num_self_glued = 0, num_loops = 0;
     for_each_mesh([&](const TriangleMesh&, Surface surface, std::uint64_t seed) {
         const double area = area_of(surface);
-        detail::raise_flat_faces(surface);
+        Ticker ticker;
+        (void)detail::raise_flat_faces(surface, ticker);
         detail::FaceCharts charts(surface);
         Dice dice(seed);
         for (int step = 0; step < 60; ++step) {
@@ -126,7 +127,7 @@ TEST(FaceOperations, RandomFlipsAndSplitsKeepEverythingConsistent) {
                 surface.mesh.positions.emplace_back(Vec3::Zero());
                 surface.outgoing.push_back(no_index);
                 surface.can_turn.push_back(0);
-                (void)detail::split_edge(surface, charts, h, surface.num_vertices() - 1);
+                (void)detail::split_edge(surface, charts, h, 0.5, surface.num_vertices() - 1);
                 num_self_glued +=
                     twin != no_index && Surface::face(h) == Surface::face(twin) ? 1 : 0;
             } else if (twin != no_index && Surface::face(h) != Surface::face(twin)) {
@@ -160,7 +161,7 @@ TEST(FaceOperations, AFaceGluedToItselfIsSplitAlongTheSeam) {
             split.mesh.positions.emplace_back(Vec3::Zero());
             split.outgoing.push_back(no_index);
             split.can_turn.push_back(0);
-            (void)detail::split_edge(split, charts, h, split.num_vertices() - 1);
+            (void)detail::split_edge(split, charts, h, 0.5, split.num_vertices() - 1);
             expect_consistent(split);
             EXPECT_EQ(split.num_faces(), base.surface().num_faces() + 2);
             EXPECT_NEAR(area_of(split), area_of(input), 1e-11 * area_of(input));

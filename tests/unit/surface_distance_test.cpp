@@ -14,7 +14,7 @@ using remesh::SurfaceDistance;
 
 namespace {
 
-constexpr DistanceOptions few{.samples = 20'000, .num_threads = 2};
+const DistanceOptions few{.samples = 20'000, .num_threads = 2};
 
 SurfaceDistance distance(const TriangleMesh& original, const TriangleMesh& result,
                          const DistanceOptions& options = few) {

@@ -1,7 +1,7 @@
 #include "agvd/diagram/diagram_on_input.h"
 
 #include "agvd/core/poller.h"
-#include "agvd/mesh/point_faces.h"
+#include "agvd/diagram/curve_piece.h"
 
 namespace agvd {
 namespace {
@@ -16,9 +16,9 @@ public:
         edge_points.push_back(0);
         for (Index e = 0; e < diagram_.edges.size(); ++e) {
             const Index begin = diagram_.edge_points[e], end = diagram_.edge_points[e + 1];
-            for (Index i = begin; i + 1 < end; ++i) draw(i, i + 1);
+            for (Index i = begin; i + 1 < end; ++i) draw(e, i, i + 1);
             if (diagram_.edges[e].tail == no_index) {
-                if (begin < end) draw(end - 1, begin);
+                if (begin < end) draw(e, end - 1, begin);
             } else {
                 add(base_.to_input(diagram_.points[end - 1]), diagram_.point_distance[end - 1]);
             }
@@ -36,20 +36,13 @@ private:
         point_distance.push_back(distance);
     }
 
-    // A segment but for its end.
-    void draw(Index from, Index to) {
+    // A piece of an edge but for its end.
+    void draw(Index edge, Index from, Index to) {
         constexpr std::size_t segment_work = 16;  // Steps that a segment counts for.
         ticker_.tick(segment_work);
-        const SurfacePoint& a = diagram_.points[from];
-        const SurfacePoint& b = diagram_.points[to];
-        const Index face = common_faces(base_.surface(), a, b).first;
-        if (face == no_index || !base_.is_changed(face)) {
-            add(base_.to_input(a), diagram_.point_distance[from]);
-            return;
-        }
+        const CurvePiece piece = curve_piece(base_.surface(), diagram_, edge, from);
         parts_.clear();
-        base_.to_input(*seen_from(base_.surface(), a, face), *seen_from(base_.surface(), b, face),
-                       parts_);
+        base_.to_input(piece.from, piece.to, parts_);
         const MeshView mesh = base_.input().mesh.view();
         double length = 0;
         for (std::size_t i = 0; i < parts_.size(); i += 2) {
@@ -80,6 +73,7 @@ Diagram diagram_on_input(const IntrinsicTriangulation& base, Diagram diagram,
     diagram.points = std::move(drawing.points);
     diagram.point_distance = std::move(drawing.point_distance);
     diagram.edge_points = std::move(drawing.edge_points);
+    diagram.passages.clear();  // Of the base's faces.
     diagram.vertices = base.to_input(diagram.vertices);
     diagram.nearest_site.resize(base.input().num_vertices());
     diagram.nearest_distance.resize(base.input().num_vertices());

@@ -59,13 +59,11 @@ struct FaceHistory::Step {
     }
     // To slot 0 or 1; `on_cut`: the point lies on the edge between the two.
     [[nodiscard]] SurfacePoint pass(const Shares& s, Index slot, bool on_cut) const {
-        Shares to = way == Way::Forward ? forward(s, slot) : backward(s, slot);
+        Shares to = on_cut                ? on_diagonal(s, slot)
+                    : way == Way::Forward ? forward(s, slot)
+                                          : backward(s, slot);
         for (double& share : to) share = std::max(share, 0.0);
-        if (way == Way::Backward) {
-            if (on_cut) to[2] = 0;
-            return point_of(to, op.half_edge[slot]);
-        }
-        if (on_cut) to[slot] = 0;
+        if (way == Way::Backward) return point_of(to, op.half_edge[slot]);
         return {FaceId(op.new_face[slot]), to};
     }
     [[nodiscard]] Index next_link(Index slot) const {
@@ -73,6 +71,21 @@ struct FaceHistory::Step {
     }
 
 private:
+    // On the new diagonal, or back on the old one: the same numbers on both sides of it. Of the two
+    // shares that tell the place, the larger divisor's errs less.
+    [[nodiscard]] Shares on_diagonal(const Shares& s, Index slot) const {
+        if (way == Way::Backward) {
+            const double d = is_twin ? s[0] : s[1];
+            const double a = (is_twin ? 0 : s[0]) + d * q.tail;
+            const double b = (is_twin ? s[1] : 0) + d * q.head;
+            return slot == 0 ? Shares{a, b, 0} : Shares{b, a, 0};
+        }
+        const double a = is_twin ? s[1] : s[0], b = is_twin ? s[0] : s[1];
+        const double at = q.tail >= q.head ? a / q.tail : b / q.head;
+        const double c = (is_twin ? 0 : s[2]) - at * q.apex;
+        const double d = (is_twin ? s[2] : 0) + at;
+        return slot == 0 ? Shares{0, d, c} : Shares{d, 0, c};
+    }
     // From (a, b, c) or (b, a, d) to (a, d, c) or (d, b, c).
     [[nodiscard]] Shares forward(const Shares& s, Index slot) const {
         if (!is_twin) {

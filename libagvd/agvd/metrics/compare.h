@@ -3,6 +3,7 @@
 //! distances.
 #pragma once
 
+#include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/metrics/bisector_error.h"
 
 namespace agvd {
