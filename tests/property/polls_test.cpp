@@ -6,7 +6,6 @@
 
 #include "agvd/diagram/diagram_on_input.h"
 #include "agvd/intrinsic/face_pieces.h"
-#include "agvd/mesh/refine.h"
 #include "agvd/metrics/compare_diagrams.h"
 #include "remesh/io/read_diagram.h"
 #include "remesh/io/read_mesh.h"
@@ -17,7 +16,6 @@
 #include "remesh/quality/self_intersections.h"
 #include "remesh/relax/relax_sites.h"
 #include "remesh/repair/closed_ball.h"
-#include "remesh/repair/flat_edges.h"
 #include "remesh/repair/reduce_vertices.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
@@ -169,13 +167,6 @@ TEST(Polls, AreInTheStagesOnTheirOwn) {
             (void)agvd::build_surface(dirty.view(), 1, progress);
         } catch (const agvd::InvalidInput&) {
         }
-    });
-    expect_polls("flips", 20, [&](const Progress& progress) {
-        TriangleMesh changed = mesh;
-        (void)remesh::flip_flat_edges(changed, 1e-3, progress);
-    });
-    expect_polls("split", 20, [&](const Progress& progress) {
-        (void)agvd::split_long_edges(mesh.view(), 0.01, progress);
     });
     expect_polls("reduce", 20, [&](const Progress& progress) {
         std::vector<agvd::Triangle> triangles = mesh.triangles;

@@ -9,7 +9,6 @@
 
 #include "agvd/mesh/face_area.h"
 #include "agvd/mesh/point_faces.h"
-#include "agvd/mesh/refine.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/sampling/boundary_curves.h"
 #include "remesh/sampling/farthest_points.h"
@@ -27,6 +26,11 @@ namespace {
 constexpr std::array all_inits{Init::Random, Init::BlueNoise, Init::Farthest};
 
 Surface make(const agvd::TriangleMesh& mesh) { return agvd::build_surface(mesh.view()); }
+
+double longest_edge(const agvd::TriangleMesh& mesh) {
+    const Surface surface = make(mesh);
+    return *std::max_element(surface.length.begin(), surface.length.end());
+}
 
 std::vector<Vec3> positions(const Surface& surface, const std::vector<SurfacePoint>& sites) {
     std::vector<Vec3> result;
@@ -256,8 +260,9 @@ TEST(SampleSites, FarthestPointsLeaveTheSmallestGaps) {
                 area += agvd::face_area(surface, f);
             }
             const double fine = 0.3 * std::sqrt(area / n);
-            const agvd::RefinedMesh refined = agvd::split_long_edges(mesh.view(), fine);
-            const Surface judged = make(refined.mesh);
+            agvd::TriangleMesh split = mesh;
+            while (longest_edge(split) > fine) split = shapes::subdivide(split);
+            const Surface judged = make(split);
             const auto radius = [&](Init init) {
                 return covering_radius(judged,
                                        sample_sites(judged, {.num_samples = n, .init = init}));
