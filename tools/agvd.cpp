@@ -10,11 +10,16 @@
 #include "remesh/io/read_sites.h"
 #include "remesh/io/report.h"
 #include "remesh/io/write_diagram.h"
+#include "remesh/relax/prepared_surface.h"
 #include "remesh/repair/carry_sites.h"
 
 namespace fs = std::filesystem;
 
 namespace {
+
+// Of the base, in spacings: points on the edges of a longer one lie too far apart for the Steiner
+// engine, and long arcs in one face are drawn less well.
+constexpr double longest_edge = 0.25;
 
 constexpr const char* diagram_footer =
     "Examples:\n"
@@ -65,7 +70,9 @@ void run_diagram(const DiagramArguments& arguments, cli::Console& console) {
     agvd::PropagationOptions propagating = arguments.propagation;
     propagating.num_threads = arguments.common.threads;
     propagating.progress = console.progress_of("propagate");
-    const agvd::IntrinsicTriangulation base(surface, {.progress = console.progress_of("clean")});
+    const agvd::IntrinsicTriangulation base(
+        surface, {.max_length = longest_edge * remesh::mean_spacing(surface, sites.size()),
+                  .progress = console.progress_of("clean")});
     const std::vector<agvd::SurfacePoint> on_base = base.to_intrinsic(sites);
     const agvd::Propagation propagation = agvd::propagate(base.surface(), on_base, propagating);
     const agvd::Progress drawing = console.progress_of("diagram");
@@ -146,7 +153,9 @@ void check_same_input(const CompareArguments& arguments, const remesh::DiagramFi
 agvd::Diagram exact_diagram(const agvd::Surface& surface,
                             const std::vector<agvd::SurfacePoint>& sites, int threads,
                             cli::Console& console) {
-    const agvd::IntrinsicTriangulation base(surface, {.progress = console.progress_of("clean")});
+    const agvd::IntrinsicTriangulation base(
+        surface, {.max_length = longest_edge * remesh::mean_spacing(surface, sites.size()),
+                  .progress = console.progress_of("clean")});
     const std::vector<agvd::SurfacePoint> on_base = base.to_intrinsic(sites);
     const agvd::Propagation propagation = agvd::propagate(
         base.surface(), on_base,

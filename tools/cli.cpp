@@ -1,6 +1,5 @@
 #include "cli.h"
 
-#include <malloc.h>
 #include <signal.h>
 #include <unistd.h>
 
@@ -78,9 +77,6 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
 }
 
 int run(CLI::App& app, int argc, const char* const* argv, const std::function<void()>& job) {
-    // Each large array goes back to the system at once. By default ever larger ones stay, in holes
-    // that the next does not fit into: a tenth more memory at 1.4 M faces.
-    ::mallopt(M_MMAP_THRESHOLD, 1 << 22);
     const std::string name = app.get_name();
     app.set_version_flag("--version", name + " " REMESH_VERSION, "Print the version and exit");
     app.failure_message([&](const CLI::App*, const CLI::Error& error) {

@@ -1,4 +1,6 @@
 // The main program: a mesh in, the dual of its geodesic Voronoi diagram out.
+#include <malloc.h>
+
 #include <CLI/CLI.hpp>
 
 #include "arguments.h"
@@ -166,6 +168,9 @@ void run_job(const Arguments& arguments, cli::Console& console) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    // Each large array goes back to the system at once. By default ever larger ones stay, in holes
+    // that the next does not fit into: a tenth more memory at 1.4 M faces.
+    ::mallopt(M_MMAP_THRESHOLD, 1 << 22);
     CLI::App app("Replaces a mesh by the dual of its geodesic Voronoi diagram.", "remesh");
     Arguments arguments;
     add_options(app, arguments);
