@@ -17,9 +17,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Of the base, in spacings: points on the edges of a longer one lie too far apart for the Steiner
-// engine, and long arcs in one face are drawn less well.
-constexpr double longest_edge = 0.25;
+// Longest edge of the base, a quarter of the sites' spacing: points on longer ones lie too far
+// apart for the Steiner engine, and long arcs in one face are drawn less well. Not so fine that the
+// base has many more vertices than the input, or than 10 000.
+double longest_edge(const agvd::Surface& surface, std::size_t num_sites) {
+    constexpr agvd::Index few_vertices = 10'000;
+    const agvd::Index num_vertices = std::max(surface.num_vertices(), few_vertices);
+    return std::max(remesh::mean_spacing(surface, num_sites) / 4,
+                    2 * remesh::mean_spacing(surface, num_vertices));
+}
 
 constexpr const char* diagram_footer =
     "Examples:\n"
@@ -70,9 +76,9 @@ void run_diagram(const DiagramArguments& arguments, cli::Console& console) {
     agvd::PropagationOptions propagating = arguments.propagation;
     propagating.num_threads = arguments.common.threads;
     propagating.progress = console.progress_of("propagate");
-    const agvd::IntrinsicTriangulation base(
-        surface, {.max_length = longest_edge * remesh::mean_spacing(surface, sites.size()),
-                  .progress = console.progress_of("clean")});
+    const agvd::IntrinsicTriangulation base(surface,
+                                            {.max_length = longest_edge(surface, sites.size()),
+                                             .progress = console.progress_of("clean")});
     const std::vector<agvd::SurfacePoint> on_base = base.to_intrinsic(sites);
     const agvd::Propagation propagation = agvd::propagate(base.surface(), on_base, propagating);
     const agvd::Progress drawing = console.progress_of("diagram");
@@ -153,9 +159,9 @@ void check_same_input(const CompareArguments& arguments, const remesh::DiagramFi
 agvd::Diagram exact_diagram(const agvd::Surface& surface,
                             const std::vector<agvd::SurfacePoint>& sites, int threads,
                             cli::Console& console) {
-    const agvd::IntrinsicTriangulation base(
-        surface, {.max_length = longest_edge * remesh::mean_spacing(surface, sites.size()),
-                  .progress = console.progress_of("clean")});
+    const agvd::IntrinsicTriangulation base(surface,
+                                            {.max_length = longest_edge(surface, sites.size()),
+                                             .progress = console.progress_of("clean")});
     const std::vector<agvd::SurfacePoint> on_base = base.to_intrinsic(sites);
     const agvd::Propagation propagation = agvd::propagate(
         base.surface(), on_base,
