@@ -1,0 +1,119 @@
+#include "agvd/intrinsic/face_pieces.h"
+
+#include <gtest/gtest.h>
+
+#include "agvd/mesh/face_area.h"
+#include "support/shapes.h"
+
+using namespace agvd;
+
+namespace {
+
+// A slab, a bumpy sphere and an egg: flips there cross creases.
+std::vector<TriangleMesh> bent_shapes() {
+    TriangleMesh slab = shapes::cube();
+    for (Vec3& p : slab.positions) p.z() *= 0.2;
+    TriangleMesh egg = shapes::sphere(2);
+    for (Vec3& p : egg.positions) p.z() *= 2;
+    return {slab, shapes::jitter(shapes::sphere(3), 0.08, 7), egg};
+}
+
+Vec3 area_vector(const TriangleMesh& mesh, Index face) {
+    const auto& [a, b, c] = mesh.triangles[face];
+    const auto& p = mesh.positions;
+    return (p[b] - p[a]).cross(p[c] - p[a]) / 2;
+}
+
+// The integral of n n^T over the surface, and of the position.
+struct Sums {
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    Vec3 first = Vec3::Zero();
+
+    void add(const Vec3& vector, const Vec3& centroid) {
+        spread += vector * vector.transpose() / vector.norm();
+        first += vector.norm() * centroid;
+    }
+};
+
+}  // namespace
+
+TEST(FacePieces, OfAllFacesTheyAreTheSurface) {
+    for (const TriangleMesh& mesh : bent_shapes()) {
+        const Surface surface = build_surface(mesh.view());
+        Sums expected;
+        double area = 0;
+        for (Index f = 0; f < surface.num_faces(); ++f) {
+            const auto& [a, b, c] = mesh.triangles[f];
+            const auto& p = mesh.positions;
+            expected.add(area_vector(mesh, f), (p[a] + p[b] + p[c]) / 3);
+            area += face_area(surface, f);
+        }
+        for (const double max_length : {1e9, 0.3}) {
+            const IntrinsicTriangulation base(surface, {.max_length = max_length});
+            const FacePieces pieces(base, 1e9);
+            Sums found;
+            std::size_t num_bent = 0;
+            for (Index f = 0; f < base.surface().num_faces(); ++f) {
+                double sum = 0;
+                Index count = 0;
+                pieces.for_each(f, [&](const SurfacePiece& piece) {
+                    found.add(piece.vector, piece.position);
+                    sum += piece.vector.norm();
+                    ++count;
+                });
+                EXPECT_NEAR(sum, face_area(base.surface(), f), 1e-9 * area) << f;
+                num_bent += count > 1 ? 1 : 0;
+                if (!base.is_changed(f)) {
+                    EXPECT_EQ(count, 1u);
+                }
+            }
+            if (max_length < 1) {
+                EXPECT_GT(num_bent, 10u);
+            }
+            EXPECT_LT((found.spread - expected.spread).norm(), 1e-9 * area);
+            EXPECT_LT((found.first - expected.first).norm(), 1e-9 * area);
+        }
+    }
+}
+
+TEST(FacePieces, BentFacesHaveAPieceForEachFaceOfTheInputInThem) {
+    // Two triangles at a right angle whose common edge is flipped.
+    const TriangleMesh bent{{{0, 0, 0}, {4, 0, 0}, {2, 1, 0}, {2, 0, 1}}, {{0, 1, 2}, {1, 0, 3}}};
+    const Surface surface = build_surface(bent.view());
+    const IntrinsicTriangulation base(surface);
+    ASSERT_EQ(base.counts().flips, 1u);
+    const FacePieces pieces(base, 1e9);
+    for (Index f = 0; f < 2; ++f) {
+        std::vector<Vec3> normals;
+        pieces.for_each(f, [&](const SurfacePiece& piece) {
+            EXPECT_NEAR(piece.vector.norm(), 1, 1e-12);
+            normals.push_back(piece.vector.normalized());
+        });
+        ASSERT_EQ(normals.size(), 2u);
+        EXPECT_NEAR(std::abs(normals[0].dot(normals[1])), 0, 1e-12);
+    }
+}
+
+TEST(FacePieces, FacesThatAreFlatInSpaceAreOnePiece) {
+    TriangleMesh strip;  // A square in needles: all flips are within its plane.
+    for (Index i = 0; i <= 20; ++i) {
+        strip.positions.emplace_back(i / 20.0, 0, 0);
+        strip.positions.emplace_back(i / 20.0, 1, 0);
+        if (i == 0) continue;
+        const Index a = 2 * i - 2;
+        strip.triangles.insert(strip.triangles.end(), {{a, a + 2, a + 3}, {a, a + 3, a + 1}});
+    }
+    const Surface surface = build_surface(strip.view());
+    const IntrinsicTriangulation base(surface, {.max_length = 0.2});
+    const FacePieces pieces(base, 1e-6);
+    ASSERT_GT(base.counts().flips, 10u);
+    for (Index f = 0; f < base.surface().num_faces(); ++f) {
+        Index count = 0;
+        pieces.for_each(f, [&](const SurfacePiece& piece) {
+            ++count;
+            EXPECT_NEAR(piece.position.z(), 0, 1e-15);
+            EXPECT_NEAR(piece.vector.z(), face_area(base.surface(), f), 1e-12);
+        });
+        EXPECT_EQ(count, 1u);
+    }
+}
