@@ -27,6 +27,12 @@ double longest_edge(const agvd::Surface& surface, std::size_t num_sites) {
                     2 * remesh::mean_spacing(surface, num_vertices));
 }
 
+// Thin surfaces would get vertices by their length.
+agvd::Index most_splits(const agvd::Surface& surface) {
+    constexpr agvd::Index few_vertices = 10'000;
+    return 4 * std::max(surface.num_vertices(), few_vertices);
+}
+
 constexpr const char* diagram_footer =
     "Examples:\n"
     "  agvd diagram bunny.ply -n 100 -o cells.vtp -o labels.ply\n"
@@ -78,6 +84,7 @@ void run_diagram(const DiagramArguments& arguments, cli::Console& console) {
     propagating.progress = console.progress_of("propagate");
     const agvd::IntrinsicTriangulation base(surface,
                                             {.max_length = longest_edge(surface, sites.size()),
+                                             .most_splits = most_splits(surface),
                                              .progress = console.progress_of("clean")});
     const std::vector<agvd::SurfacePoint> on_base = base.to_intrinsic(sites);
     const agvd::Propagation propagation = agvd::propagate(base.surface(), on_base, propagating);
@@ -161,6 +168,7 @@ agvd::Diagram exact_diagram(const agvd::Surface& surface,
                             cli::Console& console) {
     const agvd::IntrinsicTriangulation base(surface,
                                             {.max_length = longest_edge(surface, sites.size()),
+                                             .most_splits = most_splits(surface),
                                              .progress = console.progress_of("clean")});
     const std::vector<agvd::SurfacePoint> on_base = base.to_intrinsic(sites);
     const agvd::Propagation propagation = agvd::propagate(

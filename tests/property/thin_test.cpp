@@ -61,7 +61,7 @@ class Thin : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(RandomSurfaces, Thin,
                          testing::ValuesIn(random_surfaces::families().begin(),
                                            random_surfaces::families().end()),
-                         [](const auto& info) { return std::string(info.param); });
+                         [](const auto& family) { return std::string(family.param); });
 
 }  // namespace
 

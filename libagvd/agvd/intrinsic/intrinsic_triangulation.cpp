@@ -47,7 +47,7 @@ public:
 
     // \param added  gets the new vertices, on the input.
     // \return false if flips ended early.
-    bool run(std::size_t flips_per_edge, std::vector<SurfacePoint>& added) {
+    bool run(std::size_t flips_per_edge, Index most_splits, std::vector<SurfacePoint>& added) {
         while (find_long_edges()) {
             while (!queue_.empty()) {
                 const auto [length, key] = queue_.top();
@@ -55,6 +55,7 @@ public:
                 ticker_.tick(split_work);
                 const Index edge = ~key;
                 if (surface_.length[edge] != length) continue;
+                if (added.size() >= most_splits) return true;
                 split(edge, added);
                 if (!flips_.flip_all(flips_per_edge * surface_.num_edges())) return false;
                 for (const Index e : fresh_) push(e);
@@ -140,7 +141,8 @@ IntrinsicTriangulation::IntrinsicTriangulation(const Surface& input,
     }
     counts_.is_delaunay = flips.flip_all(most_flips * surface_.num_edges());
     Refinement refinement(surface_, charts, *history_, flips, is_kept, options.max_length, ticker);
-    counts_.is_delaunay = refinement.run(most_flips, added_) && counts_.is_delaunay;
+    counts_.is_delaunay =
+        refinement.run(most_flips, options.most_splits, added_) && counts_.is_delaunay;
     counts_.flips = flips.num_flips();
     counts_.splits = static_cast<Index>(added_.size());
     for (Index i = 0; i < added_.size(); ++i) {

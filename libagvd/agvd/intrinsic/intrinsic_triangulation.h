@@ -18,6 +18,9 @@ namespace agvd {
 struct IntrinsicOptions {
     //! Longer edges are split at their middles until none is left, > 0.
     double max_length = std::numeric_limits<double>::infinity();
+    //! No more edges are split than so many: surfaces thinner than max_length would get vertices
+    //! without end. The longest go first.
+    Index most_splits = no_index;
     //! #E of the input: 1 for edges that stay, as those of the boundary always do (they may be
     //! split); or empty.
     std::span<const std::uint8_t> is_kept = {};

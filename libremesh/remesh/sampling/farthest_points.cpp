@@ -22,6 +22,9 @@ using agvd::Vec3;
 // Longest edge, in spacings: distances between points are read off vertices. With .4 the points are
 // less even than chance would have them where faces differ in size.
 constexpr double longest_edge = 0.25;
+// Edges split for each point at most, and one for each face: thin surfaces would get them by their
+// length.
+constexpr Index splits_per_point = 128;
 // How far a point lies from its vertex, in heights of the face: least and most.
 constexpr double least_offset = 0.02, most_offset = 0.1;
 // Steps of a search for the ground of one more point.
@@ -57,11 +60,12 @@ Surface component_surface(const Surface& whole, const Component& component, int 
 
 // A component on its own.
 struct Ground {
-    Ground(const Surface& whole, const Component& component, double max_length, int num_threads,
-           const agvd::Progress& progress)
+    Ground(const Surface& whole, const Component& component, double max_length,
+           agvd::Index most_splits, int num_threads, const agvd::Progress& progress)
         : faces(component.faces),
           input(component_surface(whole, component, num_threads, progress)),
-          base(input, {.max_length = max_length, .progress = progress}) {}
+          base(input,
+               {.max_length = max_length, .most_splits = most_splits, .progress = progress}) {}
     Ground(const Ground&) = delete;
 
     std::span<const Index> faces;  // Ascending: those of the whole surface, by face of `input`.
@@ -171,7 +175,10 @@ std::vector<SurfacePoint> farthest_points(const Surface& surface, const Componen
                                           double spacing, std::uint64_t seed, std::uint64_t stream,
                                           int num_threads, const agvd::Progress& progress) {
     if (count == 0) return {};
-    const Ground ground(surface, component, longest_edge * spacing, num_threads, progress);
+    const Index most_splits =
+        splits_per_point * (count + 1) + static_cast<Index>(component.faces.size());
+    const Ground ground(surface, component, longest_edge * spacing, most_splits, num_threads,
+                        progress);
     FarthestPoints points(surface, ground, seed, stream, num_threads, progress);
     for (const SurfacePoint& point : fixed) points.add(point);
     if (!fixed.empty()) return points.run(count);
