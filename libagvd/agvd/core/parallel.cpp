@@ -1,13 +1,13 @@
 #include "agvd/core/parallel.h"
 
 #include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <cassert>
 #include <chrono>
 #include <condition_variable>
 #include <exception>
-#include <memory>
 #include <mutex>
 
 namespace agvd {
@@ -48,6 +48,10 @@ public:
             record_failure([&] { poller_.poll(); });
             lock.lock();
         }
+    }
+
+    // What a body or the poller threw first.
+    void rethrow() const {
         if (failure_) std::rethrow_exception(failure_);
     }
 
@@ -107,10 +111,16 @@ void parallel_chunks(Index count, Index grain, int num_threads,
     }
     // Not tbb::parallel_for, in which the calling thread may wait long without a poll.
     tbb::task_arena arena(num_threads == 0 ? tbb::task_arena::automatic : num_threads);
-    const auto loop = std::make_shared<SharedLoop>(chunks, run, poller);
+    tbb::task_group helpers;
+    SharedLoop loop(chunks, run, poller);
     const auto num_helpers = std::min(static_cast<Index>(arena.max_concurrency()) - 1, chunks - 1);
-    for (Index i = 0; i < num_helpers; ++i) arena.enqueue([loop] { loop->help(); });
-    loop->run();
+    arena.execute([&] {
+        for (Index i = 0; i < num_helpers; ++i) helpers.run([&loop] { loop.help(); });
+    });
+    loop.run();
+    // Helpers that have not begun find the loop closed, and are run here if nobody else does.
+    arena.execute([&] { helpers.wait(); });
+    loop.rethrow();
 }
 
 void parallel_chunks(Index count, Index grain, int num_threads,
