@@ -17,11 +17,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
+// Bases of small inputs may have as many vertices as this one.
+constexpr agvd::Index few_vertices = 10'000;
+
 // Longest edge of the base, a quarter of the sites' spacing: points on longer ones lie too far
 // apart for the Steiner engine, and long arcs in one face are drawn less well. Not so fine that the
-// base has many more vertices than the input, or than 10 000.
+// base has many more vertices than the input, or than few_vertices.
 double longest_edge(const agvd::Surface& surface, std::size_t num_sites) {
-    constexpr agvd::Index few_vertices = 10'000;
     const agvd::Index num_vertices = std::max(surface.num_vertices(), few_vertices);
     return std::max(remesh::mean_spacing(surface, num_sites) / 4,
                     2 * remesh::mean_spacing(surface, num_vertices));
@@ -29,8 +31,31 @@ double longest_edge(const agvd::Surface& surface, std::size_t num_sites) {
 
 // Thin surfaces would get vertices by their length.
 agvd::Index most_splits(const agvd::Surface& surface) {
-    constexpr agvd::Index few_vertices = 10'000;
     return 4 * std::max(surface.num_vertices(), few_vertices);
+}
+
+struct BuiltDiagram {
+    agvd::Diagram diagram;  // On the surface.
+    double certified_error = 0;
+};
+
+// \param options  for the propagation; its threads are those of all steps.
+BuiltDiagram build(const agvd::Surface& surface, const std::vector<agvd::SurfacePoint>& sites,
+                   agvd::PropagationOptions options, cli::Console& console) {
+    const agvd::IntrinsicTriangulation base(surface,
+                                            {.max_length = longest_edge(surface, sites.size()),
+                                             .most_splits = most_splits(surface),
+                                             .progress = console.progress_of("clean")});
+    const std::vector<agvd::SurfacePoint> on_base = base.to_intrinsic(sites);
+    options.progress = console.progress_of("propagate");
+    const agvd::Propagation propagation = agvd::propagate(base.surface(), on_base, options);
+    const agvd::Progress drawing = console.progress_of("diagram");
+    return {agvd::diagram_on_input(
+                base,
+                agvd::build_diagram(base.surface(), on_base, propagation,
+                                    {.num_threads = options.num_threads, .progress = drawing}),
+                drawing),
+            propagation.certified_error};
 }
 
 constexpr const char* diagram_footer =
@@ -81,31 +106,18 @@ void run_diagram(const DiagramArguments& arguments, cli::Console& console) {
                   clean);
     agvd::PropagationOptions propagating = arguments.propagation;
     propagating.num_threads = arguments.common.threads;
-    propagating.progress = console.progress_of("propagate");
-    const agvd::IntrinsicTriangulation base(surface,
-                                            {.max_length = longest_edge(surface, sites.size()),
-                                             .most_splits = most_splits(surface),
-                                             .progress = console.progress_of("clean")});
-    const std::vector<agvd::SurfacePoint> on_base = base.to_intrinsic(sites);
-    const agvd::Propagation propagation = agvd::propagate(base.surface(), on_base, propagating);
-    const agvd::Progress drawing = console.progress_of("diagram");
-    const agvd::Diagram diagram = agvd::diagram_on_input(
-        base,
-        agvd::build_diagram(base.surface(), on_base, propagation,
-                            {.num_threads = arguments.common.threads, .progress = drawing}),
-        drawing);
+    const auto [diagram, certified_error] = build(surface, sites, propagating, console);
 
     for (const fs::path& output : arguments.outputs) {
         remesh::write_diagram(output, surface, sites, diagram, console.progress_of("write"));
     }
-    const auto unreached =
-        std::count_if(propagation.vertex_site.begin(), propagation.vertex_site.end(),
-                      [](agvd::SiteId site) { return !site.is_valid(); });
+    const auto unreached = std::count_if(diagram.nearest_site.begin(), diagram.nearest_site.end(),
+                                         [](agvd::SiteId site) { return !site.is_valid(); });
     if (unreached > 0) {
         console.warn(std::to_string(unreached) +
                      " vertices are reached by no site; place one on every component");
     }
-    console.info(remesh::to_text(propagating.engine, propagation.certified_error));
+    console.info(remesh::to_text(propagating.engine, certified_error));
     console.info(std::to_string(sites.size()) + " sites, " +
                  std::to_string(diagram.vertices.size()) + " Voronoi vertices, " +
                  std::to_string(diagram.edges.size()) + " edges");
@@ -150,10 +162,7 @@ void check_same_input(const CompareArguments& arguments, const remesh::DiagramFi
             std::to_string(b.mesh.triangles.size()) + " faces); compare diagrams of one mesh");
     }
     const auto [in_a, in_b] =
-        std::mismatch(a.sites.begin(), a.sites.end(), b.sites.begin(), b.sites.end(),
-                      [](const agvd::SurfacePoint& x, const agvd::SurfacePoint& y) {
-                          return x.face == y.face && x.barycentric == y.barycentric;
-                      });
+        std::mismatch(a.sites.begin(), a.sites.end(), b.sites.begin(), b.sites.end());
     if (in_a != a.sites.end() || in_b != b.sites.end()) {
         throw agvd::InvalidInput(both + " have different sites (" + std::to_string(a.sites.size()) +
                                  " and " + std::to_string(b.sites.size()) +
@@ -161,25 +170,6 @@ void check_same_input(const CompareArguments& arguments, const remesh::DiagramFi
                                  "); write both with the same --sites, or the same --samples, "
                                  "--init and --seed");
     }
-}
-
-agvd::Diagram exact_diagram(const agvd::Surface& surface,
-                            const std::vector<agvd::SurfacePoint>& sites, int threads,
-                            cli::Console& console) {
-    const agvd::IntrinsicTriangulation base(surface,
-                                            {.max_length = longest_edge(surface, sites.size()),
-                                             .most_splits = most_splits(surface),
-                                             .progress = console.progress_of("clean")});
-    const std::vector<agvd::SurfacePoint> on_base = base.to_intrinsic(sites);
-    const agvd::Propagation propagation = agvd::propagate(
-        base.surface(), on_base,
-        {.max_error = 0, .num_threads = threads, .progress = console.progress_of("propagate")});
-    const agvd::Progress drawing = console.progress_of("diagram");
-    return agvd::diagram_on_input(
-        base,
-        agvd::build_diagram(base.surface(), on_base, propagation,
-                            {.num_threads = threads, .progress = drawing}),
-        drawing);
 }
 
 void run_compare(const CompareArguments& arguments, cli::Console& console) {
@@ -196,8 +186,9 @@ void run_compare(const CompareArguments& arguments, cli::Console& console) {
     });
     agvd::Diagram b;
     if (is_exact) {
+        const agvd::PropagationOptions exact{.max_error = 0, .num_threads = threads};
         b = cli::naming_file(arguments.a,
-                             [&] { return exact_diagram(surface, a.sites, threads, console); });
+                             [&] { return build(surface, a.sites, exact, console).diagram; });
     } else {
         remesh::DiagramFile file = remesh::read_diagram(arguments.b, console.progress_of("read"));
         check_same_input(arguments, a, file);

@@ -215,12 +215,8 @@ void expect_right(Case& c, const Propagation& propagation, double bound) {
 // Of several sites at one place, the first owns all.
 void expect_first_of_equals(const Case& c, const Propagation& propagation) {
     for (std::size_t s = 1; s < c.sites.size(); ++s) {
-        const auto is_same = [&](std::size_t r) {
-            return c.sites[r].face == c.sites[s].face &&
-                   c.sites[r].barycentric == c.sites[s].barycentric;
-        };
         for (std::size_t r = 0; r < s; ++r) {
-            if (!is_same(r)) continue;
+            if (c.sites[r] != c.sites[s]) continue;
             const auto& labels = propagation.vertex_site;
             EXPECT_EQ(std::count(labels.begin(), labels.end(), SiteId(static_cast<Index>(s))), 0)
                 << "site " << s << " lies where site " << r << " is";

@@ -70,12 +70,6 @@ double energy(const Surface& surface, const std::vector<SurfacePoint>& sites) {
     return sum;
 }
 
-bool same_sites(const std::vector<SurfacePoint>& a, const std::vector<SurfacePoint>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& p, const auto& q) {
-        return p.face == q.face && p.barycentric == q.barycentric;
-    });
-}
-
 void expect_on_surface(const Surface& surface, const std::vector<SurfacePoint>& sites) {
     for (const SurfacePoint& site : sites) {
         ASSERT_LT(site.face.value(), surface.num_faces());
@@ -160,7 +154,7 @@ TEST(RelaxSites, BoundarySitesStayOnTheBoundaryAndFixedOnesWhereTheyAre) {
     for (std::size_t i = 0; i < start.size(); ++i) {
         const bool was = remesh::detail::boundary_half_edge(surface, start[i]).has_value();
         EXPECT_EQ(remesh::detail::boundary_half_edge(surface, end[i]).has_value(), was) << i;
-        const bool stays = same_sites({start[i]}, {end[i]});
+        const bool stays = start[i] == end[i];
         if (is_fixed[i] != 0) {
             EXPECT_TRUE(stays) << i;
         }
@@ -293,7 +287,7 @@ TEST(EvenOut, StartsAsEvenAsRandomOnesStayAsTheyAre) {
                 const auto start = sample_sites(surface, {.num_samples = count, .init = init});
                 auto sites = start;
                 EXPECT_EQ(even_out(prepared, sites, {}, 0), 0u) << count;
-                EXPECT_TRUE(same_sites(sites, start));
+                EXPECT_EQ(sites, start);
             }
             auto relaxed = sample_relaxed_sites(prepared, {.num_samples = count}).sites;
             EXPECT_EQ(even_out(prepared, relaxed, {}, 0), 0u) << count;
@@ -311,7 +305,8 @@ TEST(EvenOut, EveryPartGetsItsShareAndFixedSitesStay) {
     is_fixed[0] = is_fixed[300] = 1;
     EXPECT_EQ(even_out(PreparedSurface(surface, unrefined), sites, is_fixed, 0), 398u);
     expect_on_surface(surface, sites);
-    EXPECT_TRUE(same_sites({sites[0], sites[300]}, {spot, spot}));
+    EXPECT_EQ(sites[0], spot);
+    EXPECT_EQ(sites[300], spot);
     const auto even = sample_sites(surface, {.num_samples = 400});
     const auto on_sphere = [&](const std::vector<SurfacePoint>& all) {
         return std::count_if(all.begin(), all.end(), [&](const SurfacePoint& s) {
@@ -331,8 +326,8 @@ TEST(RelaxSites, TheSameBytesForAnyNumberOfThreads) {
                 .sites;
         };
         const auto one = run(1);
-        EXPECT_TRUE(same_sites(one, run(2)));
-        EXPECT_TRUE(same_sites(one, run(8)));
+        EXPECT_EQ(one, run(2));
+        EXPECT_EQ(one, run(8));
     }
 }
 
@@ -367,7 +362,7 @@ TEST(RelaxSites, ZeroStepsAndNoSitesChangeNothing) {
     const Surface surface = agvd::build_surface(shapes::sphere(2).view());
     const PreparedSurface prepared(surface, unrefined);
     const auto start = sample_sites(surface, {.num_samples = 30});
-    EXPECT_TRUE(same_sites(relax_sites(prepared, start, {.steps = 0}).sites, start));
+    EXPECT_EQ(relax_sites(prepared, start, {.steps = 0}).sites, start);
     EXPECT_TRUE(relax_sites(prepared, {}).sites.empty());
 }
 

@@ -96,9 +96,8 @@ struct Segment {
 // The very point, seen from this or another face.
 bool is_view(const Surface& surface, const SurfacePoint& view, const SurfacePoint& point) {
     bool is_one = false;
-    for_each_view(surface, point, [&](const SurfacePoint& other) {
-        is_one = is_one || (other.face == view.face && other.barycentric == view.barycentric);
-    });
+    for_each_view(surface, point,
+                  [&](const SurfacePoint& other) { is_one = is_one || other == view; });
     return is_one;
 }
 
@@ -216,14 +215,8 @@ void expect_same(const Propagation& a, const Propagation& b) {
 }
 
 void expect_same(const Diagram& a, const Diagram& b) {
-    const auto is_same_point = [](const SurfacePoint& p, const SurfacePoint& q) {
-        return p.face == q.face && p.barycentric == q.barycentric;
-    };
-    const auto are_same_points = [&](const auto& p, const auto& q) {
-        return std::equal(p.begin(), p.end(), q.begin(), q.end(), is_same_point);
-    };
     EXPECT_EQ(a.num_sites, b.num_sites);
-    EXPECT_TRUE(are_same_points(a.points, b.points));
+    EXPECT_EQ(a.points, b.points);
     EXPECT_EQ(a.point_distance, b.point_distance);
     EXPECT_EQ(a.passages, b.passages);
     EXPECT_EQ(a.edge_points, b.edge_points);
@@ -238,7 +231,7 @@ void expect_same(const Diagram& a, const Diagram& b) {
                                return e.edge == f.edge && e.is_tail == f.is_tail;
                            }));
     EXPECT_EQ(a.vertex_sites, b.vertex_sites);
-    EXPECT_TRUE(are_same_points(a.vertices, b.vertices));
+    EXPECT_EQ(a.vertices, b.vertices);
     EXPECT_EQ(a.vertex_distance, b.vertex_distance);
     EXPECT_EQ(a.nearest_site, b.nearest_site);
     EXPECT_EQ(a.nearest_distance, b.nearest_distance);

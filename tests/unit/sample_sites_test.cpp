@@ -53,12 +53,6 @@ double best_spacing(double area, Index count) {
     return 2 * std::sqrt(area / (2 * std::numbers::sqrt3 * count));
 }
 
-bool same_sites(const std::vector<SurfacePoint>& a, const std::vector<SurfacePoint>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& p, const auto& q) {
-        return p.face == q.face && p.barycentric == q.barycentric;
-    });
-}
-
 // The farthest that any vertex lies from the sites, along the surface.
 double covering_radius(const Surface& surface, const std::vector<SurfacePoint>& sites) {
     const std::vector<double> distance =
@@ -280,7 +274,7 @@ TEST(SampleSites, TheFirstFarthestPointsAreThoseOfASmallerCount) {
     const Surface surface = make(shapes::sphere(4));
     const auto many = sample_sites(surface, {.num_samples = 60, .init = Init::Farthest});
     const auto few = sample_sites(surface, {.num_samples = 25, .init = Init::Farthest});
-    EXPECT_TRUE(same_sites(few, {many.begin(), many.begin() + 25}));
+    EXPECT_EQ(few, std::vector(many.begin(), many.begin() + 25));
 }
 
 TEST(SampleSites, FarthestPointsKeepAwayFromThoseThatAreFixed) {
@@ -320,10 +314,10 @@ TEST(SampleSites, SameBytesForAnyThreadCountAndOtherOnesForAnotherSeed) {
                 surface, {.num_samples = 3000, .init = init, .seed = seed, .num_threads = threads});
         };
         const auto first = sites(1, 1);
-        EXPECT_TRUE(same_sites(first, sites(1, 1)));
-        EXPECT_TRUE(same_sites(first, sites(1, 2)));
-        EXPECT_TRUE(same_sites(first, sites(1, 8)));
-        EXPECT_FALSE(same_sites(first, sites(2, 1)));
+        EXPECT_EQ(first, sites(1, 1));
+        EXPECT_EQ(first, sites(1, 2));
+        EXPECT_EQ(first, sites(1, 8));
+        EXPECT_NE(first, sites(2, 1));
     }
 }
 

@@ -1,5 +1,7 @@
 // The whole job on one surface under good and bad triangles.
 
+#include <numbers>
+
 #include "bench/allocations.h"
 #include "bench/coplanar_boxes.h"
 #include "bench/report.h"
@@ -36,7 +38,7 @@ Json measure(const bench::NamedMesh& input, agvd::Index samples, int repetitions
         bytes = peak.bytes();
     }
     const remesh::Evaluation judged = remesh::evaluate(input.mesh.view(), result.mesh.view());
-    constexpr double degrees = 57.29577951308232;
+    constexpr double degrees = 180 / std::numbers::pi;
     return {{"triangles", input.name},
             {"faces", input.mesh.triangles.size()},
             {"seconds", bench::quickest(seconds)},

@@ -10,8 +10,7 @@
 namespace agvd {
 
 CellTally::CellTally(const Surface& surface) : surface_(&surface) {
-    double area = 0;
-    for (Index f = 0; f < surface.num_faces(); ++f) area += face_area(surface, f);
+    const double area = surface_area(surface);
     constexpr int bits = 61;
     constexpr int least_exponent = -1000;  // Its inverse is finite, too.
     if (area > 0) unit_ = std::ldexp(1.0, std::max(std::ilogb(area) - bits, least_exponent));

@@ -154,11 +154,6 @@ void FaceHistory::add(Operation operation) {
     operations_.push_back(operation);
 }
 
-std::size_t FaceHistory::bytes() const {
-    return operations_.capacity() * sizeof(Operation) +
-           (first_.capacity() + last_.capacity()) * sizeof(Index);
-}
-
 Index FaceHistory::first_link(Way way, Index face) const {
     const std::vector<Index>& links = way == Way::Forward ? first_ : last_;
     return face < links.size() ? links[face] : no_index;

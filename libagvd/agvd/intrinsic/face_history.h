@@ -44,8 +44,6 @@ public:
     [[nodiscard]] bool is_changed(Index face) const {
         return face < last_.size() && last_[face] != no_index;
     }
-    [[nodiscard]] std::size_t num_operations() const { return operations_.size(); }
-    [[nodiscard]] std::size_t bytes() const;
 
     //! Cost: O(operations on the way), each some 20 ns.
     [[nodiscard]] SurfacePoint forward(SurfacePoint point) const;

@@ -39,8 +39,8 @@ bool is_flat(const Surface& surface, Index face) {
     const auto& p = surface.mesh.positions;
     for (Index h = 3 * face; h < 3 * face + 3; ++h) {
         const double length = surface.length_of(h);
-        if (!((p[surface.head(h)] - p[surface.tail(h)]).norm() > (1 - rounding) * length))
-            return false;
+        const double in_space = (p[surface.head(h)] - p[surface.tail(h)]).norm();
+        if (!(in_space > (1 - rounding) * length)) return false;
     }
     return true;
 }
@@ -63,9 +63,7 @@ FacePieces::FacePieces(const IntrinsicTriangulation& base, double piece_area,
         begin_[f] = static_cast<Index>(pieces_.size());
         parts.clear();
         if (is_flat(surface, f)) {
-            const auto& [a, b, c] = surface.mesh.triangles[f];
-            const auto& p = surface.mesh.positions;
-            pieces_.push_back({(p[a] + p[b] + p[c]) / 3, area_vector(surface, f)});
+            pieces_.push_back(whole(surface, f));
         } else if (base.parts_of(f, parts) && !parts.empty()) {
             add_parts(parts);
         } else {
@@ -95,10 +93,10 @@ void FacePieces::add_samples(const IntrinsicTriangulation& base, Index face, dou
     }
 }
 
-SurfacePiece FacePieces::whole(Index face) const {
-    const auto& [a, b, c] = input_.mesh.triangles[face];
-    const auto& p = input_.mesh.positions;
-    return {(p[a] + p[b] + p[c]) / 3, area_vector(input_, face)};
+SurfacePiece FacePieces::whole(const Surface& surface, Index face) {
+    const auto& [a, b, c] = surface.mesh.triangles[face];
+    const auto& p = surface.mesh.positions;
+    return {(p[a] + p[b] + p[c]) / 3, area_vector(surface, face)};
 }
 
 }  // namespace agvd

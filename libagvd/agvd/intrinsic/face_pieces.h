@@ -31,7 +31,7 @@ public:
     template <typename Each>
     void for_each(Index face, const Each& each) const {
         if (face >= begin_.size() || begin_[face] == no_index) {
-            each(whole(face));
+            each(whole(input_, face));
             return;
         }
         Index i = begin_[face];
@@ -41,7 +41,7 @@ public:
     }
 
 private:
-    [[nodiscard]] SurfacePiece whole(Index face) const;
+    [[nodiscard]] static SurfacePiece whole(const Surface& surface, Index face);
     void add_parts(std::span<const InputPart> parts);
     void add_samples(const IntrinsicTriangulation& base, Index face, double piece_area);
 

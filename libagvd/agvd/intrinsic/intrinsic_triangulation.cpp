@@ -86,15 +86,12 @@ private:
         surface_.mesh.positions.push_back(Vec3::Zero());  // Known at the end.
         surface_.outgoing.push_back(no_index);
         surface_.can_turn.push_back(0);
-        const Index first_new_edge = surface_.num_edges();
         const EdgeSplit made = detail::split_edge(surface_, charts_, h, 0.5, vertex);
         if (!is_kept_.empty()) {
             is_kept_.resize(surface_.num_edges(), 0);
             is_kept_[made.new_edge] = is_kept_[edge];
         }
         fresh_.clear();
-        fresh_.push_back(edge);
-        for (Index e = first_new_edge; e < surface_.num_edges(); ++e) fresh_.push_back(e);
         for (const EdgeSplit::Side& side : made.side) {
             if (side.half_edge == no_index) continue;
             history_.add_split(side.half_edge, side.new_face);
@@ -238,14 +235,6 @@ bool IntrinsicTriangulation::parts_of(Index face, std::vector<InputPart>& parts)
         if (part.share > 0) parts.push_back(part);
     }
     return true;
-}
-
-std::size_t IntrinsicTriangulation::bytes() const {
-    const std::size_t half_edges = surface_.twin.capacity() * (2 * sizeof(Index) + sizeof(Vec2));
-    const std::size_t vertices = surface_.mesh.positions.capacity() * (sizeof(Vec3) + 8);
-    const std::size_t edges = surface_.edge_half.capacity() * (sizeof(Index) + sizeof(double));
-    return half_edges + vertices + edges + surface_.mesh.triangles.capacity() * sizeof(Triangle) +
-           history_->bytes();
 }
 
 }  // namespace agvd

@@ -100,9 +100,6 @@ public:
     //! was. Cost: some 50 ns for each operation and part, 64 at most.
     [[nodiscard]] bool parts_of(Index face, std::vector<InputPart>& parts) const;
 
-    //! Beyond the input.
-    [[nodiscard]] std::size_t bytes() const;
-
 private:
     struct History;
 

@@ -1,5 +1,5 @@
 //! \file
-//! Area of a face.
+//! Areas of faces.
 #pragma once
 
 #include "agvd/mesh/surface.h"
@@ -10,6 +10,13 @@ namespace agvd {
 [[nodiscard]] inline double face_area(const Surface& surface, Index face) {
     const std::size_t h = std::size_t{3} * face;
     return surface.length[surface.edge[h]] * surface.apex[h].y() / 2;
+}
+
+//! Of all faces, summed in their order. Cost: O(#F).
+[[nodiscard]] inline double surface_area(const Surface& surface) {
+    double area = 0;
+    for (Index f = 0; f < surface.num_faces(); ++f) area += face_area(surface, f);
+    return area;
 }
 
 }  // namespace agvd

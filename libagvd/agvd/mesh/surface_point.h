@@ -11,6 +11,9 @@ namespace agvd {
 struct SurfacePoint {
     FaceId face;
     std::array<double, 3> barycentric{1, 0, 0};
+
+    //! The same face and the same coordinates; a point of an edge has another name in each face.
+    bool operator==(const SurfacePoint&) const = default;
 };
 
 [[nodiscard]] inline Vec3 position(const MeshView& mesh, const SurfacePoint& point) {

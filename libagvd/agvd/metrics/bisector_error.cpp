@@ -60,9 +60,7 @@ BisectorError summarize(std::vector<double> errors) {
 }
 
 double mean_cell_radius(const Surface& surface, std::size_t num_sites) {
-    double area = 0;
-    for (Index f = 0; f < surface.num_faces(); ++f) area += face_area(surface, f);
-    return std::sqrt(area / (std::numbers::pi * static_cast<double>(num_sites)));
+    return std::sqrt(surface_area(surface) / (std::numbers::pi * static_cast<double>(num_sites)));
 }
 
 }  // namespace agvd

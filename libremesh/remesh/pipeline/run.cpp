@@ -216,13 +216,10 @@ private:
         for (Index s = 0; s < on_base_.size(); ++s) {
             if (s >= sites_.size()) {
                 sites_.push_back(prepared_->base.to_input(on_base_[s]));
-            } else if (!is_same(on_base_[s], first_on_base[s])) {
+            } else if (on_base_[s] != first_on_base[s]) {
                 sites_[s] = prepared_->base.to_input(on_base_[s]);
             }
         }
-    }
-    [[nodiscard]] static bool is_same(const SurfacePoint& a, const SurfacePoint& b) {
-        return a.face == b.face && a.barycentric == b.barycentric;
     }
 
     void set_target(const agvd::Diagram& diagram) {

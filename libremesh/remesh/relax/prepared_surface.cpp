@@ -20,10 +20,9 @@ constexpr double splits_per_site = 16, splits_per_vertex = 1;
 constexpr double piece_share = 1.0 / 16;
 
 agvd::Index most_splits(const agvd::Surface& input, double spacing) {
-    double area = 0;
-    for (agvd::Index f = 0; f < input.num_faces(); ++f) area += agvd::face_area(input, f);
-    const double most = splits_per_site * (area / (spacing * spacing) + 1) +
-                        splits_per_vertex * input.num_vertices();
+    const double num_sites = agvd::surface_area(input) / (spacing * spacing);
+    const double most =
+        splits_per_site * (num_sites + 1) + splits_per_vertex * input.num_vertices();
     return static_cast<agvd::Index>(std::min(most, 1e9));
 }
 
@@ -38,8 +37,7 @@ PreparedSurface::PreparedSurface(const agvd::Surface& input, double spacing, int
       layout(base.surface(), num_threads, progress) {}
 
 double mean_spacing(const agvd::Surface& surface, std::size_t num_sites) {
-    double area = 0;
-    for (agvd::Index f = 0; f < surface.num_faces(); ++f) area += agvd::face_area(surface, f);
+    const double area = agvd::surface_area(surface);
     return std::sqrt(area / static_cast<double>(std::max<std::size_t>(num_sites, 1)));
 }
 

@@ -12,7 +12,7 @@ struct PreparedSurface {
     //! \param input    outlives this.
     //! \param spacing  mean distance of the sites, > 0: the base's edges are not much longer.
     //! \throw agvd::Cancelled  the progress callback returned false.
-    //! Cost: that of the base, and O(#F) for the rest. 600 bytes a face.
+    //! Cost: that of the base, and O(#F) for the rest. Some 280 bytes for each face of the base.
     PreparedSurface(const agvd::Surface& input, double spacing, int num_threads = 0,
                     const agvd::Progress& progress = {});
 
