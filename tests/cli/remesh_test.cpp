@@ -257,14 +257,15 @@ TEST_F(Remesh, StopsAboveTheMemoryLimitAndNamesTheStage) {
     EXPECT_EQ(bytes("out.ply"), "old");
     EXPECT_EQ(num_files(), 2u);
 
-    // Some 250 MB of Steiner points; the limit leaves room for the memory of sanitizers.
-    outcome = remesh({in, at("out.ply"), "-n", "50", "--relax", "0", "--engine", "steiner",
+    // More Steiner points than that; the limit leaves room for the memory of sanitizers.
+    const std::string larger = put("larger.ply", shapes::sphere(5));
+    outcome = remesh({larger, at("out.ply"), "-n", "50", "--relax", "0", "--engine", "steiner",
                       "--steiner-points", "1000", "--lambda", "1e9", "--memory-limit", "150M"});
     EXPECT_EQ(outcome.exit_code, 1);
     EXPECT_NE(outcome.err.find("stage: propagate"), std::string::npos) << outcome.err;
     EXPECT_NE(outcome.err.find("--steiner-points"), std::string::npos) << outcome.err;
     EXPECT_EQ(bytes("out.ply"), "old");
-    EXPECT_EQ(num_files(), 2u);
+    EXPECT_EQ(num_files(), 3u);
 }
 
 // More than the machine could read: told before anything is.
