@@ -22,7 +22,7 @@ struct Layer {
 constexpr Layer layers[] = {
     {"agvd/core", 0},        {"agvd/mesh", 1},     {"agvd/intrinsic", 2},
     {"agvd/propagation", 3}, {"agvd/diagram", 4},  {"agvd/metrics", 4},
-    {"remesh/sampling", 5},  {"remesh/relax", 6},  {"remesh/dual", 6},
+    {"remesh/features", 5}, {"remesh/sampling", 5},  {"remesh/relax", 6},  {"remesh/dual", 6},
     {"remesh/placement", 6}, {"remesh/repair", 6}, {"remesh/quality", 6},
     {"remesh/pipeline", 7},  {"remesh/io", 8},
 };

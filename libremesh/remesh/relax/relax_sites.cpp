@@ -5,12 +5,9 @@
 #include <string>
 
 #include "agvd/core/poller.h"
-#include "agvd/diagram/diagram.h"
-#include "agvd/propagation/propagate.h"
 #include "agvd/propagation/site_placement.h"
-#include "remesh/dual/build_dual.h"
 #include "remesh/relax/even_out.h"
-#include "remesh/relax/relaxation.h"
+#include "remesh/relax/levels.h"
 #include "remesh/relax/subdivide.h"
 #include "remesh/relax/walk.h"
 #include "remesh/sampling/components.h"
@@ -21,21 +18,11 @@ namespace {
 using agvd::Index;
 using agvd::Surface;
 using agvd::SurfacePoint;
+using detail::gives_neighbours;
+using detail::is_hopeless;
+using detail::Levels;
 using detail::Relaxation;
 
-// Steps from one measuring of the cells to the next.
-constexpr int steps_per_sweep = 10;
-// Labels tell who neighbours whom where there are so many vertices for each site.
-constexpr std::size_t vertices_per_site = 8;
-// What is measured of cells means something where there are so many.
-constexpr std::size_t vertices_per_cell = 2;
-// Flaws of a triangulation, as a share of the sites, that are worth a propagation.
-constexpr double most_flaws = 2e-3;
-// Where more than this share of the triangles face against the surface, or of the sites are in no
-// triangle, relaxation would do harm.
-constexpr double hopeless_share = 0.1;
-// Distance error of a propagation that only has to tell who neighbours whom.
-constexpr double neighbour_error = 1e-2;
 // A coarse start needs this many sites of each component: with fewer, middles are no triangulation.
 constexpr std::size_t least_coarse_sites = 32;
 // More coarse sites than a quarter, as some pairs may lack a middle.
@@ -56,131 +43,6 @@ void check_options(const RelaxOptions& options, std::size_t num_sites) {
                                   " entries for " + std::to_string(num_sites) + " sites");
     }
 }
-
-bool gives_neighbours(const Surface& surface, std::size_t num_sites) {
-    return surface.num_vertices() >= vertices_per_site * num_sites;
-}
-
-// By labels; exactly where faces are too large for those.
-std::vector<agvd::Triangle> triangulate(const PreparedSurface& prepared,
-                                        const agvd::DistanceBounds& labels,
-                                        std::span<const SurfacePoint> sites, int num_threads,
-                                        const agvd::Progress& progress) {
-    const Surface& surface = prepared.base.surface();
-    if (gives_neighbours(surface, sites.size())) return detail::label_triangles(surface, labels);
-    const std::vector<SurfacePoint> on_base = prepared.base.to_intrinsic(sites);
-    const agvd::Propagation propagation = agvd::propagate(
-        surface, prepared.layout, on_base,
-        {.max_error = neighbour_error, .num_threads = num_threads, .progress = progress});
-    return build_dual(surface,
-                      agvd::build_diagram(surface, on_base, propagation,
-                                          {.num_threads = num_threads, .progress = progress}),
-                      progress);
-}
-
-// Triangles as large as the features of the surface: what is even on them is not on the surface.
-bool is_hopeless(const Relaxation& relaxation) {
-    const auto& cells = relaxation.energy().cells;
-    const auto lonely = static_cast<double>(
-        std::count_if(cells.begin(), cells.end(), [](const auto& cell) { return cell.area == 0; }));
-    const auto turned = static_cast<double>(relaxation.num_turned());
-    return turned > hopeless_share * static_cast<double>(relaxation.triangles().size()) ||
-           lonely > hopeless_share * static_cast<double>(cells.size());
-}
-
-class Levels {
-public:
-    Levels(const PreparedSurface& prepared, const RelaxOptions& options, int num_levels)
-        : prepared_(prepared),
-          surface_(prepared.base.surface()),
-          options_(options),
-          steps_planned_(options.steps * num_levels) {
-        if (options.progress) progress_ = [this](double) { return options_.progress(fraction()); };
-    }
-    Levels(const Levels&) = delete;
-    Levels& operator=(const Levels&) = delete;
-
-    // For all that a step is made of: tells how many steps are done.
-    [[nodiscard]] const agvd::Progress& progress() const { return progress_; }
-
-    // \param labels   of the sites; null: the relaxation knows its weights.
-    // \param corners  boundary vertices that sites go to: of the spacing that these sites have.
-    void run(Relaxation& relaxation, const agvd::DistanceBounds* labels,
-             std::span<const Index> corners) {
-        const auto num_sites = static_cast<Index>(relaxation.sites().size());
-        RelaxLevel& level = result_.levels.emplace_back();
-        level.num_sites = num_sites;
-        level.energy.push_back(relaxation.energy().energy);
-        if (labels != nullptr) look(relaxation, *labels, corners);
-        double last = relaxation.objective();
-        for (int step = 1; step <= options_.steps; ++step) {
-            relaxation.step();
-            level.energy.push_back(relaxation.energy().energy);
-            ++steps_done_;
-            agvd::poll(options_.progress, fraction());
-            if (step % steps_per_sweep != 0 || step == options_.steps) continue;
-            if (last - relaxation.objective() < options_.tolerance * last) break;
-            sweep(relaxation, corners);
-            last = relaxation.objective();
-        }
-    }
-
-    [[nodiscard]] agvd::DistanceBounds label(std::span<const SurfacePoint> sites) const {
-        return detail::label_vertices(prepared_, sites, options_.num_threads, progress_);
-    }
-
-    RelaxResult finish(std::vector<SurfacePoint> sites) {
-        result_.sites = std::move(sites);
-        return std::move(result_);
-    }
-
-private:
-    [[nodiscard]] double fraction() const {
-        return static_cast<double>(steps_done_) / std::max(steps_planned_, 1);
-    }
-
-    [[nodiscard]] bool gives_cells(Index num_sites) const {
-        return surface_.num_vertices() >= vertices_per_cell * num_sites;
-    }
-
-    void look(Relaxation& relaxation, const agvd::DistanceBounds& labels,
-              std::span<const Index> corners) const {
-        const auto num_sites = static_cast<Index>(relaxation.sites().size());
-        if (!gives_cells(num_sites)) return;
-        if (options_.boundary == Boundary::Keep) {
-            relaxation.move_to_boundary(
-                detail::boundary_places(prepared_.base, labels, num_sites, corners));
-        }
-        relaxation.set_density(
-            detail::measure_cells(prepared_, labels, num_sites, options_.num_threads, progress_));
-    }
-
-    // Looks at the surface again.
-    void sweep(Relaxation& relaxation, std::span<const Index> corners) {
-        const auto num_sites = static_cast<Index>(relaxation.sites().size());
-        if (!gives_cells(num_sites)) return;
-        const agvd::DistanceBounds labels = label(relaxation.sites());
-        const Index flaws = relaxation.num_flaws();
-        const bool is_cheap = gives_neighbours(surface_, num_sites);
-        const bool is_worth_it =
-            num_mended_ < result_.levels.size() && flaws > most_flaws * num_sites;
-        if (flaws > 0 && (is_cheap || is_worth_it)) {
-            if (!is_cheap) num_mended_ = result_.levels.size();
-            relaxation.mend(triangulate(prepared_, labels, relaxation.sites(), options_.num_threads,
-                                        progress_));
-        }
-        look(relaxation, labels, corners);
-    }
-
-    const PreparedSurface& prepared_;
-    const Surface& surface_;  // Of its base.
-    const RelaxOptions& options_;
-    agvd::Progress progress_;
-    int steps_planned_;
-    int steps_done_ = 0;
-    std::size_t num_mended_ = 0;  // Levels up to the last one that has paid for a propagation.
-    RelaxResult result_;
-};
 
 // How many sites to begin with so that they and the middles between them are `count`; nothing if
 // these would be too few.
@@ -210,7 +72,8 @@ RelaxResult relax_sites(const PreparedSurface& surface, std::vector<SurfacePoint
     const agvd::DistanceBounds labels = levels.label(sites);
     Relaxation relaxation(
         surface.input(), sites,
-        triangulate(surface, labels, sites, options.num_threads, levels.progress()),
+        detail::triangulate_sites(surface, labels, sites, {}, options.num_threads,
+                                  levels.progress()),
         options.is_fixed, {}, options.num_threads, levels.progress());
     if (is_hopeless(relaxation)) return levels.finish(std::move(sites));
     levels.run(relaxation, &labels, options.corners);

@@ -73,6 +73,11 @@ Relaxation::Relaxation(const agvd::Surface& surface, std::vector<SurfacePoint> s
     take_triangles(std::move(triangles));
 }
 
+void Relaxation::hold(const CurveNetwork& network, CurveSites curves) {
+    curves_.emplace(surface_, network, std::move(curves));
+    std::fill(is_fixed_.begin(), is_fixed_.begin() + curves_->num_copies(), 1);
+}
+
 void Relaxation::take_triangles(std::vector<agvd::Triangle> triangles) {
     mesh_ = build_site_mesh(std::move(triangles), static_cast<Index>(sites_.size()), ticker_);
     find_stuck();
@@ -214,11 +219,13 @@ void Relaxation::choose_moves() {
     agvd::parallel_chunks(num_sites, grain, num_threads_, find_slopes, poller_);
     double uphill = 0;
     for (Index i = 0; i < num_sites; ++i) uphill += half_slope_[i].dot(move_[i]);
+    if (curves_) uphill += curves_->measure(now_.cells);
     const double keep = uphill > 0 ? 0 : momentum;
     const auto choose = [&](Index, Index begin, Index end) {
         for (Index i = begin; i < end; ++i) choose_move(i, keep);
     };
     agvd::parallel_chunks(num_sites, grain, num_threads_, choose, poller_);
+    if (curves_) curves_->step(stretch, keep);
 }
 
 void Relaxation::choose_move(Index i, double keep) {
@@ -259,6 +266,15 @@ void Relaxation::walk() {
         }
     };
     agvd::parallel_chunks(static_cast<Index>(sites_.size()), grain, num_threads_, body, poller_);
+    if (curves_) walk_curves();
+}
+
+void Relaxation::walk_curves() {
+    const std::vector<SurfacePoint>& copies = curves_->sites().sites;
+    for (Index i = 0; i < copies.size(); ++i) {
+        sites_[i] = copies[i];
+        locate(i);
+    }
 }
 
 // Takes back the moves by which triangles have turned over.
@@ -273,16 +289,28 @@ void Relaxation::take_back() {
             const Vec3 facing = facing_before_[t[0]] + facing_before_[t[1]] + facing_before_[t[2]];
             if (!(normal.dot(facing) > 0)) continue;  // It was so before.
             for (const Index i : t) {
-                if (at_[i] == at_before_[i]) continue;
-                is_done = false;
-                sites_[i] = sites_before_[i];
-                locate(i);
-                move_[i].setZero();
+                if (take_back(i)) is_done = false;
             }
         }
         if (is_done) return;
         find_turned(mesh_, at_, facing_, turned_);
     }
+}
+
+// False if the site has not moved. All copies of a curve's site go back together.
+bool Relaxation::take_back(Index i) {
+    if (at_[i] == at_before_[i]) return false;
+    std::pair<Index, Index> together{i, i + 1};
+    if (curves_ && i < curves_->num_copies()) {
+        curves_->take_back(i);
+        together = curves_->copies_with(i);
+    }
+    for (Index k = together.first; k < together.second; ++k) {
+        sites_[k] = sites_before_[k];
+        locate(k);
+        move_[k].setZero();
+    }
+    return true;
 }
 
 }  // namespace remesh::detail

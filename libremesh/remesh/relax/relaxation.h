@@ -6,6 +6,7 @@
 
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_point.h"
+#include "remesh/relax/curve_motion.h"
 #include "remesh/relax/cvt_energy.h"
 #include "remesh/relax/site_labels.h"
 
@@ -30,6 +31,11 @@ public:
     Relaxation(const agvd::Surface& surface, std::vector<agvd::SurfacePoint> sites,
                std::vector<agvd::Triangle> triangles, std::vector<std::uint8_t> is_fixed,
                std::vector<double> weights, int num_threads, const agvd::Progress& progress);
+
+    //! Sites of curves, which come first, slide along these from now on, those at nodes stay.
+    //!
+    //! \param network  outlives this. \param curves  its sites: the first ones of all.
+    void hold(const CurveNetwork& network, CurveSites curves);
 
     //! By what the cells hold of the surface.
     void set_density(const CellMeasures& cells);
@@ -59,6 +65,8 @@ public:
     [[nodiscard]] double objective() const;
 
     [[nodiscard]] const std::vector<agvd::SurfacePoint>& sites() const { return sites_; }
+    //! Empty unless curves are held.
+    [[nodiscard]] const std::optional<CurveMotion>& curves() const { return curves_; }
     [[nodiscard]] const std::vector<agvd::Triangle>& triangles() const { return mesh_.triangles; }
     [[nodiscard]] const std::vector<double>& weights() const { return weight_; }
 
@@ -70,6 +78,8 @@ private:
     void choose_moves();
     void choose_move(agvd::Index i, double keep);
     void walk();
+    void walk_curves();
+    bool take_back(agvd::Index i);
     void prefetch(agvd::Index i) const;
     void take_back();
 
@@ -92,6 +102,7 @@ private:
     agvd::Index num_stuck_ = 0;
     std::vector<agvd::Index> turned_;  // Triangles that face against the surface.
     CvtEnergy now_;
+    std::optional<CurveMotion> curves_;
 };
 
 }  // namespace remesh::detail

@@ -118,12 +118,13 @@ std::vector<agvd::Triangle> label_triangles(const Surface& surface,
     return triangles;
 }
 
-SiteDual label_dual(const agvd::IntrinsicTriangulation& base, const agvd::DistanceBounds& labels) {
+SiteDual label_dual(const agvd::IntrinsicTriangulation& base, const agvd::DistanceBounds& labels,
+                    bool keeps_inside) {
     const Surface& surface = base.surface();
     SiteDual result{label_triangles(surface, labels), {}};
     struct Crossing {
         std::uint64_t pair;
-        bool is_inner;  // The boundary comes first: there the middle must lie.
+        bool is_late;  // What lies where the middle must lie comes first.
         double length;
         Index half_edge;
     };
@@ -135,11 +136,12 @@ SiteDual label_dual(const agvd::IntrinsicTriangulation& base, const agvd::Distan
         if (a == b) continue;
         const double length = static_cast<double>(labels.distance[u]) + labels.distance[v];
         crossings.push_back({std::uint64_t{std::min(a, b)} << 32 | std::max(a, b),
-                             surface.twin[h] != no_index, length + surface.length[e], h});
+                             (surface.twin[h] != no_index) != keeps_inside,
+                             length + surface.length[e], h});
     }
     std::sort(crossings.begin(), crossings.end(), [](const Crossing& x, const Crossing& y) {
-        return std::tie(x.pair, x.is_inner, x.length, x.half_edge) <
-               std::tie(y.pair, y.is_inner, y.length, y.half_edge);
+        return std::tie(x.pair, x.is_late, x.length, x.half_edge) <
+               std::tie(y.pair, y.is_late, y.length, y.half_edge);
     });
     for (std::size_t i = 0; i < crossings.size(); ++i) {
         const Crossing& c = crossings[i];
@@ -148,9 +150,10 @@ SiteDual label_dual(const agvd::IntrinsicTriangulation& base, const agvd::Distan
         const double along = std::clamp(
             meeting_place(labels, surface.tail(h), surface.head(h), surface.length_of(h)),
             end_margin, 1 - end_margin);
+        const bool is_inside = keeps_inside || surface.twin[h] != no_index;
         result.middles.push_back({static_cast<Index>(c.pair >> 32), static_cast<Index>(c.pair),
                                   c.length,
-                                  base.to_input(point_on(h, along, c.is_inner ? side_margin : 0))});
+                                  base.to_input(point_on(h, along, is_inside ? side_margin : 0))});
     }
     return result;
 }

@@ -41,6 +41,8 @@ struct Middle {
     agvd::Index low = 0, high = 0;  //!< The sites.
     double length = 0;              //!< Of a path between them.
     agvd::SurfacePoint point;       //!< Of the input: on the boundary if they meet there.
+    //! A site that is there already; agvd::no_index: none, and point counts.
+    agvd::Index site = agvd::no_index;
 };
 
 //! The sites as the vertices of a triangulation: a triangle for each face whose corners have three
@@ -55,9 +57,10 @@ struct SiteDual {
     std::vector<Middle> middles;  //!< By (low, high): one for each pair that meets.
 };
 
+//! \param keeps_inside  no middle lies on the boundary.
 //! Cost: sorting the edges whose ends have two labels.
 [[nodiscard]] SiteDual label_dual(const agvd::IntrinsicTriangulation& base,
-                                  const agvd::DistanceBounds& labels);
+                                  const agvd::DistanceBounds& labels, bool keeps_inside = false);
 
 //! For each site the corner that it labels, or else the place on the boundary that is nearest by
 //! its labels, off the vertices, so that the site can move along. Nothing for sites that label no

@@ -1,7 +1,6 @@
 #include "remesh/relax/subdivide.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "remesh/relax/walk.h"
 
@@ -19,7 +18,11 @@ public:
         : surface_(surface), dual_(dual), result_{sites, {}, weights} {}
 
     std::optional<TriangulatedSites> run(Index count) {
-        const std::size_t room = result_.sites.size() + dual_.middles.size();
+        const auto has_no_site = [](const Middle& m) { return m.site == no_index; };
+        const std::size_t room =
+            result_.sites.size() +
+            static_cast<std::size_t>(
+                std::count_if(dual_.middles.begin(), dual_.middles.end(), has_no_site));
         if (count < result_.sites.size()) return std::nullopt;
         add_middles(std::min<std::size_t>(count, room) - result_.sites.size());
         for (const agvd::Triangle& t : dual_.triangles) divide(t);
@@ -30,16 +33,19 @@ public:
 private:
     // The middles of the longest pairs.
     void add_middles(std::size_t count) {
-        std::vector<Index> order(dual_.middles.size());
-        std::iota(order.begin(), order.end(), Index{0});
+        std::vector<Index> order;
+        for (Index i = 0; i < dual_.middles.size(); ++i) {
+            if (dual_.middles[i].site == no_index) order.push_back(i);
+        }
         std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
             return dual_.middles[a].length > dual_.middles[b].length;
         });
         new_site_.assign(dual_.middles.size(), no_index);
         for (std::size_t i = 0; i < count; ++i) new_site_[order[i]] = 0;
         for (Index i = 0; i < new_site_.size(); ++i) {
-            if (new_site_[i] == no_index) continue;
             const Middle& m = dual_.middles[i];
+            if (m.site != no_index) new_site_[i] = m.site;
+            if (m.site != no_index || new_site_[i] == no_index) continue;
             new_site_[i] = static_cast<Index>(result_.sites.size());
             result_.sites.push_back(m.point);
             result_.weights.push_back((result_.weights[m.low] + result_.weights[m.high]) / 2);
@@ -51,6 +57,9 @@ private:
         const auto found = std::lower_bound(
             dual_.middles.begin(), dual_.middles.end(), pair,
             [](const Middle& m, const auto& p) { return std::pair(m.low, m.high) < p; });
+        if (found == dual_.middles.end() || std::pair(found->low, found->high) != pair) {
+            return no_index;
+        }
         return new_site_[static_cast<std::size_t>(found - dual_.middles.begin())];
     }
 

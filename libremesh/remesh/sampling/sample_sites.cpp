@@ -180,4 +180,42 @@ std::vector<agvd::SurfacePoint> sample_sites(const agvd::Surface& surface,
     return sites;
 }
 
+std::vector<agvd::SurfacePoint> sample_inner_sites(const agvd::Surface& surface,
+                                                   std::span<const agvd::SurfacePoint> rim,
+                                                   Index count, double spacing,
+                                                   const SamplingOptions& options) {
+    const agvd::Progress begin = agvd::within(options.progress, 0, 0);
+    const std::vector<Component> components = detail::find_components(surface, begin);
+    std::vector<Index> component_of(surface.num_faces());
+    std::vector<double> lacking;
+    for (Index i = 0; i < components.size(); ++i) {
+        double length = 0;
+        for (const Index f : components[i].faces) {
+            component_of[f] = i;
+            for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+                if (surface.twin[h] == agvd::no_index) length += surface.length_of(h);
+            }
+        }
+        lacking.push_back(
+            std::max(detail::inner_sites(components[i].area(), length, spacing), 0.0));
+    }
+    if (std::all_of(lacking.begin(), lacking.end(), [](double n) { return n == 0; })) {
+        for (Index i = 0; i < components.size(); ++i) lacking[i] = components[i].area();
+    }
+    const std::vector<Index> quota = detail::apportion(lacking, count);
+    std::vector<std::vector<agvd::SurfacePoint>> rim_of(components.size());
+    for (const agvd::SurfacePoint& site : rim) {
+        rim_of[component_of[site.face.value()]].push_back(site);
+    }
+    std::vector<agvd::SurfacePoint> sites;
+    for (Index i = 0; i < components.size(); ++i) {
+        if (quota[i] == 0) continue;
+        const double done = static_cast<double>(sites.size()) / count;
+        const auto points = place_inside(surface, components[i], rim_of[i], quota[i], spacing, i,
+                                         options, agvd::within(options.progress, done, done));
+        sites.insert(sites.end(), points.begin(), points.end());
+    }
+    return sites;
+}
+
 }  // namespace remesh

@@ -2,6 +2,8 @@
 //! First sites on the surface.
 #pragma once
 
+#include <span>
+
 #include "agvd/core/progress.h"
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_point.h"
@@ -59,5 +61,16 @@ struct SamplingOptions {
 //!
 //! \param genus, boundary_loops  >= 0, of one connected component.
 [[nodiscard]] agvd::Index minimum_samples(int genus, int boundary_loops);
+
+//! Sites strictly inside the faces of a surface whose boundary has its sites already.
+//!
+//! \param rim      sites on the boundary: inner ones keep off them.
+//! \param count    of inner sites; they are shared out by what components lack at this spacing.
+//! \param spacing  > 0, mesh units: of all sites.
+//! \param options  num_samples and boundary do not count.
+//! \throw as sample_sites.
+[[nodiscard]] std::vector<agvd::SurfacePoint> sample_inner_sites(
+    const agvd::Surface& surface, std::span<const agvd::SurfacePoint> rim, agvd::Index count,
+    double spacing, const SamplingOptions& options);
 
 }  // namespace remesh

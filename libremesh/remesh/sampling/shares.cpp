@@ -17,6 +17,10 @@ double spacing_of(double num_vertices, double area, double boundary_length) {
     return half + std::sqrt(half * half + 2 * area / (std::numbers::sqrt3 * num_vertices));
 }
 
+double inner_sites(double area, double boundary_length, double spacing) {
+    return 2 / std::numbers::sqrt3 * area / (spacing * spacing) - boundary_length / (2 * spacing);
+}
+
 std::vector<Index> apportion(std::span<const double> weights, Index total) {
     const double sum = std::accumulate(weights.begin(), weights.end(), 0.0);
     std::vector<Index> result;

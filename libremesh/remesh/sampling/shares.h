@@ -13,7 +13,10 @@ namespace remesh::detail {
 //! the boundary included.
 [[nodiscard]] double spacing_of(double num_vertices, double area, double boundary_length);
 
-//! Whole numbers with the sum `total`, in proportion to the weights (> 0): the largest remainders
+//! Vertices of such a mesh that are not on the boundary; negative where it is narrower than that.
+[[nodiscard]] double inner_sites(double area, double boundary_length, double spacing);
+
+//! Whole numbers with the sum `total`, in proportion to the weights (>= 0): the largest remainders
 //! are rounded up. Cost: O(n log n).
 [[nodiscard]] std::vector<agvd::Index> apportion(std::span<const double> weights,
                                                  agvd::Index total);

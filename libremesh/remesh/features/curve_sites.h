@@ -1,0 +1,59 @@
+//! \file
+//! Sites on the curves of a network, with a copy on each side of the cut.
+#pragma once
+
+#include "remesh/features/curve_network.h"
+#include "remesh/features/cut_surface.h"
+
+namespace remesh {
+
+//! Vertices that the curves of a mesh get: one at each node, the others in order along each curve.
+//! Each is a *group* of sites of the cut surface, its copies, one for each wedge or side.
+struct CurveSites {
+    std::vector<agvd::SurfacePoint> sites;   //!< Of all groups, on the cut surface.
+    std::vector<agvd::Index> first_copy;     //!< #groups + 1: index into sites.
+    std::vector<agvd::Index> first_of_curve; //!< #curves + 1: its groups, besides nodes.
+    //! #groups: place on its curve, mesh units; of nodes 0. Of closed curves it may leave
+    //! [0, length].
+    std::vector<double> along;
+
+    [[nodiscard]] agvd::Index num_groups() const {
+        return static_cast<agvd::Index>(along.size());
+    }
+    [[nodiscard]] agvd::Index num_nodes() const { return first_of_curve[0]; }
+};
+
+//! How many intervals each curve is divided into, so that they are about a spacing long and what
+//! they bound can be triangulated: closed curves have at least three, curves that share both ends
+//! with another one two.
+[[nodiscard]] std::vector<agvd::Index> curve_intervals(const CurveNetwork& network,
+                                                       double spacing);
+
+//! Vertices of the network with so many intervals.
+[[nodiscard]] std::size_t num_curve_sites(const CurveNetwork& network,
+                                          std::span<const agvd::Index> intervals);
+
+//! At even distances.
+//!
+//! \param intervals  #curves, >= 1.
+[[nodiscard]] CurveSites place_curve_sites(const CurveNetwork& network, const CutSurface& cut,
+                                           std::span<const agvd::Index> intervals);
+
+//! Puts a group that is no node at another place of its curve, all copies of it.
+//!
+//! \param curve  the group's.
+void move_along(const Curve& curve, agvd::Index group, double along, CurveSites& sites);
+
+//! A directed edge of each triangulation of the sites: it has the surface on its left.
+struct ChainEdge {
+    agvd::Index from = agvd::no_index, to = agvd::no_index;  //!< Index into CurveSites::sites.
+    agvd::Index curve = 0;
+    agvd::Index interval = 0;  //!< Of the curve.
+    Side side = Side::Left;
+};
+
+//! All, curve by curve, side by side.
+[[nodiscard]] std::vector<ChainEdge> chain_edges(const CurveNetwork& network,
+                                                 const CutSurface& cut, const CurveSites& sites);
+
+}  // namespace remesh

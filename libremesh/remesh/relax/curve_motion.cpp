@@ -1,0 +1,76 @@
+#include "remesh/relax/curve_motion.h"
+
+#include <algorithm>
+
+namespace remesh::detail {
+namespace {
+
+using agvd::Index;
+using agvd::no_index;
+using agvd::Vec3;
+
+// Longest move, as a share of the way to the neighbour: two that approach do not meet.
+constexpr double longest_move = 0.3;
+
+}  // namespace
+
+CurveMotion::CurveMotion(const agvd::Surface& surface, const CurveNetwork& network,
+                         CurveSites sites)
+    : surface_(surface),
+      network_(network),
+      sites_(std::move(sites)),
+      curve_(sites_.num_groups(), no_index),
+      half_slope_(sites_.num_groups(), 0),
+      stiffness_(sites_.num_groups(), 0),
+      move_(sites_.num_groups(), 0),
+      along_before_(sites_.along) {
+    for (Index c = 0; c < network.curves.size(); ++c) {
+        std::fill(curve_.begin() + sites_.first_of_curve[c],
+                  curve_.begin() + sites_.first_of_curve[c + 1], c);
+    }
+    for (Index g = 0; g < sites_.num_groups(); ++g) group_.resize(sites_.first_copy[g + 1], g);
+}
+
+double CurveMotion::measure(std::span<const CvtEnergy::Cell> cells) {
+    double uphill = 0;
+    for (Index g = sites_.num_nodes(); g < sites_.num_groups(); ++g) {
+        const Vec3 tangent =
+            tangent_of_curve(surface_, network_.curves[curve_[g]], sites_.along[g]);
+        half_slope_[g] = stiffness_[g] = 0;
+        for (Index copy = sites_.first_copy[g]; copy < sites_.first_copy[g + 1]; ++copy) {
+            half_slope_[g] += tangent.dot(cells[copy].slope) / 2;
+            stiffness_[g] += cells[copy].mass;
+        }
+        uphill += half_slope_[g] * move_[g];
+    }
+    return uphill;
+}
+
+void CurveMotion::step(double stretch, double keep) {
+    along_before_ = sites_.along;
+    for (Index g = sites_.num_nodes(); g < sites_.num_groups(); ++g) {
+        const Index c = curve_[g];
+        const Curve& curve = network_.curves[c];
+        const Index first = sites_.first_of_curve[c], last = sites_.first_of_curve[c + 1] - 1;
+        const double at = along_before_[g];
+        const double turn = curve.is_closed() ? curve.length() : 0;
+        const double before = g > first ? along_before_[g - 1]
+                                        : curve.is_closed() ? along_before_[last] - turn : 0;
+        const double after = g < last ? along_before_[g + 1]
+                             : curve.is_closed() ? along_before_[first] + turn
+                                                 : curve.length();
+        double move = keep * move_[g];
+        if (stiffness_[g] > 0) move -= stretch * half_slope_[g] / stiffness_[g];
+        move_[g] = std::clamp(move, longest_move * (before - at), longest_move * (after - at));
+        move_along(curve, g, at + move_[g], sites_);
+    }
+}
+
+void CurveMotion::take_back(Index copy) {
+    const Index g = group_[copy];
+    if (curve_[g] == no_index) return;
+    move_[g] = 0;
+    move_along(network_.curves[curve_[g]], g, along_before_[g], sites_);
+}
+
+}  // namespace remesh::detail

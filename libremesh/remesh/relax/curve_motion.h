@@ -1,0 +1,46 @@
+//! \file
+//! Sites of curves slide along these, all copies of one together.
+#pragma once
+
+#include <span>
+
+#include "remesh/features/curve_sites.h"
+#include "remesh/relax/cvt_energy.h"
+
+namespace remesh::detail {
+
+class CurveMotion {
+public:
+    //! \param surface  that of the network, whole or cut; outlives this, as the network does.
+    CurveMotion(const agvd::Surface& surface, const CurveNetwork& network, CurveSites sites);
+
+    [[nodiscard]] const CurveSites& sites() const { return sites_; }
+    [[nodiscard]] agvd::Index num_copies() const {
+        return static_cast<agvd::Index>(sites_.sites.size());
+    }
+
+    //! Takes the slope of the energy along the curves from the cells of all copies.
+    //!
+    //! \param cells  #sites, of which the copies come first.
+    //! \return the slope times the last move, summed.
+    double measure(std::span<const CvtEnergy::Cell> cells);
+    //! Moves all groups that are no nodes, by `stretch` times Newton's step and `keep` times the
+    //! last move, not past their neighbours.
+    void step(double stretch, double keep);
+    //! Takes back the last move of the group that has this copy.
+    void take_back(agvd::Index copy);
+    //! From the first copy to the last one of the group that has this one, exclusively.
+    [[nodiscard]] std::pair<agvd::Index, agvd::Index> copies_with(agvd::Index copy) const {
+        return {sites_.first_copy[group_[copy]], sites_.first_copy[group_[copy] + 1]};
+    }
+
+private:
+    const agvd::Surface& surface_;
+    const CurveNetwork& network_;
+    CurveSites sites_;
+    std::vector<agvd::Index> group_;  // By copy.
+    std::vector<agvd::Index> curve_;  // By group; of nodes no_index.
+    std::vector<double> half_slope_, stiffness_, move_, along_before_;  // By group.
+};
+
+}  // namespace remesh::detail

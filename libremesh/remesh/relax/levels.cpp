@@ -1,0 +1,154 @@
+#include "remesh/relax/levels.h"
+
+#include <algorithm>
+
+#include "agvd/core/poller.h"
+#include "agvd/diagram/diagram.h"
+#include "agvd/propagation/propagate.h"
+#include "remesh/dual/build_dual.h"
+#include "remesh/relax/close_rim.h"
+#include "remesh/relax/site_labels.h"
+
+namespace remesh::detail {
+namespace {
+
+using agvd::Index;
+using agvd::Surface;
+using agvd::SurfacePoint;
+
+// Steps from one measuring of the cells to the next.
+constexpr int steps_per_sweep = 10;
+// Labels tell who neighbours whom where there are so many vertices for each site.
+constexpr std::size_t vertices_per_site = 8;
+// What is measured of cells means something where there are so many.
+constexpr std::size_t vertices_per_cell = 2;
+// Flaws of a triangulation, as a share of the sites, that are worth a propagation.
+constexpr double most_flaws = 2e-3;
+// Where more than this share of the triangles face against the surface, or of the sites are in no
+// triangle, relaxation would do harm.
+constexpr double hopeless_share = 0.1;
+// Distance error of a propagation that only has to tell who neighbours whom.
+constexpr double neighbour_error = 1e-2;
+
+}  // namespace
+
+bool gives_neighbours(const Surface& surface, std::size_t num_sites) {
+    return surface.num_vertices() >= vertices_per_site * num_sites;
+}
+
+namespace {
+
+std::vector<agvd::Triangle> neighbours(const PreparedSurface& prepared,
+                                       const agvd::DistanceBounds& labels,
+                                       std::span<const SurfacePoint> sites, int num_threads,
+                                       const agvd::Progress& progress) {
+    const Surface& surface = prepared.base.surface();
+    if (gives_neighbours(surface, sites.size())) return label_triangles(surface, labels);
+    const std::vector<SurfacePoint> on_base = prepared.base.to_intrinsic(sites);
+    const agvd::Propagation propagation = agvd::propagate(
+        surface, prepared.layout, on_base,
+        {.max_error = neighbour_error, .num_threads = num_threads, .progress = progress});
+    return build_dual(surface,
+                      agvd::build_diagram(surface, on_base, propagation,
+                                          {.num_threads = num_threads, .progress = progress}),
+                      progress);
+}
+
+}  // namespace
+
+std::vector<agvd::Triangle> triangulate_sites(const PreparedSurface& prepared,
+                                              const agvd::DistanceBounds& labels,
+                                              std::span<const SurfacePoint> sites,
+                                              std::span<const ChainEdge> chain, int num_threads,
+                                              const agvd::Progress& progress) {
+    std::vector<agvd::Triangle> triangles =
+        neighbours(prepared, labels, sites, num_threads, progress);
+    if (!chain.empty()) (void)close_rim(chain, triangles);
+    return triangles;
+}
+
+bool is_hopeless(const Relaxation& relaxation) {
+    const auto& cells = relaxation.energy().cells;
+    const auto lonely = static_cast<double>(
+        std::count_if(cells.begin(), cells.end(), [](const auto& cell) { return cell.area == 0; }));
+    const auto turned = static_cast<double>(relaxation.num_turned());
+    return turned > hopeless_share * static_cast<double>(relaxation.triangles().size()) ||
+           lonely > hopeless_share * static_cast<double>(cells.size());
+}
+
+Levels::Levels(const PreparedSurface& prepared, const RelaxOptions& options, int num_levels)
+    : prepared_(prepared),
+      surface_(prepared.base.surface()),
+      options_(options),
+      steps_planned_(options.steps * num_levels) {
+    if (options.progress) progress_ = [this](double) { return options_.progress(fraction()); };
+}
+
+void Levels::run(Relaxation& relaxation, const agvd::DistanceBounds* labels,
+                 std::span<const Index> corners, std::span<const ChainEdge> chain) {
+    const auto num_sites = static_cast<Index>(relaxation.sites().size());
+    RelaxLevel& level = result_.levels.emplace_back();
+    level.num_sites = num_sites;
+    level.energy.push_back(relaxation.energy().energy);
+    if (labels != nullptr) look(relaxation, *labels, corners);
+    double last = relaxation.objective();
+    for (int step = 1; step <= options_.steps; ++step) {
+        relaxation.step();
+        level.energy.push_back(relaxation.energy().energy);
+        ++steps_done_;
+        agvd::poll(options_.progress, fraction());
+        if (step % steps_per_sweep != 0 || step == options_.steps) continue;
+        if (last - relaxation.objective() < options_.tolerance * last) break;
+        sweep(relaxation, corners, chain);
+        last = relaxation.objective();
+    }
+}
+
+agvd::DistanceBounds Levels::label(std::span<const SurfacePoint> sites) const {
+    return label_vertices(prepared_, sites, options_.num_threads, progress_);
+}
+
+RelaxResult Levels::finish(std::vector<SurfacePoint> sites) {
+    result_.sites = std::move(sites);
+    return std::move(result_);
+}
+
+double Levels::fraction() const {
+    return static_cast<double>(steps_done_) / std::max(steps_planned_, 1);
+}
+
+bool Levels::gives_cells(Index num_sites) const {
+    return surface_.num_vertices() >= vertices_per_cell * num_sites;
+}
+
+void Levels::look(Relaxation& relaxation, const agvd::DistanceBounds& labels,
+                  std::span<const Index> corners) const {
+    const auto num_sites = static_cast<Index>(relaxation.sites().size());
+    if (!gives_cells(num_sites)) return;
+    if (options_.boundary == Boundary::Keep) {
+        relaxation.move_to_boundary(
+            boundary_places(prepared_.base, labels, num_sites, corners));
+    }
+    relaxation.set_density(
+        measure_cells(prepared_, labels, num_sites, options_.num_threads, progress_));
+}
+
+// Looks at the surface again.
+void Levels::sweep(Relaxation& relaxation, std::span<const Index> corners,
+                   std::span<const ChainEdge> chain) {
+    const auto num_sites = static_cast<Index>(relaxation.sites().size());
+    if (!gives_cells(num_sites)) return;
+    const agvd::DistanceBounds labels = label(relaxation.sites());
+    const Index flaws = relaxation.num_flaws();
+    const bool is_cheap = gives_neighbours(surface_, num_sites);
+    const bool is_worth_it =
+        num_mended_ < result_.levels.size() && flaws > most_flaws * num_sites;
+    if (flaws > 0 && (is_cheap || is_worth_it)) {
+        if (!is_cheap) num_mended_ = result_.levels.size();
+        relaxation.mend(triangulate_sites(prepared_, labels, relaxation.sites(), chain,
+                                          options_.num_threads, progress_));
+    }
+    look(relaxation, labels, corners);
+}
+
+}  // namespace remesh::detail

@@ -1,0 +1,71 @@
+//! \file
+//! Runs of relaxation: steps on one level of sites, with looks at the surface between them.
+#pragma once
+
+#include <span>
+
+#include "agvd/propagation/distance_bounds.h"
+#include "remesh/features/curve_sites.h"
+#include "remesh/relax/relax_sites.h"
+#include "remesh/relax/relaxation.h"
+
+namespace remesh::detail {
+
+//! Whether labels of the vertices tell who neighbours whom.
+[[nodiscard]] bool gives_neighbours(const agvd::Surface& surface, std::size_t num_sites);
+
+//! The sites' triangulation by labels; exactly where faces are too large for those.
+//!
+//! \param labels  of the base's vertices. \param chain  edges that are to be on its rim.
+[[nodiscard]] std::vector<agvd::Triangle> triangulate_sites(
+    const PreparedSurface& prepared, const agvd::DistanceBounds& labels,
+    std::span<const agvd::SurfacePoint> sites, std::span<const ChainEdge> chain, int num_threads,
+    const agvd::Progress& progress);
+
+//! Triangles as large as the features of the surface, or sites in none: what is even on them is not
+//! on the surface.
+[[nodiscard]] bool is_hopeless(const Relaxation& relaxation);
+
+//! The levels of one relaxation, coarse to fine.
+class Levels {
+public:
+    //! \param prepared  outlives this, as options do.
+    Levels(const PreparedSurface& prepared, const RelaxOptions& options, int num_levels);
+    Levels(const Levels&) = delete;
+    Levels& operator=(const Levels&) = delete;
+
+    //! For all that a step is made of: tells how many steps are done.
+    [[nodiscard]] const agvd::Progress& progress() const { return progress_; }
+
+    //! Steps until nothing is gained or all are done.
+    //!
+    //! \param labels   of the sites; null: the relaxation knows its weights.
+    //! \param corners  boundary vertices that sites go to: of the spacing that these sites have.
+    //! \param chain    edges of curves that the relaxation holds.
+    void run(Relaxation& relaxation, const agvd::DistanceBounds* labels,
+             std::span<const agvd::Index> corners, std::span<const ChainEdge> chain = {});
+
+    [[nodiscard]] agvd::DistanceBounds label(std::span<const agvd::SurfacePoint> sites) const;
+
+    //! The last call.
+    [[nodiscard]] RelaxResult finish(std::vector<agvd::SurfacePoint> sites);
+
+private:
+    [[nodiscard]] double fraction() const;
+    [[nodiscard]] bool gives_cells(agvd::Index num_sites) const;
+    void look(Relaxation& relaxation, const agvd::DistanceBounds& labels,
+              std::span<const agvd::Index> corners) const;
+    void sweep(Relaxation& relaxation, std::span<const agvd::Index> corners,
+               std::span<const ChainEdge> chain);
+
+    const PreparedSurface& prepared_;
+    const agvd::Surface& surface_;  // Of its base.
+    const RelaxOptions& options_;
+    agvd::Progress progress_;
+    int steps_planned_;
+    int steps_done_ = 0;
+    std::size_t num_mended_ = 0;  // Levels up to the last one that has paid for a propagation.
+    RelaxResult result_;
+};
+
+}  // namespace remesh::detail

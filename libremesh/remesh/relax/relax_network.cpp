@@ -1,0 +1,257 @@
+#include "remesh/relax/relax_network.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <memory>
+
+#include "remesh/relax/close_rim.h"
+#include "remesh/relax/levels.h"
+#include "remesh/relax/subdivide.h"
+#include "remesh/relax/walk.h"
+
+namespace remesh {
+namespace {
+
+using agvd::Index;
+using agvd::Surface;
+using agvd::SurfacePoint;
+using agvd::Triangle;
+using detail::Relaxation;
+
+// A coarse start needs this many inner sites.
+constexpr double least_coarse_sites = 32;
+
+// Half of each curve's intervals, as far as it stays what a triangulation needs.
+std::vector<Index> coarse_intervals(const NetworkPlan& plan) {
+    const std::vector<Index> fewest =
+        curve_intervals(plan.network, std::numeric_limits<double>::infinity());
+    std::vector<Index> result;
+    for (std::size_t c = 0; c < plan.intervals.size(); ++c) {
+        const Index half = (plan.intervals[c] + 1) / 2;
+        result.push_back(std::min(plan.intervals[c], std::max(half, fewest[c])));
+    }
+    return result;
+}
+
+double euler_of(const Surface& surface) {
+    double euler = static_cast<double>(surface.num_faces()) - surface.num_edges();
+    for (const Index h : surface.outgoing) euler += h != agvd::no_index ? 1 : 0;
+    return euler;
+}
+
+// The sites of a coarse level among those of the fine one.
+class Refinement {
+public:
+    Refinement(const NetworkPlan& plan, const CurveSites& coarse, const CurveSites& fine)
+        : plan_(plan), coarse_(coarse), fine_(fine) {}
+
+    // A site's number in the fine level.
+    [[nodiscard]] Index number(Index site) const {
+        if (site >= coarse_.sites.size()) {
+            return site + static_cast<Index>(fine_.sites.size() - coarse_.sites.size());
+        }
+        const auto group = static_cast<Index>(
+            std::upper_bound(coarse_.first_copy.begin(), coarse_.first_copy.end(), site) -
+            coarse_.first_copy.begin() - 1);
+        return fine_.first_copy[fine_group(group)] + site - coarse_.first_copy[group];
+    }
+
+    // The fine site in the middle of an interval; agvd::no_index: there is none.
+    [[nodiscard]] Index middle(const ChainEdge& edge, Index copy_of_side) const {
+        const Index begin = fine_place(edge.curve, edge.interval);
+        if (fine_place(edge.curve, edge.interval + 1) - begin < 2) return agvd::no_index;
+        return fine_.first_copy[group_at(fine_, edge.curve, begin + 1)] + copy_of_side;
+    }
+
+private:
+    // Where the k-th vertex of the coarse curve is among those of the fine one.
+    [[nodiscard]] Index fine_place(Index curve, Index k) const {
+        const std::uint64_t fine = plan_.intervals[curve];
+        return static_cast<Index>(k * fine / num_intervals(coarse_, curve));
+    }
+    [[nodiscard]] Index num_intervals(const CurveSites& sites, Index curve) const {
+        const Index inner = sites.first_of_curve[curve + 1] - sites.first_of_curve[curve];
+        return plan_.network.curves[curve].is_closed() ? inner : inner + 1;
+    }
+    [[nodiscard]] Index group_at(const CurveSites& sites, Index curve, Index place) const {
+        const bool is_closed = plan_.network.curves[curve].is_closed();
+        return sites.first_of_curve[curve] + place - (is_closed ? 0 : 1);
+    }
+    [[nodiscard]] Index fine_group(Index group) const {
+        if (group < coarse_.num_nodes()) return group;
+        const auto curve = static_cast<Index>(std::upper_bound(coarse_.first_of_curve.begin(),
+                                                               coarse_.first_of_curve.end(),
+                                                               group) -
+                                              coarse_.first_of_curve.begin() - 1);
+        const bool is_closed = plan_.network.curves[curve].is_closed();
+        const Index place = group - coarse_.first_of_curve[curve] + (is_closed ? 0 : 1);
+        return group_at(fine_, curve, fine_place(curve, place));
+    }
+
+    const NetworkPlan& plan_;
+    const CurveSites& coarse_;
+    const CurveSites& fine_;
+};
+
+// Middles on curves are sites of the fine level; those that closing the rim has made are added.
+void take_curve_middles(const NetworkPlan& plan, const Refinement& refinement,
+                        std::span<const ChainEdge> chain, std::span<const SurfacePoint> sites,
+                        detail::SiteDual& dual) {
+    using Pair = std::pair<Index, Index>;
+    std::map<Pair, detail::Middle> by_pair;
+    for (const detail::Middle& m : dual.middles) by_pair[{m.low, m.high}] = m;
+    const Surface& surface = plan.cut.surface;
+    const auto at = [&](Index site) { return position(surface.mesh.view(), sites[site]); };
+    for (const Triangle& t : dual.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Pair pair = std::minmax({t[k], t[(k + 1) % 3]});
+            if (by_pair.contains(pair)) continue;
+            const agvd::Vec3 way = at(pair.second) - at(pair.first);
+            by_pair[pair] = {pair.first, pair.second, way.norm(),
+                             detail::walk_straight(surface, sites[pair.first], way / 2)};
+        }
+    }
+    for (const ChainEdge& edge : chain) {
+        const auto found = by_pair.find(std::minmax({edge.from, edge.to}));
+        if (found == by_pair.end()) continue;
+        const Curve& curve = plan.network.curves[edge.curve];
+        const bool is_second = edge.side == Side::Right && curve.has(Side::Left);
+        const Index site = refinement.middle(edge, is_second ? 1 : 0);
+        if (site == agvd::no_index) {
+            by_pair.erase(found);  // The interval stays whole.
+        } else {
+            found->second.site = site;
+        }
+    }
+    dual.middles.clear();
+    for (auto& [pair, middle] : by_pair) dual.middles.push_back(middle);
+}
+
+class NetworkSampler {
+public:
+    NetworkSampler(const PreparedSurface& surface, const NetworkPlan& plan,
+                   const SamplingOptions& sampling, const RelaxOptions& options)
+        : surface_(surface),
+          plan_(plan),
+          sampling_(sampling),
+          options_(options),
+          levels_(surface, options_, 2),
+          fine_(place_curve_sites(plan.network, plan.cut, plan.intervals)) {
+        options_.boundary = Boundary::Free;
+        num_inner_ = sampling.num_samples - fine_.num_groups();
+    }
+
+    NetworkSites run() {
+        if (options_.steps == 0) return {fine_, sample(fine_, num_inner_, plan_.spacing), {}};
+        std::unique_ptr<Relaxation> last = start_coarse();
+        const std::vector<ChainEdge> chain = chain_edges(plan_.network, plan_.cut, fine_);
+        if (last) {
+            levels_.run(*last, nullptr, {}, chain);
+        } else {
+            last = start(fine_, sample(fine_, num_inner_, plan_.spacing));
+        }
+        NetworkSites result{last->curves()->sites(), last->sites(), {}};
+        result.levels = levels_.finish({}).levels;
+        return result;
+    }
+
+private:
+    std::vector<SurfacePoint> sample(const CurveSites& curves, Index num_inner, double spacing) {
+        std::vector<SurfacePoint> sites = curves.sites;
+        const auto inner = sample_inner_sites(plan_.cut.surface, curves.sites, num_inner, spacing,
+                                              sampling_);
+        sites.insert(sites.end(), inner.begin(), inner.end());
+        return sites;
+    }
+
+    // Relaxes a level from scratch.
+    std::unique_ptr<Relaxation> start(const CurveSites& curves, std::vector<SurfacePoint> sites) {
+        const std::vector<ChainEdge> chain = chain_edges(plan_.network, plan_.cut, curves);
+        const agvd::DistanceBounds labels = levels_.label(sites);
+        std::vector<Triangle> triangles = detail::triangulate_sites(
+            surface_, labels, sites, chain, options_.num_threads, levels_.progress());
+        auto relaxation = std::make_unique<Relaxation>(
+            surface_.input(), std::move(sites), std::move(triangles), std::vector<std::uint8_t>{},
+            std::vector<double>{}, options_.num_threads, levels_.progress());
+        relaxation->hold(plan_.network, curves);
+        levels_.run(*relaxation, &labels, {}, chain);
+        return relaxation;
+    }
+
+    // A relaxed coarse level, divided; nothing if it would have too few sites.
+    std::unique_ptr<Relaxation> start_coarse() {
+        const std::vector<Index> intervals = coarse_intervals(plan_);
+        const CurveSites coarse = place_curve_sites(plan_.network, plan_.cut, intervals);
+        const double euler = euler_of(plan_.cut.surface);
+        const double wanted =
+            (num_inner_ - static_cast<double>(coarse.sites.size()) + 3 * euler) / 4 + 1;
+        if (wanted < least_coarse_sites) return nullptr;
+        const auto num_inner = static_cast<Index>(wanted);
+        if (!detail::gives_neighbours(surface_.base.surface(), coarse.sites.size() + num_inner)) {
+            return nullptr;
+        }
+        const auto first = start(coarse, sample(coarse, num_inner, 2 * plan_.spacing));
+        return divide(*first, first->curves()->sites());
+    }
+
+    std::unique_ptr<Relaxation> divide(const Relaxation& first, const CurveSites& coarse) {
+        const std::vector<ChainEdge> chain = chain_edges(plan_.network, plan_.cut, coarse);
+        const Refinement refinement(plan_, coarse, fine_);
+        detail::SiteDual dual =
+            detail::label_dual(surface_.base, levels_.label(first.sites()), true);
+        (void)detail::close_rim(chain, dual.triangles);
+        take_curve_middles(plan_, refinement, chain, first.sites(), dual);
+        // The sites in the order of the fine level, where those of new curve sites have no triangle.
+        std::vector<SurfacePoint> sites = fine_.sites;
+        std::vector<double> weights(fine_.sites.size(), 1);
+        for (Index i = 0; i < first.sites().size(); ++i) {
+            if (i < coarse.sites.size()) {
+                weights[refinement.number(i)] = first.weights()[i];
+            } else {
+                sites.push_back(first.sites()[i]);
+                weights.push_back(first.weights()[i]);
+            }
+        }
+        for (Triangle& t : dual.triangles) {
+            for (Index& i : t) i = refinement.number(i);
+        }
+        for (detail::Middle& m : dual.middles) {
+            const std::pair<Index, Index> pair =
+                std::minmax({refinement.number(m.low), refinement.number(m.high)});
+            m.low = pair.first;
+            m.high = pair.second;
+            if (m.site != agvd::no_index) weights[m.site] = (weights[m.low] + weights[m.high]) / 2;
+        }
+        std::sort(dual.middles.begin(), dual.middles.end(), [](const auto& a, const auto& b) {
+            return std::pair(a.low, a.high) < std::pair(b.low, b.high);
+        });
+        const auto count = static_cast<Index>(fine_.sites.size()) + num_inner_;
+        std::optional<detail::TriangulatedSites> divided =
+            detail::subdivide(plan_.cut.surface, sites, weights, dual, count);
+        if (!divided) return nullptr;
+        auto last = std::make_unique<Relaxation>(
+            surface_.input(), std::move(divided->sites), std::move(divided->triangles),
+            std::vector<std::uint8_t>{}, std::move(divided->weights), options_.num_threads,
+            levels_.progress());
+        last->hold(plan_.network, fine_);
+        return last;
+    }
+
+    const PreparedSurface& surface_;
+    const NetworkPlan& plan_;
+    const SamplingOptions& sampling_;
+    RelaxOptions options_;
+    detail::Levels levels_;
+    const CurveSites fine_;
+    Index num_inner_;
+};
+
+}  // namespace
+
+NetworkSites sample_network_sites(const PreparedSurface& surface, const NetworkPlan& plan,
+                                  const SamplingOptions& sampling, const RelaxOptions& options) {
+    return NetworkSampler(surface, plan, sampling, options).run();
+}
+
+}  // namespace remesh

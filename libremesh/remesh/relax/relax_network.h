@@ -1,0 +1,36 @@
+//! \file
+//! Sites on a surface that is cut along a network of curves.
+#pragma once
+
+#include "remesh/features/curve_sites.h"
+#include "remesh/relax/relax_sites.h"
+
+namespace remesh {
+
+//! A network with what sampling has to know of it.
+struct NetworkPlan {
+    CurveNetwork network;
+    CutSurface cut;                      //!< The surface, cut along it.
+    std::vector<agvd::Index> intervals;  //!< Of each curve: see curve_intervals.
+    double spacing = 0;                  //!< Mesh units: of neighbouring sites.
+};
+
+struct NetworkSites {
+    CurveSites curves;                      //!< Of the curves, with their copies.
+    std::vector<agvd::SurfacePoint> sites;  //!< The copies, then the inner ones.
+    std::vector<RelaxLevel> levels;         //!< Coarse to fine; empty: they were not relaxed.
+};
+
+//! As many sites as asked for, those of curves counted once, and relaxes them, coarse to fine:
+//! those of curves slide along these.
+//!
+//! \param surface   of plan.cut.surface. \param plan  its network needs no more than
+//!                  sampling.num_samples sites.
+//! \param options   boundary and corners do not count.
+//! \throw as sample_relaxed_sites.
+[[nodiscard]] NetworkSites sample_network_sites(const PreparedSurface& surface,
+                                                const NetworkPlan& plan,
+                                                const SamplingOptions& sampling,
+                                                const RelaxOptions& options);
+
+}  // namespace remesh
