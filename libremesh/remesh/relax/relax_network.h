@@ -2,18 +2,10 @@
 //! Sites on a surface that is cut along a network of curves.
 #pragma once
 
-#include "remesh/features/curve_sites.h"
 #include "remesh/relax/relax_sites.h"
+#include "remesh/sampling/network_plan.h"
 
 namespace remesh {
-
-//! A network with what sampling has to know of it.
-struct NetworkPlan {
-    CurveNetwork network;
-    CutSurface cut;                      //!< The surface, cut along it.
-    std::vector<agvd::Index> intervals;  //!< Of each curve: see curve_intervals.
-    double spacing = 0;                  //!< Mesh units: of neighbouring sites.
-};
 
 struct NetworkSites {
     CurveSites curves;                      //!< Of the curves, with their copies.

@@ -1,0 +1,69 @@
+#include "remesh/features/crease_chains.h"
+
+#include <algorithm>
+
+#include "agvd/mesh/one_ring.h"
+
+namespace remesh::detail {
+namespace {
+
+using agvd::Index;
+using agvd::no_index;
+using agvd::Surface;
+
+// The other edge of the set at an inner vertex.
+Index other_edge(const CreaseSet& set, Index vertex, Index edge) {
+    Index other = no_index;
+    agvd::for_each_outgoing(set.surface(), vertex, [&](Index h) {
+        const Index e = set.surface().edge[h];
+        if (e != edge && set.has(e)) other = e;
+    });
+    return other;
+}
+
+Index other_vertex(const Surface& surface, Index edge, Index vertex) {
+    const Index h = surface.edge_half[edge];
+    return surface.tail(h) == vertex ? surface.head(h) : surface.tail(h);
+}
+
+// From `edge`, which is not added, through `vertex` to the end. Returns the vertex there.
+Index follow(const CreaseSet& set, Index edge, Index vertex, std::vector<Index>& edges) {
+    const Index first = edge;
+    while (set.is_inner(vertex)) {
+        edge = other_edge(set, vertex, edge);
+        if (edge == first) break;  // Around a closed chain.
+        edges.push_back(edge);
+        vertex = other_vertex(set.surface(), edge, vertex);
+    }
+    return vertex;
+}
+
+}  // namespace
+
+CreaseChain chain_of(const CreaseSet& set, Index edge) {
+    const Surface& surface = set.surface();
+    const Index h = surface.edge_half[edge];
+    CreaseChain chain;
+    chain.ends[0] = follow(set, edge, surface.tail(h), chain.edges);
+    const bool is_closed = chain.ends[0] == surface.head(h) && set.is_inner(chain.ends[0]);
+    std::reverse(chain.edges.begin(), chain.edges.end());
+    chain.edges.push_back(edge);
+    chain.ends[1] = is_closed ? chain.ends[0] : follow(set, edge, surface.head(h), chain.edges);
+    for (const Index e : chain.edges) chain.length += surface.length[e];
+    return chain;
+}
+
+std::vector<CreaseChain> chains_of(const CreaseSet& set, agvd::Poller& poller) {
+    agvd::Ticker ticker(poller);
+    std::vector<std::uint8_t> is_done(set.surface().num_edges());
+    std::vector<CreaseChain> chains;
+    for (Index e = 0; e < set.surface().num_edges(); ++e) {
+        ticker.tick();
+        if (!set.has(e) || is_done[e]) continue;
+        chains.push_back(chain_of(set, e));
+        for (const Index other : chains.back().edges) is_done[other] = 1;
+    }
+    return chains;
+}
+
+}  // namespace remesh::detail

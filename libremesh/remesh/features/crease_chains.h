@@ -1,0 +1,62 @@
+//! \file
+//! A set of edges as chains between its nodes.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "agvd/core/poller.h"
+#include "agvd/mesh/surface.h"
+
+namespace remesh::detail {
+
+//! Edges in a row. Inner vertices have two edges of the set and are not on the boundary.
+struct CreaseChain {
+    std::vector<agvd::Index> edges;
+    agvd::Index ends[2] = {agvd::no_index, agvd::no_index};  //!< Vertices; the same if closed.
+    double length = 0;
+};
+
+//! A set of inner edges and how many of them meet at each vertex.
+class CreaseSet {
+public:
+    explicit CreaseSet(const agvd::Surface& surface)
+        : surface_(&surface), is_in_(surface.num_edges()), degree_(surface.num_vertices()) {}
+
+    void add(agvd::Index edge) { change(edge, true); }
+    void remove(agvd::Index edge) { change(edge, false); }
+    [[nodiscard]] bool has(agvd::Index edge) const { return is_in_[edge] != 0; }
+    [[nodiscard]] agvd::Index degree(agvd::Index vertex) const { return degree_[vertex]; }
+    //! A chain ends here, in nothing.
+    [[nodiscard]] bool is_open_end(agvd::Index vertex) const {
+        return degree_[vertex] == 1 && !surface_->is_boundary_vertex(vertex);
+    }
+    //! A chain goes on here.
+    [[nodiscard]] bool is_inner(agvd::Index vertex) const {
+        return degree_[vertex] == 2 && !surface_->is_boundary_vertex(vertex);
+    }
+    [[nodiscard]] const agvd::Surface& surface() const { return *surface_; }
+    [[nodiscard]] std::vector<std::uint8_t> take_flags() { return std::move(is_in_); }
+
+private:
+    void change(agvd::Index edge, bool is_in) {
+        if (has(edge) == is_in) return;
+        is_in_[edge] = is_in ? 1 : 0;
+        const agvd::Index h = surface_->edge_half[edge];
+        for (const agvd::Index v : {surface_->tail(h), surface_->head(h)}) {
+            degree_[v] += is_in ? 1 : agvd::no_index;  // Minus one.
+        }
+    }
+
+    const agvd::Surface* surface_;
+    std::vector<std::uint8_t> is_in_;  // #E.
+    std::vector<agvd::Index> degree_;  // #V.
+};
+
+//! The chain that holds the edge.
+[[nodiscard]] CreaseChain chain_of(const CreaseSet& set, agvd::Index edge);
+
+//! All chains, by their lowest edge. Cost: O(#E).
+[[nodiscard]] std::vector<CreaseChain> chains_of(const CreaseSet& set, agvd::Poller& poller);
+
+}  // namespace remesh::detail

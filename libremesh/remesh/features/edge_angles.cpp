@@ -1,0 +1,129 @@
+#include "remesh/features/edge_angles.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "agvd/core/parallel.h"
+#include "agvd/mesh/face_area.h"
+
+namespace remesh::detail {
+namespace {
+
+using agvd::Index;
+using agvd::no_index;
+using agvd::Surface;
+using agvd::Vec3;
+
+constexpr Index grain = 4096;
+
+double angle_between(const Vec3& a, const Vec3& b) {
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+// Faces put together. A patch is known by its root.
+struct Patches {
+    std::vector<Index> parent;    // #F.
+    std::vector<Vec3> area;       // #F: twice the vector area; of a root, of its patch.
+    std::vector<double> longest;  // #F: side; of a root, of its patch.
+
+    [[nodiscard]] Index root(Index f) {
+        while (parent[f] != f) f = parent[f] = parent[parent[f]];
+        return f;
+    }
+    [[nodiscard]] bool is_thin(Index root, double thin) const {
+        return area[root].norm() < thin * longest[root];
+    }
+    void join(Index a, Index b) {
+        if (b < a) std::swap(a, b);
+        parent[b] = a;
+        area[a] += area[b];
+        longest[a] = std::max(longest[a], longest[b]);
+    }
+};
+
+Patches single_faces(const Surface& surface, int num_threads, agvd::Poller& poller) {
+    const Index count = surface.num_faces();
+    Patches patches{std::vector<Index>(count), std::vector<Vec3>(count),
+                    std::vector<double>(count)};
+    const auto& p = surface.mesh.positions;
+    agvd::parallel_chunks(
+        count, grain, num_threads,
+        [&](Index, Index begin, Index end) {
+            for (Index f = begin; f < end; ++f) {
+                const auto& [a, b, c] = surface.mesh.triangles[f];
+                patches.parent[f] = f;
+                patches.area[f] = (p[b] - p[a]).cross(p[c] - p[a]);
+                patches.longest[f] =
+                    std::max({surface.length_of(3 * f), surface.length_of(3 * f + 1),
+                              surface.length_of(3 * f + 2)});
+            }
+        },
+        poller);
+    return patches;
+}
+
+// A side of a thin face, and how well the face across goes with it: long sides come first, since
+// only across these a needle gains height, and faces of about its direction, since a needle in
+// a plane belongs to this plane.
+struct Seam {
+    double merit;
+    Index edge;
+};
+
+std::vector<Seam> seams_of_thin_faces(const Surface& surface, const Patches& patches, double thin,
+                                      agvd::Poller& poller) {
+    agvd::Ticker ticker(poller);
+    std::vector<Seam> seams;
+    for (Index f = 0; f < surface.num_faces(); ++f) {
+        ticker.tick();
+        if (!patches.is_thin(f, thin)) continue;
+        for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+            const Index twin = surface.twin[h];
+            if (twin == no_index) continue;
+            const Index across = Surface::face(twin);
+            if (across < f && patches.is_thin(across, thin)) continue;  // It has told of it.
+            const double turn = angle_between(patches.area[f], patches.area[across]);
+            seams.push_back({surface.length_of(h) * (1 + std::cos(turn)), surface.edge[h]});
+        }
+    }
+    std::sort(seams.begin(), seams.end(), [](const Seam& a, const Seam& b) {
+        return a.merit != b.merit ? a.merit > b.merit : a.edge < b.edge;
+    });
+    return seams;
+}
+
+void join_thin_faces(const Surface& surface, double thin, Patches& patches, agvd::Poller& poller) {
+    agvd::Ticker ticker(poller);
+    for (const Seam& seam : seams_of_thin_faces(surface, patches, thin, poller)) {
+        ticker.tick();
+        const Index h = surface.edge_half[seam.edge];
+        const Index a = patches.root(Surface::face(h));
+        const Index b = patches.root(Surface::face(surface.twin[h]));
+        if (a != b && (patches.is_thin(a, thin) || patches.is_thin(b, thin))) patches.join(a, b);
+    }
+}
+
+}  // namespace
+
+std::vector<double> edge_angles(const Surface& surface, double thin, int num_threads,
+                                agvd::Poller& poller) {
+    Patches patches = single_faces(surface, num_threads, poller);
+    join_thin_faces(surface, thin, patches, poller);
+    for (Index f = 0; f < surface.num_faces(); ++f) patches.parent[f] = patches.root(f);
+    std::vector<double> angles(surface.num_edges());
+    agvd::parallel_chunks(
+        surface.num_edges(), grain, num_threads,
+        [&](Index, Index begin, Index end) {
+            for (Index e = begin; e < end; ++e) {
+                const Index h = surface.edge_half[e];
+                if (surface.twin[h] == no_index) continue;
+                const Index a = patches.parent[Surface::face(h)];
+                const Index b = patches.parent[Surface::face(surface.twin[h])];
+                if (a != b) angles[e] = angle_between(patches.area[a], patches.area[b]);
+            }
+        },
+        poller);
+    return angles;
+}
+
+}  // namespace remesh::detail

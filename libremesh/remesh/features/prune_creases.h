@@ -1,0 +1,23 @@
+//! \file
+//! Takes out of a set of crease edges what looks like noise at a scale.
+#pragma once
+
+#include "remesh/features/crease_chains.h"
+
+namespace remesh::detail {
+
+//! What may stay, mesh units. The merit of a chain is the sum of its edges' lengths times weights.
+struct PruningRules {
+    double least_spur = 0;     //!< Merit of a chain with one end in nothing.
+    double least_island = 0;   //!< Merit of a chain with both ends in nothing.
+    double least_network = 0;  //!< Merit of all chains that hang together, of a closed one as well.
+    double short_chain = 0;    //!< Length below which chains are short.
+    double most_short = 1;     //!< Share of a network's length that may be in short chains.
+};
+
+//! \param weights  #E, >= 0.
+//! Cost: O(#E + k log k), k = edges of the set.
+void prune(CreaseSet& set, const std::vector<double>& weights, const PruningRules& rules,
+           agvd::Poller& poller);
+
+}  // namespace remesh::detail

@@ -1,0 +1,114 @@
+#include "remesh/sampling/network_plan.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "agvd/mesh/face_area.h"
+#include "remesh/sampling/components.h"
+#include "remesh/sampling/shares.h"
+
+namespace remesh {
+namespace {
+
+using agvd::Index;
+using agvd::Surface;
+
+constexpr int num_halvings = 60;
+// Share of the creases that goes at once.
+constexpr std::size_t drop_divisor = 10;
+
+struct Patch {
+    double area = 0, boundary_length = 0;
+};
+
+std::vector<Patch> find_patches(const Surface& surface, const agvd::Progress& progress) {
+    std::vector<Patch> patches;
+    for (const detail::Component& component : detail::find_components(surface, progress)) {
+        Patch& patch = patches.emplace_back();
+        patch.area = component.area();
+        for (const Index f : component.faces) {
+            for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+                if (surface.twin[h] == agvd::no_index) patch.boundary_length += surface.length_of(h);
+            }
+        }
+    }
+    return patches;
+}
+
+double num_sites_at(const CurveNetwork& network, const std::vector<Patch>& patches,
+                    double spacing) {
+    auto count = static_cast<double>(num_curve_sites(network, curve_intervals(network, spacing)));
+    for (const Patch& p : patches) {
+        count += std::max(detail::inner_sites(p.area, p.boundary_length, spacing), 0.0);
+    }
+    return count;
+}
+
+// The least spacing that needs no more sites than there are.
+double find_spacing(const CurveNetwork& network, const std::vector<Patch>& patches,
+                    double num_sites) {
+    double area = 0, length = 0;
+    for (const Patch& p : patches) {
+        area += p.area;
+        length += p.boundary_length;
+    }
+    double low = std::sqrt(area / num_sites) / 4, high = length + std::sqrt(area);
+    for (int i = 0; i < num_halvings; ++i) {
+        const double middle = (low + high) / 2;
+        (num_sites_at(network, patches, middle) > num_sites ? low : high) = middle;
+    }
+    return high;
+}
+
+bool is_crease_curve(const Curve& curve) { return curve.has(Side::Left) && curve.has(Side::Right); }
+
+// A tenth of the creases, the shortest ones; nothing is left if there are none.
+void drop_shortest(const Surface& surface, const CurveNetwork& network,
+                   std::vector<std::uint8_t>& is_crease) {
+    std::vector<std::pair<double, Index>> order;
+    for (Index c = 0; c < network.curves.size(); ++c) {
+        if (is_crease_curve(network.curves[c])) order.emplace_back(network.curves[c].length(), c);
+    }
+    std::sort(order.begin(), order.end());
+    order.resize((order.size() + drop_divisor - 1) / drop_divisor);
+    for (const auto& [length, c] : order) {
+        for (const Index h : network.curves[c].on(Side::Left)) is_crease[surface.edge[h]] = 0;
+    }
+}
+
+}  // namespace
+
+std::optional<NetworkPlan> plan_network(const Surface& surface,
+                                        std::vector<std::uint8_t> is_crease, Index num_sites,
+                                        int num_threads, const agvd::Progress& progress) {
+    const auto length_of_creases = [&] {
+        double length = 0;
+        for (Index e = 0; e < surface.num_edges(); ++e) {
+            if (is_crease[e] != 0) length += surface.length[e];
+        }
+        return length;
+    };
+    const double length_at_first = length_of_creases();
+    const double spacing = detail::spacing_of(num_sites, agvd::surface_area(surface), 0);
+    while (std::any_of(is_crease.begin(), is_crease.end(), [](auto c) { return c != 0; })) {
+        NetworkPlan plan;
+        plan.network = find_network(surface, is_crease, spacing);
+        const auto fewest =
+            curve_intervals(plan.network, std::numeric_limits<double>::infinity());
+        if (num_curve_sites(plan.network, fewest) > num_sites) {
+            drop_shortest(surface, plan.network, is_crease);
+            continue;
+        }
+        plan.cut = cut_surface(surface, is_crease, num_threads, progress);
+        plan.spacing =
+            find_spacing(plan.network, find_patches(plan.cut.surface, progress), num_sites);
+        plan.intervals = curve_intervals(plan.network, plan.spacing);
+        plan.length = length_of_creases();
+        plan.dropped_length = length_at_first - plan.length;
+        return plan;
+    }
+    return std::nullopt;
+}
+
+}  // namespace remesh

@@ -1,0 +1,33 @@
+//! \file
+//! How a number of sites is shared between the curves of a surface and what lies between them.
+#pragma once
+
+#include <optional>
+
+#include "remesh/features/curve_sites.h"
+
+namespace remesh {
+
+//! A network with what sampling has to know of it.
+struct NetworkPlan {
+    CurveNetwork network;
+    CutSurface cut;                      //!< The surface, cut along it.
+    std::vector<agvd::Index> intervals;  //!< Of each curve: see curve_intervals.
+    double spacing = 0;                  //!< Mesh units: of neighbouring sites.
+    double length = 0;                   //!< Of the creases kept, mesh units.
+    double dropped_length = 0;           //!< Of those that the sites are too few for.
+};
+
+//! Boundary and creases, with the spacing at which the sites of curves and patches are so many.
+//! Where they are too few for all curves, the shortest creases go first.
+//!
+//! \param is_crease   #E. \param num_sites  those of curves counted once.
+//! \return nothing if no crease is left.
+//! \throw agvd::Cancelled  the progress callback returned false.
+//! Cost: O(n), again for each tenth of the creases that is dropped.
+[[nodiscard]] std::optional<NetworkPlan> plan_network(const agvd::Surface& surface,
+                                                      std::vector<std::uint8_t> is_crease,
+                                                      agvd::Index num_sites, int num_threads = 0,
+                                                      const agvd::Progress& progress = {});
+
+}  // namespace remesh
