@@ -91,6 +91,12 @@ void move_along(const Curve& curve, Index group, double along, CurveSites& sites
     }
 }
 
+std::vector<DirectedEdge> ends_of(std::span<const ChainEdge> chain) {
+    std::vector<DirectedEdge> ends;
+    for (const ChainEdge& edge : chain) ends.emplace_back(edge.from, edge.to);
+    return ends;
+}
+
 std::vector<ChainEdge> chain_edges(const CurveNetwork& network, const CutSurface& cut,
                                    const CurveSites& sites) {
     std::vector<Index> site_at(cut.surface.num_vertices(), no_index);  // Copies of nodes.

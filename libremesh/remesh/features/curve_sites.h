@@ -2,6 +2,7 @@
 //! Sites on the curves of a network, with a copy on each side of the cut.
 #pragma once
 
+#include "remesh/features/close_rim.h"
 #include "remesh/features/curve_network.h"
 #include "remesh/features/cut_surface.h"
 
@@ -51,6 +52,9 @@ struct ChainEdge {
     agvd::Index interval = 0;  //!< Of the curve.
     Side side = Side::Left;
 };
+
+//! Ends of edges, in their order.
+[[nodiscard]] std::vector<DirectedEdge> ends_of(std::span<const ChainEdge> chain);
 
 //! All, curve by curve, side by side.
 [[nodiscard]] std::vector<ChainEdge> chain_edges(const CurveNetwork& network,

@@ -31,6 +31,10 @@ void check_options(const RemeshOptions& options) {
         throw agvd::InvalidOption("drop_components is " + std::to_string(options.drop_components) +
                                   "; use a percentage from 0 to 100");
     }
+    if (!(options.feature_angle > 0 && options.feature_angle < 180)) {
+        throw agvd::InvalidOption("feature_angle is " + std::to_string(options.feature_angle) +
+                                  "; use degrees above 0 and below 180");
+    }
     if (options.num_threads < 0) {
         throw agvd::InvalidOption("num_threads is " + std::to_string(options.num_threads) +
                                   "; use 0 (all cores) or more");
@@ -81,10 +85,28 @@ const char* stage_name(Stage stage) {
     return "unknown";
 }
 
+namespace {
+
+// Without features where no mesh has them.
+RemeshResult run(const agvd::MeshView& mesh, const RemeshOptions& options) {
+    if (options.features == Features::Off) return run_pipeline(mesh, options, max_mends);
+    try {
+        return run_pipeline(mesh, options, max_mends);
+    } catch (const detail::NetworkFailed&) {
+        RemeshOptions plain = options;
+        plain.features = Features::Off;
+        RemeshResult result = run_pipeline(mesh, plain, max_mends);
+        result.features.gave_up = true;
+        return result;
+    }
+}
+
+}  // namespace
+
 RemeshResult remesh(const agvd::MeshView& mesh, const RemeshOptions& options) {
     check_options(options);
     try {
-        return run_pipeline(mesh, options, max_mends);
+        return run(mesh, options);
     } catch (const TooFewSamples& failure) {
         const std::string asked = std::to_string(failure.asked);
         const std::string who =

@@ -10,6 +10,7 @@
 
 #include "agvd/propagation/propagate.h"
 #include "remesh/dual/delaunay.h"
+#include "remesh/features/find_creases.h"
 #include "remesh/quality/topology.h"
 #include "remesh/relax/relax_sites.h"
 #include "remesh/repair/clean_input.h"
@@ -23,6 +24,24 @@ enum class Stage { Clean, Sample, Relax, Propagate, Diagram, Dual, Delaunay, Pla
 [[nodiscard]] const char* stage_name(Stage stage);
 
 //! What becomes of the count where the topology asks for more sites.
+//! Which creases are kept.
+enum class Features {
+    Auto,   //!< Those that are long and strong enough for the spacing of the sites.
+    Angle,  //!< All above feature_angle.
+    Off
+};
+
+//! What became of the creases.
+struct FeatureCounts {
+    agvd::Index curves = 0;      //!< Chains between nodes, and closed ones; the boundary's included.
+    agvd::Index nodes = 0;       //!< Corners, ends and junctions.
+    agvd::Index vertices = 0;    //!< Of the result, on curves and nodes.
+    double length = 0;           //!< Of the creases that were kept, mesh units.
+    double dropped_length = 0;   //!< Of those for which the sites are too few.
+    agvd::Index thinned_patches = 0;  //!< Parts between curves too narrow for Voronoi cells.
+    bool gave_up = false;        //!< No mesh of these curves was found; they were all left out.
+};
+
 enum class VertexCount {
     Exact,  //!< As many vertices as sites were asked for: others go where that harms nothing.
     Add,    //!< The sites that repair adds stay.
@@ -35,6 +54,10 @@ struct RemeshOptions {
     Boundary boundary = Boundary::Keep;  //!< Keep: boundary vertices lie on the input's boundary.
     double drop_components = 0;  //!< Leave out components with less than this % of the area.
     Init init = Init::BlueNoise;
+    //! Creases become chains of edges, and their corners vertices. Not with given sites, nor with
+    //! Boundary::Free.
+    Features features = Features::Auto;
+    double feature_angle = CreaseOptions{}.angle;  //!< Degrees, in (0, 180): see CreaseOptions.
     std::uint64_t seed = 1;  //!< Same seed, same bytes, any num_threads.
     //! Sites to use instead of sampling, on the caller's mesh; num_samples, init and seed are then
     //! ignored. Faces are the caller's.
@@ -79,6 +102,7 @@ struct RemeshResult {
     //! Components whose cells could not be made to give their topology: the surface was thinned to
     //! their sites instead (agvd::thin).
     agvd::Index components_from_faces = 0;
+    FeatureCounts features = {};
     DelaunayCounts delaunay = {};  //!< Edges that failed, were flipped, still fail.
     //! Self-intersecting pairs of faces of the result, and, if that is not 0, of the cleaned input.
     //! Unset: without CGAL.

@@ -13,6 +13,9 @@
 #include "remesh/placement/fit_vertices.h"
 #include "remesh/placement/improve_shape.h"
 #include "remesh/quality/self_intersections.h"
+#include "remesh/features/glue.h"
+#include "remesh/features/close_rim.h"
+#include "remesh/relax/relax_network.h"
 #include "remesh/repair/carry_sites.h"
 #include "remesh/repair/drop_components.h"
 #include "remesh/repair/farthest_corner.h"
@@ -87,9 +90,35 @@ private:
         build_input_surface(progress);
         spacing_ =
             mean_spacing(surface_, options_.sites ? options_.sites->size() : options_.num_samples);
-        prepared_.emplace(surface_, spacing_, options_.num_threads, progress);
+        find_features(progress);
+        prepared_.emplace(cut_surface(), spacing_, options_.num_threads, progress);
         find_components(progress);
         result_.refined_faces = base().num_faces();
+    }
+
+    // Where there are creases, all that follows sees a surface that is cut along them.
+    void find_features(const agvd::Progress& progress) {
+        components_ = result_.input_topology.components;
+        if (options_.features == Features::Off || options_.sites ||
+            options_.boundary == Boundary::Free) {
+            return;
+        }
+        plan_ = plan_network(surface_,
+                             find_creases(surface_, {.angle = options_.feature_angle,
+                                                     .spacing = spacing_,
+                                                     .is_automatic = options_.features == Features::Auto,
+                                                     .num_threads = options_.num_threads,
+                                                     .progress = progress}),
+                             options_.num_samples, options_.num_threads, progress);
+        if (!plan_) return;
+        const Topology patches = analyze_topology(plan_->cut.surface.mesh.view(), progress);
+        FeatureCounts& counts = result_.features;
+        counts.curves = static_cast<Index>(plan_->network.curves.size());
+        counts.nodes = static_cast<Index>(plan_->network.nodes.size());
+        counts.length = plan_->length;
+        counts.dropped_length = plan_->dropped_length;
+        components_ = patches.components;
+        face_component_ = patches.face_component;
     }
 
     // What cleaning has found is handed on. The mesh moves, unless given sites still need it there.
@@ -101,6 +130,11 @@ private:
                                              options_.num_threads, progress);
     }
 
+    // The surface, cut along the creases if there are any.
+    [[nodiscard]] const Surface& cut_surface() const {
+        return plan_ ? plan_->cut.surface : surface_;
+    }
+
     // What propagation runs on.
     [[nodiscard]] const Surface& base() const { return prepared_->base.surface(); }
 
@@ -108,13 +142,14 @@ private:
     void find_components(const agvd::Progress& progress) {
         agvd::Poller poller(progress);
         agvd::Ticker ticker(poller);
-        component_ = result_.input_topology.face_component;
+        component_ = plan_ ? std::move(face_component_) : result_.input_topology.face_component;
         component_.reserve(base().num_faces());
-        for (Index f = surface_.num_faces(); f < base().num_faces(); ++f) {
+        const Surface& surface = cut_surface();
+        for (Index f = surface.num_faces(); f < base().num_faces(); ++f) {
             ticker.tick();
             const Index corner = base().mesh.triangles[f][0];
-            const Index face = corner < surface_.num_vertices()
-                                   ? Surface::face(surface_.outgoing[corner])
+            const Index face = corner < surface.num_vertices()
+                                   ? Surface::face(surface.outgoing[corner])
                                    : prepared_->base.place_of_added(corner).face.value();
             component_.push_back(component_[face]);
         }
@@ -125,9 +160,9 @@ private:
         if (options_.sites) {
             sites_ = to_cleaned(*options_.sites, input_, clean_);
         } else {
-            if (!is_coarse_to_fine()) sites_ = sample_sites(surface_, sampling());
+            if (!plan_ && !is_coarse_to_fine()) sites_ = sample_sites(surface_, sampling());
         }
-        if (options_.boundary == Boundary::Keep) {
+        if (options_.boundary == Boundary::Keep && !plan_) {
             for (const std::vector<Index>& loop : agvd::boundary_loops(surface_)) {
                 const std::vector<Index> corners = find_corners(surface_, loop, spacing_);
                 corners_.insert(corners_.end(), corners.begin(), corners.end());
@@ -155,6 +190,7 @@ private:
     }
 
     void relax() {
+        if (plan_) return relax_network();
         if (!is_relaxed()) return;
         const StageClock clock(Stage::Relax, result_);
         const RelaxOptions relax{.steps = options_.relax_steps,
@@ -169,6 +205,20 @@ private:
         result_.relaxation = std::move(relaxed.levels);
     }
 
+    void relax_network() {
+        const StageClock clock(Stage::Relax, result_);
+        NetworkSites made =
+            sample_network_sites(*prepared_, *plan_, sampling(),
+                                 {.steps = options_.relax_steps,
+                                  .boundary = Boundary::Free,
+                                  .num_threads = options_.num_threads,
+                                  .progress = progress_of(Stage::Relax, options_)});
+        sites_ = std::move(made.sites);
+        result_.relaxation = std::move(made.levels);
+        curves_ = std::move(made.curves);
+        chain_ = chain_edges(plan_->network, plan_->cut, curves_);
+    }
+
     void drop_duplicates() {
         if (!options_.sites) return;
         sites_ = agvd::points_of(sites_, agvd::distinct_points(surface_, sites_));
@@ -178,26 +228,28 @@ private:
     // The dual with the count asked for. Where it runs through itself more often than the input, it
     // is built again with more sites there; the best counts.
     void build_mesh() {
-        const Ground ground{base(), prepared_->layout, result_.input_topology.components,
-                            component_, corners_};
+        const Ground ground{base(), prepared_->layout, components_, component_, corners_, chain_};
+        const RemeshOptions cell_options = options_of_cells();
         on_base_ = prepared_->base.to_intrinsic(sites_);
         const std::vector<SurfacePoint> first_on_base = on_base_;
         std::vector<bool> is_thinned;  // By component.
         for (int mends = 0;; ++mends) {
-            ValidDual dual = build_valid_dual(ground, on_base_, is_thinned, options_, result_);
+            ValidDual dual = build_valid_dual(ground, on_base_, is_thinned, cell_options, result_);
             take_back_sites(first_on_base);
+            check_chain(dual);
             if (mends == 0) set_target(dual.diagram);
             const Index num_removed = reduce(dual);
             if (dual.mesh.points.size() > target_ && options_.vertex_count == VertexCount::Exact) {
                 if (mends > 0) return;
+                if (plan_) { fprintf(stderr,"DBG too many %zu target %u\n", dual.mesh.points.size(), target_); throw NetworkFailed{}; }
                 throw TooFewSamples{target_, static_cast<Index>(dual.mesh.points.size())};
             }
             const DelaunayCounts flips = flip_edges(dual);
             PlacedMesh placed = place(dual);
+            if (plan_) groups_ = groups_of(dual);
             const CrossingFaces crossings = unfit_crossings(placed);
             if (mends == 0 || !crossings || crossings->size() < *result_.self_intersections) {
-                result_.mesh = {positions_of(placed), placed.triangles};
-                result_.sites = placed.points;
+                take_result(placed);
                 result_.sites_removed = num_removed;
                 result_.delaunay = flips;
                 if (crossings) result_.self_intersections = static_cast<Index>(crossings->size());
@@ -208,6 +260,63 @@ private:
             }
             if (!add_sites_at(*crossings, dual)) return;
         }
+    }
+
+    // Narrow parts between curves are thinned at once: sites added there would be of no use.
+    [[nodiscard]] RemeshOptions options_of_cells() const {
+        RemeshOptions options = options_;
+        if (!plan_) return options;
+        options.boundary = Boundary::Free;
+        options.repair_rounds = 0;
+        return options;
+    }
+
+    // Each curve is to be the same chain of edges in all patches beside it.
+    void check_chain(const ValidDual& dual) const {
+        if (!plan_) return;
+        std::vector<DirectedEdge> rim = rim_of(dual.mesh.triangles), chain = ends_of(chain_);
+        for (auto& [from, to] : rim) {
+            from = dual.site[from];
+            to = dual.site[to];
+        }
+        std::sort(rim.begin(), rim.end());
+        std::sort(chain.begin(), chain.end());
+        if (rim != chain) { fprintf(stderr,"DBG rim %zu chain %zu\n", rim.size(), chain.size());
+            std::vector<DirectedEdge> d; std::set_symmetric_difference(rim.begin(),rim.end(),chain.begin(),chain.end(),std::back_inserter(d));
+            for (size_t i=0;i<std::min<size_t>(d.size(),12);++i) fprintf(stderr,"  %u %u in chain %d\n",d[i].first,d[i].second,(int)std::binary_search(chain.begin(),chain.end(),d[i]));
+            fprintf(stderr, "copies %zu\n", curves_.sites.size());
+            throw NetworkFailed{}; }
+    }
+
+    // Copies of one vertex have one number: that of their group on the curves, or a later one.
+    [[nodiscard]] std::vector<Index> groups_of(const ValidDual& dual) const {
+        std::vector<Index> group_of_copy;
+        for (Index g = 0; g < curves_.num_groups(); ++g) {
+            group_of_copy.resize(curves_.first_copy[g + 1], g);
+        }
+        std::vector<Index> groups;
+        Index next = curves_.num_groups();
+        for (const Index site : dual.site) {
+            groups.push_back(site < group_of_copy.size() ? group_of_copy[site] : next++);
+        }
+        return groups;
+    }
+
+    void take_result(const PlacedMesh& placed) {
+        result_.mesh = {positions_of(placed), placed.triangles};
+        result_.sites = placed.points;
+        if (!plan_) return;
+        const GluedMesh whole = glue(placed.triangles, groups_);
+        result_.mesh = {take(result_.mesh.positions, whole.representative), whole.triangles};
+        result_.sites = take(result_.sites, whole.representative);
+    }
+    template <typename T>
+    [[nodiscard]] static std::vector<T> take(const std::vector<T>& all,
+                                             const std::vector<Index>& chosen) {
+        std::vector<T> result;
+        result.reserve(chosen.size());
+        for (const Index i : chosen) result.push_back(all[i]);
+        return result;
     }
 
     // Sites on the input, as repair has changed those on the base.
@@ -224,6 +333,9 @@ private:
 
     void set_target(const agvd::Diagram& diagram) {
         target_ = options_.num_samples;
+        if (plan_) {
+            target_ += static_cast<Index>(curves_.sites.size()) - curves_.num_groups();
+        }
         if (!options_.sites) return;
         const auto first = diagram.cell_area.begin();
         target_ = static_cast<Index>(
@@ -246,7 +358,7 @@ private:
         for (Index i = 0; i < num_vertices; ++i) {
             const auto v = agvd::vertex_of(base(), dual.mesh.points[i]);
             const Index site = dual.site[i];
-            keep[i] = (v && is_corner[*v]) ||
+            keep[i] = (v && is_corner[*v]) || site < curves_.sites.size() ||
                       (site != no_index && site < is_wanted_.size() && is_wanted_[site]);
         }
         const std::vector<Index> gone =
@@ -372,7 +484,11 @@ private:
         const StageClock clock(Stage::Check, result_);
         const agvd::Progress progress = progress_of(Stage::Check, options_);
         agvd::poll(progress, 0);
-        const agvd::TriangleMesh placed{positions_of(mesh), mesh.triangles};
+        agvd::TriangleMesh placed{positions_of(mesh), mesh.triangles};
+        if (plan_) {
+            const GluedMesh whole = glue(mesh.triangles, groups_);
+            placed = {take(placed.positions, whole.representative), whole.triangles};
+        }
         CrossingFaces found =
             find_self_intersections(placed.view(), options_.num_threads, progress);
         if (found && !found->empty() && !has_judged_input_) {
@@ -420,6 +536,7 @@ private:
             analyze_topology(result_.mesh.view(), agvd::within(progress, 1, 1));
         if (!topology.is_manifold || !topology.is_oriented ||
             !same_topology(topology, result_.input_topology)) {
+            if (plan_) { fprintf(stderr,"DBG topology manifold %d\n", (int)topology.is_manifold); throw NetworkFailed{}; }
             throw std::logic_error(
                 "the result lost the topology of the input; please report this with the mesh");
         }
@@ -433,7 +550,13 @@ private:
     double spacing_ = 0;  // Mean distance of the sites.
     Surface surface_;     // Of the cleaned mesh.
     std::optional<PreparedSurface> prepared_;
+    std::optional<NetworkPlan> plan_;    // Its cut surface is here the whole one.
+    std::vector<ComponentTopology> components_;  // Of the surface.
+    std::vector<Index> face_component_;          // #F of the cut surface.
     std::vector<Index> component_;       // #F of the base.
+    CurveSites curves_;                  // The first ones of the sites; empty without a plan.
+    std::vector<ChainEdge> chain_;       // Likewise.
+    std::vector<Index> groups_;          // Of the dual's vertices: equal for copies of one.
     std::vector<SurfacePoint> sites_;    // On the cleaned mesh.
     std::vector<SurfacePoint> on_base_;  // The same, and those that repair has added.
     std::vector<Index> corners_;         // Boundary vertices, ascending.

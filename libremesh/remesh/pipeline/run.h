@@ -12,9 +12,12 @@ struct TooFewSamples {
     agvd::Index reached;  //!< Vertices that are left.
 };
 
+//! Thrown where the curves of the network could not all be reproduced.
+struct NetworkFailed {};
+
 //! \param options     checked.
 //! \param most_mends  rounds of new sites where the result runs through itself.
-//! \throw TooFewSamples, and what remesh() throws.
+//! \throw TooFewSamples, NetworkFailed (only with features), and what remesh() throws.
 [[nodiscard]] RemeshResult run_pipeline(const agvd::MeshView& mesh, const RemeshOptions& options,
                                         int most_mends);
 

@@ -7,6 +7,7 @@
 #include "agvd/mesh/distinct_points.h"
 #include "agvd/mesh/point_faces.h"
 #include "remesh/dual/build_dual.h"
+#include "remesh/features/close_rim.h"
 #include "remesh/pipeline/stage_clock.h"
 #include "remesh/quality/topology.h"
 #include "remesh/repair/boundary_cells.h"
@@ -276,11 +277,21 @@ private:
              build_dual(surface_, dual_.diagram, agvd::within(progress, 0, 0))) {
             triangles[component_of(sites_[t[0]])].push_back(t);
         }
+        const std::vector<std::vector<DirectedEdge>> chain = sort_chain();
         std::vector<bool> has_vertex(sites_.size(), false);
         for (Index c = 0; c < triangles.size(); ++c) {
+            if (!chain[c].empty()) close_rim(chain[c], triangles[c]);
             has_failed_[c] =
                 has_failed_[c] || !has_right_topology(triangles[c], ground_.components[c]);
-            if (has_failed_[c]) continue;
+            if (!ground_.chain.empty()) {
+                has_failed_[c] = has_failed_[c] || rim_of(triangles[c]) != chain[c];
+            }
+            if (has_failed_[c]) { if (!ground_.chain.empty()) {
+                std::vector<DirectedEdge> d; auto rim=rim_of(triangles[c]); std::set_symmetric_difference(rim.begin(),rim.end(),chain[c].begin(),chain[c].end(),std::back_inserter(d));
+                fprintf(stderr,"DBG thinned %u: triangles %zu chain %zu diff %zu gave_up %d:", c, triangles[c].size(), chain[c].size(), d.size(), (int)progress_[c].gave_up);
+                for (auto& v : find_violations()) if (component_of(v)==c) fprintf(stderr," [%s %u %u]", v.reason, v.site.value(), v.other.value());
+                fprintf(stderr,"\n"); }
+                continue; }
             for (const Triangle& t : triangles[c]) {
                 for (const Index site : t) has_vertex[site] = true;
             }
@@ -303,6 +314,16 @@ private:
                 dual_.mesh.triangles.push_back({number[i], number[j], number[k]});
             }
         }
+    }
+
+    // The edges that the boundary of each component must have, ascending.
+    [[nodiscard]] std::vector<std::vector<DirectedEdge>> sort_chain() const {
+        std::vector<std::vector<DirectedEdge>> chain(ground_.components.size());
+        for (const ChainEdge& edge : ground_.chain) {
+            chain[component_of(sites_[edge.from])].emplace_back(edge.from, edge.to);
+        }
+        for (std::vector<DirectedEdge>& edges : chain) std::sort(edges.begin(), edges.end());
+        return chain;
     }
 
     // The closed-ball property implies it, but for polygons of the dual that leave no diagonal.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "agvd/diagram/diagram.h"
+#include "remesh/features/curve_sites.h"
 #include "remesh/pipeline/remesh.h"
 
 namespace remesh::detail {
@@ -14,6 +15,9 @@ struct Ground {
     std::span<const ComponentTopology> components;
     std::span<const agvd::Index> component;  //!< #F of it: index into components.
     std::span<const agvd::Index> corners;    //!< Boundary vertices that need a site.
+    //! Of a network that the surface is cut along: the boundary that the mesh must have. Components
+    //! whose cells do not give it are thinned.
+    std::span<const ChainEdge> chain = {};
 };
 
 //! A triangle mesh whose vertices are points of the surface.

@@ -16,10 +16,81 @@ namespace {
 constexpr double flat_cotangent = 50;
 constexpr double flat_cotangent_at_rim = 5;
 
+// Half of the part of an edge in a triangle: the right triangle between an end of the edge, its
+// middle and the circumcentre.
+struct RightTriangle {
+    double area = 0, mass = 0;
+    double spread = 0;  // Mean squared distance from the site; of sums without meaning.
+    Vec3 slope = Vec3::Zero();
+
+    void add(const RightTriangle& more) {
+        area += more.area;
+        mass += more.mass;
+        slope += more.slope;
+    }
+};
+
+// \param edge       from the site that has it; the triangle lies on its left. \param up  its normal.
+// \param cotangent  of the angle opposite.
+RightTriangle right_triangle(const Vec3& edge, const Vec3& up, double cotangent, double density) {
+    RightTriangle result;
+    const double squared_length = edge.squaredNorm();
+    result.area = cotangent * squared_length / 8;
+    result.mass = density * result.area;
+    result.spread = squared_length * (3 + cotangent * cotangent) / 24;
+    const Vec3 along = (-2.0 / 3 * result.mass) * edge;
+    result.slope = along + 0.5 * cotangent * up.cross(along);
+    return result;
+}
+
+// A triangle with an obtuse angle across from its rim edge (tail, head). The apex and its mirror
+// image beyond the rim are neighbours then, and the rim is where their cells meet.
+class ClippedTriangle {
+public:
+    ClippedTriangle(const Vec3& tail, const Vec3& head, const Vec3& apex, const Vec3& up,
+                    double density) {
+        const Vec3 rim = head - tail;
+        const double share = std::clamp((apex - tail).dot(rim) / rim.squaredNorm(), 0.0, 1.0);
+        const Vec3 foot = tail + share * rim;
+        const double height = (apex - foot).norm();
+        const double before = (foot - tail).norm(), after = (head - foot).norm();
+        const Vec3 down = 2 * (foot - apex);
+        add(0, tail, apex, height / before, up, density);
+        add(1, head, apex, height / after, up, density);
+        add_apex(down, before / height, up, density);
+        add_apex(down, after / height, -up, density);
+    }
+
+    std::array<RightTriangle, 3> part;  // Of tail, head and apex: sums.
+    double energy = 0, weighted = 0;
+    double steepest = 0;
+
+private:
+    // The edge between an end of the rim and the apex.
+    void add(std::size_t end, const Vec3& at, const Vec3& apex, double cotangent, const Vec3& up,
+             double density) {
+        const Vec3 side = end == 0 ? up : Vec3(-up);
+        take(end, right_triangle(apex - at, -side, cotangent, density));
+        take(2, right_triangle(at - apex, side, cotangent, density));
+        steepest = std::max(steepest, cotangent);
+    }
+    // Its half of the edge to the mirror image, seen from an end of the rim under twice the angle.
+    void add_apex(const Vec3& down, double cotangent_of_half, const Vec3& up, double density) {
+        const double cotangent = (cotangent_of_half - 1 / cotangent_of_half) / 2;
+        take(2, right_triangle(down, -up, cotangent, density));
+    }
+    void take(std::size_t i, const RightTriangle& more) {
+        part[i].add(more);
+        energy += more.area * more.spread;
+        weighted += more.mass * more.spread;
+    }
+};
+
 }  // namespace
 
 void measure_energy(const SiteMesh& mesh, std::span<const Vec3> positions,
-                    std::span<const double> weight, agvd::Ticker& ticker, CvtEnergy& result) {
+                    std::span<const double> weight, bool clips_at_rim, agvd::Ticker& ticker,
+                    CvtEnergy& result) {
     result.energy = 0;
     result.weighted = 0;
     result.cells.assign(positions.size(), {Vec3::Zero(), Vec3::Zero(), 0, 0});
@@ -37,37 +108,42 @@ void measure_energy(const SiteMesh& mesh, std::span<const Vec3> positions,
         const double density = (weight[t[0]] + weight[t[1]] + weight[t[2]]) / 3;
         // The circumcentre lies above the middle of each edge by half of it times the cotangent:
         // two right triangles, one in the cell of either end.
-        std::array<double, 3> area, mass;
-        std::array<Vec3, 3> at_tail, at_head;  // What the edge's triangles give to the slopes.
+        std::array<RightTriangle, 3> part;
         double energy = 0, weighted = 0;
         double flat = flat_cotangent, steepest = 0;
+        std::size_t obtuse_at_rim = 3;
         for (std::size_t k = 0; k < 3; ++k) {
             const double cotangent = -edge[(k + 1) % 3].dot(edge[(k + 2) % 3]) / doubled_area;
-            const double squared_length = edge[k].squaredNorm();
-            area[k] = cotangent * squared_length / 8;
-            mass[k] = density * area[k];
-            const double spread = squared_length * (3 + cotangent * cotangent) / 12;
-            energy += area[k] * spread;
-            weighted += mass[k] * spread;
-            if (mesh.twin[3 * i + k] == agvd::no_index) flat = flat_cotangent_at_rim;
+            const RightTriangle at_tail = right_triangle(edge[k], up, cotangent, density);
+            part[k].add(at_tail);
+            part[(k + 1) % 3].add(right_triangle(-edge[k], -up, cotangent, density));
+            energy += 2 * at_tail.area * at_tail.spread;
+            weighted += 2 * at_tail.mass * at_tail.spread;
+            const bool is_rim = mesh.twin[3 * i + k] == agvd::no_index;
+            if (is_rim) flat = flat_cotangent_at_rim;
+            if (is_rim && cotangent < 0) obtuse_at_rim = k;
             steepest = std::max(steepest, std::abs(cotangent));
             result.cotangent[3 * i + k] = cotangent;
-            const Vec3 along = (-2.0 / 3 * mass[k]) * edge[k];
-            const Vec3 across = 0.5 * cotangent * up.cross(along);
-            at_tail[k] = across + along;
-            at_head[k] = across - along;
+        }
+        if (clips_at_rim && obtuse_at_rim < 3) {
+            const std::size_t k = obtuse_at_rim;
+            const ClippedTriangle clipped(positions[t[k]], positions[t[(k + 1) % 3]],
+                                          positions[t[(k + 2) % 3]], up, density);
+            for (std::size_t j = 0; j < 3; ++j) part[(k + j) % 3] = clipped.part[j];
+            energy = clipped.energy;
+            weighted = clipped.weighted;
+            steepest = clipped.steepest;
         }
         if (steepest <= flat) {
             result.energy += energy;
             result.weighted += weighted;
         }
         for (std::size_t k = 0; k < 3; ++k) {
-            const std::size_t previous = (k + 2) % 3;
             CvtEnergy::Cell& cell = result.cells[t[k]];
-            cell.slope += at_tail[k] + at_head[previous];
+            cell.slope += part[k].slope;
             cell.normal += normal;
-            cell.mass += mass[k] + mass[previous];
-            cell.area += area[k] + area[previous];
+            cell.mass += part[k].mass;
+            cell.area += part[k].area;
         }
     }
     for (CvtEnergy::Cell& cell : result.cells) {

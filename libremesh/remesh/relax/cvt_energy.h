@@ -28,9 +28,12 @@ struct CvtEnergy {
 //! \param mesh    Delaunay or nearly so: where a circumcentre lies outside of its triangle, areas
 //!                are negative and neighbours make up for them.
 //! \param weight  #sites: density, > 0; linear in between.
+//! \param clips_at_rim  cells end at the rim of the triangulation. Otherwise that of a site near it
+//!                reaches beyond, which draws the site out.
 //! Cost: O(n).
 void measure_energy(const SiteMesh& mesh, std::span<const agvd::Vec3> positions,
-                    std::span<const double> weight, agvd::Ticker& ticker, CvtEnergy& result);
+                    std::span<const double> weight, bool clips_at_rim, agvd::Ticker& ticker,
+                    CvtEnergy& result);
 
 //! Fills `turned` with the triangles that face against the surface or have no area, ascending.
 //!

@@ -6,7 +6,7 @@
 #include "agvd/diagram/diagram.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/dual/build_dual.h"
-#include "remesh/relax/close_rim.h"
+#include "remesh/features/close_rim.h"
 #include "remesh/relax/site_labels.h"
 
 namespace remesh::detail {
@@ -63,7 +63,7 @@ std::vector<agvd::Triangle> triangulate_sites(const PreparedSurface& prepared,
                                               const agvd::Progress& progress) {
     std::vector<agvd::Triangle> triangles =
         neighbours(prepared, labels, sites, num_threads, progress);
-    if (!chain.empty()) (void)close_rim(chain, triangles);
+    if (!chain.empty()) close_rim(ends_of(chain), triangles);
     return triangles;
 }
 

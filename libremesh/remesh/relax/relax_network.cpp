@@ -5,7 +5,7 @@
 #include <map>
 #include <memory>
 
-#include "remesh/relax/close_rim.h"
+#include "remesh/features/close_rim.h"
 #include "remesh/relax/levels.h"
 #include "remesh/relax/subdivide.h"
 #include "remesh/relax/walk.h"
@@ -200,7 +200,7 @@ private:
         const Refinement refinement(plan_, coarse, fine_);
         detail::SiteDual dual =
             detail::label_dual(surface_.base, levels_.label(first.sites()), true);
-        (void)detail::close_rim(chain, dual.triangles);
+        close_rim(ends_of(chain), dual.triangles);
         take_curve_middles(plan_, refinement, chain, first.sites(), dual);
         // The sites in the order of the fine level, where those of new curve sites have no triangle.
         std::vector<SurfacePoint> sites = fine_.sites;

@@ -76,15 +76,16 @@ Relaxation::Relaxation(const agvd::Surface& surface, std::vector<SurfacePoint> s
 void Relaxation::hold(const CurveNetwork& network, CurveSites curves) {
     curves_.emplace(surface_, network, std::move(curves));
     std::fill(is_fixed_.begin(), is_fixed_.begin() + curves_->num_copies(), 1);
+    measure_energy(mesh_, at_, weight_, true, ticker_, now_);
 }
 
 void Relaxation::take_triangles(std::vector<agvd::Triangle> triangles) {
     mesh_ = build_site_mesh(std::move(triangles), static_cast<Index>(sites_.size()), ticker_);
     find_stuck();
-    measure_energy(mesh_, at_, weight_, ticker_, now_);
+    measure_energy(mesh_, at_, weight_, curves_.has_value(), ticker_, now_);
     for (int round = 0; round < most_flip_rounds; ++round) {
         if (flip_towards_delaunay(mesh_, at_, now_.cotangent, ticker_) == 0) break;
-        measure_energy(mesh_, at_, weight_, ticker_, now_);
+        measure_energy(mesh_, at_, weight_, curves_.has_value(), ticker_, now_);
     }
     find_turned(mesh_, at_, facing_, turned_);
 }
@@ -105,7 +106,7 @@ void Relaxation::mend(const std::vector<agvd::Triangle>& triangles) {
     if (num_flaws() < flaws) return;
     mesh_ = std::move(before);
     find_stuck();
-    measure_energy(mesh_, at_, weight_, ticker_, now_);
+    measure_energy(mesh_, at_, weight_, curves_.has_value(), ticker_, now_);
     find_turned(mesh_, at_, facing_, turned_);
 }
 
@@ -172,7 +173,7 @@ void Relaxation::set_density(const CellMeasures& cells) {
         weight_[i] = std::min(lost * bent, most_weight);
     }
     planes_ = cells.planes;
-    measure_energy(mesh_, at_, weight_, ticker_, now_);
+    measure_energy(mesh_, at_, weight_, curves_.has_value(), ticker_, now_);
 }
 
 void Relaxation::step() {
@@ -184,7 +185,7 @@ void Relaxation::step() {
     walk();
     poller_.poll();
     take_back();
-    measure_energy(mesh_, at_, weight_, ticker_, now_);
+    measure_energy(mesh_, at_, weight_, curves_.has_value(), ticker_, now_);
     // What flips change is measured by the next step: they are few.
     flip_towards_delaunay(mesh_, at_, now_.cotangent, ticker_);
 }
