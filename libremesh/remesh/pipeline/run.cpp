@@ -10,6 +10,7 @@
 #include "agvd/mesh/point_faces.h"
 #include "remesh/pipeline/stage_clock.h"
 #include "remesh/pipeline/valid_dual.h"
+#include "remesh/placement/fit_curves.h"
 #include "remesh/placement/fit_vertices.h"
 #include "remesh/placement/improve_shape.h"
 #include "remesh/quality/self_intersections.h"
@@ -236,7 +237,10 @@ private:
         for (int mends = 0;; ++mends) {
             ValidDual dual = build_valid_dual(ground, on_base_, is_thinned, cell_options, result_);
             take_back_sites(first_on_base);
-            check_chain(dual);
+            if (plan_ && !has_chain(dual)) {
+                if (mends > 0) return;
+                throw NetworkFailed{};
+            }
             if (mends == 0) set_target(dual.diagram);
             const Index num_removed = reduce(dual);
             if (dual.mesh.points.size() > target_ && options_.vertex_count == VertexCount::Exact) {
@@ -245,8 +249,8 @@ private:
                 throw TooFewSamples{target_, static_cast<Index>(dual.mesh.points.size())};
             }
             const DelaunayCounts flips = flip_edges(dual);
-            PlacedMesh placed = place(dual);
             if (plan_) groups_ = groups_of(dual);
+            PlacedMesh placed = place(dual);
             const CrossingFaces crossings = unfit_crossings(placed);
             if (mends == 0 || !crossings || crossings->size() < *result_.self_intersections) {
                 take_result(placed);
@@ -271,9 +275,8 @@ private:
         return options;
     }
 
-    // Each curve is to be the same chain of edges in all patches beside it.
-    void check_chain(const ValidDual& dual) const {
-        if (!plan_) return;
+    // Whether each curve is the same chain of edges in all patches beside it.
+    [[nodiscard]] bool has_chain(const ValidDual& dual) const {
         std::vector<DirectedEdge> rim = rim_of(dual.mesh.triangles), chain = ends_of(chain_);
         for (auto& [from, to] : rim) {
             from = dual.site[from];
@@ -281,11 +284,7 @@ private:
         }
         std::sort(rim.begin(), rim.end());
         std::sort(chain.begin(), chain.end());
-        if (rim != chain) { fprintf(stderr,"DBG rim %zu chain %zu\n", rim.size(), chain.size());
-            std::vector<DirectedEdge> d; std::set_symmetric_difference(rim.begin(),rim.end(),chain.begin(),chain.end(),std::back_inserter(d));
-            for (size_t i=0;i<std::min<size_t>(d.size(),12);++i) fprintf(stderr,"  %u %u in chain %d\n",d[i].first,d[i].second,(int)std::binary_search(chain.begin(),chain.end(),d[i]));
-            fprintf(stderr, "copies %zu\n", curves_.sites.size());
-            throw NetworkFailed{}; }
+        return rim == chain;
     }
 
     // Copies of one vertex have one number: that of their group on the curves, or a later one.
@@ -438,6 +437,7 @@ private:
             nearest.push_back(site.is_valid() ? vertex[site.value()] : no_index);
         }
         if (options_.fit.value_or(is_relaxed())) {
+            if (plan_) fit_network(placed);
             fit_vertices(*prepared_, nearest, placed, options_.num_threads,
                          agvd::within(progress, 0, 0));
         }
@@ -457,6 +457,13 @@ private:
         return positions;
     }
 
+    void fit_network(PlacedMesh& placed) const {
+        const std::vector<Vec3> offsets = fit_curves(surface_, plan_->network, curves_);
+        for (Index v = 0; v < groups_.size(); ++v) {
+            if (groups_[v] < offsets.size()) placed.offsets[v] = offsets[groups_[v]];
+        }
+    }
+
     // Puts vertices back onto the surface where triangles run through each other.
     CrossingFaces unfit_crossings(PlacedMesh& mesh) {
         CrossingFaces crossings = find_crossings(mesh);
@@ -467,7 +474,7 @@ private:
                 for (const Index face : {f, g}) {
                     for (const Index v : mesh.triangles[face]) {
                         if (mesh.offsets[v].isZero(0)) continue;
-                        mesh.offsets[v].setZero();
+                        unfit(v, mesh);
                         ++result_.unfitted_vertices;
                         is_changed = true;
                     }
@@ -477,6 +484,15 @@ private:
             crossings = find_crossings(mesh);
         }
         return crossings;
+    }
+
+    // Copies of a vertex stay together.
+    void unfit(Index v, PlacedMesh& mesh) const {
+        mesh.offsets[v].setZero();
+        if (!plan_ || groups_[v] >= curves_.num_groups()) return;
+        for (Index other = 0; other < groups_.size(); ++other) {
+            if (groups_[other] == groups_[v]) mesh.offsets[other].setZero();
+        }
     }
 
     // Of the input only if the result has any.

@@ -13,6 +13,7 @@
 #include "remesh/repair/boundary_cells.h"
 #include "remesh/repair/closed_ball.h"
 #include "remesh/repair/farthest_corner.h"
+#include "remesh/repair/reduce_vertices.h"
 
 namespace remesh::detail {
 namespace {
@@ -361,13 +362,37 @@ private:
             points.push_back(sites_[s]);
             dual_.site.push_back(s);
         }
-        const agvd::ThinnedMesh part = agvd::thin(surface_, faces, points);
+        agvd::ThinnedMesh part = agvd::thin(surface_, faces, points);
+        if (!ground_.chain.empty()) drop_extra(points, part);
         points.insert(points.end(), part.extra.begin(), part.extra.end());
         dual_.mesh.points.insert(dual_.mesh.points.end(), points.begin(), points.end());
         dual_.site.resize(dual_.mesh.points.size(), no_index);
         for (const auto& [i, j, k] : part.triangles) {
             dual_.mesh.triangles.push_back({i + first, j + first, k + first});
         }
+    }
+
+    // Beside curves each patch has the same vertices, so that none may have more: they go by
+    // collapses, if they can.
+    void drop_extra(std::span<const SurfacePoint> points, agvd::ThinnedMesh& part) const {
+        if (part.extra.empty()) return;
+        std::vector<Vec3> positions;
+        std::vector<std::uint8_t> keep(points.size(), 1);
+        for (const SurfacePoint& p : points) {
+            positions.push_back(position(surface_.mesh.view(), p));
+        }
+        for (const SurfacePoint& p : part.extra) {
+            positions.push_back(position(surface_.mesh.view(), p));
+        }
+        keep.resize(positions.size(), 0);
+        std::vector<Triangle> triangles = part.triangles;
+        const std::vector<Index> gone = reduce_vertices(
+            positions, triangles, static_cast<Index>(points.size()), keep);
+        const bool are_extra = std::all_of(gone.begin(), gone.end(),
+                                           [&](Index v) { return v >= points.size(); });
+        if (!are_extra || gone.size() < part.extra.size()) return;
+        part.triangles = std::move(triangles);
+        part.extra.clear();
     }
 
     const Ground& ground_;

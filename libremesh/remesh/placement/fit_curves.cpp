@@ -1,0 +1,118 @@
+#include "remesh/placement/fit_curves.h"
+
+#include <algorithm>
+
+namespace remesh {
+namespace {
+
+using agvd::Index;
+using agvd::Vec3;
+
+// Sweeps of Gauss and Seidel: each leaves a quarter of the error at most.
+constexpr int num_sweeps = 30;
+// Longest way, as a share of that to the neighbour.
+constexpr double longest_way = 0.25;
+
+// Where a chain's vertices are on their curve: with both ends, or once around and the first again.
+struct Chain {
+    std::vector<double> along;
+    std::vector<Vec3> at;
+};
+
+Chain chain_of(const agvd::Surface& surface, const Curve& curve, const CurveSites& sites,
+               Index first, Index last) {
+    Chain chain;
+    if (!curve.is_closed()) chain.along.push_back(0);
+    chain.along.insert(chain.along.end(), sites.along.begin() + first, sites.along.begin() + last);
+    chain.along.push_back(curve.is_closed() ? chain.along.front() + curve.length()
+                                            : curve.length());
+    for (const double along : chain.along) {
+        chain.at.push_back(
+            position(surface.mesh.view(), point_on_curve(curve, along, Side::Left)));
+    }
+    return chain;
+}
+
+// What the curve between two vertices of the chain says of each: the integral of its way from the
+// chain, weighted by how near the vertex is. Zero where the curve is straight.
+std::array<Vec3, 2> pulls(const agvd::Surface& surface, const Curve& curve, const Chain& chain,
+                          std::size_t i) {
+    const double begin = chain.along[i], end = chain.along[i + 1];
+    // Places of the curve's own vertices between them.
+    std::vector<double> places{begin};
+    for (const double turn : {0.0, curve.is_closed() ? curve.length() : 0.0}) {
+        for (const double up_to : curve.up_to) {
+            const double place = up_to + turn;
+            if (place > places.back() && place < end) places.push_back(place);
+        }
+    }
+    places.push_back(end);
+    const auto off_chain = [&](double along) {
+        const double share = (along - begin) / (end - begin);
+        const Vec3 on_chain = (1 - share) * chain.at[i] + share * chain.at[i + 1];
+        return Vec3(position(surface.mesh.view(), point_on_curve(curve, along, Side::Left)) -
+                    on_chain);
+    };
+    std::array<Vec3, 2> result{Vec3::Zero(), Vec3::Zero()};
+    for (std::size_t k = 0; k + 1 < places.size(); ++k) {
+        // Simpson's rule is exact: both factors are linear.
+        const double width = places[k + 1] - places[k], middle = places[k] + width / 2;
+        for (const auto& [at, weight] :
+             {std::pair(places[k], width / 6), {middle, 4 * width / 6}, {places[k + 1], width / 6}}) {
+            const double share = (at - begin) / (end - begin);
+            const Vec3 off = weight * off_chain(at);
+            result[0] += (1 - share) * off;
+            result[1] += share * off;
+        }
+    }
+    return result;
+}
+
+void fit(const agvd::Surface& surface, const Curve& curve, const Chain& chain,
+         std::span<Vec3> offsets) {
+    const std::size_t num_intervals = chain.along.size() - 1;
+    const std::size_t shift = curve.is_closed() ? 0 : 1;  // Of vertices to be moved.
+    std::vector<Vec3> right(chain.along.size(), Vec3::Zero());
+    for (std::size_t i = 0; i < num_intervals; ++i) {
+        const std::array<Vec3, 2> pull = pulls(surface, curve, chain, i);
+        right[i] += pull[0];
+        right[curve.is_closed() ? (i + 1) % num_intervals : i + 1] += pull[1];
+    }
+    const auto width = [&](std::size_t i) { return chain.along[i + 1] - chain.along[i]; };
+    const auto offset_at = [&](std::size_t vertex) {
+        if (curve.is_closed()) return offsets[vertex % num_intervals];
+        return vertex == 0 || vertex == num_intervals ? Vec3(Vec3::Zero()) : offsets[vertex - 1];
+    };
+    for (int sweep = 0; sweep < num_sweeps; ++sweep) {
+        for (std::size_t i = 0; i < offsets.size(); ++i) {
+            const std::size_t vertex = i + shift;
+            const std::size_t before = vertex == 0 ? num_intervals - 1 : vertex - 1;
+            const double w = width(before), v = width(vertex);
+            const Vec3 sum = w * offset_at(before) + v * offset_at(vertex + 1);
+            offsets[i] = (6 * right[vertex] - sum) / (2 * (w + v));
+        }
+    }
+    for (std::size_t i = 0; i < offsets.size(); ++i) {
+        const std::size_t vertex = i + shift;
+        const std::size_t before = vertex == 0 ? num_intervals - 1 : vertex - 1;
+        const double most = longest_way * std::min(width(before), width(vertex));
+        if (offsets[i].norm() > most) offsets[i] *= most / offsets[i].norm();
+    }
+}
+
+}  // namespace
+
+std::vector<Vec3> fit_curves(const agvd::Surface& surface, const CurveNetwork& network,
+                             const CurveSites& sites) {
+    std::vector<Vec3> offsets(sites.num_groups(), Vec3::Zero());
+    for (std::size_t c = 0; c < network.curves.size(); ++c) {
+        const Curve& curve = network.curves[c];
+        const Index first = sites.first_of_curve[c], last = sites.first_of_curve[c + 1];
+        if (first == last || !curve.has(Side::Left) || !curve.has(Side::Right)) continue;
+        fit(surface, curve, chain_of(surface, curve, sites, first, last),
+            std::span(offsets).subspan(first, last - first));
+    }
+    return offsets;
+}
+
+}  // namespace remesh

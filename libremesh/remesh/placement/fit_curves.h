@@ -1,0 +1,19 @@
+//! \file
+//! Puts the vertices of curves where the chain between them lies nearest to the curve.
+#pragma once
+
+#include "remesh/features/curve_sites.h"
+
+namespace remesh {
+
+//! Least squares along each crease: of the distance between the points of the curve and those of
+//! the chain that lie as far along. Nodes stay, and the boundary, whose vertices are to lie on it.
+//!
+//! \param surface  that of the network, whole or cut.
+//! \return #groups: from the site to where its vertex fits best.
+//! Cost: O(vertices of the curves + groups).
+[[nodiscard]] std::vector<agvd::Vec3> fit_curves(const agvd::Surface& surface,
+                                                 const CurveNetwork& network,
+                                                 const CurveSites& sites);
+
+}  // namespace remesh
