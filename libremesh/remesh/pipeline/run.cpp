@@ -259,7 +259,7 @@ private:
                 if (crossings) result_.self_intersections = static_cast<Index>(crossings->size());
             }
             if (!crossings || crossings->size() <= result_.input_self_intersections ||
-                mends == most_mends_) {
+                mends == most_mends_ || (plan_ && getenv("NOMEND"))) {
                 return;
             }
             if (!add_sites_at(*crossings, dual)) return;

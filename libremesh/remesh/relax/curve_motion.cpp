@@ -11,6 +11,8 @@ using agvd::Vec3;
 
 // Longest move, as a share of the way to the neighbour: two that approach do not meet.
 constexpr double longest_move = 0.3;
+// Two neighbours come no nearer than this share of their mean distance on the curve.
+constexpr double least_interval = 0.5;
 
 }  // namespace
 
@@ -61,7 +63,12 @@ void CurveMotion::step(double stretch, double keep) {
                                                  : curve.length();
         double move = keep * move_[g];
         if (stiffness_[g] > 0) move -= stretch * half_slope_[g] / stiffness_[g];
-        move_[g] = std::clamp(move, longest_move * (before - at), longest_move * (after - at));
+        const double least =
+            least_interval * curve.length() / (last - first + (curve.is_closed() ? 1 : 2));
+        const double back = std::max((at - before - least) / 2, 0.0);
+        const double ahead = std::max((after - at - least) / 2, 0.0);
+        move_[g] = std::clamp(move, -std::min(back, longest_move * (at - before)),
+                              std::min(ahead, longest_move * (after - at)));
         move_along(curve, g, at + move_[g], sites_);
     }
 }

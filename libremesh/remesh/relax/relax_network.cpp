@@ -4,11 +4,14 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <set>
 
+#include "agvd/intrinsic/thin.h"
 #include "remesh/features/close_rim.h"
 #include "remesh/relax/levels.h"
 #include "remesh/relax/subdivide.h"
 #include "remesh/relax/walk.h"
+#include "remesh/sampling/components.h"
 
 namespace remesh {
 namespace {
@@ -21,6 +24,8 @@ using detail::Relaxation;
 
 // A coarse start needs this many inner sites.
 constexpr double least_coarse_sites = 32;
+// Inner sites keep so many spacings off the curves.
+constexpr double least_distance = 0.4;
 
 // Half of each curve's intervals, as far as it stays what a triangulation needs.
 std::vector<Index> coarse_intervals(const NetworkPlan& plan) {
@@ -94,39 +99,155 @@ private:
     const CurveSites& fine_;
 };
 
-// Middles on curves are sites of the fine level; those that closing the rim has made are added.
-void take_curve_middles(const NetworkPlan& plan, const Refinement& refinement,
-                        std::span<const ChainEdge> chain, std::span<const SurfacePoint> sites,
-                        detail::SiteDual& dual) {
+// From a point to a segment.
+double distance(const agvd::Vec3& point, const agvd::Vec3& a, const agvd::Vec3& b) {
+    const agvd::Vec3 way = b - a;
+    const double share = std::clamp((point - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
+    return (a + share * way - point).norm();
+}
+
+// The middles of a coarse level's triangulation as the fine level has them: those on curves are
+// sites of it, and in strips narrower than the spacing there are none but these.
+class MiddleFinder {
+public:
+    MiddleFinder(const NetworkPlan& plan, std::span<const ChainEdge> chain,
+                 std::span<const SurfacePoint> sites)
+        : plan_(plan), chain_(chain), sites_(sites) {
+        for (const ChainEdge& edge : chain) is_chain_.insert(std::minmax({edge.from, edge.to}));
+    }
+
+    void run(const Refinement& refinement, detail::SiteDual& dual) {
+        for (const detail::Middle& m : dual.middles) by_pair_[{m.low, m.high}] = m;
+        for (const Triangle& t : dual.triangles) {
+            for (std::size_t k = 0; k < 3; ++k) add_missing(std::minmax({t[k], t[(k + 1) % 3]}));
+        }
+        for (const Triangle& t : dual.triangles) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                drop_if_narrow(t[k], t[(k + 1) % 3], t[(k + 2) % 3]);
+            }
+        }
+        for (const ChainEdge& edge : chain_) take_site(edge, refinement);
+        dual.middles.clear();
+        for (const auto& [pair, middle] : by_pair_) dual.middles.push_back(middle);
+    }
+
+private:
     using Pair = std::pair<Index, Index>;
-    std::map<Pair, detail::Middle> by_pair;
-    for (const detail::Middle& m : dual.middles) by_pair[{m.low, m.high}] = m;
-    const Surface& surface = plan.cut.surface;
-    const auto at = [&](Index site) { return position(surface.mesh.view(), sites[site]); };
-    for (const Triangle& t : dual.triangles) {
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Pair pair = std::minmax({t[k], t[(k + 1) % 3]});
-            if (by_pair.contains(pair)) continue;
-            const agvd::Vec3 way = at(pair.second) - at(pair.first);
-            by_pair[pair] = {pair.first, pair.second, way.norm(),
-                             detail::walk_straight(surface, sites[pair.first], way / 2)};
+
+    [[nodiscard]] const Surface& surface() const { return plan_.cut.surface; }
+    [[nodiscard]] agvd::Vec3 at(Index site) const {
+        return position(surface().mesh.view(), sites_[site]);
+    }
+
+    // Of edges that labels know nothing of.
+    void add_missing(const Pair& pair) {
+        if (by_pair_.contains(pair)) return;
+        const agvd::Vec3 way = at(pair.second) - at(pair.first);
+        by_pair_[pair] = {pair.first, pair.second, way.norm(),
+                          detail::walk_straight(surface(), sites_[pair.first], way / 2)};
+    }
+
+    // A middle of the edge (a, b) would be too near to a curve on the side of c.
+    void drop_if_narrow(Index a, Index b, Index c) {
+        const Pair pair = std::minmax({a, b});
+        const auto found = by_pair_.find(pair);
+        if (found == by_pair_.end() || is_chain_.contains(pair)) return;
+        const agvd::Vec3 middle = position(surface().mesh.view(), found->second.point);
+        for (const Index end : {a, b}) {
+            if (!is_chain_.contains(std::minmax({end, c}))) continue;
+            if (distance(middle, at(end), at(c)) >= least_distance * plan_.spacing) continue;
+            by_pair_.erase(found);
+            return;
         }
     }
-    for (const ChainEdge& edge : chain) {
-        const auto found = by_pair.find(std::minmax({edge.from, edge.to}));
-        if (found == by_pair.end()) continue;
-        const Curve& curve = plan.network.curves[edge.curve];
+
+    // An interval without a fine site in its middle stays whole.
+    void take_site(const ChainEdge& edge, const Refinement& refinement) {
+        const auto found = by_pair_.find(std::minmax({edge.from, edge.to}));
+        if (found == by_pair_.end()) return;
+        const Curve& curve = plan_.network.curves[edge.curve];
         const bool is_second = edge.side == Side::Right && curve.has(Side::Left);
         const Index site = refinement.middle(edge, is_second ? 1 : 0);
         if (site == agvd::no_index) {
-            by_pair.erase(found);  // The interval stays whole.
+            by_pair_.erase(found);
         } else {
             found->second.site = site;
         }
     }
-    dual.middles.clear();
-    for (auto& [pair, middle] : by_pair) dual.middles.push_back(middle);
-}
+
+    const NetworkPlan& plan_;
+    std::span<const ChainEdge> chain_;
+    std::span<const SurfacePoint> sites_;
+    std::set<Pair> is_chain_;
+    std::map<Pair, detail::Middle> by_pair_;
+};
+
+// Triangulations of patches, taken one by one.
+class Patches {
+public:
+    explicit Patches(const PreparedSurface& surface)
+        : surface_(surface.base.surface()),
+          component_(detail::label_components(surface.input().twin)) {
+        const detail::FaceLabels base = detail::label_components(surface_.twin);
+        faces_.resize(base.count);
+        for (Index f = 0; f < base.of_face.size(); ++f) faces_[base.of_face[f]].push_back(f);
+    }
+
+    // Replaces the triangles of patches whose rim is not their chain.
+    //
+    // \param instead  of a patch: other triangles; may have the wrong rim, too.
+    template <typename Instead>
+    void mend(std::span<const ChainEdge> chain, std::span<const SurfacePoint> sites,
+              std::vector<Triangle>& triangles, const Instead& instead) const {
+        const std::vector<std::vector<Triangle>> by_patch = sort(triangles, sites);
+        std::vector<std::vector<DirectedEdge>> wanted(faces_.size());
+        for (const ChainEdge& edge : chain) {
+            wanted[patch_of(sites[edge.from])].emplace_back(edge.from, edge.to);
+        }
+        triangles.clear();
+        for (Index i = 0; i < faces_.size(); ++i) {
+            std::sort(wanted[i].begin(), wanted[i].end());
+            const bool is_right = rim_of(by_patch[i]) == wanted[i];
+            const std::vector<Triangle> chosen = is_right ? by_patch[i] : instead(i);
+            triangles.insert(triangles.end(), chosen.begin(), chosen.end());
+        }
+    }
+
+    // By patch.
+    [[nodiscard]] std::vector<std::vector<Triangle>> sort(
+        std::span<const Triangle> triangles, std::span<const SurfacePoint> sites) const {
+        std::vector<std::vector<Triangle>> result(faces_.size());
+        for (const Triangle& t : triangles) result[patch_of(sites[t[0]])].push_back(t);
+        return result;
+    }
+
+    // The patch thinned to its sites; nothing if that leaves other vertices.
+    [[nodiscard]] std::vector<Triangle> thin(Index patch, const PreparedSurface& surface,
+                                             std::span<const SurfacePoint> sites) const {
+        std::vector<SurfacePoint> points;
+        std::vector<Index> number;
+        for (Index i = 0; i < sites.size(); ++i) {
+            if (patch_of(sites[i]) != patch) continue;
+            points.push_back(surface.base.to_intrinsic(sites[i]));
+            number.push_back(i);
+        }
+        agvd::ThinnedMesh thinned = agvd::thin(surface_, faces_[patch], points);
+        if (!thinned.extra.empty()) return {};
+        for (Triangle& t : thinned.triangles) {
+            for (Index& i : t) i = number[i];
+        }
+        return std::move(thinned.triangles);
+    }
+
+private:
+    [[nodiscard]] Index patch_of(const SurfacePoint& site) const {
+        return component_.of_face[site.face.value()];
+    }
+
+    const Surface& surface_;
+    detail::FaceLabels component_;           // Of the input's faces: those of the base are alike.
+    std::vector<std::vector<Index>> faces_;  // Of the base, by patch.
+};
 
 class NetworkSampler {
 public:
@@ -137,6 +258,7 @@ public:
           sampling_(sampling),
           options_(options),
           levels_(surface, options_, 2),
+          patches_(surface),
           fine_(place_curve_sites(plan.network, plan.cut, plan.intervals)) {
         options_.boundary = Boundary::Free;
         num_inner_ = sampling.num_samples - fine_.num_groups();
@@ -171,6 +293,8 @@ private:
         const agvd::DistanceBounds labels = levels_.label(sites);
         std::vector<Triangle> triangles = detail::triangulate_sites(
             surface_, labels, sites, chain, options_.num_threads, levels_.progress());
+        patches_.mend(chain, sites, triangles,
+                      [&](Index patch) { return patches_.thin(patch, surface_, sites); });
         auto relaxation = std::make_unique<Relaxation>(
             surface_.input(), std::move(sites), std::move(triangles), std::vector<std::uint8_t>{},
             std::vector<double>{}, options_.num_threads, levels_.progress());
@@ -201,7 +325,10 @@ private:
         detail::SiteDual dual =
             detail::label_dual(surface_.base, levels_.label(first.sites()), true);
         close_rim(ends_of(chain), dual.triangles);
-        take_curve_middles(plan_, refinement, chain, first.sites(), dual);
+        const auto relaxed = patches_.sort(first.triangles(), first.sites());
+        patches_.mend(chain, first.sites(), dual.triangles,
+                      [&](Index patch) { return relaxed[patch]; });
+        MiddleFinder(plan_, chain, first.sites()).run(refinement, dual);
         // The sites in the order of the fine level, where those of new curve sites have no triangle.
         std::vector<SurfacePoint> sites = fine_.sites;
         std::vector<double> weights(fine_.sites.size(), 1);
@@ -243,6 +370,7 @@ private:
     const SamplingOptions& sampling_;
     RelaxOptions options_;
     detail::Levels levels_;
+    const Patches patches_;
     const CurveSites fine_;
     Index num_inner_;
 };
