@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "agvd/intrinsic/thin.h"
 #include "agvd/mesh/distinct_points.h"
 #include "agvd/mesh/point_faces.h"
 #include "remesh/dual/build_dual.h"
@@ -13,7 +12,7 @@
 #include "remesh/repair/boundary_cells.h"
 #include "remesh/repair/closed_ball.h"
 #include "remesh/repair/farthest_corner.h"
-#include "remesh/repair/reduce_vertices.h"
+#include "remesh/repair/thin_patch.h"
 
 namespace remesh::detail {
 namespace {
@@ -362,37 +361,15 @@ private:
             points.push_back(sites_[s]);
             dual_.site.push_back(s);
         }
-        agvd::ThinnedMesh part = agvd::thin(surface_, faces, points);
-        if (!ground_.chain.empty()) drop_extra(points, part);
+        const agvd::ThinnedMesh part = ground_.chain.empty()
+                                           ? agvd::thin(surface_, faces, points)
+                                           : thin_patch(surface_, faces, points);
         points.insert(points.end(), part.extra.begin(), part.extra.end());
         dual_.mesh.points.insert(dual_.mesh.points.end(), points.begin(), points.end());
         dual_.site.resize(dual_.mesh.points.size(), no_index);
         for (const auto& [i, j, k] : part.triangles) {
             dual_.mesh.triangles.push_back({i + first, j + first, k + first});
         }
-    }
-
-    // Beside curves each patch has the same vertices, so that none may have more: they go by
-    // collapses, if they can.
-    void drop_extra(std::span<const SurfacePoint> points, agvd::ThinnedMesh& part) const {
-        if (part.extra.empty()) return;
-        std::vector<Vec3> positions;
-        std::vector<std::uint8_t> keep(points.size(), 1);
-        for (const SurfacePoint& p : points) {
-            positions.push_back(position(surface_.mesh.view(), p));
-        }
-        for (const SurfacePoint& p : part.extra) {
-            positions.push_back(position(surface_.mesh.view(), p));
-        }
-        keep.resize(positions.size(), 0);
-        std::vector<Triangle> triangles = part.triangles;
-        const std::vector<Index> gone = reduce_vertices(
-            positions, triangles, static_cast<Index>(points.size()), keep);
-        const bool are_extra = std::all_of(gone.begin(), gone.end(),
-                                           [&](Index v) { return v >= points.size(); });
-        if (!are_extra || gone.size() < part.extra.size()) return;
-        part.triangles = std::move(triangles);
-        part.extra.clear();
     }
 
     const Ground& ground_;

@@ -6,11 +6,11 @@
 #include <memory>
 #include <set>
 
-#include "agvd/intrinsic/thin.h"
 #include "remesh/features/close_rim.h"
 #include "remesh/relax/levels.h"
 #include "remesh/relax/subdivide.h"
 #include "remesh/relax/walk.h"
+#include "remesh/repair/thin_patch.h"
 #include "remesh/sampling/components.h"
 
 namespace remesh {
@@ -117,9 +117,15 @@ public:
     }
 
     void run(const Refinement& refinement, detail::SiteDual& dual) {
-        for (const detail::Middle& m : dual.middles) by_pair_[{m.low, m.high}] = m;
         for (const Triangle& t : dual.triangles) {
-            for (std::size_t k = 0; k < 3; ++k) add_missing(std::minmax({t[k], t[(k + 1) % 3]}));
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Pair pair = std::minmax({t[k], t[(k + 1) % 3]});
+                if (!by_pair_.contains(pair)) by_pair_[pair] = middle_of(pair);
+            }
+        }
+        for (const detail::Middle& m : dual.middles) {
+            const auto found = by_pair_.find({m.low, m.high});
+            if (found != by_pair_.end()) found->second = m;
         }
         for (const Triangle& t : dual.triangles) {
             for (std::size_t k = 0; k < 3; ++k) {
@@ -140,11 +146,10 @@ private:
     }
 
     // Of edges that labels know nothing of.
-    void add_missing(const Pair& pair) {
-        if (by_pair_.contains(pair)) return;
+    [[nodiscard]] detail::Middle middle_of(const Pair& pair) const {
         const agvd::Vec3 way = at(pair.second) - at(pair.first);
-        by_pair_[pair] = {pair.first, pair.second, way.norm(),
-                          detail::walk_straight(surface(), sites_[pair.first], way / 2)};
+        return {pair.first, pair.second, way.norm(),
+                detail::walk_straight(surface(), sites_[pair.first], way / 2)};
     }
 
     // A middle of the edge (a, b) would be too near to a curve on the side of c.
@@ -231,7 +236,7 @@ public:
             points.push_back(surface.base.to_intrinsic(sites[i]));
             number.push_back(i);
         }
-        agvd::ThinnedMesh thinned = agvd::thin(surface_, faces_[patch], points);
+        agvd::ThinnedMesh thinned = thin_patch(surface_, faces_[patch], points);
         if (!thinned.extra.empty()) return {};
         for (Triangle& t : thinned.triangles) {
             for (Index& i : t) i = number[i];
