@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "agvd/core/error.h"
+#include "remesh/features/carry_creases.h"
 #include "remesh/features/edge_angles.h"
 #include "remesh/features/prune_creases.h"
 #include "remesh/features/turn_beside.h"
@@ -20,9 +21,13 @@ constexpr double degree = std::numbers::pi / 180;
 constexpr double thin = 1e-3;
 // How far beside a crease the surface is looked at.
 constexpr double reach = 0.5;
-constexpr double least_spur = 1, least_island = 3, least_network = 1.5, short_chain = 1;
+// In edges of the noise: no scale is finer.
+constexpr double noise_edges = 4;
 
-constexpr double most_short = 0.5;  // Share.
+constexpr double most_gap = 1;
+constexpr double least_spur = 1, least_island = 3, least_network = 2.5, short_chain = 3;
+
+constexpr double most_short = 0.65;  // Share.
 // Of the angle of a crease: what counts as nothing.
 constexpr double weak_share = 0.625;
 
@@ -42,6 +47,27 @@ double worth(double angle, double beside, double weak) {
     return sharpness / (1 + (beside / angle) * (beside / angle));
 }
 
+struct Noise {
+    double share = 0;        // Of the length of the edges above the angle.
+    double edge_length = 0;  // Mean.
+};
+
+// Noise is where the surface beside an edge turns more than at the edge itself.
+Noise find_noise(const detail::CreaseSet& set, const std::vector<double>& angles,
+                 const std::vector<double>& beside) {
+    const std::vector<double>& length = set.surface().length;
+    double noise = 0, all = 0;
+    Index num_noisy = 0;
+    for (Index e = 0; e < length.size(); ++e) {
+        if (!set.has(e)) continue;
+        all += length[e];
+        if (beside[e] <= angles[e]) continue;
+        noise += length[e];
+        ++num_noisy;
+    }
+    return noise > 0 ? Noise{noise / all, noise / num_noisy} : Noise{};
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> find_creases(const agvd::Surface& surface, const CreaseOptions& options) {
@@ -58,18 +84,24 @@ std::vector<std::uint8_t> find_creases(const agvd::Surface& surface, const Creas
         if (angles[e] > strong) set.add(e);
     }
     if (!options.is_automatic) return set.take_flags();
+    const detail::CarryRules carry{.least_angle = weak_share * strong, .most_gap = most_gap * h};
     std::vector<double> weights = detail::turn_beside(set, angles, reach * h, poller);
+    const Noise noise = find_noise(set, angles, weights);
+    const double strictness = std::min(1., 2 * noise.share);
+    const double scale = std::max(h, strictness * noise_edges * noise.edge_length);
     for (Index e = 0; e < surface.num_edges(); ++e) {
         ticker.tick();
         if (set.has(e)) weights[e] = worth(angles[e], weights[e], weak_share * strong);
     }
+    detail::close_gaps(set, angles, carry, poller);
     detail::prune(set, weights,
-                  {.least_spur = least_spur * h,
-                   .least_island = least_island * h,
-                   .least_network = least_network * h,
-                   .short_chain = short_chain * h,
+                  {.least_spur = least_spur * scale,
+                   .least_island = least_island * scale,
+                   .least_network = std::lerp(1., least_network, strictness) * scale,
+                   .short_chain = std::lerp(1., short_chain, strictness) * scale,
                    .most_short = most_short},
                   poller);
+    detail::extend_ends(set, angles, carry, poller);
     return set.take_flags();
 }
 

@@ -33,7 +33,7 @@ public:
         for (Index v = 0; v < count; ++v) {
             if (set.degree(v) == 0) continue;
             source_[v] = v;
-            left_[v] = std::max(reach, 2 * crease_length_[v] / set.degree(v));
+            left_[v] = std::clamp(2 * crease_length_[v] / set.degree(v), reach, 4 * reach);
             queue_.emplace(left_[v], v);
         }
     }
