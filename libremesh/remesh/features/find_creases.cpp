@@ -43,7 +43,8 @@ void check(const CreaseOptions& options) {
 // What an edge is worth: 0 if weak, 1 at a right angle; less where the surface beside it turns as
 // much as at the edge itself.
 double worth(double angle, double beside, double weak) {
-    const double sharpness = std::clamp((angle - weak) / (std::numbers::pi / 2 - weak), 0., 1.);
+    const double full = std::max(std::numbers::pi / 2, weak / weak_share);
+    const double sharpness = std::clamp((angle - weak) / (full - weak), 0., 1.);
     return sharpness / (1 + (beside / angle) * (beside / angle));
 }
 
@@ -52,20 +53,25 @@ struct Noise {
     double edge_length = 0;  // Mean.
 };
 
-// Noise is where the surface beside an edge turns more than at the edge itself.
+// Noise is where the surface beside an edge turns more than at the edge itself, and what is all
+// nodes: chains shorter than `shortest`.
 Noise find_noise(const detail::CreaseSet& set, const std::vector<double>& angles,
-                 const std::vector<double>& beside) {
+                 const std::vector<double>& beside, double shortest, agvd::Poller& poller) {
     const std::vector<double>& length = set.surface().length;
-    double noise = 0, all = 0;
-    Index num_noisy = 0;
-    for (Index e = 0; e < length.size(); ++e) {
-        if (!set.has(e)) continue;
-        all += length[e];
-        if (beside[e] <= angles[e]) continue;
-        noise += length[e];
-        ++num_noisy;
+    double noise = 0, all = 0, turning = 0;
+    Index num_turning = 0;
+    for (const detail::CreaseChain& chain : detail::chains_of(set, poller)) {
+        all += chain.length;
+        if (chain.length < shortest) noise += chain.length;
+        for (const Index e : chain.edges) {
+            if (beside[e] <= angles[e]) continue;
+            turning += length[e];
+            ++num_turning;
+            if (chain.length >= shortest) noise += length[e];
+        }
     }
-    return noise > 0 ? Noise{noise / all, noise / num_noisy} : Noise{};
+    if (noise == 0) return {};
+    return {noise / all, num_turning > 0 ? turning / num_turning : 0};
 }
 
 }  // namespace
@@ -86,7 +92,7 @@ std::vector<std::uint8_t> find_creases(const agvd::Surface& surface, const Creas
     if (!options.is_automatic) return set.take_flags();
     const detail::CarryRules carry{.least_angle = weak_share * strong, .most_gap = most_gap * h};
     std::vector<double> weights = detail::turn_beside(set, angles, reach * h, poller);
-    const Noise noise = find_noise(set, angles, weights);
+    const Noise noise = find_noise(set, angles, weights, 2 * h, poller);
     const double strictness = std::min(1., 2 * noise.share);
     const double scale = std::max(h, strictness * noise_edges * noise.edge_length);
     for (Index e = 0; e < surface.num_edges(); ++e) {
