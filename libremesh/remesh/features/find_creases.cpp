@@ -21,6 +21,9 @@ constexpr double degree = std::numbers::pi / 180;
 constexpr double thin = 1e-3;
 // How far beside a crease the surface is looked at.
 constexpr double reach = 0.5;
+// Where the surface beside an edge turns more than this share of the edge's angle, it is noise.
+// (The median over what is above 40 degrees is .00 to .13 on parts and .69 to 1.5 on scans.)
+constexpr double noise_contrast = 0.5;
 // In edges of the noise: no scale is finer.
 constexpr double noise_edges = 4;
 
@@ -45,33 +48,35 @@ void check(const CreaseOptions& options) {
 double worth(double angle, double beside, double weak) {
     const double full = std::max(std::numbers::pi / 2, weak / weak_share);
     const double sharpness = std::clamp((angle - weak) / (full - weak), 0., 1.);
-    return sharpness / (1 + (beside / angle) * (beside / angle));
+    const double noisiness = beside / (noise_contrast * angle);
+    return sharpness / (1 + noisiness * noisiness);
 }
 
 struct Noise {
-    double share = 0;        // Of the length of the edges above the angle.
+    double share = 0;        // Of the length of the edges above the angle, 0 to 1.
     double edge_length = 0;  // Mean.
 };
 
-// Noise is where the surface beside an edge turns more than at the edge itself, and what is all
-// nodes: chains shorter than `shortest`.
+// Where the surface beside an edge turns as at the edge itself. Where noise is so strong that most
+// edges are above the angle, nothing is left beside them; then most chains are short.
 Noise find_noise(const detail::CreaseSet& set, const std::vector<double>& angles,
                  const std::vector<double>& beside, double shortest, agvd::Poller& poller) {
     const std::vector<double>& length = set.surface().length;
-    double noise = 0, all = 0, turning = 0;
-    Index num_turning = 0;
+    double all = 0, noise = 0, in_short_chains = 0;
+    Index num_noisy = 0;
     for (const detail::CreaseChain& chain : detail::chains_of(set, poller)) {
         all += chain.length;
-        if (chain.length < shortest) noise += chain.length;
+        if (chain.length < shortest) in_short_chains += chain.length;
         for (const Index e : chain.edges) {
-            if (beside[e] <= angles[e]) continue;
-            turning += length[e];
-            ++num_turning;
-            if (chain.length >= shortest) noise += length[e];
+            if (beside[e] <= noise_contrast * angles[e]) continue;
+            noise += length[e];
+            ++num_noisy;
         }
     }
-    if (noise == 0) return {};
-    return {noise / all, num_turning > 0 ? turning / num_turning : 0};
+    if (all == 0) return {};
+    // On parts up to a third is in short chains, with few sites.
+    return {std::max(noise / all, 2 * in_short_chains / all - 1),
+            num_noisy > 0 ? noise / num_noisy : 0};
 }
 
 }  // namespace
