@@ -46,13 +46,14 @@ public:
             if (is_gone_[c] || is_seen[c]) continue;
             std::vector<Index> network{c};
             is_seen[c] = 1;
-            double length = 0, short_length = 0, merit = 0;
+            double length = 0, counted = 0, merit = 0;
             for (std::size_t i = 0; i < network.size(); ++i) {
                 ticker_.tick();
                 const CreaseChain& chain = chains_[network[i]];
+                const double share = std::min(1., chain.length / rules_.short_chain);
                 length += chain.length;
-                merit += merit_[network[i]];
-                if (chain.length < rules_.short_chain) short_length += chain.length;
+                counted += share * chain.length;
+                merit += share * merit_[network[i]];
                 for (const Index v : chain.ends) {
                     for (const Index other : incident_[v]) {
                         if (is_seen[other]) continue;
@@ -61,8 +62,8 @@ public:
                     }
                 }
             }
-            if (merit >= rules_.least_network && short_length <= rules_.most_short * length)
-                continue;
+            const bool is_fine = length - counted > rules_.most_short * length;
+            if (merit >= rules_.least_network && !is_fine) continue;
             for (const Index other : network) drop_edges(other);
         }
     }
@@ -70,7 +71,7 @@ public:
 private:
     [[nodiscard]] double least_merit(Index c) const {
         const auto& [a, b] = chains_[c].ends;
-        if (a == b) return set_.degree(a) == 2 ? rules_.least_network : rules_.least_spur;
+        if (a == b) return set_.degree(a) == 2 ? 0 : rules_.least_spur;
         const int open = (set_.is_open_end(a) ? 1 : 0) + (set_.is_open_end(b) ? 1 : 0);
         return open == 0 ? 0 : open == 1 ? rules_.least_spur : rules_.least_island;
     }

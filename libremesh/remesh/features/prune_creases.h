@@ -8,11 +8,13 @@ namespace remesh::detail {
 
 //! What may stay, mesh units. The merit of a chain is the sum of its edges' lengths times weights.
 struct PruningRules {
-    double least_spur = 0;     //!< Merit of a chain with one end in nothing.
-    double least_island = 0;   //!< Merit of a chain with both ends in nothing.
-    double least_network = 0;  //!< Merit of all chains that hang together, of a closed one as well.
-    double short_chain = 0;    //!< Length below which chains are short.
-    double most_short = 1;     //!< Share of a network's length that may be in short chains.
+    double least_spur = 0;    //!< Merit of a chain with one end in nothing.
+    double least_island = 0;  //!< Merit of a chain with both ends in nothing.
+    //! Merit of chains that hang together with no other, or of a closed one. Short chains count in
+    //! proportion to their length.
+    double least_network = 0;
+    double short_chain = 0;  //!< Length below which chains are short.
+    double most_short = 1;   //!< Share of a network's length that may be lost by that.
 };
 
 //! \param weights  #E, >= 0.

@@ -1,6 +1,7 @@
 #include "remesh/features/turn_beside.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <queue>
 
@@ -33,7 +34,7 @@ public:
         for (Index v = 0; v < count; ++v) {
             if (set.degree(v) == 0) continue;
             source_[v] = v;
-            left_[v] = std::max(reach, 2 * crease_length_[v] / set.degree(v));
+            left_[v] = std::clamp(2 * crease_length_[v] / set.degree(v), reach, 4 * reach);
             queue_.emplace(left_[v], v);
         }
     }
@@ -58,7 +59,7 @@ public:
             if (!set_.has(e)) continue;
             const Index h = surface_.edge_half[e];
             for (const Index v : {surface_.tail(h), surface_.head(h)}) {
-                turns[e] += turn_[v] / crease_length_[v] / 2;
+                turns[e] += std::sqrt(turn_[v] / crease_length_[v]) / 2;
             }
         }
         return turns;
@@ -73,7 +74,7 @@ private:
         // An edge between two settled vertices is gathered from both, each up to its middle.
         const bool is_met = source_[other] != no_index && left_[other] >= left;
         const double part = is_met ? (length + left - left_[other]) / 2 : length;
-        turn_[source_[v]] += angles_[e] * std::clamp(std::min(part, left), 0., length);
+        turn_[source_[v]] += angles_[e] * angles_[e] * std::clamp(std::min(part, left), 0., length);
         if (left - length > left_[other]) {
             left_[other] = left - length;
             source_[other] = source_[v];

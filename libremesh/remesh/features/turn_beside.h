@@ -8,10 +8,11 @@
 
 namespace remesh::detail {
 
-//! For each edge of the set: the angle by which the surface beside it turns within `reach` of it,
-//! on both sides together and on whatever edges outside the set, radians; 0 for other edges. That
-//! is about 2 reach / R beside a crease of a part of radius R, and as much as the crease's own
-//! angle on a scan's noise. Where the set's edges are longer than `reach`, as far as these.
+//! For each edge of the set how much the surface beside it turns, radians; 0 for other edges. It is
+//! the root of the sum of angle squared times length over all edges outside the set within `reach`,
+//! on both sides, per length of the set's edge. So many small turns, of round faces and fillets,
+//! count for little, noise for about as much as the noisy edge itself, and edges in flat faces for
+//! nothing. Where the set's edges are longer than `reach`, as far as these, up to four times it.
 //!
 //! \param angles  #E, radians.
 //! \return #E.

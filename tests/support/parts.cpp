@@ -1,0 +1,237 @@
+#include "support/parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numbers>
+#include <set>
+#include <tuple>
+
+#include "support/dice.h"
+
+namespace parts {
+namespace {
+
+using agvd::Index;
+using agvd::Triangle;
+using agvd::TriangleMesh;
+using agvd::Vec3;
+
+constexpr double pi = std::numbers::pi;
+
+// Patches of quads, welded where their points agree to 1e-9.
+class Patchwork {
+public:
+    // at(u, v) for u, v in [0, 1]; the normal points along du x dv. Sides of no length are points.
+    void add(Index n, Index m, const std::function<Vec3(double, double)>& at) {
+        const auto vertex = [&](Index i, Index j) {
+            return index_of(at(static_cast<double>(i) / n, static_cast<double>(j) / m));
+        };
+        for (Index i = 0; i < n; ++i) {
+            for (Index j = 0; j < m; ++j) {
+                const Index a = vertex(i, j), b = vertex(i + 1, j);
+                const Index c = vertex(i + 1, j + 1), d = vertex(i, j + 1);
+                add_triangle({a, b, c});
+                add_triangle({a, c, d});
+            }
+        }
+    }
+    void add_square(Index n, const Vec3& corner, const Vec3& along, const Vec3& up) {
+        add(n, n, [&](double u, double v) -> Vec3 { return corner + u * along + v * up; });
+    }
+    [[nodiscard]] TriangleMesh take() { return std::move(mesh_); }
+
+private:
+    Index index_of(const Vec3& p) {
+        const auto key = [](double x) { return std::llround(x * 1e9); };
+        const auto [it, is_new] = indices_.try_emplace({key(p.x()), key(p.y()), key(p.z())},
+                                                       static_cast<Index>(mesh_.positions.size()));
+        if (is_new) mesh_.positions.push_back(p);
+        return it->second;
+    }
+    void add_triangle(const Triangle& t) {
+        if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) mesh_.triangles.push_back(t);
+    }
+
+    TriangleMesh mesh_;
+    std::map<std::tuple<long long, long long, long long>, Index> indices_;
+};
+
+Vec3 circle(double turns, double radius, double z) {
+    return {radius * std::cos(2 * pi * turns), radius * std::sin(2 * pi * turns), z};
+}
+
+}  // namespace
+
+TriangleMesh box(const Vec3& size, Index n) {
+    Patchwork work;
+    const Vec3 x(size.x(), 0, 0), y(0, size.y(), 0), z(0, 0, size.z()), o(0, 0, 0);
+    work.add_square(n, o, y, x);
+    work.add_square(n, z, x, y);
+    work.add_square(n, o, x, z);
+    work.add_square(n, y, z, x);
+    work.add_square(n, o, z, y);
+    work.add_square(n, x, y, z);
+    return work.take();
+}
+
+TriangleMesh extruded_l(Index n) {
+    Patchwork work;
+    const Vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
+    for (const Vec3& corner : {Vec3(0, 0, 0), x, y}) {
+        work.add_square(n, corner, y, x);
+        work.add_square(n, corner + z, x, y);
+    }
+    const Vec3 outline[] = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0},
+                            {1, 2, 0}, {0, 2, 0}, {0, 1, 0}, {0, 0, 0}};
+    for (int i = 0; i < 8; ++i) work.add_square(n, outline[i], outline[i + 1] - outline[i], z);
+    return work.take();
+}
+
+TriangleMesh capped_cylinder(Index sides, Index rings) {
+    Patchwork work;
+    work.add(sides, rings, [](double u, double v) { return circle(u, 1, 2 * v); });
+    work.add(sides, rings, [](double u, double v) { return circle(u, 1 - v, 2); });
+    work.add(sides, rings, [](double u, double v) { return circle(u, v, 0); });
+    return work.take();
+}
+
+TriangleMesh cone_on_plate(Index sides, Index rings) {
+    Patchwork work;
+    work.add(sides, rings, [](double u, double v) { return circle(u, 1 - v, v); });
+    work.add(sides, 2 * rings, [](double u, double v) { return circle(u, 3 - 2 * v, 0); });
+    return work.take();
+}
+
+TriangleMesh crossing_vaults(Index n) {
+    Patchwork work;
+    // Both vaults are cut into strips along their straight lines; these start at the points where
+    // they meet, at rows of equal angle around the small one.
+    const auto row = [&](double u) { return std::sin(pi / 2 * u); };
+    const auto meet = [](double y) { return std::sqrt(3 + y * y); };
+    const auto big = [](double x, double y) -> Vec3 {
+        return {x, y, std::sqrt(std::max(0., 4 - x * x))};
+    };
+    work.add(n, n, [&](double u, double v) {
+        return big(2 * std::sin((2 * u - 1) * pi / 3), 6 * v - 3);
+    });
+    for (const double sx : {-1., 1.}) {
+        for (const double sy : {-1., 1.}) {
+            const auto beside = [&](double u, double v) {
+                const double y = row(u);
+                return big(sx * meet(y), sy * (y + v * (3 - y)));
+            };
+            const auto arm = [&](double u, double v) -> Vec3 {
+                const double y = row(u), near = meet(y);
+                return {sx * (near + v * (5 - near)), sy * y, std::cos(pi / 2 * u)};
+            };
+            const auto swapped = [](const auto& at) {
+                return [at](double u, double v) { return at(v, u); };
+            };
+            if (sx * sy > 0) {
+                work.add(n / 2, n / 2, beside);
+                work.add(n / 2, n / 2, swapped(arm));
+            } else {
+                work.add(n / 2, n / 2, swapped(beside));
+                work.add(n / 2, n / 2, arm);
+            }
+        }
+    }
+    return work.take();
+}
+
+TriangleMesh folded_plate(Index n, double degrees, bool has_slit) {
+    Patchwork work;
+    const double slope = std::tan(degrees / 2 * pi / 180);
+    const auto at = [&](double x, double y) -> Vec3 {
+        return {x, y, slope * std::clamp(1 - x / 3, 0., 1.) * std::abs(y)};
+    };
+    work.add(n, n / 4, [&](double u, double v) { return at(8 * u - 4, 2 * v - 1); });
+    TriangleMesh mesh = work.take();
+    if (!has_slit) return mesh;
+    // The faces beyond the slit get points of their own there.
+    std::map<Index, Index> copies;
+    for (Triangle& t : mesh.triangles) {
+        const double middle =
+            (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]).x() / 3;
+        for (Index& v : t) {
+            const Vec3 p = mesh.positions[v];
+            if (middle < 3.5 || std::abs(p.x() - 3.5) > 1e-9 || std::abs(p.y()) > 0.5 - 1e-9)
+                continue;
+            const auto [it, is_new] =
+                copies.try_emplace(v, static_cast<Index>(mesh.positions.size()));
+            if (is_new) mesh.positions.push_back(p);
+            v = it->second;
+        }
+    }
+    return mesh;
+}
+
+TriangleMesh ribbed_plate(double width, Index n) {
+    Patchwork work;
+    const double h = width / 2;
+    const auto strip = [&](double y0, double z0, double y1, double z1, Index m) {
+        work.add(n, m, [=](double u, double v) -> Vec3 {
+            return {4 * u - 2, y0 + v * (y1 - y0), z0 + v * (z1 - z0)};
+        });
+    };
+    strip(-2, 0, -h, 0, n / 2);
+    strip(-h, 0, -h, width, 1);
+    strip(-h, width, h, width, 1);
+    strip(h, width, h, 0, 1);
+    strip(h, 0, 2, 0, n / 2);
+    return work.take();
+}
+
+TriangleMesh with_needles(const TriangleMesh& mesh, double aspect, double share,
+                          std::uint64_t seed) {
+    TriangleMesh result = mesh;
+    Dice dice(seed);
+    std::map<std::pair<Index, Index>, Index> middle;  // Of an edge: the point next to its end.
+    for (const Triangle& t : mesh.triangles) {
+        for (int k = 0; k < 3; ++k) {
+            const Index a = std::min(t[k], t[(k + 1) % 3]), b = std::max(t[k], t[(k + 1) % 3]);
+            if (middle.contains({a, b})) continue;
+            const bool is_split = dice.number(0, 1) < share / 2;
+            middle[{a, b}] =
+                is_split ? static_cast<Index>(result.positions.size()) : agvd::no_index;
+            if (!is_split) continue;
+            result.positions.push_back((1 - aspect) * mesh.positions[a] +
+                                       aspect * mesh.positions[b]);
+        }
+    }
+    std::vector<Triangle> faces;
+    for (const Triangle& t : mesh.triangles) {
+        std::vector<Index> polygon;
+        for (int k = 0; k < 3; ++k) {
+            const Index a = std::min(t[k], t[(k + 1) % 3]), b = std::max(t[k], t[(k + 1) % 3]);
+            polygon.push_back(t[k]);
+            if (middle[{a, b}] != agvd::no_index) polygon.push_back(middle[{a, b}]);
+        }
+        // A point close above the middle of a side; all else is joined to it.
+        if (polygon.size() == 3 && dice.number(0, 1) >= share) {
+            faces.push_back(t);
+            continue;
+        }
+        const Vec3 &a = mesh.positions[t[0]], &b = mesh.positions[t[1]], &c = mesh.positions[t[2]];
+        const auto centre = static_cast<Index>(result.positions.size());
+        result.positions.push_back((1 - aspect) * (a + b) / 2 + aspect * c);
+        for (std::size_t k = 0; k < polygon.size(); ++k) {
+            faces.push_back({polygon[k], polygon[(k + 1) % polygon.size()], centre});
+        }
+    }
+    result.triangles = std::move(faces);
+    return result;
+}
+
+TriangleMesh turned(TriangleMesh mesh, std::uint64_t seed) {
+    Dice dice(seed);
+    Vec3 axis(dice.number(-1, 1), dice.number(-1, 1), dice.number(-1, 1));
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(dice.number(0, 2 * pi), axis.normalized()).toRotationMatrix();
+    for (Vec3& p : mesh.positions) p = turn * p;
+    return mesh;
+}
+
+}  // namespace parts
