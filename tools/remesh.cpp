@@ -2,6 +2,7 @@
 #include <malloc.h>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 
 #include "arguments.h"
 #include "remesh/io/read_mesh.h"
@@ -30,6 +31,8 @@ struct Arguments : cli::DiagramArguments {
     double drop_components = 0;
     bool strict = false;
     remesh::Delaunay delaunay = remesh::RemeshOptions{}.delaunay;
+    remesh::Features features = remesh::RemeshOptions{}.features;
+    double feature_angle = remesh::RemeshOptions{}.feature_angle;
 };
 
 std::map<std::string, remesh::Delaunay> delaunay_by_name() {
@@ -39,6 +42,41 @@ std::map<std::string, remesh::Delaunay> delaunay_by_name() {
         names[remesh::delaunay_name(delaunay)] = delaunay;
     }
     return names;
+}
+
+// auto, off, or degrees above 0 and below 180. \return what is wrong with others; else empty.
+std::string take_features(const std::string& text, Arguments& arguments) {
+    if (text == "auto" || text == "off") {
+        arguments.features = text == "auto" ? remesh::Features::Auto : remesh::Features::Off;
+        return "";
+    }
+    double angle = 0;
+    const char* const end = text.data() + text.size();
+    const auto [last, error] = std::from_chars(text.data(), end, angle);
+    if (error != std::errc{} || last != end || !(angle > 0 && angle < 180)) {
+        return text + " is neither auto nor off nor an angle above 0 and below 180 degrees";
+    }
+    arguments.features = remesh::Features::Angle;
+    arguments.feature_angle = angle;
+    return "";
+}
+
+void add_feature_options(CLI::App& app, Arguments& arguments) {
+    const auto take = [&arguments](const std::string& text) {
+        const std::string complaint = take_features(text, arguments);
+        if (!complaint.empty()) throw CLI::ValidationError("--features", complaint);
+    };
+    CLI::Option* const features =
+        app.add_option_function<std::string>(
+               "--features,--crease", take,
+               "Creases that become chains of edges: those long and strong enough for the spacing "
+               "(auto), all above an angle in degrees, or none (off)")
+            ->type_name("auto|DEG|off")
+            ->default_str("auto");
+    app.add_flag_callback(
+           "--no-features", [&arguments] { arguments.features = remesh::Features::Off; },
+           "The same as --features off")
+        ->excludes(features);
 }
 
 void add_options(CLI::App& app, Arguments& arguments) {
@@ -74,6 +112,7 @@ void add_options(CLI::App& app, Arguments& arguments) {
         ->check(CLI::IsMember(delaunay_by_name()).description(""))
         ->type_name("NAME")
         ->default_str(remesh::delaunay_name(arguments.delaunay));
+    add_feature_options(app, arguments);
     app.add_option("--drop-components", arguments.drop_components,
                    "Leave out components with less than this % of the area")
         ->check(CLI::Range(0.0, 100.0).description(""))
@@ -134,6 +173,8 @@ void run_job(const Arguments& arguments, cli::Console& console) {
                                   .boundary = arguments.sampling.boundary,
                                   .drop_components = arguments.drop_components,
                                   .init = arguments.sampling.init,
+                                  .features = arguments.features,
+                                  .feature_angle = arguments.feature_angle,
                                   .seed = arguments.sampling.seed,
                                   .relax_steps = arguments.relax_steps,
                                   .keep_sites = arguments.keep_sites,

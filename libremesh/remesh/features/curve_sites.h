@@ -11,24 +11,21 @@ namespace remesh {
 //! Vertices that the curves of a mesh get: one at each node, the others in order along each curve.
 //! Each is a *group* of sites of the cut surface, its copies, one for each wedge or side.
 struct CurveSites {
-    std::vector<agvd::SurfacePoint> sites;   //!< Of all groups, on the cut surface.
-    std::vector<agvd::Index> first_copy;     //!< #groups + 1: index into sites.
-    std::vector<agvd::Index> first_of_curve; //!< #curves + 1: its groups, besides nodes.
+    std::vector<agvd::SurfacePoint> sites;    //!< Of all groups, on the cut surface.
+    std::vector<agvd::Index> first_copy;      //!< #groups + 1: index into sites.
+    std::vector<agvd::Index> first_of_curve;  //!< #curves + 1: its groups, besides nodes.
     //! #groups: place on its curve, mesh units; of nodes 0. Of closed curves it may leave
     //! [0, length].
     std::vector<double> along;
 
-    [[nodiscard]] agvd::Index num_groups() const {
-        return static_cast<agvd::Index>(along.size());
-    }
+    [[nodiscard]] agvd::Index num_groups() const { return static_cast<agvd::Index>(along.size()); }
     [[nodiscard]] agvd::Index num_nodes() const { return first_of_curve[0]; }
 };
 
 //! How many intervals each curve is divided into, so that they are about a spacing long and what
 //! they bound can be triangulated: closed curves have at least three, curves that share both ends
 //! with another one two.
-[[nodiscard]] std::vector<agvd::Index> curve_intervals(const CurveNetwork& network,
-                                                       double spacing);
+[[nodiscard]] std::vector<agvd::Index> curve_intervals(const CurveNetwork& network, double spacing);
 
 //! Vertices of the network with so many intervals.
 [[nodiscard]] std::size_t num_curve_sites(const CurveNetwork& network,
@@ -57,7 +54,7 @@ struct ChainEdge {
 [[nodiscard]] std::vector<DirectedEdge> ends_of(std::span<const ChainEdge> chain);
 
 //! All, curve by curve, side by side.
-[[nodiscard]] std::vector<ChainEdge> chain_edges(const CurveNetwork& network,
-                                                 const CutSurface& cut, const CurveSites& sites);
+[[nodiscard]] std::vector<ChainEdge> chain_edges(const CurveNetwork& network, const CutSurface& cut,
+                                                 const CurveSites& sites);
 
 }  // namespace remesh

@@ -45,9 +45,9 @@ bool flip_repeated(std::vector<Triangle>& triangles, std::span<const Index> vert
     std::set<Ends> added;
     std::vector<bool> is_changed(triangles.size(), false);
     const auto exists = [&](const Ends& ends) {
-        const auto found = std::lower_bound(
-            all.begin(), all.end(), ends,
-            [](const HalfEdge& h, const Ends& value) { return h.ends < value; });
+        const auto found =
+            std::lower_bound(all.begin(), all.end(), ends,
+                             [](const HalfEdge& h, const Ends& value) { return h.ends < value; });
         return (found != all.end() && found->ends == ends) || added.contains(ends);
     };
     bool has_flipped = false;

@@ -10,9 +10,9 @@
 namespace remesh {
 
 struct GluedMesh {
-    std::vector<agvd::Triangle> triangles;   //!< In the order given; of the glued vertices.
-    std::vector<agvd::Index> vertex;         //!< Of each vertex given: the glued one.
-    std::vector<agvd::Index> representative; //!< Of each glued vertex: the first one given.
+    std::vector<agvd::Triangle> triangles;    //!< In the order given; of the glued vertices.
+    std::vector<agvd::Index> vertex;          //!< Of each vertex given: the glued one.
+    std::vector<agvd::Index> representative;  //!< Of each glued vertex: the first one given.
 };
 
 //! Makes one vertex of all those of a group. An edge that two patches have besides each other's

@@ -104,12 +104,25 @@ Json to_json(const DelaunayCounts& counts, Delaunay delaunay) {
             {"finished", counts.is_finished}};
 }
 
+Json to_json(const FeatureCounts& counts) {
+    return {{"curves", counts.curves},
+            {"nodes", counts.nodes},
+            {"vertices", counts.vertices},
+            {"crease_length_mesh_units", counts.length},
+            {"dropped_crease_length_mesh_units", counts.dropped_length},
+            {"samples_for_all", counts.samples_for_all},
+            {"thinned_patches", counts.thinned_patches},
+            {"gave_up", counts.gave_up}};
+}
+
 Json to_json(const RemeshOptions& options) {
     Json object;
     object["samples"] = options.num_samples;
     object["topology"] = options.vertex_count == VertexCount::Exact ? "exact" : "add";
     object["boundary"] = options.boundary == Boundary::Keep ? "keep" : "free";
     object["drop_components_percent"] = options.drop_components;
+    object["features"] = features_name(options.features);
+    object["feature_angle_degrees"] = options.feature_angle;
     object["init"] = init_name(options.init);
     object["seed"] = options.seed;
     object["given_sites"] = options.sites ? Json(options.sites->size()) : Json();
@@ -149,6 +162,7 @@ std::string to_json(const RemeshResult& result, const RunInfo& info) {
     object["sites_removed"] = result.sites_removed;
     object["components_from_faces"] = result.components_from_faces;
     object["sites_dropped"] = result.sites_dropped;
+    object["features"] = to_json(result.features);
     object["repair_rounds"] = result.repair_rounds;
     object["delaunay"] = to_json(result.delaunay, info.options.delaunay);
     object["unfitted_vertices"] = result.unfitted_vertices;

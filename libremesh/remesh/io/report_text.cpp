@@ -133,6 +133,24 @@ std::string describe(const DelaunayCounts& counts, Delaunay delaunay) {
     return text;
 }
 
+// Empty without creases.
+std::string describe(const FeatureCounts& features) {
+    if (features.gave_up) return "\ncreases: none kept, as no mesh with all of them was found";
+    if (features.curves == 0 && features.dropped_length == 0) return "";
+    std::string text = "\ncreases and boundary: " + counted(features.curves, "curve") + ", " +
+                       counted(features.nodes, "corner") + ", " +
+                       counted(features.vertices, "vertex") + "; creases of length " +
+                       fixed(features.length, 4) + " kept";
+    if (features.dropped_length > 0) {
+        text += ", of " + fixed(features.dropped_length, 4) + " dropped: all take " +
+                std::to_string(features.samples_for_all) + " samples";
+    }
+    if (features.thinned_patches > 0) {
+        text += "; " + counted(features.thinned_patches, "patch") + " too narrow for cells";
+    }
+    return text;
+}
+
 }  // namespace
 
 std::string to_text(const RemeshResult& result, const RunInfo& info) {
@@ -163,6 +181,7 @@ std::string to_text(const RemeshResult& result, const RunInfo& info) {
         text += "\n" + counted(result.components_from_faces, "component") +
                 " thinned to the sites, as no cells would do";
     }
+    if (info.options.features != Features::Off) text += describe(result.features);
     if (result.components_dropped > 0) {
         text += "\n" + counted(result.components_dropped, "component") + " left out as too small";
     }

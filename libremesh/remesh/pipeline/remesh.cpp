@@ -61,6 +61,18 @@ std::string describe_too_few(const agvd::MeshView& mesh, const RemeshOptions& op
 
 }  // namespace
 
+const char* features_name(Features features) {
+    switch (features) {
+        case Features::Auto:
+            return "auto";
+        case Features::Angle:
+            return "angle";
+        case Features::Off:
+            return "off";
+    }
+    return "unknown";
+}
+
 const char* stage_name(Stage stage) {
     switch (stage) {
         case Stage::Clean:

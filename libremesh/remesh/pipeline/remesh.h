@@ -31,15 +31,19 @@ enum class Features {
     Off
 };
 
+//! Lower-case name of a choice: "auto", "angle" or "off".
+[[nodiscard]] const char* features_name(Features features);
+
 //! What became of the creases.
 struct FeatureCounts {
-    agvd::Index curves = 0;      //!< Chains between nodes, and closed ones; the boundary's included.
-    agvd::Index nodes = 0;       //!< Corners, ends and junctions.
-    agvd::Index vertices = 0;    //!< Of the result, on curves and nodes.
-    double length = 0;           //!< Of the creases that were kept, mesh units.
-    double dropped_length = 0;   //!< Of those for which the sites are too few.
+    agvd::Index curves = 0;     //!< Chains between nodes, and closed ones; the boundary's included.
+    agvd::Index nodes = 0;      //!< Corners, ends and junctions.
+    agvd::Index vertices = 0;   //!< Of the result, on curves and nodes.
+    double length = 0;          //!< Of the creases that were kept, mesh units.
+    double dropped_length = 0;  //!< Of those for which the sites are too few.
+    agvd::Index samples_for_all = 0;  //!< Fewest with which all are kept.
     agvd::Index thinned_patches = 0;  //!< Parts between curves too narrow for Voronoi cells.
-    bool gave_up = false;        //!< No mesh of these curves was found; they were all left out.
+    bool gave_up = false;  //!< No mesh of these curves was found; they were all left out.
 };
 
 enum class VertexCount {
@@ -58,7 +62,7 @@ struct RemeshOptions {
     //! Boundary::Free.
     Features features = Features::Auto;
     double feature_angle = CreaseOptions{}.angle;  //!< Degrees, in (0, 180): see CreaseOptions.
-    std::uint64_t seed = 1;  //!< Same seed, same bytes, any num_threads.
+    std::uint64_t seed = 1;                        //!< Same seed, same bytes, any num_threads.
     //! Sites to use instead of sampling, on the caller's mesh; num_samples, init and seed are then
     //! ignored. Faces are the caller's.
     std::optional<std::vector<agvd::SurfacePoint>> sites = {};

@@ -8,14 +8,14 @@
 #include "agvd/core/poller.h"
 #include "agvd/mesh/distinct_points.h"
 #include "agvd/mesh/point_faces.h"
+#include "remesh/features/close_rim.h"
+#include "remesh/features/glue.h"
 #include "remesh/pipeline/stage_clock.h"
 #include "remesh/pipeline/valid_dual.h"
 #include "remesh/placement/fit_curves.h"
 #include "remesh/placement/fit_vertices.h"
 #include "remesh/placement/improve_shape.h"
 #include "remesh/quality/self_intersections.h"
-#include "remesh/features/glue.h"
-#include "remesh/features/close_rim.h"
 #include "remesh/relax/relax_network.h"
 #include "remesh/repair/carry_sites.h"
 #include "remesh/repair/drop_components.h"
@@ -104,20 +104,22 @@ private:
             options_.boundary == Boundary::Free) {
             return;
         }
-        plan_ = plan_network(surface_,
-                             find_creases(surface_, {.angle = options_.feature_angle,
-                                                     .spacing = spacing_,
-                                                     .is_automatic = options_.features == Features::Auto,
-                                                     .num_threads = options_.num_threads,
-                                                     .progress = progress}),
-                             options_.num_samples, options_.num_threads, progress);
-        if (!plan_) return;
-        const Topology patches = analyze_topology(plan_->cut.surface.mesh.view(), progress);
+        const CreaseOptions creases{.angle = options_.feature_angle,
+                                    .spacing = spacing_,
+                                    .is_automatic = options_.features == Features::Auto,
+                                    .num_threads = options_.num_threads,
+                                    .progress = progress};
+        NetworkPlan plan = plan_network(surface_, find_creases(surface_, creases),
+                                        options_.num_samples, options_.num_threads, progress);
         FeatureCounts& counts = result_.features;
-        counts.curves = static_cast<Index>(plan_->network.curves.size());
-        counts.nodes = static_cast<Index>(plan_->network.nodes.size());
-        counts.length = plan_->length;
-        counts.dropped_length = plan_->dropped_length;
+        counts.curves = static_cast<Index>(plan.network.curves.size());
+        counts.nodes = static_cast<Index>(plan.network.nodes.size());
+        counts.length = plan.length;
+        counts.dropped_length = plan.dropped_length;
+        counts.samples_for_all = plan.sites_for_all;
+        if (plan.network.curves.empty()) return;
+        plan_ = std::move(plan);
+        const Topology patches = analyze_topology(plan_->cut.surface.mesh.view(), progress);
         components_ = patches.components;
         face_component_ = patches.face_component;
     }
@@ -208,16 +210,16 @@ private:
 
     void relax_network() {
         const StageClock clock(Stage::Relax, result_);
-        NetworkSites made =
-            sample_network_sites(*prepared_, *plan_, sampling(),
-                                 {.steps = options_.relax_steps,
-                                  .boundary = Boundary::Free,
-                                  .num_threads = options_.num_threads,
-                                  .progress = progress_of(Stage::Relax, options_)});
+        NetworkSites made = sample_network_sites(*prepared_, *plan_, sampling(),
+                                                 {.steps = options_.relax_steps,
+                                                  .boundary = Boundary::Free,
+                                                  .num_threads = options_.num_threads,
+                                                  .progress = progress_of(Stage::Relax, options_)});
         sites_ = std::move(made.sites);
         result_.relaxation = std::move(made.levels);
         curves_ = std::move(made.curves);
         chain_ = chain_edges(plan_->network, plan_->cut, curves_);
+        result_.features.vertices = curves_.num_groups();
     }
 
     void drop_duplicates() {
@@ -237,6 +239,9 @@ private:
         for (int mends = 0;; ++mends) {
             ValidDual dual = build_valid_dual(ground, on_base_, is_thinned, cell_options, result_);
             take_back_sites(first_on_base);
+            if (plan_) {
+                result_.features.thinned_patches = std::exchange(result_.components_from_faces, 0);
+            }
             if (plan_ && !has_chain(dual)) {
                 if (mends > 0) return;
                 throw NetworkFailed{};
@@ -245,7 +250,7 @@ private:
             const Index num_removed = reduce(dual);
             if (dual.mesh.points.size() > target_ && options_.vertex_count == VertexCount::Exact) {
                 if (mends > 0) return;
-                if (plan_) { fprintf(stderr,"DBG too many %zu target %u\n", dual.mesh.points.size(), target_); throw NetworkFailed{}; }
+                if (plan_) throw NetworkFailed{};
                 throw TooFewSamples{target_, static_cast<Index>(dual.mesh.points.size())};
             }
             const DelaunayCounts flips = flip_edges(dual);
@@ -259,7 +264,7 @@ private:
                 if (crossings) result_.self_intersections = static_cast<Index>(crossings->size());
             }
             if (!crossings || crossings->size() <= result_.input_self_intersections ||
-                mends == most_mends_ || (plan_ && getenv("NOMEND"))) {
+                mends == most_mends_) {
                 return;
             }
             if (!add_sites_at(*crossings, dual)) return;
@@ -552,7 +557,7 @@ private:
             analyze_topology(result_.mesh.view(), agvd::within(progress, 1, 1));
         if (!topology.is_manifold || !topology.is_oriented ||
             !same_topology(topology, result_.input_topology)) {
-            if (plan_) { fprintf(stderr,"DBG topology manifold %d\n", (int)topology.is_manifold); throw NetworkFailed{}; }
+            if (plan_) throw NetworkFailed{};
             throw std::logic_error(
                 "the result lost the topology of the input; please report this with the mesh");
         }
@@ -566,10 +571,10 @@ private:
     double spacing_ = 0;  // Mean distance of the sites.
     Surface surface_;     // Of the cleaned mesh.
     std::optional<PreparedSurface> prepared_;
-    std::optional<NetworkPlan> plan_;    // Its cut surface is here the whole one.
+    std::optional<NetworkPlan> plan_;            // Its cut surface is here the whole one.
     std::vector<ComponentTopology> components_;  // Of the surface.
     std::vector<Index> face_component_;          // #F of the cut surface.
-    std::vector<Index> component_;       // #F of the base.
+    std::vector<Index> component_;               // #F of the base.
     CurveSites curves_;                  // The first ones of the sites; empty without a plan.
     std::vector<ChainEdge> chain_;       // Likewise.
     std::vector<Index> groups_;          // Of the dual's vertices: equal for copies of one.

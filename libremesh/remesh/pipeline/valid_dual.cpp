@@ -286,12 +286,7 @@ private:
             if (!ground_.chain.empty()) {
                 has_failed_[c] = has_failed_[c] || rim_of(triangles[c]) != chain[c];
             }
-            if (has_failed_[c]) { if (!ground_.chain.empty()) {
-                std::vector<DirectedEdge> d; auto rim=rim_of(triangles[c]); std::set_symmetric_difference(rim.begin(),rim.end(),chain[c].begin(),chain[c].end(),std::back_inserter(d));
-                fprintf(stderr,"DBG thinned %u: triangles %zu chain %zu diff %zu gave_up %d:", c, triangles[c].size(), chain[c].size(), d.size(), (int)progress_[c].gave_up);
-                for (auto& v : find_violations()) if (component_of(v)==c) fprintf(stderr," [%s %u %u]", v.reason, v.site.value(), v.other.value());
-                fprintf(stderr,"\n"); }
-                continue; }
+            if (has_failed_[c]) continue;
             for (const Triangle& t : triangles[c]) {
                 for (const Index site : t) has_vertex[site] = true;
             }
@@ -361,9 +356,8 @@ private:
             points.push_back(sites_[s]);
             dual_.site.push_back(s);
         }
-        const agvd::ThinnedMesh part = ground_.chain.empty()
-                                           ? agvd::thin(surface_, faces, points)
-                                           : thin_patch(surface_, faces, points);
+        const agvd::ThinnedMesh part = ground_.chain.empty() ? agvd::thin(surface_, faces, points)
+                                                             : thin_patch(surface_, faces, points);
         points.insert(points.end(), part.extra.begin(), part.extra.end());
         dual_.mesh.points.insert(dual_.mesh.points.end(), points.begin(), points.end());
         dual_.site.resize(dual_.mesh.points.size(), no_index);

@@ -27,8 +27,7 @@ Chain chain_of(const agvd::Surface& surface, const Curve& curve, const CurveSite
     chain.along.push_back(curve.is_closed() ? chain.along.front() + curve.length()
                                             : curve.length());
     for (const double along : chain.along) {
-        chain.at.push_back(
-            position(surface.mesh.view(), point_on_curve(curve, along, Side::Left)));
+        chain.at.push_back(position(surface.mesh.view(), point_on_curve(curve, along, Side::Left)));
     }
     return chain;
 }
@@ -57,8 +56,9 @@ std::array<Vec3, 2> pulls(const agvd::Surface& surface, const Curve& curve, cons
     for (std::size_t k = 0; k + 1 < places.size(); ++k) {
         // Simpson's rule is exact: both factors are linear.
         const double width = places[k + 1] - places[k], middle = places[k] + width / 2;
-        for (const auto& [at, weight] :
-             {std::pair(places[k], width / 6), {middle, 4 * width / 6}, {places[k + 1], width / 6}}) {
+        for (const auto& [at, weight] : {std::pair(places[k], width / 6),
+                                         {middle, 4 * width / 6},
+                                         {places[k + 1], width / 6}}) {
             const double share = (at - begin) / (end - begin);
             const Vec3 off = weight * off_chain(at);
             result[0] += (1 - share) * off;

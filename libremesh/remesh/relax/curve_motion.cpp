@@ -56,9 +56,10 @@ void CurveMotion::step(double stretch, double keep) {
         const Index first = sites_.first_of_curve[c], last = sites_.first_of_curve[c + 1] - 1;
         const double at = along_before_[g];
         const double turn = curve.is_closed() ? curve.length() : 0;
-        const double before = g > first ? along_before_[g - 1]
-                                        : curve.is_closed() ? along_before_[last] - turn : 0;
-        const double after = g < last ? along_before_[g + 1]
+        const double before = g > first           ? along_before_[g - 1]
+                              : curve.is_closed() ? along_before_[last] - turn
+                                                  : 0;
+        const double after = g < last            ? along_before_[g + 1]
                              : curve.is_closed() ? along_before_[first] + turn
                                                  : curve.length();
         double move = keep * move_[g];

@@ -126,8 +126,7 @@ void Levels::look(Relaxation& relaxation, const agvd::DistanceBounds& labels,
     const auto num_sites = static_cast<Index>(relaxation.sites().size());
     if (!gives_cells(num_sites)) return;
     if (options_.boundary == Boundary::Keep) {
-        relaxation.move_to_boundary(
-            boundary_places(prepared_.base, labels, num_sites, corners));
+        relaxation.move_to_boundary(boundary_places(prepared_.base, labels, num_sites, corners));
     }
     relaxation.set_density(
         measure_cells(prepared_, labels, num_sites, options_.num_threads, progress_));
@@ -141,8 +140,7 @@ void Levels::sweep(Relaxation& relaxation, std::span<const Index> corners,
     const agvd::DistanceBounds labels = label(relaxation.sites());
     const Index flaws = relaxation.num_flaws();
     const bool is_cheap = gives_neighbours(surface_, num_sites);
-    const bool is_worth_it =
-        num_mended_ < result_.levels.size() && flaws > most_flaws * num_sites;
+    const bool is_worth_it = num_mended_ < result_.levels.size() && flaws > most_flaws * num_sites;
     if (flaws > 0 && (is_cheap || is_worth_it)) {
         if (!is_cheap) num_mended_ = result_.levels.size();
         relaxation.mend(triangulate_sites(prepared_, labels, relaxation.sites(), chain,

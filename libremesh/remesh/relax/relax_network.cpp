@@ -85,10 +85,9 @@ private:
     }
     [[nodiscard]] Index fine_group(Index group) const {
         if (group < coarse_.num_nodes()) return group;
-        const auto curve = static_cast<Index>(std::upper_bound(coarse_.first_of_curve.begin(),
-                                                               coarse_.first_of_curve.end(),
-                                                               group) -
-                                              coarse_.first_of_curve.begin() - 1);
+        const auto curve = static_cast<Index>(
+            std::upper_bound(coarse_.first_of_curve.begin(), coarse_.first_of_curve.end(), group) -
+            coarse_.first_of_curve.begin() - 1);
         const bool is_closed = plan_.network.curves[curve].is_closed();
         const Index place = group - coarse_.first_of_curve[curve] + (is_closed ? 0 : 1);
         return group_at(fine_, curve, fine_place(curve, place));
@@ -286,8 +285,8 @@ public:
 private:
     std::vector<SurfacePoint> sample(const CurveSites& curves, Index num_inner, double spacing) {
         std::vector<SurfacePoint> sites = curves.sites;
-        const auto inner = sample_inner_sites(plan_.cut.surface, curves.sites, num_inner, spacing,
-                                              sampling_);
+        const auto inner =
+            sample_inner_sites(plan_.cut.surface, curves.sites, num_inner, spacing, sampling_);
         sites.insert(sites.end(), inner.begin(), inner.end());
         return sites;
     }
@@ -334,7 +333,8 @@ private:
         patches_.mend(chain, first.sites(), dual.triangles,
                       [&](Index patch) { return relaxed[patch]; });
         MiddleFinder(plan_, chain, first.sites()).run(refinement, dual);
-        // The sites in the order of the fine level, where those of new curve sites have no triangle.
+        // The sites in the order of the fine level, where those of new curve sites have no
+        // triangle.
         std::vector<SurfacePoint> sites = fine_.sites;
         std::vector<double> weights(fine_.sites.size(), 1);
         for (Index i = 0; i < first.sites().size(); ++i) {

@@ -70,11 +70,10 @@ RelaxResult relax_sites(const PreparedSurface& surface, std::vector<SurfacePoint
     if (options.steps == 0 || sites.empty()) return levels.finish(std::move(sites));
     detail::even_out(surface, sites, options.is_fixed, options.num_threads, levels.progress());
     const agvd::DistanceBounds labels = levels.label(sites);
-    Relaxation relaxation(
-        surface.input(), sites,
-        detail::triangulate_sites(surface, labels, sites, {}, options.num_threads,
-                                  levels.progress()),
-        options.is_fixed, {}, options.num_threads, levels.progress());
+    Relaxation relaxation(surface.input(), sites,
+                          detail::triangulate_sites(surface, labels, sites, {}, options.num_threads,
+                                                    levels.progress()),
+                          options.is_fixed, {}, options.num_threads, levels.progress());
     if (is_hopeless(relaxation)) return levels.finish(std::move(sites));
     levels.run(relaxation, &labels, options.corners);
     if (is_hopeless(relaxation)) return levels.finish(std::move(sites));

@@ -20,9 +20,8 @@ public:
     std::optional<TriangulatedSites> run(Index count) {
         const auto has_no_site = [](const Middle& m) { return m.site == no_index; };
         const std::size_t room =
-            result_.sites.size() +
-            static_cast<std::size_t>(
-                std::count_if(dual_.middles.begin(), dual_.middles.end(), has_no_site));
+            result_.sites.size() + static_cast<std::size_t>(std::count_if(
+                                       dual_.middles.begin(), dual_.middles.end(), has_no_site));
         if (count < result_.sites.size()) return std::nullopt;
         add_middles(std::min<std::size_t>(count, room) - result_.sites.size());
         for (const agvd::Triangle& t : dual_.triangles) divide(t);

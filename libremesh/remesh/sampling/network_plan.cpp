@@ -29,7 +29,8 @@ std::vector<Patch> find_patches(const Surface& surface, const agvd::Progress& pr
         patch.area = component.area();
         for (const Index f : component.faces) {
             for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-                if (surface.twin[h] == agvd::no_index) patch.boundary_length += surface.length_of(h);
+                if (surface.twin[h] == agvd::no_index)
+                    patch.boundary_length += surface.length_of(h);
             }
         }
     }
@@ -79,9 +80,8 @@ void drop_shortest(const Surface& surface, const CurveNetwork& network,
 
 }  // namespace
 
-std::optional<NetworkPlan> plan_network(const Surface& surface,
-                                        std::vector<std::uint8_t> is_crease, Index num_sites,
-                                        int num_threads, const agvd::Progress& progress) {
+NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_crease,
+                         Index num_sites, int num_threads, const agvd::Progress& progress) {
     const auto length_of_creases = [&] {
         double length = 0;
         for (Index e = 0; e < surface.num_edges(); ++e) {
@@ -91,12 +91,13 @@ std::optional<NetworkPlan> plan_network(const Surface& surface,
     };
     const double length_at_first = length_of_creases();
     const double spacing = detail::spacing_of(num_sites, agvd::surface_area(surface), 0);
+    NetworkPlan plan;
     while (std::any_of(is_crease.begin(), is_crease.end(), [](auto c) { return c != 0; })) {
-        NetworkPlan plan;
         plan.network = find_network(surface, is_crease, spacing);
-        const auto fewest =
-            curve_intervals(plan.network, std::numeric_limits<double>::infinity());
-        if (num_curve_sites(plan.network, fewest) > num_sites) {
+        const auto fewest = curve_intervals(plan.network, std::numeric_limits<double>::infinity());
+        const auto needed = static_cast<Index>(num_curve_sites(plan.network, fewest));
+        plan.sites_for_all = std::max(plan.sites_for_all, needed);
+        if (needed > num_sites) {
             drop_shortest(surface, plan.network, is_crease);
             continue;
         }
@@ -108,7 +109,9 @@ std::optional<NetworkPlan> plan_network(const Surface& surface,
         plan.dropped_length = length_at_first - plan.length;
         return plan;
     }
-    return std::nullopt;
+    plan.network = {};
+    plan.dropped_length = length_at_first;
+    return plan;
 }
 
 }  // namespace remesh

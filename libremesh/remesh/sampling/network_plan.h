@@ -2,8 +2,6 @@
 //! How a number of sites is shared between the curves of a surface and what lies between them.
 #pragma once
 
-#include <optional>
-
 #include "remesh/features/curve_sites.h"
 
 namespace remesh {
@@ -16,18 +14,18 @@ struct NetworkPlan {
     double spacing = 0;                  //!< Mesh units: of neighbouring sites.
     double length = 0;                   //!< Of the creases kept, mesh units.
     double dropped_length = 0;           //!< Of those that the sites are too few for.
+    agvd::Index sites_for_all = 0;       //!< Fewest with which all are kept.
 };
 
 //! Boundary and creases, with the spacing at which the sites of curves and patches are so many.
 //! Where they are too few for all curves, the shortest creases go first.
 //!
 //! \param is_crease   #E. \param num_sites  those of curves counted once.
-//! \return nothing if no crease is left.
+//! \return without curves if there is no crease, or none is left.
 //! \throw agvd::Cancelled  the progress callback returned false.
 //! Cost: O(n), again for each tenth of the creases that is dropped.
-[[nodiscard]] std::optional<NetworkPlan> plan_network(const agvd::Surface& surface,
-                                                      std::vector<std::uint8_t> is_crease,
-                                                      agvd::Index num_sites, int num_threads = 0,
-                                                      const agvd::Progress& progress = {});
+[[nodiscard]] NetworkPlan plan_network(const agvd::Surface& surface,
+                                       std::vector<std::uint8_t> is_crease, agvd::Index num_sites,
+                                       int num_threads = 0, const agvd::Progress& progress = {});
 
 }  // namespace remesh
