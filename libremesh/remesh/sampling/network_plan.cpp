@@ -15,8 +15,8 @@ using agvd::Index;
 using agvd::Surface;
 
 constexpr int num_halvings = 60;
-// Share of the creases that goes at once.
-constexpr std::size_t drop_divisor = 10;
+// Share of the creases that goes at once where sites are too few.
+constexpr double drop_at_once = 0.1;
 
 struct Patch {
     double area = 0, boundary_length = 0;
@@ -64,15 +64,15 @@ double find_spacing(const CurveNetwork& network, const std::vector<Patch>& patch
 
 bool is_crease_curve(const Curve& curve) { return curve.has(Side::Left) && curve.has(Side::Right); }
 
-// A tenth of the creases, the shortest ones; nothing is left if there are none.
-void drop_shortest(const Surface& surface, const CurveNetwork& network,
+// The shortest creases.
+void drop_shortest(const Surface& surface, const CurveNetwork& network, double share,
                    std::vector<std::uint8_t>& is_crease) {
     std::vector<std::pair<double, Index>> order;
     for (Index c = 0; c < network.curves.size(); ++c) {
         if (is_crease_curve(network.curves[c])) order.emplace_back(network.curves[c].length(), c);
     }
     std::sort(order.begin(), order.end());
-    order.resize((order.size() + drop_divisor - 1) / drop_divisor);
+    order.resize(static_cast<std::size_t>(std::ceil(share * static_cast<double>(order.size()))));
     for (const auto& [length, c] : order) {
         for (const Index h : network.curves[c].on(Side::Left)) is_crease[surface.edge[h]] = 0;
     }
@@ -81,7 +81,8 @@ void drop_shortest(const Surface& surface, const CurveNetwork& network,
 }  // namespace
 
 NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_crease,
-                         Index num_sites, int num_threads, const agvd::Progress& progress) {
+                         Index num_sites, double drop_share, int num_threads,
+                         const agvd::Progress& progress) {
     const auto length_of_creases = [&] {
         double length = 0;
         for (Index e = 0; e < surface.num_edges(); ++e) {
@@ -92,13 +93,17 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
     const double length_at_first = length_of_creases();
     const double spacing = detail::spacing_of(num_sites, agvd::surface_area(surface), 0);
     NetworkPlan plan;
+    if (drop_share > 0) {
+        plan.network = find_network(surface, is_crease, spacing);
+        drop_shortest(surface, plan.network, drop_share, is_crease);
+    }
     while (std::any_of(is_crease.begin(), is_crease.end(), [](auto c) { return c != 0; })) {
         plan.network = find_network(surface, is_crease, spacing);
         const auto fewest = curve_intervals(plan.network, std::numeric_limits<double>::infinity());
         const auto needed = static_cast<Index>(num_curve_sites(plan.network, fewest));
         plan.sites_for_all = std::max(plan.sites_for_all, needed);
         if (needed > num_sites) {
-            drop_shortest(surface, plan.network, is_crease);
+            drop_shortest(surface, plan.network, drop_at_once, is_crease);
             continue;
         }
         plan.cut = cut_surface(surface, is_crease, num_threads, progress);
