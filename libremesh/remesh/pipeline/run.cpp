@@ -110,9 +110,9 @@ private:
                                     .is_automatic = options_.features == Features::Auto,
                                     .num_threads = options_.num_threads,
                                     .progress = progress};
-        NetworkPlan plan = plan_network(surface_, find_creases(surface_, creases),
-                                        options_.num_samples, drop_share_, options_.num_threads,
-                                        progress);
+        NetworkPlan plan =
+            plan_network(surface_, find_creases(surface_, creases), options_.num_samples,
+                         drop_share_, options_.num_threads, progress);
         FeatureCounts& counts = result_.features;
         counts.curves = static_cast<Index>(plan.network.curves.size());
         counts.nodes = static_cast<Index>(plan.network.nodes.size());
@@ -592,8 +592,8 @@ private:
 
 }  // namespace
 
-RemeshResult run_pipeline(const agvd::MeshView& mesh, const RemeshOptions& options,
-                          int most_mends, double drop_share) {
+RemeshResult run_pipeline(const agvd::MeshView& mesh, const RemeshOptions& options, int most_mends,
+                          double drop_share) {
     return Pipeline(mesh, options, most_mends, drop_share).run();
 }
 

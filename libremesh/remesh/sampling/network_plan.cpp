@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "agvd/mesh/face_area.h"
 #include "remesh/sampling/components.h"
@@ -14,7 +13,7 @@ namespace {
 using agvd::Index;
 using agvd::Surface;
 
-constexpr int num_halvings = 60;
+constexpr int num_halvings = 40;
 // Share of the creases that goes at once where sites are too few.
 constexpr double drop_at_once = 0.1;
 
@@ -37,9 +36,10 @@ std::vector<Patch> find_patches(const Surface& surface, const agvd::Progress& pr
     return patches;
 }
 
-double num_sites_at(const CurveNetwork& network, const std::vector<Patch>& patches,
-                    double spacing) {
-    auto count = static_cast<double>(num_curve_sites(network, curve_intervals(network, spacing)));
+double num_sites_at(const Surface& surface, const CurveNetwork& network,
+                    const std::vector<Patch>& patches, double spacing) {
+    auto count =
+        static_cast<double>(num_curve_sites(network, curve_intervals(surface, network, spacing)));
     for (const Patch& p : patches) {
         count += std::max(detail::inner_sites(p.area, p.boundary_length, spacing), 0.0);
     }
@@ -47,8 +47,8 @@ double num_sites_at(const CurveNetwork& network, const std::vector<Patch>& patch
 }
 
 // The least spacing that needs no more sites than there are.
-double find_spacing(const CurveNetwork& network, const std::vector<Patch>& patches,
-                    double num_sites) {
+double find_spacing(const Surface& surface, const CurveNetwork& network,
+                    const std::vector<Patch>& patches, double num_sites) {
     double area = 0, length = 0;
     for (const Patch& p : patches) {
         area += p.area;
@@ -57,7 +57,7 @@ double find_spacing(const CurveNetwork& network, const std::vector<Patch>& patch
     double low = std::sqrt(area / num_sites) / 4, high = length + std::sqrt(area);
     for (int i = 0; i < num_halvings; ++i) {
         const double middle = (low + high) / 2;
-        (num_sites_at(network, patches, middle) > num_sites ? low : high) = middle;
+        (num_sites_at(surface, network, patches, middle) > num_sites ? low : high) = middle;
     }
     return high;
 }
@@ -99,7 +99,7 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
     }
     while (std::any_of(is_crease.begin(), is_crease.end(), [](auto c) { return c != 0; })) {
         plan.network = find_network(surface, is_crease, spacing);
-        const auto fewest = curve_intervals(plan.network, std::numeric_limits<double>::infinity());
+        const std::vector<Index> fewest = fewest_intervals(plan.network);
         const auto needed = static_cast<Index>(num_curve_sites(plan.network, fewest));
         plan.sites_for_all = std::max(plan.sites_for_all, needed);
         if (needed > num_sites) {
@@ -107,9 +107,9 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
             continue;
         }
         plan.cut = cut_surface(surface, is_crease, num_threads, progress);
-        plan.spacing =
-            find_spacing(plan.network, find_patches(plan.cut.surface, progress), num_sites);
-        plan.intervals = curve_intervals(plan.network, plan.spacing);
+        plan.spacing = find_spacing(surface, plan.network, find_patches(plan.cut.surface, progress),
+                                    num_sites);
+        plan.intervals = curve_intervals(surface, plan.network, plan.spacing);
         plan.length = length_of_creases();
         plan.dropped_length = length_at_first - plan.length;
         return plan;
