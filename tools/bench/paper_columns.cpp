@@ -34,9 +34,9 @@ std::vector<Column> ratio_columns() {
 }
 
 std::vector<Column> error_columns() {
-    return {{"delta_percent", "delta %", 3, 8},        {"frechet_radii", "F/radius", 3, 9},
-            {"hausdorff_radii", "Hausdorff", 4, 9},    {"wrong_percent", "wrong %", 3, 8},
-            {"mean_bisector_error", "|dA-dB|", -1, 8}, {"p95_bisector_error", "95 %", -1, 8},
+    return {{"delta_percent", "delta %", 3, 8},      {"frechet_radii", "F/radius", 3, 9},
+            {"hausdorff_radii", "Hausdorff", 4, 9},  {"wrong_percent", "wrong %", 3, 8},
+            {"mean_bisector_error", "dA-dB", -1, 8}, {"p95_bisector_error", "95 %", -1, 8},
             {"max_bisector_error", "largest", -1, 8}};
 }
 
