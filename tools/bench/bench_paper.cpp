@@ -67,8 +67,10 @@ public:
                  const std::vector<SurfacePoint>& sites, const std::vector<bench::Method>& by,
                  bench::PaperOptions options = {}, const Json& more = Json::object()) {
         options.repetitions = std::min(options.repetitions, arguments_.repetitions);
+        std::vector<Json> measured = bench::measure({name, surface, sites}, by, options);
+        bench::paper::add_ratios(measured);
         std::size_t i = 0;
-        for (Json& row : bench::measure({name, surface, sites}, by, options)) {
+        for (Json& row : measured) {
             const PropagationOptions& how = by[i++].options;
             row["steiner_points"] =
                 how.engine == Engine::Steiner ? Json(how.steiner_points) : Json();
@@ -94,7 +96,6 @@ void fig1(Workshop& shop) {
     const Surface surface =
         shop.is_quick_look() ? shop.mesh("") : build_surface(make_data::organic().view());
     shop.measure("organic", surface, shop.sites(surface, 30), methods({8}));
-    bench::paper::add_ratios(shop.rows());
 }
 
 // Table 1: 100 sites on four meshes.
@@ -127,7 +128,6 @@ void table2(Workshop& shop) {
 void fig9(Workshop& shop) {
     const Surface surface = shop.mesh("spot.obj", 50'000);
     shop.measure("spot", surface, shop.sites(surface, 30), methods({5, 8, 12}));
-    bench::paper::add_ratios(shop.rows());
 }
 
 // Fig. 10: 2 to 30 Steiner points per edge.

@@ -2,6 +2,8 @@
 //! The columns of the paper's evaluation, and its rows with the methods side by side.
 #pragma once
 
+#include <span>
+
 #include "bench/report.h"
 
 namespace bench::paper {
@@ -13,9 +15,9 @@ namespace bench::paper {
 
 [[nodiscard]] std::vector<Column> join(std::initializer_list<std::vector<Column>> parts);
 
-//! Adds to each row time_over_exact and memory_over_exact: over the row "window exact" of the same
-//! mesh, faces and sites. \pre there is one.
-void add_ratios(nlohmann::ordered_json& rows);
+//! Adds to each row of one case time_over_exact and memory_over_exact: over the row "window exact".
+//! \pre there is one.
+void add_ratios(std::span<nlohmann::ordered_json> rows);
 
 //! The rows as a Markdown table, all methods of a case in one of its rows.
 //!
