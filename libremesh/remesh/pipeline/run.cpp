@@ -104,19 +104,23 @@ private:
     // What propagation runs on.
     [[nodiscard]] const Surface& base() const { return prepared_->base.surface(); }
 
-    // Of the base's faces: those of the input keep their numbers, and flips their components.
+    // Of the base's faces: those that nothing has changed keep their numbers.
     void find_components(const agvd::Progress& progress) {
         agvd::Poller poller(progress);
         agvd::Ticker ticker(poller);
-        component_ = result_.input_topology.face_component;
+        const std::vector<Index>& of_input = result_.input_topology.face_component;
         component_.reserve(base().num_faces());
-        for (Index f = surface_.num_faces(); f < base().num_faces(); ++f) {
+        for (Index f = 0; f < base().num_faces(); ++f) {
             ticker.tick();
+            if (!prepared_->base.is_changed(f)) {
+                component_.push_back(of_input[f]);
+                continue;
+            }
             const Index corner = base().mesh.triangles[f][0];
             const Index face = corner < surface_.num_vertices()
                                    ? Surface::face(surface_.outgoing[corner])
                                    : prepared_->base.place_of_added(corner).face.value();
-            component_.push_back(component_[face]);
+            component_.push_back(of_input[face]);
         }
     }
 
