@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "remesh/quality/segment_grid.h"
+#include "support/dice.h"
 #include "support/parts.h"
 #include "support/shapes.h"
 
@@ -148,6 +151,9 @@ TEST(FeatureCoverage, SliversMakeNoSharpEdges) {
         {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0.5 - 1e-9, 0.5 + 1e-9, 3e-9}},
         {{0, 1, 2}, {0, 2, 4}, {2, 3, 4}, {3, 0, 4}}};
     EXPECT_EQ(coverage(square, square).length, 0);
+    TriangleMesh turned = square;
+    std::swap(turned.triangles[1][0], turned.triangles[1][1]);
+    EXPECT_EQ(coverage(turned, turned).length, 0);
     TriangleMesh high = square;
     high.positions[4] += Vec3(-1e-4, 1e-4, 3e-4);
     EXPECT_GT(coverage(high, high).length, 1);
@@ -160,6 +166,46 @@ TEST(FeatureCoverage, EdgesOfThreeSheetsAreSharp) {
     EXPECT_NEAR(c.length, 1, 1e-12);
     EXPECT_EQ(c.covered_closely, 1);
     EXPECT_EQ(c.false_share, 0);
+}
+
+TEST(FeatureCoverage, EdgesThatReachFarBeyondTheOriginalCoverIt) {
+    const TriangleMesh fold = parts::folded_plate(16, 2, 1, [](double) { return 90; });
+    const double far = 1e9;
+    const TriangleMesh large{{{-far, 0, 0}, {far, 0, 0}, {0, far, far}, {0, -far, far}},
+                             {{0, 1, 2}, {1, 0, 3}}};
+    EXPECT_EQ(coverage(fold, large).covered_closely, 1);
+    EXPECT_EQ(coverage(fold, moved(large, {0, 0, 1})).covered, 0);
+}
+
+TEST(SegmentGrid, FindsWhatIsWithinReach) {
+    Dice dice(1);
+    const auto point = [&](double size) {
+        return Vec3(dice.number(-size, size), dice.number(-size, size), dice.number(-size, size));
+    };
+    std::vector<remesh::detail::SegmentGrid::Segment> segments;
+    for (int i = 0; i < 60; ++i) {
+        const Vec3 from = point(1);
+        segments.emplace_back(from, from + point(i % 3 == 0 ? 0 : 0.5));
+    }
+    const double reach = 0.1;
+    Ticker ticker;
+    const remesh::detail::SegmentGrid grid(segments, reach, ticker);
+    int num_near = 0;
+    for (int i = 0; i < 20000; ++i) {
+        const Vec3 p = point(1.5);
+        double nearest = HUGE_VAL;
+        for (const auto& [a, b] : segments) {
+            const double t = (p - a).dot(b - a) / std::max(1e-300, (b - a).squaredNorm());
+            nearest = std::min(nearest, (a + std::clamp(t, 0., 1.) * (b - a) - p).norm());
+        }
+        if (nearest <= reach) {
+            ++num_near;
+            EXPECT_NEAR(grid.distance(p), nearest, 1e-12);
+        } else {
+            EXPECT_EQ(grid.distance(p), HUGE_VAL);
+        }
+    }
+    EXPECT_GT(num_near, 300);
 }
 
 TEST(FeatureCoverage, ResultFarAwayCoversNothing) {
