@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <unordered_map>
 
@@ -127,8 +128,7 @@ TriangleMesh without_copies(const agvd::MeshView& mesh, agvd::Ticker& ticker) {
         faces.emplace_back(corners, static_cast<Index>(kept.size()));
         kept.push_back(face);
     }
-    ticker.poll();
-    std::sort(faces.begin(), faces.end());
+    agvd::sort_ticked(faces, ticker, std::less<>());
     for (std::size_t i = 0; i < faces.size(); ++i) {
         ticker.tick();
         if (i > 0 && faces[i].first == faces[i - 1].first) continue;

@@ -32,7 +32,7 @@ struct FeatureCoverage {
     double diagonal = 0;           //!< Of the box around the original's faces, mesh units.
 };
 
-//! Sums are over some 20 000 points at equal distances along the edges, at least one on each.
+//! Shares are of 20 000 points at equal distances along the edges.
 //!
 //! \param original, result  any triangles, manifold or not; indices in range, positions finite.
 //! \return nothing if the original has neither sharp edges nor corners.
