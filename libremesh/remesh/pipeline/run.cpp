@@ -32,6 +32,9 @@ using agvd::Surface;
 using agvd::SurfacePoint;
 using agvd::Vec3;
 
+// Creases are looked for at the spacing of so many sites where there are fewer: small parts are to
+// keep theirs, and what the sites are too few for is told.
+constexpr std::size_t least_scale = 300;
 // Rounds of putting vertices back onto the surface there.
 constexpr int max_unfits = 4;
 
@@ -107,11 +110,12 @@ private:
             options_.boundary == Boundary::Free) {
             return;
         }
-        const CreaseOptions creases{.angle = options_.feature_angle,
-                                    .spacing = spacing_,
-                                    .is_automatic = options_.features == Features::Auto,
-                                    .num_threads = options_.num_threads,
-                                    .progress = progress};
+        const CreaseOptions creases{
+            .angle = options_.feature_angle,
+            .spacing = std::min(spacing_, mean_spacing(surface_, least_scale)),
+            .is_automatic = options_.features == Features::Auto,
+            .num_threads = options_.num_threads,
+            .progress = progress};
         NetworkPlan plan =
             plan_network(surface_, find_creases(surface_, creases), options_.num_samples,
                          drop_share_, options_.num_threads, progress);
@@ -259,11 +263,14 @@ private:
     }
 
     // Narrow parts between curves are thinned at once: sites added there would be of no use.
+    // Distances are exact: with few sites on large patches that costs little, and bounds would
+    // leave islands of other cells.
     [[nodiscard]] RemeshOptions options_of_cells() const {
         RemeshOptions options = options_;
         if (!plan_) return options;
         options.boundary = Boundary::Free;
         options.repair_rounds = 0;
+        if (!options.max_error && options.engine == agvd::Engine::Window) options.max_error = 0;
         return options;
     }
 
