@@ -32,6 +32,8 @@ using agvd::Surface;
 using agvd::SurfacePoint;
 using agvd::Vec3;
 
+// Of the spacing: lengths not above this are rounding.
+constexpr double rounding = 1e-10;
 // Rounds of putting vertices back onto the surface there.
 constexpr int max_unfits = 4;
 
@@ -444,7 +446,7 @@ private:
         if (options_.fit.value_or(is_relaxed())) {
             if (plan_) fit_network(placed);
             fit_vertices(*prepared_, nearest, placed, options_.num_threads,
-                         agvd::within(progress, 0, 0));
+                         agvd::within(progress, 0, 0), plan_ ? rounding * spacing_ : 0);
         }
         if (is_relaxed()) {
             improve_shape(*prepared_, nearest, placed, agvd::within(progress, 0.5, 0.5));
