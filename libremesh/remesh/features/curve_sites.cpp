@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
 #include "agvd/mesh/point_faces.h"
 
@@ -14,8 +15,36 @@ using agvd::no_index;
 
 constexpr std::array sides{Side::Left, Side::Right};
 
+// Sites come closer where a curve turns by more over a spacing, in radians, but no closer than by
+// this factor.
+constexpr double most_turn = std::numbers::pi / 6;
+constexpr double most_rate = 2;
+
+// By how much a curve turns over a length around a place: twice the angle between chords.
+double turn_over(const agvd::Surface& surface, const Curve& curve, double along, double length) {
+    const auto at = [&](double place) {
+        const double inside = curve.is_closed() ? place : std::clamp(place, 0.0, curve.length());
+        const Side side = curve.has(Side::Left) ? Side::Left : Side::Right;
+        return position(surface.mesh.view(), point_on_curve(curve, inside, side));
+    };
+    const double reach = std::min(length / 2, curve.length() / 4);
+    const agvd::Vec3 here = at(along);
+    const agvd::Vec3 in = here - at(along - reach), out = at(along + reach) - here;
+    return 2 * std::atan2(in.cross(out).norm(), in.dot(out)) * length / (2 * reach);
+}
+
+// The place with so many spacings before it.
+double place_at(const Curve& curve, const std::vector<double>& spacings, double count) {
+    const auto after = std::upper_bound(spacings.begin() + 1, spacings.end() - 1, count);
+    const auto i = static_cast<std::size_t>(after - spacings.begin()) - 1;
+    const double share = (count - spacings[i]) / (spacings[i + 1] - spacings[i]);
+    return curve.up_to[i] + share * (curve.up_to[i + 1] - curve.up_to[i]);
+}
+
 // Closed curves begin off the vertices.
-double start_of(const Curve& curve) { return curve.is_closed() ? curve.up_to[1] / 2 : 0; }
+double start_of(const Curve& curve, const std::vector<double>& spacings) {
+    return curve.is_closed() ? spacings[1] / 2 : 0;
+}
 
 // The nodes' copies: ascending vertices of the cut surface by node.
 std::vector<std::vector<Index>> copies_of_nodes(const CurveNetwork& network,
@@ -33,15 +62,35 @@ std::vector<std::vector<Index>> copies_of_nodes(const CurveNetwork& network,
 
 }  // namespace
 
-std::vector<Index> curve_intervals(const CurveNetwork& network, double spacing) {
+std::vector<double> spacings_along(const agvd::Surface& surface, const Curve& curve,
+                                   double spacing) {
+    std::vector<double> result{0};
+    for (std::size_t i = 0; i < curve.num_edges(); ++i) {
+        const double length = curve.up_to[i + 1] - curve.up_to[i];
+        const double turn = turn_over(surface, curve, curve.up_to[i] + length / 2, spacing);
+        const double rate = std::clamp(turn / most_turn, 1.0, most_rate);
+        result.push_back(result.back() + rate * length / spacing);
+    }
+    return result;
+}
+
+std::vector<Index> fewest_intervals(const CurveNetwork& network) {
     std::map<std::pair<Index, Index>, int> num_between;  // Curves by their ends.
     for (const Curve& curve : network.curves) ++num_between[std::minmax(curve.begin, curve.end)];
     std::vector<Index> intervals;
     for (const Curve& curve : network.curves) {
         const bool is_alone = num_between[std::minmax(curve.begin, curve.end)] == 1;
-        const double fewest = curve.begin == curve.end ? 3 : is_alone ? 1 : 2;
-        intervals.push_back(
-            static_cast<Index>(std::max(fewest, std::round(curve.length() / spacing))));
+        intervals.push_back(curve.begin == curve.end ? 3 : is_alone ? 1 : 2);
+    }
+    return intervals;
+}
+
+std::vector<Index> curve_intervals(const agvd::Surface& surface, const CurveNetwork& network,
+                                   double spacing) {
+    std::vector<Index> intervals = fewest_intervals(network);
+    for (std::size_t c = 0; c < intervals.size(); ++c) {
+        const double spacings = spacings_along(surface, network.curves[c], spacing).back();
+        intervals[c] = std::max(intervals[c], static_cast<Index>(std::round(spacings)));
     }
     return intervals;
 }
@@ -54,7 +103,7 @@ std::size_t num_curve_sites(const CurveNetwork& network, std::span<const Index> 
     return count;
 }
 
-CurveSites place_curve_sites(const CurveNetwork& network, const CutSurface& cut,
+CurveSites place_curve_sites(const CurveNetwork& network, const CutSurface& cut, double spacing,
                              std::span<const Index> intervals) {
     CurveSites result;
     result.first_copy.push_back(0);
@@ -69,8 +118,10 @@ CurveSites place_curve_sites(const CurveNetwork& network, const CutSurface& cut,
     result.first_of_curve.push_back(result.num_groups());
     for (std::size_t c = 0; c < network.curves.size(); ++c) {
         const Curve& curve = network.curves[c];
+        const std::vector<double> spacings = spacings_along(cut.surface, curve, spacing);
         for (Index i = curve.is_closed() ? 0 : 1; i < intervals[c]; ++i) {
-            const double along = start_of(curve) + curve.length() * i / intervals[c];
+            const double count = start_of(curve, spacings) + spacings.back() * i / intervals[c];
+            const double along = place_at(curve, spacings, count);
             for (const Side side : sides) {
                 if (curve.has(side)) {
                     result.sites.push_back(point_on_curve(curve, along, side));

@@ -22,20 +22,32 @@ struct CurveSites {
     [[nodiscard]] agvd::Index num_nodes() const { return first_of_curve[0]; }
 };
 
+//! Where the sites of a curve belong: even at this measure.
+//!
+//! \return #edges + 1: spacings before each edge, then of all. An edge counts as its length over
+//! the spacing, and up to twice that where the curve turns by more than 30 degrees over a spacing.
+//! Cost: O(n log n).
+[[nodiscard]] std::vector<double> spacings_along(const agvd::Surface& surface, const Curve& curve,
+                                                 double spacing);
+
 //! How many intervals each curve is divided into, so that they are about a spacing long and what
 //! they bound can be triangulated: closed curves have at least three, curves that share both ends
 //! with another one two.
-[[nodiscard]] std::vector<agvd::Index> curve_intervals(const CurveNetwork& network, double spacing);
+[[nodiscard]] std::vector<agvd::Index> curve_intervals(const agvd::Surface& surface,
+                                                       const CurveNetwork& network, double spacing);
+
+//! The fewest that can be triangulated.
+[[nodiscard]] std::vector<agvd::Index> fewest_intervals(const CurveNetwork& network);
 
 //! Vertices of the network with so many intervals.
 [[nodiscard]] std::size_t num_curve_sites(const CurveNetwork& network,
                                           std::span<const agvd::Index> intervals);
 
-//! At even distances.
+//! At even distances by spacings_along.
 //!
 //! \param intervals  #curves, >= 1.
 [[nodiscard]] CurveSites place_curve_sites(const CurveNetwork& network, const CutSurface& cut,
-                                           std::span<const agvd::Index> intervals);
+                                           double spacing, std::span<const agvd::Index> intervals);
 
 //! Puts a group that is no node at another place of its curve, all copies of it.
 //!

@@ -135,15 +135,16 @@ std::string describe(const DelaunayCounts& counts, Delaunay delaunay) {
 
 // Empty without creases.
 std::string describe(const FeatureCounts& features) {
-    if (features.gave_up) return "\ncreases: none kept, as no mesh with all of them was found";
     if (features.curves == 0 && features.dropped_length == 0) return "";
     std::string text = "\ncreases and boundary: " + counted(features.curves, "curve") + ", " +
                        counted(features.nodes, "corner") + ", " +
                        counted(features.vertices, "vertex") + "; creases of length " +
                        fixed(features.length, 4) + " kept";
     if (features.dropped_length > 0) {
-        text += ", of " + fixed(features.dropped_length, 4) + " dropped: all take " +
-                std::to_string(features.samples_for_all) + " samples";
+        text += ", of " + fixed(features.dropped_length, 4) + " dropped: " +
+                (features.gave_up
+                     ? "with all of them the result would run through itself, or not close"
+                     : "all take " + std::to_string(features.samples_for_all) + " samples");
     }
     if (features.thinned_patches > 0) {
         text += "; " + counted(features.thinned_patches, "patch") + " too narrow for cells";

@@ -99,18 +99,30 @@ const char* stage_name(Stage stage) {
 
 namespace {
 
-// Without features where no mesh has them.
+// Pairs of faces that run through each other where the input has none.
+Index num_new_crossings(const RemeshResult& result) {
+    const Index pairs = result.self_intersections.value_or(0);
+    return pairs - std::min(pairs, result.input_self_intersections);
+}
+
+// With fewer creases where no mesh with all of them was found, or only one that runs through
+// itself; without any at last.
 RemeshResult run(const agvd::MeshView& mesh, const RemeshOptions& options) {
     if (options.features == Features::Off) return run_pipeline(mesh, options, max_mends);
-    try {
-        return run_pipeline(mesh, options, max_mends);
-    } catch (const detail::NetworkFailed&) {
-        RemeshOptions plain = options;
-        plain.features = Features::Off;
-        RemeshResult result = run_pipeline(mesh, plain, max_mends);
-        result.features.gave_up = true;
-        return result;
+    std::optional<RemeshResult> best;
+    for (const double drop_share : {0.0, 0.3, 0.6, 1.0}) {
+        try {
+            RemeshResult result = run_pipeline(mesh, options, max_mends, drop_share);
+            result.features.gave_up = drop_share > 0;
+            if (!best || num_new_crossings(result) < num_new_crossings(*best)) {
+                best = std::move(result);
+            }
+            if (num_new_crossings(*best) == 0 || best->features.curves == 0) break;
+        } catch (const detail::NetworkFailed&) {
+            continue;
+        }
     }
+    return std::move(*best);
 }
 
 }  // namespace

@@ -42,7 +42,9 @@ struct FeatureCounts {
     double dropped_length = 0;  //!< Of those for which the sites are too few.
     agvd::Index samples_for_all = 0;  //!< Fewest with which all are kept.
     agvd::Index thinned_patches = 0;  //!< Parts between curves too narrow for Voronoi cells.
-    bool gave_up = false;  //!< No mesh of these curves was found; they were all left out.
+    //! Creases were dropped as no mesh with all of them was found, or only such as run through
+    //! themselves.
+    bool gave_up = false;
 };
 
 //! What becomes of the count where the topology asks for more sites.

@@ -41,8 +41,9 @@ using CrossingFaces = std::optional<std::vector<std::pair<Index, Index>>>;
 
 class Pipeline {
 public:
-    Pipeline(const agvd::MeshView& mesh, const RemeshOptions& options, int most_mends)
-        : input_(mesh), options_(options), most_mends_(most_mends) {
+    Pipeline(const agvd::MeshView& mesh, const RemeshOptions& options, int most_mends,
+             double drop_share)
+        : input_(mesh), options_(options), most_mends_(most_mends), drop_share_(drop_share) {
         for (const Stage stage :
              {Stage::Clean, Stage::Sample, Stage::Relax, Stage::Propagate, Stage::Diagram,
               Stage::Dual, Stage::Delaunay, Stage::Place, Stage::Check}) {
@@ -111,8 +112,9 @@ private:
                                     .is_automatic = options_.features == Features::Auto,
                                     .num_threads = options_.num_threads,
                                     .progress = progress};
-        NetworkPlan plan = plan_network(surface_, find_creases(surface_, creases),
-                                        options_.num_samples, options_.num_threads, progress);
+        NetworkPlan plan =
+            plan_network(surface_, find_creases(surface_, creases), options_.num_samples,
+                         drop_share_, options_.num_threads, progress);
         FeatureCounts& counts = result_.features;
         counts.curves = static_cast<Index>(plan.network.curves.size());
         counts.nodes = static_cast<Index>(plan.network.nodes.size());
@@ -568,6 +570,7 @@ private:
     agvd::MeshView input_;
     const RemeshOptions& options_;
     const int most_mends_;
+    const double drop_share_;  // Of the creases.
     RemeshResult result_;
     CleanResult clean_;
     double spacing_ = 0;  // Mean distance of the sites.
@@ -591,9 +594,9 @@ private:
 
 }  // namespace
 
-RemeshResult run_pipeline(const agvd::MeshView& mesh, const RemeshOptions& options,
-                          int most_mends) {
-    return Pipeline(mesh, options, most_mends).run();
+RemeshResult run_pipeline(const agvd::MeshView& mesh, const RemeshOptions& options, int most_mends,
+                          double drop_share) {
+    return Pipeline(mesh, options, most_mends, drop_share).run();
 }
 
 }  // namespace remesh::detail

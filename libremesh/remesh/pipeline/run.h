@@ -16,9 +16,10 @@ struct TooFewSamples {
 struct NetworkFailed {};
 
 //! \param options     checked.
+//! \param drop_share  of the creases that are left out: see plan_network.
 //! \param most_mends  rounds of new sites where the result runs through itself.
 //! \throw TooFewSamples, NetworkFailed (only with features), and what remesh() throws.
 [[nodiscard]] RemeshResult run_pipeline(const agvd::MeshView& mesh, const RemeshOptions& options,
-                                        int most_mends);
+                                        int most_mends, double drop_share = 0);
 
 }  // namespace remesh::detail

@@ -13,6 +13,22 @@ using agvd::Vec3;
 constexpr double longest_move = 0.3;
 // Two neighbours come no nearer than this share of their mean distance on the curve.
 constexpr double least_interval = 0.5;
+// Intervals of a curve differ by less where it has no bends.
+constexpr double even_ratio = 1.01;
+
+// Sites that stand closer in bends stay there: on the whole they would be evened out.
+bool is_even(const CurveSites& sites, const Curve& curve, Index c) {
+    const Index first = sites.first_of_curve[c], last = sites.first_of_curve[c + 1];
+    if (first == last) return true;
+    double before = curve.is_closed() ? sites.along[last - 1] - curve.length() : 0;
+    double least = curve.length(), most = 0;
+    for (Index g = first; g < last; ++g) {
+        least = std::min(least, sites.along[g] - before);
+        most = std::max(most, sites.along[g] - before);
+        before = sites.along[g];
+    }
+    return most <= even_ratio * least;
+}
 
 }  // namespace
 
@@ -27,6 +43,7 @@ CurveMotion::CurveMotion(const agvd::Surface& surface, const CurveNetwork& netwo
       move_(sites_.num_groups(), 0),
       along_before_(sites_.along) {
     for (Index c = 0; c < network.curves.size(); ++c) {
+        if (!is_even(sites_, network.curves[c], c)) continue;
         std::fill(curve_.begin() + sites_.first_of_curve[c],
                   curve_.begin() + sites_.first_of_curve[c + 1], c);
     }
@@ -36,6 +53,7 @@ CurveMotion::CurveMotion(const agvd::Surface& surface, const CurveNetwork& netwo
 double CurveMotion::measure(std::span<const CvtEnergy::Cell> cells) {
     double uphill = 0;
     for (Index g = sites_.num_nodes(); g < sites_.num_groups(); ++g) {
+        if (curve_[g] == no_index) continue;
         const Vec3 tangent =
             tangent_of_curve(surface_, network_.curves[curve_[g]], sites_.along[g]);
         half_slope_[g] = stiffness_[g] = 0;
@@ -52,6 +70,7 @@ void CurveMotion::step(double stretch, double keep) {
     along_before_ = sites_.along;
     for (Index g = sites_.num_nodes(); g < sites_.num_groups(); ++g) {
         const Index c = curve_[g];
+        if (c == no_index) continue;
         const Curve& curve = network_.curves[c];
         const Index first = sites_.first_of_curve[c], last = sites_.first_of_curve[c + 1] - 1;
         const double at = along_before_[g];

@@ -39,7 +39,7 @@ private:
     const CurveNetwork& network_;
     CurveSites sites_;
     std::vector<agvd::Index> group_;  // By copy.
-    std::vector<agvd::Index> curve_;  // By group; of nodes no_index.
+    std::vector<agvd::Index> curve_;  // By group; no_index: it stays.
     std::vector<double> half_slope_, stiffness_, move_, along_before_;  // By group.
 };
 

@@ -1,7 +1,7 @@
 #include "remesh/relax/relax_network.h"
 
 #include <algorithm>
-#include <limits>
+
 #include <map>
 #include <memory>
 #include <set>
@@ -29,8 +29,7 @@ constexpr double least_distance = 0.4;
 
 // Half of each curve's intervals, as far as it stays what a triangulation needs.
 std::vector<Index> coarse_intervals(const NetworkPlan& plan) {
-    const std::vector<Index> fewest =
-        curve_intervals(plan.network, std::numeric_limits<double>::infinity());
+    const std::vector<Index> fewest = fewest_intervals(plan.network);
     std::vector<Index> result;
     for (std::size_t c = 0; c < plan.intervals.size(); ++c) {
         const Index half = (plan.intervals[c] + 1) / 2;
@@ -263,7 +262,7 @@ public:
           options_(options),
           levels_(surface, options_, 2),
           patches_(surface),
-          fine_(place_curve_sites(plan.network, plan.cut, plan.intervals)) {
+          fine_(place_curve_sites(plan.network, plan.cut, plan.spacing, plan.intervals)) {
         options_.boundary = Boundary::Free;
         num_inner_ = sampling.num_samples - fine_.num_groups();
     }
@@ -310,7 +309,8 @@ private:
     // A relaxed coarse level, divided; nothing if it would have too few sites.
     std::unique_ptr<Relaxation> start_coarse() {
         const std::vector<Index> intervals = coarse_intervals(plan_);
-        const CurveSites coarse = place_curve_sites(plan_.network, plan_.cut, intervals);
+        const CurveSites coarse =
+            place_curve_sites(plan_.network, plan_.cut, plan_.spacing, intervals);
         const double euler = euler_of(plan_.cut.surface);
         const double wanted =
             (num_inner_ - static_cast<double>(coarse.sites.size()) + 3 * euler) / 4 + 1;

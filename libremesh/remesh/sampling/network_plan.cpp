@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "agvd/mesh/face_area.h"
 #include "remesh/sampling/components.h"
@@ -14,9 +13,9 @@ namespace {
 using agvd::Index;
 using agvd::Surface;
 
-constexpr int num_halvings = 60;
-// Share of the creases that goes at once.
-constexpr std::size_t drop_divisor = 10;
+constexpr int num_halvings = 40;
+// Share of the creases that goes at once where sites are too few.
+constexpr double drop_at_once = 0.1;
 
 struct Patch {
     double area = 0, boundary_length = 0;
@@ -37,9 +36,10 @@ std::vector<Patch> find_patches(const Surface& surface, const agvd::Progress& pr
     return patches;
 }
 
-double num_sites_at(const CurveNetwork& network, const std::vector<Patch>& patches,
-                    double spacing) {
-    auto count = static_cast<double>(num_curve_sites(network, curve_intervals(network, spacing)));
+double num_sites_at(const Surface& surface, const CurveNetwork& network,
+                    const std::vector<Patch>& patches, double spacing) {
+    auto count =
+        static_cast<double>(num_curve_sites(network, curve_intervals(surface, network, spacing)));
     for (const Patch& p : patches) {
         count += std::max(detail::inner_sites(p.area, p.boundary_length, spacing), 0.0);
     }
@@ -47,8 +47,8 @@ double num_sites_at(const CurveNetwork& network, const std::vector<Patch>& patch
 }
 
 // The least spacing that needs no more sites than there are.
-double find_spacing(const CurveNetwork& network, const std::vector<Patch>& patches,
-                    double num_sites) {
+double find_spacing(const Surface& surface, const CurveNetwork& network,
+                    const std::vector<Patch>& patches, double num_sites) {
     double area = 0, length = 0;
     for (const Patch& p : patches) {
         area += p.area;
@@ -57,22 +57,22 @@ double find_spacing(const CurveNetwork& network, const std::vector<Patch>& patch
     double low = std::sqrt(area / num_sites) / 4, high = length + std::sqrt(area);
     for (int i = 0; i < num_halvings; ++i) {
         const double middle = (low + high) / 2;
-        (num_sites_at(network, patches, middle) > num_sites ? low : high) = middle;
+        (num_sites_at(surface, network, patches, middle) > num_sites ? low : high) = middle;
     }
     return high;
 }
 
 bool is_crease_curve(const Curve& curve) { return curve.has(Side::Left) && curve.has(Side::Right); }
 
-// A tenth of the creases, the shortest ones; nothing is left if there are none.
-void drop_shortest(const Surface& surface, const CurveNetwork& network,
+// The shortest creases.
+void drop_shortest(const Surface& surface, const CurveNetwork& network, double share,
                    std::vector<std::uint8_t>& is_crease) {
     std::vector<std::pair<double, Index>> order;
     for (Index c = 0; c < network.curves.size(); ++c) {
         if (is_crease_curve(network.curves[c])) order.emplace_back(network.curves[c].length(), c);
     }
     std::sort(order.begin(), order.end());
-    order.resize((order.size() + drop_divisor - 1) / drop_divisor);
+    order.resize(static_cast<std::size_t>(std::ceil(share * static_cast<double>(order.size()))));
     for (const auto& [length, c] : order) {
         for (const Index h : network.curves[c].on(Side::Left)) is_crease[surface.edge[h]] = 0;
     }
@@ -81,7 +81,8 @@ void drop_shortest(const Surface& surface, const CurveNetwork& network,
 }  // namespace
 
 NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_crease,
-                         Index num_sites, int num_threads, const agvd::Progress& progress) {
+                         Index num_sites, double drop_share, int num_threads,
+                         const agvd::Progress& progress) {
     const auto length_of_creases = [&] {
         double length = 0;
         for (Index e = 0; e < surface.num_edges(); ++e) {
@@ -92,19 +93,23 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
     const double length_at_first = length_of_creases();
     const double spacing = detail::spacing_of(num_sites, agvd::surface_area(surface), 0);
     NetworkPlan plan;
+    if (drop_share > 0) {
+        plan.network = find_network(surface, is_crease, spacing);
+        drop_shortest(surface, plan.network, drop_share, is_crease);
+    }
     while (std::any_of(is_crease.begin(), is_crease.end(), [](auto c) { return c != 0; })) {
         plan.network = find_network(surface, is_crease, spacing);
-        const auto fewest = curve_intervals(plan.network, std::numeric_limits<double>::infinity());
+        const std::vector<Index> fewest = fewest_intervals(plan.network);
         const auto needed = static_cast<Index>(num_curve_sites(plan.network, fewest));
         plan.sites_for_all = std::max(plan.sites_for_all, needed);
         if (needed > num_sites) {
-            drop_shortest(surface, plan.network, is_crease);
+            drop_shortest(surface, plan.network, drop_at_once, is_crease);
             continue;
         }
         plan.cut = cut_surface(surface, is_crease, num_threads, progress);
-        plan.spacing =
-            find_spacing(plan.network, find_patches(plan.cut.surface, progress), num_sites);
-        plan.intervals = curve_intervals(plan.network, plan.spacing);
+        plan.spacing = find_spacing(surface, plan.network, find_patches(plan.cut.surface, progress),
+                                    num_sites);
+        plan.intervals = curve_intervals(surface, plan.network, plan.spacing);
         plan.length = length_of_creases();
         plan.dropped_length = length_at_first - plan.length;
         return plan;

@@ -21,11 +21,13 @@ struct NetworkPlan {
 //! Where they are too few for all curves, the shortest creases go first.
 //!
 //! \param is_crease   #E. \param num_sites  those of curves counted once.
+//! \param drop_share  in [0, 1]: of the creases, shortest first, that go whatever there is.
 //! \return without curves if there is no crease, or none is left.
 //! \throw agvd::Cancelled  the progress callback returned false.
 //! Cost: O(n), again for each tenth of the creases that is dropped.
 [[nodiscard]] NetworkPlan plan_network(const agvd::Surface& surface,
                                        std::vector<std::uint8_t> is_crease, agvd::Index num_sites,
-                                       int num_threads = 0, const agvd::Progress& progress = {});
+                                       double drop_share = 0, int num_threads = 0,
+                                       const agvd::Progress& progress = {});
 
 }  // namespace remesh
