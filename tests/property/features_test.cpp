@@ -1,10 +1,14 @@
 // The whole job on parts by formula: straight edges, true corners and flat faces.
 #include <gtest/gtest.h>
 
-#include <functional>
+#include <cmath>
+#include <filesystem>
+#include <limits>
 #include <numbers>
 
-#include "agvd/mesh/surface.h"
+#include <Eigen/Geometry>
+
+#include "remesh/io/read_mesh.h"
 #include "remesh/pipeline/remesh.h"
 #include "support/crease_checks.h"
 #include "support/dice.h"
@@ -107,6 +111,23 @@ std::vector<Part> all_parts() {
     return {box(), open_box(), prism(), extruded_l(), cylinder(), cone(), vaults(), slit_plate()};
 }
 
+double shortest_edge(const TriangleMesh& mesh) {
+    double shortest = std::numeric_limits<double>::infinity();
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const auto& p = mesh.positions;
+        for (const Vec3& edge : {Vec3(p[b] - p[a]), Vec3(p[c] - p[b]), Vec3(p[a] - p[c])}) {
+            shortest = std::min(shortest, edge.norm());
+        }
+    }
+    return shortest;
+}
+
+double diagonal(const TriangleMesh& mesh) {
+    Eigen::AlignedBox3d around;
+    for (const Vec3& v : mesh.positions) around.extend(v);
+    return around.diagonal().norm();
+}
+
 RemeshResult run(const TriangleMesh& mesh, const RemeshOptions& options) {
     return remesh::remesh(mesh.view(), options);
 }
@@ -166,4 +187,141 @@ TEST(Features, TheFewestVerticesThatTheNetworkNeedsAreEnough) {
             EXPECT_EQ(result.features.samples_for_all, part.fewest);
         }
     }
+}
+
+TEST(Features, ManyVerticesCarryTheNetwork) {
+    const Part part = extruded_l();
+    const RemeshResult result = run(part.mesh, {.num_samples = 20000});
+    expect_sound(result, 20000);
+    expect_network(part, result);
+    expect_sharp(part, result, false);
+}
+
+TEST(Features, TurningScalingAndNoiseKeepTheNetwork) {
+    for (const Part& part : all_parts()) {
+        for (const double scale : {1e-6, 1., 1e6}) {
+            SCOPED_TRACE(part.name + ", " + std::to_string(scale));
+            Part other = part;
+            // The corners turn with the surface.
+            const std::size_t num_vertices = part.mesh.positions.size();
+            auto& p = other.mesh.positions;
+            p.insert(p.end(), part.corners.begin(), part.corners.end());
+            other.mesh = parts::turned(other.mesh, 5);
+            for (Vec3& v : p) v *= scale;
+            std::copy(p.begin() + static_cast<std::ptrdiff_t>(num_vertices), p.end(),
+                      other.corners.begin());
+            p.resize(num_vertices);
+            const RemeshResult result = run(other.mesh, {.num_samples = 200});
+            expect_sound(result, 200);
+            expect_network(part, result);
+            for (Vec3& v : p) v /= scale;
+            for (Vec3& v : other.corners) v /= scale;
+            RemeshResult unscaled = result;
+            for (Vec3& v : unscaled.mesh.positions) v /= scale;
+            expect_sharp(other, unscaled, true);
+        }
+        SCOPED_TRACE(part.name + ", noise");
+        const TriangleMesh noisy = shapes::jitter(part.mesh, 1e-3 * shortest_edge(part.mesh), 3);
+        const RemeshResult result = run(noisy, {.num_samples = 200});
+        expect_sound(result, 200);
+        expect_network(part, result);
+        EXPECT_LT(crease_checks::farthest_from_vertices(part.corners, result.mesh), 1e-3);
+    }
+}
+
+TEST(Features, NeedlesAndSplitsInFlatFacesKeepTheNetwork) {
+    for (const Part& part : all_parts()) {
+        for (const double aspect : {0.3, 1e-4}) {
+            SCOPED_TRACE(part.name + ", " + std::to_string(aspect));
+            const TriangleMesh needles = parts::with_needles(part.mesh, aspect, 0.4, 7);
+            const RemeshResult result = run(needles, {.num_samples = 200});
+            expect_sound(result, 200);
+            expect_network(part, result);
+            expect_sharp(part, result, true);
+        }
+    }
+}
+
+TEST(Features, ThreadsChangeNothing) {
+    for (const Part& part : {extruded_l(), vaults(), slit_plate()}) {
+        SCOPED_TRACE(part.name);
+        const RemeshResult one = run(part.mesh, {.num_samples = 400, .num_threads = 1});
+        for (const int threads : {2, 8}) {
+            const RemeshResult other =
+                run(part.mesh, {.num_samples = 400, .num_threads = threads});
+            EXPECT_EQ(one.mesh.positions, other.mesh.positions);
+            EXPECT_EQ(one.mesh.triangles, other.mesh.triangles);
+        }
+    }
+}
+
+TEST(Features, WhatVerticesAreTooFewForIsDroppedAndCounted) {
+    for (const Part& part : {box(), open_box(), prism(), extruded_l(), vaults()}) {
+        const double length = run(part.mesh, {.num_samples = 200}).features.length;
+        for (Index n = 4; n < part.fewest; ++n) {
+            SCOPED_TRACE(part.name + ", " + std::to_string(n));
+            const RemeshOptions options{.num_samples = n, .features = Features::Angle};
+            const RemeshResult result = run(part.mesh, options);
+            expect_sound(result, n);
+            EXPECT_LT(result.features.length, length);
+            EXPECT_NEAR(result.features.length + result.features.dropped_length, length,
+                        1e-9 * length);
+            EXPECT_EQ(result.features.samples_for_all, part.fewest);
+        }
+    }
+}
+
+TEST(Features, AnglesDecide) {
+    // Walls that meet at 60 and 90 degrees.
+    const TriangleMesh prism = parts::hexagonal_prism(4);
+    const auto num_curves = [&](Features features, double angle) {
+        const RemeshOptions options{
+            .num_samples = 300, .features = features, .feature_angle = angle};
+        const RemeshResult result = run(prism, options);
+        expect_sound(result, 300);
+        return result.features.curves;
+    };
+    EXPECT_EQ(num_curves(Features::Auto, 40), 18u);
+    EXPECT_EQ(num_curves(Features::Angle, 40), 18u);
+    EXPECT_EQ(num_curves(Features::Angle, 75), 12u);
+    EXPECT_EQ(num_curves(Features::Angle, 95), 0u);
+    EXPECT_EQ(num_curves(Features::Off, 40), 0u);
+    for (const double angle : {0., 180., -40., std::nan("")}) {
+        EXPECT_THROW((void)num_curves(Features::Angle, angle), InvalidOption);
+    }
+}
+
+TEST(Features, GivenSitesAndFreeBoundariesHaveNone) {
+    const TriangleMesh mesh = parts::open_box({1, 1, 1}, 6);
+    const RemeshResult free =
+        run(mesh, {.num_samples = 200, .boundary = remesh::Boundary::Free});
+    EXPECT_EQ(free.features.curves, 0u);
+    EXPECT_EQ(free.features.length, 0);
+    RemeshOptions given{.num_samples = 200, .features = Features::Off};
+    given.sites = run(mesh, given).sites;
+    const RemeshResult off = run(mesh, given);
+    given.features = Features::Auto;
+    const RemeshResult automatic = run(mesh, given);
+    EXPECT_EQ(automatic.features.curves, 0u);
+    EXPECT_EQ(automatic.mesh.positions, off.mesh.positions);
+}
+
+TEST(Features, ScansAreLeftAlone) {
+    const TriangleMesh mesh = remesh::read_mesh(std::string(AGVD_DATA_DIR) + "/organic.ply").mesh;
+    const RemeshResult off = run(mesh, {.num_samples = 1000, .features = Features::Off});
+    const RemeshResult automatic = run(mesh, {.num_samples = 1000});
+    EXPECT_EQ(automatic.features.curves, 0u);
+    EXPECT_EQ(off.mesh.positions, automatic.mesh.positions);
+    EXPECT_EQ(off.mesh.triangles, automatic.mesh.triangles);
+}
+
+TEST(Features, FandiskKeepsItsCreasesAndCorners) {
+    const auto file = files::real_mesh("fandisk.off");
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << "no real mesh at " << file;
+    const TriangleMesh mesh = remesh::read_mesh(file).mesh;
+    const RemeshResult result = run(mesh, {.num_samples = 2000});
+    expect_sound(result, 2000);
+    EXPECT_FALSE(result.features.gave_up);
+    EXPECT_EQ(result.features.dropped_length, 0);
+    EXPECT_GE(crease_checks::coverage(mesh, result.mesh, 1e-3 * diagonal(mesh)), .985);
 }
