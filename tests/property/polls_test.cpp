@@ -7,6 +7,7 @@
 #include "agvd/diagram/diagram_on_input.h"
 #include "agvd/intrinsic/face_pieces.h"
 #include "agvd/metrics/compare_diagrams.h"
+#include "remesh/io/atomic_file.h"
 #include "remesh/io/read_diagram.h"
 #include "remesh/io/read_mesh.h"
 #include "remesh/io/read_sites.h"
@@ -122,8 +123,9 @@ TEST(Polls, AreInTheRunOfASingleSiteAndInAllEngines) {
     const agvd::Surface surface = agvd::build_surface(sphere().view());
     const std::vector<agvd::SurfacePoint> sites{{agvd::FaceId(0), {0.2, 0.3, 0.5}}};
     for (const auto engine : {agvd::Engine::Window, agvd::Engine::Steiner, agvd::Engine::Vertex}) {
-        const int least = engine == agvd::Engine::Vertex ? 3 : 40;
-        expect_polls(agvd::engine_name(engine), least, [&](const Progress& progress) {
+        const std::map<agvd::Engine, int> least{
+            {agvd::Engine::Window, 80}, {agvd::Engine::Steiner, 40}, {agvd::Engine::Vertex, 3}};
+        expect_polls(agvd::engine_name(engine), least.at(engine), [&](const Progress& progress) {
             (void)agvd::propagate(
                 surface, sites,
                 {.engine = engine, .steiner_points = 2, .num_threads = 1, .progress = progress});
@@ -273,6 +275,14 @@ TEST_F(FilePolls, AreInReadingAndWriting) {
     put("sites.txt", sites);
     expect_polls("sites", 3, [&](const Progress& progress) {
         (void)remesh::read_sites(at("sites.txt"), mesh.view(), progress);
+    });
+}
+
+// Writing alone, of a text that is there already.
+TEST_F(FilePolls, AreInWritingALongText) {
+    const std::string text(60'000'000, 'x');
+    expect_polls("text", 10, [&](const Progress& progress) {
+        remesh::write_file_atomically(at("text"), text, progress);
     });
 }
 

@@ -35,6 +35,17 @@ std::filesystem::path meshes() {
 
 }  // namespace
 
+TEST(Remesh, AThinTriangleIsNotRefinedByItsLength) {
+    TriangleMesh mesh;
+    mesh.positions = {{0, 0, 0}, {1000, 0, 0}, {500, 1e-3, 0}};  // 10 000 spacings.
+    mesh.triangles = {{0, 1, 2}};
+    constexpr Index samples = 50;
+    const remesh::RemeshResult result = remesh::remesh(mesh.view(), {.num_samples = samples});
+    EXPECT_GT(result.refined_faces, samples);
+    EXPECT_LE(result.refined_faces, 40 * samples);  // At most 16 splits a site, 2 faces each.
+    EXPECT_EQ(result.mesh.positions.size(), samples);
+}
+
 TEST(Remesh, KeepsTheTopologyOfManySurfaces) {
     const std::vector<TriangleMesh> surfaces = {
         shapes::sphere(3),     shapes::jitter(shapes::sphere(3), 0.03, 1),

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "agvd/core/random.h"
+#include "support/dice.h"
 
 namespace shapes {
 
@@ -145,6 +146,52 @@ TriangleMesh join(const TriangleMesh& a, const TriangleMesh& b) {
         both.triangles.push_back({i + offset, j + offset, k + offset});
     }
     return both;
+}
+
+namespace {
+
+// Cuts the faces at an edge from m to their apexes, unless that gives an edge twice.
+void cut_edge(TriangleMesh& mesh, Index u, Index v, const Vec3& m) {
+    std::vector<std::pair<Index, std::size_t>> sides;  // Faces, and which of their sides it is.
+    for (Index f = 0; f < mesh.triangles.size(); ++f) {
+        const agvd::Triangle& t = mesh.triangles[f];
+        for (std::size_t k = 0; k < 3; ++k) {
+            if (std::minmax(t[k], t[(k + 1) % 3]) == std::minmax(u, v)) sides.emplace_back(f, k);
+        }
+    }
+    const auto apex = [&](std::size_t i) {
+        return mesh.triangles[sides[i].first][(sides[i].second + 2) % 3];
+    };
+    if (sides.size() == 2 && apex(0) == apex(1)) return;
+    const auto middle = static_cast<Index>(mesh.positions.size());
+    mesh.positions.push_back(m);
+    for (const auto& [f, k] : sides) {
+        const agvd::Triangle t = mesh.triangles[f];
+        const Index a = t[k], b = t[(k + 1) % 3], c = t[(k + 2) % 3];
+        mesh.triangles[f] = {a, middle, c};
+        mesh.triangles.push_back({middle, b, c});
+    }
+}
+
+}  // namespace
+
+void add_flat_vertices(TriangleMesh& mesh, Index count, std::uint64_t seed) {
+    Dice dice(seed);
+    for (Index i = 0; i < count; ++i) {
+        const Index f = dice.count(0, static_cast<Index>(mesh.triangles.size()) - 1);
+        const auto [a, b, c] = mesh.triangles[f];
+        const auto& p = mesh.positions;
+        if (dice.one_in(2)) {
+            const double at = dice.number(0.1, 0.9);
+            cut_edge(mesh, a, b, (1 - at) * p[a] + at * p[b]);
+            continue;
+        }
+        const double s = dice.number(0.1, 0.5), t = dice.number(0.1, 0.4);
+        const auto m = static_cast<Index>(p.size());
+        mesh.positions.push_back((1 - s - t) * p[a] + s * p[b] + t * p[c]);
+        mesh.triangles[f] = {a, b, m};
+        mesh.triangles.insert(mesh.triangles.end(), {{b, c, m}, {c, a, m}});
+    }
 }
 
 double signed_volume(const TriangleMesh& mesh) {

@@ -22,6 +22,9 @@ namespace shapes {
 [[nodiscard]] agvd::TriangleMesh subdivide(const agvd::TriangleMesh& mesh);
 //! Every vertex moved by at most `amount`, reproducibly.
 [[nodiscard]] agvd::TriangleMesh jitter(agvd::TriangleMesh mesh, double amount, std::uint64_t seed);
+//! Random faces cut into three at a point inside, random edges in two: vertices that the surface
+//! does not need, but for those on the boundary. Faces become needles.
+void add_flat_vertices(agvd::TriangleMesh& mesh, agvd::Index count, std::uint64_t seed);
 //! Above 0 for a closed mesh whose faces look outwards.
 [[nodiscard]] double signed_volume(const agvd::TriangleMesh& mesh);
 //! Two meshes side by side in one.

@@ -89,20 +89,25 @@ bool is_delaunay_at(const Surface& s, Index h) {
     return angle(h) + angle(s.twin[h]) <= std::acos(-1.0) + 1e-7;
 }
 
+bool has_flat_vertices(std::uint64_t seed) { return seed % 4 >= 2; }
+
 template <typename Check>
 void for_each_mesh(const Check& check) {
     for (const char* family : delta_shapes::families()) {
         for (std::uint64_t seed = 0; seed < num_seeds; ++seed) {
             SCOPED_TRACE(std::string(family) + " " + std::to_string(seed));
-            const TriangleMesh mesh = delta_shapes::make(family, seed);
+            TriangleMesh mesh = delta_shapes::make(family, seed);
+            if (has_flat_vertices(seed)) shapes::add_flat_vertices(mesh, 30, seed);
             ASSERT_NO_FATAL_FAILURE(check(mesh, build_surface(mesh.view()), seed));
         }
     }
 }
 
 IntrinsicOptions options_of(const Surface& input, std::uint64_t seed) {
-    return seed % 2 == 0 ? IntrinsicOptions{}
-                         : IntrinsicOptions{.max_length = 0.3 * longest_edge(input)};
+    IntrinsicOptions options;
+    if (seed % 2 == 1) options.max_length = 0.3 * longest_edge(input);
+    if (has_flat_vertices(seed)) options.min_length = 0.2 * longest_edge(input);
+    return options;
 }
 
 void expect_same_place(const Surface& s, const SurfacePoint& a, const SurfacePoint& b,
@@ -240,10 +245,15 @@ TEST(IntrinsicTriangulation, PointsGoToTheBaseAndBack) {
 }
 
 TEST(IntrinsicTriangulation, VerticesAndBoundaryEdgesKeepExactZeros) {
-    for_each_mesh([](const TriangleMesh&, const Surface& input, std::uint64_t seed) {
+    for_each_mesh([](const TriangleMesh& mesh, const Surface& input, std::uint64_t seed) {
         const IntrinsicTriangulation base(input, options_of(input, seed));
+        const double size = diagonal(mesh);
         for (Index v = 0; v < input.num_vertices(); ++v) {
             const SurfacePoint there = base.to_intrinsic(point_at(input, v));
+            if (base.surface().outgoing[v] == no_index) {  // Not a vertex there.
+                expect_same_place(input, base.to_input(there), point_at(input, v), 1e-13 * size);
+                continue;
+            }
             EXPECT_EQ(*std::max_element(there.barycentric.begin(), there.barycentric.end()), 1);
             EXPECT_EQ(vertex_of(base.surface(), there), v);
             const SurfacePoint back = base.to_input(point_at(base.surface(), v));
@@ -300,7 +310,7 @@ TEST(IntrinsicTriangulation, SegmentsJoinAndKeepTheirLengths) {
                 const auto on_input = [&](const SurfacePoint& p) {
                     return is_to_input ? p : base.to_input(p);
                 };
-                expect_same_place(input, on_input(parts[i]), on_input(parts[i + 1]), 1e-11 * size);
+                expect_same_place(input, on_input(parts[i]), on_input(parts[i + 1]), 1e-13 * size);
             }
             ++num_segments;
         };
@@ -310,6 +320,75 @@ TEST(IntrinsicTriangulation, SegmentsJoinAndKeepTheirLengths) {
         }
     });
     EXPECT_GE(num_segments, 1000u);
+}
+
+TEST(IntrinsicTriangulation, FlatVerticesWithShortEdgesGo) {
+    Index num_added = 0, num_left = 0;
+    for_each_mesh([&](const TriangleMesh& mesh, const Surface& input, std::uint64_t seed) {
+        if (!has_flat_vertices(seed)) return;
+        num_added += 30;
+        const IntrinsicTriangulation base(input, {.min_length = 10 * diagonal(mesh)});
+        const Surface& s = base.surface();
+        expect_consistent(s);
+        Index num_gone = 0;
+        for (Index v = 0; v < input.num_vertices(); ++v) {
+            if (s.outgoing[v] != no_index) continue;
+            ++num_gone;
+            double angle = 0;
+            for_each_outgoing(input, v, [&](Index h) {
+                angle += std::atan2(input.apex[h].y(), input.apex[h].x());
+            });
+            EXPECT_NEAR(angle, 2 * std::acos(-1.0), 1e-11);
+            EXPECT_FALSE(input.is_boundary_vertex(v));
+        }
+        EXPECT_EQ(base.counts().removed, num_gone);
+        EXPECT_EQ(s.num_faces() + 2 * num_gone, input.num_faces());
+        num_left += 30 - std::min<Index>(num_gone, 30);
+    });
+    EXPECT_LT(10 * num_left, 3 * num_added);  // Those on the boundary stay.
+    const Surface input = build_surface(shapes::cube().view());
+    EXPECT_EQ(IntrinsicTriangulation(input, {.min_length = 10}).counts().removed, 0u);
+}
+
+TEST(IntrinsicTriangulation, PartsOfMergedFacesMakeUpTheirArea) {
+    Index num_faces = 0;
+    for_each_mesh([&](const TriangleMesh&, const Surface& input, std::uint64_t seed) {
+        if (!has_flat_vertices(seed)) return;
+        const IntrinsicTriangulation base(input, options_of(input, seed));
+        for (Index f = 0; f < base.surface().num_faces(); ++f) {
+            std::vector<InputPart> parts;
+            if (!base.is_changed(f) || !base.parts_of(f, parts)) continue;
+            double area = 0;
+            for (const InputPart& part : parts) {
+                area += part.share * face_area(input, part.centroid.face.value());
+            }
+            EXPECT_NEAR(area, face_area(base.surface(), f), 1e-12 * area_of(input));
+            ++num_faces;
+        }
+    });
+    EXPECT_GE(num_faces, 200u);
+}
+
+TEST(IntrinsicTriangulation, SplitsEndAtTheirBoundLongestFirst) {
+    const Surface input = build_surface(shapes::cube().view());
+    const double longest = longest_edge(input);
+    const double length = 0.1 * longest;
+    Index all = IntrinsicTriangulation(input, {.max_length = length}).counts().splits;
+    ASSERT_GT(all, 100u);
+    for (const Index most : {0U, 1U, 7U, 100U}) {
+        const IntrinsicTriangulation base(input, {.max_length = length, .most_splits = most});
+        EXPECT_EQ(base.counts().splits, most);
+        EXPECT_EQ(base.surface().num_vertices(), input.num_vertices() + most);
+        EXPECT_TRUE(base.counts().is_delaunay);
+        expect_consistent(base.surface());
+    }
+    // The first splits are of diagonals: none is left with as many as the cube has.
+    const IntrinsicTriangulation six(input, {.max_length = length, .most_splits = 6});
+    EXPECT_LT(longest_edge(six.surface()), 0.8 * longest);
+    EXPECT_EQ(IntrinsicTriangulation(input, {.max_length = length, .most_splits = all + 1})
+                  .counts()
+                  .splits,
+              all);
 }
 
 TEST(IntrinsicTriangulation, NearlyFlatFacesAreRaisedAndCounted) {
@@ -328,6 +407,9 @@ TEST(IntrinsicTriangulation, InvalidOptionsThrow) {
     const Surface input = build_surface(shapes::cube().view());
     for (const double length : {0.0, -1.0, std::nan("")}) {
         EXPECT_THROW(IntrinsicTriangulation(input, {.max_length = length}), InvalidOption);
+    }
+    for (const double length : {-1.0, std::nan("")}) {
+        EXPECT_THROW(IntrinsicTriangulation(input, {.min_length = length}), InvalidOption);
     }
     const std::vector<std::uint8_t> too_few(3, 0);
     EXPECT_THROW(IntrinsicTriangulation(input, {.is_kept = too_few}), InvalidOption);

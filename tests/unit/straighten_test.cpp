@@ -5,7 +5,9 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/mesh/point_faces.h"
+#include "support/delta_shapes.h"
 #include "support/geodesics.h"
 #include "support/points.h"
 #include "support/random_meshes.h"
@@ -177,6 +179,41 @@ TEST(Straighten, BothWaysRoundATubeAreKept) {
             expect_locally_shortest(surface, path);
         }
     }
+}
+
+// Two corners of a face may be one vertex: the way from one to the other leads around it.
+TEST(Straighten, StripsAreJoinedAtTheCornerNotAtTheVertex) {
+    Index num_loops = 0;
+    for (const char* family : delta_shapes::families()) {
+        for (std::uint64_t seed = 0; seed < 12; ++seed) {
+            const Surface input = build_surface(delta_shapes::make(family, seed).view());
+            const agvd::IntrinsicTriangulation base(input);
+            const Surface& surface = base.surface();
+            const auto at = [](Index leaving) {
+                SurfacePoint corner{FaceId(Surface::face(leaving)), {0, 0, 0}};
+                corner.barycentric[leaving % 3] = 1;
+                return corner;
+            };
+            for (Index h = 0; h < 3 * surface.num_faces(); ++h) {
+                const Index next = Surface::next(h);
+                if (surface.tail(h) != surface.tail(next)) continue;
+                ++num_loops;
+                const auto length = [&](FaceStrip strip) {
+                    return remesh::straightest_path(surface, std::move(strip)).length;
+                };
+                const double least = 1e-9 * surface.length_of(h);
+                EXPECT_LT(
+                    length(remesh::joined(surface, {at(h), at(h), {}}, {at(next), at(next), {}})),
+                    least)
+                    << family << ' ' << seed;
+                // A vertex without a corner is meant where it is nearest: here.
+                const Index vertex = surface.tail(h);
+                EXPECT_LT(length(through_vertex(surface, at(h), vertex, at(next))), least);
+                EXPECT_LT(length(through_vertex(surface, at(next), vertex, at(h))), least);
+            }
+        }
+    }
+    EXPECT_GT(num_loops, 20u);
 }
 
 TEST(Straighten, OnRandomMeshesEveryPathIsLocallyShortest) {

@@ -2,15 +2,14 @@
 // side by side in one run.
 
 #include <algorithm>
-#include <functional>
-#include <map>
 
 #include "agvd/core/error.h"
 #include "bench/face_shapes.h"
 #include "bench/paper_case.h"
-#include "bench/plot.h"
-#include "bench/report.h"
+#include "bench/paper_columns.h"
+#include "bench/paper_plots.h"
 #include "cli.h"
+#include "make_data/data_files.h"
 #include "remesh/io/read_mesh.h"
 #include "remesh/repair/clean_input.h"
 
@@ -68,8 +67,10 @@ public:
                  const std::vector<SurfacePoint>& sites, const std::vector<bench::Method>& by,
                  bench::PaperOptions options = {}, const Json& more = Json::object()) {
         options.repetitions = std::min(options.repetitions, arguments_.repetitions);
+        std::vector<Json> measured = bench::measure({name, surface, sites}, by, options);
+        bench::paper::add_ratios(measured);
         std::size_t i = 0;
-        for (Json& row : bench::measure({name, surface, sites}, by, options)) {
+        for (Json& row : measured) {
             const PropagationOptions& how = by[i++].options;
             row["steiner_points"] =
                 how.engine == Engine::Steiner ? Json(how.steiner_points) : Json();
@@ -90,42 +91,11 @@ private:
     Json rows_ = Json::array();
 };
 
-constexpr int wide = 24;
-const std::vector<Column> case_columns{{"mesh", "mesh", 0, wide},
-                                       {"faces", "faces", 0, 8},
-                                       {"sites", "t", 0, 5},
-                                       {"method", "method", 0, 16}};
-const std::vector<Column> cost_columns{{"total_p0", "all, P0", 1, 8},
-                                       {"propagate_p0", "distances", 1, 9},
-                                       {"diagram_p0", "diagram", 1, 8},
-                                       {"peak_mb", "MB", 2, 8},
-                                       {"bytes_per_face", "B/face", 0, 6}};
-const std::vector<Column> error_columns{
-    {"delta_percent", "delta %", 3, 8},        {"frechet_radii", "F/radius", 3, 9},
-    {"hausdorff_radii", "Hausdorff", 4, 9},    {"wrong_percent", "wrong %", 3, 8},
-    {"mean_bisector_error", "|dA-dB|", -1, 8}, {"p95_bisector_error", "95 %", -1, 8},
-    {"max_bisector_error", "largest", -1, 8}};
-
-std::vector<Column> join(std::initializer_list<std::vector<Column>> parts) {
-    std::vector<Column> all;
-    for (const auto& part : parts) all.insert(all.end(), part.begin(), part.end());
-    return all;
-}
-
-// One series of y over x for each method, of the rows that `wanted` lets through.
-std::vector<bench::Series> series(const Json& rows, const std::string& x, const std::string& y,
-                                  const std::function<std::string(const Json&)>& name_of) {
-    std::vector<bench::Series> all;
-    for (const Json& row : rows) {
-        const std::string name = name_of(row);
-        if (name.empty() || !row.contains(y) || !row[y].is_number()) continue;
-        auto found = std::find_if(all.begin(), all.end(),
-                                  [&](const bench::Series& s) { return s.name == name; });
-        if (found == all.end()) found = all.insert(all.end(), {name, {}});
-        const double at = row[x].is_number() ? row[x].get<double>() : 0;
-        found->points.emplace_back(at, row[y].get<double>());
-    }
-    return all;
+// Fig. 1: 30 sites on 50k faces, here those of data/organic.ply.
+void fig1(Workshop& shop) {
+    const Surface surface =
+        shop.is_quick_look() ? shop.mesh("") : build_surface(make_data::organic().view());
+    shop.measure("organic", surface, shop.sites(surface, 30), methods({8}));
 }
 
 // Table 1: 100 sites on four meshes.
@@ -152,6 +122,12 @@ void table2(Workshop& shop) {
                          {.repetitions = 2, .with_errors = false});
         }
     }
+}
+
+// Fig. 9: 30 sites on a cow of at least 50k faces.
+void fig9(Workshop& shop) {
+    const Surface surface = shop.mesh("spot.obj", 50'000);
+    shop.measure("spot", surface, shop.sites(surface, 30), methods({5, 8, 12}));
 }
 
 // Fig. 10: 2 to 30 Steiner points per edge.
@@ -216,81 +192,48 @@ void fig15(Workshop& shop) {
     }
 }
 
-std::string method_of(const Json& row) { return row["method"]; }
-
-std::vector<bench::Plot> plots_over_sites(const Json& rows) {
-    const auto largest = [&](const Json& row) {
-        return row["mesh"] == rows.back()["mesh"] ? method_of(row) : "";
-    };
-    return {{"Time", "sites", "all, P0", true, true, series(rows, "sites", "total_p0", largest)},
-            {"Memory", "sites", "MB beyond the mesh", true, true,
-             series(rows, "sites", "peak_mb", largest)}};
-}
-
-// One name for all of the Steiner engine, whose points are told by x.
-std::string engine_of(const Json& row) {
-    return row["steiner_points"].is_number() ? "steiner" : method_of(row);
-}
-
-std::vector<bench::Plot> plots_over_points(const Json& rows) {
-    const auto plot = [&](const char* title, const char* label, const char* key) {
-        return bench::Plot{title, "Steiner points per edge",
-                           label, false,
-                           true,  series(rows, "steiner_points", key, engine_of)};
-    };
-    return {plot("Time", "all, P0", "total_p0"), plot("Error of Eq. 9", "%", "delta_percent"),
-            plot("Area in wrong cells", "%", "wrong_percent")};
-}
-
-std::vector<bench::Plot> plots_over_lambda(const Json& rows) {
-    const auto plot = [&](const char* title, const char* label, const char* key) {
-        return bench::Plot{title, "lambda", label,
-                           true,  false,    series(rows, "lambda", key, engine_of)};
-    };
-    return {plot("Time", "all, P0", "total_p0"), plot("Memory", "MB beyond the mesh", "peak_mb")};
-}
-
-std::vector<bench::Plot> plots_over_quality(const Json& rows) {
-    const auto at = [](const char* method) {
-        return [=](const Json& row) {
-            return row["method"] == method ? std::to_string(row["faces"].get<int>()) + " faces"
-                                           : std::string();
-        };
-    };
-    return {{"steiner m=8", "mean Lo", "delta, %", false, true,
-             series(rows, "mean_lo", "delta_percent", at("steiner m=8"))},
-            {"window 0.001", "mean Lo", "delta, %", false, true,
-             series(rows, "mean_lo", "delta_percent", at("window 0.001"))}};
-}
-
 struct Section {
     const char* name;
     void (*run)(Workshop&);
     std::vector<Column> columns;
     std::vector<bench::Plot> (*plots)(const Json&) = nullptr;
+    //! Of the file, if not empty: a row for each case, told apart by `same`, with these columns of
+    //! each method.
+    std::vector<Column> same = {}, by = {};
 };
 
 const std::vector<Section>& sections() {
+    using namespace bench::paper;
+    static const std::vector<Column> quality{{"mean_lo", "Lo", 2, 5}, {"mean_tau", "tau", 2, 6}};
+    static const std::vector<Column> thinness{{"mean_tau", "tau", 1, 6}, {"max_tau", "max", 0, 7}};
+    static const std::vector<Column> last{{"dual_p0", "dual", 2, 7},
+                                          {"over_exact_distances", "/exact", 2, 7}};
+    static const auto costs = join({case_columns(), cost_columns()});
+    static const auto all_columns = join({costs, error_columns()});
+    static const auto ratios = join({costs, ratio_columns(), error_columns()});
     static const std::vector<Section> all{
-        {"table1", table1, join({case_columns, cost_columns, error_columns})},
-        {"table2", table2, join({case_columns, cost_columns}), plots_over_sites},
-        {"fig10", fig10, join({case_columns, cost_columns, error_columns}), plots_over_points},
-        {"fig12", fig12, join({case_columns, cost_columns}), plots_over_lambda},
-        {"fig13", fig13,
-         join({case_columns,
-               {{"mean_lo", "Lo", 2, 5}, {"mean_tau", "tau", 2, 6}},
-               cost_columns,
-               error_columns}),
-         plots_over_quality},
-        {"fig14", fig14,
-         join({case_columns,
-               {{"mean_tau", "tau", 1, 6}, {"max_tau", "max", 0, 7}},
-               cost_columns,
-               error_columns})},
-        {"fig15", fig15,
-         join({case_columns,
-               cost_columns,
-               {{"dual_p0", "dual", 2, 7}, {"over_exact_distances", "/exact", 2, 7}}})},
+        {"fig1", fig1, ratios},
+        {"table1", table1, all_columns},
+        {"table2",
+         table2,
+         costs,
+         bench::plots_over_sites,
+         {{"mesh", "mesh"}, {"sites", "t"}},
+         {{"total_p0", "P0", 1}, {"peak_mb", "MB", 1}}},
+        {"fig9", fig9, ratios},
+        {"fig10", fig10, all_columns, bench::plots_over_points},
+        {"fig12", fig12, costs, bench::plots_over_lambda},
+        {"fig13",
+         fig13,
+         join({case_columns(), quality, cost_columns(), error_columns()}),
+         bench::plots_over_quality,
+         {{"faces", "faces"}, {"mean_lo", "Lo", 2}},
+         {{"delta_percent", "δ %", 3},
+          {"wrong_percent", "wrong %", 3},
+          {"total_p0", "P0", 1},
+          {"peak_mb", "MB", 1}}},
+        {"fig14", fig14, join({case_columns(), thinness, cost_columns(), error_columns()})},
+        {"fig15", fig15, join({costs, last})},
     };
     return all;
 }
@@ -301,7 +244,10 @@ void run_section(const Section& section, const Arguments& arguments) {
     section.run(shop);
     const fs::path base = arguments.out / section.name;
     bench::write_json(base.string() + ".json", section.name, shop.rows());
-    cli::write_text(base.string() + ".md", bench::markdown(shop.columns(), shop.rows()));
+    cli::write_text(base.string() + ".md", section.by.empty()
+                                               ? bench::markdown(shop.columns(), shop.rows())
+                                               : bench::paper::methods_side_by_side(
+                                                     section.same, section.by, shop.rows()));
     if (section.plots != nullptr) {
         cli::write_text(base.string() + ".svg", bench::to_svg(section.plots(shop.rows())));
     }

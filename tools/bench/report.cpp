@@ -29,7 +29,8 @@ std::string cell(const nlohmann::ordered_json& row, const Column& column) {
 void add_options(CLI::App& app, Options& options) {
     const std::map<std::string, Place> places{{"vertices", Place::Vertices},
                                               {"faces", Place::Faces}};
-    app.add_option("meshes", options.meshes, "Meshes to measure on")->required();
+    app.add_option("meshes", options.meshes, "Meshes to measure on; torus:FACES is a generated one")
+        ->required();
     app.add_option("-t,--sites", options.sites, "Numbers of sites")->capture_default_str();
     app.add_option("-m,--steiner-points", options.steiner_points, "Steiner points per edge")
         ->capture_default_str();

@@ -1,7 +1,10 @@
 #include "bench/workload.h"
 
+#include <charconv>
+
 #include "agvd/core/error.h"
 #include "agvd/core/random.h"
+#include "bench/torus.h"
 #include "remesh/io/read_mesh.h"
 #include "remesh/sampling/sample_sites.h"
 
@@ -49,6 +52,20 @@ std::vector<SurfacePoint> random_vertices(const Surface& surface, Index count, s
     return sites;
 }
 
+const std::string torus_prefix = "torus:";
+
+bool is_torus(const std::string& name) { return name.starts_with(torus_prefix); }
+
+TriangleMesh named_torus(const std::string& name) {
+    Index faces = 0;
+    const char* end = name.data() + name.size();
+    const auto read = std::from_chars(name.data() + torus_prefix.size(), end, faces);
+    if (read.ec != std::errc() || read.ptr != end) {
+        throw InvalidOption(name + ": write torus:FACES, such as torus:1000000");
+    }
+    return bumpy_torus(faces);
+}
+
 }  // namespace
 
 Surface subdivided(Surface surface, Index min_faces, double jitter) {
@@ -57,7 +74,8 @@ Surface subdivided(Surface surface, Index min_faces, double jitter) {
 }
 
 Surface load(const std::filesystem::path& path, Index min_faces) {
-    return subdivided(build_surface(remesh::read_mesh(path).mesh.view()), min_faces);
+    const TriangleMesh mesh = is_torus(path) ? named_torus(path) : remesh::read_mesh(path).mesh;
+    return subdivided(build_surface(mesh.view()), min_faces);
 }
 
 SurfacePoint point_at(const Surface& surface, Index vertex) {

@@ -17,7 +17,8 @@ namespace bench {
 [[nodiscard]] agvd::Surface subdivided(agvd::Surface surface, agvd::Index min_faces,
                                        double jitter = 0.1);
 
-//! Reads a mesh and subdivides it. \throw agvd::IoError, agvd::InvalidInput
+//! Reads a mesh, or makes bumpy_torus(FACES) where the path is "torus:FACES", and subdivides it.
+//! \throw agvd::IoError, agvd::InvalidInput, agvd::InvalidOption  FACES is too small or no number.
 [[nodiscard]] agvd::Surface load(const std::filesystem::path& path, agvd::Index min_faces);
 
 //! The vertex as a point of one of its faces. \pre it is not isolated.

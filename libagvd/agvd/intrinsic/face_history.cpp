@@ -33,6 +33,21 @@ Shares between(const Shares& s, const Shares& t, double at) {
     return result;
 }
 
+// The part of a convex polygon where `side` is not below 0, in the order of its corners.
+template <typename Sides>
+FacePolygon clipped(const FacePolygon& polygon, const Sides& side) {
+    FacePolygon result{polygon.face, 0, {}};
+    for (Index i = 0; i < polygon.num_corners; ++i) {
+        const Index next = i + 1 == polygon.num_corners ? 0 : i + 1;
+        if (side[i] >= 0) result.corner[result.num_corners++] = polygon.corner[i];
+        if ((side[i] > 0 && side[next] < 0) || (side[i] < 0 && side[next] > 0)) {
+            result.corner[result.num_corners++] =
+                between(polygon.corner[i], polygon.corner[next], side[i] / (side[i] - side[next]));
+        }
+    }
+    return result;
+}
+
 }  // namespace
 
 // One operation, passed from one of its faces. With d = q.tail a + q.head b + q.apex c every corner
@@ -117,6 +132,113 @@ private:
     }
 };
 
+// One merge. With m = q[0] a + q[1] b + q[2] c a point of (a, b, c) lies in the face at the side
+// across from the corner whose coordinate is the least in terms of its share: there m has the most.
+struct FaceHistory::MergeStep {
+    MergeStep(const Merge& merge) : op(merge), q(merge.shares) {}
+
+    const Merge& op;
+    const std::array<double, 3>& q;
+
+    // Above 0 where corner i holds more of the point than corner k, in terms of their shares.
+    [[nodiscard]] double side(const Shares& s, std::size_t i, std::size_t k) const {
+        return s[i] * q[k] - s[k] * q[i];
+    }
+    [[nodiscard]] Index slot_of(const Shares& s) const {
+        std::size_t least = q[0] > 0 ? 0 : q[1] > 0 ? 1 : 2;
+        for (std::size_t k = least + 1; k < 3; ++k) {
+            if (q[k] > 0 && side(s, least, k) > 0) least = k;
+        }
+        return static_cast<Index>((least + 1) % 3);
+    }
+    [[nodiscard]] SurfacePoint forward(const SurfacePoint& point, Index slot) const {
+        const Shares s = seen_from(point, op.half_edge[slot]);
+        const std::size_t next = (slot + 1) % 3, apex = (slot + 2) % 3;
+        Shares to;
+        to[slot] = s[0] + s[2] * q[slot];
+        to[next] = s[1] + s[2] * q[next];
+        to[apex] = s[2] * q[apex];
+        return {FaceId(op.new_face), to};
+    }
+    // \param on_spoke  the corner to which the point's way from m leads; 3: none.
+    [[nodiscard]] SurfacePoint backward(const Shares& s, Index slot, std::size_t on_spoke) const {
+        const std::size_t next = (slot + 1) % 3, apex = (slot + 2) % 3;
+        if (on_spoke == slot || on_spoke == next) {  // The same number on both sides of it.
+            const std::size_t i = (on_spoke + 1) % 3, k = (on_spoke + 2) % 3;
+            const double at = (s[i] + s[k]) / (q[i] + q[k]);
+            const double rest = std::max(1 - at, 0.0);
+            return point_of(on_spoke == slot ? Shares{rest, 0, at} : Shares{0, rest, at},
+                            op.half_edge[slot]);
+        }
+        const double at = s[apex] / q[apex];
+        return point_of(
+            {std::max(s[slot] - at * q[slot], 0.0), std::max(s[next] - at * q[next], 0.0), at},
+            op.half_edge[slot]);
+    }
+
+    // The part of a polygon in (a, b, c) that lies in one of the old faces, in that face.
+    [[nodiscard]] FacePolygon clip(const FacePolygon& polygon, Index slot) const {
+        const std::size_t apex = (slot + 2) % 3;
+        FacePolygon piece = polygon;
+        for (const std::size_t other : {std::size_t{slot}, (slot + std::size_t{1}) % 3}) {
+            if (!(q[other] > 0)) continue;
+            std::array<double, FacePolygon::most_corners> sides;
+            for (Index i = 0; i < piece.num_corners; ++i) {
+                sides[i] = side(piece.corner[i], other, apex);
+            }
+            piece = clipped(piece, sides);
+        }
+        for (Index i = 0; i < piece.num_corners; ++i) {
+            const SurfacePoint point = backward(piece.corner[i], slot, 3);
+            piece.face = point.face.value();
+            piece.corner[i] = point.barycentric;
+        }
+        return piece;
+    }
+
+    struct Part {
+        FaceSegment segment;
+        Index slot = 0;
+    };
+    // Cuts a segment of (a, b, c) where it crosses the edges at m, in its order.
+    // \return the number of parts.
+    Index cut(const FaceSegment& segment, std::array<Part, 3>& parts) const {
+        const Shares& begin = segment.begin.barycentric;
+        const Shares& end = segment.end.barycentric;
+        const std::size_t last = (slot_of(end) + 2) % 3;
+        std::size_t least = (slot_of(begin) + 2) % 3;  // The corner across.
+        Index count = 0;
+        Shares from = begin;
+        std::size_t on_spoke = 3;
+        double done = 0;
+        while (least != last && count < 2) {
+            double at = 1;
+            std::size_t next = last;
+            for (std::size_t k = 0; k < 3; ++k) {
+                if (k == least || !(q[k] > 0)) continue;
+                const double before = side(begin, k, least), after = side(end, k, least);
+                if (!(after < 0)) continue;
+                const double here = std::max(before, 0.0) / (std::max(before, 0.0) - after);
+                if (here >= at) continue;
+                at = here;
+                next = k;
+            }
+            at = std::max(at, done);
+            const Shares cut = between(begin, end, at);
+            const std::size_t spoke = 3 - least - next;
+            const auto slot = static_cast<Index>((least + 1) % 3);
+            parts[count++] = {{backward(from, slot, on_spoke), backward(cut, slot, spoke)}, slot};
+            from = cut;
+            on_spoke = spoke;
+            done = at;
+            least = next;
+        }
+        const auto slot = static_cast<Index>((least + 1) % 3);
+        parts[count++] = {{backward(from, slot, on_spoke), backward(end, slot, 3)}, slot};
+        return count;
+    }
+};
+
 void FaceHistory::add_flip(Index half_edge, Index twin, const QuadShares& shares) {
     add({{half_edge, twin},
          {Surface::face(half_edge), Surface::face(twin)},
@@ -133,18 +255,31 @@ void FaceHistory::add_split(Index half_edge, Index new_face) {
          {0.5, 0.5, 0}});
 }
 
-void FaceHistory::add(Operation operation) {
-    if (operations_.empty()) {
-        first_.assign(num_faces_, no_index);
-        last_.assign(num_faces_, no_index);
+void FaceHistory::start() {
+    if (!last_.empty()) return;
+    first_.assign(num_faces_, no_index);
+    last_.assign(num_faces_, no_index);
+}
+
+Index FaceHistory::chain(Index face, Index link) {
+    const Index made_by = last_[face];
+    if (made_by == no_index) {
+        first_[face] = link;
+    } else if (made_by >= first_merge) {
+        merges_[(made_by - first_merge) / 4].next = link;
+    } else {
+        operations_[made_by / 2].next[made_by % 2] = link;
     }
+    return made_by;
+}
+
+void FaceHistory::add(Operation operation) {
+    start();
     const auto number = static_cast<Index>(operations_.size());
     for (Index slot = 0; slot < 2; ++slot) {
         if (operation.half_edge[slot] == no_index) continue;
         const Index face = Surface::face(operation.half_edge[slot]);
-        const Index made_by = operation.previous[slot] = last_[face];
-        (made_by == no_index ? first_[face] : operations_[made_by / 2].next[made_by % 2]) =
-            2 * number + slot;
+        operation.previous[slot] = chain(face, 2 * number + slot);
     }
     for (Index slot = 0; slot < 2; ++slot) {
         const Index face = operation.new_face[slot];
@@ -154,15 +289,57 @@ void FaceHistory::add(Operation operation) {
     operations_.push_back(operation);
 }
 
+void FaceHistory::add_merge(const MergedFace& made) {
+    start();
+    Merge merge{made.half_edge, made.face, {no_index, no_index, no_index}, no_index, made.shares};
+    const auto first = static_cast<Index>(first_merge + 4 * merges_.size());
+    for (Index slot = 0; slot < 3; ++slot) {
+        if (merge.half_edge[slot] == no_index) continue;
+        merge.previous[slot] = chain(Surface::face(merge.half_edge[slot]), first + slot);
+    }
+    last_[made.face] = first;
+    merges_.push_back(merge);
+}
+
+void FaceHistory::move_face(Index from, Index to) {
+    start();
+    const Index made_by = last_[from];
+    if (made_by == no_index) {  // Its third corner merges with it: nothing moves.
+        add_merge({to, {3 * from, no_index, no_index}, {0, 0, 1}});
+        return;
+    }
+    last_[to] = made_by;
+    if (made_by >= first_merge) {
+        merges_[(made_by - first_merge) / 4].new_face = to;
+    } else {
+        operations_[made_by / 2].new_face[made_by % 2] = to;
+    }
+}
+
 Index FaceHistory::first_link(Way way, Index face) const {
     const std::vector<Index>& links = way == Way::Forward ? first_ : last_;
     return face < links.size() ? links[face] : no_index;
+}
+
+Index FaceHistory::carry_through_merge(Way way, Index link, SurfacePoint& point) const {
+    const MergeStep step(merges_[(link - first_merge) / 4]);
+    if (way == Way::Forward) {
+        point = step.forward(point, (link - first_merge) % 4);
+        return step.op.next;
+    }
+    const Index slot = step.slot_of(point.barycentric);
+    point = step.backward(point.barycentric, slot, 3);
+    return step.op.previous[slot];
 }
 
 SurfacePoint FaceHistory::carry(Way way, SurfacePoint point) const {
     Index link = first_link(way, point.face.value());
     if (link == no_index) return point;
     while (link != no_index) {
+        if (link >= first_merge) {
+            link = carry_through_merge(way, link, point);
+            continue;
+        }
         const Step step(operations_[link / 2], way, link % 2);
         const Shares shares = step.shares_of(point);
         const double side = step.side(shares);
@@ -191,6 +368,20 @@ void FaceHistory::carry(Way way, const FaceSegment& segment,
             parts.push_back({normalized(part.begin), normalized(part.end)});
             continue;
         }
+        if (link >= first_merge) {
+            const MergeStep step(merges_[(link - first_merge) / 4]);
+            if (way == Way::Forward) {
+                const Index slot = (link - first_merge) % 4;
+                waiting.push_back(
+                    {{step.forward(part.begin, slot), step.forward(part.end, slot)}, step.op.next});
+                continue;
+            }
+            std::array<MergeStep::Part, 3> cuts;
+            for (Index i = step.cut(part, cuts); i-- > 0;) {
+                waiting.push_back({cuts[i].segment, step.op.previous[cuts[i].slot]});
+            }
+            continue;
+        }
         const Step step(operations_[link / 2], way, link % 2);
         const Shares begin = step.shares_of(part.begin), end = step.shares_of(part.end);
         const double begin_side = step.side(begin), end_side = step.side(end);
@@ -214,6 +405,10 @@ bool FaceHistory::is_near(SurfacePoint point, Index most_steps) const {
     Index link = first_link(Way::Backward, point.face.value());
     for (Index steps = 0; link != no_index; ++steps) {
         if (steps == most_steps) return false;
+        if (link >= first_merge) {
+            link = carry_through_merge(Way::Backward, link, point);
+            continue;
+        }
         const Step step(operations_[link / 2], Way::Backward, link % 2);
         const Shares shares = step.shares_of(point);
         const Index slot = step.side(shares) >= 0 ? 0 : 1;
@@ -222,25 +417,6 @@ bool FaceHistory::is_near(SurfacePoint point, Index most_steps) const {
     }
     return true;
 }
-
-namespace {
-
-// The part of a convex polygon where `side` is not below 0, in the order of its corners.
-template <typename Sides>
-FacePolygon clipped(const FacePolygon& polygon, const Sides& side) {
-    FacePolygon result{polygon.face, 0, {}};
-    for (Index i = 0; i < polygon.num_corners; ++i) {
-        const Index next = i + 1 == polygon.num_corners ? 0 : i + 1;
-        if (side[i] >= 0) result.corner[result.num_corners++] = polygon.corner[i];
-        if ((side[i] > 0 && side[next] < 0) || (side[i] < 0 && side[next] > 0)) {
-            result.corner[result.num_corners++] =
-                between(polygon.corner[i], polygon.corner[next], side[i] / (side[i] - side[next]));
-        }
-    }
-    return result;
-}
-
-}  // namespace
 
 bool FaceHistory::parts_of(Index face, Index most_steps, std::vector<FacePolygon>& parts) const {
     struct Waiting {
@@ -257,6 +433,15 @@ bool FaceHistory::parts_of(Index face, Index most_steps, std::vector<FacePolygon
             continue;
         }
         if (steps == most_steps || part.num_corners + 2 > FacePolygon::most_corners) return false;
+        if (link >= first_merge) {
+            const MergeStep step(merges_[(link - first_merge) / 4]);
+            for (const Index slot : {0U, 1U, 2U}) {
+                if (step.op.half_edge[slot] == no_index) continue;
+                FacePolygon piece = step.clip(part, slot);
+                if (piece.num_corners >= 3) waiting.push_back({piece, step.op.previous[slot]});
+            }
+            continue;
+        }
         const Step step(operations_[link / 2], Way::Backward, link % 2);
         std::array<double, FacePolygon::most_corners> side;
         for (Index i = 0; i < part.num_corners; ++i) side[i] = step.side(part.corner[i]);

@@ -3,10 +3,12 @@
 //! Private to intrinsic.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
 #include "agvd/intrinsic/face_operations.h"
+#include "agvd/intrinsic/vertex_ring.h"
 #include "agvd/mesh/surface_point.h"
 
 namespace agvd::detail {
@@ -40,6 +42,18 @@ public:
     void add_flip(Index half_edge, Index twin, const QuadShares& shares);
     //! Face (a, b, c) became (a, m, c), and (m, b, c) the new face, which has the highest number.
     void add_split(Index half_edge, Index new_face);
+    //! Faces became one.
+    void add_merge(const MergedFace& made);
+    //! A face of the end gets another number, which is free.
+    void move_face(Index from, Index to);
+    //! There are no faces at the end with higher numbers.
+    void drop_faces_from(Index count) { last_.resize(std::min<std::size_t>(last_.size(), count)); }
+
+    //! Gives back what no operation needs; none are to follow.
+    void shrink() {
+        operations_.shrink_to_fit();
+        merges_.shrink_to_fit();
+    }
 
     [[nodiscard]] bool is_changed(Index face) const {
         return face < last_.size() && last_[face] != no_index;
@@ -71,16 +85,33 @@ private:
         std::array<Index, 2> previous{no_index, no_index};  // What made the old ones.
         QuadShares shares;
     };
+    // Slots 0 to 2: the faces at sides ab, bc and ca; the new face, (a, b, c), has slot 0. A link
+    // is first_merge + 4 * merge + slot.
+    struct Merge {
+        std::array<Index, 3> half_edge;
+        Index new_face;
+        std::array<Index, 3> previous{no_index, no_index, no_index};
+        Index next = no_index;
+        std::array<double, 3> shares;
+    };
+    static constexpr Index first_merge = Index{1} << 31;
     enum class Way : std::uint8_t { Forward, Backward };
     struct Step;
+    struct MergeStep;
 
     void add(Operation operation);
+    void start();
+    // Follows the last link of an old face with another one.
+    Index chain(Index face, Index link);
     [[nodiscard]] Index first_link(Way way, Index face) const;
+    // \return the next link.
+    Index carry_through_merge(Way way, Index link, SurfacePoint& point) const;
     [[nodiscard]] SurfacePoint carry(Way way, SurfacePoint point) const;
     void carry(Way way, const FaceSegment& segment, std::vector<FaceSegment>& parts) const;
 
     Index num_faces_ = 0;  // Of the beginning.
     std::vector<Operation> operations_;
+    std::vector<Merge> merges_;
     std::vector<Index> first_;  // By face of the beginning: the link that changes it first.
     std::vector<Index> last_;   // By face of the end: the link that made it.
 };

@@ -7,6 +7,7 @@
 
 #include "agvd/core/error.h"
 #include "agvd/intrinsic/delaunay_queue.h"
+#include "agvd/intrinsic/flat_vertices.h"
 
 namespace agvd {
 namespace {
@@ -25,6 +26,9 @@ constexpr std::size_t split_work = 16;
 void check_options(const Surface& input, const IntrinsicOptions& options) {
     if (!(options.max_length > 0)) {
         throw InvalidOption("max_length of the intrinsic triangulation is not above 0");
+    }
+    if (!(options.min_length >= 0)) {
+        throw InvalidOption("min_length of the intrinsic triangulation is below 0");
     }
     if (!options.is_kept.empty() && options.is_kept.size() != input.num_edges()) {
         throw InvalidOption("is_kept has " + std::to_string(options.is_kept.size()) +
@@ -69,7 +73,7 @@ private:
     bool find_long_edges() {
         for (Index e = 0; e < surface_.num_edges(); ++e) {
             ticker_.tick();
-            push(e);
+            if (surface_.edge_half[e] != no_index) push(e);
         }
         return !queue_.empty();
     }
@@ -131,16 +135,25 @@ IntrinsicTriangulation::IntrinsicTriangulation(const Surface& input,
     counts_.flat_faces = detail::raise_flat_faces(surface_, ticker);
     std::vector<std::uint8_t> is_kept(options.is_kept.begin(), options.is_kept.end());
     FaceCharts charts(surface_);
+    detail::RemovalCounts removal;
+    if (options.min_length > 0) {
+        removal = detail::remove_flat_vertices(surface_, charts, *history_, is_kept,
+                                               options.min_length, ticker);
+    }
     DelaunayQueue flips(surface_, charts, history_.get(), is_kept, &ticker);
+
     for (Index e = 0; e < surface_.num_edges(); ++e) {
         ticker.tick();
-        flips.push(e);
+        if (surface_.edge_half[e] != no_index) flips.push(e);
     }
     counts_.is_delaunay = flips.flip_all(most_flips * surface_.num_edges());
     Refinement refinement(surface_, charts, *history_, flips, is_kept, options.max_length, ticker);
     counts_.is_delaunay =
         refinement.run(most_flips, options.most_splits, added_) && counts_.is_delaunay;
-    counts_.flips = flips.num_flips();
+    if (removal.vertices > 0) detail::compact_faces(surface_, *history_);
+    history_->shrink();
+    counts_.removed = removal.vertices;
+    counts_.flips = removal.flips + flips.num_flips();
     counts_.splits = static_cast<Index>(added_.size());
     for (Index i = 0; i < added_.size(); ++i) {
         surface_.mesh.positions[input.num_vertices() + i] = position(input.mesh.view(), added_[i]);

@@ -18,6 +18,9 @@ namespace agvd {
 struct IntrinsicOptions {
     //! Longer edges are split at their middles until none is left, > 0.
     double max_length = std::numeric_limits<double>::infinity();
+    //! Vertices inside with a shorter edge go where the surface has no curvature (2 pi within
+    //! 1e-12), >= 0: without them it is the same.
+    double min_length = 0;
     //! No more edges are split than so many: surfaces thinner than max_length would get vertices
     //! without end. The longest go first.
     Index most_splits = no_index;
@@ -30,6 +33,7 @@ struct IntrinsicOptions {
 struct IntrinsicCounts {
     std::size_t flips = 0;
     Index splits = 0;      //!< Edges split: vertices added.
+    Index removed = 0;     //!< Vertices without curvature that went; they are left without faces.
     Index flat_faces = 0;  //!< Faces of the input without area in double, which got the least one.
     bool is_delaunay = true;  //!< False: flips ended before the condition held everywhere.
 };

@@ -18,11 +18,6 @@ double doubled_area(double a, double b, double c) {
     return product > 0 ? std::sqrt(product) / 2 : 0;
 }
 
-void bury(Surface& surface, Index face) {
-    surface.mesh.triangles[face] = {no_index, no_index, no_index};
-    for (Index h = 3 * face; h < 3 * face + 3; ++h) surface.twin[h] = no_index;
-}
-
 // \return the number of the first one.
 Index add_faces(Surface& surface, Index count) {
     const Index first = surface.num_faces();
@@ -34,6 +29,11 @@ Index add_faces(Surface& surface, Index count) {
 }
 
 }  // namespace
+
+void bury(Surface& surface, Index face) {
+    surface.mesh.triangles[face] = {no_index, no_index, no_index};
+    for (Index h = 3 * face; h < 3 * face + 3; ++h) surface.twin[h] = no_index;
+}
 
 void renew_face(Surface& surface, FaceCharts& charts, Index face) {
     const double longest = longest_side(surface, face);

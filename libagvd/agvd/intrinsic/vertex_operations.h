@@ -10,6 +10,9 @@
 
 namespace agvd::detail {
 
+//! Makes a gap of a face.
+void bury(Surface& surface, Index face);
+
 //! Lays a face out anew after its lengths have changed. Where they make no triangle, it gets the
 //! least height.
 void renew_face(Surface& surface, FaceCharts& charts, Index face);

@@ -96,7 +96,9 @@ private:
             mean_spacing(surface_, options_.sites ? options_.sites->size() : options_.num_samples);
         find_features(progress);
         prepared_.emplace(cut_surface(), spacing_, options_.num_threads, progress);
-        find_components(progress);
+        component_ = parts_of_base(prepared_->base,
+                                   plan_ ? face_component_ : result_.input_topology.face_component,
+                                   progress);
         result_.refined_faces = base().num_faces();
     }
 
@@ -144,23 +146,6 @@ private:
 
     // What propagation runs on.
     [[nodiscard]] const Surface& base() const { return prepared_->base.surface(); }
-
-    // Of the base's faces: those of the input keep their numbers, and flips their components.
-    void find_components(const agvd::Progress& progress) {
-        agvd::Poller poller(progress);
-        agvd::Ticker ticker(poller);
-        component_ = plan_ ? std::move(face_component_) : result_.input_topology.face_component;
-        component_.reserve(base().num_faces());
-        const Surface& surface = cut_surface();
-        for (Index f = surface.num_faces(); f < base().num_faces(); ++f) {
-            ticker.tick();
-            const Index corner = base().mesh.triangles[f][0];
-            const Index face = corner < surface.num_vertices()
-                                   ? Surface::face(surface.outgoing[corner])
-                                   : prepared_->base.place_of_added(corner).face.value();
-            component_.push_back(component_[face]);
-        }
-    }
 
     void place_sites() {
         const StageClock clock(Stage::Sample, result_);

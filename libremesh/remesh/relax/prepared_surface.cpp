@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "agvd/core/poller.h"
 #include "agvd/mesh/face_area.h"
 
 namespace remesh {
@@ -13,6 +14,10 @@ namespace {
 // .921 / .930 / .932 / .934, part 58011 .878 / .887 / .890 / .900, fandisk .913 / .914 / .914 /
 // .921; with .7 fandisk takes 1.25 times the instructions of .85.
 constexpr double longest_edge = 0.85;
+// Vertices without curvature that are closer go: needles of aspect 1e-3 around the unit cube take
+// .4 of the time and half of the memory, with bases of 14 600 faces for 33 000. Half the size of
+// regular grids' edges that resolve cells, which so stay as they are.
+constexpr double shortest_edge = 0.15;
 // Edges split, for each site and each vertex. Regular refinement takes 4 a site; surfaces thinner
 // than the spacing would get vertices by their length.
 constexpr double splits_per_site = 16, splits_per_vertex = 1;
@@ -31,6 +36,7 @@ agvd::Index most_splits(const agvd::Surface& input, double spacing) {
 PreparedSurface::PreparedSurface(const agvd::Surface& input, double spacing, int num_threads,
                                  const agvd::Progress& progress)
     : base(input, {.max_length = longest_edge * spacing,
+                   .min_length = shortest_edge * spacing,
                    .most_splits = most_splits(input, spacing),
                    .progress = progress}),
       pieces(base, piece_share * spacing * spacing, progress),
@@ -39,6 +45,28 @@ PreparedSurface::PreparedSurface(const agvd::Surface& input, double spacing, int
 double mean_spacing(const agvd::Surface& surface, std::size_t num_sites) {
     const double area = agvd::surface_area(surface);
     return std::sqrt(area / static_cast<double>(std::max<std::size_t>(num_sites, 1)));
+}
+
+std::vector<agvd::Index> parts_of_base(const agvd::IntrinsicTriangulation& base,
+                                       std::span<const agvd::Index> of_face,
+                                       const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    agvd::Ticker ticker(poller);
+    const agvd::Surface& input = base.input();
+    std::vector<agvd::Index> parts;
+    parts.reserve(base.surface().num_faces());
+    for (agvd::Index f = 0; f < base.surface().num_faces(); ++f) {
+        ticker.tick();
+        if (!base.is_changed(f)) {
+            parts.push_back(of_face[f]);
+            continue;
+        }
+        const agvd::Index corner = base.surface().mesh.triangles[f][0];
+        parts.push_back(
+            of_face[corner < input.num_vertices() ? agvd::Surface::face(input.outgoing[corner])
+                                                  : base.place_of_added(corner).face.value()]);
+    }
+    return parts;
 }
 
 }  // namespace remesh

@@ -26,4 +26,13 @@ struct PreparedSurface {
 //! Root of the area for each site.
 [[nodiscard]] double mean_spacing(const agvd::Surface& surface, std::size_t num_sites);
 
+//! Carries numbers of the input's components over to the base's faces.
+//!
+//! \param of_face  #F of the input: equal on all faces that hang together.
+//! \return #F of the base. \throw agvd::Cancelled  the progress callback returned false.
+//! Cost: O(#F).
+[[nodiscard]] std::vector<agvd::Index> parts_of_base(const agvd::IntrinsicTriangulation& base,
+                                                     std::span<const agvd::Index> of_face,
+                                                     const agvd::Progress& progress = {});
+
 }  // namespace remesh

@@ -191,9 +191,9 @@ public:
     explicit Patches(const PreparedSurface& surface)
         : surface_(surface.base.surface()),
           component_(detail::label_components(surface.input().twin)) {
-        const detail::FaceLabels base = detail::label_components(surface_.twin);
-        faces_.resize(base.count);
-        for (Index f = 0; f < base.of_face.size(); ++f) faces_[base.of_face[f]].push_back(f);
+        faces_.resize(component_.count);
+        const std::vector<Index> parts = parts_of_base(surface.base, component_.of_face);
+        for (Index f = 0; f < parts.size(); ++f) faces_[parts[f]].push_back(f);
     }
 
     // Replaces the triangles of patches whose rim is not their chain.
@@ -248,7 +248,7 @@ private:
     }
 
     const Surface& surface_;
-    detail::FaceLabels component_;           // Of the input's faces: those of the base are alike.
+    detail::FaceLabels component_;           // Of the input's faces.
     std::vector<std::vector<Index>> faces_;  // Of the base, by patch.
 };
 
