@@ -1,6 +1,7 @@
 #include "support/crease_checks.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -45,6 +46,18 @@ std::vector<Segment> creases(const TriangleMesh& mesh, double degrees) {
                 result.emplace_back(mesh.positions[a], mesh.positions[b]);
             }
         }
+    }
+    return result;
+}
+
+std::vector<Vec3> junctions(const TriangleMesh& mesh, double degrees) {
+    std::map<std::array<double, 3>, int> num_creases;
+    for (const auto& [a, b] : creases(mesh, degrees)) {
+        for (const Vec3& end : {a, b}) ++num_creases[{end.x(), end.y(), end.z()}];
+    }
+    std::vector<Vec3> result;
+    for (const auto& [at, count] : num_creases) {
+        if (count >= 3) result.emplace_back(at[0], at[1], at[2]);
     }
     return result;
 }

@@ -15,6 +15,9 @@ using Segment = std::pair<agvd::Vec3, agvd::Vec3>;
 //! Edges between faces whose normals differ by more than `degrees`.
 [[nodiscard]] std::vector<Segment> creases(const agvd::TriangleMesh& mesh, double degrees);
 
+//! Vertices where three of these or more meet.
+[[nodiscard]] std::vector<agvd::Vec3> junctions(const agvd::TriangleMesh& mesh, double degrees);
+
 //! Share of the length of creases above 40 degrees of `input` that lies within `tolerance` of a
 //! crease above 25 degrees of `output`, told at eight points of each edge. 1 if there are none.
 [[nodiscard]] double coverage(const agvd::TriangleMesh& input, const agvd::TriangleMesh& output,
