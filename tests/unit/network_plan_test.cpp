@@ -60,7 +60,7 @@ TEST(NetworkPlan, ShortCreasesGoFirstWhereSitesAreTooFew) {
     double longest = 0;
     for (const auto& curve : plan.network.curves) longest = std::max(longest, curve.length());
     EXPECT_GE(longest, 4);
-    const NetworkPlan none = plan_of(surface, 2);
+    const NetworkPlan none = plan_of(surface, 1);
     EXPECT_TRUE(none.network.curves.empty());
     EXPECT_NEAR(none.dropped_length, 32, 1e-12);
     EXPECT_EQ(none.sites_for_all, 8u);
