@@ -15,7 +15,10 @@ constexpr const char* footer =
     "  remesh-eval bunny.ply out.obj --json - | jq .distance.two_sided\n\n"
     "ORIGINAL is repaired first, as remesh does; the repair is told. RESULT is measured as it is.\n"
     "Distances are in percent of the diagonal of ORIGINAL's bounding box; two-sided is the larger\n"
-    "of both directions. Q = 6 / sqrt(3) * area / (half perimeter * longest edge).\n\n";
+    "of both directions. Q = 6 / sqrt(3) * area / (half perimeter * longest edge).\n"
+    "Sharp edges, of more than 40 degrees, are covered where the other mesh has one of more than "
+    "25\n"
+    "nearby; those of RESULT are false that are farther than .1 % from any of ORIGINAL.\n\n";
 
 struct Arguments {
     fs::path original;

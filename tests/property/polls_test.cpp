@@ -8,6 +8,7 @@
 #include "agvd/intrinsic/face_pieces.h"
 #include "agvd/metrics/compare_diagrams.h"
 #include "remesh/io/atomic_file.h"
+#include "remesh/features/find_creases.h"
 #include "remesh/io/read_diagram.h"
 #include "remesh/io/read_mesh.h"
 #include "remesh/io/read_sites.h"
@@ -169,6 +170,17 @@ TEST(Polls, AreInTheStagesOnTheirOwn) {
             (void)agvd::build_surface(dirty.view(), 1, progress);
         } catch (const agvd::InvalidInput&) {
         }
+    });
+    const agvd::Surface surface = agvd::build_surface(mesh.view());
+    const agvd::Surface noisy = agvd::build_surface(shapes::jitter(mesh, 0.01, 1).view());
+    expect_polls("creases", 60, [&](const Progress& progress) {
+        (void)remesh::find_creases(surface, {.spacing = 0.05, .progress = progress});
+    });
+    expect_polls("creases of noise", 70, [&](const Progress& progress) {
+        (void)remesh::find_creases(noisy, {.spacing = 0.05, .progress = progress});
+    });
+    expect_polls("feature coverage", 100, [&](const Progress& progress) {
+        (void)remesh::feature_coverage(noisy.mesh.view(), noisy.mesh.view(), progress);
     });
     expect_polls("reduce", 20, [&](const Progress& progress) {
         std::vector<agvd::Triangle> triangles = mesh.triangles;

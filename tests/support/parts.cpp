@@ -163,24 +163,28 @@ TriangleMesh crossing_vaults(Index n) {
     return work.take();
 }
 
-TriangleMesh folded_plate(Index n, double degrees, bool has_slit) {
+TriangleMesh folded_plate(Index n, Index m, double half_width,
+                          const std::function<double(double)>& degrees) {
     Patchwork work;
-    const double slope = std::tan(degrees / 2 * pi / 180);
-    const auto at = [&](double x, double y) -> Vec3 {
-        return {x, y, slope * std::clamp(1 - x / 3, 0., 1.) * std::abs(y)};
+    work.add(n, m, [&](double u, double v) -> Vec3 {
+        const double x = 8 * u - 4, y = half_width * (2 * v - 1);
+        return {x, y, std::tan(degrees(x) / 2 * pi / 180) * std::abs(y)};
+    });
+    return work.take();
+}
+
+TriangleMesh with_slit(TriangleMesh mesh, double at, double reach) {
+    std::map<Index, Index> copies;  // For the faces beyond the slit.
+    const auto is_inside = [&](const Vec3& p) {
+        return std::abs(p.x() - at) < 1e-9 && std::abs(p.y()) < reach - 1e-9;
     };
-    work.add(n, n / 4, [&](double u, double v) { return at(8 * u - 4, 2 * v - 1); });
-    TriangleMesh mesh = work.take();
-    if (!has_slit) return mesh;
-    // The faces beyond the slit get points of their own there.
-    std::map<Index, Index> copies;
     for (Triangle& t : mesh.triangles) {
-        const double middle =
-            (mesh.positions[t[0]] + mesh.positions[t[1]] + mesh.positions[t[2]]).x() / 3;
+        double middle = 0;
+        for (const Index v : t) middle += mesh.positions[v].x() / 3;
+        if (middle < at) continue;
         for (Index& v : t) {
             const Vec3 p = mesh.positions[v];
-            if (middle < 3.5 || std::abs(p.x() - 3.5) > 1e-9 || std::abs(p.y()) > 0.5 - 1e-9)
-                continue;
+            if (!is_inside(p)) continue;
             const auto [it, is_new] =
                 copies.try_emplace(v, static_cast<Index>(mesh.positions.size()));
             if (is_new) mesh.positions.push_back(p);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 
 #include "agvd/mesh/mesh_view.h"
 
@@ -26,10 +27,12 @@ namespace parts {
 //! Creases: two curves of n edges from boundary to boundary, of 60 degrees in the middle and 90 at
 //! the ends. n even.
 [[nodiscard]] agvd::TriangleMesh crossing_vaults(agvd::Index n);
-//! A plate |x| <= 4, |y| <= 1, n x n / 4 quads, folded along y = 0 by `degrees` for x < 0; from
-//! there the fold fades, to nothing at x = 3. Crease: one that ends in nothing where the fold is
-//! too weak. With a slit: cut open along x = 3.5 for |y| < 1/2. n a multiple of 16.
-[[nodiscard]] agvd::TriangleMesh folded_plate(agvd::Index n, double degrees, bool has_slit);
+//! A plate |x| <= 4, |y| <= half_width, n x m quads, m even, folded along y = 0 by an angle that
+//! may differ from x to x. \param degrees  of the fold, at x.
+[[nodiscard]] agvd::TriangleMesh folded_plate(agvd::Index n, agvd::Index m, double half_width,
+                                              const std::function<double(double x)>& degrees);
+//! Cut open along x = `at` for |y| < reach, where it has an edge: vertices inside are copied.
+[[nodiscard]] agvd::TriangleMesh with_slit(agvd::TriangleMesh mesh, double at, double reach);
 //! A plate 4 x 4 with a rib of width and height `width` across its middle; n quads along a side.
 //! Creases: four lines of length 4 and, at the open ends, none.
 [[nodiscard]] agvd::TriangleMesh ribbed_plate(double width, agvd::Index n);

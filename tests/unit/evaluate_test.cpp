@@ -40,6 +40,14 @@ TEST(Evaluate, ACoarserTorusKeepsTheTopology) {
     EXPECT_EQ(e.cleaned, remesh::CleanCounts{});
 }
 
+TEST(Evaluate, FeaturesAreMeasuredWhereThereAreAny) {
+    EXPECT_FALSE(evaluate(shapes::torus(40, 20), shapes::torus(24, 12)).features.has_value());
+    const Evaluation e = evaluate(shapes::cube(), shapes::subdivide(shapes::cube()));
+    ASSERT_TRUE(e.features.has_value());
+    EXPECT_EQ(e.features->covered_closely, 1);
+    EXPECT_EQ(e.features->corners_kept, 8u);
+}
+
 TEST(Evaluate, TopologyIsNotKeptByAnotherSurfaceOrADirtyOne) {
     EXPECT_FALSE(evaluate(shapes::sphere(2), shapes::torus(24, 12)).topology_kept);
     EXPECT_FALSE(evaluate(shapes::sphere(2), shapes::join(shapes::sphere(1), shapes::sphere(1)))

@@ -155,8 +155,11 @@ TEST(FindCreases, StepsAreCreasesAtEverySpacing) {
 }
 
 TEST(FindCreases, FadingFoldEndsWhereItIsWeakAndSlitsAreNoCreases) {
-    for (const bool has_slit : {false, true}) {
-        const Surface surface = build_surface(parts::folded_plate(64, 80, has_slit).view());
+    // 80 degrees for x < 0; 25 degrees, which is weak, at x = 2.06; nothing from 3 on.
+    const auto fold = [](double x) { return 80 * std::clamp(1 - x / 3, 0., 1.); };
+    const TriangleMesh plate = parts::folded_plate(64, 16, 1, fold);
+    for (const TriangleMesh& mesh : {plate, parts::with_slit(plate, 3.5, 0.5)}) {
+        const Surface surface = build_surface(mesh.view());
         const Flags flags = creases(surface);
         const Network found = network_of(surface, flags);
         EXPECT_EQ(found.chains, 1u);
@@ -168,9 +171,31 @@ TEST(FindCreases, FadingFoldEndsWhereItIsWeakAndSlitsAreNoCreases) {
             end = std::max({end, a.x(), b.x()});
         }
         EXPECT_NEAR(found.length, end + 4, 1e-9);
-        // The fold has 25 degrees at x = 2.2.
-        EXPECT_NEAR(end, 2.2, 0.15);
+        EXPECT_NEAR(end, 2.06, 0.13);
     }
+}
+
+TEST(FindCreases, FoldThatIsWeakForAShortWayIsOneCrease) {
+    for (const double weakest : {30., 10.}) {
+        const auto fold = [&](double x) { return std::abs(x) < 0.3 ? weakest : 80; };
+        const Surface surface = build_surface(parts::folded_plate(64, 8, 0.25, fold).view());
+        const Network found = network_of(surface, remesh::find_creases(surface, {.spacing = 1}));
+        // 25 degrees are what a crease goes on along.
+        EXPECT_EQ(found.chains, weakest > 25 ? 1u : 2u);
+        EXPECT_EQ(found.open_ends, weakest > 25 ? 0u : 2u);
+    }
+}
+
+TEST(FindCreases, ShortFoldsInTheMiddleOfNothingAreLeft) {
+    // A fold of 60 degrees and length 2, fading on both sides.
+    const auto fold = [](double x) { return 60 * std::clamp(2 - std::abs(x), 0., 1.); };
+    const Surface surface = build_surface(parts::folded_plate(128, 16, 0.5, fold).view());
+    const auto length_at = [&](double spacing) {
+        return network_of(surface, remesh::find_creases(surface, {.spacing = spacing})).length;
+    };
+    EXPECT_EQ(length_at(2), 0);
+    EXPECT_EQ(length_at(0.6), 0);
+    EXPECT_GT(length_at(0.2), 2);
 }
 
 TEST(FindCreases, SmoothSurfacesHaveNone) {

@@ -26,6 +26,14 @@ remesh::Evaluation example() {
                   .diagonal = 50,
                   .samples = 1000,
                   .flipped_faces = 2};
+    e.features = {.length = 20,
+                  .covered = 0.75,
+                  .covered_closely = 0.5,
+                  .result_length = 10,
+                  .false_share = 0.25,
+                  .corners = 8,
+                  .corners_kept = 7,
+                  .diagonal = 5};
     return e;
 }
 
@@ -68,6 +76,30 @@ TEST(EvaluationReport, GivesEveryFigureInTheUnitOfItsKey) {
     EXPECT_EQ(report["distance"]["original_diagonal_mesh_units"], 50);
     EXPECT_EQ(report["flipped_normals"], 2);
     EXPECT_EQ(report["flipped_normals_percent"], 25);
+    EXPECT_EQ(report["features"]["original_length_mesh_units"], 20);
+    EXPECT_EQ(report["features"]["covered_percent"], 75);
+    EXPECT_EQ(report["features"]["covered_closely_percent"], 50);
+    EXPECT_EQ(report["features"]["result_length_mesh_units"], 10);
+    EXPECT_EQ(report["features"]["false_percent"], 25);
+    EXPECT_EQ(report["features"]["corners"], 8);
+    EXPECT_EQ(report["features"]["corners_kept"], 7);
+}
+
+TEST(EvaluationReport, FeaturesAreThereWhereTheOriginalHasAny) {
+    EXPECT_NE(remesh::to_text(example()).find("covered within .1 % (%)              75.00"),
+              std::string::npos)
+        << remesh::to_text(example());
+    remesh::Evaluation e = example();
+    e.features->length = 0;
+    json report = json::parse(remesh::to_json(e));
+    EXPECT_EQ(report["features"]["covered_percent"], nullptr);
+    EXPECT_EQ(report["features"]["corners"], 8);
+    EXPECT_EQ(remesh::to_text(e).find("covered"), std::string::npos);
+    e.features.reset();
+    report = json::parse(remesh::to_json(e));
+    EXPECT_EQ(report["features"]["corners"], nullptr);
+    EXPECT_EQ(keys_of(remesh::to_json(e)), keys_of(remesh::to_json(example())));
+    EXPECT_EQ(remesh::to_text(e).find("sharp"), std::string::npos);
 }
 
 TEST(EvaluationReport, HasTheSameKeysWhateverWasMeasured) {

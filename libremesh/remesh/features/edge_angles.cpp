@@ -88,7 +88,7 @@ std::vector<Seam> seams_of_thin_faces(const Surface& surface, const Patches& pat
             seams.push_back({surface.length_of(h) * likeness, surface.edge[h]});
         }
     }
-    std::sort(seams.begin(), seams.end(), [](const Seam& a, const Seam& b) {
+    agvd::sort_ticked(seams, ticker, [](const Seam& a, const Seam& b) {
         return a.merit != b.merit ? a.merit > b.merit : a.edge < b.edge;
     });
     return seams;

@@ -13,8 +13,8 @@ namespace remesh {
 struct CreaseOptions {
     double angle = 40;   //!< Degrees, in (0, 180): least dihedral angle of a crease.
     double spacing = 0;  //!< Mesh units, > 0: of the sites.
-    //! What is too short or too weak for the spacing is left out, and gaps are closed: scans stay
-    //! as they are. False: all edges above the angle, but for false angles at needles.
+    //! What is too short or too weak for the spacing is left out, noise as well, and gaps are
+    //! closed. False: all edges above the angle, but for false angles at needles.
     bool is_automatic = true;
     int num_threads = 0;  //!< >= 0; 0: all cores. Any number gives the same result.
     agvd::Progress progress = {};
@@ -22,12 +22,17 @@ struct CreaseOptions {
 
 //! Finds the edges of creases.
 //!
-//! Edges above the angle make chains. Gaps of about a spacing inside a chain are closed along
-//! weaker edges. Chains that end in nothing and are short and weak go, shortest first, and so do
-//! networks most of whose length is in chains shorter than the spacing: both are what noise looks
-//! like on scans. What counts are lengths, never numbers of edges, and faces too thin to have a
-//! direction take that of their neighbours, so that all triangulations of a surface give the same
-//! network.
+//! 1. Edges above the angle are candidates. A face too thin to have a direction takes that of its
+//!    neighbours.
+//! 2. An edge is worth more the sharper it is, and less where the surface beside it turns as
+//!    sharply. How much of the candidates' length is so tells parts from scans.
+//! 3. Gaps of up to a spacing are closed along edges of at least 5/8 of the angle.
+//! 4. Chains that end in nothing go if their length times worth is below a spacing, or three where
+//!    both ends do; then networks that are worth too little: on scans much more is too little.
+//! 5. Ends that are left go on along edges of at least 5/8 of the angle.
+//!
+//! What counts are lengths, never numbers of edges, so that all triangulations of a surface give
+//! the same creases.
 //!
 //! \return #E of the surface: 1 for the edges of creases. Boundary edges are never.
 //! \throw agvd::InvalidOption  an option out of range.

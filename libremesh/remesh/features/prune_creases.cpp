@@ -40,20 +40,18 @@ public:
         }
     }
 
-    void remove_fine_networks() {
+    void remove_poor_networks() {
         std::vector<std::uint8_t> is_seen(chains_.size());
         for (Index c = 0; c < chains_.size(); ++c) {
             if (is_gone_[c] || is_seen[c]) continue;
             std::vector<Index> network{c};
             is_seen[c] = 1;
-            double length = 0, counted = 0, merit = 0;
+            double length = 0, merit = 0;
             for (std::size_t i = 0; i < network.size(); ++i) {
                 ticker_.tick();
                 const CreaseChain& chain = chains_[network[i]];
-                const double share = std::min(1., chain.length / rules_.short_chain);
                 length += chain.length;
-                counted += share * chain.length;
-                merit += share * merit_[network[i]];
+                merit += merit_[network[i]] * std::min(1., chain.length / rules_.short_chain);
                 for (const Index v : chain.ends) {
                     for (const Index other : incident_[v]) {
                         if (is_seen[other]) continue;
@@ -62,8 +60,7 @@ public:
                     }
                 }
             }
-            const bool is_fine = length - counted > rules_.most_short * length;
-            if (merit >= rules_.least_network && !is_fine) continue;
+            if (merit >= std::max(rules_.least_network, rules_.least_worth * length)) continue;
             for (const Index other : network) drop_edges(other);
         }
     }
@@ -134,7 +131,7 @@ void prune(CreaseSet& set, const std::vector<double>& weights, const PruningRule
            agvd::Poller& poller) {
     ChainGraph graph(set, weights, rules, poller);
     graph.remove_weak_ends();
-    graph.remove_fine_networks();
+    graph.remove_poor_networks();
 }
 
 }  // namespace remesh::detail

@@ -14,7 +14,7 @@ struct PruningRules {
     //! proportion to their length.
     double least_network = 0;
     double short_chain = 0;  //!< Length below which chains are short.
-    double most_short = 1;   //!< Share of a network's length that may be lost by that.
+    double least_worth = 0;  //!< A network's merit, so counted, per length.
 };
 
 //! \param weights  #E, >= 0.

@@ -90,6 +90,24 @@ Json to_json(const std::optional<SurfaceDistance>& measured) {
     return object;
 }
 
+// What the original does not have is null.
+Json to_json(const std::optional<FeatureCoverage>& measured) {
+    const FeatureCoverage features = measured.value_or(FeatureCoverage{});
+    const auto percent = [&](double share, bool is_there) {
+        return is_there ? Json(100 * share) : Json();
+    };
+    const bool has_edges = features.length > 0, has_corners = features.corners > 0;
+    Json object;
+    object["original_length_mesh_units"] = measured ? Json(features.length) : Json();
+    object["covered_percent"] = percent(features.covered, has_edges);
+    object["covered_closely_percent"] = percent(features.covered_closely, has_edges);
+    object["result_length_mesh_units"] = measured ? Json(features.result_length) : Json();
+    object["false_percent"] = percent(features.false_share, measured.has_value());
+    object["corners"] = measured ? Json(features.corners) : Json();
+    object["corners_kept"] = has_corners ? Json(features.corners_kept) : Json();
+    return object;
+}
+
 Json to_json(const DelaunayCounts& counts, Delaunay delaunay) {
     if (delaunay == Delaunay::Off) return {};
     const double inner_edges = std::max<agvd::Index>(counts.inner_edges, 1);
@@ -201,6 +219,7 @@ std::string to_json(const Evaluation& evaluation, const EvaluationInfo& info) {
     object["flipped_normals"] = distance ? Json(distance->flipped_faces) : Json();
     object["flipped_normals_percent"] =
         distance ? Json(100.0 * distance->flipped_faces / evaluation.result.faces) : Json();
+    object["features"] = to_json(evaluation.features);
     return dump(object);
 }
 

@@ -82,6 +82,21 @@ void add_meshes(Table& table, const MeshFigures& a, const MeshFigures& b) {
     });
 }
 
+void add_features(Table& table, const FeatureCoverage& features) {
+    const auto diagonals = [&](double length) { return fixed(length / features.diagonal, 3); };
+    table.row("sharp edges (diagonals)", diagonals(features.length),
+              diagonals(features.result_length));
+    if (features.length > 0) {
+        table.row("covered within .1 % (%)", fixed(100 * features.covered, 2), "");
+        table.row("covered within .02 % (%)", fixed(100 * features.covered_closely, 2), "");
+    }
+    if (features.result_length > 0) {
+        table.row("false sharp edges (%)", "", fixed(100 * features.false_share, 2));
+    }
+    if (features.corners > 0)
+        table.row("corners, and those kept", features.corners, features.corners_kept);
+}
+
 void add_distance(Table& table, const SurfaceDistance& distance) {
     const auto row = [&](const char* name, const OneSidedDistance& d) {
         const OneSidedDistance percent = distance.percent_of_diagonal(d);
@@ -216,6 +231,7 @@ std::string to_text(const Evaluation& evaluation, const EvaluationInfo& info) {
     out << "original " << to_text(evaluation.cleaned) << "\n\n";
     add_meshes(table, evaluation.original, evaluation.result);
     table.row("topology kept", "", evaluation.topology_kept ? "yes" : "no");
+    if (evaluation.features) add_features(table, *evaluation.features);
     if (!evaluation.distance) {
         table.row("flipped normals", "", not_measured);
         out << "\ndistance: " << not_measured;

@@ -58,7 +58,8 @@ Evaluation evaluate(const agvd::MeshView& original, const agvd::MeshView& result
     evaluation.cleaned = clean.counts;
     evaluation.original =
         measure(clean.mesh.view(), options.num_threads, agvd::within(all, 0.5, 0.8));
-    evaluation.result = measure(result, options.num_threads, agvd::within(all, 0.8, 1));
+    evaluation.result = measure(result, options.num_threads, agvd::within(all, 0.8, 0.95));
+    evaluation.features = feature_coverage(clean.mesh.view(), result, agvd::within(all, 0.95, 1));
     const Topology& topology = evaluation.result.topology;
     evaluation.topology_kept = topology.is_manifold && topology.is_oriented &&
                                same_topology(evaluation.original.topology, topology);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "remesh/quality/feature_coverage.h"
 #include "remesh/quality/surface_distance.h"
 #include "remesh/quality/topology.h"
 #include "remesh/quality/triangle_quality.h"
@@ -31,6 +32,8 @@ struct Evaluation {
     MeshFigures result;          //!< As given.
     bool topology_kept = false;  //!< The result is an oriented manifold with same_topology().
     std::optional<SurfaceDistance> distance;  //!< Nothing in a build without CGAL.
+    //! Nothing if the original has neither sharp edges nor corners.
+    std::optional<FeatureCoverage> features;
 };
 
 //! \param original  any mesh that remesh() takes; it is repaired first (see clean_input).

@@ -1,0 +1,30 @@
+//! \file
+//! Dihedral angles of any triangles, manifold or not.
+#pragma once
+
+#include <vector>
+
+#include "agvd/core/poller.h"
+#include "agvd/mesh/mesh_view.h"
+
+namespace remesh::detail {
+
+struct EdgeDihedral {
+    agvd::Index ends[2];
+    //! Between the normals of the two faces, both as seen from one side of the surface whatever
+    //! their orientation, radians; pi for any other number of faces.
+    double angle;
+    agvd::Index num_faces;
+};
+
+//! The mesh without copies: vertices with equal coordinates are one, faces that repeat a vertex or
+//! another face are dropped.
+[[nodiscard]] agvd::TriangleMesh without_copies(const agvd::MeshView& mesh, agvd::Ticker& ticker);
+
+//! \param thin  mesh units: a face that is lower takes the normal of the face across its longest
+//!              other side, over up to six of them.
+//! Cost: O(n log n).
+[[nodiscard]] std::vector<EdgeDihedral> edge_dihedrals(const agvd::MeshView& mesh, double thin,
+                                                       agvd::Ticker& ticker);
+
+}  // namespace remesh::detail

@@ -1,0 +1,168 @@
+#include "remesh/quality/feature_coverage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "remesh/quality/edge_dihedrals.h"
+#include "remesh/quality/point_distances.h"
+
+namespace remesh {
+namespace {
+
+using agvd::Index;
+using agvd::TriangleMesh;
+using agvd::Vec3;
+using detail::EdgeDihedral;
+
+constexpr double degree = std::numbers::pi / 180;
+constexpr double sharp = 40 * degree;
+constexpr double blunt = 25 * degree;
+constexpr double corner_turn = 45 * degree;
+
+// In diagonals.
+constexpr double near = 1e-3, very_near = 2e-4, near_corner = 5e-4;
+constexpr double thin_original = 1e-6, thin_result = 1e-9;
+
+constexpr Index num_points = 20'000;
+
+enum class Boundary { Counts, DoesNot };
+
+// A mesh without copies, and its edges.
+struct Edges {
+    TriangleMesh mesh;
+    std::vector<EdgeDihedral> all;
+
+    // Calls use(end, end) for edges above an angle.
+    template <typename Use>
+    void for_each_above(double angle, Boundary boundary, const Use& use) const {
+        for (const EdgeDihedral& e : all) {
+            const bool is_above = e.num_faces == 1 ? boundary == Boundary::Counts : e.angle > angle;
+            if (is_above) use(e.ends[0], e.ends[1]);
+        }
+    }
+    [[nodiscard]] double sharp_length() const {
+        double sum = 0;
+        for_each_above(sharp, Boundary::DoesNot, [&](Index a, Index b) {
+            sum += (mesh.positions[b] - mesh.positions[a]).norm();
+        });
+        return sum;
+    }
+};
+
+double diagonal_of(const TriangleMesh& mesh) {
+    if (mesh.positions.empty()) return 0;
+    Vec3 low = mesh.positions[0], high = low;
+    for (const Vec3& p : mesh.positions) {
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+    }
+    return (high - low).norm();
+}
+
+// Points at equal distances along all sharp edges, one edge after the other.
+std::vector<Vec3> points_on_sharp(const Edges& edges, double length, agvd::Ticker& ticker) {
+    const double step = length / num_points;
+    std::vector<Vec3> points;
+    double before = 0;  // Length of the edges before this one.
+    edges.for_each_above(sharp, Boundary::DoesNot, [&](Index from, Index to) {
+        ticker.tick();
+        const Vec3 &a = edges.mesh.positions[from], &b = edges.mesh.positions[to];
+        const double here = (b - a).norm();
+        while (points.size() < num_points) {
+            const double along = (static_cast<double>(points.size()) + 0.5) * step - before;
+            if (along > here) break;
+            points.push_back(a + along / here * (b - a));
+        }
+        before += here;
+    });
+    return points;
+}
+
+// Shares of points that lie within two distances of the other mesh's blunt edges.
+struct Shares {
+    double near = 0;
+    double very_near = 0;
+};
+
+Shares shares_near(std::vector<Vec3> points, const Edges& edges, Boundary boundary, double diagonal,
+                   agvd::Ticker& ticker) {
+    detail::PointDistances distances(std::move(points), near * diagonal, ticker);
+    edges.for_each_above(blunt, boundary, [&](Index a, Index b) {
+        distances.pass(edges.mesh.positions[a], edges.mesh.positions[b], ticker);
+    });
+    double num_near = 0, num_very_near = 0;
+    for (const double distance : distances.distances()) {
+        if (distance <= near * diagonal) ++num_near;
+        if (distance <= very_near * diagonal) ++num_very_near;
+    }
+    const auto count = static_cast<double>(distances.distances().size());
+    return {num_near / count, num_very_near / count};
+}
+
+std::vector<Vec3> corners_of(const Edges& edges, agvd::Ticker& ticker) {
+    const auto& p = edges.mesh.positions;
+    std::vector<std::pair<Index, Index>> ends;  // (vertex, neighbour).
+    edges.for_each_above(sharp, Boundary::Counts, [&](Index a, Index b) {
+        ends.emplace_back(a, b);
+        ends.emplace_back(b, a);
+    });
+    agvd::sort_ticked(ends, ticker, std::less<>());
+    std::vector<Vec3> corners;
+    for (std::size_t i = 0, j = 0; i < ends.size(); i = j) {
+        while (j < ends.size() && ends[j].first == ends[i].first) ++j;
+        const Vec3& here = p[ends[i].first];
+        bool is_corner = j - i > 2;
+        if (j - i == 2) {
+            const Vec3 in = here - p[ends[i].second], out = p[ends[i + 1].second] - here;
+            is_corner = std::atan2(in.cross(out).norm(), in.dot(out)) > corner_turn;
+        }
+        if (is_corner) corners.push_back(here);
+    }
+    return corners;
+}
+
+// Corners with a vertex of the result nearby.
+Index count_kept(const std::vector<Vec3>& corners, const TriangleMesh& result, double reach,
+                 agvd::Ticker& ticker) {
+    detail::PointDistances distances(corners, reach, ticker);
+    for (const Vec3& p : result.positions) distances.pass(p, p, ticker);
+    const auto& found = distances.distances();
+    return static_cast<Index>(
+        std::count_if(found.begin(), found.end(), [](double d) { return std::isfinite(d); }));
+}
+
+}  // namespace
+
+std::optional<FeatureCoverage> feature_coverage(const agvd::MeshView& original,
+                                                const agvd::MeshView& result,
+                                                const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    agvd::Ticker ticker(poller);
+    Edges before{detail::without_copies(original, ticker), {}};
+    const double diagonal = diagonal_of(before.mesh);
+    before.all = detail::edge_dihedrals(before.mesh.view(), thin_original * diagonal, ticker);
+    FeatureCoverage coverage{.length = before.sharp_length(), .diagonal = diagonal};
+    const std::vector<Vec3> corners = corners_of(before, ticker);
+    if (coverage.length == 0 && corners.empty()) return std::nullopt;
+    Edges after{detail::without_copies(result, ticker), {}};
+    after.all = detail::edge_dihedrals(after.mesh.view(), thin_result * diagonal, ticker);
+    coverage.result_length = after.sharp_length();
+    if (coverage.length > 0) {
+        const Shares shares = shares_near(points_on_sharp(before, coverage.length, ticker), after,
+                                          Boundary::DoesNot, diagonal, ticker);
+        coverage.covered = shares.near;
+        coverage.covered_closely = shares.very_near;
+    }
+    if (coverage.result_length > 0) {
+        const Shares shares = shares_near(points_on_sharp(after, coverage.result_length, ticker),
+                                          before, Boundary::Counts, diagonal, ticker);
+        coverage.false_share = 1 - shares.near;
+    }
+    coverage.corners = static_cast<Index>(corners.size());
+    coverage.corners_kept = count_kept(corners, after.mesh, near_corner * diagonal, ticker);
+    return coverage;
+}
+
+}  // namespace remesh

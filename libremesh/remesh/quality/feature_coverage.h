@@ -1,0 +1,45 @@
+//! \file
+//! How well a result keeps the sharp edges and corners of the original.
+#pragma once
+
+#include <optional>
+
+#include "agvd/core/progress.h"
+#include "agvd/mesh/mesh_view.h"
+
+namespace remesh {
+
+//! Sharp is an edge whose two faces meet at more than 40 degrees, or that has more than two faces;
+//! blunt one of more than 25, so that an edge that the other mesh has a little rounder is not
+//! missed. Points with equal coordinates count as one.
+//!
+//! A face of the original lower than 1e-6 diagonals (of the result 1e-9) has no direction: its
+//! edges take the normal of the face across its longest other side, so that slivers make no sharp
+//! edges.
+struct FeatureCoverage {
+    double length = 0;  //!< Of the original's sharp edges, mesh units.
+    //! Share of it within .1 % of the diagonal of the result's blunt edges; 1 if there is none.
+    double covered = 1;
+    double covered_closely = 1;  //!< Likewise, within .02 %.
+    double result_length = 0;    //!< Of the result's sharp edges, mesh units.
+    //! Share of it farther than .1 % of the diagonal from the original's blunt edges and boundary;
+    //! 0 if there is none.
+    double false_share = 0;
+    //! Vertices of the original where three or more sharp or boundary edges meet, or two that turn
+    //! by more than 45 degrees.
+    agvd::Index corners = 0;
+    agvd::Index corners_kept = 0;  //!< With a vertex of the result within .05 % of the diagonal.
+    double diagonal = 0;           //!< Of the box around the original's faces, mesh units.
+};
+
+//! Shares are of 20 000 points at equal distances along the edges.
+//!
+//! \param original, result  any triangles, manifold or not; indices in range, positions finite.
+//! \return nothing if the original has neither sharp edges nor corners.
+//! \throw agvd::Cancelled  the progress callback returned false.
+//! Cost: O(n log n).
+[[nodiscard]] std::optional<FeatureCoverage> feature_coverage(const agvd::MeshView& original,
+                                                              const agvd::MeshView& result,
+                                                              const agvd::Progress& progress = {});
+
+}  // namespace remesh
