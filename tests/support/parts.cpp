@@ -62,17 +62,39 @@ Vec3 circle(double turns, double radius, double z) {
     return {radius * std::cos(2 * pi * turns), radius * std::sin(2 * pi * turns), z};
 }
 
-}  // namespace
-
-TriangleMesh box(const Vec3& size, Index n) {
+Patchwork walls(const Vec3& size, Index n) {
     Patchwork work;
     const Vec3 x(size.x(), 0, 0), y(0, size.y(), 0), z(0, 0, size.z()), o(0, 0, 0);
-    work.add_square(n, o, y, x);
     work.add_square(n, z, x, y);
     work.add_square(n, o, x, z);
     work.add_square(n, y, z, x);
     work.add_square(n, o, z, y);
     work.add_square(n, x, y, z);
+    return work;
+}
+
+}  // namespace
+
+TriangleMesh open_box(const Vec3& size, Index n) { return walls(size, n).take(); }
+
+TriangleMesh box(const Vec3& size, Index n) {
+    Patchwork work = walls(size, n);
+    work.add_square(n, Vec3(0, 0, 0), Vec3(0, size.y(), 0), Vec3(size.x(), 0, 0));
+    return work.take();
+}
+
+TriangleMesh hexagonal_prism(Index n) {
+    Patchwork work;
+    const Vec3 up(0, 0, 1);
+    for (int i = 0; i < 6; ++i) {
+        const Vec3 a = circle(i / 6., 1, 0), b = circle((i + 1) / 6., 1, 0);
+        work.add_square(n, a, b - a, up);
+        // A third of the hexagon.
+        if (i % 2 != 0) continue;
+        const Vec3 c = circle((i + 2) / 6., 1, 0);
+        work.add_square(n, b, a - b, c - b);
+        work.add_square(n, b + up, c - b, a - b);
+    }
     return work.take();
 }
 

@@ -11,6 +11,11 @@ namespace parts {
 
 //! Box with corners (0, 0, 0) and `size`; n quads along each edge.
 [[nodiscard]] agvd::TriangleMesh box(const agvd::Vec3& size, agvd::Index n);
+//! The same without the face z = 0: creases along eight edges.
+[[nodiscard]] agvd::TriangleMesh open_box(const agvd::Vec3& size, agvd::Index n);
+//! The regular hexagon of radius 1 around z, extruded to height 1; n quads along each side.
+//! Creases: 18 chains, 18 units.
+[[nodiscard]] agvd::TriangleMesh hexagonal_prism(agvd::Index n);
 //! The unit squares (0, 0), (1, 0) and (0, 1) of a plane, extruded to height 1; n quads along each
 //! square's side. Creases: 18 chains, 22 units.
 [[nodiscard]] agvd::TriangleMesh extruded_l(agvd::Index n);

@@ -23,7 +23,6 @@ enum class Stage { Clean, Sample, Relax, Propagate, Diagram, Dual, Delaunay, Pla
 //! Lower-case name of a stage, for logs.
 [[nodiscard]] const char* stage_name(Stage stage);
 
-//! What becomes of the count where the topology asks for more sites.
 //! Which creases are kept.
 enum class Features {
     Auto,   //!< Those that are long and strong enough for the spacing of the sites.
@@ -48,6 +47,7 @@ struct FeatureCounts {
     bool gave_up = false;
 };
 
+//! What becomes of the count where the topology asks for more sites.
 enum class VertexCount {
     Exact,  //!< As many vertices as sites were asked for: others go where that harms nothing.
     Add,    //!< The sites that repair adds stay.

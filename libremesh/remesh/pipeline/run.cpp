@@ -35,6 +35,8 @@ using agvd::Vec3;
 // Creases are looked for at the spacing of so many sites where there are fewer: small parts are to
 // keep theirs, and what the sites are too few for is told.
 constexpr std::size_t least_scale = 300;
+// Of the spacing: lengths not above this are rounding.
+constexpr double rounding = 1e-10;
 // Rounds of putting vertices back onto the surface there.
 constexpr int max_unfits = 4;
 
@@ -438,7 +440,7 @@ private:
         if (options_.fit.value_or(is_relaxed())) {
             if (plan_) fit_network(placed);
             fit_vertices(*prepared_, nearest, placed, options_.num_threads,
-                         agvd::within(progress, 0, 0));
+                         agvd::within(progress, 0, 0), plan_ ? rounding * spacing_ : 0);
         }
         if (is_relaxed()) {
             improve_shape(*prepared_, nearest, placed, agvd::within(progress, 0.5, 0.5));

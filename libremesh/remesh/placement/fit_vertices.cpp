@@ -87,8 +87,9 @@ double dot(const Field& a, const Field& b) {
 class Fit {
 public:
     Fit(const PreparedSurface& surface, std::span<const Index> nearest_vertex, PlacedMesh& mesh,
-        int num_threads, agvd::Poller& poller)
+        double least_way, int num_threads, agvd::Poller& poller)
         : surface_(surface.input()),
+          least_way_(least_way),
           num_threads_(num_threads),
           poller_(poller),
           ticker_(poller),
@@ -244,7 +245,7 @@ private:
         Gap gap{nearest.point.barycentric,
                 normal_[i].dot(sample.position - at_[mesh_.triangles[i][0]]), 0, Vec3::Zero()};
         const double distance = std::sqrt(nearest.distance_sq);
-        if (distance > overhang * std::abs(gap.from_plane)) {
+        if (distance > std::max(overhang * std::abs(gap.from_plane), least_way_)) {
             gap.from_end = distance;
             gap.direction = (sample.position - nearest.position) / distance;
         }
@@ -280,7 +281,7 @@ private:
                   [&](Index v) { return way_to_surface(at_[v], std::span(&v, 1)); });
         for (Index v = 0; v < num_vertices(); ++v) {
             const Vec3& way = ways_[v];
-            if (way.isZero(0)) continue;
+            if (!(way.norm() > least_way_)) continue;
             const Vec3 direction = way.normalized();
             diagonal_[v] += vertex_weight * area_[v] * direction * direction.transpose();
             right_[v] += vertex_weight * area_[v] * way;
@@ -293,7 +294,7 @@ private:
         middle_.assign(num_triangles, {});
         for (Index i = 0; i < num_triangles; ++i) {
             const Vec3& way = ways_[i];
-            if (way.isZero(0)) continue;
+            if (!(way.norm() > least_way_)) continue;
             const auto& [a, b, c] = mesh_.triangles[i];
             const double area = (at_[b] - at_[a]).cross(at_[c] - at_[a]).norm() / 2;
             MiddleSum& sum = middle_[i];
@@ -409,6 +410,7 @@ private:
     }
 
     const agvd::Surface& surface_;
+    double least_way_;
     int num_threads_;
     agvd::Poller& poller_;
     agvd::Ticker ticker_;
@@ -431,10 +433,11 @@ private:
 }  // namespace
 
 void fit_vertices(const PreparedSurface& surface, std::span<const Index> nearest_vertex,
-                  PlacedMesh& mesh, int num_threads, const agvd::Progress& progress) {
+                  PlacedMesh& mesh, int num_threads, const agvd::Progress& progress,
+                  double least_way) {
     agvd::Poller poller(progress);
     mesh.offsets.resize(mesh.points.size(), Vec3::Zero());
-    Fit(surface, nearest_vertex, mesh, num_threads, poller).run();
+    Fit(surface, nearest_vertex, mesh, least_way, num_threads, poller).run();
 }
 
 }  // namespace remesh

@@ -20,9 +20,12 @@ namespace remesh {
 //! \param nearest_vertex  per vertex of surface.base: that of the mesh in whose cell it lies;
 //!                        agvd::no_index: none.
 //! \param num_threads     >= 0; 0: all cores. The result is the same for any number.
+//! \param least_way       >= 0, mesh units: no longer ways between mesh and surface are rounding,
+//!                        whose direction says nothing. Above 0 what is flat stays flat.
 //! \throw agvd::Cancelled  the progress callback returned false; `mesh` is of no use then.
 //! Cost: O(#base + #mesh), about 2 us for each vertex of the base.
 void fit_vertices(const PreparedSurface& surface, std::span<const agvd::Index> nearest_vertex,
-                  PlacedMesh& mesh, int num_threads = 0, const agvd::Progress& progress = {});
+                  PlacedMesh& mesh, int num_threads = 0, const agvd::Progress& progress = {},
+                  double least_way = 0);
 
 }  // namespace remesh

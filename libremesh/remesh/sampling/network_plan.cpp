@@ -93,16 +93,19 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
     const double length_at_first = length_of_creases();
     const double spacing = detail::spacing_of(num_sites, agvd::surface_area(surface), 0);
     NetworkPlan plan;
-    if (drop_share > 0) {
+    const auto find = [&] {
         plan.network = find_network(surface, is_crease, spacing);
+        const auto needed =
+            static_cast<Index>(num_curve_sites(plan.network, fewest_intervals(plan.network)));
+        plan.sites_for_all = std::max(plan.sites_for_all, needed);
+        return needed;
+    };
+    if (drop_share > 0) {
+        (void)find();
         drop_shortest(surface, plan.network, drop_share, is_crease);
     }
     while (std::any_of(is_crease.begin(), is_crease.end(), [](auto c) { return c != 0; })) {
-        plan.network = find_network(surface, is_crease, spacing);
-        const std::vector<Index> fewest = fewest_intervals(plan.network);
-        const auto needed = static_cast<Index>(num_curve_sites(plan.network, fewest));
-        plan.sites_for_all = std::max(plan.sites_for_all, needed);
-        if (needed > num_sites) {
+        if (find() > num_sites) {
             drop_shortest(surface, plan.network, drop_at_once, is_crease);
             continue;
         }

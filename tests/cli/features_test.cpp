@@ -1,0 +1,97 @@
+// The options of `remesh` for features, and what it reports of them.
+#include <algorithm>
+
+#include <nlohmann/json.hpp>
+
+#include "remesh/io/read_mesh.h"
+#include "support/crease_checks.h"
+#include "support/parts.h"
+#include "support/scratch.h"
+
+namespace {
+
+class RemeshFeatures : public Scratch {
+protected:
+    // The report of a run, with 300 samples unless told, and the mesh in out.ply. A prism's walls
+    // meet at 60 and 90 degrees.
+    [[nodiscard]] nlohmann::json report(const std::vector<std::string>& options) {
+        const std::string in = put("in.ply", parts::hexagonal_prism(4));
+        std::vector<std::string> arguments{in, at("out.ply"), "--report", "-"};
+        if (std::find(options.begin(), options.end(), "-n") == options.end()) {
+            arguments.insert(arguments.end(), {"-n", "300"});
+        }
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const auto outcome = run(REMESH_PROGRAM, arguments);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return nlohmann::json::parse(outcome.out);
+    }
+};
+
+TEST_F(RemeshFeatures, CreasesAreKeptUnlessTheyAreNotWanted) {
+    const nlohmann::json by_default = report({});
+    const std::string mesh = bytes("out.ply");
+    EXPECT_EQ(by_default["features"]["curves"], 18);
+    EXPECT_EQ(crease_checks::coverage(parts::hexagonal_prism(4),
+                                      remesh::read_mesh(at("out.ply")).mesh, 1e-6),
+              1);
+    EXPECT_EQ(report({"--features", "auto"})["features"], by_default["features"]);
+    EXPECT_EQ(bytes("out.ply"), mesh);
+    EXPECT_EQ(report({"--features", "off"})["features"]["curves"], 0);
+    const std::string without = bytes("out.ply");
+    EXPECT_NE(without, mesh);
+    EXPECT_EQ(report({"--no-features"})["options"]["features"], "off");
+    EXPECT_EQ(bytes("out.ply"), without);
+}
+
+TEST_F(RemeshFeatures, AnAngleTellsWhatACreaseIs) {
+    for (const char* option : {"--features", "--crease"}) {
+        EXPECT_EQ(report({option, "40"})["features"]["curves"], 18);
+        const nlohmann::json steep = report({option, "72.5"});
+        EXPECT_EQ(steep["features"]["curves"], 12);
+        EXPECT_EQ(steep["options"]["features"], "angle");
+        EXPECT_EQ(steep["options"]["feature_angle_degrees"], 72.5);
+        EXPECT_EQ(report({option, "100"})["features"]["curves"], 0);
+    }
+}
+
+TEST_F(RemeshFeatures, TheReportTellsTheNetwork) {
+    const nlohmann::json features = report({})["features"];
+    EXPECT_EQ(features["nodes"], 12);
+    EXPECT_EQ(features["samples_for_all"], 12);
+    EXPECT_NEAR(features["crease_length_mesh_units"], 18, 1e-5);
+    EXPECT_NEAR(features["dropped_crease_length_mesh_units"], 0, 1e-12);
+    EXPECT_EQ(features["gave_up"], false);
+    EXPECT_EQ(features["thinned_patches"], 0);
+    EXPECT_GT(features["vertices"], 60);
+    EXPECT_LT(features["vertices"], 200);
+    const nlohmann::json few = report({"--features", "40", "-n", "11"})["features"];
+    EXPECT_GT(few["dropped_crease_length_mesh_units"], 0.9);
+    EXPECT_EQ(few["samples_for_all"], 12);
+}
+
+TEST_F(RemeshFeatures, WrongValuesAreTwo) {
+    const std::string in = put("in.ply", parts::hexagonal_prism(4));
+    for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
+             {"--features", "maybe"},
+             {"--features", ""},
+             {"--features", "0"},
+             {"--features", "180"},
+             {"--features", "-40"},
+             {"--features", "nan"},
+             {"--features", "40deg"},
+             {"--crease", "on"},
+             {"--features"},
+             {"--no-features", "--features", "auto"},
+             {"--no-features", "--crease", "40"},
+         }) {
+        std::vector<std::string> arguments{in, at("out.ply"), "-n", "50"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const auto outcome = run(REMESH_PROGRAM, arguments);
+        EXPECT_EQ(outcome.exit_code, 2) << testing::PrintToString(options) << outcome.err;
+        EXPECT_NE(outcome.err, "");
+        EXPECT_EQ(outcome.out, "");
+    }
+    EXPECT_EQ(num_files(), 1u);
+}
+
+}  // namespace

@@ -1,0 +1,322 @@
+// The whole job on parts by formula: straight edges, true corners and flat faces.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <numbers>
+
+#include <Eigen/Geometry>
+
+#include "remesh/io/read_mesh.h"
+#include "remesh/pipeline/remesh.h"
+#include "support/crease_checks.h"
+#include "support/dice.h"
+#include "support/files.h"
+#include "support/parts.h"
+#include "support/shapes.h"
+
+using namespace agvd;
+using remesh::Features;
+using remesh::RemeshOptions;
+using remesh::RemeshResult;
+
+namespace {
+
+struct Part {
+    std::string name;
+    TriangleMesh mesh;
+    Index curves = 0;           // Those of the boundary included.
+    std::vector<Vec3> corners;  // All nodes whose place is known.
+    Index other_nodes = 0;
+    Index fewest = 0;      // Vertices that the network needs.
+    double tolerance = 0;  // Of the chains.
+    bool is_flat = false;
+};
+
+std::vector<Vec3> signs(double x, double y, double z) {
+    std::vector<Vec3> result;
+    for (const double sx : {-1., 1.}) {
+        for (const double sy : {-1., 1.}) result.emplace_back(sx * x, sy * y, z);
+    }
+    return result;
+}
+
+std::vector<Vec3> corners_of_box() {
+    std::vector<Vec3> result;
+    for (int i = 0; i < 8; ++i) result.emplace_back(i & 1, i >> 1 & 1, i >> 2);
+    return result;
+}
+
+std::vector<Vec3> extruded(const std::vector<Vec3>& outline) {
+    std::vector<Vec3> result = outline;
+    for (const Vec3& p : outline) result.push_back(p + Vec3(0, 0, 1));
+    return result;
+}
+
+Part box() { return {"box", parts::box({1, 1, 1}, 6), 12, corners_of_box(), 0, 8, 1e-6, true}; }
+
+Part open_box() {
+    return {"open box", parts::open_box({1, 1, 1}, 6), 12, corners_of_box(), 0, 8, 1e-6, true};
+}
+
+Part prism() {
+    std::vector<Vec3> outline;
+    for (int i = 0; i < 6; ++i) {
+        const double angle = i * std::numbers::pi / 3;
+        outline.emplace_back(std::cos(angle), std::sin(angle), 0);
+    }
+    return {"prism", parts::hexagonal_prism(4), 18, extruded(outline), 0, 12, 1e-6, true};
+}
+
+Part extruded_l() {
+    return {"L",  parts::extruded_l(5),
+            18,   extruded({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}}),
+            0,    12,
+            1e-6, true};
+}
+
+Part cylinder() { return {"cylinder", parts::capped_cylinder(64, 6), 2, {}, 0, 6, 3e-3, false}; }
+
+Part cone() { return {"cone", parts::cone_on_plate(48, 6), 2, {}, 0, 6, 6e-3, false}; }
+
+Part vaults() {
+    std::vector<Vec3> corners = signs(2, 1, 0);
+    for (const auto& more : {signs(5, 1, 0), signs(2, 3, 0)}) {
+        corners.insert(corners.end(), more.begin(), more.end());
+    }
+    return {"vaults", parts::crossing_vaults(20), 14, corners, 0, 12, .01, false};
+}
+
+// A crease that ends in nothing, and a slit that gapes, or else cleaning would close it.
+Part slit_plate() {
+    Part part{"slit plate", parts::folded_plate(32, 80, true), 8, signs(4, 1, 0), 1, 10, 1e-6,
+              false};
+    const auto num_whole = parts::folded_plate(32, 80, false).positions.size();
+    for (auto v = num_whole; v < part.mesh.positions.size(); ++v) part.mesh.positions[v].x() += .02;
+    part.corners[0].z() = part.corners[1].z() = std::tan(40 * std::numbers::pi / 180);
+    for (const Vec3& p : {Vec3(3.5, -.5, 0), Vec3(3.5, .5, 0), Vec3(-4, 0, 0)}) {
+        part.corners.push_back(p);
+    }
+    return part;
+}
+
+std::vector<Part> all_parts() {
+    return {box(), open_box(), prism(), extruded_l(), cylinder(), cone(), vaults(), slit_plate()};
+}
+
+double shortest_edge(const TriangleMesh& mesh) {
+    double shortest = std::numeric_limits<double>::infinity();
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const auto& p = mesh.positions;
+        for (const Vec3& edge : {Vec3(p[b] - p[a]), Vec3(p[c] - p[b]), Vec3(p[a] - p[c])}) {
+            shortest = std::min(shortest, edge.norm());
+        }
+    }
+    return shortest;
+}
+
+double diagonal(const TriangleMesh& mesh) {
+    Eigen::AlignedBox3d around;
+    for (const Vec3& v : mesh.positions) around.extend(v);
+    return around.diagonal().norm();
+}
+
+RemeshResult run(const TriangleMesh& mesh, const RemeshOptions& options) {
+    return remesh::remesh(mesh.view(), options);
+}
+
+void expect_sound(const RemeshResult& result, Index num_samples) {
+    EXPECT_EQ(result.mesh.positions.size(), num_samples);
+    EXPECT_EQ(result.sites.size(), num_samples);
+    const remesh::Topology topology = remesh::analyze_topology(result.mesh.view());
+    EXPECT_TRUE(topology.is_manifold);
+    EXPECT_TRUE(topology.is_oriented);
+    EXPECT_TRUE(same_topology(topology, result.input_topology));
+    EXPECT_EQ(result.self_intersections.value_or(0), 0u);
+}
+
+void expect_network(const Part& part, const RemeshResult& result) {
+    EXPECT_EQ(result.features.curves, part.curves);
+    EXPECT_EQ(result.features.nodes, part.corners.size() + part.other_nodes);
+    EXPECT_FALSE(result.features.gave_up);
+    EXPECT_EQ(result.features.dropped_length, 0);
+}
+
+void expect_sharp(const Part& part, const RemeshResult& result, bool is_coarse) {
+    EXPECT_LT(crease_checks::farthest_from_vertices(part.corners, result.mesh), 1e-9);
+    // Few chords are too far from curves that are not straight.
+    if (part.tolerance < 1e-3 || !is_coarse) {
+        EXPECT_EQ(crease_checks::coverage(part.mesh, result.mesh, part.tolerance), 1);
+    }
+    if (part.is_flat) {
+        EXPECT_LT(crease_checks::farthest_from_surface(result.mesh, part.mesh), 1e-9);
+    }
+}
+
+}  // namespace
+
+TEST(Features, PartsKeepTheirNetworkAtEveryNumberOfVertices) {
+    for (const Part& part : all_parts()) {
+        for (const Index n : {50u, 200u, 2000u}) {
+            SCOPED_TRACE(part.name + ", " + std::to_string(n));
+            const RemeshResult result = run(part.mesh, {.num_samples = n});
+            expect_sound(result, n);
+            expect_network(part, result);
+            expect_sharp(part, result, n < 1000);
+        }
+    }
+}
+
+// By angle alone: where chains are shorter than the spacing, all of them may be noise.
+TEST(Features, TheFewestVerticesThatTheNetworkNeedsAreEnough) {
+    for (const Part& part : all_parts()) {
+        for (const Index n : {part.fewest, part.fewest + 1, part.fewest + 7}) {
+            SCOPED_TRACE(part.name + ", " + std::to_string(n));
+            const RemeshResult result =
+                run(part.mesh, {.num_samples = n, .features = Features::Angle});
+            expect_sound(result, n);
+            expect_network(part, result);
+            expect_sharp(part, result, true);
+            EXPECT_EQ(result.features.samples_for_all, part.fewest);
+        }
+    }
+}
+
+TEST(Features, ManyVerticesCarryTheNetwork) {
+    const Part part = extruded_l();
+    const RemeshResult result = run(part.mesh, {.num_samples = 20000});
+    expect_sound(result, 20000);
+    expect_network(part, result);
+    expect_sharp(part, result, false);
+}
+
+TEST(Features, TurningScalingAndNoiseKeepTheNetwork) {
+    for (const Part& part : all_parts()) {
+        for (const double scale : {1e-6, 1., 1e6}) {
+            SCOPED_TRACE(part.name + ", " + std::to_string(scale));
+            Part other = part;
+            // The corners turn with the surface.
+            const std::size_t num_vertices = part.mesh.positions.size();
+            auto& p = other.mesh.positions;
+            p.insert(p.end(), part.corners.begin(), part.corners.end());
+            other.mesh = parts::turned(other.mesh, 5);
+            for (Vec3& v : p) v *= scale;
+            std::copy(p.begin() + static_cast<std::ptrdiff_t>(num_vertices), p.end(),
+                      other.corners.begin());
+            p.resize(num_vertices);
+            const RemeshResult result = run(other.mesh, {.num_samples = 200});
+            expect_sound(result, 200);
+            expect_network(part, result);
+            for (Vec3& v : p) v /= scale;
+            for (Vec3& v : other.corners) v /= scale;
+            RemeshResult unscaled = result;
+            for (Vec3& v : unscaled.mesh.positions) v /= scale;
+            expect_sharp(other, unscaled, true);
+        }
+        SCOPED_TRACE(part.name + ", noise");
+        const TriangleMesh noisy = shapes::jitter(part.mesh, 1e-3 * shortest_edge(part.mesh), 3);
+        const RemeshResult result = run(noisy, {.num_samples = 200});
+        expect_sound(result, 200);
+        expect_network(part, result);
+        EXPECT_LT(crease_checks::farthest_from_vertices(part.corners, result.mesh), 1e-3);
+    }
+}
+
+TEST(Features, NeedlesAndSplitsInFlatFacesKeepTheNetwork) {
+    for (const Part& part : all_parts()) {
+        for (const double aspect : {0.3, 1e-4}) {
+            SCOPED_TRACE(part.name + ", " + std::to_string(aspect));
+            const TriangleMesh needles = parts::with_needles(part.mesh, aspect, 0.4, 7);
+            const RemeshResult result = run(needles, {.num_samples = 200});
+            expect_sound(result, 200);
+            expect_network(part, result);
+            expect_sharp(part, result, true);
+        }
+    }
+}
+
+TEST(Features, ThreadsChangeNothing) {
+    for (const Part& part : {extruded_l(), vaults(), slit_plate()}) {
+        SCOPED_TRACE(part.name);
+        const RemeshResult one = run(part.mesh, {.num_samples = 400, .num_threads = 1});
+        for (const int threads : {2, 8}) {
+            const RemeshResult other = run(part.mesh, {.num_samples = 400, .num_threads = threads});
+            EXPECT_EQ(one.mesh.positions, other.mesh.positions);
+            EXPECT_EQ(one.mesh.triangles, other.mesh.triangles);
+        }
+    }
+}
+
+TEST(Features, WhatVerticesAreTooFewForIsDroppedAndCounted) {
+    for (const Part& part : {box(), open_box(), prism(), extruded_l(), vaults()}) {
+        const double length = run(part.mesh, {.num_samples = 200}).features.length;
+        for (Index n = 4; n < part.fewest; ++n) {
+            SCOPED_TRACE(part.name + ", " + std::to_string(n));
+            const RemeshOptions options{.num_samples = n, .features = Features::Angle};
+            const RemeshResult result = run(part.mesh, options);
+            expect_sound(result, n);
+            EXPECT_LT(result.features.length, length);
+            EXPECT_NEAR(result.features.length + result.features.dropped_length, length,
+                        1e-9 * length);
+            EXPECT_EQ(result.features.samples_for_all, part.fewest);
+        }
+    }
+}
+
+TEST(Features, AnglesDecide) {
+    // Walls that meet at 60 and 90 degrees.
+    const TriangleMesh prism = parts::hexagonal_prism(4);
+    const auto num_curves = [&](Features features, double angle) {
+        const RemeshOptions options{
+            .num_samples = 300, .features = features, .feature_angle = angle};
+        const RemeshResult result = run(prism, options);
+        expect_sound(result, 300);
+        return result.features.curves;
+    };
+    EXPECT_EQ(num_curves(Features::Auto, 40), 18u);
+    EXPECT_EQ(num_curves(Features::Angle, 40), 18u);
+    EXPECT_EQ(num_curves(Features::Angle, 75), 12u);
+    EXPECT_EQ(num_curves(Features::Angle, 95), 0u);
+    EXPECT_EQ(num_curves(Features::Off, 40), 0u);
+    for (const double angle : {0., 180., -40., std::nan("")}) {
+        EXPECT_THROW((void)num_curves(Features::Angle, angle), InvalidOption);
+    }
+}
+
+TEST(Features, GivenSitesAndFreeBoundariesHaveNone) {
+    const TriangleMesh mesh = parts::open_box({1, 1, 1}, 6);
+    const RemeshResult free = run(mesh, {.num_samples = 200, .boundary = remesh::Boundary::Free});
+    EXPECT_EQ(free.features.curves, 0u);
+    EXPECT_EQ(free.features.length, 0);
+    RemeshOptions given{.num_samples = 200, .features = Features::Off};
+    given.sites = run(mesh, given).sites;
+    const RemeshResult off = run(mesh, given);
+    given.features = Features::Auto;
+    const RemeshResult automatic = run(mesh, given);
+    EXPECT_EQ(automatic.features.curves, 0u);
+    EXPECT_EQ(automatic.mesh.positions, off.mesh.positions);
+}
+
+TEST(Features, ScansAreLeftAlone) {
+    const TriangleMesh mesh = remesh::read_mesh(std::string(AGVD_DATA_DIR) + "/organic.ply").mesh;
+    const RemeshResult off = run(mesh, {.num_samples = 1000, .features = Features::Off});
+    const RemeshResult automatic = run(mesh, {.num_samples = 1000});
+    EXPECT_EQ(automatic.features.curves, 0u);
+    EXPECT_EQ(off.mesh.positions, automatic.mesh.positions);
+    EXPECT_EQ(off.mesh.triangles, automatic.mesh.triangles);
+}
+
+TEST(Features, FandiskKeepsItsCreasesAndCorners) {
+    const auto file = files::real_mesh("fandisk.off");
+    if (!std::filesystem::exists(file)) GTEST_SKIP() << "no real mesh at " << file;
+    const TriangleMesh mesh = remesh::read_mesh(file).mesh;
+    const RemeshResult result = run(mesh, {.num_samples = 2000});
+    expect_sound(result, 2000);
+    EXPECT_FALSE(result.features.gave_up);
+    EXPECT_EQ(result.features.dropped_length, 0);
+    EXPECT_GE(crease_checks::coverage(mesh, result.mesh, 1e-3 * diagonal(mesh)), .985);
+    const std::vector<Vec3> corners = crease_checks::junctions(mesh, 40);
+    EXPECT_GE(corners.size(), 10u);
+    EXPECT_LT(crease_checks::farthest_from_vertices(corners, result.mesh), 1e-9 * diagonal(mesh));
+}

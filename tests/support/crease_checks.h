@@ -1,0 +1,35 @@
+//! \file
+//! How well a mesh carries the creases, corners and faces of the surface it stands for.
+#pragma once
+
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "agvd/mesh/mesh_view.h"
+
+namespace crease_checks {
+
+using Segment = std::pair<agvd::Vec3, agvd::Vec3>;
+
+//! Edges between faces whose normals differ by more than `degrees`.
+[[nodiscard]] std::vector<Segment> creases(const agvd::TriangleMesh& mesh, double degrees);
+
+//! Vertices where three of these or more meet.
+[[nodiscard]] std::vector<agvd::Vec3> junctions(const agvd::TriangleMesh& mesh, double degrees);
+
+//! Share of the length of creases above 40 degrees of `input` that lies within `tolerance` of a
+//! crease above 25 degrees of `output`, told at eight points of each edge. 1 if there are none.
+[[nodiscard]] double coverage(const agvd::TriangleMesh& input, const agvd::TriangleMesh& output,
+                              double tolerance);
+
+//! The farthest that any of the points lies from the nearest vertex.
+[[nodiscard]] double farthest_from_vertices(std::span<const agvd::Vec3> points,
+                                            const agvd::TriangleMesh& mesh);
+
+//! The farthest that a vertex, edge midpoint or centroid of `mesh` lies from `surface`: 0 if every
+//! triangle lies in one of its flat faces.
+[[nodiscard]] double farthest_from_surface(const agvd::TriangleMesh& mesh,
+                                           const agvd::TriangleMesh& surface);
+
+}  // namespace crease_checks
