@@ -203,7 +203,9 @@ private:
 
     void relax_network() {
         const StageClock clock(Stage::Relax, result_);
-        NetworkSites made = sample_network_sites(*prepared_, *plan_, sampling(),
+        SamplingOptions exactly = sampling();
+        exactly.num_samples = options_.num_samples;
+        NetworkSites made = sample_network_sites(*prepared_, *plan_, exactly,
                                                  {.steps = options_.relax_steps,
                                                   .boundary = Boundary::Free,
                                                   .num_threads = options_.num_threads,
@@ -546,6 +548,10 @@ private:
 
     // All before implies this; nothing leaves unchecked all the same.
     void check_mesh() {
+        if (plan_ && options_.vertex_count == VertexCount::Exact &&
+            result_.mesh.positions.size() != options_.num_samples) {
+            throw NetworkFailed{};
+        }
         const StageClock clock(Stage::Check, result_);
         const agvd::Progress progress = progress_of(Stage::Check, options_);
         agvd::poll(progress, 1);
