@@ -91,11 +91,12 @@ Part vaults() {
 
 // A crease that ends in nothing, and a slit that gapes, or else cleaning would close it.
 Part slit_plate() {
-    const TriangleMesh whole = parts::folded_plate(
-        32, 8, 1, [](double x) { return 80 * std::clamp(1 - x / 3, 0., 1.); });
-    Part part{
-        "slit plate", parts::with_slit(whole, 3.5, 0.5), 8, signs(4, 1, 0), 1, 10, 1e-6, false};
-    for (auto v = whole.positions.size(); v < part.mesh.positions.size(); ++v) part.mesh.positions[v].x() += .02;
+    const TriangleMesh whole =
+        parts::folded_plate(32, 8, 1, [](double x) { return 80 * std::clamp(1 - x / 3, 0., 1.); });
+    Part part{"slit plate", parts::with_slit(whole, 3.5, 0.5), 8, signs(4, 1, 0), 1, 10, 1e-6,
+              false};
+    for (auto v = whole.positions.size(); v < part.mesh.positions.size(); ++v)
+        part.mesh.positions[v].x() += .02;
     part.corners[0].z() = part.corners[1].z() = std::tan(40 * std::numbers::pi / 180);
     for (const Vec3& p : {Vec3(3.5, -.5, 0), Vec3(3.5, .5, 0), Vec3(-4, 0, 0)}) {
         part.corners.push_back(p);

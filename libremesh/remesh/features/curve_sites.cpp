@@ -76,11 +76,22 @@ std::vector<double> spacings_along(const agvd::Surface& surface, const Curve& cu
 
 std::vector<Index> fewest_intervals(const CurveNetwork& network) {
     std::map<std::pair<Index, Index>, int> num_between;  // Curves by their ends.
-    for (const Curve& curve : network.curves) ++num_between[std::minmax(curve.begin, curve.end)];
+    std::vector<int> num_ends(network.nodes.size(), 0);  // Of curves, by node.
+    for (const Curve& curve : network.curves) {
+        ++num_between[std::minmax(curve.begin, curve.end)];
+        if (curve.is_closed()) continue;
+        ++num_ends[curve.begin];
+        ++num_ends[curve.end];
+    }
     std::vector<Index> intervals;
     for (const Curve& curve : network.curves) {
+        if (curve.begin == curve.end) {
+            intervals.push_back(3);
+            continue;
+        }
         const bool is_alone = num_between[std::minmax(curve.begin, curve.end)] == 1;
-        intervals.push_back(curve.begin == curve.end ? 3 : is_alone ? 1 : 2);
+        const bool is_slit = num_ends[curve.begin] == 1 && num_ends[curve.end] == 1;
+        intervals.push_back(is_alone && !is_slit ? 1 : 2);
     }
     return intervals;
 }

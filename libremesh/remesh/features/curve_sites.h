@@ -30,13 +30,13 @@ struct CurveSites {
 [[nodiscard]] std::vector<double> spacings_along(const agvd::Surface& surface, const Curve& curve,
                                                  double spacing);
 
-//! How many intervals each curve is divided into, so that they are about a spacing long and what
-//! they bound can be triangulated: closed curves have at least three, curves that share both ends
-//! with another one two.
+//! How many intervals each curve is divided into, so that they are about a spacing long but
+//! no fewer than fewest_intervals.
 [[nodiscard]] std::vector<agvd::Index> curve_intervals(const agvd::Surface& surface,
                                                        const CurveNetwork& network, double spacing);
 
-//! The fewest that can be triangulated.
+//! The fewest that can be triangulated: three where a curve comes back to where it began, two where
+//! another one has the same ends, or neither end belongs to another one.
 [[nodiscard]] std::vector<agvd::Index> fewest_intervals(const CurveNetwork& network);
 
 //! Vertices of the network with so many intervals.
