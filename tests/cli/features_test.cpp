@@ -12,8 +12,8 @@ namespace {
 
 class RemeshFeatures : public Scratch {
 protected:
-    // The report of a run, with 300 samples unless told, and the mesh in out.ply. A prism's walls meet at 60 and
-    // 90 degrees.
+    // The report of a run, with 300 samples unless told, and the mesh in out.ply. A prism's walls
+    // meet at 60 and 90 degrees.
     [[nodiscard]] nlohmann::json report(const std::vector<std::string>& options) {
         const std::string in = put("in.ply", parts::hexagonal_prism(4));
         std::vector<std::string> arguments{in, at("out.ply"), "--report", "-"};

@@ -30,8 +30,8 @@ struct Part {
     Index curves = 0;           // Those of the boundary included.
     std::vector<Vec3> corners;  // All nodes whose place is known.
     Index other_nodes = 0;
-    Index fewest = 0;     // Vertices that the network needs.
-    double tolerance = 0; // Of the chains.
+    Index fewest = 0;      // Vertices that the network needs.
+    double tolerance = 0;  // Of the chains.
     bool is_flat = false;
 };
 
@@ -71,19 +71,13 @@ Part prism() {
 }
 
 Part extruded_l() {
-    return {"L",
-            parts::extruded_l(5),
-            18,
-            extruded({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}}),
-            0,
-            12,
-            1e-6,
-            true};
+    return {"L",  parts::extruded_l(5),
+            18,   extruded({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}}),
+            0,    12,
+            1e-6, true};
 }
 
-Part cylinder() {
-    return {"cylinder", parts::capped_cylinder(64, 6), 2, {}, 0, 6, 3e-3, false};
-}
+Part cylinder() { return {"cylinder", parts::capped_cylinder(64, 6), 2, {}, 0, 6, 3e-3, false}; }
 
 Part cone() { return {"cone", parts::cone_on_plate(48, 6), 2, {}, 0, 6, 6e-3, false}; }
 
@@ -97,11 +91,12 @@ Part vaults() {
 
 // A crease that ends in nothing, and a slit that gapes, or else cleaning would close it.
 Part slit_plate() {
-    const TriangleMesh whole = parts::folded_plate(
-        32, 8, 1, [](double x) { return 80 * std::clamp(1 - x / 3, 0., 1.); });
-    Part part{
-        "slit plate", parts::with_slit(whole, 3.5, 0.5), 8, signs(4, 1, 0), 1, 10, 1e-6, false};
-    for (auto v = whole.positions.size(); v < part.mesh.positions.size(); ++v) part.mesh.positions[v].x() += .02;
+    const TriangleMesh whole =
+        parts::folded_plate(32, 8, 1, [](double x) { return 80 * std::clamp(1 - x / 3, 0., 1.); });
+    Part part{"slit plate", parts::with_slit(whole, 3.5, 0.5), 8, signs(4, 1, 0), 1, 10, 1e-6,
+              false};
+    for (auto v = whole.positions.size(); v < part.mesh.positions.size(); ++v)
+        part.mesh.positions[v].x() += .02;
     part.corners[0].z() = part.corners[1].z() = std::tan(40 * std::numbers::pi / 180);
     for (const Vec3& p : {Vec3(3.5, -.5, 0), Vec3(3.5, .5, 0), Vec3(-4, 0, 0)}) {
         part.corners.push_back(p);
@@ -249,8 +244,7 @@ TEST(Features, ThreadsChangeNothing) {
         SCOPED_TRACE(part.name);
         const RemeshResult one = run(part.mesh, {.num_samples = 400, .num_threads = 1});
         for (const int threads : {2, 8}) {
-            const RemeshResult other =
-                run(part.mesh, {.num_samples = 400, .num_threads = threads});
+            const RemeshResult other = run(part.mesh, {.num_samples = 400, .num_threads = threads});
             EXPECT_EQ(one.mesh.positions, other.mesh.positions);
             EXPECT_EQ(one.mesh.triangles, other.mesh.triangles);
         }
@@ -295,8 +289,7 @@ TEST(Features, AnglesDecide) {
 
 TEST(Features, GivenSitesAndFreeBoundariesHaveNone) {
     const TriangleMesh mesh = parts::open_box({1, 1, 1}, 6);
-    const RemeshResult free =
-        run(mesh, {.num_samples = 200, .boundary = remesh::Boundary::Free});
+    const RemeshResult free = run(mesh, {.num_samples = 200, .boundary = remesh::Boundary::Free});
     EXPECT_EQ(free.features.curves, 0u);
     EXPECT_EQ(free.features.length, 0);
     RemeshOptions given{.num_samples = 200, .features = Features::Off};

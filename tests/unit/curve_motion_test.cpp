@@ -33,8 +33,7 @@ struct Cube {
     // All copies of a curve's sites get a slope along the curve.
     void pull(Index curve, double slope) {
         for (Index g = sites.first_of_curve[curve]; g < sites.first_of_curve[curve + 1]; ++g) {
-            const Vec3 tangent =
-                tangent_of_curve(surface, network.curves[curve], sites.along[g]);
+            const Vec3 tangent = tangent_of_curve(surface, network.curves[curve], sites.along[g]);
             for (Index i = sites.first_copy[g]; i < sites.first_copy[g + 1]; ++i) {
                 cells[i].slope = slope * tangent;
             }
@@ -69,8 +68,8 @@ TEST(CurveMotion, SitesGoDownTheSlopeOfAllTheirCopies) {
         EXPECT_NEAR(motion.sites().along[g], cube.sites.along[g] + move, 1e-12) << g;
     }
     const auto& moved = motion.sites();
-    const Vec3 expected = position(cube.cut.surface.mesh.view(), cube.sites.sites[first]) +
-                          .005 * tangent;
+    const Vec3 expected =
+        position(cube.cut.surface.mesh.view(), cube.sites.sites[first]) + .005 * tangent;
     for (Index copy = first; copy < first + 2; ++copy) {
         EXPECT_LT((position(cube.cut.surface.mesh.view(), moved.sites[copy]) - expected).norm(),
                   1e-12);

@@ -39,9 +39,8 @@ bool lies_on(const Vec3& point, const Line& line) {
 
 Flags flag_lines(const Surface& surface, const std::vector<Line>& lines) {
     return flag_edges(surface, [&](const Vec3& a, const Vec3& b) {
-        return std::any_of(lines.begin(), lines.end(), [&](const Line& line) {
-            return lies_on(a, line) && lies_on(b, line);
-        });
+        return std::any_of(lines.begin(), lines.end(),
+                           [&](const Line& line) { return lies_on(a, line) && lies_on(b, line); });
     });
 }
 
@@ -216,8 +215,8 @@ TEST(CurveNetwork, WhereACreaseEndsOnTheBoundaryBothEnd) {
 
 TEST(CurveNetwork, SeveralCreasesMayMeetInAVertex) {
     const Surface surface = make(shapes::grid(8));
-    const Flags flags = flag_lines(surface, {{Vec3(.25, .5, 0), Vec3(.75, .5, 0)},
-                                             {Vec3(.5, .25, 0), Vec3(.5, .75, 0)}});
+    const Flags flags = flag_lines(
+        surface, {{Vec3(.25, .5, 0), Vec3(.75, .5, 0)}, {Vec3(.5, .25, 0), Vec3(.5, .75, 0)}});
     const CurveNetwork network = find(surface, flags);
     EXPECT_EQ(places_of_nodes(surface, network),
               square_and({{.5, .5}, {.25, .5}, {.75, .5}, {.5, .25}, {.5, .75}}));
@@ -226,8 +225,8 @@ TEST(CurveNetwork, SeveralCreasesMayMeetInAVertex) {
 
 TEST(CurveNetwork, ATurnOfACreaseIsANode) {
     const Surface surface = make(shapes::grid(8));
-    const Flags flags = flag_lines(surface, {{Vec3(.25, .25, 0), Vec3(.75, .25, 0)},
-                                             {Vec3(.75, .25, 0), Vec3(.75, .75, 0)}});
+    const Flags flags = flag_lines(
+        surface, {{Vec3(.25, .25, 0), Vec3(.75, .25, 0)}, {Vec3(.75, .25, 0), Vec3(.75, .75, 0)}});
     const CurveNetwork network = find(surface, flags);
     EXPECT_EQ(places_of_nodes(surface, network), square_and({{.25, .25}, {.75, .25}, {.75, .75}}));
     EXPECT_EQ(count_creases(network), 2u);
@@ -287,8 +286,7 @@ TEST(CurveNetwork, PlacesOfACurveAreTheSameOnBothSides) {
         }
         // On the third edge the way is straight.
         const auto at = [&](double place) -> Vec3 {
-            return position(surface.mesh.view(),
-                            remesh::point_on_curve(curve, place, Side::Right));
+            return position(surface.mesh.view(), remesh::point_on_curve(curve, place, Side::Right));
         };
         const Vec3 tangent = remesh::tangent_of_curve(surface, curve, 2.5 * edge);
         EXPECT_LT(((at(2.7 * edge) - at(2.2 * edge)) / (.5 * edge) - tangent).norm(), 1e-9);
@@ -328,8 +326,7 @@ TEST(CutSurface, ACylinderFallsIntoItsCapsAndATube) {
 
 TEST(CutSurface, TheEndsOfASlitStayWhole) {
     const Surface surface = make(shapes::grid(8));
-    const auto result =
-        cut(surface, flag_lines(surface, {{Vec3(.25, .5, 0), Vec3(.75, .5, 0)}}));
+    const auto result = cut(surface, flag_lines(surface, {{Vec3(.25, .5, 0), Vec3(.75, .5, 0)}}));
     EXPECT_EQ(boundary_loops_of(result), std::vector<int>{2});
     EXPECT_EQ(result.surface.num_vertices(), surface.num_vertices() + 3);
 }

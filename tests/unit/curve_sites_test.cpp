@@ -175,8 +175,7 @@ TEST(CurveSites, ChainsRunAlongTheBoundaryOfEachPatch) {
             num_edges += placed.intervals[c] * (curve.has(Side::Left) + curve.has(Side::Right));
         }
         EXPECT_EQ(placed.chain.size(), num_edges);
-        const remesh::Topology patches =
-            remesh::analyze_topology(placed.cut.surface.mesh.view());
+        const remesh::Topology patches = remesh::analyze_topology(placed.cut.surface.mesh.view());
         const auto patch = [&](Index site) {
             return patches.face_component[placed.sites.sites[site].face.value()];
         };
@@ -238,15 +237,14 @@ TEST(CurveSites, AllCopiesMoveTogether) {
 
 TEST(CloseRim, TheRimIsWhereTrianglesEnd) {
     const std::vector<Triangle> two{{0, 1, 2}, {0, 2, 3}};
-    EXPECT_EQ(remesh::rim_of(two),
-              std::vector<DirectedEdge>({{0, 1}, {1, 2}, {2, 3}, {3, 0}}));
+    EXPECT_EQ(remesh::rim_of(two), std::vector<DirectedEdge>({{0, 1}, {1, 2}, {2, 3}, {3, 0}}));
     EXPECT_TRUE(remesh::rim_of({}).empty());
 }
 
 TEST(CloseRim, GapsBetweenChainAndRimAreFilled) {
     // The rim goes from 0 to 1 through 5, and from 1 to 2 through 6 and 7.
-    const std::vector<Triangle> before{{0, 5, 9}, {5, 1, 9}, {1, 6, 9}, {6, 7, 9}, {7, 2, 9},
-                                       {2, 0, 9}};
+    const std::vector<Triangle> before{{0, 5, 9}, {5, 1, 9}, {1, 6, 9},
+                                       {6, 7, 9}, {7, 2, 9}, {2, 0, 9}};
     std::vector<Triangle> triangles = before;
     const std::vector<DirectedEdge> chain{{0, 1}, {1, 2}, {2, 0}};
     remesh::close_rim(chain, triangles);

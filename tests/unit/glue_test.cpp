@@ -62,8 +62,8 @@ TEST(Glue, WhatNoFlipCanMendStays) {
     const std::vector<Triangle> patches{{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}, {8, 9, 10}};
     const std::vector<Index> group{0, 1, 2, 3, 0, 1, 2, 3, 1, 3, 4};
     const remesh::GluedMesh mesh = remesh::glue(patches, group);
-    EXPECT_EQ(mesh.triangles, std::vector<Triangle>(
-                                  {{0, 1, 2}, {0, 2, 3}, {0, 2, 1}, {0, 3, 2}, {1, 3, 4}}));
+    EXPECT_EQ(mesh.triangles,
+              std::vector<Triangle>({{0, 1, 2}, {0, 2, 3}, {0, 2, 1}, {0, 3, 2}, {1, 3, 4}}));
 }
 
 TEST(ThinPatch, HasTheVerticesOfItsSitesOnly) {

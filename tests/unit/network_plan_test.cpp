@@ -129,8 +129,8 @@ TEST(RelaxNetwork, SitesOfCurvesStayOnThemAndTogether) {
     const NetworkPlan plan = plan_of(surface, 400);
     const remesh::PreparedSurface prepared(plan.cut.surface, plan.spacing);
     for (const int steps : {0, 10}) {
-        const remesh::NetworkSites made = remesh::sample_network_sites(
-            prepared, plan, {.num_samples = 400}, {.steps = steps});
+        const remesh::NetworkSites made =
+            remesh::sample_network_sites(prepared, plan, {.num_samples = 400}, {.steps = steps});
         const auto& curves = made.curves;
         ASSERT_EQ(made.sites.size(), 400 - curves.num_groups() + curves.sites.size());
         EXPECT_EQ(made.levels.empty(), steps == 0);
