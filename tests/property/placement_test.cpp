@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <numbers>
 
@@ -22,7 +23,7 @@ using remesh::PlacedMesh;
 namespace {
 
 // A spacing that asks for no vertices besides the surface's own.
-constexpr double unrefined = 1e9;
+constexpr double unrefined = std::numeric_limits<double>::infinity();
 
 struct Remeshed {
     explicit Remeshed(const TriangleMesh& input)

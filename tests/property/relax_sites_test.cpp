@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 
@@ -37,7 +38,7 @@ using remesh::detail::even_out;
 namespace {
 
 // A spacing that asks for no vertices besides the surface's own.
-constexpr double unrefined = 1e9;
+constexpr double unrefined = std::numeric_limits<double>::infinity();
 
 std::vector<agvd::TriangleMesh> all_shapes() {
     return {shapes::sphere(4),

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
 #include "agvd/propagation/distance_bounds.h"
 #include "remesh/relax/site_labels.h"
 #include "support/shapes.h"
@@ -27,7 +28,7 @@ TEST(CellPlanes, ACornerOfNoAreaHasNone) {
     agvd::DistanceBounds labels;  // The first vertex is no nearer to its site than across an edge.
     labels.distance = {9, 0, 0, 0};
     labels.site = {0, 1, 1, 1};
-    const remesh::PreparedSurface prepared(surface, 1e9);
+    const remesh::PreparedSurface prepared(surface, std::numeric_limits<double>::infinity());
     const auto cells = remesh::detail::measure_cells(prepared, labels, 2, 1);
     EXPECT_EQ(cells.area[0], 0);
     EXPECT_EQ(cells.planes[0].spread, Eigen::Matrix3d::Zero());

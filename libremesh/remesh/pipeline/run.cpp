@@ -32,6 +32,9 @@ using agvd::Surface;
 using agvd::SurfacePoint;
 using agvd::Vec3;
 
+// Creases are looked for at the spacing of so many sites where there are fewer: small parts are to
+// keep theirs, and what the sites are too few for is told.
+constexpr std::size_t least_scale = 300;
 // Of the spacing: lengths not above this are rounding.
 constexpr double rounding = 1e-10;
 // Rounds of putting vertices back onto the surface there.
@@ -109,11 +112,12 @@ private:
             options_.boundary == Boundary::Free) {
             return;
         }
-        const CreaseOptions creases{.angle = options_.feature_angle,
-                                    .spacing = spacing_,
-                                    .is_automatic = options_.features == Features::Auto,
-                                    .num_threads = options_.num_threads,
-                                    .progress = progress};
+        const CreaseOptions creases{
+            .angle = options_.feature_angle,
+            .spacing = std::min(spacing_, mean_spacing(surface_, least_scale)),
+            .is_automatic = options_.features == Features::Auto,
+            .num_threads = options_.num_threads,
+            .progress = progress};
         NetworkPlan plan =
             plan_network(surface_, find_creases(surface_, creases), options_.num_samples,
                          drop_share_, options_.num_threads, progress);
@@ -199,7 +203,9 @@ private:
 
     void relax_network() {
         const StageClock clock(Stage::Relax, result_);
-        NetworkSites made = sample_network_sites(*prepared_, *plan_, sampling(),
+        SamplingOptions exactly = sampling();
+        exactly.num_samples = options_.num_samples;
+        NetworkSites made = sample_network_sites(*prepared_, *plan_, exactly,
                                                  {.steps = options_.relax_steps,
                                                   .boundary = Boundary::Free,
                                                   .num_threads = options_.num_threads,
@@ -261,11 +267,14 @@ private:
     }
 
     // Narrow parts between curves are thinned at once: sites added there would be of no use.
+    // Distances are exact: with few sites on large patches that costs little, and bounds would
+    // leave islands of other cells.
     [[nodiscard]] RemeshOptions options_of_cells() const {
         RemeshOptions options = options_;
         if (!plan_) return options;
         options.boundary = Boundary::Free;
         options.repair_rounds = 0;
+        if (!options.max_error && options.engine == agvd::Engine::Window) options.max_error = 0;
         return options;
     }
 
@@ -539,6 +548,10 @@ private:
 
     // All before implies this; nothing leaves unchecked all the same.
     void check_mesh() {
+        if (plan_ && options_.vertex_count == VertexCount::Exact &&
+            result_.mesh.positions.size() != options_.num_samples) {
+            throw NetworkFailed{};
+        }
         const StageClock clock(Stage::Check, result_);
         const agvd::Progress progress = progress_of(Stage::Check, options_);
         agvd::poll(progress, 1);

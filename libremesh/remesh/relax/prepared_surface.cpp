@@ -36,7 +36,7 @@ agvd::Index most_splits(const agvd::Surface& input, double spacing) {
 PreparedSurface::PreparedSurface(const agvd::Surface& input, double spacing, int num_threads,
                                  const agvd::Progress& progress)
     : base(input, {.max_length = longest_edge * spacing,
-                   .min_length = shortest_edge * spacing,
+                   .min_length = std::isfinite(spacing) ? shortest_edge * spacing : 0,
                    .most_splits = most_splits(input, spacing),
                    .progress = progress}),
       pieces(base, piece_share * spacing * spacing, progress),

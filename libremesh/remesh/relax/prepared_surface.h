@@ -10,7 +10,10 @@ namespace remesh {
 //! Labels, propagation and diagram run on `base`; what happens in space on its input.
 struct PreparedSurface {
     //! \param input    outlives this.
-    //! \param spacing  mean distance of the sites, > 0: the base's edges are not much longer.
+    //! \param spacing  mean distance of the sites, > 0: the base's edges are not much longer, and
+    //! vertices
+    //!                 without curvature not much closer. Infinity: its vertices are those of the
+    //!                 input.
     //! \throw agvd::Cancelled  the progress callback returned false.
     //! Cost: that of the base, and O(#F) for the rest. Some 280 bytes for each face of the base.
     PreparedSurface(const agvd::Surface& input, double spacing, int num_threads = 0,
