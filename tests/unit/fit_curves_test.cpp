@@ -115,6 +115,12 @@ TEST(FitCurves, OpenCurvesAreFittedBetweenTheirEnds) {
         const Index middle = first + (vaults.intervals[c] - 1) / 2;
         // The curve is an arch: up in its middle.
         EXPECT_GT(vaults.offsets[middle].z(), 1e-3);
+        // It is its own mirror image.
+        const Index last = vaults.sites.first_of_curve[c + 1] - 1;
+        for (Index k = 0; first + k < last - k; ++k) {
+            const Vec3 a = vaults.offsets[first + k], b = vaults.offsets[last - k];
+            EXPECT_LT((a - Vec3(b.x(), -b.y(), b.z())).norm(), 1e-6);
+        }
         EXPECT_TRUE(vaults.offsets[curve.begin].isZero(0));
         EXPECT_TRUE(vaults.offsets[curve.end].isZero(0));
     }

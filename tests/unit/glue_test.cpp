@@ -6,6 +6,7 @@
 #include <numeric>
 #include <set>
 
+#include "agvd/mesh/point_faces.h"
 #include "remesh/quality/topology.h"
 #include "remesh/repair/thin_patch.h"
 #include "support/shapes.h"
@@ -81,9 +82,7 @@ TEST(ThinPatch, HasTheVerticesOfItsSitesOnly) {
         if ((!is_corner && !is_inside && at.y() != 0) || !seen.insert(surface.tail(h)).second) {
             continue;
         }
-        agvd::SurfacePoint point{agvd::FaceId(h / 3), {0, 0, 0}};
-        point.barycentric[h % 3] = 1;
-        points.push_back(point);
+        points.push_back(agvd::point_at(surface, surface.tail(h)));
     }
     ASSERT_EQ(points.size(), 13u);
     const agvd::ThinnedMesh mesh = remesh::thin_patch(surface, faces, points);
@@ -98,4 +97,25 @@ TEST(ThinPatch, HasTheVerticesOfItsSitesOnly) {
     EXPECT_EQ(topology.components[0].boundary_loops, 1);
     // Two inside, eleven on the rim.
     EXPECT_EQ(mesh.triangles.size(), 2 * 13 - 11 - 2u);
+}
+
+TEST(ThinPatch, VerticesThatThinningLeavesGoByCollapses) {
+    const agvd::Surface surface = agvd::build_surface(shapes::torus(12, 8).view());
+    std::vector<Index> faces(surface.num_faces());
+    std::iota(faces.begin(), faces.end(), 0u);
+    std::vector<agvd::SurfacePoint> points;
+    for (const Index v : {6u, 12u, 20u, 26u, 59u, 71u, 80u, 91u}) {
+        points.push_back(agvd::point_at(surface, v));
+    }
+    ASSERT_EQ(agvd::thin(surface, faces, points).extra.size(), 1u);
+    const agvd::ThinnedMesh mesh = remesh::thin_patch(surface, faces, points);
+    EXPECT_TRUE(mesh.extra.empty());
+    EXPECT_EQ(mesh.triangles.size(), 16u);  // Twice the vertices.
+    agvd::TriangleMesh result{{}, mesh.triangles};
+    for (const auto& point : points) {
+        result.positions.push_back(position(surface.mesh.view(), point));
+    }
+    const remesh::Topology topology = remesh::analyze_topology(result.view());
+    EXPECT_TRUE(topology.is_manifold);
+    EXPECT_EQ(topology.genus(), 1);
 }

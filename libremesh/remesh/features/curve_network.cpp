@@ -41,7 +41,7 @@ public:
         CurveNetwork network;
         node_.assign(surface_.num_vertices(), no_index);
         for (Index v = 0; v < surface_.num_vertices(); ++v) {
-            if (degree_[v] == 0 || !(is_node[v] != 0 || degree_[v] != 2 || has_both_types(v))) {
+            if (degree_[v] == 0 || (is_node[v] == 0 && degree_[v] == 2)) {
                 continue;
             }
             node_[v] = static_cast<Index>(network.nodes.size());
@@ -77,12 +77,6 @@ private:
             const Index last = Surface::previous(h);
             if (surface_.twin[last] == no_index) each(surface_.edge[last]);
         });
-    }
-
-    [[nodiscard]] bool has_both_types(Index v) const {
-        bool has_crease = false, has_boundary = false;
-        for_each_edge(v, [&](Index e) { (is_boundary(e) ? has_boundary : has_crease) = true; });
-        return has_crease && has_boundary;
     }
 
     // From a vertex to the next node, or once around.
