@@ -162,8 +162,8 @@ std::string describe(const FeatureCounts& features) {
                      : "all take " + std::to_string(features.samples_for_all) + " samples");
     }
     if (features.thinned_patches > 0) {
-        text += "; " + counted(features.thinned_patches, "part") +
-                " between them too narrow for cells";
+        text +=
+            "; " + counted(features.thinned_patches, "part") + " between them too narrow for cells";
     }
     return text;
 }

@@ -47,6 +47,7 @@ std::string describe_too_few(const agvd::MeshView& mesh, const RemeshOptions& op
     constexpr int max_tries = 6;
     RemeshOptions more = options;
     more.sites.reset();
+    more.features = Features::Off;
     for (int tries = 0; tries < max_tries; ++tries) {
         more.num_samples = reached;
         try {

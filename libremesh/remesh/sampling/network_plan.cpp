@@ -97,7 +97,7 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
         plan.network = find_network(surface, is_crease, spacing);
         const auto needed =
             static_cast<Index>(num_curve_sites(plan.network, fewest_intervals(plan.network)));
-        plan.sites_for_all = std::max(plan.sites_for_all, needed);
+        if (plan.sites_for_all == 0) plan.sites_for_all = needed;
         return needed;
     };
     if (drop_share > 0) {
