@@ -46,6 +46,7 @@ Json measure(const fs::path& path, const agvd::TriangleMesh& mesh, int steps,
         seconds.push_back(bench::time([&] {
                               result =
                                   remesh::remesh(mesh.view(), {.num_samples = arguments.samples,
+                                                               .features = remesh::Features::Off,
                                                                .relax_steps = steps,
                                                                .num_threads = 1});
                           }).cpu);

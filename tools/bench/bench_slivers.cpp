@@ -31,10 +31,12 @@ Json measure(const bench::NamedMesh& input, agvd::Index samples, int repetitions
     for (int i = 0; i < repetitions; ++i) {
         cli::stop_if_interrupted();
         const bench::PeakBytes peak;
-        seconds.push_back(bench::time([&] {
-                              result = remesh::remesh(input.mesh.view(),
-                                                      {.num_samples = samples, .num_threads = 1});
-                          }).cpu);
+        seconds.push_back(
+            bench::time([&] {
+                result = remesh::remesh(
+                    input.mesh.view(),
+                    {.num_samples = samples, .features = remesh::Features::Off, .num_threads = 1});
+            }).cpu);
         bytes = peak.bytes();
     }
     const remesh::Evaluation judged = remesh::evaluate(input.mesh.view(), result.mesh.view());
