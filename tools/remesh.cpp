@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "arguments.h"
+#include "remesh/io/read_edges.h"
 #include "remesh/io/read_mesh.h"
 #include "remesh/io/read_sites.h"
 #include "remesh/io/report.h"
@@ -33,6 +34,7 @@ struct Arguments : cli::DiagramArguments {
     remesh::Delaunay delaunay = remesh::RemeshOptions{}.delaunay;
     remesh::Features features = remesh::RemeshOptions{}.features;
     double feature_angle = remesh::RemeshOptions{}.feature_angle;
+    fs::path feature_edges;  // Empty: none.
 };
 
 std::map<std::string, remesh::Delaunay> delaunay_by_name() {
@@ -73,6 +75,10 @@ void add_feature_options(CLI::App& app, Arguments& arguments) {
                "(auto), all above an angle in degrees, or none (off)")
             ->type_name("auto|DEG|off")
             ->default_str("auto");
+    app.add_option("--feature-edges", arguments.feature_edges,
+                   "Edges that are creases whatever their angle: lines of two vertex indices, "
+                   "counted from 0")
+        ->type_name("FILE");
     app.add_flag_callback(
            "--no-features", [&arguments] { arguments.features = remesh::Features::Off; },
            "The same as --features off")
@@ -155,9 +161,11 @@ void check_outputs(const Arguments& arguments) {
         throw agvd::IoError(arguments.output.string() +
                             ": unknown extension; use .ply, .obj, .off or .stl");
     }
-    cli::check_output(arguments.output, {arguments.input, arguments.sites}, arguments.force);
+    cli::check_output(arguments.output, {arguments.input, arguments.sites, arguments.feature_edges},
+                      arguments.force);
     if (arguments.report.empty() || arguments.report == "-") return;
-    cli::check_output(arguments.report, {arguments.input, arguments.sites}, arguments.force);
+    cli::check_output(arguments.report, {arguments.input, arguments.sites, arguments.feature_edges},
+                      arguments.force);
     if (fs::weakly_canonical(arguments.report) == fs::weakly_canonical(arguments.output)) {
         throw agvd::InvalidOption("--report and the output name the same file; choose another one");
     }
@@ -191,6 +199,10 @@ void run_job(const Arguments& arguments, cli::Console& console) {
     if (!arguments.sites.empty()) {
         options.sites =
             remesh::read_sites(arguments.sites, input.mesh.view(), console.progress_of("read"));
+    }
+    if (!arguments.feature_edges.empty()) {
+        options.feature_edges =
+            remesh::read_edges(arguments.feature_edges, console.progress_of("read"));
     }
     const remesh::RemeshResult result = cli::naming_file(
         arguments.input, [&] { return remesh::remesh(input.mesh.view(), options); });

@@ -94,4 +94,27 @@ TEST_F(RemeshFeatures, WrongValuesAreTwo) {
     EXPECT_EQ(num_files(), 1u);
 }
 
+TEST_F(RemeshFeatures, EdgesComeFromAFile) {
+    put("edges.txt", "# both ends\n0 1  # an edge\n\n");
+    const auto given = report({"--features", "off", "--feature-edges", at("edges.txt")});
+    EXPECT_EQ(given["options"]["given_feature_edges"], 1);
+    EXPECT_GT(given["features"]["crease_length_mesh_units"], 0);
+
+    const std::string in = put("in.ply", parts::hexagonal_prism(4));
+    for (const auto& [text, code, complaint] : {std::tuple("0 1 2\n", 3, "edges.txt: line 1"),
+                                                {"0\n", 3, "edges.txt: line 1"},
+                                                {"0 -1\n", 3, "edges.txt: line 1"},
+                                                {"", 3, "is empty"},
+                                                {"# none\n", 3, "holds no edge"},
+                                                {"a b\n", 3, "edges.txt: line 1"},
+                                                {"0 0\n", 4, "vertices 0 and 0"},
+                                                {"0 4000000\n", 4, "vertices 0 and 4000000"}}) {
+        put("edges.txt", text);
+        const auto outcome = run(
+            REMESH_PROGRAM, {in, at("bad.ply"), "-n", "300", "--feature-edges", at("edges.txt")});
+        EXPECT_EQ(outcome.exit_code, code) << text << outcome.err;
+        EXPECT_NE(outcome.err.find(complaint), std::string::npos) << text << outcome.err;
+    }
+}
+
 }  // namespace

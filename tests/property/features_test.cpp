@@ -323,3 +323,85 @@ TEST(Features, FandiskKeepsItsCreasesAndCorners) {
     EXPECT_GE(corners.size(), 10u);
     EXPECT_LT(crease_checks::farthest_from_vertices(corners, result.mesh), 1e-9 * diagonal(mesh));
 }
+
+namespace {
+
+// Edges of a square grid of n x n cells whose ends both have y = `y`, as pairs of vertices.
+std::vector<std::array<Index, 2>> edges_at(const TriangleMesh& mesh, double y) {
+    std::vector<std::array<Index, 2>> edges;
+    for (const Triangle& t : mesh.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index a = t[k], b = t[(k + 1) % 3];
+            if (a < b && mesh.positions[a].y() == y && mesh.positions[b].y() == y) {
+                edges.push_back({a, b});
+            }
+        }
+    }
+    return edges;
+}
+
+// Length of the result's edges that lie on y = `y`, each counted once.
+double length_at(const TriangleMesh& mesh, double y) {
+    double length = 0;
+    for (const Triangle& t : mesh.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 &a = mesh.positions[t[k]], &b = mesh.positions[t[(k + 1) % 3]];
+            if (std::abs(a.y() - y) > 1e-9 || std::abs(b.y() - y) > 1e-9) continue;
+            length += (b - a).norm() / 2;  // Inner edges have two sides.
+        }
+    }
+    return length;
+}
+
+}  // namespace
+
+TEST(Features, GivenEdgesAreKeptThoughTheyAreFlat) {
+    const TriangleMesh plate = shapes::grid(20);
+    const double y = plate.positions[plate.positions.size() / 2].y();
+    const std::vector<std::array<Index, 2>> edges = edges_at(plate, y);
+    ASSERT_GE(edges.size(), 10u);
+    double wanted = 0;
+    for (const auto& [a, b] : edges) wanted += (plate.positions[a] - plate.positions[b]).norm();
+    for (const Features features : {Features::Auto, Features::Off}) {
+        const RemeshResult with = remesh::remesh(
+            plate.view(),
+            {.num_samples = 300, .features = features, .feature_edges = edges, .num_threads = 1});
+        EXPECT_EQ(with.mesh.positions.size(), 300u);
+        EXPECT_NEAR(length_at(with.mesh, y), wanted, 1e-9 * wanted);
+        EXPECT_NEAR(with.features.length, wanted, 1e-9 * wanted);
+        EXPECT_FALSE(with.features.gave_up);
+    }
+    const RemeshResult without =
+        remesh::remesh(plate.view(), {.num_samples = 300, .num_threads = 1});
+    EXPECT_LT(length_at(without.mesh, y), 0.5 * wanted);
+}
+
+TEST(Features, GivenEdgesFollowCleaning) {
+    // A face that is dropped comes first, and unused vertices are left out: all numbers change.
+    TriangleMesh plate = shapes::grid(20);
+    const double y = plate.positions[plate.positions.size() / 2].y();
+    plate.positions.insert(plate.positions.begin(), Vec3(7, 7, 7));
+    for (Triangle& t : plate.triangles) {
+        for (Index& v : t) ++v;
+    }
+    plate.triangles.insert(plate.triangles.begin(), Triangle{1, 1, 2});
+    const std::vector<std::array<Index, 2>> edges = edges_at(plate, y);
+    const RemeshResult result = remesh::remesh(
+        plate.view(), {.num_samples = 300, .feature_edges = edges, .num_threads = 1});
+    double wanted = 0;
+    for (const auto& [a, b] : edges) wanted += (plate.positions[a] - plate.positions[b]).norm();
+    EXPECT_NEAR(length_at(result.mesh, y), wanted, 1e-9 * wanted);
+}
+
+TEST(Features, PairsThatAreNoEdgesAreNamed) {
+    const TriangleMesh plate = shapes::grid(4);
+    const auto last = static_cast<Index>(plate.positions.size() - 1);
+    try {
+        (void)remesh::remesh(plate.view(), {.num_samples = 30, .feature_edges = {{last, 0}}});
+        FAIL() << "accepted";
+    } catch (const InvalidInput& error) {
+        EXPECT_NE(std::string(error.what()).find("vertices 0 and " + std::to_string(last)),
+                  std::string::npos)
+            << error.what();
+    }
+}

@@ -141,6 +141,7 @@ Json to_json(const RemeshOptions& options) {
     object["drop_components_percent"] = options.drop_components;
     object["features"] = features_name(options.features);
     object["feature_angle_degrees"] = options.feature_angle;
+    object["given_feature_edges"] = options.feature_edges.size();
     object["init"] = init_name(options.init);
     object["seed"] = options.seed;
     object["given_sites"] = options.sites ? Json(options.sites->size()) : Json();

@@ -48,6 +48,7 @@ std::string describe_too_few(const agvd::MeshView& mesh, const RemeshOptions& op
     RemeshOptions more = options;
     more.sites.reset();
     more.features = Features::Off;
+    more.feature_edges.clear();
     for (int tries = 0; tries < max_tries; ++tries) {
         more.num_samples = reached;
         try {
@@ -109,7 +110,9 @@ Index num_new_crossings(const RemeshResult& result) {
 // With fewer creases where no mesh with all of them was found, or only one that runs through
 // itself; without any at last.
 RemeshResult run(const agvd::MeshView& mesh, const RemeshOptions& options) {
-    if (options.features == Features::Off) return run_pipeline(mesh, options, max_mends);
+    if (options.features == Features::Off && options.feature_edges.empty()) {
+        return run_pipeline(mesh, options, max_mends);
+    }
     std::optional<RemeshResult> best;
     for (const double drop_share : {0.0, 0.3, 0.6, 1.0}) {
         try {

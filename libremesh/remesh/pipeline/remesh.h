@@ -64,7 +64,10 @@ struct RemeshOptions {
     //! Boundary::Free.
     Features features = Features::Auto;
     double feature_angle = CreaseOptions{}.angle;  //!< Degrees, in (0, 180): see CreaseOptions.
-    std::uint64_t seed = 1;                        //!< Same seed, same bytes, any num_threads.
+    //! Edges that are creases whatever their angle, as pairs of the caller's vertices; with
+    //! Features::Off no others are.
+    std::vector<std::array<agvd::Index, 2>> feature_edges = {};
+    std::uint64_t seed = 1;  //!< Same seed, same bytes, any num_threads.
     //! Sites to use instead of sampling, on the caller's mesh; num_samples, init and seed are then
     //! ignored. Faces are the caller's.
     std::optional<std::vector<agvd::SurfacePoint>> sites = {};
@@ -127,8 +130,8 @@ struct RemeshResult {
 //! something): checked before it is returned. docs/algorithm.md says why this always ends well.
 //! \param mesh  #V x 3 positions, #F x 3 indices; read only during the call; may be dirty.
 //! \throw agvd::InvalidOption    an option is out of range.
-//! \throw agvd::InvalidInput     the mesh cannot be repaired (see clean_input), or a given site is
-//!        not on it.
+//! \throw agvd::InvalidInput     the mesh cannot be repaired (see clean_input), a given site is not
+//!        on it, or a feature edge is none of its edges.
 //! \throw agvd::ConstraintUnmet  num_samples is too small for the topology; the text gives a number
 //!        that was tried and works.
 //! \throw agvd::Cancelled        the progress callback returned false.

@@ -17,6 +17,7 @@
 #include "remesh/placement/improve_shape.h"
 #include "remesh/quality/self_intersections.h"
 #include "remesh/relax/relax_network.h"
+#include "remesh/repair/carry_edges.h"
 #include "remesh/repair/carry_sites.h"
 #include "remesh/repair/drop_components.h"
 #include "remesh/repair/farthest_corner.h"
@@ -108,19 +109,16 @@ private:
     // Where there are creases, all that follows sees a surface that is cut along them.
     void find_features(const agvd::Progress& progress) {
         components_ = result_.input_topology.components;
-        if (options_.features == Features::Off || options_.sites ||
-            options_.boundary == Boundary::Free) {
-            return;
-        }
+        const bool has_none = options_.features == Features::Off && options_.feature_edges.empty();
+        if (has_none || options_.sites || options_.boundary == Boundary::Free) return;
         const CreaseOptions creases{
             .angle = options_.feature_angle,
             .spacing = std::min(spacing_, mean_spacing(surface_, least_scale)),
             .is_automatic = options_.features == Features::Auto,
             .num_threads = options_.num_threads,
             .progress = progress};
-        NetworkPlan plan =
-            plan_network(surface_, find_creases(surface_, creases), options_.num_samples,
-                         drop_share_, options_.num_threads, progress);
+        NetworkPlan plan = plan_network(surface_, creases_with_given(creases), options_.num_samples,
+                                        drop_share_, options_.num_threads, progress);
         FeatureCounts& counts = result_.features;
         counts.curves = static_cast<Index>(plan.network.curves.size());
         counts.nodes = static_cast<Index>(plan.network.nodes.size());
@@ -134,9 +132,21 @@ private:
         face_component_ = patches.face_component;
     }
 
-    // What cleaning has found is handed on. The mesh moves, unless given sites still need it there.
+    [[nodiscard]] std::vector<std::uint8_t> creases_with_given(const CreaseOptions& options) const {
+        std::vector<std::uint8_t> is_crease(surface_.num_edges(), 0);
+        if (options_.features != Features::Off) is_crease = find_creases(surface_, options);
+        if (options_.feature_edges.empty()) return is_crease;
+        const std::vector<std::uint8_t> is_given =
+            carry_edges(options_.feature_edges, input_, clean_, surface_);
+        for (std::size_t e = 0; e < is_given.size(); ++e) is_crease[e] |= is_given[e];
+        return is_crease;
+    }
+
+    // What cleaning has found is handed on. The mesh moves, unless given sites or edges still need
+    // it there.
     void build_input_surface(const agvd::Progress& progress) {
-        agvd::TriangleMesh mesh = options_.sites ? clean_.mesh : std::exchange(clean_.mesh, {});
+        const bool is_needed = options_.sites || !options_.feature_edges.empty();
+        agvd::TriangleMesh mesh = is_needed ? clean_.mesh : std::exchange(clean_.mesh, {});
         surface_ = clean_.connectivity.twin.empty()
                        ? agvd::build_surface(mesh.view(), options_.num_threads, progress)
                        : agvd::build_surface(std::move(mesh), std::move(clean_.connectivity),

@@ -1,0 +1,32 @@
+#include "remesh/io/read_edges.h"
+
+#include "remesh/io/text_scanner.h"
+
+namespace remesh {
+
+std::vector<std::array<agvd::Index, 2>> read_edges(const std::filesystem::path& path,
+                                                   const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    const SourceFile file = load_file(path, poller);
+    TextScanner scan(file, 0, {.comment = '#'});
+    const auto vertex = [&] {
+        const std::size_t start = scan.offset();
+        const std::int64_t value = scan.integer("a vertex index");
+        if (value < 0 || value >= agvd::no_index) {
+            file.fail_malformed(start, "a vertex index is from 0 on; correct it");
+        }
+        return static_cast<agvd::Index>(value);
+    };
+    std::vector<std::array<agvd::Index, 2>> edges;
+    while (scan.find_word()) {
+        const agvd::Index first = vertex();
+        edges.push_back({first, vertex()});
+        if (scan.has_word()) scan.fail_expecting("the end of the line");
+    }
+    if (edges.empty()) {
+        scan.fail_malformed("the file holds no edge; write lines of two vertex indices");
+    }
+    return edges;
+}
+
+}  // namespace remesh

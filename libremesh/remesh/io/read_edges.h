@@ -1,0 +1,23 @@
+//! \file
+//! Reads edges that the user named.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <vector>
+
+#include "agvd/core/progress.h"
+#include "agvd/core/types.h"
+
+namespace remesh {
+
+//! A text file with two vertices per line, counted from 0 as in the arrays of read_mesh's result;
+//! what follows # is a comment.
+//!
+//! \throw agvd::IoError  the file cannot be read, a line is not that, or there is none; the text
+//!        names the file, the line and the remedy.
+//! Cost: O(file size).
+[[nodiscard]] std::vector<std::array<agvd::Index, 2>> read_edges(
+    const std::filesystem::path& path, const agvd::Progress& progress = {});
+
+}  // namespace remesh
