@@ -125,7 +125,9 @@ void expect_valid(const Surface& whole, const Flags& flags, const remesh::CutSur
     ASSERT_EQ(cut.original.size(), surface.num_vertices());
     EXPECT_EQ(cut.num_original, whole.num_vertices());
     for (Index v = 0; v < surface.num_vertices(); ++v) {
-        if (v < cut.num_original) EXPECT_EQ(cut.original[v], v);
+        if (v < cut.num_original) {
+            EXPECT_EQ(cut.original[v], v);
+        }
         EXPECT_EQ(surface.mesh.positions[v], whole.mesh.positions[cut.original[v]]);
         ASSERT_NE(surface.outgoing[v], no_index);
         EXPECT_EQ(surface.tail(surface.outgoing[v]), v);
