@@ -176,8 +176,9 @@ TEST(TopologyGuarantee, ComponentsGoOnlyWhenAsked) {
 
 TEST(TopologyGuarantee, AddedVerticesStayIfAsked) {
     const TriangleMesh mesh = shapes::torus(60, 8, 0.1);
-    const auto result =
-        remesh::remesh(mesh.view(), {.num_samples = 30, .vertex_count = remesh::VertexCount::Add});
+    const auto result = remesh::remesh(mesh.view(), {.num_samples = 30,
+                                                     .vertex_count = remesh::VertexCount::Add,
+                                                     .features = remesh::Features::Off});
     EXPECT_EQ(result.components_from_faces, 0u);
     EXPECT_GT(result.sites_added, 0u);
     EXPECT_EQ(result.mesh.positions.size(), 30 + result.sites_added);
