@@ -174,10 +174,12 @@ TEST(Polls, AreInTheStagesOnTheirOwn) {
     const agvd::Surface surface = agvd::build_surface(mesh.view());
     const agvd::Surface noisy = agvd::build_surface(shapes::jitter(mesh, 0.01, 1).view());
     expect_polls("creases", 60, [&](const Progress& progress) {
-        (void)remesh::find_creases(surface, {.spacing = 0.05, .progress = progress});
+        (void)remesh::find_creases(surface,
+                                   {.spacing = 0.05, .num_threads = 1, .progress = progress});
     });
     expect_polls("creases of noise", 70, [&](const Progress& progress) {
-        (void)remesh::find_creases(noisy, {.spacing = 0.05, .progress = progress});
+        (void)remesh::find_creases(noisy,
+                                   {.spacing = 0.05, .num_threads = 1, .progress = progress});
     });
     expect_polls("feature coverage", 100, [&](const Progress& progress) {
         (void)remesh::feature_coverage(noisy.mesh.view(), noisy.mesh.view(), progress);
