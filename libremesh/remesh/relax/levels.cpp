@@ -140,7 +140,10 @@ void Levels::sweep(Relaxation& relaxation, std::span<const Index> corners,
     const agvd::DistanceBounds labels = label(relaxation.sites());
     const Index flaws = relaxation.num_flaws();
     const bool is_cheap = gives_neighbours(surface_, num_sites);
-    const bool is_worth_it = num_mended_ < result_.levels.size() && flaws > most_flaws * num_sites;
+    // Not between curves, which hold the triangulation together: fandisk takes 1.3 times the time
+    // for .001 of mean Q.
+    const bool is_worth_it =
+        chain.empty() && num_mended_ < result_.levels.size() && flaws > most_flaws * num_sites;
     if (flaws > 0 && (is_cheap || is_worth_it)) {
         if (!is_cheap) num_mended_ = result_.levels.size();
         relaxation.mend(triangulate_sites(prepared_, labels, relaxation.sites(), chain,

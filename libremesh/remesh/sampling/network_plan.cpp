@@ -13,7 +13,7 @@ namespace {
 using agvd::Index;
 using agvd::Surface;
 
-constexpr int num_halvings = 40;
+constexpr int num_halvings = 24;
 // Share of the creases that goes at once where sites are too few.
 constexpr double drop_at_once = 0.1;
 
