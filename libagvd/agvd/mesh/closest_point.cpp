@@ -81,6 +81,13 @@ ClosestPoint closest_point_on_triangle(const std::array<Vec3, 3>& corners, FaceI
     return best;
 }
 
+double distance_to_segment(const Vec3& point, const Vec3& a, const Vec3& b) {
+    const Vec3 along = b - a, from = point - a;
+    const double square = along.squaredNorm();
+    const double t = square > 0 ? std::clamp(from.dot(along) / square, 0.0, 1.0) : 0;
+    return (from - t * along).norm();
+}
+
 ClosestPointTree::ClosestPointTree(const MeshView& mesh, const Progress& progress) {
     Poller poller(progress);
     Ticker ticker(poller);

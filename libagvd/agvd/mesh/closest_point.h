@@ -18,6 +18,9 @@ struct ClosestPoint {
 [[nodiscard]] ClosestPoint closest_point_on_triangle(const std::array<Vec3, 3>& corners,
                                                      FaceId face, const Vec3& query);
 
+//! From a point to a segment, of which both ends may be the same.
+[[nodiscard]] double distance_to_segment(const Vec3& point, const Vec3& a, const Vec3& b);
+
 //! Answers many queries on one mesh. Keeps a copy of the corners, no reference to the mesh.
 //! 130 bytes per face.
 class ClosestPointTree {

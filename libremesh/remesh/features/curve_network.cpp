@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "agvd/mesh/one_ring.h"
 
@@ -27,10 +28,12 @@ double turn(const Vec3& before, const Vec3& here, const Vec3& after) {
 class NetworkFinder {
 public:
     NetworkFinder(const Surface& surface, std::span<const std::uint8_t> is_crease)
-        : surface_(surface), is_used_(surface.num_edges(), 1), degree_(surface.num_vertices(), 0) {
+        : surface_(surface),
+          is_outside_(surface.num_edges(), 1),
+          degree_(surface.num_vertices(), 0) {
         for (Index e = 0; e < surface.num_edges(); ++e) {
             if (!is_boundary(e) && is_crease[e] == 0) continue;
-            is_used_[e] = 0;
+            is_outside_[e] = 0;
             ++degree_[surface.tail(surface.edge_half[e])];
             ++degree_[surface.head(surface.edge_half[e])];
         }
@@ -47,7 +50,7 @@ public:
             node_[v] = static_cast<Index>(network.nodes.size());
             network.nodes.push_back(v);
         }
-        std::vector<std::uint8_t> is_done = is_used_;
+        std::vector<std::uint8_t> is_done = is_outside_;
         for (const Index v : network.nodes) {
             for_each_edge(v, [&](Index e) {
                 if (is_done[e] == 0) network.curves.push_back(follow(e, v, is_done));
@@ -73,7 +76,7 @@ private:
     template <typename Each>
     void for_each_edge(Index v, const Each& each) const {
         agvd::for_each_outgoing(surface_, v, [&](Index h) {
-            if (is_used_[surface_.edge[h]] == 0) each(surface_.edge[h]);
+            if (is_outside_[surface_.edge[h]] == 0) each(surface_.edge[h]);
             const Index last = Surface::previous(h);
             if (surface_.twin[last] == no_index) each(surface_.edge[last]);
         });
@@ -104,9 +107,9 @@ private:
     }
 
     const Surface& surface_;
-    std::vector<std::uint8_t> is_used_;  // #E: 0 for the network's edges.
-    std::vector<std::uint8_t> degree_;   // #V: edges of the network.
-    std::vector<Index> node_;            // #V
+    std::vector<std::uint8_t> is_outside_;  // #E: 0 for the network's edges.
+    std::vector<std::uint8_t> degree_;      // #V: edges of the network.
+    std::vector<Index> node_;               // #V
 };
 
 // Any side will do where the surface is whole.
@@ -155,9 +158,32 @@ private:
     std::vector<Vec3> at_;  // By vertex.
 };
 
-// Of several corners within half a spacing the sharpest, and none so near an end.
-void find_corners(const Surface& surface, const Curve& curve, double spacing,
-                  std::vector<std::uint8_t>& is_corner) {
+}  // namespace
+
+CurveNetwork find_network(const Surface& surface, std::span<const std::uint8_t> is_crease,
+                          double spacing) {
+    NetworkFinder finder(surface, is_crease);
+    std::vector<std::uint8_t> is_corner(surface.num_vertices(), 0);
+    const CurveNetwork smooth = finder.run(is_corner);
+    for (const Curve& curve : smooth.curves) {
+        for (const std::size_t i : corners_of_curve(surface, curve, spacing)) {
+            is_corner[vertex_of(surface, curve, i)] = 1;
+        }
+    }
+    return finder.run(is_corner);
+}
+
+Curve curve_of_loop(const Surface& surface, std::vector<Index> loop) {
+    Curve curve;
+    curve.up_to.reserve(loop.size() + 1);
+    curve.up_to.push_back(0);
+    for (const Index h : loop) curve.up_to.push_back(curve.up_to.back() + surface.length_of(h));
+    curve.half_edges[0] = std::move(loop);
+    return curve;
+}
+
+std::vector<std::size_t> corners_of_curve(const Surface& surface, const Curve& curve,
+                                          double spacing) {
     const double reach = corner_reach * spacing;
     const Course course(surface, curve);
     std::vector<std::pair<double, std::size_t>> candidates;  // (minus sharpness, vertex)
@@ -166,30 +192,20 @@ void find_corners(const Surface& surface, const Curve& curve, double spacing,
         if (sharp >= least_turn) candidates.emplace_back(-sharp, i);
     }
     std::sort(candidates.begin(), candidates.end());
-    std::vector<double> taken;
-    if (!curve.is_closed()) taken = {0, curve.length()};
-    for (const auto& [sharp, i] : candidates) {
-        const double at = curve.up_to[i];
-        const bool is_free = std::none_of(taken.begin(), taken.end(), [&](double other) {
-            const double apart = std::abs(at - other);
+    std::vector<std::size_t> corners;
+    const auto is_free = [&](double at) {
+        if (!curve.is_closed() && std::min(at, curve.length() - at) < reach) return false;
+        return std::none_of(corners.begin(), corners.end(), [&](std::size_t corner) {
+            const double apart = std::abs(at - curve.up_to[corner]);
             const double around = curve.is_closed() ? curve.length() - apart : apart;
             return std::min(apart, around) < reach;
         });
-        if (!is_free) continue;
-        taken.push_back(at);
-        is_corner[vertex_of(surface, curve, i)] = 1;
+    };
+    for (const auto& [sharp, i] : candidates) {
+        if (is_free(curve.up_to[i])) corners.push_back(i);
     }
-}
-
-}  // namespace
-
-CurveNetwork find_network(const Surface& surface, std::span<const std::uint8_t> is_crease,
-                          double spacing) {
-    NetworkFinder finder(surface, is_crease);
-    std::vector<std::uint8_t> is_corner(surface.num_vertices(), 0);
-    const CurveNetwork smooth = finder.run(is_corner);
-    for (const Curve& curve : smooth.curves) find_corners(surface, curve, spacing, is_corner);
-    return finder.run(is_corner);
+    std::sort(corners.begin(), corners.end());
+    return corners;
 }
 
 Index Curve::vertex(const Surface& surface, std::size_t i, Side side) const {

@@ -29,6 +29,7 @@ struct Curve {
     [[nodiscard]] std::size_t num_edges() const { return up_to.size() - 1; }
     [[nodiscard]] double length() const { return up_to.back(); }
     [[nodiscard]] bool is_closed() const { return begin == agvd::no_index; }
+    [[nodiscard]] bool is_crease() const { return has(Side::Left) && has(Side::Right); }
     [[nodiscard]] const std::vector<agvd::Index>& on(Side side) const {
         return half_edges[static_cast<std::size_t>(side)];
     }
@@ -50,6 +51,16 @@ struct CurveNetwork {
 //! Cost: O(#V + #E).
 [[nodiscard]] CurveNetwork find_network(const agvd::Surface& surface,
                                         std::span<const std::uint8_t> is_crease, double spacing);
+
+//! A loop of agvd::boundary_loops as a closed curve that begins at its first vertex. Cost: O(n).
+[[nodiscard]] Curve curve_of_loop(const agvd::Surface& surface, std::vector<agvd::Index> loop);
+
+//! Vertices (see Curve::vertex) where a curve turns by more than 45 degrees: at the vertex itself,
+//! and between the chords to the points half a spacing before and after it, so that a rough curve
+//! has no corners that sites at this spacing could not follow. Of several within half a spacing the
+//! sharpest, and none so near an end. \return ascending. Cost: O(k log k + k c), c = corners.
+[[nodiscard]] std::vector<std::size_t> corners_of_curve(const agvd::Surface& surface,
+                                                        const Curve& curve, double spacing);
 
 //! A point of a curve as one of the faces on a side of it.
 //!

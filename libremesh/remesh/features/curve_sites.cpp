@@ -153,6 +153,12 @@ void move_along(const Curve& curve, Index group, double along, CurveSites& sites
     }
 }
 
+std::vector<Index> groups_of_copies(const CurveSites& sites) {
+    std::vector<Index> groups;
+    for (Index g = 0; g < sites.num_groups(); ++g) groups.resize(sites.first_copy[g + 1], g);
+    return groups;
+}
+
 std::vector<DirectedEdge> ends_of(std::span<const ChainEdge> chain) {
     std::vector<DirectedEdge> ends;
     for (const ChainEdge& edge : chain) ends.emplace_back(edge.from, edge.to);

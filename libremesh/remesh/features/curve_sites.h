@@ -2,6 +2,8 @@
 //! Sites on the curves of a network, with a copy on each side of the cut.
 #pragma once
 
+#include <algorithm>
+
 #include "remesh/features/close_rim.h"
 #include "remesh/features/curve_network.h"
 #include "remesh/features/cut_surface.h"
@@ -64,6 +66,24 @@ struct ChainEdge {
 
 //! Ends of edges, in their order.
 [[nodiscard]] std::vector<DirectedEdge> ends_of(std::span<const ChainEdge> chain);
+
+//! The same for each part of the surface, ascending.
+//!
+//! \param part_of  of a site: Index -> Index below num_parts.
+template <typename PartOf>
+[[nodiscard]] std::vector<std::vector<DirectedEdge>> chain_by_part(std::span<const ChainEdge> chain,
+                                                                   agvd::Index num_parts,
+                                                                   const PartOf& part_of) {
+    std::vector<std::vector<DirectedEdge>> parts(num_parts);
+    for (const ChainEdge& edge : chain) {
+        parts[part_of(edge.from)].emplace_back(edge.from, edge.to);
+    }
+    for (std::vector<DirectedEdge>& part : parts) std::sort(part.begin(), part.end());
+    return parts;
+}
+
+//! The group of each copy: #sites.
+[[nodiscard]] std::vector<agvd::Index> groups_of_copies(const CurveSites& sites);
 
 //! All, curve by curve, side by side.
 [[nodiscard]] std::vector<ChainEdge> chain_edges(const CurveNetwork& network, const CutSurface& cut,

@@ -100,15 +100,12 @@ private:
             mean_spacing(surface_, options_.sites ? options_.sites->size() : options_.num_samples);
         find_features(progress);
         prepared_.emplace(cut_surface(), spacing_, options_.num_threads, progress);
-        component_ = parts_of_base(prepared_->base,
-                                   plan_ ? face_component_ : result_.input_topology.face_component,
-                                   progress);
+        component_ = parts_of_base(prepared_->base, topology().face_component, progress);
         result_.refined_faces = base().num_faces();
     }
 
     // Where there are creases, all that follows sees a surface that is cut along them.
     void find_features(const agvd::Progress& progress) {
-        components_ = result_.input_topology.components;
         const bool has_none = options_.features == Features::Off && options_.feature_edges.empty();
         if (has_none || options_.sites || options_.boundary == Boundary::Free) return;
         const CreaseOptions creases{
@@ -127,9 +124,7 @@ private:
         counts.samples_for_all = plan.sites_for_all;
         if (plan.network.curves.empty()) return;
         plan_ = std::move(plan);
-        const Topology patches = analyze_topology(plan_->cut.surface.mesh.view(), progress);
-        components_ = patches.components;
-        face_component_ = patches.face_component;
+        patches_ = analyze_topology(plan_->cut.surface.mesh.view(), progress);
     }
 
     [[nodiscard]] std::vector<std::uint8_t> creases_with_given(const CreaseOptions& options) const {
@@ -156,6 +151,11 @@ private:
     // The surface, cut along the creases if there are any.
     [[nodiscard]] const Surface& cut_surface() const {
         return plan_ ? plan_->cut.surface : surface_;
+    }
+
+    // Of cut_surface().
+    [[nodiscard]] const Topology& topology() const {
+        return plan_ ? patches_ : result_.input_topology;
     }
 
     // What propagation runs on.
@@ -217,7 +217,6 @@ private:
         exactly.num_samples = options_.num_samples;
         NetworkSites made = sample_network_sites(*prepared_, *plan_, exactly,
                                                  {.steps = options_.relax_steps,
-                                                  .boundary = Boundary::Free,
                                                   .num_threads = options_.num_threads,
                                                   .progress = progress_of(Stage::Relax, options_)});
         sites_ = std::move(made.sites);
@@ -236,7 +235,8 @@ private:
     // The dual with the count asked for. Where it runs through itself more often than the input, it
     // is built again with more sites there; the best counts.
     void build_mesh() {
-        const Ground ground{base(), prepared_->layout, components_, component_, corners_, chain_};
+        const Ground ground{base(),     prepared_->layout, topology().components,
+                            component_, corners_,          chain_};
         const RemeshOptions cell_options = options_of_cells();
         on_base_ = prepared_->base.to_intrinsic(sites_);
         const std::vector<SurfacePoint> first_on_base = on_base_;
@@ -259,7 +259,10 @@ private:
                 throw TooFewSamples{target_, static_cast<Index>(dual.mesh.points.size())};
             }
             const DelaunayCounts flips = flip_edges(dual);
-            if (plan_) groups_ = groups_of(dual);
+            if (plan_) {
+                groups_ = groups_of(dual);
+                whole_ = glue(dual.mesh.triangles, groups_);
+            }
             PlacedMesh placed = place(dual);
             const CrossingFaces crossings = unfit_crossings(placed);
             if (mends == 0 || !crossings || crossings->size() < *result_.self_intersections) {
@@ -302,10 +305,7 @@ private:
 
     // Copies of one vertex have one number: that of their group on the curves, or a later one.
     [[nodiscard]] std::vector<Index> groups_of(const ValidDual& dual) const {
-        std::vector<Index> group_of_copy;
-        for (Index g = 0; g < curves_.num_groups(); ++g) {
-            group_of_copy.resize(curves_.first_copy[g + 1], g);
-        }
+        const std::vector<Index> group_of_copy = groups_of_copies(curves_);
         std::vector<Index> groups;
         Index next = curves_.num_groups();
         for (const Index site : dual.site) {
@@ -315,12 +315,13 @@ private:
     }
 
     void take_result(const PlacedMesh& placed) {
-        result_.mesh = {positions_of(placed), placed.triangles};
-        result_.sites = placed.points;
-        if (!plan_) return;
-        const GluedMesh whole = glue(placed.triangles, groups_);
-        result_.mesh = {take(result_.mesh.positions, whole.representative), whole.triangles};
-        result_.sites = take(result_.sites, whole.representative);
+        result_.mesh = mesh_of(placed);
+        result_.sites = plan_ ? take(placed.points, whole_.representative) : placed.points;
+    }
+    // Copies of a vertex are one.
+    [[nodiscard]] agvd::TriangleMesh mesh_of(const PlacedMesh& placed) const {
+        if (!plan_) return {positions_of(placed), placed.triangles};
+        return {take(positions_of(placed), whole_.representative), whole_.triangles};
     }
     template <typename T>
     [[nodiscard]] static std::vector<T> take(const std::vector<T>& all,
@@ -513,11 +514,7 @@ private:
         const StageClock clock(Stage::Check, result_);
         const agvd::Progress progress = progress_of(Stage::Check, options_);
         agvd::poll(progress, 0);
-        agvd::TriangleMesh placed{positions_of(mesh), mesh.triangles};
-        if (plan_) {
-            const GluedMesh whole = glue(mesh.triangles, groups_);
-            placed = {take(placed.positions, whole.representative), whole.triangles};
-        }
+        const agvd::TriangleMesh placed = mesh_of(mesh);
         CrossingFaces found =
             find_self_intersections(placed.view(), options_.num_threads, progress);
         if (found && !found->empty() && !has_judged_input_) {
@@ -584,13 +581,13 @@ private:
     double spacing_ = 0;  // Mean distance of the sites.
     Surface surface_;     // Of the cleaned mesh.
     std::optional<PreparedSurface> prepared_;
-    std::optional<NetworkPlan> plan_;            // Its cut surface is here the whole one.
-    std::vector<ComponentTopology> components_;  // Of the surface.
-    std::vector<Index> face_component_;          // #F of the cut surface.
-    std::vector<Index> component_;               // #F of the base.
+    std::optional<NetworkPlan> plan_;    // Its cut surface is here the whole one.
+    Topology patches_;                   // Of the cut surface; without a plan not used.
+    std::vector<Index> component_;       // #F of the base.
     CurveSites curves_;                  // The first ones of the sites; empty without a plan.
     std::vector<ChainEdge> chain_;       // Likewise.
     std::vector<Index> groups_;          // Of the dual's vertices: equal for copies of one.
+    GluedMesh whole_;                    // The dual with copies as one; without a plan not used.
     std::vector<SurfacePoint> sites_;    // On the cleaned mesh.
     std::vector<SurfacePoint> on_base_;  // The same, and those that repair has added.
     std::vector<Index> corners_;         // Boundary vertices, ascending.

@@ -277,7 +277,9 @@ private:
              build_dual(surface_, dual_.diagram, agvd::within(progress, 0, 0))) {
             triangles[component_of(sites_[t[0]])].push_back(t);
         }
-        const std::vector<std::vector<DirectedEdge>> chain = sort_chain();
+        const auto part_of = [&](Index site) { return component_of(sites_[site]); };
+        const auto chain =
+            chain_by_part(ground_.chain, static_cast<Index>(ground_.components.size()), part_of);
         std::vector<bool> has_vertex(sites_.size(), false);
         for (Index c = 0; c < triangles.size(); ++c) {
             if (!chain[c].empty()) close_rim(chain[c], triangles[c]);
@@ -309,16 +311,6 @@ private:
                 dual_.mesh.triangles.push_back({number[i], number[j], number[k]});
             }
         }
-    }
-
-    // The edges that the boundary of each component must have, ascending.
-    [[nodiscard]] std::vector<std::vector<DirectedEdge>> sort_chain() const {
-        std::vector<std::vector<DirectedEdge>> chain(ground_.components.size());
-        for (const ChainEdge& edge : ground_.chain) {
-            chain[component_of(sites_[edge.from])].emplace_back(edge.from, edge.to);
-        }
-        for (std::vector<DirectedEdge>& edges : chain) std::sort(edges.begin(), edges.end());
-        return chain;
     }
 
     // The closed-ball property implies it, but for polygons of the dual that leave no diagonal.

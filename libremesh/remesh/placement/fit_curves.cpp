@@ -108,7 +108,7 @@ std::vector<Vec3> fit_curves(const agvd::Surface& surface, const CurveNetwork& n
     for (std::size_t c = 0; c < network.curves.size(); ++c) {
         const Curve& curve = network.curves[c];
         const Index first = sites.first_of_curve[c], last = sites.first_of_curve[c + 1];
-        if (first == last || !curve.has(Side::Left) || !curve.has(Side::Right)) continue;
+        if (first == last || !curve.is_crease()) continue;
         fit(surface, curve, chain_of(surface, curve, sites, first, last),
             std::span(offsets).subspan(first, last - first));
     }

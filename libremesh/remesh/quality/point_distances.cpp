@@ -6,6 +6,8 @@
 #include <functional>
 #include <limits>
 
+#include "agvd/mesh/closest_point.h"
+
 namespace remesh::detail {
 namespace {
 
@@ -33,13 +35,6 @@ std::uint64_t key_of(const std::array<std::int64_t, 3>& cell) {
     std::uint64_t key = 0;
     for (const std::int64_t c : cell) key = key << 21 | (static_cast<std::uint64_t>(c) & 0x1fffff);
     return key;
-}
-
-double distance_to(const Vec3& a, const Vec3& b, const Vec3& point) {
-    const Vec3 along = b - a, from = point - a;
-    const double square = along.squaredNorm();
-    const double t = square > 0 ? std::clamp(from.dot(along) / square, 0., 1.) : 0;
-    return (from - t * along).norm();
 }
 
 // The part of a segment inside a box, as parameters; from > to if there is none.
@@ -114,7 +109,7 @@ void PointDistances::look_around(const Vec3& at, const Vec3& a, const Vec3& b,
     if (found == cells_.end()) return;
     for (Index i = found->second.begin; i < found->second.end; ++i) {
         const Index point = entries_[i].second;
-        const double distance = distance_to(a, b, points_[point]);
+        const double distance = agvd::distance_to_segment(points_[point], a, b);
         if (distance <= reach_) distances_[point] = std::min(distances_[point], distance);
     }
 }

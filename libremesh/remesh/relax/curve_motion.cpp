@@ -37,6 +37,7 @@ CurveMotion::CurveMotion(const agvd::Surface& surface, const CurveNetwork& netwo
     : surface_(surface),
       network_(network),
       sites_(std::move(sites)),
+      group_(groups_of_copies(sites_)),
       curve_(sites_.num_groups(), no_index),
       half_slope_(sites_.num_groups(), 0),
       stiffness_(sites_.num_groups(), 0),
@@ -47,7 +48,6 @@ CurveMotion::CurveMotion(const agvd::Surface& surface, const CurveNetwork& netwo
         std::fill(curve_.begin() + sites_.first_of_curve[c],
                   curve_.begin() + sites_.first_of_curve[c + 1], c);
     }
-    for (Index g = 0; g < sites_.num_groups(); ++g) group_.resize(sites_.first_copy[g + 1], g);
 }
 
 double CurveMotion::measure(std::span<const CvtEnergy::Cell> cells) {

@@ -1,11 +1,11 @@
 #include "remesh/relax/relax_network.h"
 
 #include <algorithm>
-
 #include <map>
 #include <memory>
 #include <set>
 
+#include "agvd/mesh/closest_point.h"
 #include "remesh/features/close_rim.h"
 #include "remesh/relax/levels.h"
 #include "remesh/relax/subdivide.h"
@@ -36,12 +36,6 @@ std::vector<Index> coarse_intervals(const NetworkPlan& plan) {
         result.push_back(std::min(plan.intervals[c], std::max(half, fewest[c])));
     }
     return result;
-}
-
-double euler_of(const Surface& surface) {
-    double euler = static_cast<double>(surface.num_faces()) - surface.num_edges();
-    for (const Index h : surface.outgoing) euler += h != agvd::no_index ? 1 : 0;
-    return euler;
 }
 
 // The sites of a coarse level among those of the fine one.
@@ -97,13 +91,6 @@ private:
     const CurveSites& fine_;
 };
 
-// From a point to a segment.
-double distance(const agvd::Vec3& point, const agvd::Vec3& a, const agvd::Vec3& b) {
-    const agvd::Vec3 way = b - a;
-    const double share = std::clamp((point - a).dot(way) / way.squaredNorm(), 0.0, 1.0);
-    return (a + share * way - point).norm();
-}
-
 // The middles of a coarse level's triangulation as the fine level has them: those on curves are
 // sites of it, and in strips narrower than the spacing there are none but these.
 class MiddleFinder {
@@ -158,7 +145,8 @@ private:
         const agvd::Vec3 middle = position(surface().mesh.view(), found->second.point);
         for (const Index end : {a, b}) {
             if (!is_chain_.contains(std::minmax({end, c}))) continue;
-            if (distance(middle, at(end), at(c)) >= least_distance * plan_.spacing) continue;
+            const double apart = agvd::distance_to_segment(middle, at(end), at(c));
+            if (apart >= least_distance * plan_.spacing) continue;
             by_pair_.erase(found);
             return;
         }
@@ -189,8 +177,7 @@ private:
 class Patches {
 public:
     explicit Patches(const PreparedSurface& surface)
-        : surface_(surface.base.surface()),
-          component_(detail::label_components(surface.input().twin)) {
+        : surface_(surface), component_(detail::label_components(surface.input().twin)) {
         faces_.resize(component_.count);
         const std::vector<Index> parts = parts_of_base(surface.base, component_.of_face);
         for (Index f = 0; f < parts.size(); ++f) faces_[parts[f]].push_back(f);
@@ -203,13 +190,10 @@ public:
     void mend(std::span<const ChainEdge> chain, std::span<const SurfacePoint> sites,
               std::vector<Triangle>& triangles, const Instead& instead) const {
         const std::vector<std::vector<Triangle>> by_patch = sort(triangles, sites);
-        std::vector<std::vector<DirectedEdge>> wanted(faces_.size());
-        for (const ChainEdge& edge : chain) {
-            wanted[patch_of(sites[edge.from])].emplace_back(edge.from, edge.to);
-        }
+        const auto part_of = [&](Index site) { return patch_of(sites[site]); };
+        const auto wanted = chain_by_part(chain, component_.count, part_of);
         triangles.clear();
         for (Index i = 0; i < faces_.size(); ++i) {
-            std::sort(wanted[i].begin(), wanted[i].end());
             const bool is_right = rim_of(by_patch[i]) == wanted[i];
             const std::vector<Triangle> chosen = is_right ? by_patch[i] : instead(i);
             triangles.insert(triangles.end(), chosen.begin(), chosen.end());
@@ -225,16 +209,16 @@ public:
     }
 
     // The patch thinned to its sites; nothing if that leaves other vertices.
-    [[nodiscard]] std::vector<Triangle> thin(Index patch, const PreparedSurface& surface,
+    [[nodiscard]] std::vector<Triangle> thin(Index patch,
                                              std::span<const SurfacePoint> sites) const {
         std::vector<SurfacePoint> points;
         std::vector<Index> number;
         for (Index i = 0; i < sites.size(); ++i) {
             if (patch_of(sites[i]) != patch) continue;
-            points.push_back(surface.base.to_intrinsic(sites[i]));
+            points.push_back(surface_.base.to_intrinsic(sites[i]));
             number.push_back(i);
         }
-        agvd::ThinnedMesh thinned = thin_patch(surface_, faces_[patch], points);
+        agvd::ThinnedMesh thinned = thin_patch(surface_.base.surface(), faces_[patch], points);
         if (!thinned.extra.empty()) return {};
         for (Triangle& t : thinned.triangles) {
             for (Index& i : t) i = number[i];
@@ -247,7 +231,7 @@ private:
         return component_.of_face[site.face.value()];
     }
 
-    const Surface& surface_;
+    const PreparedSurface& surface_;
     detail::FaceLabels component_;           // Of the input's faces.
     std::vector<std::vector<Index>> faces_;  // Of the base, by patch.
 };
@@ -297,7 +281,7 @@ private:
         std::vector<Triangle> triangles = detail::triangulate_sites(
             surface_, labels, sites, chain, options_.num_threads, levels_.progress());
         patches_.mend(chain, sites, triangles,
-                      [&](Index patch) { return patches_.thin(patch, surface_, sites); });
+                      [&](Index patch) { return patches_.thin(patch, sites); });
         auto relaxation = std::make_unique<Relaxation>(
             surface_.input(), std::move(sites), std::move(triangles), std::vector<std::uint8_t>{},
             std::vector<double>{}, options_.num_threads, levels_.progress());
@@ -311,7 +295,7 @@ private:
         const std::vector<Index> intervals = coarse_intervals(plan_);
         const CurveSites coarse =
             place_curve_sites(plan_.network, plan_.cut, plan_.spacing, intervals);
-        const double euler = euler_of(plan_.cut.surface);
+        const double euler = detail::euler_of(plan_.cut.surface);
         const double wanted =
             (num_inner_ - static_cast<double>(coarse.sites.size()) + 3 * euler) / 4 + 1;
         if (wanted < least_coarse_sites) return nullptr;

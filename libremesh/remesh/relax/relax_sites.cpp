@@ -50,8 +50,7 @@ std::optional<Index> coarse_count(const Surface& surface, Index count,
                                   const agvd::Progress& progress) {
     agvd::Poller poller(progress);
     const Index num_components = detail::label_components(surface.twin, agvd::Ticker(poller)).count;
-    double euler = static_cast<double>(surface.num_faces()) - surface.num_edges();
-    for (const Index h : surface.outgoing) euler += h != agvd::no_index ? 1 : 0;
+    const double euler = detail::euler_of(surface);
     // V + E, with E = 3 V - 3 chi; edges on the boundary are a little fewer.
     const double coarse = coarse_margin * (count + 3 * euler) / 4 + 1;
     if (coarse < static_cast<double>(least_coarse_sites * num_components)) return std::nullopt;

@@ -7,11 +7,8 @@
 
 namespace remesh {
 
-//! Vertices of a loop (of agvd::boundary_loops) where it turns by more than 45 degrees: at the
-//! vertex itself, and between the chords to the points half a spacing before and after it, so that
-//! a rough curve has no corners that sites at this spacing could not follow. Of several within half
-//! a spacing the sharpest. \param spacing  > 0, mesh units. \return vertices, in the loop's order.
-//! Cost: O(k log k + k c), c = corners.
+//! corners_of_curve for a loop of agvd::boundary_loops. \param spacing  > 0, mesh units. \return
+//! vertices, in the loop's order.
 [[nodiscard]] std::vector<agvd::Index> find_corners(const agvd::Surface& surface,
                                                     const std::vector<agvd::Index>& loop,
                                                     double spacing);

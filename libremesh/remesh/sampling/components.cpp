@@ -31,6 +31,22 @@ FaceLabels label_components(std::span<const Index> twin, agvd::Ticker ticker) {
     return labels;
 }
 
+double boundary_length(const Surface& surface, const Component& component) {
+    double length = 0;
+    for (const Index f : component.faces) {
+        for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+            if (surface.twin[h] == no_index) length += surface.length_of(h);
+        }
+    }
+    return length;
+}
+
+double euler_of(const Surface& surface) {
+    double euler = static_cast<double>(surface.num_faces()) - surface.num_edges();
+    for (const Index h : surface.outgoing) euler += h != no_index ? 1 : 0;
+    return euler;
+}
+
 std::vector<Component> find_components(const Surface& surface, const agvd::Progress& progress) {
     agvd::Poller poller(progress);
     agvd::Ticker ticker(poller);

@@ -29,6 +29,12 @@ struct FaceLabels {
 [[nodiscard]] FaceLabels label_components(std::span<const agvd::Index> twin,
                                           agvd::Ticker ticker = {});
 
+//! Of a component: of its edges without a face on the other side. Cost: O(faces).
+[[nodiscard]] double boundary_length(const agvd::Surface& surface, const Component& component);
+
+//! V - E + F of the whole surface; isolated vertices do not count. Cost: O(#V).
+[[nodiscard]] double euler_of(const agvd::Surface& surface);
+
 //! By lowest face. Linear time, as connectivity is given (analyze_topology sorts it out of
 //! indices).
 [[nodiscard]] std::vector<Component> find_components(const agvd::Surface& surface,

@@ -24,14 +24,7 @@ struct Patch {
 std::vector<Patch> find_patches(const Surface& surface, const agvd::Progress& progress) {
     std::vector<Patch> patches;
     for (const detail::Component& component : detail::find_components(surface, progress)) {
-        Patch& patch = patches.emplace_back();
-        patch.area = component.area();
-        for (const Index f : component.faces) {
-            for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-                if (surface.twin[h] == agvd::no_index)
-                    patch.boundary_length += surface.length_of(h);
-            }
-        }
+        patches.push_back({component.area(), detail::boundary_length(surface, component)});
     }
     return patches;
 }
@@ -62,14 +55,12 @@ double find_spacing(const Surface& surface, const CurveNetwork& network,
     return high;
 }
 
-bool is_crease_curve(const Curve& curve) { return curve.has(Side::Left) && curve.has(Side::Right); }
-
 // The shortest creases.
 void drop_shortest(const Surface& surface, const CurveNetwork& network, double share,
                    std::vector<std::uint8_t>& is_crease) {
     std::vector<std::pair<double, Index>> order;
     for (Index c = 0; c < network.curves.size(); ++c) {
-        if (is_crease_curve(network.curves[c])) order.emplace_back(network.curves[c].length(), c);
+        if (network.curves[c].is_crease()) order.emplace_back(network.curves[c].length(), c);
     }
     std::sort(order.begin(), order.end());
     order.resize(static_cast<std::size_t>(std::ceil(share * static_cast<double>(order.size()))));

@@ -189,13 +189,8 @@ std::vector<agvd::SurfacePoint> sample_inner_sites(const agvd::Surface& surface,
     std::vector<Index> component_of(surface.num_faces());
     std::vector<double> lacking;
     for (Index i = 0; i < components.size(); ++i) {
-        double length = 0;
-        for (const Index f : components[i].faces) {
-            component_of[f] = i;
-            for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-                if (surface.twin[h] == agvd::no_index) length += surface.length_of(h);
-            }
-        }
+        for (const Index f : components[i].faces) component_of[f] = i;
+        const double length = detail::boundary_length(surface, components[i]);
         lacking.push_back(
             std::max(detail::inner_sites(components[i].area(), length, spacing), 0.0));
     }
