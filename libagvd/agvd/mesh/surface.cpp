@@ -8,6 +8,7 @@
 
 #include "agvd/core/error.h"
 #include "agvd/core/parallel.h"
+#include "agvd/mesh/scale.h"
 
 namespace agvd {
 namespace {
@@ -218,6 +219,7 @@ Surface build_surface(const MeshView& mesh, int num_threads, const Progress& pro
     Poller poller(progress);
     Ticker ticker(poller);
     check_elements(mesh, ticker);
+    check_scale(mesh);
     std::optional<Connectivity> connectivity = find_connectivity(mesh, num_threads, progress);
     if (!connectivity) explain(mesh, ticker);
     return build_surface({{mesh.positions.begin(), mesh.positions.end()},

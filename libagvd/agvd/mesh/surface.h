@@ -48,10 +48,10 @@ struct Surface {
 
 //! Builds connectivity and lengths; copies the mesh.
 //!
-//! \throw InvalidInput  an index is out of range, a coordinate is not finite, a face is degenerate
-//!        (repeated corner or zero area in double), two faces are inconsistently oriented, or an
-//!        edge or vertex is not manifold; the text names the element. remesh::clean_input repairs
-//!        all of these.
+//! \throw InvalidInput  an index is out of range, a coordinate is not finite, the mesh is out of
+//!        scale (see check_scale), a face is degenerate (repeated corner or zero area in double),
+//!        two faces are inconsistently oriented, or an edge or vertex is not manifold; the text
+//!        names the element. remesh::clean_input repairs all of these.
 //! \throw Cancelled     the progress callback returned false.
 //! \param num_threads  >= 0; 0: all cores. The result is the same for any number.
 //! Cost: O(n).

@@ -88,6 +88,7 @@ public:
         propagate(dirty);
 
         take_changes(dirty);
+        list_bounded_vertices();
         std::erase_if(vertices_, [&](Index v) { return !settle_vertex(v); });
         list_faces();
         sort_patches();
@@ -197,6 +198,28 @@ private:
         }
     }
 
+    // Those that may have to take their bound.
+    void list_bounded_vertices() {
+        for (const Index v : vertices_) is_listed_[v] = 1;
+        for (const Index v : sites_.changed_bounds()) {
+            const bool is_reached =
+                std::any_of(readers_[v].begin(), readers_[v].end(), [](const Reader& r) {
+                    return r.distance < std::numeric_limits<double>::infinity();
+                });
+            if (!is_reached && std::exchange(is_listed_[v], 1) == 0) vertices_.push_back(v);
+        }
+        for (const Index v : vertices_) is_listed_[v] = 0;
+    }
+
+    // Keeps the list ascending.
+    void set_off_windows(Index v, bool is_off) {
+        std::vector<Index>& list = result_.vertices_off_windows;
+        const auto place = std::lower_bound(list.begin(), list.end(), v);
+        const bool was_off = place != list.end() && *place == v;
+        if (was_off && !is_off) list.erase(place);
+        if (is_off && !was_off) list.insert(place, v);
+    }
+
     // False if nothing changes.
     [[nodiscard]] bool settle_vertex(Index v) {
         std::vector<Reader>& readers = readers_[v];
@@ -211,6 +234,13 @@ private:
             best = distance;
             best_site = sites_.rank(number);
         }
+        const Index bounding = sites_.site_of_bound(v);
+        const bool is_off = best_site == no_index && bounding != no_index;
+        if (is_off) {
+            best = sites_.bounds()[v];
+            best_site = sites_.rank(bounding);
+        }
+        set_off_windows(v, is_off);
         const SiteId site(best_site);
         if (result_.vertex_distance[v] == best && result_.vertex_site[v] == site) return false;
         result_.vertex_distance[v] = best;

@@ -44,6 +44,9 @@ public:
     //! #V: upper bounds for the distance from the nearest site.
     [[nodiscard]] std::span<const float> bounds() const { return bounds_; }
 
+    //! By number: whose path a bound is; no_index: none.
+    [[nodiscard]] Index site_of_bound(Index vertex) const { return search_.site(vertex); }
+
     // What the last change did.
 
     //! By number: 1 for the sites that came, went, moved, fell silent or do no more.

@@ -48,6 +48,11 @@ struct Propagation {
     std::vector<SiteId> vertex_site;      //!< #V; invalid where no site reaches.
     std::vector<double> vertex_distance;  //!< #V; infinity where no site reaches.
 
+    //! Ascending: vertices that no window reached, though a site does. They have the length of a
+    //! path along edges and across pairs of faces, a rounding too long. Windows with errors leave
+    //! such gaps, and exact ones where lengths differ too much for their rounding.
+    std::vector<Index> vertices_off_windows;
+
     //! Faces that may hold more than one label, ascending. Contract: an edge between a listed and
     //! an unlisted face, and a whole unlisted face, lie in the cell of their vertices' one site.
     std::vector<Index> mixed_faces;

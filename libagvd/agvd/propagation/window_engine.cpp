@@ -119,6 +119,7 @@ public:
             result_.vertex_site.assign(surface_.num_vertices(), SiteId());
             result_.certified_error = 0;
             propagate_all(workers);
+            take_bounds();
             propagate_again(workers);
             result_.peak_bytes = corners_.bytes() + workers.bytes() +
                                  bounds_.capacity() * sizeof(float) +
@@ -244,6 +245,17 @@ private:
             if (!is_nearer(distance, site, best, best_site.value())) continue;
             best = distance;
             best_site = SiteId(site);
+        }
+    }
+
+    // Of the vertices that no window reached: bounds are lengths of real paths, too, and not so long
+    // as those that windows would have brought within their error.
+    void take_bounds() {
+        for (Index v = 0; v < bounds_.size(); ++v) {
+            if (result_.vertex_site[v].is_valid() || labels_[v] == no_index) continue;
+            result_.vertex_distance[v] = bounds_[v];
+            result_.vertex_site[v] = SiteId(labels_[v]);
+            result_.vertices_off_windows.push_back(v);
         }
     }
 

@@ -1,13 +1,18 @@
 #include "agvd/propagation/window_relays.h"
 
+#include <algorithm>
+
 #include "agvd/propagation/window_rays.h"
 
 namespace agvd {
 namespace {
 
-// A tail that is a site, or nearly, or turns paths, is itself the image of what comes by it.
+// A tail that is a site, or nearly, or turns paths, or that no window reached, is itself the image
+// of what comes by it.
 bool is_source(const Surface& surface, const Propagation& result, Index half_edge) {
     const Index v = surface.tail(half_edge);
+    const std::vector<Index>& unseen = result.vertices_off_windows;
+    if (!unseen.empty() && std::binary_search(unseen.begin(), unseen.end(), v)) return true;
     return result.vertex_site[v].is_valid() &
            ((surface.can_turn[v] != 0) |
             (result.vertex_distance[v] <= beside_vertex * surface.length_of(half_edge)));

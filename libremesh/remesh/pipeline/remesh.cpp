@@ -1,8 +1,10 @@
 #include "remesh/pipeline/remesh.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
+#include "agvd/mesh/scale.h"
 #include "remesh/pipeline/run.h"
 
 namespace remesh {
@@ -107,6 +109,17 @@ Index num_new_crossings(const RemeshResult& result) {
     return pairs - std::min(pairs, result.input_self_intersections);
 }
 
+// Lengths of what was made from a mesh times 2^-exponent.
+void scale_back(RemeshResult& result, int exponent) {
+    result.mesh = agvd::scaled(result.mesh.view(), exponent);
+    for (double* length : {&result.features.length, &result.features.dropped_length}) {
+        *length = std::ldexp(*length, exponent);
+    }
+    for (RelaxLevel& level : result.relaxation) {
+        for (double& energy : level.energy) energy = std::ldexp(energy, 4 * exponent);
+    }
+}
+
 // With fewer creases where no mesh with all of them was found, or only one that runs through
 // itself; without any at last.
 RemeshResult run(const agvd::MeshView& mesh, const RemeshOptions& options) {
@@ -133,6 +146,12 @@ RemeshResult run(const agvd::MeshView& mesh, const RemeshOptions& options) {
 
 RemeshResult remesh(const agvd::MeshView& mesh, const RemeshOptions& options) {
     check_options(options);
+    if (const double size = agvd::extent(mesh); !agvd::is_in_scale(size)) {
+        const int exponent = std::ilogb(size);
+        RemeshResult result = remesh(agvd::scaled(mesh, -exponent).view(), options);
+        scale_back(result, exponent);
+        return result;
+    }
     try {
         return run(mesh, options);
     } catch (const TooFewSamples& failure) {

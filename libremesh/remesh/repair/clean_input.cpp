@@ -8,6 +8,7 @@
 
 #include "agvd/core/error.h"
 #include "agvd/core/parallel.h"
+#include "agvd/mesh/scale.h"
 #include "remesh/repair/soup.h"
 
 namespace remesh {
@@ -181,6 +182,7 @@ CleanResult clean_input(const agvd::MeshView& mesh, int num_threads,
     agvd::Poller poller(progress);
     agvd::Ticker ticker(poller);
     check_elements(mesh, ticker);
+    agvd::check_scale(mesh);
     if (std::optional<CleanResult> clean = take_clean(mesh, num_threads, progress)) {
         return *std::move(clean);
     }

@@ -51,8 +51,9 @@ struct CleanResult {
 //! An input without these defects comes back unchanged, bit for bit and in the same order. Kept
 //! vertices and faces keep their order; copies of vertices come last.
 //!
-//! \throw agvd::InvalidInput  an index is out of range, a coordinate is not finite, an area
-//!        overflows, a piece is not orientable (each names the element), or no face is left.
+//! \throw agvd::InvalidInput  an index is out of range, a coordinate is not finite, the mesh is out
+//!        of scale (see agvd::check_scale), a piece is not orientable (each names the element), or
+//!        no face is left.
 //! \throw agvd::Cancelled     the progress callback returned false.
 //! \param num_threads  >= 0; 0: all cores. The result is the same for any number.
 //! Cost: O(n log n); O(n) if there is no defect.

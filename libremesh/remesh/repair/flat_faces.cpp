@@ -2,12 +2,9 @@
 // between its longest edge, which the neighbour has whole, and its two other edges. Flipping the
 // longest edge splits the neighbour at the third corner instead, so no hole is left.
 #include <algorithm>
-#include <cmath>
 #include <deque>
 #include <limits>
-#include <string>
 
-#include "agvd/core/error.h"
 #include "remesh/repair/soup.h"
 
 namespace remesh::detail {
@@ -82,12 +79,7 @@ public:
         : soup_(soup), twin_(twin), is_flat_(soup.triangles.size()) {
         for (Index f = 0; f < is_flat_.size(); ++f) {
             soup.ticker.tick();
-            const double area = smallest_doubled_area(soup.positions, soup.triangles[f]);
-            if (!std::isfinite(area)) {
-                throw agvd::InvalidInput("face " + std::to_string(soup.face_origin[f]) +
-                                         " is too large, its area overflows; scale the mesh down");
-            }
-            is_flat_[f] = area == 0;
+            is_flat_[f] = smallest_doubled_area(soup.positions, soup.triangles[f]) == 0;
             if (is_flat_[f]) waiting_.push_back(f);
         }
     }

@@ -1,0 +1,28 @@
+//! \file
+//! The size of a mesh, and how it is brought where no power of a length overflows or vanishes.
+#pragma once
+
+#include "agvd/mesh/mesh_view.h"
+
+namespace agvd {
+
+//! Longest side of the box of the faces' corners, mesh units; 0 without faces. Corners that are not
+//! there or not finite are left out. Cost: O(#F).
+[[nodiscard]] double extent(const MeshView& mesh);
+
+//! Meshes whose extent lies in [2^-max_scale, 2^max_scale] (about 1e-24 to 1e24) are computed on as
+//! they are: the fourth powers of lengths a billion times shorter are still normal numbers.
+inline constexpr int max_scale = 80;
+
+//! Whether the extent is that of a mesh that can be computed on, or 0.
+[[nodiscard]] bool is_in_scale(double extent);
+
+//! \throw InvalidInput  the extent is out of scale, or the mesh lies so far from the origin that
+//! its
+//!        coordinates have less than 10 of their 53 bits left. Cost: O(#F).
+void check_scale(const MeshView& mesh);
+
+//! The mesh times 2^exponent. Exact, unless a coordinate becomes subnormal. Cost: O(n).
+[[nodiscard]] TriangleMesh scaled(const MeshView& mesh, int exponent);
+
+}  // namespace agvd
