@@ -42,7 +42,7 @@ std::array<Index, 2> cut_face(Surface& surface, FaceCharts& charts, Index half_e
     surface.apex.resize(surface.apex.size() + 3);
     move_sides<2>(surface, sides, {3 * added + 1, 3 * face + 2});
     const Index cut_edge = surface.num_edges();
-    surface.length.push_back(cut.norm());
+    surface.length.push_back(std::max(cut.norm(), least_length * whole.side[k_previous].norm()));
     surface.edge_half.push_back(no_index);
     surface.edge[3 * added + 2] = cut_edge;
     join(surface, 3 * face + 1, 3 * added + 2, cut_edge);
@@ -66,7 +66,7 @@ Index raise_flat_faces(Surface& surface, Ticker& ticker) {
         if (surface.length_of(3 * f) * surface.apex[3 * f].y() >= least) continue;
         ++raised;
         for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-            surface.apex[h].y() = least / surface.length_of(h);
+            surface.apex[h].y() = height_over(surface.length_of(h), least, longest);
         }
     }
     return raised;
@@ -107,6 +107,10 @@ QuadShares Quad::shares() const {
 }
 
 bool Quad::is_convex() const {
+    // A diagonal that is a rounding of the sides may have no length at all.
+    if ((apex - across).norm() <= least_length * std::max(apex.norm(), across.norm())) {
+        return false;
+    }
     const QuadShares share = shares();
     const double sum = std::abs(share.tail) + std::abs(share.head) - share.apex;
     return share.tail > least_share * sum && share.head > least_share * sum;
@@ -165,8 +169,8 @@ EdgeSplit split_edge(Surface& surface, FaceCharts& charts, Index half_edge, doub
     }
     const Index near_edge = surface.edge[half_edge];
     const Index far_edge = result.new_edge = surface.num_edges();
-    surface.length.push_back((1 - at) * surface.length[near_edge]);
-    surface.length[near_edge] *= at;
+    surface.length.push_back(std::max(1 - at, least_length) * surface.length[near_edge]);
+    surface.length[near_edge] *= std::max(at, least_length);
     surface.edge_half.push_back(no_index);
 
     Index twin = surface.twin[half_edge];

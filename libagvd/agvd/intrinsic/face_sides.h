@@ -22,6 +22,12 @@ namespace agvd::detail {
                      surface.length_of(3 * face + 2)});
 }
 
+//! The height of a face over an edge. Over one that is a rounding of the longest, rounding may have
+//! made the area larger than any height allows.
+[[nodiscard]] inline double height_over(double length, double doubled_area, double longest) {
+    return std::min(doubled_area / length, longest);
+}
+
 //! Sets the three apexes of a face from its chart. Each in a frame whose axis is as long as the
 //! chart has it, which may differ from the edge's length by rounding.
 inline void set_apexes(Surface& surface, Index face, const FaceChart& chart) {
@@ -29,9 +35,9 @@ inline void set_apexes(Surface& surface, Index face, const FaceChart& chart) {
     const double doubled_area =
         std::max(-cross(chart.side[0], chart.side[2]), least_doubled_area * longest * longest);
     for (std::size_t k = 0; k < 3; ++k) {
-        const double length = chart.side[k].norm();
+        const double length = std::max(chart.side[k].norm(), least_length * longest);
         surface.apex[3 * face + k] = {-chart.side[k].dot(chart.side[(k + 2) % 3]) / length,
-                                      doubled_area / length};
+                                      height_over(length, doubled_area, longest)};
     }
 }
 

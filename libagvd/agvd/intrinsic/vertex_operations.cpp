@@ -64,7 +64,7 @@ void insert_in_face(Surface& surface, FaceCharts& charts, Index face,
     const Index added = add_faces(surface, 2);
     const std::array<Index, 3> faces{face, added, added + 1};
     move_sides<3>(surface, sides, {3 * faces[0], 3 * faces[1], 3 * faces[2]});
-    const double least = least_doubled_area * longest_side(surface, face);
+    const double least = least_length * longest_side(surface, face);
     for (Index k = 0; k < 3; ++k) {
         surface.mesh.triangles[faces[k]] = {corners[k], corners[(k + 1) % 3], vertex};
         const Index spoke = surface.num_edges();  // From corner k + 1.

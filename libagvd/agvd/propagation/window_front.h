@@ -41,6 +41,8 @@ public:
     //!                  any rounding of it.
     //! \param work_cap  the most windows that may be served through one half-edge in order of
     //!                  buckets; if more are, the run starts again with the nearest window first.
+    //!                  There a half-edge drops what comes after most_windows, and the run's
+    //!                  relative_error() is infinite.
     //! \param keeps     windows of other faces may be given back once nothing can come there any
     //!                  more. That changes nothing else.
     //! \throw Cancelled  the next run begins anew.
@@ -103,6 +105,10 @@ public:
     //! Windows served in the last run.
     [[nodiscard]] std::size_t num_windows() const { return num_served_; }
     [[nodiscard]] std::size_t bytes() const;
+
+    //! Real meshes stay below a few hundred. Around a spike that is 10^9 times as long as wide,
+    //! windows circle until rounding ends it: a million of them, each copied a thousand times.
+    static constexpr Index most_windows = 1 << 12;
 
 private:
     static constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -177,6 +183,7 @@ private:
     void wait(const Arrivals& arrivals, Index half_edge, Index tail, Index head);
     void serve_edge(Index record);
     void take_in(EdgeRecord& edge, const WindowFace& face);
+    void drop_waiting(EdgeRecord& edge);
     [[nodiscard]] Index gather(Index waiting, Index envelope);
     [[nodiscard]] Index insert_rest(Index run, Index kept, Index i, const WindowFace& face);
     [[nodiscard]] Index settle(Index run, Index count);

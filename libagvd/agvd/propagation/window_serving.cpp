@@ -90,6 +90,13 @@ inline void WindowFront::take_in(EdgeRecord& edge, const WindowFace& face) {
     edge.windows = settle(run, kept);
 }
 
+void WindowFront::drop_waiting(EdgeRecord& edge) {
+    while (edge.waiting != no_index) {
+        store_.give_back(std::exchange(edge.waiting, store_.next(edge.waiting)));
+    }
+    relative_error_ = infinity;
+}
+
 // Copies all windows, in order of their beginnings, into one run; where windows begin together, the
 // envelope's come first and then the last that came. The others are given back.
 Index WindowFront::gather(Index waiting, Index envelope) {
@@ -257,6 +264,10 @@ inline WindowFront::Arrivals WindowFront::pass_on(const WindowFace& face, Index 
 void WindowFront::serve_edge(Index record) {
     EdgeRecord& edge = edges_[record];
     if (edge.waiting == no_index) return;
+    if (edge.num_served > most_windows && queue_.order() == WindowQueue::Order::Nearest) {
+        drop_waiting(edge);
+        return;
+    }
     if (may_close() && !std::exchange(edge.is_watched, true)) watch(record, queue_.current() + 3);
     WindowFace face(corners_, edge.half_edge);
     face.tail_bound = vertices_[edge.tail].bound;
