@@ -8,8 +8,8 @@
 namespace agvd {
 
 //! Windows served through one half-edge, from one site, before its site is propagated again in the
-//! order of distance. Real meshes stay below a few hundred.
-inline constexpr Index default_work_cap = 1 << 12;
+//! order of distance. Real meshes stay below 700.
+inline constexpr Index default_work_cap = 1 << 11;
 
 //! In which order sites run, and their relays stand in a face: that of their faces, neighbours on
 //! most meshes, so that caches stay warm.

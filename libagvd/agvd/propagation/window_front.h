@@ -106,9 +106,9 @@ public:
     [[nodiscard]] std::size_t num_windows() const { return num_served_; }
     [[nodiscard]] std::size_t bytes() const;
 
-    //! Real meshes stay below a few hundred. Around a spike that is 10^9 times as long as wide,
+    //! Real meshes stay below 700. Around a spike that is 10^9 times as long as wide,
     //! windows circle until rounding ends it: a million of them, each copied a thousand times.
-    static constexpr Index most_windows = 1 << 12;
+    static constexpr Index most_windows = 1 << 11;
 
 private:
     static constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -183,6 +183,7 @@ private:
     void wait(const Arrivals& arrivals, Index half_edge, Index tail, Index head);
     void serve_edge(Index record);
     void take_in(EdgeRecord& edge, const WindowFace& face);
+    [[nodiscard]] Index most_windows_through(const EdgeRecord& edge) const;
     void drop_waiting(EdgeRecord& edge);
     [[nodiscard]] Index gather(Index waiting, Index envelope);
     [[nodiscard]] Index insert_rest(Index run, Index kept, Index i, const WindowFace& face);

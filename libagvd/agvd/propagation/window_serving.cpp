@@ -90,6 +90,20 @@ inline void WindowFront::take_in(EdgeRecord& edge, const WindowFace& face) {
     edge.windows = settle(run, kept);
 }
 
+// Fewer where a distance's rounding is more than the face is wide: no window tells there where it
+// is.
+Index WindowFront::most_windows_through(const EdgeRecord& edge) const {
+    constexpr Index most_without_digits = 32;
+    if (edge.num_served <= most_without_digits) return no_index;
+    const WindowFace face(corners_, edge.half_edge);
+    const double longest = std::max({face.length, face.next.length, face.previous.length});
+    const double width = face.length * face.apex_y / longest;
+    if (width < path_rounding * (vertices_[edge.tail].bound + face.length)) {
+        return most_without_digits;
+    }
+    return queue_.order() == WindowQueue::Order::Nearest ? most_windows : no_index;
+}
+
 void WindowFront::drop_waiting(EdgeRecord& edge) {
     while (edge.waiting != no_index) {
         store_.give_back(std::exchange(edge.waiting, store_.next(edge.waiting)));
@@ -264,7 +278,7 @@ inline WindowFront::Arrivals WindowFront::pass_on(const WindowFace& face, Index 
 void WindowFront::serve_edge(Index record) {
     EdgeRecord& edge = edges_[record];
     if (edge.waiting == no_index) return;
-    if (edge.num_served > most_windows && queue_.order() == WindowQueue::Order::Nearest) {
+    if (edge.num_served > most_windows_through(edge)) {
         drop_waiting(edge);
         return;
     }

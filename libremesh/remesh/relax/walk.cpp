@@ -20,7 +20,7 @@ constexpr double least_cosine = 0.05;
 // A walk that is stopped by the boundary keeps this share of its last stretch.
 constexpr double stop_share = 0.9;
 // No step that relaxation makes crosses that many faces unless they are slivers around one vertex.
-constexpr int most_crossings = 10000;
+constexpr int most_crossings = 2000;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
 // From the axes in which `axis` (of length 1) is the first one.
