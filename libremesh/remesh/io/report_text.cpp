@@ -168,6 +168,22 @@ std::string describe(const FeatureCounts& features) {
     return text;
 }
 
+// Empty for manifolds.
+std::string describe(const JunctionCounts& junctions) {
+    if (junctions.edges == 0) return "";
+    const std::string text =
+        "\nnon-manifold edges of the input: " + counted(junctions.edges, "edge") +
+        " where sheets meet; ";
+    if (junctions.apart_edges > 0) return text + "each sheet has points of its own there";
+    const std::string on_curves =
+        counted(junctions.vertices, "vertex") + " on " + counted(junctions.curves, "curve");
+    if (junctions.welded_edges > 0) {
+        return text + "welded in the result: " + on_curves + ", " +
+               counted(junctions.welded_edges, "edge") + " of more than two faces";
+    }
+    return text + "the sheets have the same points there: " + on_curves;
+}
+
 }  // namespace
 
 std::string to_text(const RemeshResult& result, const RunInfo& info) {
@@ -199,6 +215,7 @@ std::string to_text(const RemeshResult& result, const RunInfo& info) {
                 " thinned to the sites, as no cells would do";
     }
     if (info.options.features != Features::Off) text += describe(result.features);
+    text += describe(result.junctions);
     if (result.components_dropped > 0) {
         text += "\n" + counted(result.components_dropped, "component") + " left out as too small";
     }
