@@ -138,6 +138,7 @@ Json to_json(const JunctionCounts& counts) {
             {"curves", counts.curves},
             {"vertices", counts.vertices},
             {"edges_without_common_points", counts.apart_edges},
+            {"samples_for_all", counts.samples_for_all},
             {"welded_edges", counts.welded_edges}};
 }
 

@@ -174,7 +174,13 @@ std::string describe(const JunctionCounts& junctions) {
     const std::string text =
         "\nnon-manifold edges of the input: " + counted(junctions.edges, "edge") +
         " where sheets meet; ";
-    if (junctions.apart_edges > 0) return text + "each sheet has points of its own there";
+    if (junctions.apart_edges > 0) {
+        return text + "each sheet has points of its own there" +
+               (junctions.samples_for_all == 0
+                    ? ""
+                    : "; the same points take " + std::to_string(junctions.samples_for_all) +
+                          " samples or more");
+    }
     const std::string on_curves =
         counted(junctions.vertices, "vertex") + " on " + counted(junctions.curves, "curve");
     if (junctions.welded_edges > 0) {

@@ -56,7 +56,8 @@ struct JunctionCounts {
     //! Edges of the input along which each sheet got points of its own: no mesh with the same ones
     //! was found, or the options do not allow for it.
     agvd::Index apart_edges = 0;
-    agvd::Index welded_edges = 0;  //!< Edges of the result with more than two faces.
+    agvd::Index samples_for_all = 0;  //!< No fewer have the same points everywhere.
+    agvd::Index welded_edges = 0;     //!< Edges of the result with more than two faces.
 };
 
 //! What becomes of the count where the topology asks for more sites.

@@ -123,6 +123,7 @@ private:
         counts.length = plan.length;
         counts.dropped_length = plan.dropped_length;
         counts.samples_for_all = plan.sites_for_all;
+        result_.junctions.samples_for_all = plan.sites_for_junctions;
         if (plan.network.curves.empty()) return;
         if (!plan.junctions.empty()) result_.junctions.apart_edges = 0;
         result_.junctions.curves = static_cast<Index>(
@@ -553,13 +554,14 @@ private:
         const agvd::TriangleMesh placed = welded_mesh_of(mesh);
         CrossingFaces found = find(placed.view());
         if (found && !found->empty() && !has_judged_input_) {
-            std::vector<agvd::Triangle> triangles = surface_.mesh.triangles;
+            const agvd::TriangleMesh& input = surface_.mesh;
+            std::vector<agvd::Triangle> welded;
             if (has_junctions()) {
-                triangles = rename_vertices(
-                    triangles, first_copies(plan_->junctions, surface_.num_vertices()));
+                welded = rename_vertices(input.triangles,
+                                         first_copies(plan_->junctions, surface_.num_vertices()));
             }
-            result_.input_self_intersections =
-                static_cast<Index>(find({surface_.mesh.positions, triangles})->size());
+            result_.input_self_intersections = static_cast<Index>(
+                find({input.positions, has_junctions() ? welded : input.triangles})->size());
             has_judged_input_ = true;
         }
         return found;

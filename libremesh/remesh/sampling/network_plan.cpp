@@ -113,7 +113,8 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
     if (!plan.junctions.empty()) {
         const std::vector<std::uint8_t> no_crease(surface.num_edges(), 0);
         const CurveNetwork bare = find_network(surface, no_crease, spacing, plan.junctions);
-        if (fewest_vertices(bare) > num_vertices) plan.junctions = {};
+        plan.sites_for_junctions = fewest_vertices(bare);
+        if (plan.sites_for_junctions > num_vertices) plan.junctions = {};
         leave_out(plan.junctions, is_crease);
     }
     const double length_at_first = length_of_creases();
