@@ -193,6 +193,25 @@ TEST(Junctions, ASheetThatComesThriceIsCutOpenAndMeetsItself) {
     EXPECT_EQ(num_branched(faces_by_index(kept.mesh)), kept.junctions.welded_edges);
 }
 
+TEST(Junctions, SheetsThatChangePartnersAreOneThatMeetsItself) {
+    const TriangleMesh mesh = shapes::pages_that_change_partners(8);
+    const RemeshResult apart = run(mesh, {.num_samples = 500});
+    expect_apart(apart, 500);
+    ASSERT_EQ(apart.input_topology.components.size(), 1u);
+    EXPECT_EQ(apart.junctions.apart_edges, 0u);
+    const RemeshResult kept = run(mesh, {.num_samples = 500, .junctions = Junctions::Keep});
+    EXPECT_EQ(kept.mesh.positions.size(), 500u);
+    for (const RemeshResult* result : {&apart, &kept}) {
+        double length = 0;
+        for (const auto& [edge, count] : faces_by_place(result->mesh)) {
+            if (count <= 2) continue;
+            EXPECT_EQ(count, 4u);
+            length += (Vec3(edge.first.data()) - Vec3(edge.second.data())).norm();
+        }
+        EXPECT_NEAR(length, 2, 1e-12);
+    }
+}
+
 TEST(Junctions, SheetsThatShareAPointStayApart) {
     const TriangleMesh mesh = shapes::cones_at_a_point(24);
     const RemeshResult apart = run(mesh, {.num_samples = 300});
@@ -245,7 +264,7 @@ TEST(Junctions, WhatIsNotPossibleIsToldAndNoFailure) {
 
 // Whatever the soup, there is a result, with the same points or without.
 TEST(Junctions, SoupsEndWell) {
-    for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
+    for (const std::uint64_t seed : {1, 2, 3}) {
         SCOPED_TRACE(seed);
         const TriangleMesh soup = shapes::damage(shapes::pages(4).mesh, 40, seed);
         try {

@@ -117,6 +117,18 @@ TriangleMesh twisted_pages(Index sides) {
     return mesh.take();
 }
 
+TriangleMesh pages_that_change_partners(Index n) {
+    Patchwork mesh;
+    const auto at = [](double degrees, double radius, double v) {
+        return on_circle(degrees / 360, radius, 2 * v - 1);
+    };
+    mesh.add(n, 2 * n, [&](double u, double v) { return at(0, u, v); });
+    mesh.add(n, 2 * n, [&](double u, double v) { return at(60, u, v); });
+    mesh.add(n, 2 * n, [&](double u, double v) { return at(180 + 40 * v, 1 - u, v); });
+    mesh.add(n, 2 * n, [&](double u, double v) { return at(140 + 40 * v, 1 - u, v); });
+    return mesh.take();
+}
+
 TriangleMesh cones_at_a_point(Index sides) {
     Patchwork mesh;
     mesh.add(6, sides, [](double u, double v) { return on_circle(v, u, u); });

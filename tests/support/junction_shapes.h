@@ -41,6 +41,9 @@ struct JunctionShape {
 [[nodiscard]] agvd::TriangleMesh round_pipe_on_plate(agvd::Index sides);
 //! Three pages around a circle, each the next one after a turn: one sheet comes thrice.
 [[nodiscard]] agvd::TriangleMesh twisted_pages(agvd::Index sides);
+//! Four pages around the z axis from -1 to 1, flattest in other pairs above the origin than below:
+//! all of them are one sheet, which meets itself.
+[[nodiscard]] agvd::TriangleMesh pages_that_change_partners(agvd::Index n);
 //! Two cones that share their apex and nothing else.
 [[nodiscard]] agvd::TriangleMesh cones_at_a_point(agvd::Index sides);
 

@@ -152,6 +152,18 @@ TEST(JunctionCurves, ClosedOnesHaveANodeOnlyWhereTheirSidesChangePlaces) {
     EXPECT_EQ(curve.num_sheets, 3u);
 }
 
+TEST(JunctionCurves, EndWhereSheetsAreJoinedOtherwise) {
+    const Cleaned mesh(shapes::pages_that_change_partners(4));
+    const auto curves = mesh.junction_curves();
+    ASSERT_EQ(curves.size(), 2u);
+    for (const Curve* curve : curves) {
+        EXPECT_EQ(curve->num_edges(), 4u);
+        EXPECT_EQ(curve->sides.size(), 4u);
+        EXPECT_EQ(curve->num_sheets, 2u);
+    }
+    EXPECT_NE(node_at(mesh, {0, 0, 0}), agvd::no_index);
+}
+
 TEST(JunctionCurves, SitesHaveACopyOnEachSideAndAVertexOnEachSheet) {
     for (const auto in_result : {remesh::Junctions::Apart, remesh::Junctions::Keep}) {
         Cleaned mesh(shapes::tee().mesh);
