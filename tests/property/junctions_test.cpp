@@ -186,9 +186,11 @@ TEST(Junctions, ASheetThatComesThriceIsCutOpenAndMeetsItself) {
     const RemeshResult apart = run(mesh, {.num_samples = 600});
     expect_apart(apart, 600);
     ASSERT_EQ(apart.input_topology.components.size(), 1u);
+    EXPECT_EQ(apart.junctions.apart_edges, 0u);
     EXPECT_EQ(num_branched(faces_by_place(apart.mesh)), apart.junctions.vertices / 3);
     const RemeshResult kept = run(mesh, {.num_samples = 600, .junctions = Junctions::Keep});
     EXPECT_EQ(kept.mesh.positions.size(), 600u);
+    EXPECT_EQ(kept.junctions.apart_edges, 0u);
     EXPECT_EQ(kept.junctions.welded_edges, kept.junctions.vertices);
     EXPECT_EQ(num_branched(faces_by_index(kept.mesh)), kept.junctions.welded_edges);
 }
@@ -221,6 +223,17 @@ TEST(Junctions, SheetsThatShareAPointStayApart) {
     EXPECT_EQ(apart.junctions.edges, 0u);
     EXPECT_EQ(apart.mesh.positions, kept.mesh.positions);
     EXPECT_EQ(apart.mesh.triangles, kept.mesh.triangles);
+}
+
+// As in STL files. Cubes fall apart there, as closed parts that touch do.
+TEST(Junctions, FacesWithCornersOfTheirOwnHaveThemToo) {
+    for (const JunctionShape& shape : {shapes::tee(), shapes::pages(5), shapes::three_planes()}) {
+        SCOPED_TRACE(shape.name);
+        const RemeshResult result = run(shapes::unweld(shape.mesh), {.num_samples = 300});
+        expect_apart(result, 300);
+        expect_lines(shape, result.mesh);
+        EXPECT_EQ(result.junctions.edges, shape.num_edges);
+    }
 }
 
 TEST(Junctions, AreKnownByOriginAndNotByPlace) {

@@ -206,7 +206,9 @@ std::string to_text(const RemeshResult& result, const RunInfo& info) {
                 fixed(100 * (1 - ratio), 1) + " %\n";
     }
     text += "result: " + counted(result.mesh.positions.size(), "vertex") + ", " +
-            counted(result.mesh.triangles.size(), "face") + "; same topology";
+            counted(result.mesh.triangles.size(), "face") +
+            (result.junctions.welded_edges > 0 ? "; sheets of the same topology, welded"
+                                               : "; same topology");
     if (result.repair_rounds > 0 || result.sites_removed > 0) {
         text += "\nfor it: " + counted(result.sites_added, "site") + " added, " +
                 counted(result.sites_moved, "site") + " moved, " +
