@@ -130,7 +130,9 @@ private:
             std::count_if(plan.network.curves.begin(), plan.network.curves.end(),
                           [](const Curve& curve) { return curve.is_junction(); }));
         plan_ = std::move(plan);
-        patches_ = analyze_topology(plan_->cut.surface.mesh.view(), progress);
+        // Indices do not tell of a cut along one edge alone: both sides have the same ends.
+        const Surface& cut = plan_->cut.surface;
+        patches_ = analyze_topology(cut.mesh.view(), {cut.twin, cut.outgoing}, progress);
     }
 
     [[nodiscard]] bool wants_creases() const {
