@@ -3,6 +3,7 @@
 //! junctions of sheets.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
