@@ -35,6 +35,7 @@ struct Arguments : cli::DiagramArguments {
     remesh::Features features = remesh::RemeshOptions{}.features;
     double feature_angle = remesh::RemeshOptions{}.feature_angle;
     fs::path feature_edges;  // Empty: none.
+    remesh::Junctions junctions = remesh::RemeshOptions{}.junctions;
 };
 
 std::map<std::string, remesh::Delaunay> delaunay_by_name() {
@@ -79,6 +80,17 @@ void add_feature_options(CLI::App& app, Arguments& arguments) {
                    "Edges that are creases whatever their angle: lines of two vertex indices, "
                    "counted from 0")
         ->type_name("FILE");
+    app.add_option_function<std::string>(
+           "--junctions",
+           [&arguments](const std::string& name) {
+               arguments.junctions =
+                   name == "keep" ? remesh::Junctions::Keep : remesh::Junctions::Apart;
+           },
+           "Where more than two faces of the input meet, apart: sheets with vertices of their own "
+           "at the same points; keep: the sheets welded again")
+        ->check(CLI::IsMember({"apart", "keep"}).description(""))
+        ->type_name("NAME")
+        ->default_str("apart");
     app.add_flag_callback(
            "--no-features", [&arguments] { arguments.features = remesh::Features::Off; },
            "The same as --features off")
@@ -156,6 +168,15 @@ void judge(const remesh::RemeshResult& result, bool strict, cli::Console& consol
     console.warn(text);
 }
 
+// Sheets that were to be welded and could not be.
+void warn_of_junctions(const remesh::JunctionCounts& counts, remesh::Junctions wanted,
+                       cli::Console& console) {
+    if (counts.apart_edges == 0 || wanted == remesh::Junctions::Apart) return;
+    console.warn("the sheets at " + std::to_string(counts.apart_edges) +
+                 " non-manifold edges of the input could not be welded; ask for more samples, and "
+                 "leave out --sites and --boundary free");
+}
+
 void check_outputs(const Arguments& arguments) {
     if (!remesh::is_known_mesh_extension(arguments.output)) {
         throw agvd::IoError(arguments.output.string() +
@@ -183,6 +204,7 @@ void run_job(const Arguments& arguments, cli::Console& console) {
                                   .init = arguments.sampling.init,
                                   .features = arguments.features,
                                   .feature_angle = arguments.feature_angle,
+                                  .junctions = arguments.junctions,
                                   .seed = arguments.sampling.seed,
                                   .relax_steps = arguments.relax_steps,
                                   .keep_sites = arguments.keep_sites,
@@ -207,6 +229,7 @@ void run_job(const Arguments& arguments, cli::Console& console) {
     const remesh::RemeshResult result = cli::naming_file(
         arguments.input, [&] { return remesh::remesh(input.mesh.view(), options); });
     judge(result, arguments.strict, console);
+    warn_of_junctions(result.junctions, arguments.junctions, console);
     remesh::write_mesh(arguments.output, result.mesh.view(), console.progress_of("write"));
     const remesh::RunInfo info{.version = REMESH_VERSION,
                                .input_path = arguments.input.string(),

@@ -5,6 +5,7 @@
 
 #include "remesh/io/read_mesh.h"
 #include "support/crease_checks.h"
+#include "support/junction_shapes.h"
 #include "support/parts.h"
 #include "support/scratch.h"
 
@@ -69,6 +70,38 @@ TEST_F(RemeshFeatures, TheReportTellsTheNetwork) {
     EXPECT_EQ(few["samples_for_all"], 12);
 }
 
+TEST_F(RemeshFeatures, JunctionsAreApartUnlessTheyAreToBeKept) {
+    const auto report_of_tee = [&](const std::vector<std::string>& options) {
+        const std::string in = put("tee.ply", shapes::tee().mesh);
+        std::vector<std::string> arguments{in, at("out.ply"), "--report", "-", "-n", "200"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const auto outcome = run(REMESH_PROGRAM, arguments);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return std::pair(nlohmann::json::parse(outcome.out), outcome.err);
+    };
+    const auto [by_default, text] = report_of_tee({});
+    const std::string apart = bytes("out.ply");
+    EXPECT_EQ(by_default["options"]["junctions"], "apart");
+    EXPECT_EQ(by_default["output_vertices"], 200);
+    EXPECT_EQ(by_default["junctions"]["input_edges"], 8);
+    EXPECT_EQ(by_default["junctions"]["curves"], 1);
+    EXPECT_EQ(by_default["junctions"]["edges_without_common_points"], 0);
+    EXPECT_EQ(by_default["junctions"]["welded_edges"], 0);
+    EXPECT_NE(text.find("8 edges where sheets meet; the sheets have the same points"),
+              std::string::npos);
+    EXPECT_EQ(report_of_tee({"--junctions", "apart"}).first["junctions"], by_default["junctions"]);
+    EXPECT_EQ(bytes("out.ply"), apart);
+    const nlohmann::json kept = report_of_tee({"--junctions", "keep"}).first;
+    EXPECT_NE(bytes("out.ply"), apart);
+    EXPECT_EQ(kept["options"]["junctions"], "keep");
+    EXPECT_EQ(kept["output_vertices"], 200);
+    EXPECT_EQ(kept["junctions"]["welded_edges"], kept["junctions"]["vertices"].get<int>() - 1);
+    const auto [free, warned] = report_of_tee({"--junctions", "keep", "--boundary", "free"});
+    EXPECT_EQ(free["junctions"]["edges_without_common_points"], 8);
+    EXPECT_NE(warned.find("warning: the sheets at 8 non-manifold edges"), std::string::npos)
+        << warned;
+}
+
 TEST_F(RemeshFeatures, WrongValuesAreTwo) {
     const std::string in = put("in.ply", parts::hexagonal_prism(4));
     for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
@@ -80,6 +113,8 @@ TEST_F(RemeshFeatures, WrongValuesAreTwo) {
              {"--features", "nan"},
              {"--features", "40deg"},
              {"--crease", "on"},
+             {"--junctions", "weld"},
+             {"--junctions"},
              {"--features"},
              {"--no-features", "--features", "auto"},
              {"--no-features", "--crease", "40"},

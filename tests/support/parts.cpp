@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <numbers>
 #include <set>
 #include <tuple>
 
 #include "support/dice.h"
+#include "support/patchwork.h"
 
 namespace parts {
 namespace {
@@ -19,44 +19,6 @@ using agvd::TriangleMesh;
 using agvd::Vec3;
 
 constexpr double pi = std::numbers::pi;
-
-// Patches of quads, welded where their points agree to 1e-9.
-class Patchwork {
-public:
-    // at(u, v) for u, v in [0, 1]; the normal points along du x dv. Sides of no length are points.
-    void add(Index n, Index m, const std::function<Vec3(double, double)>& at) {
-        const auto vertex = [&](Index i, Index j) {
-            return index_of(at(static_cast<double>(i) / n, static_cast<double>(j) / m));
-        };
-        for (Index i = 0; i < n; ++i) {
-            for (Index j = 0; j < m; ++j) {
-                const Index a = vertex(i, j), b = vertex(i + 1, j);
-                const Index c = vertex(i + 1, j + 1), d = vertex(i, j + 1);
-                add_triangle({a, b, c});
-                add_triangle({a, c, d});
-            }
-        }
-    }
-    void add_square(Index n, const Vec3& corner, const Vec3& along, const Vec3& up) {
-        add(n, n, [&](double u, double v) -> Vec3 { return corner + u * along + v * up; });
-    }
-    [[nodiscard]] TriangleMesh take() { return std::move(mesh_); }
-
-private:
-    Index index_of(const Vec3& p) {
-        const auto key = [](double x) { return std::llround(x * 1e9); };
-        const auto [it, is_new] = indices_.try_emplace({key(p.x()), key(p.y()), key(p.z())},
-                                                       static_cast<Index>(mesh_.positions.size()));
-        if (is_new) mesh_.positions.push_back(p);
-        return it->second;
-    }
-    void add_triangle(const Triangle& t) {
-        if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) mesh_.triangles.push_back(t);
-    }
-
-    TriangleMesh mesh_;
-    std::map<std::tuple<long long, long long, long long>, Index> indices_;
-};
 
 Vec3 circle(double turns, double radius, double z) {
     return {radius * std::cos(2 * pi * turns), radius * std::sin(2 * pi * turns), z};

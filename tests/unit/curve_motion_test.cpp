@@ -11,7 +11,6 @@ using agvd::Surface;
 using agvd::Vec3;
 using remesh::Curve;
 using remesh::CurveSites;
-using remesh::Side;
 using remesh::detail::CurveMotion;
 using remesh::detail::CvtEnergy;
 

@@ -18,7 +18,6 @@ using agvd::no_index;
 using agvd::Surface;
 using agvd::Vec3;
 using remesh::CurveNetwork;
-using remesh::Side;
 
 namespace {
 
@@ -59,7 +58,7 @@ std::set<std::array<double, 2>> places_of_nodes(const Surface& surface,
 Index count_creases(const CurveNetwork& network) {
     Index count = 0;
     for (const auto& curve : network.curves) {
-        if (curve.has(Side::Left) && curve.has(Side::Right)) ++count;
+        if (curve.is_crease()) ++count;
     }
     return count;
 }
@@ -69,28 +68,27 @@ void expect_valid(const Surface& surface, const Flags& flags, const CurveNetwork
     std::vector<int> times(surface.num_edges(), 0);
     for (const auto& curve : network.curves) {
         ASSERT_GE(curve.num_edges(), 1u);
-        ASSERT_TRUE(curve.has(Side::Left) || curve.has(Side::Right));
-        for (const Side side : {Side::Left, Side::Right}) {
-            if (!curve.has(side)) continue;
-            ASSERT_EQ(curve.on(side).size(), curve.num_edges());
+        ASSERT_GE(curve.sides.size(), 1u);
+        for (std::size_t side = 0; side < curve.sides.size(); ++side) {
+            const bool runs_along = curve.sides[side].runs_along;
+            ASSERT_EQ(curve.sides[side].half_edges.size(), curve.num_edges());
             for (std::size_t i = 0; i < curve.num_edges(); ++i) {
-                const Index h = curve.on(side)[i];
+                const Index h = curve.sides[side].half_edges[i];
                 const Index before = curve.vertex(surface, i, side);
                 const Index after = curve.vertex(surface, i + 1, side);
-                EXPECT_EQ(before, side == Side::Left ? surface.tail(h) : surface.head(h));
-                EXPECT_EQ(after, side == Side::Left ? surface.head(h) : surface.tail(h));
+                EXPECT_EQ(before, runs_along ? surface.tail(h) : surface.head(h));
+                EXPECT_EQ(after, runs_along ? surface.head(h) : surface.tail(h));
                 EXPECT_NEAR(curve.up_to[i + 1] - curve.up_to[i], surface.length_of(h), eps);
             }
         }
-        if (curve.has(Side::Left) && curve.has(Side::Right)) {
+        if (curve.is_crease()) {
             for (std::size_t i = 0; i < curve.num_edges(); ++i) {
-                EXPECT_EQ(surface.twin[curve.on(Side::Left)[i]], curve.on(Side::Right)[i]);
+                EXPECT_EQ(surface.twin[curve.sides[0].half_edges[i]], curve.sides[1].half_edges[i]);
             }
         }
-        const Side side = curve.has(Side::Left) ? Side::Left : Side::Right;
-        for (const Index h : curve.on(side)) ++times[surface.edge[h]];
-        const Index first = curve.vertex(surface, 0, side);
-        const Index last = curve.vertex(surface, curve.num_edges(), side);
+        for (const Index h : curve.sides[0].half_edges) ++times[surface.edge[h]];
+        const Index first = curve.vertex(surface, 0);
+        const Index last = curve.vertex(surface, curve.num_edges());
         if (curve.is_closed()) {
             EXPECT_EQ(curve.end, no_index);
             EXPECT_EQ(first, last);
@@ -264,7 +262,7 @@ TEST(CurveNetwork, TheTurnsOfAClosedCreaseAreNodesAsFarAsTheSpacingTellsThemApar
         const CurveNetwork coarse = find(surface, flags, num_turns == 2 ? 1.5 : 2.5);
         EXPECT_EQ(count_creases(coarse), num_turns);
         for (const auto& curve : coarse.curves) {
-            if (!curve.has(Side::Left) || !curve.has(Side::Right)) continue;
+            if (!curve.is_crease()) continue;
             EXPECT_FALSE(curve.is_closed());
             EXPECT_EQ(curve.begin == curve.end, num_turns == 1);
             EXPECT_NEAR(curve.length(), 2. / num_turns, eps);
@@ -278,21 +276,21 @@ TEST(CurveNetwork, PlacesOfACurveAreTheSameOnBothSides) {
     for (const auto& curve : network.curves) {
         const double edge = curve.length() / 32;
         for (const double along : {0., .3 * edge, edge, 2.5 * edge, 31.9 * edge, 32 * edge}) {
-            const auto at = [&](double place, Side side) -> Vec3 {
+            const auto at = [&](double place, std::size_t side) -> Vec3 {
                 return position(surface.mesh.view(), remesh::point_on_curve(curve, place, side));
             };
-            const Vec3 here = at(along, Side::Left);
-            EXPECT_LT((at(along, Side::Right) - here).norm(), eps);
-            EXPECT_LT((at(along + curve.length(), Side::Left) - here).norm(), eps);
-            EXPECT_LT((at(along - 2 * curve.length(), Side::Right) - here).norm(), eps);
+            const Vec3 here = at(along, 0);
+            EXPECT_LT((at(along, 1) - here).norm(), eps);
+            EXPECT_LT((at(along + curve.length(), 0) - here).norm(), eps);
+            EXPECT_LT((at(along - 2 * curve.length(), 1) - here).norm(), eps);
         }
         // On the third edge the way is straight.
         const auto at = [&](double place) -> Vec3 {
-            return position(surface.mesh.view(), remesh::point_on_curve(curve, place, Side::Right));
+            return position(surface.mesh.view(), remesh::point_on_curve(curve, place, 1));
         };
         const Vec3 tangent = remesh::tangent_of_curve(surface, curve, 2.5 * edge);
         EXPECT_LT(((at(2.7 * edge) - at(2.2 * edge)) / (.5 * edge) - tangent).norm(), 1e-9);
-        const Index third = curve.vertex(surface, 2, Side::Left);
+        const Index third = curve.vertex(surface, 2);
         EXPECT_LT((at(2 * edge) - surface.mesh.positions[third]).norm(), eps);
     }
 }
@@ -302,7 +300,7 @@ TEST(CurveNetwork, PlacesBeyondAnOpenCurveAreItsEnds) {
     const CurveNetwork network = find(surface, flag_sharp_edges(surface));
     for (const auto& curve : network.curves) {
         const auto at = [&](double place) -> Vec3 {
-            return position(surface.mesh.view(), remesh::point_on_curve(curve, place, Side::Left));
+            return position(surface.mesh.view(), remesh::point_on_curve(curve, place));
         };
         EXPECT_EQ(at(-1), surface.mesh.positions[network.nodes[curve.begin]]);
         EXPECT_EQ(at(7), surface.mesh.positions[network.nodes[curve.end]]);

@@ -21,7 +21,6 @@ using remesh::ChainEdge;
 using remesh::Curve;
 using remesh::CurveSites;
 using remesh::DirectedEdge;
-using remesh::Side;
 
 namespace {
 
@@ -77,15 +76,15 @@ std::vector<Placed> all() {
 TEST(CurveSites, CountsAreThoseOfTheIntervals) {
     const Placed box = on_box(.5);
     EXPECT_EQ(box.intervals, std::vector<Index>(12, 2));
-    EXPECT_EQ(remesh::num_curve_sites(box.network, box.intervals), 20u);
+    EXPECT_EQ(remesh::num_curve_vertices(box.network, box.intervals), 20u);
     EXPECT_EQ(box.sites.num_nodes(), 8u);
     // Three copies of each corner, two of each other.
     EXPECT_EQ(box.sites.sites.size(), 8 * 3 + 12 * 2u);
     const Placed cylinder = on_cylinder(.4);  // 6.27 / 0.4, twice.
     EXPECT_EQ(cylinder.intervals, std::vector<Index>(2, 16));
-    EXPECT_EQ(remesh::num_curve_sites(cylinder.network, cylinder.intervals), 32u);
+    EXPECT_EQ(remesh::num_curve_vertices(cylinder.network, cylinder.intervals), 32u);
     for (const Placed& placed : all()) {
-        EXPECT_EQ(remesh::num_curve_sites(placed.network, placed.intervals),
+        EXPECT_EQ(remesh::num_curve_vertices(placed.network, placed.intervals),
                   placed.sites.num_groups());
         EXPECT_EQ(placed.sites.first_copy.back(), placed.sites.sites.size());
         EXPECT_EQ(placed.sites.first_of_curve.back(), placed.sites.num_groups());
@@ -110,7 +109,7 @@ TEST(CurveSites, FewIntervalsCanStillBeTriangulated) {
         const std::vector<Index> fewest = remesh::fewest_intervals(placed.network);
         for (std::size_t c = 0; c < fewest.size(); ++c) {
             const Curve& curve = placed.network.curves[c];
-            if (!curve.has(Side::Left) || !curve.has(Side::Right)) continue;
+            if (!curve.is_crease()) continue;
             EXPECT_EQ(fewest[c], expected);
         }
     }
@@ -172,7 +171,7 @@ TEST(CurveSites, ChainsRunAlongTheBoundaryOfEachPatch) {
         Index num_edges = 0;
         for (std::size_t c = 0; c < placed.network.curves.size(); ++c) {
             const Curve& curve = placed.network.curves[c];
-            num_edges += placed.intervals[c] * (curve.has(Side::Left) + curve.has(Side::Right));
+            num_edges += placed.intervals[c] * static_cast<Index>(curve.sides.size());
         }
         EXPECT_EQ(placed.chain.size(), num_edges);
         const remesh::Topology patches = remesh::analyze_topology(placed.cut.surface.mesh.view());
@@ -195,7 +194,7 @@ TEST(CurveSites, ChainsRunAlongTheBoundaryOfEachPatch) {
                 if (group >= placed.sites.num_nodes()) along = placed.sites.along[group];
             }
             const Vec3 tangent = tangent_of_curve(placed.surface, curve, along);
-            EXPECT_EQ(way.dot(tangent) > 0, edge.side == Side::Left);
+            EXPECT_EQ(way.dot(tangent) > 0, curve.sides[edge.side].runs_along);
         }
         // Each copy has one edge that comes and one that goes.
         std::set<Index> heads;
@@ -227,8 +226,7 @@ TEST(CurveSites, AllCopiesMoveTogether) {
     const Curve& curve = box.network.curves[3];
     const Index first = box.sites.first_copy[group];
     remesh::move_along(curve, group, .7, box.sites);
-    const Vec3 expected =
-        position(box.surface.mesh.view(), remesh::point_on_curve(curve, .7, Side::Left));
+    const Vec3 expected = position(box.surface.mesh.view(), remesh::point_on_curve(curve, .7));
     EXPECT_EQ(box.sites.along[group], .7);
     EXPECT_LT((box.at(first) - expected).norm(), 1e-12);
     EXPECT_LT((box.at(first + 1) - expected).norm(), 1e-12);

@@ -13,7 +13,6 @@ using agvd::Surface;
 using agvd::Vec3;
 using remesh::Curve;
 using remesh::CurveSites;
-using remesh::Side;
 
 namespace {
 
@@ -31,8 +30,7 @@ struct Fitted {
     }
 
     [[nodiscard]] Vec3 on(const Curve& curve, double along) const {
-        const Side side = curve.has(Side::Left) ? Side::Left : Side::Right;
-        return position(surface.mesh.view(), remesh::point_on_curve(curve, along, side));
+        return position(surface.mesh.view(), remesh::point_on_curve(curve, along));
     }
 
     // Root of the mean squared distance between a closed curve and its chain at equal shares.
@@ -98,7 +96,7 @@ TEST(FitCurves, TheBoundaryStays) {
     const Fitted cone(parts::cone_on_plate(96, 4), .5);
     for (std::size_t c = 0; c < 2; ++c) {
         const Curve& curve = cone.network.curves[c];
-        const bool is_crease = curve.has(Side::Left) && curve.has(Side::Right);
+        const bool is_crease = curve.is_crease();
         for (Index g = cone.sites.first_of_curve[c]; g < cone.sites.first_of_curve[c + 1]; ++g) {
             EXPECT_EQ(cone.offsets[g].isZero(0), !is_crease);
         }
@@ -109,7 +107,7 @@ TEST(FitCurves, OpenCurvesAreFittedBetweenTheirEnds) {
     const Fitted vaults(parts::crossing_vaults(40), .4);
     for (std::size_t c = 0; c < vaults.network.curves.size(); ++c) {
         const Curve& curve = vaults.network.curves[c];
-        if (!curve.has(Side::Left) || !curve.has(Side::Right)) continue;
+        if (!curve.is_crease()) continue;
         const Index first = vaults.sites.first_of_curve[c];
         ASSERT_GT(vaults.intervals[c], 4u);
         const Index middle = first + (vaults.intervals[c] - 1) / 2;

@@ -44,6 +44,17 @@ TEST(Glue, CopiesBecomeTheFirstOfThem) {
     EXPECT_EQ(mesh.triangles, std::vector<Triangle>({{0, 1, 2}, {1, 0, 3}}));
 }
 
+TEST(Glue, SheetsOfAGroupHaveVerticesOfTheirOwnAtTheFirstOne) {
+    // Three triangles at one edge, of which the first two are one sheet.
+    const std::vector<Triangle> triangles{{0, 1, 2}, {4, 3, 5}, {6, 7, 8}};
+    const std::vector<Index> group{0, 1, 2, 0, 1, 3, 0, 1, 4};
+    const remesh::GluedMesh mesh =
+        remesh::glue(triangles, group, std::vector<Index>{0, 1, 2, 0, 1, 3, 4, 5, 6});
+    EXPECT_EQ(mesh.triangles, std::vector<Triangle>({{0, 1, 2}, {1, 0, 3}, {4, 5, 6}}));
+    EXPECT_EQ(mesh.representative, std::vector<Index>({0, 1, 2, 5, 6, 7, 8}));
+    EXPECT_EQ(mesh.first_of_group, std::vector<Index>({0, 1, 2, 5, 0, 1, 8}));
+}
+
 TEST(Glue, AnEdgeOfTwoPatchesIsFlippedInOne) {
     // A square and the same from below, both with the diagonal (0, 2).
     const std::vector<Triangle> patches{{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}};

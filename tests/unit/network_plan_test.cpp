@@ -22,7 +22,7 @@ namespace {
 Surface make(const agvd::TriangleMesh& mesh) { return agvd::build_surface(mesh.view()); }
 
 NetworkPlan plan_of(const Surface& surface, Index num_sites, double drop_share = 0) {
-    return remesh::plan_network(surface, flag_sharp_edges(surface), num_sites, drop_share);
+    return remesh::plan_network(surface, flag_sharp_edges(surface), num_sites, {}, drop_share);
 }
 
 Vec3 at(const NetworkPlan& plan, const SurfacePoint& site) {
@@ -44,7 +44,7 @@ TEST(NetworkPlan, CurvesAndPatchesHaveTheSameSpacing) {
         const double ideal = std::sqrt(6 * 2 / std::sqrt(3.) / (n - 2));
         EXPECT_NEAR(plan.spacing / ideal, 1, 0.1);
         for (const Index k : plan.intervals) EXPECT_NEAR(k * plan.spacing, 1, plan.spacing / 2);
-        EXPECT_LT(remesh::num_curve_sites(plan.network, plan.intervals), n);
+        EXPECT_LT(remesh::num_curve_vertices(plan.network, plan.intervals), n);
     }
 }
 
@@ -54,7 +54,7 @@ TEST(NetworkPlan, ShortCreasesGoFirstWhereSitesAreTooFew) {
     EXPECT_EQ(plan.sites_for_all, 8u);
     EXPECT_GT(plan.dropped_length, 0);
     EXPECT_NEAR(plan.length + plan.dropped_length, 4 * (4 + 3 + 1), 1e-12);
-    EXPECT_LE(remesh::num_curve_sites(plan.network, plan.intervals), 7u);
+    EXPECT_LE(remesh::num_curve_vertices(plan.network, plan.intervals), 7u);
     // Four edges of length 1 are the shortest.
     EXPECT_NEAR(plan.length + std::round(plan.dropped_length), 32, 1e-12);
     double longest = 0;

@@ -13,8 +13,6 @@ namespace {
 using agvd::Index;
 using agvd::no_index;
 
-constexpr std::array sides{Side::Left, Side::Right};
-
 // Sites come closer where a curve turns by more over a spacing, in radians, but no closer than by
 // this factor.
 constexpr double most_turn = std::numbers::pi / 6;
@@ -24,8 +22,7 @@ constexpr double most_rate = 2;
 double turn_over(const agvd::Surface& surface, const Curve& curve, double along, double length) {
     const auto at = [&](double place) {
         const double inside = curve.is_closed() ? place : std::clamp(place, 0.0, curve.length());
-        const Side side = curve.has(Side::Left) ? Side::Left : Side::Right;
-        return position(surface.mesh.view(), point_on_curve(curve, inside, side));
+        return position(surface.mesh.view(), point_on_curve(curve, inside));
     };
     const double reach = std::min(length / 2, curve.length() / 4);
     const agvd::Vec3 here = at(along);
@@ -46,19 +43,58 @@ double start_of(const Curve& curve, const std::vector<double>& spacings) {
     return curve.is_closed() ? spacings[1] / 2 : 0;
 }
 
-// The nodes' copies: ascending vertices of the cut surface by node.
+// The node at a vertex of the surface before the cut; no_index: there is none.
+Index node_at(const CurveNetwork& network, Index vertex) {
+    const auto node = std::lower_bound(network.nodes.begin(), network.nodes.end(), vertex);
+    if (node != network.nodes.end() && *node == vertex) {
+        return static_cast<Index>(node - network.nodes.begin());
+    }
+    const auto copy =
+        std::lower_bound(network.copies.begin(), network.copies.end(), std::pair(vertex, Index{0}));
+    return copy != network.copies.end() && copy->first == vertex ? copy->second : no_index;
+}
+
+// The nodes' copies: vertices of the cut surface by node.
 std::vector<std::vector<Index>> copies_of_nodes(const CurveNetwork& network,
                                                 const CutSurface& cut) {
     std::vector<std::vector<Index>> copies(network.nodes.size());
     for (std::size_t i = 0; i < network.nodes.size(); ++i) copies[i] = {network.nodes[i]};
+    for (const auto& [vertex, node] : network.copies) copies[node].push_back(vertex);
     for (Index v = cut.num_original; v < cut.original.size(); ++v) {
-        const auto node =
-            std::lower_bound(network.nodes.begin(), network.nodes.end(), cut.original[v]);
-        if (node == network.nodes.end() || *node != cut.original[v]) continue;
-        copies[static_cast<std::size_t>(node - network.nodes.begin())].push_back(v);
+        const Index node = node_at(network, cut.original[v]);
+        if (node != no_index) copies[node].push_back(v);
     }
     return copies;
 }
+
+// The sites of a network, added group by group.
+class SitePlacer {
+public:
+    explicit SitePlacer(CurveSites& sites) : sites_(sites) { sites_.first_copy.push_back(0); }
+
+    // \param sheet  equal for copies that are one vertex of the result even where sheets are apart.
+    void add_copy(const agvd::SurfacePoint& place, Index sheet) {
+        sheets_.push_back(sheet);
+        sites_.sites.push_back(place);
+    }
+    void end_group(double along) {
+        std::vector<Index> order = sheets_;
+        std::sort(order.begin(), order.end());
+        order.erase(std::unique(order.begin(), order.end()), order.end());
+        for (const Index sheet : sheets_) {
+            const auto at = std::lower_bound(order.begin(), order.end(), sheet);
+            sites_.vertex.push_back(sites_.num_vertices + static_cast<Index>(at - order.begin()));
+        }
+        sites_.num_vertices += static_cast<Index>(order.size());
+        sheets_.clear();
+        sites_.along.push_back(along);
+        sites_.first_copy.push_back(static_cast<Index>(sites_.sites.size()));
+    }
+
+private:
+    CurveSites& sites_;
+    std::vector<Index> sheets_;  // Of the group.
+};
 
 }  // namespace
 
@@ -91,7 +127,7 @@ std::vector<Index> fewest_intervals(const CurveNetwork& network) {
         }
         const bool is_alone = num_between[std::minmax(curve.begin, curve.end)] == 1;
         const bool is_slit = num_ends[curve.begin] == 1 && num_ends[curve.end] == 1;
-        intervals.push_back(is_alone && !is_slit ? 1 : 2);
+        intervals.push_back(is_alone && !is_slit && !curve.is_junction() ? 1 : 2);
     }
     return intervals;
 }
@@ -106,25 +142,44 @@ std::vector<Index> curve_intervals(const agvd::Surface& surface, const CurveNetw
     return intervals;
 }
 
-std::size_t num_curve_sites(const CurveNetwork& network, std::span<const Index> intervals) {
-    std::size_t count = network.nodes.size();
+std::size_t num_curve_vertices(const CurveNetwork& network, std::span<const Index> intervals) {
+    std::size_t count = network.nodes.size() + (network.is_welded() ? 0 : network.copies.size());
     for (std::size_t c = 0; c < intervals.size(); ++c) {
-        count += intervals[c] - (network.curves[c].is_closed() ? 0 : 1);
+        const Curve& curve = network.curves[c];
+        const std::size_t num_sites = intervals[c] - (curve.is_closed() ? 0 : 1);
+        count += num_sites * (network.is_welded() ? 1 : curve.num_sheets);
     }
     return count;
+}
+
+Index num_junction_vertices(const CurveNetwork& network, const CurveSites& sites) {
+    std::vector<bool> is_on_junction(sites.num_groups(), false);
+    for (std::size_t c = 0; c < network.curves.size(); ++c) {
+        const Curve& curve = network.curves[c];
+        if (!curve.is_junction()) continue;
+        if (!curve.is_closed()) is_on_junction[curve.begin] = is_on_junction[curve.end] = true;
+        std::fill(is_on_junction.begin() + sites.first_of_curve[c],
+                  is_on_junction.begin() + sites.first_of_curve[c + 1], true);
+    }
+    std::vector<Index> vertices;
+    for (Index g = 0; g < sites.num_groups(); ++g) {
+        for (Index i = sites.first_copy[g]; is_on_junction[g] && i < sites.first_copy[g + 1]; ++i) {
+            vertices.push_back(network.is_welded() ? g : sites.vertex[i]);
+        }
+    }
+    std::sort(vertices.begin(), vertices.end());
+    return static_cast<Index>(std::unique(vertices.begin(), vertices.end()) - vertices.begin());
 }
 
 CurveSites place_curve_sites(const CurveNetwork& network, const CutSurface& cut, double spacing,
                              std::span<const Index> intervals) {
     CurveSites result;
-    result.first_copy.push_back(0);
-    const auto end_group = [&](double along) {
-        result.along.push_back(along);
-        result.first_copy.push_back(static_cast<Index>(result.sites.size()));
-    };
+    SitePlacer placer(result);
     for (const std::vector<Index>& copies : copies_of_nodes(network, cut)) {
-        for (const Index v : copies) result.sites.push_back(agvd::point_at(cut.surface, v));
-        end_group(0);
+        for (const Index v : copies) {
+            placer.add_copy(agvd::point_at(cut.surface, v), cut.original[v]);
+        }
+        placer.end_group(0);
     }
     result.first_of_curve.push_back(result.num_groups());
     for (std::size_t c = 0; c < network.curves.size(); ++c) {
@@ -133,12 +188,10 @@ CurveSites place_curve_sites(const CurveNetwork& network, const CutSurface& cut,
         for (Index i = curve.is_closed() ? 0 : 1; i < intervals[c]; ++i) {
             const double count = start_of(curve, spacings) + spacings.back() * i / intervals[c];
             const double along = place_at(curve, spacings, count);
-            for (const Side side : sides) {
-                if (curve.has(side)) {
-                    result.sites.push_back(point_on_curve(curve, along, side));
-                }
+            for (std::size_t side = 0; side < curve.sides.size(); ++side) {
+                placer.add_copy(point_on_curve(curve, along, side), curve.sides[side].sheet);
             }
-            end_group(along);
+            placer.end_group(along);
         }
         result.first_of_curve.push_back(result.num_groups());
     }
@@ -146,10 +199,9 @@ CurveSites place_curve_sites(const CurveNetwork& network, const CutSurface& cut,
 }
 
 void move_along(const Curve& curve, Index group, double along, CurveSites& sites) {
-    Index copy = sites.first_copy[group];
     sites.along[group] = along;
-    for (const Side side : sides) {
-        if (curve.has(side)) sites.sites[copy++] = point_on_curve(curve, along, side);
+    for (std::size_t side = 0; side < curve.sides.size(); ++side) {
+        sites.sites[sites.first_copy[group] + side] = point_on_curve(curve, along, side);
     }
 }
 
@@ -176,23 +228,20 @@ std::vector<ChainEdge> chain_edges(const CurveNetwork& network, const CutSurface
     std::vector<ChainEdge> edges;
     for (Index c = 0; c < network.curves.size(); ++c) {
         const Curve& curve = network.curves[c];
-        Index copy = 0;
-        for (const Side side : sides) {
-            if (!curve.has(side)) continue;
+        for (Index side = 0; side < curve.sides.size(); ++side) {
             std::vector<Index> chain;
             if (!curve.is_closed()) chain.push_back(site_at[curve.vertex(cut.surface, 0, side)]);
             for (Index g = sites.first_of_curve[c]; g < sites.first_of_curve[c + 1]; ++g) {
-                chain.push_back(sites.first_copy[g] + copy);
+                chain.push_back(sites.first_copy[g] + side);
             }
             chain.push_back(curve.is_closed()
                                 ? chain.front()
                                 : site_at[curve.vertex(cut.surface, curve.num_edges(), side)]);
             for (Index i = 0; i + 1 < chain.size(); ++i) {
                 ChainEdge edge{chain[i], chain[i + 1], c, i, side};
-                if (side == Side::Right) std::swap(edge.from, edge.to);
+                if (!curve.sides[side].runs_along) std::swap(edge.from, edge.to);
                 edges.push_back(edge);
             }
-            ++copy;
         }
     }
     return edges;

@@ -19,6 +19,9 @@ struct CurveSites {
     //! #groups: place on its curve, mesh units; of nodes 0. Of closed curves it may leave
     //! [0, length].
     std::vector<double> along;
+    //! #sites: the vertex that each becomes. A group becomes one, at a junction one for each sheet.
+    std::vector<agvd::Index> vertex;
+    agvd::Index num_vertices = 0;  //!< Of these.
 
     [[nodiscard]] agvd::Index num_groups() const { return static_cast<agvd::Index>(along.size()); }
     [[nodiscard]] agvd::Index num_nodes() const { return first_of_curve[0]; }
@@ -38,12 +41,23 @@ struct CurveSites {
                                                        const CurveNetwork& network, double spacing);
 
 //! The fewest that can be triangulated: three where a curve comes back to where it began, two where
-//! another one has the same ends, or neither end belongs to another one.
+//! another one has the same ends, or neither end belongs to another one, and of junctions.
 [[nodiscard]] std::vector<agvd::Index> fewest_intervals(const CurveNetwork& network);
 
-//! Vertices of the network with so many intervals.
-[[nodiscard]] std::size_t num_curve_sites(const CurveNetwork& network,
-                                          std::span<const agvd::Index> intervals);
+//! Vertices of the result on a network with so many intervals: those of junctions once for each
+//! sheet, unless these are welded.
+[[nodiscard]] std::size_t num_curve_vertices(const CurveNetwork& network,
+                                             std::span<const agvd::Index> intervals);
+
+//! The same of sites that are placed.
+[[nodiscard]] inline agvd::Index num_result_vertices(const CurveNetwork& network,
+                                                     const CurveSites& sites) {
+    return network.is_welded() ? sites.num_groups() : sites.num_vertices;
+}
+
+//! Those of them on junctions.
+[[nodiscard]] agvd::Index num_junction_vertices(const CurveNetwork& network,
+                                                const CurveSites& sites);
 
 //! At even distances by spacings_along.
 //!
@@ -61,7 +75,7 @@ struct ChainEdge {
     agvd::Index from = agvd::no_index, to = agvd::no_index;  //!< Index into CurveSites::sites.
     agvd::Index curve = 0;
     agvd::Index interval = 0;  //!< Of the curve.
-    Side side = Side::Left;
+    agvd::Index side = 0;      //!< Index into its sides: also of the copy within a group.
 };
 
 //! Ends of edges, in their order.

@@ -77,23 +77,42 @@ bool flip_repeated(std::vector<Triangle>& triangles, std::span<const Index> vert
     return has_flipped;
 }
 
+// The same sets, numbered as they come.
+struct Numbering {
+    std::vector<Index> number;  // Of each element: its set.
+    std::vector<Index> first;   // Of each set: its first element.
+};
+
+Numbering number_sets(std::span<const Index> sets) {
+    Numbering result;
+    std::vector<Index> number(sets.empty() ? 0 : *std::max_element(sets.begin(), sets.end()) + 1,
+                              no_index);
+    for (Index v = 0; v < sets.size(); ++v) {
+        Index& of_set = number[sets[v]];
+        if (of_set == no_index) {
+            of_set = static_cast<Index>(result.first.size());
+            result.first.push_back(v);
+        }
+        result.number.push_back(of_set);
+    }
+    return result;
+}
+
 }  // namespace
 
-GluedMesh glue(std::span<const Triangle> triangles, std::span<const Index> group) {
+GluedMesh glue(std::span<const Triangle> triangles, std::span<const Index> group,
+               std::span<const Index> vertex) {
     GluedMesh result;
     result.triangles.assign(triangles.begin(), triangles.end());
-    const Index num_groups = group.empty() ? 0 : *std::max_element(group.begin(), group.end()) + 1;
-    std::vector<Index> of_group(num_groups, no_index);
-    for (Index v = 0; v < group.size(); ++v) {
-        Index& glued = of_group[group[v]];
-        if (glued == no_index) {
-            glued = static_cast<Index>(result.representative.size());
-            result.representative.push_back(v);
-        }
-        result.vertex.push_back(glued);
-    }
+    const Numbering groups = number_sets(group);
     for (int round = 0; round < most_rounds; ++round) {
-        if (!flip_repeated(result.triangles, result.vertex)) break;
+        if (!flip_repeated(result.triangles, groups.number)) break;
+    }
+    Numbering vertices = vertex.empty() ? groups : number_sets(vertex);
+    result.vertex = std::move(vertices.number);
+    result.representative = std::move(vertices.first);
+    for (const Index v : result.representative) {
+        result.first_of_group.push_back(groups.first[groups.number[v]]);
     }
     for (Triangle& t : result.triangles) {
         for (Index& v : t) v = result.vertex[v];

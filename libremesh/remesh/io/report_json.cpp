@@ -133,6 +133,15 @@ Json to_json(const FeatureCounts& counts) {
             {"gave_up", counts.gave_up}};
 }
 
+Json to_json(const JunctionCounts& counts) {
+    return {{"input_edges", counts.edges},
+            {"curves", counts.curves},
+            {"vertices", counts.vertices},
+            {"edges_without_common_points", counts.apart_edges},
+            {"samples_for_all", counts.samples_for_all},
+            {"welded_edges", counts.welded_edges}};
+}
+
 Json to_json(const RemeshOptions& options) {
     Json object;
     object["samples"] = options.num_samples;
@@ -142,6 +151,8 @@ Json to_json(const RemeshOptions& options) {
     object["features"] = features_name(options.features);
     object["feature_angle_degrees"] = options.feature_angle;
     object["given_feature_edges"] = options.feature_edges.size();
+    object["given_face_labels"] = options.face_labels.size();
+    object["junctions"] = junctions_name(options.junctions);
     object["init"] = init_name(options.init);
     object["seed"] = options.seed;
     object["given_sites"] = options.sites ? Json(options.sites->size()) : Json();
@@ -182,6 +193,7 @@ std::string to_json(const RemeshResult& result, const RunInfo& info) {
     object["components_from_faces"] = result.components_from_faces;
     object["sites_dropped"] = result.sites_dropped;
     object["features"] = to_json(result.features);
+    object["junctions"] = to_json(result.junctions);
     object["repair_rounds"] = result.repair_rounds;
     object["delaunay"] = to_json(result.delaunay, info.options.delaunay);
     object["unfitted_vertices"] = result.unfitted_vertices;

@@ -168,6 +168,28 @@ std::string describe(const FeatureCounts& features) {
     return text;
 }
 
+// Empty for manifolds.
+std::string describe(const JunctionCounts& junctions) {
+    if (junctions.edges == 0) return "";
+    const std::string text =
+        "\nnon-manifold edges of the input: " + counted(junctions.edges, "edge") +
+        " where sheets meet; ";
+    if (junctions.apart_edges > 0) {
+        return text + "each sheet has points of its own there" +
+               (junctions.samples_for_all == 0
+                    ? ""
+                    : "; the same points take " + std::to_string(junctions.samples_for_all) +
+                          " samples or more");
+    }
+    const std::string on_curves =
+        counted(junctions.vertices, "vertex") + " on " + counted(junctions.curves, "curve");
+    if (junctions.welded_edges > 0) {
+        return text + "welded in the result: " + on_curves + ", " +
+               counted(junctions.welded_edges, "edge") + " of more than two faces";
+    }
+    return text + "the sheets have the same points there: " + on_curves;
+}
+
 }  // namespace
 
 std::string to_text(const RemeshResult& result, const RunInfo& info) {
@@ -184,7 +206,9 @@ std::string to_text(const RemeshResult& result, const RunInfo& info) {
                 fixed(100 * (1 - ratio), 1) + " %\n";
     }
     text += "result: " + counted(result.mesh.positions.size(), "vertex") + ", " +
-            counted(result.mesh.triangles.size(), "face") + "; same topology";
+            counted(result.mesh.triangles.size(), "face") +
+            (result.junctions.welded_edges > 0 ? "; sheets of the same topology, welded"
+                                               : "; same topology");
     if (result.repair_rounds > 0 || result.sites_removed > 0) {
         text += "\nfor it: " + counted(result.sites_added, "site") + " added, " +
                 counted(result.sites_moved, "site") + " moved, " +
@@ -199,6 +223,7 @@ std::string to_text(const RemeshResult& result, const RunInfo& info) {
                 " thinned to the sites, as no cells would do";
     }
     if (info.options.features != Features::Off) text += describe(result.features);
+    text += describe(result.junctions);
     if (result.components_dropped > 0) {
         text += "\n" + counted(result.components_dropped, "component") + " left out as too small";
     }

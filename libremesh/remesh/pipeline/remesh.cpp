@@ -17,7 +17,7 @@ using detail::TooFewSamples;
 // Rounds of new sites where the result runs through itself.
 constexpr int max_mends = 4;
 
-void check_options(const RemeshOptions& options) {
+void check_options(const RemeshOptions& options, std::size_t num_faces) {
     if (options.num_samples < 1) {
         throw agvd::InvalidOption("num_samples is 0; ask for at least 1");
     }
@@ -37,6 +37,11 @@ void check_options(const RemeshOptions& options) {
         throw agvd::InvalidOption("feature_angle is " + std::to_string(options.feature_angle) +
                                   "; use degrees above 0 and below 180");
     }
+    if (!options.face_labels.empty() && options.face_labels.size() != num_faces) {
+        throw agvd::InvalidOption("face_labels has " + std::to_string(options.face_labels.size()) +
+                                  " labels, but the mesh " + std::to_string(num_faces) +
+                                  " faces; give one for each, or none");
+    }
     if (options.num_threads < 0) {
         throw agvd::InvalidOption("num_threads is " + std::to_string(options.num_threads) +
                                   "; use 0 (all cores) or more");
@@ -51,10 +56,11 @@ std::string describe_too_few(const agvd::MeshView& mesh, const RemeshOptions& op
     more.sites.reset();
     more.features = Features::Off;
     more.feature_edges.clear();
+    more.face_labels.clear();
     for (int tries = 0; tries < max_tries; ++tries) {
         more.num_samples = reached;
         try {
-            (void)run_pipeline(mesh, more, 0);
+            (void)run_pipeline(mesh, more, 0, {.has_junctions = false});
             return std::to_string(reached) + " work";
         } catch (const TooFewSamples& failure) {
             reached = std::max(failure.reached, reached + reached / 4 + 1);
@@ -121,23 +127,28 @@ void scale_back(RemeshResult& result, int exponent) {
 }
 
 // With fewer creases where no mesh with all of them was found, or only one that runs through
-// itself; without any at last.
+// itself; without any at last. Only where there is none either is it tried without junctions.
 RemeshResult run(const agvd::MeshView& mesh, const RemeshOptions& options) {
-    if (options.features == Features::Off && options.feature_edges.empty()) {
-        return run_pipeline(mesh, options, max_mends);
-    }
+    const bool has_creases = options.features != Features::Off || !options.feature_edges.empty() ||
+                             !options.face_labels.empty();
+    const std::vector<double> drop_shares =
+        has_creases ? std::vector{0.0, 0.3, 0.6, 1.0} : std::vector{0.0};
     std::optional<RemeshResult> best;
-    for (const double drop_share : {0.0, 0.3, 0.6, 1.0}) {
-        try {
-            RemeshResult result = run_pipeline(mesh, options, max_mends, drop_share);
-            result.features.gave_up = drop_share > 0;
-            if (!best || num_new_crossings(result) < num_new_crossings(*best)) {
-                best = std::move(result);
+    for (const bool has_junctions : {true, false}) {
+        for (const double drop_share : drop_shares) {
+            try {
+                RemeshResult result =
+                    run_pipeline(mesh, options, max_mends, {has_junctions, drop_share});
+                result.features.gave_up = drop_share > 0;
+                if (!best || num_new_crossings(result) < num_new_crossings(*best)) {
+                    best = std::move(result);
+                }
+                if (num_new_crossings(*best) == 0 || best->features.curves == 0) break;
+            } catch (const detail::NetworkFailed&) {
+                continue;
             }
-            if (num_new_crossings(*best) == 0 || best->features.curves == 0) break;
-        } catch (const detail::NetworkFailed&) {
-            continue;
         }
+        if (best) break;
     }
     return std::move(*best);
 }
@@ -145,7 +156,7 @@ RemeshResult run(const agvd::MeshView& mesh, const RemeshOptions& options) {
 }  // namespace
 
 RemeshResult remesh(const agvd::MeshView& mesh, const RemeshOptions& options) {
-    check_options(options);
+    check_options(options, mesh.triangles.size());
     if (const double size = agvd::extent(mesh); !agvd::is_in_scale(size)) {
         const int exponent = std::ilogb(size);
         RemeshResult result = remesh(agvd::scaled(mesh, -exponent).view(), options);

@@ -11,6 +11,7 @@
 #include "agvd/propagation/propagate.h"
 #include "remesh/dual/delaunay.h"
 #include "remesh/features/find_creases.h"
+#include "remesh/features/junctions.h"
 #include "remesh/quality/topology.h"
 #include "remesh/relax/relax_sites.h"
 #include "remesh/repair/clean_input.h"
@@ -47,6 +48,18 @@ struct FeatureCounts {
     bool gave_up = false;
 };
 
+//! What became of the edges that more than two faces share in the input.
+struct JunctionCounts {
+    agvd::Index edges = 0;     //!< Of the cleaned input, those of several sheets counted once.
+    agvd::Index curves = 0;    //!< Chains of them between nodes, and closed ones.
+    agvd::Index vertices = 0;  //!< Of the result, on these.
+    //! Edges of the input along which each sheet got points of its own: no mesh with the same ones
+    //! was found, or the options do not allow for it.
+    agvd::Index apart_edges = 0;
+    agvd::Index samples_for_all = 0;  //!< No fewer have the same points everywhere.
+    agvd::Index welded_edges = 0;     //!< Edges of the result with more than two faces.
+};
+
 //! What becomes of the count where the topology asks for more sites.
 enum class VertexCount {
     Exact,  //!< As many vertices as sites were asked for: others go where that harms nothing.
@@ -67,6 +80,12 @@ struct RemeshOptions {
     //! Edges that are creases whatever their angle, as pairs of the caller's vertices; with
     //! Features::Off no others are.
     std::vector<std::array<agvd::Index, 2>> feature_edges = {};
+    //! A label for each face of the caller's, or nothing: edges between different ones are creases
+    //! as feature_edges are.
+    std::vector<agvd::Index> face_labels = {};
+    //! Whether the sheets of the input's non-manifold edges are welded in the result. Their points
+    //! are the same in any case, but not with given sites, nor with Boundary::Free.
+    Junctions junctions = Junctions::Apart;
     std::uint64_t seed = 1;  //!< Same seed, same bytes, any num_threads.
     //! Sites to use instead of sampling, on the caller's mesh; num_samples, init and seed are then
     //! ignored. Faces are the caller's.
@@ -93,7 +112,9 @@ struct RemeshOptions {
 
 //! Plain values owned by the caller; nothing points back into the input.
 struct RemeshResult {
-    agvd::TriangleMesh mesh;  //!< Oriented 2-manifold with the topology of the cleaned input.
+    //! Oriented 2-manifold with the topology of the cleaned input; with Junctions::Keep, its sheets
+    //! welded at junctions.
+    agvd::TriangleMesh mesh;
     std::vector<agvd::SurfacePoint> sites;  //!< One per output vertex: where it lies on the input
                                             //!< (faces are the caller's).
     CleanCounts cleaned;                    //!< What was repaired on the input before.
@@ -112,9 +133,11 @@ struct RemeshResult {
     //! their sites instead (agvd::thin).
     agvd::Index components_from_faces = 0;
     FeatureCounts features = {};
+    JunctionCounts junctions = {};
     DelaunayCounts delaunay = {};  //!< Edges that failed, were flipped, still fail.
     //! Self-intersecting pairs of faces of the result, and, if that is not 0, of the cleaned input.
-    //! Unset: without CGAL.
+    //! That sheets touch at a junction does not count where they have the same points there. Unset:
+    //! without CGAL.
     std::optional<agvd::Index> self_intersections = {};
     agvd::Index input_self_intersections = 0;
     //! Of the last propagation: see agvd::Propagation. Infinity: nothing is certified.
@@ -127,10 +150,11 @@ struct RemeshResult {
 //!
 //! The result is an oriented 2-manifold with the components of the cleaned input, each with its
 //! genus and boundary loops, and with num_samples vertices (or those of `sites` that own
-//! something): checked before it is returned. docs/algorithm.md says why this always ends well.
-//! \param mesh  #V x 3 positions, #F x 3 indices; read only during the call; may be dirty.
-//! \throw agvd::InvalidOption    an option is out of range.
-//! \throw agvd::InvalidInput     the mesh cannot be repaired (see clean_input), a given site is not
+//! something): checked before it is returned. A junction of k sheets has k vertices at one point;
+//! with Junctions::Keep the mesh is one of these sheets, welded. docs/algorithm.md says why this
+//! always ends well. \param mesh  #V x 3 positions, #F x 3 indices; read only during the call; may
+//! be dirty. \throw agvd::InvalidOption    an option is out of range. \throw agvd::InvalidInput the
+//! mesh cannot be repaired (see clean_input), a given site is not
 //!        on it, or a feature edge is none of its edges.
 //! \throw agvd::ConstraintUnmet  num_samples is too small for the topology; the text gives a number
 //!        that was tried and works.

@@ -22,6 +22,7 @@
 #include "remesh/repair/drop_components.h"
 #include "remesh/repair/farthest_corner.h"
 #include "remesh/repair/reduce_vertices.h"
+#include "remesh/repair/weld_sheets.h"
 #include "remesh/sampling/boundary_curves.h"
 
 namespace remesh::detail {
@@ -46,8 +47,8 @@ using CrossingFaces = std::optional<std::vector<std::pair<Index, Index>>>;
 class Pipeline {
 public:
     Pipeline(const agvd::MeshView& mesh, const RemeshOptions& options, int most_mends,
-             double drop_share)
-        : input_(mesh), options_(options), most_mends_(most_mends), drop_share_(drop_share) {
+             const KeptCurves& kept)
+        : input_(mesh), options_(options), most_mends_(most_mends), kept_(kept) {
         for (const Stage stage :
              {Stage::Clean, Stage::Sample, Stage::Relax, Stage::Propagate, Stage::Diagram,
               Stage::Dual, Stage::Delaunay, Stage::Place, Stage::Check}) {
@@ -104,36 +105,61 @@ private:
         result_.refined_faces = base().num_faces();
     }
 
-    // Where there are creases, all that follows sees a surface that is cut along them.
+    // Where there are creases or junctions, all that follows sees a surface that is cut along them.
     void find_features(const agvd::Progress& progress) {
-        const bool has_none = options_.features == Features::Off && options_.feature_edges.empty();
-        if (has_none || options_.sites || options_.boundary == Boundary::Free) return;
-        const CreaseOptions creases{
-            .angle = options_.feature_angle,
-            .spacing = std::min(spacing_, mean_spacing(surface_, least_scale)),
-            .is_automatic = options_.features == Features::Auto,
-            .num_threads = options_.num_threads,
-            .progress = progress};
-        NetworkPlan plan = plan_network(surface_, creases_with_given(creases), options_.num_samples,
-                                        drop_share_, options_.num_threads, progress);
+        JunctionSet junctions = find_junctions(surface_, clean_.vertex_origin);
+        junctions.in_result = options_.junctions;
+        result_.junctions.edges = static_cast<Index>(junctions.edges.size());
+        result_.junctions.apart_edges = result_.junctions.edges;
+        if (options_.sites || options_.boundary == Boundary::Free) return;
+        if (!kept_.has_junctions) junctions = {};
+        if (!wants_creases() && junctions.empty()) return;
+        NetworkPlan plan =
+            plan_network(surface_, creases_with_given(progress), options_.num_samples,
+                         std::move(junctions), kept_.drop_share, options_.num_threads, progress);
         FeatureCounts& counts = result_.features;
         counts.curves = static_cast<Index>(plan.network.curves.size());
         counts.nodes = static_cast<Index>(plan.network.nodes.size());
         counts.length = plan.length;
         counts.dropped_length = plan.dropped_length;
         counts.samples_for_all = plan.sites_for_all;
+        result_.junctions.samples_for_all = plan.sites_for_junctions;
         if (plan.network.curves.empty()) return;
+        if (!plan.junctions.empty()) result_.junctions.apart_edges = 0;
+        result_.junctions.curves = static_cast<Index>(
+            std::count_if(plan.network.curves.begin(), plan.network.curves.end(),
+                          [](const Curve& curve) { return curve.is_junction(); }));
         plan_ = std::move(plan);
-        patches_ = analyze_topology(plan_->cut.surface.mesh.view(), progress);
+        // Indices do not tell of a cut along one edge alone: both sides have the same ends.
+        const Surface& cut = plan_->cut.surface;
+        patches_ = analyze_topology(cut.mesh.view(), {cut.twin, cut.outgoing}, progress);
     }
 
-    [[nodiscard]] std::vector<std::uint8_t> creases_with_given(const CreaseOptions& options) const {
+    [[nodiscard]] bool wants_creases() const {
+        return options_.features != Features::Off || !options_.feature_edges.empty() ||
+               !options_.face_labels.empty();
+    }
+
+    [[nodiscard]] std::vector<std::uint8_t> creases_with_given(
+        const agvd::Progress& progress) const {
         std::vector<std::uint8_t> is_crease(surface_.num_edges(), 0);
-        if (options_.features != Features::Off) is_crease = find_creases(surface_, options);
-        if (options_.feature_edges.empty()) return is_crease;
-        const std::vector<std::uint8_t> is_given =
-            carry_edges(options_.feature_edges, input_, clean_, surface_);
-        for (std::size_t e = 0; e < is_given.size(); ++e) is_crease[e] |= is_given[e];
+        if (options_.features != Features::Off) {
+            is_crease = find_creases(
+                surface_, {.angle = options_.feature_angle,
+                           .spacing = std::min(spacing_, mean_spacing(surface_, least_scale)),
+                           .is_automatic = options_.features == Features::Auto,
+                           .num_threads = options_.num_threads,
+                           .progress = progress});
+        }
+        const auto add = [&](const std::vector<std::uint8_t>& is_given) {
+            for (std::size_t e = 0; e < is_given.size(); ++e) is_crease[e] |= is_given[e];
+        };
+        if (!options_.feature_edges.empty()) {
+            add(carry_edges(options_.feature_edges, input_, clean_, surface_));
+        }
+        if (!options_.face_labels.empty()) {
+            add(find_label_borders(options_.face_labels, clean_, surface_));
+        }
         return is_crease;
     }
 
@@ -223,7 +249,8 @@ private:
         result_.relaxation = std::move(made.levels);
         curves_ = std::move(made.curves);
         chain_ = chain_edges(plan_->network, plan_->cut, curves_);
-        result_.features.vertices = curves_.num_groups();
+        result_.features.vertices = num_result_vertices(plan_->network, curves_);
+        result_.junctions.vertices = num_junction_vertices(plan_->network, curves_);
     }
 
     void drop_duplicates() {
@@ -260,8 +287,9 @@ private:
             }
             const DelaunayCounts flips = flip_edges(dual);
             if (plan_) {
-                groups_ = groups_of(dual);
-                whole_ = glue(dual.mesh.triangles, groups_);
+                groups_ = numbers_of(dual, groups_of_copies(curves_), curves_.num_groups());
+                whole_ = glue(dual.mesh.triangles, groups_,
+                              numbers_of(dual, curves_.vertex, curves_.num_vertices));
             }
             PlacedMesh placed = place(dual);
             const CrossingFaces crossings = unfit_crossings(placed);
@@ -303,26 +331,33 @@ private:
         return rim == chain;
     }
 
-    // Copies of one vertex have one number: that of their group on the curves, or a later one.
-    [[nodiscard]] std::vector<Index> groups_of(const ValidDual& dual) const {
-        const std::vector<Index> group_of_copy = groups_of_copies(curves_);
-        std::vector<Index> groups;
-        Index next = curves_.num_groups();
+    // The numbers of the copies on the curves, and later ones for the other vertices of the dual.
+    [[nodiscard]] static std::vector<Index> numbers_of(const ValidDual& dual,
+                                                       const std::vector<Index>& of_copies,
+                                                       Index next) {
+        std::vector<Index> numbers;
         for (const Index site : dual.site) {
-            groups.push_back(site < group_of_copy.size() ? group_of_copy[site] : next++);
+            numbers.push_back(site < of_copies.size() ? of_copies[site] : next++);
         }
-        return groups;
+        return numbers;
     }
 
     void take_result(const PlacedMesh& placed) {
         result_.mesh = mesh_of(placed);
         result_.sites = plan_ ? take(placed.points, whole_.representative) : placed.points;
+        if (has_junctions()) first_of_group_ = whole_.first_of_group;
     }
-    // Copies of a vertex are one.
+    // Copies of a vertex are one, and sheets meet in the same points.
     [[nodiscard]] agvd::TriangleMesh mesh_of(const PlacedMesh& placed) const {
         if (!plan_) return {positions_of(placed), placed.triangles};
-        return {take(positions_of(placed), whole_.representative), whole_.triangles};
+        return {take(positions_of(placed), whole_.first_of_group), whole_.triangles};
     }
+    // Sheets have the same vertices where they meet; others may be in no triangle.
+    [[nodiscard]] agvd::TriangleMesh welded_mesh_of(const PlacedMesh& placed) const {
+        if (!has_junctions()) return mesh_of(placed);
+        return {positions_of(placed), rename_vertices(whole_.triangles, whole_.first_of_group)};
+    }
+    [[nodiscard]] bool has_junctions() const { return plan_ && !plan_->junctions.empty(); }
     template <typename T>
     [[nodiscard]] static std::vector<T> take(const std::vector<T>& all,
                                              const std::vector<Index>& chosen) {
@@ -347,7 +382,8 @@ private:
     void set_target(const agvd::Diagram& diagram) {
         target_ = options_.num_samples;
         if (plan_) {
-            target_ += static_cast<Index>(curves_.sites.size()) - curves_.num_groups();
+            target_ += static_cast<Index>(curves_.sites.size()) -
+                       num_result_vertices(plan_->network, curves_);
         }
         if (!options_.sites) return;
         const auto first = diagram.cell_area.begin();
@@ -509,18 +545,25 @@ private:
         }
     }
 
-    // Of the input only if the result has any.
+    // Of the input only if the result has any. Sheets that meet at a junction are no crossing.
     CrossingFaces find_crossings(const PlacedMesh& mesh) {
         const StageClock clock(Stage::Check, result_);
         const agvd::Progress progress = progress_of(Stage::Check, options_);
         agvd::poll(progress, 0);
-        const agvd::TriangleMesh placed = mesh_of(mesh);
-        CrossingFaces found =
-            find_self_intersections(placed.view(), options_.num_threads, progress);
+        const auto find = [&](const agvd::MeshView& whole) {
+            return find_self_intersections(whole, options_.num_threads, progress);
+        };
+        const agvd::TriangleMesh placed = welded_mesh_of(mesh);
+        CrossingFaces found = find(placed.view());
         if (found && !found->empty() && !has_judged_input_) {
+            const agvd::TriangleMesh& input = surface_.mesh;
+            std::vector<agvd::Triangle> welded;
+            if (has_junctions()) {
+                welded = rename_vertices(input.triangles,
+                                         first_copies(plan_->junctions, surface_.num_vertices()));
+            }
             result_.input_self_intersections = static_cast<Index>(
-                find_self_intersections(surface_.mesh.view(), options_.num_threads, progress)
-                    ->size());
+                find({input.positions, has_junctions() ? welded : input.triangles})->size());
             has_judged_input_ = true;
         }
         return found;
@@ -555,10 +598,6 @@ private:
 
     // All before implies this; nothing leaves unchecked all the same.
     void check_mesh() {
-        if (plan_ && options_.vertex_count == VertexCount::Exact &&
-            result_.mesh.positions.size() != options_.num_samples) {
-            throw NetworkFailed{};
-        }
         const StageClock clock(Stage::Check, result_);
         const agvd::Progress progress = progress_of(Stage::Check, options_);
         agvd::poll(progress, 1);
@@ -570,12 +609,29 @@ private:
             throw std::logic_error(
                 "the result lost the topology of the input; please report this with the mesh");
         }
+        if (has_junctions() && options_.junctions == Junctions::Keep) weld_junctions();
+        if (plan_ && options_.vertex_count == VertexCount::Exact &&
+            result_.mesh.positions.size() != options_.num_samples) {
+            throw NetworkFailed{};
+        }
+    }
+
+    // More than two faces meet nowhere but along the junctions.
+    void weld_junctions() {
+        result_.sites = take(result_.sites, weld_sheets(first_of_group_, result_.mesh));
+        result_.junctions.welded_edges = num_branched_edges(result_.mesh.triangles);
+        Index num_wanted = 0;
+        for (const ChainEdge& edge : chain_) {
+            const bool is_branched = plan_->network.curves[edge.curve].sides.size() > 2;
+            if (is_branched && edge.side == 0) ++num_wanted;
+        }
+        if (result_.junctions.welded_edges != num_wanted) throw NetworkFailed{};
     }
 
     agvd::MeshView input_;
     const RemeshOptions& options_;
     const int most_mends_;
-    const double drop_share_;  // Of the creases.
+    const KeptCurves kept_;
     RemeshResult result_;
     CleanResult clean_;
     double spacing_ = 0;  // Mean distance of the sites.
@@ -588,6 +644,7 @@ private:
     std::vector<ChainEdge> chain_;       // Likewise.
     std::vector<Index> groups_;          // Of the dual's vertices: equal for copies of one.
     GluedMesh whole_;                    // The dual with copies as one; without a plan not used.
+    std::vector<Index> first_of_group_;  // Of the result's vertices; without junctions empty.
     std::vector<SurfacePoint> sites_;    // On the cleaned mesh.
     std::vector<SurfacePoint> on_base_;  // The same, and those that repair has added.
     std::vector<Index> corners_;         // Boundary vertices, ascending.
@@ -600,8 +657,8 @@ private:
 }  // namespace
 
 RemeshResult run_pipeline(const agvd::MeshView& mesh, const RemeshOptions& options, int most_mends,
-                          double drop_share) {
-    return Pipeline(mesh, options, most_mends, drop_share).run();
+                          const KeptCurves& kept) {
+    return Pipeline(mesh, options, most_mends, kept).run();
 }
 
 }  // namespace remesh::detail

@@ -15,11 +15,16 @@ struct TooFewSamples {
 //! Thrown where the curves of the network could not all be reproduced.
 struct NetworkFailed {};
 
+//! What of its curves a run is to reproduce, besides the boundary.
+struct KeptCurves {
+    bool has_junctions = true;
+    double drop_share = 0;  //!< Of the creases: see plan_network.
+};
+
 //! \param options     checked.
-//! \param drop_share  of the creases that are left out: see plan_network.
 //! \param most_mends  rounds of new sites where the result runs through itself.
-//! \throw TooFewSamples, NetworkFailed (only with features), and what remesh() throws.
+//! \throw TooFewSamples, NetworkFailed (only with creases or junctions), and what remesh() throws.
 [[nodiscard]] RemeshResult run_pipeline(const agvd::MeshView& mesh, const RemeshOptions& options,
-                                        int most_mends, double drop_share = 0);
+                                        int most_mends, const KeptCurves& kept = {});
 
 }  // namespace remesh::detail

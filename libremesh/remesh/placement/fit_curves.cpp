@@ -27,7 +27,7 @@ Chain chain_of(const agvd::Surface& surface, const Curve& curve, const CurveSite
     chain.along.push_back(curve.is_closed() ? chain.along.front() + curve.length()
                                             : curve.length());
     for (const double along : chain.along) {
-        chain.at.push_back(position(surface.mesh.view(), point_on_curve(curve, along, Side::Left)));
+        chain.at.push_back(position(surface.mesh.view(), point_on_curve(curve, along)));
     }
     return chain;
 }
@@ -49,8 +49,7 @@ std::array<Vec3, 2> pulls(const agvd::Surface& surface, const Curve& curve, cons
     const auto off_chain = [&](double along) {
         const double share = (along - begin) / (end - begin);
         const Vec3 on_chain = (1 - share) * chain.at[i] + share * chain.at[i + 1];
-        return Vec3(position(surface.mesh.view(), point_on_curve(curve, along, Side::Left)) -
-                    on_chain);
+        return Vec3(position(surface.mesh.view(), point_on_curve(curve, along)) - on_chain);
     };
     std::array<Vec3, 2> result{Vec3::Zero(), Vec3::Zero()};
     for (std::size_t k = 0; k + 1 < places.size(); ++k) {

@@ -7,7 +7,8 @@
 namespace remesh {
 
 //! Least squares along each crease: of the distance between the points of the curve and those of
-//! the chain that lie as far along. Nodes stay, and the boundary, whose vertices are to lie on it.
+//! the chain that lie as far along. Nodes stay, and boundary and junctions, whose vertices are to
+//! lie on them.
 //!
 //! \param surface  that of the network, whole or cut.
 //! \return #groups: from the site to where its vertex fits best.

@@ -56,10 +56,10 @@ public:
     }
 
     // The fine site in the middle of an interval; agvd::no_index: there is none.
-    [[nodiscard]] Index middle(const ChainEdge& edge, Index copy_of_side) const {
+    [[nodiscard]] Index middle(const ChainEdge& edge) const {
         const Index begin = fine_place(edge.curve, edge.interval);
         if (fine_place(edge.curve, edge.interval + 1) - begin < 2) return agvd::no_index;
-        return fine_.first_copy[group_at(fine_, edge.curve, begin + 1)] + copy_of_side;
+        return fine_.first_copy[group_at(fine_, edge.curve, begin + 1)] + edge.side;
     }
 
 private:
@@ -156,9 +156,7 @@ private:
     void take_site(const ChainEdge& edge, const Refinement& refinement) {
         const auto found = by_pair_.find(std::minmax({edge.from, edge.to}));
         if (found == by_pair_.end()) return;
-        const Curve& curve = plan_.network.curves[edge.curve];
-        const bool is_second = edge.side == Side::Right && curve.has(Side::Left);
-        const Index site = refinement.middle(edge, is_second ? 1 : 0);
+        const Index site = refinement.middle(edge);
         if (site == agvd::no_index) {
             by_pair_.erase(found);
         } else {
@@ -248,7 +246,7 @@ public:
           patches_(surface),
           fine_(place_curve_sites(plan.network, plan.cut, plan.spacing, plan.intervals)) {
         options_.boundary = Boundary::Free;
-        num_inner_ = sampling.num_samples - fine_.num_groups();
+        num_inner_ = sampling.num_samples - num_result_vertices(plan.network, fine_);
     }
 
     NetworkSites run() {

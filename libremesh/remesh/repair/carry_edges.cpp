@@ -63,4 +63,18 @@ std::vector<std::uint8_t> carry_edges(std::span<const std::array<Index, 2>> edge
     return is_carried;
 }
 
+std::vector<std::uint8_t> find_label_borders(std::span<const Index> face_labels,
+                                             const CleanResult& clean,
+                                             const agvd::Surface& surface) {
+    const auto label = [&](Index h) {
+        return face_labels[clean.face_origin[agvd::Surface::face(h)]];
+    };
+    std::vector<std::uint8_t> is_border(surface.num_edges(), 0);
+    for (Index e = 0; e < surface.num_edges(); ++e) {
+        const Index h = surface.edge_half[e], twin = surface.twin[h];
+        if (twin != agvd::no_index && label(h) != label(twin)) is_border[e] = 1;
+    }
+    return is_border;
+}
+
 }  // namespace remesh

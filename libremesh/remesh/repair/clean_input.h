@@ -22,8 +22,10 @@ struct CleanCounts {
 };
 
 struct CleanResult {
-    agvd::TriangleMesh mesh;                 //!< What agvd::build_surface accepts.
-    std::vector<agvd::Index> vertex_origin;  //!< #V: the input vertex each vertex came from.
+    agvd::TriangleMesh mesh;  //!< What agvd::build_surface accepts.
+    //! #V: the input vertex each vertex came from. Edges between the same two origins were one
+    //! edge: find_junctions.
+    std::vector<agvd::Index> vertex_origin;
     //! #F: the input face in which each face lies (it may be part of it, or have its corners in
     //! another order).
     std::vector<agvd::Index> face_origin;

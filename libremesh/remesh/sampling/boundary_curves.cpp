@@ -37,8 +37,7 @@ std::vector<SurfacePoint> sample_loop(const Surface& surface, const std::vector<
         const auto intervals =
             static_cast<Index>(std::max(fewest, std::round((end - begin) / spacing)));
         for (Index k = 0; k < intervals; ++k) {
-            sites.push_back(
-                point_on_curve(curve, begin + (end - begin) * k / intervals, Side::Left));
+            sites.push_back(point_on_curve(curve, begin + (end - begin) * k / intervals));
         }
     }
     return sites;

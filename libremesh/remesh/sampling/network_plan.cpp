@@ -31,8 +31,8 @@ std::vector<Patch> find_patches(const Surface& surface, const agvd::Progress& pr
 
 double num_sites_at(const Surface& surface, const CurveNetwork& network,
                     const std::vector<Patch>& patches, double spacing) {
-    auto count =
-        static_cast<double>(num_curve_sites(network, curve_intervals(surface, network, spacing)));
+    auto count = static_cast<double>(
+        num_curve_vertices(network, curve_intervals(surface, network, spacing)));
     for (const Patch& p : patches) {
         count += std::max(detail::inner_sites(p.area, p.boundary_length, spacing), 0.0);
     }
@@ -65,15 +65,35 @@ void drop_shortest(const Surface& surface, const CurveNetwork& network, double s
     std::sort(order.begin(), order.end());
     order.resize(static_cast<std::size_t>(std::ceil(share * static_cast<double>(order.size()))));
     for (const auto& [length, c] : order) {
-        for (const Index h : network.curves[c].on(Side::Left)) is_crease[surface.edge[h]] = 0;
+        for (const Index h : network.curves[c].sides[0].half_edges) is_crease[surface.edge[h]] = 0;
     }
+}
+
+// Creases at junctions are part of these.
+void leave_out(const JunctionSet& junctions, std::vector<std::uint8_t>& is_crease) {
+    for (const std::vector<Index>& copies : junctions.edges) {
+        for (const Index e : copies) is_crease[e] = 0;
+    }
+}
+
+// Creases and the inner edges of junctions.
+std::vector<std::uint8_t> edges_to_cut(const JunctionSet& junctions,
+                                       std::vector<std::uint8_t> is_crease) {
+    for (const std::vector<Index>& copies : junctions.edges) {
+        for (const Index e : copies) is_crease[e] = 1;
+    }
+    return is_crease;
+}
+
+Index fewest_vertices(const CurveNetwork& network) {
+    return static_cast<Index>(num_curve_vertices(network, fewest_intervals(network)));
 }
 
 }  // namespace
 
 NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_crease,
-                         Index num_sites, double drop_share, int num_threads,
-                         const agvd::Progress& progress) {
+                         Index num_vertices, JunctionSet junctions, double drop_share,
+                         int num_threads, const agvd::Progress& progress) {
     const auto length_of_creases = [&] {
         double length = 0;
         for (Index e = 0; e < surface.num_edges(); ++e) {
@@ -81,28 +101,39 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
         }
         return length;
     };
-    const double length_at_first = length_of_creases();
-    const double spacing = detail::spacing_of(num_sites, agvd::surface_area(surface), 0);
+    const double spacing = detail::spacing_of(num_vertices, agvd::surface_area(surface), 0);
     NetworkPlan plan;
+    plan.junctions = std::move(junctions);
     const auto find = [&] {
-        plan.network = find_network(surface, is_crease, spacing);
-        const auto needed =
-            static_cast<Index>(num_curve_sites(plan.network, fewest_intervals(plan.network)));
+        plan.network = find_network(surface, is_crease, spacing, plan.junctions);
+        const Index needed = fewest_vertices(plan.network);
         if (plan.sites_for_all == 0) plan.sites_for_all = needed;
         return needed;
     };
+    if (!plan.junctions.empty()) {
+        const std::vector<std::uint8_t> no_crease(surface.num_edges(), 0);
+        const CurveNetwork bare = find_network(surface, no_crease, spacing, plan.junctions);
+        plan.sites_for_junctions = fewest_vertices(bare);
+        if (plan.sites_for_junctions > num_vertices) plan.junctions = {};
+        leave_out(plan.junctions, is_crease);
+    }
+    const double length_at_first = length_of_creases();
     if (drop_share > 0) {
         (void)find();
         drop_shortest(surface, plan.network, drop_share, is_crease);
     }
-    while (std::any_of(is_crease.begin(), is_crease.end(), [](auto c) { return c != 0; })) {
-        if (find() > num_sites) {
+    const auto has_creases = [&] {
+        return std::any_of(is_crease.begin(), is_crease.end(), [](auto c) { return c != 0; });
+    };
+    while (has_creases() || !plan.junctions.empty()) {
+        if (find() > num_vertices) {
             drop_shortest(surface, plan.network, drop_at_once, is_crease);
             continue;
         }
-        plan.cut = cut_surface(surface, is_crease, num_threads, progress);
+        plan.cut =
+            cut_surface(surface, edges_to_cut(plan.junctions, is_crease), num_threads, progress);
         plan.spacing = find_spacing(surface, plan.network, find_patches(plan.cut.surface, progress),
-                                    num_sites);
+                                    num_vertices);
         plan.intervals = curve_intervals(surface, plan.network, plan.spacing);
         plan.length = length_of_creases();
         plan.dropped_length = length_at_first - plan.length;

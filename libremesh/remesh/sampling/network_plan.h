@@ -9,24 +9,28 @@ namespace remesh {
 //! A network with what sampling has to know of it.
 struct NetworkPlan {
     CurveNetwork network;
-    CutSurface cut;                      //!< The surface, cut along it.
-    std::vector<agvd::Index> intervals;  //!< Of each curve: see curve_intervals.
-    double spacing = 0;                  //!< Mesh units: of neighbouring sites.
-    double length = 0;                   //!< Of the creases kept, mesh units.
-    double dropped_length = 0;           //!< Of those that the sites are too few for.
-    agvd::Index sites_for_all = 0;       //!< Fewest with which all are kept.
+    CutSurface cut;                       //!< The surface, cut along it.
+    std::vector<agvd::Index> intervals;   //!< Of each curve: see curve_intervals.
+    JunctionSet junctions;                //!< Those given; none where the sites are too few.
+    double spacing = 0;                   //!< Mesh units: of neighbouring sites.
+    double length = 0;                    //!< Of the creases kept, mesh units.
+    double dropped_length = 0;            //!< Of those that the sites are too few for.
+    agvd::Index sites_for_junctions = 0;  //!< Fewest vertices with which these are kept.
+    agvd::Index sites_for_all = 0;        //!< Fewest vertices with which all are kept.
 };
 
-//! Boundary and creases, with the spacing at which the sites of curves and patches are so many.
-//! Where they are too few for all curves, the shortest creases go first.
+//! Boundary, creases and junctions, with the spacing at which the vertices of curves and patches
+//! are so many. Where these are too few for all curves, the shortest creases go first; where they
+//! are too few for the junctions alone, these go at once.
 //!
-//! \param is_crease   #E. \param num_sites  those of curves counted once.
+//! \param is_crease   #E. \param num_vertices  of the result: see num_curve_vertices.
 //! \param drop_share  in [0, 1]: of the creases, shortest first, that go whatever there is.
-//! \return without curves if there is no crease, or none is left.
+//! \return without curves if there is neither crease nor junction, or none is left.
 //! \throw agvd::Cancelled  the progress callback returned false.
 //! Cost: O(n), again for each tenth of the creases that is dropped.
 [[nodiscard]] NetworkPlan plan_network(const agvd::Surface& surface,
-                                       std::vector<std::uint8_t> is_crease, agvd::Index num_sites,
+                                       std::vector<std::uint8_t> is_crease,
+                                       agvd::Index num_vertices, JunctionSet junctions = {},
                                        double drop_share = 0, int num_threads = 0,
                                        const agvd::Progress& progress = {});
 

@@ -1,0 +1,107 @@
+#include "remesh/features/junctions.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <tuple>
+
+namespace remesh {
+namespace {
+
+using agvd::Index;
+using agvd::Surface;
+
+// #V: whether another vertex has the same origin.
+std::vector<bool> find_copied(std::span<const Index> origin) {
+    std::vector<Index> count(
+        origin.empty() ? 0 : std::size_t{*std::max_element(origin.begin(), origin.end())} + 1, 0);
+    for (const Index v : origin) ++count[v];
+    std::vector<bool> is_copied(origin.size());
+    for (std::size_t v = 0; v < origin.size(); ++v) is_copied[v] = count[origin[v]] > 1;
+    return is_copied;
+}
+
+struct NamedEdge {
+    Index low, high;  // Origins of its ends.
+    Index edge;
+};
+
+std::vector<NamedEdge> edges_at_copies(const Surface& surface, std::span<const Index> origin) {
+    const std::vector<bool> is_copied = find_copied(origin);
+    std::vector<NamedEdge> edges;
+    for (Index e = 0; e < surface.num_edges(); ++e) {
+        const Index a = surface.tail(surface.edge_half[e]), b = surface.head(surface.edge_half[e]);
+        if (!is_copied[a] && !is_copied[b]) continue;
+        const auto [low, high] = std::minmax({origin[a], origin[b]});
+        edges.push_back({low, high, e});
+    }
+    std::sort(edges.begin(), edges.end(), [](const NamedEdge& x, const NamedEdge& y) {
+        return std::tie(x.low, x.high, x.edge) < std::tie(y.low, y.high, y.edge);
+    });
+    return edges;
+}
+
+// The sets of vertices that the ends of such edges make one.
+std::vector<std::vector<Index>> join_ends(const Surface& surface, std::span<const Index> origin,
+                                          const std::vector<std::vector<Index>>& edges) {
+    std::vector<Index> first(surface.num_vertices());
+    std::iota(first.begin(), first.end(), Index{0});
+    const auto root = [&](Index v) {
+        while (first[v] != v) v = first[v] = first[first[v]];
+        return v;
+    };
+    for (const std::vector<Index>& group : edges) {
+        const auto ends = [&](Index e) {
+            const Index h = surface.edge_half[e];
+            std::array<Index, 2> result{surface.tail(h), surface.head(h)};
+            if (origin[result[0]] > origin[result[1]]) std::swap(result[0], result[1]);
+            return result;
+        };
+        for (const Index e : group) {
+            for (const std::size_t k : {0u, 1u}) {
+                const Index a = root(ends(group[0])[k]), b = root(ends(e)[k]);
+                first[std::max(a, b)] = std::min(a, b);
+            }
+        }
+    }
+    std::vector<std::vector<Index>> sets(surface.num_vertices());
+    for (Index v = 0; v < sets.size(); ++v) sets[root(v)].push_back(v);
+    std::erase_if(sets, [](const std::vector<Index>& set) { return set.size() < 2; });
+    return sets;
+}
+
+}  // namespace
+
+const char* junctions_name(Junctions junctions) {
+    return junctions == Junctions::Keep ? "keep" : "apart";
+}
+
+JunctionSet find_junctions(const Surface& surface, std::span<const Index> vertex_origin) {
+    const std::vector<NamedEdge> named = edges_at_copies(surface, vertex_origin);
+    JunctionSet junctions;
+    for (std::size_t i = 0, end = 0; i < named.size(); i = end) {
+        std::vector<Index> group;
+        for (; end < named.size() && named[end].low == named[i].low &&
+               named[end].high == named[i].high;
+             ++end) {
+            group.push_back(named[end].edge);
+        }
+        if (group.size() > 1) junctions.edges.push_back(std::move(group));
+    }
+    if (!junctions.empty()) {
+        std::sort(junctions.edges.begin(), junctions.edges.end());
+        junctions.vertices = join_ends(surface, vertex_origin, junctions.edges);
+    }
+    return junctions;
+}
+
+std::vector<Index> first_copies(const JunctionSet& junctions, Index num_vertices) {
+    std::vector<Index> first(num_vertices);
+    std::iota(first.begin(), first.end(), Index{0});
+    for (const std::vector<Index>& copies : junctions.vertices) {
+        for (const Index v : copies) first[v] = copies.front();
+    }
+    return first;
+}
+
+}  // namespace remesh
