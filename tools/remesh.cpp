@@ -152,7 +152,7 @@ void run_job(const Arguments& arguments, cli::Console& console) {
             remesh::read_sites(arguments.sites, input.mesh.view(), console.progress_of("read"));
     }
     const remesh::RemeshResult result = cli::naming_file(
-        arguments.input, [&] { return remesh::remesh(input.mesh.view(), options); });
+        arguments.input, [&] { return remesh::remesh_moved(std::move(input.mesh), options); });
     judge(result, arguments.strict, console);
     remesh::write_mesh(arguments.output, result.mesh.view(), console.progress_of("write"));
     const remesh::RunInfo info{.version = REMESH_VERSION,

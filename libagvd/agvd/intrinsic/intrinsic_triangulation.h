@@ -59,6 +59,9 @@ public:
     //! Cost: a pass over the edges and O(log n) for each flip. The number of flips has no useful
     //! bound in theory; in practice it is some ten for each needle.
     explicit IntrinsicTriangulation(const Surface& input, const IntrinsicOptions& options = {});
+    //! The same for an input that nobody else needs: input() keeps its mesh, `twin` and `outgoing`
+    //! and has the rest from its positions, which is 78 bytes less for each face.
+    explicit IntrinsicTriangulation(Surface&& input, const IntrinsicOptions& options = {});
     IntrinsicTriangulation(IntrinsicTriangulation&&) noexcept;
     IntrinsicTriangulation& operator=(IntrinsicTriangulation&&) noexcept;
     ~IntrinsicTriangulation();
@@ -103,6 +106,9 @@ public:
 private:
     struct History;
 
+    void run(const IntrinsicOptions& options);
+
+    std::unique_ptr<Surface> owned_;  // The input, or null.
     const Surface* input_;
     Surface surface_;
     IntrinsicCounts counts_;

@@ -38,8 +38,8 @@ void check_options(const RemeshOptions& options) {
 }
 
 // The text for a run that has too few samples: with a number that was tried.
-std::string describe_too_few(const agvd::MeshView& mesh, const RemeshOptions& options,
-                             Index reached) {
+template <typename Mesh>
+std::string describe_too_few(Mesh& mesh, const RemeshOptions& options, Index reached) {
     constexpr int max_tries = 6;
     RemeshOptions more = options;
     more.sites.reset();
@@ -53,6 +53,22 @@ std::string describe_too_few(const agvd::MeshView& mesh, const RemeshOptions& op
         }
     }
     return "more than " + std::to_string(more.num_samples) + " are needed";
+}
+
+// \param mesh  const agvd::MeshView, or agvd::TriangleMesh to be given away.
+template <typename Mesh>
+RemeshResult run(Mesh& mesh, const RemeshOptions& options) {
+    check_options(options);
+    try {
+        return run_pipeline(mesh, options, max_mends);
+    } catch (const TooFewSamples& failure) {
+        const std::string asked = std::to_string(failure.asked);
+        const std::string who =
+            options.sites ? "the given sites, of which " + asked + " own a part of the surface,"
+                          : asked + " samples";
+        throw agvd::ConstraintUnmet(who + " are too few for the topology of the mesh; " +
+                                    describe_too_few(mesh, options, failure.reached));
+    }
 }
 
 }  // namespace
@@ -82,17 +98,11 @@ const char* stage_name(Stage stage) {
 }
 
 RemeshResult remesh(const agvd::MeshView& mesh, const RemeshOptions& options) {
-    check_options(options);
-    try {
-        return run_pipeline(mesh, options, max_mends);
-    } catch (const TooFewSamples& failure) {
-        const std::string asked = std::to_string(failure.asked);
-        const std::string who =
-            options.sites ? "the given sites, of which " + asked + " own a part of the surface,"
-                          : asked + " samples";
-        throw agvd::ConstraintUnmet(who + " are too few for the topology of the mesh; " +
-                                    describe_too_few(mesh, options, failure.reached));
-    }
+    return run(mesh, options);
+}
+
+RemeshResult remesh_moved(agvd::TriangleMesh mesh, const RemeshOptions& options) {
+    return run(mesh, options);
 }
 
 }  // namespace remesh

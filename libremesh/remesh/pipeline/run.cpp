@@ -35,8 +35,9 @@ using CrossingFaces = std::optional<std::vector<std::pair<Index, Index>>>;
 
 class Pipeline {
 public:
-    Pipeline(const agvd::MeshView& mesh, const RemeshOptions& options, int most_mends)
-        : input_(mesh), options_(options), most_mends_(most_mends) {
+    Pipeline(const agvd::MeshView& mesh, agvd::TriangleMesh* owned, const RemeshOptions& options,
+             int most_mends)
+        : input_(mesh), owned_input_(owned), options_(options), most_mends_(most_mends) {
         for (const Stage stage :
              {Stage::Clean, Stage::Sample, Stage::Relax, Stage::Propagate, Stage::Diagram,
               Stage::Dual, Stage::Delaunay, Stage::Place, Stage::Check}) {
@@ -45,14 +46,21 @@ public:
     }
 
     RemeshResult run() {
-        clean();
-        triangulate();
-        place_sites();
-        relax();
-        drop_duplicates();
-        build_mesh();
-        check_mesh();
-        if (clean_.mesh.triangles.empty()) clean_.mesh = std::move(surface_.mesh);
+        try {
+            clean();
+            triangulate();
+            place_sites();
+            relax();
+            drop_duplicates();
+            build_mesh();
+            check_mesh();
+        } catch (const TooFewSamples&) {
+            if (is_input_gone_) *owned_input_ = surface().mesh;
+            throw;
+        }
+        component_.resize(surface().num_faces());
+        result_.input_topology.face_component = std::move(component_);
+        if (!clean_.face_origin.empty()) clean_.mesh = surface().mesh;
         result_.sites = to_original(result_.sites, input_, clean_);
         return std::move(result_);
     }
@@ -76,7 +84,19 @@ private:
                 result_.input_topology = analyze_topology(clean_.mesh.view(), half);
             }
         }
+        // Nothing was repaired or dropped where connectivity is known.
+        if (!clean_.connectivity.twin.empty() && !options_.sites) forget_input();
         agvd::poll(progress, 1);
+    }
+
+    // What nothing has changed is had once: in the cleaned mesh.
+    void forget_input() {
+        std::vector<Index>().swap(clean_.vertex_origin);
+        std::vector<Index>().swap(clean_.face_origin);
+        if (owned_input_ == nullptr) return;
+        *owned_input_ = {};
+        input_ = {};
+        is_input_gone_ = true;
     }
 
     // Where edges span several cells, the intrinsic triangulation has vertices of its own.
@@ -84,22 +104,25 @@ private:
         const StageClock clock(Stage::Clean, result_);
         const agvd::Progress all = progress_of(Stage::Clean, options_);
         const agvd::Progress progress = agvd::within(all, 1, 1);
-        build_input_surface(progress);
+        Surface surface = build_input_surface(progress);
         spacing_ =
-            mean_spacing(surface_, options_.sites ? options_.sites->size() : options_.num_samples);
-        prepared_.emplace(surface_, spacing_, options_.num_threads, progress);
+            mean_spacing(surface, options_.sites ? options_.sites->size() : options_.num_samples);
+        prepared_.emplace(std::move(surface), spacing_, options_.num_threads, progress);
         find_components(progress);
         result_.refined_faces = base().num_faces();
     }
 
     // What cleaning has found is handed on. The mesh moves, unless given sites still need it there.
-    void build_input_surface(const agvd::Progress& progress) {
+    Surface build_input_surface(const agvd::Progress& progress) {
         agvd::TriangleMesh mesh = options_.sites ? clean_.mesh : std::exchange(clean_.mesh, {});
-        surface_ = clean_.connectivity.twin.empty()
-                       ? agvd::build_surface(mesh.view(), options_.num_threads, progress)
-                       : agvd::build_surface(std::move(mesh), std::move(clean_.connectivity),
-                                             options_.num_threads, progress);
+        return clean_.connectivity.twin.empty()
+                   ? agvd::build_surface(mesh.view(), options_.num_threads, progress)
+                   : agvd::build_surface(std::move(mesh), std::move(clean_.connectivity),
+                                         options_.num_threads, progress);
     }
+
+    // The cleaned mesh.
+    [[nodiscard]] const Surface& surface() const { return prepared_->input(); }
 
     // What propagation runs on.
     [[nodiscard]] const Surface& base() const { return prepared_->base.surface(); }
@@ -108,13 +131,13 @@ private:
     void find_components(const agvd::Progress& progress) {
         agvd::Poller poller(progress);
         agvd::Ticker ticker(poller);
-        component_ = result_.input_topology.face_component;
+        component_ = std::move(result_.input_topology.face_component);
         component_.reserve(base().num_faces());
-        for (Index f = surface_.num_faces(); f < base().num_faces(); ++f) {
+        for (Index f = surface().num_faces(); f < base().num_faces(); ++f) {
             ticker.tick();
             const Index corner = base().mesh.triangles[f][0];
-            const Index face = corner < surface_.num_vertices()
-                                   ? Surface::face(surface_.outgoing[corner])
+            const Index face = corner < surface().num_vertices()
+                                   ? Surface::face(surface().outgoing[corner])
                                    : prepared_->base.place_of_added(corner).face.value();
             component_.push_back(component_[face]);
         }
@@ -125,11 +148,11 @@ private:
         if (options_.sites) {
             sites_ = to_cleaned(*options_.sites, input_, clean_);
         } else {
-            if (!is_coarse_to_fine()) sites_ = sample_sites(surface_, sampling());
+            if (!is_coarse_to_fine()) sites_ = sample_sites(surface(), sampling());
         }
         if (options_.boundary == Boundary::Keep) {
-            for (const std::vector<Index>& loop : agvd::boundary_loops(surface_)) {
-                const std::vector<Index> corners = find_corners(surface_, loop, spacing_);
+            for (const std::vector<Index>& loop : agvd::boundary_loops(surface())) {
+                const std::vector<Index> corners = find_corners(surface(), loop, spacing_);
                 corners_.insert(corners_.end(), corners.begin(), corners.end());
             }
             std::sort(corners_.begin(), corners_.end());
@@ -171,7 +194,7 @@ private:
 
     void drop_duplicates() {
         if (!options_.sites) return;
-        sites_ = agvd::points_of(sites_, agvd::distinct_points(surface_, sites_));
+        sites_ = agvd::points_of(sites_, agvd::distinct_points(surface(), sites_));
         num_distinct_ = static_cast<Index>(sites_.size());
     }
 
@@ -302,7 +325,7 @@ private:
         std::vector<Vec3> positions;
         positions.reserve(points.size());
         for (const SurfacePoint& point : points) {
-            positions.push_back(position(surface_.mesh.view(), point));
+            positions.push_back(position(surface().mesh.view(), point));
         }
         return positions;
     }
@@ -340,7 +363,7 @@ private:
         std::vector<Vec3> positions;
         positions.reserve(mesh.points.size());
         for (Index v = 0; v < mesh.points.size(); ++v) {
-            positions.push_back(mesh.position(surface_.mesh.view(), v));
+            positions.push_back(mesh.position(surface().mesh.view(), v));
         }
         return positions;
     }
@@ -377,7 +400,7 @@ private:
             find_self_intersections(placed.view(), options_.num_threads, progress);
         if (found && !found->empty() && !has_judged_input_) {
             result_.input_self_intersections = static_cast<Index>(
-                find_self_intersections(surface_.mesh.view(), options_.num_threads, progress)
+                find_self_intersections(surface().mesh.view(), options_.num_threads, progress)
                     ->size());
             has_judged_input_ = true;
         }
@@ -426,13 +449,14 @@ private:
     }
 
     agvd::MeshView input_;
+    agvd::TriangleMesh* owned_input_;  // What input_ shows if it may be given away, or null.
     const RemeshOptions& options_;
     const int most_mends_;
     RemeshResult result_;
     CleanResult clean_;
     double spacing_ = 0;  // Mean distance of the sites.
-    Surface surface_;     // Of the cleaned mesh.
-    std::optional<PreparedSurface> prepared_;
+    std::optional<PreparedSurface> prepared_;  // The cleaned mesh.
+    bool is_input_gone_ = false;
     std::vector<Index> component_;       // #F of the base.
     std::vector<SurfacePoint> sites_;    // On the cleaned mesh.
     std::vector<SurfacePoint> on_base_;  // The same, and those that repair has added.
@@ -447,7 +471,11 @@ private:
 
 RemeshResult run_pipeline(const agvd::MeshView& mesh, const RemeshOptions& options,
                           int most_mends) {
-    return Pipeline(mesh, options, most_mends).run();
+    return Pipeline(mesh, nullptr, options, most_mends).run();
+}
+
+RemeshResult run_pipeline(agvd::TriangleMesh& mesh, const RemeshOptions& options, int most_mends) {
+    return Pipeline(mesh.view(), &mesh, options, most_mends).run();
 }
 
 }  // namespace remesh::detail

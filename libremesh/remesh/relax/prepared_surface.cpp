@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "agvd/mesh/face_area.h"
 
@@ -26,13 +27,24 @@ agvd::Index most_splits(const agvd::Surface& input, double spacing) {
     return static_cast<agvd::Index>(std::min(most, 1e9));
 }
 
+agvd::IntrinsicOptions options_for(const agvd::Surface& input, double spacing,
+                                   const agvd::Progress& progress) {
+    return {.max_length = longest_edge * spacing,
+            .most_splits = most_splits(input, spacing),
+            .progress = progress};
+}
+
 }  // namespace
 
 PreparedSurface::PreparedSurface(const agvd::Surface& input, double spacing, int num_threads,
                                  const agvd::Progress& progress)
-    : base(input, {.max_length = longest_edge * spacing,
-                   .most_splits = most_splits(input, spacing),
-                   .progress = progress}),
+    : base(input, options_for(input, spacing, progress)),
+      pieces(base, piece_share * spacing * spacing, progress),
+      layout(base.surface(), num_threads, progress) {}
+
+PreparedSurface::PreparedSurface(agvd::Surface&& input, double spacing, int num_threads,
+                                 const agvd::Progress& progress)
+    : base(std::move(input), options_for(input, spacing, progress)),
       pieces(base, piece_share * spacing * spacing, progress),
       layout(base.surface(), num_threads, progress) {}
 
