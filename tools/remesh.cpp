@@ -2,6 +2,7 @@
 #include <malloc.h>
 
 #include <CLI/CLI.hpp>
+#include <utility>
 
 #include "arguments.h"
 #include "remesh/io/read_mesh.h"
@@ -144,7 +145,10 @@ void run_job(const Arguments& arguments, cli::Console& console) {
                                   .lambda = arguments.propagation.lambda,
                                   .delaunay = arguments.delaunay,
                                   .num_threads = arguments.common.threads,
-                                  .progress = [&](remesh::Stage stage, double fraction) {
+                                  .progress = [&, last = remesh::Stage::Clean](
+                                                  remesh::Stage stage, double fraction) mutable {
+                                      // What a stage has freed among what it leaves would stay.
+                                      if (std::exchange(last, stage) != stage) ::malloc_trim(0);
                                       return console.progress(remesh::stage_name(stage), fraction);
                                   }};
     if (!arguments.sites.empty()) {

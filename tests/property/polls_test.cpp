@@ -200,7 +200,7 @@ TEST(Polls, AreInTheIntrinsicTriangulationAndWhatIsMadeOfIt) {
     });
     const agvd::IntrinsicTriangulation base(surface);
     expect_polls("pieces", 80, [&](const Progress& progress) {
-        const agvd::FacePieces pieces(base, 0.01, progress);
+        const agvd::FacePieces pieces(base, 0.01, 1, progress);
     });
     expect_polls("prepared", 150, [&](const Progress& progress) {
         const remesh::PreparedSurface prepared(surface, 0.5, 1, progress);

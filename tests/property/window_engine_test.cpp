@@ -257,7 +257,8 @@ TEST(WindowEngine, PastTheWorkCapDistancesAreTheSame) {
     const SurfaceLayout layout(s);
     const Corners& corners = layout.corners();
     const Propagation slow = propagate_windows(
-        s, corners, distance_bounds(s, layout.arcs(), corners.mean_length(), sites, 1), sites,
+        s, layout.shared_corners(),
+        distance_bounds(s, layout.arcs(), corners.mean_length(), sites, 1), sites,
         {.max_error = 0.0, .num_threads = 1}, 0);
     EXPECT_EQ(quick.vertex_site, slow.vertex_site);
     EXPECT_EQ(quick.mixed_faces, slow.mixed_faces);

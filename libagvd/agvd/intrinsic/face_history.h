@@ -41,6 +41,8 @@ public:
     //! Face (a, b, c) became (a, m, c), and (m, b, c) the new face, which has the highest number.
     void add_split(Index half_edge, Index new_face);
 
+    void drop_spare_room() { operations_.shrink_to_fit(); }
+
     [[nodiscard]] bool is_changed(Index face) const {
         return face < last_.size() && last_[face] != no_index;
     }

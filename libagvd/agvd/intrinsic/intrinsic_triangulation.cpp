@@ -147,14 +147,13 @@ void IntrinsicTriangulation::run(const IntrinsicOptions& options) {
     std::vector<std::uint8_t> is_kept(options.is_kept.begin(), options.is_kept.end());
     FaceCharts charts(surface_);
     DelaunayQueue flips(surface_, charts, history_.get(), is_kept, &ticker);
-    for (Index e = 0; e < surface_.num_edges(); ++e) {
-        ticker.tick();
-        flips.push(e);
-    }
+    flips.push_all(options.num_threads, poller);
+    charts.reserve(2 * flips.num_waiting());
     counts_.is_delaunay = flips.flip_all(most_flips * surface_.num_edges());
     Refinement refinement(surface_, charts, *history_, flips, is_kept, options.max_length, ticker);
     counts_.is_delaunay =
         refinement.run(most_flips, options.most_splits, added_) && counts_.is_delaunay;
+    history_->drop_spare_room();
     counts_.flips = flips.num_flips();
     counts_.splits = static_cast<Index>(added_.size());
     for (Index i = 0; i < added_.size(); ++i) {

@@ -24,6 +24,7 @@ struct IntrinsicOptions {
     //! #E of the input: 1 for edges that stay, as those of the boundary always do (they may be
     //! split); or empty.
     std::span<const std::uint8_t> is_kept = {};
+    int num_threads = 0;     //!< >= 0; 0: all cores. The result is the same for any number.
     Progress progress = {};  //!< Tells the fraction 0 until it is done.
 };
 

@@ -201,7 +201,8 @@ private:
     // The dual with the count asked for. Where it runs through itself more often than the input, it
     // is built again with more sites there; the best counts.
     void build_mesh() {
-        const Ground ground{base(), prepared_->layout, result_.input_topology.components,
+        std::optional<agvd::SurfaceLayout> layout(std::move(prepared_->layout));
+        const Ground ground{base(), layout, result_.input_topology.components,
                             component_, corners_};
         on_base_ = prepared_->base.to_intrinsic(sites_);
         const std::vector<SurfacePoint> first_on_base = on_base_;

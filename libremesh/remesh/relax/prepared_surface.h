@@ -21,7 +21,7 @@ struct PreparedSurface {
 
     agvd::IntrinsicTriangulation base;
     agvd::FacePieces pieces;     //!< Of the base's faces.
-    agvd::SurfaceLayout layout;  //!< Of base.surface().
+    agvd::SurfaceLayout layout;  //!< Of base.surface(). May be moved from when sites are at rest.
 
     [[nodiscard]] const agvd::Surface& input() const { return base.input(); }
 };
