@@ -130,27 +130,27 @@ void run_job(const Arguments& arguments, cli::Console& console) {
     remesh::MeshFile input = cli::read_input(arguments, console);
     std::vector<agvd::Index>().swap(input.face_polygon);  // Nobody reads it.
     console.info(cli::describe(arguments.input, input.mesh.view()));
-    remesh::RemeshOptions options{.num_samples = arguments.sampling.num_samples,
-                                  .vertex_count = arguments.vertex_count,
-                                  .boundary = arguments.sampling.boundary,
-                                  .drop_components = arguments.drop_components,
-                                  .init = arguments.sampling.init,
-                                  .seed = arguments.sampling.seed,
-                                  .relax_steps = arguments.relax_steps,
-                                  .keep_sites = arguments.keep_sites,
-                                  .fit = arguments.fit,
-                                  .engine = arguments.propagation.engine,
-                                  .max_error = arguments.propagation.max_error,
-                                  .steiner_points = arguments.propagation.steiner_points,
-                                  .lambda = arguments.propagation.lambda,
-                                  .delaunay = arguments.delaunay,
-                                  .num_threads = arguments.common.threads,
-                                  .progress = [&, last = remesh::Stage::Clean](
-                                                  remesh::Stage stage, double fraction) mutable {
-                                      // What a stage has freed among what it leaves would stay.
-                                      if (std::exchange(last, stage) != stage) ::malloc_trim(0);
-                                      return console.progress(remesh::stage_name(stage), fraction);
-                                  }};
+    remesh::RemeshOptions options{
+        .num_samples = arguments.sampling.num_samples,
+        .vertex_count = arguments.vertex_count,
+        .boundary = arguments.sampling.boundary,
+        .drop_components = arguments.drop_components,
+        .init = arguments.sampling.init,
+        .seed = arguments.sampling.seed,
+        .relax_steps = arguments.relax_steps,
+        .keep_sites = arguments.keep_sites,
+        .fit = arguments.fit,
+        .engine = arguments.propagation.engine,
+        .max_error = arguments.propagation.max_error,
+        .steiner_points = arguments.propagation.steiner_points,
+        .lambda = arguments.propagation.lambda,
+        .delaunay = arguments.delaunay,
+        .num_threads = arguments.common.threads,
+        .progress = [&, last = remesh::Stage::Clean](remesh::Stage stage, double fraction) mutable {
+            // What a stage has freed among what it leaves would stay.
+            if (std::exchange(last, stage) != stage) ::malloc_trim(0);
+            return console.progress(remesh::stage_name(stage), fraction);
+        }};
     if (!arguments.sites.empty()) {
         options.sites =
             remesh::read_sites(arguments.sites, input.mesh.view(), console.progress_of("read"));

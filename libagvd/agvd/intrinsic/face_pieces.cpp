@@ -96,7 +96,7 @@ FacePieces::FacePieces(const IntrinsicTriangulation& base, double piece_area, in
                        const Progress& progress)
     : input_(base.input()) {
     assert(piece_area > 0);
-    constexpr Index grain = 1 << 12;       // Faces.
+    constexpr Index grain = 1 << 12;        // Faces.
     constexpr std::size_t piece_work = 16;  // Steps that a piece counts for.
     Poller poller(progress);
     const Index num_faces = base.surface().num_faces();

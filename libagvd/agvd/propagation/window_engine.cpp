@@ -97,8 +97,8 @@ private:
 class WindowEngine {
 public:
     WindowEngine(const Surface& surface, std::shared_ptr<const Corners> corners,
-                 DistanceBounds bounds, std::span<const SurfacePoint> sites, const PropagationOptions& options,
-                 Index work_cap)
+                 DistanceBounds bounds, std::span<const SurfacePoint> sites,
+                 const PropagationOptions& options, Index work_cap)
         : surface_(surface),
           corners_(std::move(corners)),
           sites_(sites),
@@ -314,7 +314,8 @@ private:
 Propagation propagate_windows(const Surface& surface, std::shared_ptr<const Corners> corners,
                               DistanceBounds bounds, std::span<const SurfacePoint> sites,
                               const PropagationOptions& options, Index work_cap) {
-    return WindowEngine(surface, std::move(corners), std::move(bounds), sites, options, work_cap).run();
+    return WindowEngine(surface, std::move(corners), std::move(bounds), sites, options, work_cap)
+        .run();
 }
 
 }  // namespace agvd

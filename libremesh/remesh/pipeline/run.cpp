@@ -202,8 +202,8 @@ private:
     // is built again with more sites there; the best counts.
     void build_mesh() {
         std::optional<agvd::SurfaceLayout> layout(std::move(prepared_->layout));
-        const Ground ground{base(), layout, result_.input_topology.components,
-                            component_, corners_};
+        const Ground ground{base(), layout, result_.input_topology.components, component_,
+                            corners_};
         on_base_ = prepared_->base.to_intrinsic(sites_);
         const std::vector<SurfacePoint> first_on_base = on_base_;
         std::vector<bool> is_thinned;  // By component.
@@ -455,7 +455,7 @@ private:
     const int most_mends_;
     RemeshResult result_;
     CleanResult clean_;
-    double spacing_ = 0;  // Mean distance of the sites.
+    double spacing_ = 0;                       // Mean distance of the sites.
     std::optional<PreparedSurface> prepared_;  // The cleaned mesh.
     bool is_input_gone_ = false;
     std::vector<Index> component_;       // #F of the base.

@@ -17,7 +17,8 @@ struct TooFewSamples {
 //! \throw TooFewSamples, and what remesh() throws.
 [[nodiscard]] RemeshResult run_pipeline(const agvd::MeshView& mesh, const RemeshOptions& options,
                                         int most_mends);
-//! \param mesh  is given away as soon as cleaning has found nothing to repair; with TooFewSamples it
+//! \param mesh  is given away as soon as cleaning has found nothing to repair; with TooFewSamples
+//! it
 //!              is as it was.
 [[nodiscard]] RemeshResult run_pipeline(agvd::TriangleMesh& mesh, const RemeshOptions& options,
                                         int most_mends);

@@ -119,13 +119,12 @@ private:
     }
 
     [[nodiscard]] agvd::Propagation propagate() const {
-        const agvd::PropagationOptions options{
-            .engine = options_.engine,
-            .max_error = options_.max_error,
-            .steiner_points = options_.steiner_points,
-            .lambda = options_.lambda,
-            .num_threads = options_.num_threads,
-            .progress = progress_of(Stage::Propagate, options_)};
+        const agvd::PropagationOptions options{.engine = options_.engine,
+                                               .max_error = options_.max_error,
+                                               .steiner_points = options_.steiner_points,
+                                               .lambda = options_.lambda,
+                                               .num_threads = options_.num_threads,
+                                               .progress = progress_of(Stage::Propagate, options_)};
         if (!ground_.layout) return agvd::propagate(surface_, sites_, options);
         agvd::SurfaceLayout layout = *std::move(ground_.layout);
         ground_.layout.reset();
