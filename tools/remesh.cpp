@@ -147,9 +147,10 @@ void run_job(const Arguments& arguments, cli::Console& console) {
         .delaunay = arguments.delaunay,
         .num_threads = arguments.common.threads,
         .progress = [&, last = remesh::Stage::Clean](remesh::Stage stage, double fraction) mutable {
+            const bool goes_on = console.progress(remesh::stage_name(stage), fraction);
             // What a stage has freed among what it leaves would stay.
             if (std::exchange(last, stage) != stage) ::malloc_trim(0);
-            return console.progress(remesh::stage_name(stage), fraction);
+            return goes_on;
         }};
     if (!arguments.sites.empty()) {
         options.sites =
