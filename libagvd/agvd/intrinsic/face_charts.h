@@ -37,6 +37,7 @@ public:
     [[nodiscard]] bool has(Index face) const {
         return face < place_.size() && place_[face] != no_index;
     }
+    void reserve(std::size_t num_faces) { charts_.reserve(num_faces); }
     //! The face's chart, which is made if there is none. Others may move in memory.
     FaceChart& of(Index face);
     //! Gives a new face, which has the highest number, its chart.

@@ -42,8 +42,8 @@ void check_options(const RemeshOptions& options) {
 }
 
 // The text for a run that has too few samples: with a number that was tried.
-std::string describe_too_few(const agvd::MeshView& mesh, const RemeshOptions& options,
-                             Index reached) {
+template <typename Mesh>
+std::string describe_too_few(Mesh& mesh, const RemeshOptions& options, Index reached) {
     constexpr int max_tries = 6;
     RemeshOptions more = options;
     more.sites.reset();
@@ -109,7 +109,8 @@ Index num_new_crossings(const RemeshResult& result) {
 
 // With fewer creases where no mesh with all of them was found, or only one that runs through
 // itself; without any at last.
-RemeshResult run(const agvd::MeshView& mesh, const RemeshOptions& options) {
+template <typename Mesh>
+RemeshResult run_with_features(Mesh& mesh, const RemeshOptions& options) {
     if (options.features == Features::Off && options.feature_edges.empty()) {
         return run_pipeline(mesh, options, max_mends);
     }
@@ -129,12 +130,12 @@ RemeshResult run(const agvd::MeshView& mesh, const RemeshOptions& options) {
     return std::move(*best);
 }
 
-}  // namespace
-
-RemeshResult remesh(const agvd::MeshView& mesh, const RemeshOptions& options) {
+// \param mesh  const agvd::MeshView, or agvd::TriangleMesh to be given away.
+template <typename Mesh>
+RemeshResult run(Mesh& mesh, const RemeshOptions& options) {
     check_options(options);
     try {
-        return run(mesh, options);
+        return run_with_features(mesh, options);
     } catch (const TooFewSamples& failure) {
         const std::string asked = std::to_string(failure.asked);
         const std::string who =
@@ -143,6 +144,16 @@ RemeshResult remesh(const agvd::MeshView& mesh, const RemeshOptions& options) {
         throw agvd::ConstraintUnmet(who + " are too few for the topology of the mesh; " +
                                     describe_too_few(mesh, options, failure.reached));
     }
+}
+
+}  // namespace
+
+RemeshResult remesh(const agvd::MeshView& mesh, const RemeshOptions& options) {
+    return run(mesh, options);
+}
+
+RemeshResult remesh_moved(agvd::TriangleMesh mesh, const RemeshOptions& options) {
+    return run(mesh, options);
 }
 
 }  // namespace remesh

@@ -45,9 +45,13 @@ using CrossingFaces = std::optional<std::vector<std::pair<Index, Index>>>;
 
 class Pipeline {
 public:
-    Pipeline(const agvd::MeshView& mesh, const RemeshOptions& options, int most_mends,
-             double drop_share)
-        : input_(mesh), options_(options), most_mends_(most_mends), drop_share_(drop_share) {
+    Pipeline(const agvd::MeshView& mesh, agvd::TriangleMesh* owned, const RemeshOptions& options,
+             int most_mends, double drop_share)
+        : input_(mesh),
+          owned_input_(owned),
+          options_(options),
+          most_mends_(most_mends),
+          drop_share_(drop_share) {
         for (const Stage stage :
              {Stage::Clean, Stage::Sample, Stage::Relax, Stage::Propagate, Stage::Diagram,
               Stage::Dual, Stage::Delaunay, Stage::Place, Stage::Check}) {
@@ -56,14 +60,23 @@ public:
     }
 
     RemeshResult run() {
-        clean();
-        triangulate();
-        place_sites();
-        relax();
-        drop_duplicates();
-        build_mesh();
-        check_mesh();
-        if (clean_.mesh.triangles.empty()) clean_.mesh = std::move(surface_.mesh);
+        try {
+            clean();
+            triangulate();
+            place_sites();
+            relax();
+            drop_duplicates();
+            build_mesh();
+            check_mesh();
+        } catch (const TooFewSamples&) {
+            give_input_back();
+            throw;
+        } catch (const NetworkFailed&) {
+            give_input_back();
+            throw;
+        }
+        if (plan_) give_input_back();
+        if (!clean_.face_origin.empty()) clean_.mesh = surface().mesh;
         result_.sites = to_original(result_.sites, input_, clean_);
         return std::move(result_);
     }
@@ -87,7 +100,24 @@ private:
                 result_.input_topology = analyze_topology(clean_.mesh.view(), half);
             }
         }
+        // Nothing was repaired or dropped where connectivity is known.
+        if (!clean_.connectivity.twin.empty() && !needs_input()) forget_input();
         agvd::poll(progress, 1);
+    }
+
+    // What nothing has changed is had once: in the cleaned mesh.
+    void forget_input() {
+        std::vector<Index>().swap(clean_.vertex_origin);
+        std::vector<Index>().swap(clean_.face_origin);
+        if (owned_input_ == nullptr) return;
+        *owned_input_ = {};
+        input_ = {};
+        is_input_gone_ = true;
+    }
+
+    // For another run.
+    void give_input_back() {
+        if (is_input_gone_) *owned_input_ = surface().mesh;
     }
 
     // Where edges span several cells, the intrinsic triangulation has vertices of its own.
@@ -95,27 +125,33 @@ private:
         const StageClock clock(Stage::Clean, result_);
         const agvd::Progress all = progress_of(Stage::Clean, options_);
         const agvd::Progress progress = agvd::within(all, 1, 1);
-        build_input_surface(progress);
+        Surface surface = build_input_surface(progress);
         spacing_ =
-            mean_spacing(surface_, options_.sites ? options_.sites->size() : options_.num_samples);
-        find_features(progress);
-        prepared_.emplace(cut_surface(), spacing_, options_.num_threads, progress);
+            mean_spacing(surface, options_.sites ? options_.sites->size() : options_.num_samples);
+        find_features(surface, progress);
+        if (plan_) {
+            uncut_ = std::move(surface);
+            prepared_.emplace(plan_->cut.surface, spacing_, options_.num_threads, progress);
+        } else {
+            prepared_.emplace(std::move(surface), spacing_, options_.num_threads, progress);
+        }
         component_ = parts_of_base(prepared_->base, topology().face_component, progress);
         result_.refined_faces = base().num_faces();
     }
 
     // Where there are creases, all that follows sees a surface that is cut along them.
-    void find_features(const agvd::Progress& progress) {
+    void find_features(const Surface& surface, const agvd::Progress& progress) {
         const bool has_none = options_.features == Features::Off && options_.feature_edges.empty();
         if (has_none || options_.sites || options_.boundary == Boundary::Free) return;
         const CreaseOptions creases{
             .angle = options_.feature_angle,
-            .spacing = std::min(spacing_, mean_spacing(surface_, least_scale)),
+            .spacing = std::min(spacing_, mean_spacing(surface, least_scale)),
             .is_automatic = options_.features == Features::Auto,
             .num_threads = options_.num_threads,
             .progress = progress};
-        NetworkPlan plan = plan_network(surface_, creases_with_given(creases), options_.num_samples,
-                                        drop_share_, options_.num_threads, progress);
+        NetworkPlan plan =
+            plan_network(surface, creases_with_given(surface, creases), options_.num_samples,
+                         drop_share_, options_.num_threads, progress);
         FeatureCounts& counts = result_.features;
         counts.curves = static_cast<Index>(plan.network.curves.size());
         counts.nodes = static_cast<Index>(plan.network.nodes.size());
@@ -127,33 +163,35 @@ private:
         patches_ = analyze_topology(plan_->cut.surface.mesh.view(), progress);
     }
 
-    [[nodiscard]] std::vector<std::uint8_t> creases_with_given(const CreaseOptions& options) const {
-        std::vector<std::uint8_t> is_crease(surface_.num_edges(), 0);
-        if (options_.features != Features::Off) is_crease = find_creases(surface_, options);
+    [[nodiscard]] std::vector<std::uint8_t> creases_with_given(const Surface& surface,
+                                                               const CreaseOptions& options) const {
+        std::vector<std::uint8_t> is_crease(surface.num_edges(), 0);
+        if (options_.features != Features::Off) is_crease = find_creases(surface, options);
         if (options_.feature_edges.empty()) return is_crease;
         const std::vector<std::uint8_t> is_given =
-            carry_edges(options_.feature_edges, input_, clean_, surface_);
+            carry_edges(options_.feature_edges, input_, clean_, surface);
         for (std::size_t e = 0; e < is_given.size(); ++e) is_crease[e] |= is_given[e];
         return is_crease;
     }
 
-    // What cleaning has found is handed on. The mesh moves, unless given sites or edges still need
-    // it there.
-    void build_input_surface(const agvd::Progress& progress) {
-        const bool is_needed = options_.sites || !options_.feature_edges.empty();
-        agvd::TriangleMesh mesh = is_needed ? clean_.mesh : std::exchange(clean_.mesh, {});
-        surface_ = clean_.connectivity.twin.empty()
-                       ? agvd::build_surface(mesh.view(), options_.num_threads, progress)
-                       : agvd::build_surface(std::move(mesh), std::move(clean_.connectivity),
-                                             options_.num_threads, progress);
+    // What was given in terms of the input is carried over to the cleaned mesh later.
+    [[nodiscard]] bool needs_input() const {
+        return options_.sites || !options_.feature_edges.empty();
     }
 
-    // The surface, cut along the creases if there are any.
-    [[nodiscard]] const Surface& cut_surface() const {
-        return plan_ ? plan_->cut.surface : surface_;
+    // What cleaning has found is handed on. The mesh moves, unless it is still needed there.
+    Surface build_input_surface(const agvd::Progress& progress) {
+        agvd::TriangleMesh mesh = needs_input() ? clean_.mesh : std::exchange(clean_.mesh, {});
+        return clean_.connectivity.twin.empty()
+                   ? agvd::build_surface(mesh.view(), options_.num_threads, progress)
+                   : agvd::build_surface(std::move(mesh), std::move(clean_.connectivity),
+                                         options_.num_threads, progress);
     }
 
-    // Of cut_surface().
+    // The cleaned mesh.
+    [[nodiscard]] const Surface& surface() const { return plan_ ? uncut_ : prepared_->input(); }
+
+    // Of the surface, cut along the creases if there are any.
     [[nodiscard]] const Topology& topology() const {
         return plan_ ? patches_ : result_.input_topology;
     }
@@ -166,11 +204,11 @@ private:
         if (options_.sites) {
             sites_ = to_cleaned(*options_.sites, input_, clean_);
         } else {
-            if (!plan_ && !is_coarse_to_fine()) sites_ = sample_sites(surface_, sampling());
+            if (!plan_ && !is_coarse_to_fine()) sites_ = sample_sites(surface(), sampling());
         }
         if (options_.boundary == Boundary::Keep && !plan_) {
-            for (const std::vector<Index>& loop : agvd::boundary_loops(surface_)) {
-                const std::vector<Index> corners = find_corners(surface_, loop, spacing_);
+            for (const std::vector<Index>& loop : agvd::boundary_loops(surface())) {
+                const std::vector<Index> corners = find_corners(surface(), loop, spacing_);
                 corners_.insert(corners_.end(), corners.begin(), corners.end());
             }
             std::sort(corners_.begin(), corners_.end());
@@ -228,15 +266,15 @@ private:
 
     void drop_duplicates() {
         if (!options_.sites) return;
-        sites_ = agvd::points_of(sites_, agvd::distinct_points(surface_, sites_));
+        sites_ = agvd::points_of(sites_, agvd::distinct_points(surface(), sites_));
         num_distinct_ = static_cast<Index>(sites_.size());
     }
 
     // The dual with the count asked for. Where it runs through itself more often than the input, it
     // is built again with more sites there; the best counts.
     void build_mesh() {
-        const Ground ground{base(),     prepared_->layout, topology().components,
-                            component_, corners_,          chain_};
+        std::optional<agvd::SurfaceLayout> layout(std::move(prepared_->layout));
+        const Ground ground{base(), layout, topology().components, component_, corners_, chain_};
         const RemeshOptions cell_options = options_of_cells();
         on_base_ = prepared_->base.to_intrinsic(sites_);
         const std::vector<SurfacePoint> first_on_base = on_base_;
@@ -427,7 +465,7 @@ private:
         std::vector<Vec3> positions;
         positions.reserve(points.size());
         for (const SurfacePoint& point : points) {
-            positions.push_back(position(surface_.mesh.view(), point));
+            positions.push_back(position(surface().mesh.view(), point));
         }
         return positions;
     }
@@ -466,13 +504,13 @@ private:
         std::vector<Vec3> positions;
         positions.reserve(mesh.points.size());
         for (Index v = 0; v < mesh.points.size(); ++v) {
-            positions.push_back(mesh.position(surface_.mesh.view(), v));
+            positions.push_back(mesh.position(surface().mesh.view(), v));
         }
         return positions;
     }
 
     void fit_network(PlacedMesh& placed) const {
-        const std::vector<Vec3> offsets = fit_curves(surface_, plan_->network, curves_);
+        const std::vector<Vec3> offsets = fit_curves(uncut_, plan_->network, curves_);
         for (Index v = 0; v < groups_.size(); ++v) {
             if (groups_[v] < offsets.size()) placed.offsets[v] = offsets[groups_[v]];
         }
@@ -519,7 +557,7 @@ private:
             find_self_intersections(placed.view(), options_.num_threads, progress);
         if (found && !found->empty() && !has_judged_input_) {
             result_.input_self_intersections = static_cast<Index>(
-                find_self_intersections(surface_.mesh.view(), options_.num_threads, progress)
+                find_self_intersections(surface().mesh.view(), options_.num_threads, progress)
                     ->size());
             has_judged_input_ = true;
         }
@@ -573,16 +611,18 @@ private:
     }
 
     agvd::MeshView input_;
+    agvd::TriangleMesh* owned_input_;  // What input_ shows if it may be given away, or null.
     const RemeshOptions& options_;
     const int most_mends_;
     const double drop_share_;  // Of the creases.
     RemeshResult result_;
     CleanResult clean_;
-    double spacing_ = 0;  // Mean distance of the sites.
-    Surface surface_;     // Of the cleaned mesh.
-    std::optional<PreparedSurface> prepared_;
-    std::optional<NetworkPlan> plan_;    // Its cut surface is here the whole one.
-    Topology patches_;                   // Of the cut surface; without a plan not used.
+    double spacing_ = 0;                       // Mean distance of the sites.
+    std::optional<NetworkPlan> plan_;          // Its cut surface is here the whole one.
+    Surface uncut_;                            // The cleaned mesh, if there is a plan.
+    Topology patches_;                         // Of the cut surface; without a plan not used.
+    std::optional<PreparedSurface> prepared_;  // The cleaned mesh, cut along the creases.
+    bool is_input_gone_ = false;
     std::vector<Index> component_;       // #F of the base.
     CurveSites curves_;                  // The first ones of the sites; empty without a plan.
     std::vector<ChainEdge> chain_;       // Likewise.
@@ -601,7 +641,12 @@ private:
 
 RemeshResult run_pipeline(const agvd::MeshView& mesh, const RemeshOptions& options, int most_mends,
                           double drop_share) {
-    return Pipeline(mesh, options, most_mends, drop_share).run();
+    return Pipeline(mesh, nullptr, options, most_mends, drop_share).run();
+}
+
+RemeshResult run_pipeline(agvd::TriangleMesh& mesh, const RemeshOptions& options, int most_mends,
+                          double drop_share) {
+    return Pipeline(mesh.view(), &mesh, options, most_mends, drop_share).run();
 }
 
 }  // namespace remesh::detail

@@ -21,5 +21,9 @@ struct NetworkFailed {};
 //! \throw TooFewSamples, NetworkFailed (only with features), and what remesh() throws.
 [[nodiscard]] RemeshResult run_pipeline(const agvd::MeshView& mesh, const RemeshOptions& options,
                                         int most_mends, double drop_share = 0);
+//! \param mesh  is given away as soon as cleaning has found nothing to repair; with TooFewSamples,
+//!              NetworkFailed or a result with features it is as it was.
+[[nodiscard]] RemeshResult run_pipeline(agvd::TriangleMesh& mesh, const RemeshOptions& options,
+                                        int most_mends, double drop_share = 0);
 
 }  // namespace remesh::detail
