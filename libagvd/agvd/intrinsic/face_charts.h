@@ -44,8 +44,10 @@ public:
     void add(Index face, const FaceChart& chart);
     //! Makes the face's chart anew where its lengths have changed, and tells those across.
     void renew(Index face);
-    //! Tells the charts across a face's sides of its turns.
+    //! Tells the charts across a face's sides of its turns. \param face  has a chart.
     void share_turns(Index face);
+    //! The face is gone: its place is for another.
+    void forget(Index face);
 
 private:
     [[nodiscard]] Vec2 direction(Index half_edge) const;
@@ -53,6 +55,7 @@ private:
     const Surface& surface_;
     std::vector<Index> place_;  // By face; no_index: none.
     std::vector<FaceChart> charts_;
+    std::vector<Index> free_;  // Places.
 };
 
 }  // namespace agvd::detail

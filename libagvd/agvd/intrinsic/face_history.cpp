@@ -36,7 +36,8 @@ Shares between(const Shares& s, const Shares& t, double at) {
 // The part of a convex polygon where `side` is not below 0, in the order of its corners.
 template <typename Sides>
 FacePolygon clipped(const FacePolygon& polygon, const Sides& side) {
-    FacePolygon result{polygon.face, 0, {}};
+    FacePolygon result;
+    result.face = polygon.face;
     for (Index i = 0; i < polygon.num_corners; ++i) {
         const Index next = i + 1 == polygon.num_corners ? 0 : i + 1;
         if (side[i] >= 0) result.corner[result.num_corners++] = polygon.corner[i];

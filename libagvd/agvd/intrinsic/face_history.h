@@ -49,6 +49,10 @@ public:
     //! There are no faces at the end with higher numbers.
     void drop_faces_from(Index count) { last_.resize(std::min<std::size_t>(last_.size(), count)); }
 
+    void reserve(std::size_t num_flips_and_splits, std::size_t num_merges) {
+        operations_.reserve(num_flips_and_splits);
+        merges_.reserve(num_merges);
+    }
     //! Gives back what no operation needs; none are to follow.
     void shrink() {
         operations_.shrink_to_fit();

@@ -148,6 +148,18 @@ void IntrinsicTriangulation::run(const IntrinsicOptions& options) {
     Ticker ticker(poller);
     ticker.poll();
     counts_.flat_faces = detail::raise_flat_faces(surface_, ticker);
+    change_faces(options, poller, ticker);
+    if (counts_.removed > 0) detail::compact_faces(surface_, *history_);
+    history_->shrink();
+    counts_.splits = static_cast<Index>(added_.size());
+    for (Index i = 0; i < added_.size(); ++i) {
+        surface_.mesh.positions[input_->num_vertices() + i] =
+            position(input_->mesh.view(), added_[i]);
+    }
+}
+
+void IntrinsicTriangulation::change_faces(const IntrinsicOptions& options, Poller& poller,
+                                          Ticker& ticker) {
     std::vector<std::uint8_t> is_kept(options.is_kept.begin(), options.is_kept.end());
     FaceCharts charts(surface_);
     detail::RemovalCounts removal;
@@ -162,15 +174,8 @@ void IntrinsicTriangulation::run(const IntrinsicOptions& options) {
     Refinement refinement(surface_, charts, *history_, flips, is_kept, options.max_length, ticker);
     counts_.is_delaunay =
         refinement.run(most_flips, options.most_splits, added_) && counts_.is_delaunay;
-    if (removal.vertices > 0) detail::compact_faces(surface_, *history_);
-    history_->shrink();
     counts_.removed = removal.vertices;
     counts_.flips = removal.flips + flips.num_flips();
-    counts_.splits = static_cast<Index>(added_.size());
-    for (Index i = 0; i < added_.size(); ++i) {
-        surface_.mesh.positions[input_->num_vertices() + i] =
-            position(input_->mesh.view(), added_[i]);
-    }
 }
 
 IntrinsicTriangulation::IntrinsicTriangulation(IntrinsicTriangulation&&) noexcept = default;

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "agvd/core/progress.h"
+#include "agvd/core/poller.h"
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_point.h"
 
@@ -112,6 +112,7 @@ private:
     struct History;
 
     void run(const IntrinsicOptions& options);
+    void change_faces(const IntrinsicOptions& options, Poller& poller, Ticker& ticker);
 
     std::unique_ptr<Surface> owned_;  // The input, or null.
     const Surface* input_;
