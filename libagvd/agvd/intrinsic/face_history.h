@@ -102,6 +102,7 @@ private:
     enum class Way : std::uint8_t { Forward, Backward };
     struct Step;
     struct MergeStep;
+    struct Parts;
 
     void add(Operation operation);
     void start();
