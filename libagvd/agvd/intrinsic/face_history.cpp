@@ -478,7 +478,8 @@ struct FaceHistory::Parts {
 
 bool FaceHistory::parts_of(Index face, Index most_steps, std::vector<FacePolygon>& parts) const {
     Parts all;
-    all.add({face, 3, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}}, first_link(Way::Backward, face));
+    all.waiting.reserve(16);
+    all.add(FacePolygon(face), first_link(Way::Backward, face));
     for (Index steps = 0; !all.waiting.empty(); ++steps) {
         const auto& [part, link] = all.waiting.back();
         if (link == no_index) {

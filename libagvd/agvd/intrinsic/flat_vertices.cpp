@@ -71,10 +71,22 @@ private:
             ticker_.tick(4);
             if (surface_.outgoing[v] == no_index || surface_.is_boundary_vertex(v)) continue;
             if (!is_dense(v)) continue;
-            const double excess = cone_angle(surface_, v) - 2 * std::numbers::pi;
-            if (std::abs(excess) < flat_enough) found.push_back(v);
+            if (may_be_flat(v) &&
+                std::abs(cone_angle(surface_, v) - 2 * std::numbers::pi) < flat_enough) {
+                found.push_back(v);
+            }
         }
         return found;
+    }
+
+    // Not, where the product of the corners as complex numbers is clearly no multiple of 1: that is
+    // had without an arc tangent for each.
+    [[nodiscard]] bool may_be_flat(Index v) const {
+        constexpr double clear = 1e-9;  // Radians.
+        Vec2 product(1, 0);
+        for_each_outgoing(surface_, v,
+                          [&](Index h) { product = turned_by(product, surface_.apex[h]); });
+        return !(std::abs(product.y()) > clear * std::abs(product.x()));
     }
 
     // For grids, whose vertices have six edges; what grows on the way would be copied, and pages
@@ -138,11 +150,10 @@ private:
         double best_quality = -1;
         for (const Index h : ring_.half_edge) {
             const Quad quad = quad_at(surface_, charts_, h);
-            if (!quad.is_convex()) continue;
             const Vec2 a = quad.apex - quad.head, b = quad.across - quad.head;
             const double squares = a.squaredNorm() + b.squaredNorm() + (a - b).squaredNorm();
             const double quality = std::abs(cross(a, b)) / squares;
-            if (!(quality > best_quality)) continue;
+            if (!(quality > best_quality) || !quad.is_convex()) continue;
             best_quality = quality;
             best = h;
         }
