@@ -229,6 +229,8 @@ int main(int argc, char** argv) {
     // Each large array goes back to the system at once. By default ever larger ones stay, in holes
     // that the next does not fit into: a tenth more memory at 1.4 M faces.
     ::mallopt(M_MMAP_THRESHOLD, 1 << 22);
+    // The heap grows by large pages (large_pages.cpp), and what is free at its end stays until the
+    // stage is over.
     ::mallopt(M_TOP_PAD, 1 << 25);
     ::mallopt(M_TRIM_THRESHOLD, 1 << 26);
     CLI::App app("Replaces a mesh by the dual of its geodesic Voronoi diagram.", "remesh");
