@@ -35,7 +35,7 @@ struct FacePolygon {
             corner[k][k] = 1;
         }
     }
-    //! Few have all corners: to copy those that are there takes a fourth of the time.
+    //! Copies the corners that are there: few have all.
     FacePolygon(const FacePolygon& other) : face(other.face), num_corners(other.num_corners) {
         std::copy_n(other.corner.begin(), num_corners, corner.begin());
     }

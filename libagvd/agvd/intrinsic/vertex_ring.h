@@ -18,7 +18,7 @@ struct VertexRing {
     bool is_simple = true;         //!< No face comes twice, and no edge comes back.
 };
 
-//! \param ring  is overwritten; its memory is used again, which saves a tenth of removing vertices.
+//! \param ring  is overwritten; its memory is used again.
 void lay_ring(const Surface& surface, FaceCharts& charts, Index vertex, VertexRing& ring);
 
 //! A ring of four with the second face first.
