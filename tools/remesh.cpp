@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <utility>
 
 #include "arguments.h"
 #include "remesh/io/read_edges.h"
@@ -197,27 +198,31 @@ void run_job(const Arguments& arguments, cli::Console& console) {
     remesh::MeshFile input = cli::read_input(arguments, console);
     std::vector<agvd::Index>().swap(input.face_polygon);  // Nobody reads it.
     console.info(cli::describe(arguments.input, input.mesh.view()));
-    remesh::RemeshOptions options{.num_samples = arguments.sampling.num_samples,
-                                  .vertex_count = arguments.vertex_count,
-                                  .boundary = arguments.sampling.boundary,
-                                  .drop_components = arguments.drop_components,
-                                  .init = arguments.sampling.init,
-                                  .features = arguments.features,
-                                  .feature_angle = arguments.feature_angle,
-                                  .junctions = arguments.junctions,
-                                  .seed = arguments.sampling.seed,
-                                  .relax_steps = arguments.relax_steps,
-                                  .keep_sites = arguments.keep_sites,
-                                  .fit = arguments.fit,
-                                  .engine = arguments.propagation.engine,
-                                  .max_error = arguments.propagation.max_error,
-                                  .steiner_points = arguments.propagation.steiner_points,
-                                  .lambda = arguments.propagation.lambda,
-                                  .delaunay = arguments.delaunay,
-                                  .num_threads = arguments.common.threads,
-                                  .progress = [&](remesh::Stage stage, double fraction) {
-                                      return console.progress(remesh::stage_name(stage), fraction);
-                                  }};
+    remesh::RemeshOptions options{
+        .num_samples = arguments.sampling.num_samples,
+        .vertex_count = arguments.vertex_count,
+        .boundary = arguments.sampling.boundary,
+        .drop_components = arguments.drop_components,
+        .init = arguments.sampling.init,
+        .features = arguments.features,
+        .feature_angle = arguments.feature_angle,
+        .junctions = arguments.junctions,
+        .seed = arguments.sampling.seed,
+        .relax_steps = arguments.relax_steps,
+        .keep_sites = arguments.keep_sites,
+        .fit = arguments.fit,
+        .engine = arguments.propagation.engine,
+        .max_error = arguments.propagation.max_error,
+        .steiner_points = arguments.propagation.steiner_points,
+        .lambda = arguments.propagation.lambda,
+        .delaunay = arguments.delaunay,
+        .num_threads = arguments.common.threads,
+        .progress = [&, last = remesh::Stage::Clean](remesh::Stage stage, double fraction) mutable {
+            const bool goes_on = console.progress(remesh::stage_name(stage), fraction);
+            // What a stage has freed among what it leaves would stay.
+            if (std::exchange(last, stage) != stage) ::malloc_trim(0);
+            return goes_on;
+        }};
     if (!arguments.sites.empty()) {
         options.sites =
             remesh::read_sites(arguments.sites, input.mesh.view(), console.progress_of("read"));
@@ -227,7 +232,7 @@ void run_job(const Arguments& arguments, cli::Console& console) {
             remesh::read_edges(arguments.feature_edges, console.progress_of("read"));
     }
     const remesh::RemeshResult result = cli::naming_file(
-        arguments.input, [&] { return remesh::remesh(input.mesh.view(), options); });
+        arguments.input, [&] { return remesh::remesh_moved(std::move(input.mesh), options); });
     judge(result, arguments.strict, console);
     warn_of_junctions(result.junctions, arguments.junctions, console);
     remesh::write_mesh(arguments.output, result.mesh.view(), console.progress_of("write"));
@@ -247,6 +252,10 @@ int main(int argc, char** argv) {
     // Each large array goes back to the system at once. By default ever larger ones stay, in holes
     // that the next does not fit into: a tenth more memory at 1.4 M faces.
     ::mallopt(M_MMAP_THRESHOLD, 1 << 22);
+    // The heap grows by large pages (large_pages.cpp), and what is free at its end stays until the
+    // stage is over.
+    ::mallopt(M_TOP_PAD, 1 << 25);
+    ::mallopt(M_TRIM_THRESHOLD, 1 << 26);
     CLI::App app("Replaces a mesh by the dual of its geodesic Voronoi diagram.", "remesh");
     Arguments arguments;
     add_options(app, arguments);

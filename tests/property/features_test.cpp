@@ -353,6 +353,26 @@ double length_at(const TriangleMesh& mesh, double y) {
     return length;
 }
 
+// What the first run was given away to is there again for one with fewer creases.
+TEST(Features, AMeshThatIsGivenAwayChangesNothing) {
+    int num_given_up = 0;
+    for (const TriangleMesh& mesh :
+         {parts::extruded_l(6), shapes::jitter(shapes::torus(40, 20), 0.03, 3)}) {
+        for (const Index num_samples : {9, 12, 16, 30, 300}) {
+            const RemeshOptions options{
+                .num_samples = num_samples, .features = Features::Angle, .feature_angle = 20};
+            const RemeshResult kept = remesh::remesh(mesh.view(), options);
+            const RemeshResult given = remesh::remesh_moved(mesh, options);
+            EXPECT_EQ(kept.mesh.positions, given.mesh.positions);
+            EXPECT_EQ(kept.mesh.triangles, given.mesh.triangles);
+            EXPECT_EQ(kept.sites, given.sites);
+            EXPECT_EQ(kept.features.gave_up, given.features.gave_up);
+            num_given_up += kept.features.gave_up ? 1 : 0;
+        }
+    }
+    EXPECT_GT(num_given_up, 0);
+}
+
 }  // namespace
 
 TEST(Features, GivenEdgesAreKeptThoughTheyAreFlat) {

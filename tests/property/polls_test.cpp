@@ -203,20 +203,21 @@ TEST(Polls, AreInTheStagesOnTheirOwn) {
 TEST(Polls, AreInTheIntrinsicTriangulationAndWhatIsMadeOfIt) {
     const agvd::Surface even = agvd::build_surface(sphere().view());
     expect_polls("edges", 18, [&](const Progress& progress) {
-        const agvd::IntrinsicTriangulation base(even, {.progress = progress});
+        const agvd::IntrinsicTriangulation base(even, {.num_threads = 1, .progress = progress});
     });
     expect_polls("splits", 130, [&](const Progress& progress) {
-        const agvd::IntrinsicTriangulation base(even, {.max_length = 0.018, .progress = progress});
+        const agvd::IntrinsicTriangulation base(
+            even, {.max_length = 0.018, .num_threads = 1, .progress = progress});
     });
     TriangleMesh needles = shapes::sphere(5);
     for (agvd::Vec3& p : needles.positions) p.x() *= 20;
     const agvd::Surface surface = agvd::build_surface(needles.view());
     expect_polls("flips", 20, [&](const Progress& progress) {
-        const agvd::IntrinsicTriangulation base(surface, {.progress = progress});
+        const agvd::IntrinsicTriangulation base(surface, {.num_threads = 1, .progress = progress});
     });
     const agvd::IntrinsicTriangulation base(surface);
     expect_polls("pieces", 80, [&](const Progress& progress) {
-        const agvd::FacePieces pieces(base, 0.01, progress);
+        const agvd::FacePieces pieces(base, 0.01, 1, progress);
     });
     expect_polls("prepared", 150, [&](const Progress& progress) {
         const remesh::PreparedSurface prepared(surface, 0.5, 1, progress);

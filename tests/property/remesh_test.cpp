@@ -79,6 +79,39 @@ TEST(Remesh, SamplesMayExceedVerticesAndFaces) {
     expect_same_topology(shapes::tetrahedron(), {.num_samples = 300});
 }
 
+TEST(Remesh, AMeshThatIsGivenAwayChangesNothing) {
+    TriangleMesh dirty = shapes::sphere(3);
+    dirty.triangles.push_back(dirty.triangles[0]);  // To be repaired: the mesh is kept then.
+    for (const TriangleMesh& mesh : {shapes::torus(30, 14), shapes::grid(9), dirty}) {
+        const remesh::RemeshOptions options{.num_samples = 200};
+        const remesh::RemeshResult kept = remesh::remesh(mesh.view(), options);
+        const remesh::RemeshResult given = remesh::remesh_moved(mesh, options);
+        EXPECT_EQ(kept.mesh.positions, given.mesh.positions);
+        EXPECT_EQ(kept.mesh.triangles, given.mesh.triangles);
+        EXPECT_EQ(kept.sites, given.sites);
+        EXPECT_EQ(kept.input_topology.face_component, given.input_topology.face_component);
+        EXPECT_EQ(given.input_topology.face_component.size(),
+                  mesh.triangles.size() - given.cleaned.duplicate_faces);
+    }
+}
+
+// A number that works is searched for with the mesh as it was.
+TEST(Remesh, AMeshThatIsGivenAwayIsThereAgainWhereSamplesAreTooFew) {
+    const TriangleMesh mesh = shapes::torus(30, 14);
+    const remesh::RemeshOptions options{.num_samples = 3};
+    const auto text_of = [](const auto& run) -> std::string {
+        try {
+            (void)run();
+        } catch (const ConstraintUnmet& error) {
+            return error.what();
+        }
+        return "nothing thrown";
+    };
+    const std::string text = text_of([&] { return remesh::remesh(mesh.view(), options); });
+    EXPECT_NE(text.find("work"), std::string::npos) << text;
+    EXPECT_EQ(text, text_of([&] { return remesh::remesh_moved(mesh, options); }));
+}
+
 TEST(Remesh, TooFewSamplesForTheTopologyAreRefused) {
     EXPECT_THROW((void)remesh::remesh(shapes::torus(20, 10).view(), {.num_samples = 6}),
                  ConstraintUnmet);

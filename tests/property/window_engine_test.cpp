@@ -245,6 +245,8 @@ TEST(WindowEngine, ALayoutAtHandChangesNothing) {
             const auto sites = points::scattered(s, count, 4);
             checks::expect_same(propagate(s, sites, {.engine = engine}),
                                 propagate(s, layout, sites, {.engine = engine}));
+            checks::expect_same(propagate(s, sites, {.engine = engine}),
+                                propagate(s, SurfaceLayout(s), sites, {.engine = engine}));
         }
     }
 }
@@ -256,9 +258,10 @@ TEST(WindowEngine, PastTheWorkCapDistancesAreTheSame) {
     const Propagation quick = exact(s, sites);
     const SurfaceLayout layout(s);
     const Corners& corners = layout.corners();
-    const Propagation slow = propagate_windows(
-        s, corners, distance_bounds(s, layout.arcs(), corners.mean_length(), sites, 1), sites,
-        {.max_error = 0.0, .num_threads = 1}, 0);
+    const Propagation slow =
+        propagate_windows(s, layout.shared_corners(),
+                          distance_bounds(s, layout.arcs(), corners.mean_length(), sites, 1), sites,
+                          {.max_error = 0.0, .num_threads = 1}, 0);
     EXPECT_EQ(quick.vertex_site, slow.vertex_site);
     EXPECT_EQ(quick.mixed_faces, slow.mixed_faces);
     for (Index v = 0; v < s.num_vertices(); ++v) {

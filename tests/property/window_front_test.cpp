@@ -64,7 +64,7 @@ TEST_P(WindowFrontOn, GivingWindowsBackChangesNothingElse) {
         const Corners corners(s, 1);
         const auto sites = points::scattered(s, static_cast<Index>(1 + seed % 3), seed);
         DistanceBounds bounds =
-            distance_bounds(s, ArcGraph(s, corners), corners.mean_length(), sites, 1);
+            distance_bounds(s, ArcGraph(s, corners, 1), corners.mean_length(), sites, 1);
         if (seed % 5 == 0) {  // Anything above the distance will do.
             std::fill(bounds.distance.begin(), bounds.distance.end(),
                       std::numeric_limits<float>::infinity());
@@ -94,7 +94,7 @@ TEST(WindowFront, OnlyTheWindowsNearTheFrontAreHeld) {
     const Corners corners(s, 1);
     const auto sites = points::scattered(s, 1, 2);
     const DistanceBounds bounds =
-        distance_bounds(s, ArcGraph(s, corners), corners.mean_length(), sites, 1);
+        distance_bounds(s, ArcGraph(s, corners, 1), corners.mean_length(), sites, 1);
     WindowFront front(s, corners, 0);
     const auto num_held = [&] {
         std::size_t held = 0;

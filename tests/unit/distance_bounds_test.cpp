@@ -9,6 +9,7 @@
 #include "agvd/propagation/surface_layout.h"
 #include "support/points.h"
 #include "support/random_meshes.h"
+#include "support/shapes.h"
 
 using namespace agvd;
 
@@ -49,6 +50,23 @@ TEST_P(DistanceBoundsOn, NoArcShortensAPath) {
             // Sums are rounded up, by one place at most.
             EXPECT_LE(bounds.distance[head], (bounds.distance[v] + length) * (1 + 0x1p-22F));
         }
+    }
+}
+
+TEST(DistanceBounds, AreTheSameForAnyNumberOfThreadsThatMakeTheArcs) {
+    // So many edges that they are several chunks.
+    const Surface surface = build_surface(shapes::jitter(shapes::torus(160, 80), 0.004, 5).view());
+    const auto sites = points::scattered(surface, 9, 3);
+    const auto found = [&](int num_threads) {
+        const SurfaceLayout layout(surface, num_threads);
+        return distance_bounds(surface, layout.arcs(), layout.corners().mean_length(), sites,
+                               num_threads);
+    };
+    const DistanceBounds one = found(1);
+    for (const int threads : {2, 8}) {
+        const DistanceBounds other = found(threads);
+        EXPECT_EQ(one.distance, other.distance);
+        EXPECT_EQ(one.site, other.site);
     }
 }
 

@@ -117,3 +117,23 @@ TEST(FacePieces, FacesThatAreFlatInSpaceAreOnePiece) {
         EXPECT_EQ(count, 1u);
     }
 }
+
+TEST(FacePieces, AreTheSameForAnyNumberOfThreads) {
+    // So many faces that they are several chunks.
+    const Surface surface = build_surface(shapes::jitter(shapes::torus(160, 80), 0.004, 5).view());
+    const IntrinsicTriangulation base(surface);
+    const auto list = [&](int num_threads) {
+        const FacePieces pieces(base, 1e-4, num_threads);
+        std::vector<Vec3> found;
+        for (Index f = 0; f < base.surface().num_faces(); ++f) {
+            pieces.for_each(f, [&](const SurfacePiece& piece) {
+                found.push_back(piece.position);
+                found.push_back(piece.vector);
+            });
+        }
+        return found;
+    };
+    const std::vector<Vec3> one = list(1);
+    ASSERT_GT(one.size(), 2 * base.surface().num_faces() + 100u);
+    for (const int threads : {2, 8}) EXPECT_EQ(one, list(threads));
+}

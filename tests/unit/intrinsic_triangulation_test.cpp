@@ -414,3 +414,50 @@ TEST(IntrinsicTriangulation, InvalidOptionsThrow) {
     const std::vector<std::uint8_t> too_few(3, 0);
     EXPECT_THROW(IntrinsicTriangulation(input, {.is_kept = too_few}), InvalidOption);
 }
+
+namespace {
+
+void expect_same(const Surface& a, const Surface& b) {
+    EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
+    EXPECT_EQ(a.mesh.positions, b.mesh.positions);
+    EXPECT_EQ(a.twin, b.twin);
+    EXPECT_EQ(a.edge, b.edge);
+    EXPECT_EQ(a.edge_half, b.edge_half);
+    EXPECT_EQ(a.length, b.length);
+    EXPECT_EQ(a.apex, b.apex);
+    EXPECT_EQ(a.outgoing, b.outgoing);
+    EXPECT_EQ(a.can_turn, b.can_turn);
+}
+
+}  // namespace
+
+TEST(IntrinsicTriangulation, IsTheSameForAnyNumberOfThreads) {
+    // So many edges that they are several chunks.
+    const Surface input = build_surface(shapes::jitter(shapes::torus(160, 80), 0.004, 5).view());
+    const IntrinsicTriangulation one(input, {.max_length = 0.06, .num_threads = 1});
+    ASSERT_GT(one.counts().flips, 100u);
+    ASSERT_GT(one.counts().splits, 10u);
+    for (const int threads : {2, 8}) {
+        const IntrinsicTriangulation other(input, {.max_length = 0.06, .num_threads = threads});
+        EXPECT_EQ(one.counts().flips, other.counts().flips);
+        expect_same(one.surface(), other.surface());
+    }
+}
+
+TEST(IntrinsicTriangulation, AnInputThatIsGivenAwayChangesNothing) {
+    for_each_mesh([](const TriangleMesh&, const Surface& input, std::uint64_t seed) {
+        const IntrinsicTriangulation kept(input, options_of(input, seed));
+        Surface given = input;
+        const IntrinsicTriangulation taken(std::move(given), options_of(input, seed));
+        expect_same(kept.surface(), taken.surface());
+        const Surface& left = taken.input();
+        EXPECT_TRUE(left.edge.empty() && left.length.empty() && left.apex.empty());
+        EXPECT_EQ(left.mesh.triangles, input.mesh.triangles);
+        EXPECT_EQ(left.twin, input.twin);
+        EXPECT_EQ(left.outgoing, input.outgoing);
+        for (Index h = 0; h < input.twin.size(); ++h) {
+            ASSERT_EQ(left.length_of(h), input.length_of(h));
+            ASSERT_EQ(left.apex_of(h), input.apex_of(h));
+        }
+    });
+}

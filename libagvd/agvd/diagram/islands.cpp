@@ -2,26 +2,14 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <utility>
 
+#include "agvd/core/union_find.h"
 #include "agvd/mesh/one_ring.h"
 #include "agvd/propagation/site_placement.h"
 
 namespace agvd {
 namespace {
-
-Index find_root(std::vector<Index>& parent, Index i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-}
-
-void unite_nodes(std::vector<Index>& parent, Index a, Index b) {
-    if (parent[a] == parent[b]) return;
-    a = find_root(parent, a);
-    b = find_root(parent, b);
-    parent[std::max(a, b)] = std::min(a, b);
-}
 
 // Calls back for each crossing of a row with the intervals before and after it, by node: points,
 // then the intervals after crossings that end at no point.
@@ -81,9 +69,7 @@ public:
           faces_(faces),
           labels_(labels),
           num_points_(static_cast<Index>(labels.point_site.size())),
-          parent_(labels.point_site.size() + labels.crossings.size()) {
-        std::iota(parent_.begin(), parent_.end(), Index{0});
-    }
+          sets_(labels.point_site.size() + labels.crossings.size()) {}
 
     void connect(const ArcStore& arcs) {
         join_points();
@@ -149,8 +135,8 @@ public:
     }
 
 private:
-    [[nodiscard]] Index root(Index i) { return find_root(parent_, i); }
-    void unite(Index a, Index b) { unite_nodes(parent_, a, b); }
+    [[nodiscard]] Index root(Index i) { return sets_.root(i); }
+    void unite(Index a, Index b) { sets_.unite(a, b); }
 
     // Those that hang together along edges and cuts of one label.
     void join_points() {
@@ -255,7 +241,7 @@ private:
     std::span<const Index> faces_;
     EdgeLabels& labels_;
     Index num_points_;
-    std::vector<Index> parent_;
+    UnionFind sets_;                   // Points and intervals.
     std::vector<Index> mainland_;      // By site: the root of what hangs together with it.
     std::map<Index, Index> new_site_;  // By root of an island.
     struct Row {

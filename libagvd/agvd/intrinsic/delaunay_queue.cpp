@@ -2,17 +2,43 @@
 
 #include <algorithm>
 
+#include "agvd/core/parallel.h"
+
 namespace agvd::detail {
 
-void DelaunayQueue::push(Index edge) {
+std::optional<DelaunayQueue::Waiting> DelaunayQueue::test(Index edge) const {
     const Index h = surface_.edge_half[edge];
     const Index twin = surface_.twin[h];
-    if (twin == no_index || Surface::face(h) == Surface::face(twin)) return;
-    if (!is_kept_.empty() && is_kept_[edge] != 0) return;
+    if (twin == no_index || Surface::face(h) == Surface::face(twin)) return std::nullopt;
+    if (!is_kept_.empty() && is_kept_[edge] != 0) return std::nullopt;
     const Quad quad = quad_at(surface_, h);
-    if (!quad.should_flip()) return;
-    heap_.push_back({quad.shortening(), edge});
+    if (!quad.should_flip()) return std::nullopt;
+    return Waiting{quad.shortening(), edge};
+}
+
+void DelaunayQueue::push(Index edge) {
+    const std::optional<Waiting> waiting = test(edge);
+    if (!waiting) return;
+    heap_.push_back(*waiting);
     std::push_heap(heap_.begin(), heap_.end());
+}
+
+// On a good mesh most of the work is to find that nothing is to be done.
+void DelaunayQueue::push_all(int num_threads, Poller& poller) {
+    constexpr Index grain = 1 << 14;  // Edges.
+    const Index num_edges = surface_.num_edges();
+    std::vector<std::vector<Waiting>> found(num_chunks(num_edges, grain));
+    const auto body = [&](Index chunk, Index begin, Index end) {
+        for (Index e = begin; e < end; ++e) {
+            if (surface_.edge_half[e] == no_index) continue;  // Gone.
+            if (const auto waiting = test(e)) found[chunk].push_back(*waiting);
+        }
+    };
+    parallel_chunks(num_edges, grain, num_threads, body, poller);
+    for (const std::vector<Waiting>& chunk : found) {
+        heap_.insert(heap_.end(), chunk.begin(), chunk.end());
+    }
+    std::make_heap(heap_.begin(), heap_.end());
 }
 
 bool DelaunayQueue::flip_all(std::size_t most_flips) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -32,11 +33,14 @@ public:
 
     //! Looks at an edge, and lets it wait if it fails.
     void push(Index edge);
+    //! The same for all edges. \param num_threads  0: all cores. The same for any number.
+    void push_all(int num_threads, Poller& poller);
     //! Flips until nothing waits, or `most_flips` were made.
     //! \return false if edges are left.
     bool flip_all(std::size_t most_flips);
 
     [[nodiscard]] std::size_t num_flips() const { return num_flips_; }
+    [[nodiscard]] std::size_t num_waiting() const { return heap_.size(); }
 
 private:
     struct Waiting {
@@ -49,6 +53,8 @@ private:
                                                   : edge > other.edge;
         }
     };
+
+    [[nodiscard]] std::optional<Waiting> test(Index edge) const;
 
     Surface& surface_;
     FaceCharts& charts_;

@@ -33,13 +33,25 @@ FaceChart& FaceCharts::of(Index face) {
         }
     }
     add(face, chart);
-    return charts_.back();
+    return charts_[place_[face]];
 }
 
 void FaceCharts::add(Index face, const FaceChart& chart) {
     if (face >= place_.size()) place_.resize(surface_.num_faces(), no_index);
-    place_[face] = static_cast<Index>(charts_.size());
-    charts_.push_back(chart);
+    if (free_.empty()) {
+        place_[face] = static_cast<Index>(charts_.size());
+        charts_.push_back(chart);
+    } else {
+        place_[face] = free_.back();
+        free_.pop_back();
+        charts_[place_[face]] = chart;
+    }
+}
+
+void FaceCharts::forget(Index face) {
+    if (!has(face)) return;
+    free_.push_back(place_[face]);
+    place_[face] = no_index;
 }
 
 void FaceCharts::renew(Index face) {
@@ -59,10 +71,11 @@ void FaceCharts::renew(Index face) {
 }
 
 void FaceCharts::share_turns(Index face) {
+    const FaceChart& chart = charts_[place_[face]];
     for (Index k = 0; k < 3; ++k) {
         const Index twin = surface_.twin[3 * face + k];
         if (twin == no_index || !has(Surface::face(twin))) continue;
-        charts_[place_[Surface::face(twin)]].turn[twin % 3] = conjugate(of(face).turn[k]);
+        charts_[place_[Surface::face(twin)]].turn[twin % 3] = conjugate(chart.turn[k]);
     }
 }
 

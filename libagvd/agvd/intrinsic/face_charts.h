@@ -37,14 +37,17 @@ public:
     [[nodiscard]] bool has(Index face) const {
         return face < place_.size() && place_[face] != no_index;
     }
+    void reserve(std::size_t num_faces) { charts_.reserve(num_faces); }
     //! The face's chart, which is made if there is none. Others may move in memory.
     FaceChart& of(Index face);
     //! Gives a new face, which has the highest number, its chart.
     void add(Index face, const FaceChart& chart);
     //! Makes the face's chart anew where its lengths have changed, and tells those across.
     void renew(Index face);
-    //! Tells the charts across a face's sides of its turns.
+    //! Tells the charts across a face's sides of its turns. \param face  has a chart.
     void share_turns(Index face);
+    //! The face is gone: its place is for another.
+    void forget(Index face);
 
 private:
     [[nodiscard]] Vec2 direction(Index half_edge) const;
@@ -52,6 +55,7 @@ private:
     const Surface& surface_;
     std::vector<Index> place_;  // By face; no_index: none.
     std::vector<FaceChart> charts_;
+    std::vector<Index> free_;  // Places.
 };
 
 }  // namespace agvd::detail

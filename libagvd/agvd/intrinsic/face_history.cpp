@@ -36,7 +36,8 @@ Shares between(const Shares& s, const Shares& t, double at) {
 // The part of a convex polygon where `side` is not below 0, in the order of its corners.
 template <typename Sides>
 FacePolygon clipped(const FacePolygon& polygon, const Sides& side) {
-    FacePolygon result{polygon.face, 0, {}};
+    FacePolygon result;
+    result.face = polygon.face;
     for (Index i = 0; i < polygon.num_corners; ++i) {
         const Index next = i + 1 == polygon.num_corners ? 0 : i + 1;
         if (side[i] >= 0) result.corner[result.num_corners++] = polygon.corner[i];
@@ -418,43 +419,79 @@ bool FaceHistory::is_near(SurfacePoint point, Index most_steps) const {
     return true;
 }
 
-bool FaceHistory::parts_of(Index face, Index most_steps, std::vector<FacePolygon>& parts) const {
+// Parts of a face of the end that are still to pass operations. Records are large: what stays whole
+// is changed in its place.
+struct FaceHistory::Parts {
     struct Waiting {
         FacePolygon part;
         Index link;
     };
-    std::vector<Waiting> waiting{
-        {{face, 3, {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}}, first_link(Way::Backward, face)}};
-    for (Index steps = 0; !waiting.empty(); ++steps) {
-        const auto [part, link] = waiting.back();
+    std::vector<Waiting> waiting;
+
+    void add(const FacePolygon& part, Index link) {
+        if (part.num_corners >= 3) waiting.push_back({part, link});
+    }
+
+    void pass(const MergeStep& step) {
+        const FacePolygon whole = waiting.back().part;
         waiting.pop_back();
+        for (const Index slot : {0U, 1U, 2U}) {
+            if (step.op.half_edge[slot] == no_index) continue;
+            add(step.clip(whole, slot), step.op.previous[slot]);
+        }
+    }
+
+    void pass(const Step& step) {
+        FacePolygon& part = waiting.back().part;
+        std::array<double, FacePolygon::most_corners> side;
+        Index num_first = 0, num_second = 0;  // Corners strictly on either side.
+        for (Index i = 0; i < part.num_corners; ++i) {
+            side[i] = step.side(part.corner[i]);
+            num_first += side[i] > 0 ? 1 : 0;
+            num_second += side[i] < 0 ? 1 : 0;
+        }
+        const bool is_flat = num_first + num_second + 2 < part.num_corners;
+        if ((num_first == 0 || num_second == 0) && !is_flat) {
+            const Index slot = num_second == 0 ? 0 : 1;
+            carry(step, slot, part);
+            waiting.back().link = step.next_link(slot);
+            return;
+        }
+        const FacePolygon whole = part;
+        waiting.pop_back();
+        for (const Index slot : {0U, 1U}) {
+            FacePolygon piece = clipped(whole, side);
+            for (double& s : side) s = -s;  // The other side.
+            carry(step, slot, piece);
+            add(piece, step.next_link(slot));
+        }
+    }
+
+    static void carry(const Step& step, Index slot, FacePolygon& part) {
+        for (Index i = 0; i < part.num_corners; ++i) {
+            const SurfacePoint point = step.pass(part.corner[i], slot, false);
+            part.face = point.face.value();
+            part.corner[i] = point.barycentric;
+        }
+    }
+};
+
+bool FaceHistory::parts_of(Index face, Index most_steps, std::vector<FacePolygon>& parts) const {
+    Parts all;
+    all.waiting.reserve(16);
+    all.add(FacePolygon(face), first_link(Way::Backward, face));
+    for (Index steps = 0; !all.waiting.empty(); ++steps) {
+        const auto& [part, link] = all.waiting.back();
         if (link == no_index) {
             parts.push_back(part);
+            all.waiting.pop_back();
             continue;
         }
         if (steps == most_steps || part.num_corners + 2 > FacePolygon::most_corners) return false;
         if (link >= first_merge) {
-            const MergeStep step(merges_[(link - first_merge) / 4]);
-            for (const Index slot : {0U, 1U, 2U}) {
-                if (step.op.half_edge[slot] == no_index) continue;
-                FacePolygon piece = step.clip(part, slot);
-                if (piece.num_corners >= 3) waiting.push_back({piece, step.op.previous[slot]});
-            }
-            continue;
-        }
-        const Step step(operations_[link / 2], Way::Backward, link % 2);
-        std::array<double, FacePolygon::most_corners> side;
-        for (Index i = 0; i < part.num_corners; ++i) side[i] = step.side(part.corner[i]);
-        for (const Index slot : {0U, 1U}) {
-            FacePolygon piece = clipped(part, side);
-            for (double& s : side) s = -s;  // The other side.
-            if (piece.num_corners < 3) continue;
-            for (Index i = 0; i < piece.num_corners; ++i) {
-                const SurfacePoint point = step.pass(piece.corner[i], slot, false);
-                piece.face = point.face.value();
-                piece.corner[i] = point.barycentric;
-            }
-            waiting.push_back({piece, step.next_link(slot)});
+            all.pass(MergeStep(merges_[(link - first_merge) / 4]));
+        } else {
+            all.pass(Step(operations_[link / 2], Way::Backward, link % 2));
         }
     }
     return true;

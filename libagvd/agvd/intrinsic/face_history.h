@@ -26,6 +26,26 @@ struct FacePolygon {
     Index face = no_index;
     Index num_corners = 0;
     std::array<std::array<double, 3>, most_corners> corner;  //!< Barycentric, counter-clockwise.
+
+    FacePolygon() = default;
+    //! A whole face.
+    explicit FacePolygon(Index whole) : face(whole), num_corners(3) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            corner[k] = {0, 0, 0};
+            corner[k][k] = 1;
+        }
+    }
+    //! Copies the corners that are there: few have all.
+    FacePolygon(const FacePolygon& other) : face(other.face), num_corners(other.num_corners) {
+        std::copy_n(other.corner.begin(), num_corners, corner.begin());
+    }
+    FacePolygon& operator=(const FacePolygon& other) {
+        face = other.face;
+        num_corners = other.num_corners;
+        std::copy_n(other.corner.begin(), num_corners, corner.begin());
+        return *this;
+    }
+    ~FacePolygon() = default;
 };
 
 //! An operation lays one or two faces out in a plane and cuts them anew. Barycentric coordinates
@@ -49,6 +69,10 @@ public:
     //! There are no faces at the end with higher numbers.
     void drop_faces_from(Index count) { last_.resize(std::min<std::size_t>(last_.size(), count)); }
 
+    void reserve(std::size_t num_flips_and_splits, std::size_t num_merges) {
+        operations_.reserve(num_flips_and_splits);
+        merges_.reserve(num_merges);
+    }
     //! Gives back what no operation needs; none are to follow.
     void shrink() {
         operations_.shrink_to_fit();
@@ -98,6 +122,7 @@ private:
     enum class Way : std::uint8_t { Forward, Backward };
     struct Step;
     struct MergeStep;
+    struct Parts;
 
     void add(Operation operation);
     void start();

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/parallel.h"
 #include "agvd/mesh/face_area.h"
 
 namespace agvd {
@@ -45,58 +45,97 @@ bool is_flat(const Surface& surface, Index face) {
     return true;
 }
 
-}  // namespace
+// Of one chunk of faces.
+struct Pieces {
+    std::vector<Index> end;  // By changed face.
+    std::vector<SurfacePiece> pieces;
+};
 
-FacePieces::FacePieces(const IntrinsicTriangulation& base, double piece_area,
-                       const Progress& progress)
-    : input_(base.input()) {
-    assert(piece_area > 0);
-    constexpr std::size_t piece_work = 16;  // Steps that a piece counts for.
-    Poller poller(progress);
-    Ticker ticker(poller);
-    const Surface& surface = base.surface();
-    std::vector<InputPart> parts;
-    for (Index f = 0; f < surface.num_faces(); ++f) {
-        ticker.tick();
-        if (!base.is_changed(f)) continue;
-        if (begin_.empty()) begin_.assign(surface.num_faces(), no_index);
-        begin_[f] = static_cast<Index>(pieces_.size());
-        parts.clear();
-        if (is_flat(surface, f)) {
-            pieces_.push_back(whole(surface, f));
-        } else if (base.parts_of(f, parts) && !parts.empty()) {
-            add_parts(parts);
-        } else {
-            add_samples(base, f, piece_area);
-        }
-        ticker.tick(piece_work * (pieces_.size() - begin_[f]));
-        is_last_.resize(pieces_.size(), 0);
-        is_last_.back() = 1;
-    }
+SurfacePiece whole_face(const Surface& surface, Index face) {
+    const auto& [a, b, c] = surface.mesh.triangles[face];
+    const auto& p = surface.mesh.positions;
+    return {(p[a] + p[b] + p[c]) / 3, area_vector(surface, face)};
 }
 
-void FacePieces::add_parts(std::span<const InputPart> parts) {
+void add_parts(const Surface& input, std::span<const InputPart> parts,
+               std::vector<SurfacePiece>& pieces) {
     for (const InputPart& part : parts) {
-        pieces_.push_back({agvd::position(input_.mesh.view(), part.centroid),
-                           part.share * area_vector(input_, part.centroid.face.value())});
+        pieces.push_back({agvd::position(input.mesh.view(), part.centroid),
+                          part.share * area_vector(input, part.centroid.face.value())});
     }
 }
 
-void FacePieces::add_samples(const IntrinsicTriangulation& base, Index face, double piece_area) {
+void add_samples(const IntrinsicTriangulation& base, Index face, double piece_area,
+                 std::vector<SurfacePiece>& pieces) {
+    const Surface& input = base.input();
     const double area = face_area(base.surface(), face);
     const auto count = static_cast<Index>(
         std::clamp(std::ceil(area / piece_area), 1.0, static_cast<double>(most_pieces)));
     for (Index i = 0; i < count; ++i) {
         const SurfacePoint place = base.to_input({FaceId(face), spread_point(i)});
-        const Vec3 normal = area_vector(input_, place.face.value()).normalized();
-        pieces_.push_back({agvd::position(input_.mesh.view(), place), area / count * normal});
+        const Vec3 normal = area_vector(input, place.face.value()).normalized();
+        pieces.push_back({agvd::position(input.mesh.view(), place), area / count * normal});
+    }
+}
+
+void add_pieces(const IntrinsicTriangulation& base, Index face, double piece_area,
+                std::vector<SurfacePiece>& pieces) {
+    std::vector<InputPart> parts;
+    if (is_flat(base.surface(), face)) {
+        pieces.push_back(whole_face(base.surface(), face));
+    } else if (base.parts_of(face, parts) && !parts.empty()) {
+        add_parts(base.input(), parts, pieces);
+    } else {
+        add_samples(base, face, piece_area, pieces);
+    }
+}
+
+}  // namespace
+
+FacePieces::FacePieces(const IntrinsicTriangulation& base, double piece_area, int num_threads,
+                       const Progress& progress)
+    : input_(base.input()) {
+    assert(piece_area > 0);
+    constexpr Index grain = 1 << 12;        // Faces.
+    constexpr std::size_t piece_work = 16;  // Steps that a piece counts for.
+    Poller poller(progress);
+    const Index num_faces = base.surface().num_faces();
+    std::vector<Pieces> chunks(num_chunks(num_faces, grain));
+    const auto find = [&](Index chunk, Index begin, Index end) {
+        Ticker ticker(poller);
+        auto& [ends, pieces] = chunks[chunk];
+        for (Index f = begin; f < end; ++f) {
+            if (!base.is_changed(f)) continue;
+            const std::size_t before = pieces.size();
+            add_pieces(base, f, piece_area, pieces);
+            ends.push_back(static_cast<Index>(pieces.size()));
+            ticker.tick(piece_work * (pieces.size() - before));
+        }
+    };
+    parallel_chunks(num_faces, grain, num_threads, find, poller);
+    std::size_t num_pieces = 0;
+    for (const Pieces& chunk : chunks) num_pieces += chunk.pieces.size();
+    if (num_pieces == 0) return;
+    begin_.assign(num_faces, no_index);
+    pieces_.reserve(num_pieces);
+    is_last_.assign(num_pieces, 0);
+    for (Index chunk = 0; chunk < chunks.size(); ++chunk) {
+        poller.poll();
+        const auto first = static_cast<Index>(pieces_.size());
+        Index face = chunk * grain, begin = first;
+        for (const Index end : chunks[chunk].end) {
+            while (!base.is_changed(face)) ++face;
+            begin_[face++] = begin;
+            begin = first + end;
+            is_last_[begin - 1] = 1;
+        }
+        pieces_.insert(pieces_.end(), chunks[chunk].pieces.begin(), chunks[chunk].pieces.end());
+        chunks[chunk] = {};
     }
 }
 
 SurfacePiece FacePieces::whole(const Surface& surface, Index face) {
-    const auto& [a, b, c] = surface.mesh.triangles[face];
-    const auto& p = surface.mesh.positions;
-    return {(p[a] + p[b] + p[c]) / 3, area_vector(surface, face)};
+    return whole_face(surface, face);
 }
 
 }  // namespace agvd

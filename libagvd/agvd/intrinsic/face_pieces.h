@@ -23,8 +23,9 @@ public:
     //! \param base        outlives this.
     //! \param piece_area  of a face of needles one piece for each so much area, up to 16; > 0.
     //! Cost: a map to the input for each piece of a changed face; 48 bytes.
+    //! \param num_threads  >= 0; 0: all cores. The result is the same for any number.
     //! \throw Cancelled  the progress callback returned false.
-    FacePieces(const IntrinsicTriangulation& base, double piece_area,
+    FacePieces(const IntrinsicTriangulation& base, double piece_area, int num_threads = 0,
                const Progress& progress = {});
 
     //! Calls each(SurfacePiece) for the pieces of a face of base.surface().
@@ -42,8 +43,6 @@ public:
 
 private:
     [[nodiscard]] static SurfacePiece whole(const Surface& surface, Index face);
-    void add_parts(std::span<const InputPart> parts);
-    void add_samples(const IntrinsicTriangulation& base, Index face, double piece_area);
 
     const Surface& input_;
     std::vector<Index> begin_;           // By face, if any is changed; no_index: the input's own.

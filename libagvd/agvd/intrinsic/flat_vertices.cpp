@@ -33,6 +33,7 @@ public:
     // are vertices.
     RemovalCounts run() {
         std::vector<Index> waiting = find_flat();
+        make_room(waiting.size());
         std::vector<std::uint32_t> round_of(surface_.num_vertices(), 0);
         std::size_t most_edges = few_edges;
         for (std::uint32_t round = 1; !waiting.empty(); ++round) {
@@ -41,9 +42,10 @@ public:
             std::vector<Index> left;
             for (const Index v : waiting) {
                 ticker_.tick(removal_work);
-                const bool is_large = num_edges(v) > most_edges;
-                has_large = has_large || is_large;
-                if (is_large || round_of[v] == round) {
+                if (round_of[v] == round) {
+                    left.push_back(v);
+                } else if (num_edges(v) > most_edges) {
+                    has_large = true;
                     left.push_back(v);
                 } else if (is_dense(v) && remove(v)) {
                     ++counts_.vertices;
@@ -69,10 +71,30 @@ private:
             ticker_.tick(4);
             if (surface_.outgoing[v] == no_index || surface_.is_boundary_vertex(v)) continue;
             if (!is_dense(v)) continue;
-            const double excess = cone_angle(surface_, v) - 2 * std::numbers::pi;
-            if (std::abs(excess) < flat_enough) found.push_back(v);
+            if (may_be_flat(v) &&
+                std::abs(cone_angle(surface_, v) - 2 * std::numbers::pi) < flat_enough) {
+                found.push_back(v);
+            }
         }
         return found;
+    }
+
+    // Not, where the product of the corners as complex numbers is clearly no multiple of 1: that is
+    // had without an arc tangent for each.
+    [[nodiscard]] bool may_be_flat(Index v) const {
+        constexpr double clear = 1e-9;  // Radians.
+        Vec2 product(1, 0);
+        for_each_outgoing(surface_, v,
+                          [&](Index h) { product = turned_by(product, surface_.apex[h]); });
+        return !(std::abs(product.y()) > clear * std::abs(product.x()));
+    }
+
+    // For grids, whose vertices have six edges; what grows on the way would be copied, and pages
+    // that nothing is written to cost nothing.
+    void make_room(std::size_t num_vertices) {
+        const std::size_t num_faces = surface_.num_faces();
+        charts_.reserve(std::min(num_faces, 6 * num_vertices));
+        history_.reserve(3 * num_vertices, 2 * num_vertices);
     }
 
     [[nodiscard]] std::size_t num_edges(Index v) const {
@@ -93,7 +115,7 @@ private:
 
     bool remove(Index v) {
         for (bool is_first = true;; is_first = false) {
-            ring_ = ring_at(surface_, charts_, v);
+            lay_ring(surface_, charts_, v, ring_);
             if (!ring_.is_simple) return false;
             if (is_first) {
                 around_.clear();
@@ -104,7 +126,7 @@ private:
             if (!flip_away()) return false;
         }
         for (const MergedFace& made : merge_ring(surface_, charts_, ring_)) {
-            history_.add_merge(made);
+            if (made.face != no_index) history_.add_merge(made);
         }
         return true;
     }
@@ -128,11 +150,10 @@ private:
         double best_quality = -1;
         for (const Index h : ring_.half_edge) {
             const Quad quad = quad_at(surface_, charts_, h);
-            if (!quad.is_convex()) continue;
             const Vec2 a = quad.apex - quad.head, b = quad.across - quad.head;
             const double squares = a.squaredNorm() + b.squaredNorm() + (a - b).squaredNorm();
             const double quality = std::abs(cross(a, b)) / squares;
-            if (!(quality > best_quality)) continue;
+            if (!(quality > best_quality) || !quad.is_convex()) continue;
             best_quality = quality;
             best = h;
         }
@@ -190,6 +211,8 @@ void compact_edges(Surface& surface) {
     }
     surface.edge_half.resize(count);
     surface.length.resize(count);
+    surface.edge_half.shrink_to_fit();
+    surface.length.shrink_to_fit();
     for (Index& e : surface.edge) e = number[e];
 }
 
@@ -210,6 +233,10 @@ void compact_faces(Surface& surface, FaceHistory& history) {
     surface.twin.resize(3 * last);
     surface.edge.resize(3 * last);
     surface.apex.resize(3 * last);
+    surface.mesh.triangles.shrink_to_fit();
+    surface.twin.shrink_to_fit();
+    surface.edge.shrink_to_fit();
+    surface.apex.shrink_to_fit();
     history.drop_faces_from(last);
     compact_edges(surface);
 }

@@ -128,11 +128,38 @@ struct IntrinsicTriangulation::History : FaceHistory {
 IntrinsicTriangulation::IntrinsicTriangulation(const Surface& input,
                                                const IntrinsicOptions& options)
     : input_(&input), surface_(input), history_(std::make_unique<History>(input.num_faces())) {
-    check_options(input, options);
+    run(options);
+}
+
+IntrinsicTriangulation::IntrinsicTriangulation(Surface&& input, const IntrinsicOptions& options)
+    : owned_(std::make_unique<Surface>()),
+      input_(owned_.get()),
+      surface_(std::move(input)),
+      history_(std::make_unique<History>(surface_.num_faces())) {
+    owned_->mesh = surface_.mesh;
+    owned_->twin = surface_.twin;
+    owned_->outgoing = surface_.outgoing;
+    run(options);
+}
+
+void IntrinsicTriangulation::run(const IntrinsicOptions& options) {
+    check_options(surface_, options);
     Poller poller(options.progress);
     Ticker ticker(poller);
     ticker.poll();
     counts_.flat_faces = detail::raise_flat_faces(surface_, ticker);
+    change_faces(options, poller, ticker);
+    if (counts_.removed > 0) detail::compact_faces(surface_, *history_);
+    history_->shrink();
+    counts_.splits = static_cast<Index>(added_.size());
+    for (Index i = 0; i < added_.size(); ++i) {
+        surface_.mesh.positions[input_->num_vertices() + i] =
+            position(input_->mesh.view(), added_[i]);
+    }
+}
+
+void IntrinsicTriangulation::change_faces(const IntrinsicOptions& options, Poller& poller,
+                                          Ticker& ticker) {
     std::vector<std::uint8_t> is_kept(options.is_kept.begin(), options.is_kept.end());
     FaceCharts charts(surface_);
     detail::RemovalCounts removal;
@@ -141,23 +168,14 @@ IntrinsicTriangulation::IntrinsicTriangulation(const Surface& input,
                                                options.min_length, ticker);
     }
     DelaunayQueue flips(surface_, charts, history_.get(), is_kept, &ticker);
-
-    for (Index e = 0; e < surface_.num_edges(); ++e) {
-        ticker.tick();
-        if (surface_.edge_half[e] != no_index) flips.push(e);
-    }
+    flips.push_all(options.num_threads, poller);
+    charts.reserve(2 * flips.num_waiting());
     counts_.is_delaunay = flips.flip_all(most_flips * surface_.num_edges());
     Refinement refinement(surface_, charts, *history_, flips, is_kept, options.max_length, ticker);
     counts_.is_delaunay =
         refinement.run(most_flips, options.most_splits, added_) && counts_.is_delaunay;
-    if (removal.vertices > 0) detail::compact_faces(surface_, *history_);
-    history_->shrink();
     counts_.removed = removal.vertices;
     counts_.flips = removal.flips + flips.num_flips();
-    counts_.splits = static_cast<Index>(added_.size());
-    for (Index i = 0; i < added_.size(); ++i) {
-        surface_.mesh.positions[input.num_vertices() + i] = position(input.mesh.view(), added_[i]);
-    }
 }
 
 IntrinsicTriangulation::IntrinsicTriangulation(IntrinsicTriangulation&&) noexcept = default;

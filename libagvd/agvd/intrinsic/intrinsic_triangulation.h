@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "agvd/core/progress.h"
+#include "agvd/core/poller.h"
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_point.h"
 
@@ -27,6 +27,7 @@ struct IntrinsicOptions {
     //! #E of the input: 1 for edges that stay, as those of the boundary always do (they may be
     //! split); or empty.
     std::span<const std::uint8_t> is_kept = {};
+    int num_threads = 0;     //!< >= 0; 0: all cores. The result is the same for any number.
     Progress progress = {};  //!< Tells the fraction 0 until it is done.
 };
 
@@ -63,6 +64,9 @@ public:
     //! Cost: a pass over the edges and O(log n) for each flip. The number of flips has no useful
     //! bound in theory; in practice it is some ten for each needle.
     explicit IntrinsicTriangulation(const Surface& input, const IntrinsicOptions& options = {});
+    //! The same for an input that nobody else needs: input() keeps its mesh, `twin` and `outgoing`
+    //! and has the rest from its positions, which is 78 bytes less for each face.
+    explicit IntrinsicTriangulation(Surface&& input, const IntrinsicOptions& options = {});
     IntrinsicTriangulation(IntrinsicTriangulation&&) noexcept;
     IntrinsicTriangulation& operator=(IntrinsicTriangulation&&) noexcept;
     ~IntrinsicTriangulation();
@@ -107,6 +111,10 @@ public:
 private:
     struct History;
 
+    void run(const IntrinsicOptions& options);
+    void change_faces(const IntrinsicOptions& options, Poller& poller, Ticker& ticker);
+
+    std::unique_ptr<Surface> owned_;  // The input, or null.
     const Surface* input_;
     Surface surface_;
     IntrinsicCounts counts_;

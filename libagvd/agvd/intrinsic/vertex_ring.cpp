@@ -68,21 +68,23 @@ MergedFace merge_three(Surface& surface, FaceCharts& charts, const VertexRing& r
     surface.mesh.triangles[made.face] = corners;
     move_sides<3>(surface, rim.side, {3 * made.face, 3 * made.face + 1, 3 * made.face + 2});
     renew_outgoing(surface, std::span(faces.data(), 1));
+    charts.forget(faces[1]);
+    charts.forget(faces[2]);
     set_chart(surface, charts, made.face, {rim.along, rim.turn});
     return made;
 }
 
-std::vector<MergedFace> merge_straight(Surface& surface, FaceCharts& charts,
-                                       const VertexRing& ring) {
+std::array<MergedFace, 2> merge_straight(Surface& surface, FaceCharts& charts,
+                                         const VertexRing& ring) {
     const Rim<4> rim = rim_of<4>(surface, charts, ring);
     const Index a = Surface::face(ring.half_edge[0]), b = Surface::face(ring.half_edge[2]);
     const Index n0 = surface.head(ring.half_edge[0]), n1 = surface.head(ring.half_edge[1]);
     const Index n2 = surface.head(ring.half_edge[2]), n3 = surface.head(ring.half_edge[3]);
     const double near = ring.spoke[0].norm(), far = ring.spoke[2].norm();
     const double share = far / (near + far);  // Of the first spoke's end.
-    const std::vector<MergedFace> made{
-        {a, {rim.side[0].half_edge, rim.side[1].half_edge, no_index}, {share, 0, 1 - share}},
-        {b, {rim.side[2].half_edge, rim.side[3].half_edge, no_index}, {1 - share, 0, share}}};
+    const std::array<MergedFace, 2> made{
+        {{a, {rim.side[0].half_edge, rim.side[1].half_edge, no_index}, {share, 0, 1 - share}},
+         {b, {rim.side[2].half_edge, rim.side[3].half_edge, no_index}, {1 - share, 0, share}}}};
     const Index line = surface.edge[ring.half_edge[0]];
     std::array<Index, 4> faces;
     for (std::size_t i = 0; i < 4; ++i) faces[i] = Surface::face(ring.half_edge[i]);
@@ -96,6 +98,8 @@ std::vector<MergedFace> merge_straight(Surface& surface, FaceCharts& charts,
     surface.edge[3 * a + 2] = surface.edge[3 * b + 2] = line;
     join(surface, 3 * a + 2, 3 * b + 2, line);
     renew_outgoing(surface, std::array{a, b});
+    charts.forget(faces[1]);
+    charts.forget(faces[3]);
     const Vec2 across = ring.spoke[0] - ring.spoke[2];
     const Vec2 none(1, 0);
     set_chart(surface, charts, a,
@@ -107,8 +111,11 @@ std::vector<MergedFace> merge_straight(Surface& surface, FaceCharts& charts,
 
 }  // namespace
 
-VertexRing ring_at(const Surface& surface, FaceCharts& charts, Index vertex) {
-    VertexRing ring;
+void lay_ring(const Surface& surface, FaceCharts& charts, Index vertex, VertexRing& ring) {
+    ring.half_edge.clear();
+    ring.spoke.clear();
+    ring.turn.clear();
+    ring.is_simple = true;
     Vec2 turn(1, 0);
     for_each_outgoing(surface, vertex, [&](Index h) {
         const FaceChart& chart = charts.of(Surface::face(h));
@@ -121,7 +128,6 @@ VertexRing ring_at(const Surface& surface, FaceCharts& charts, Index vertex) {
         ring.turn.push_back(turn);
         turn = turned_by(chart.turn[Surface::previous(h) % 3], turn).normalized();
     });
-    return ring;
 }
 
 void rotate_ring(VertexRing& ring) {
@@ -133,8 +139,8 @@ void rotate_ring(VertexRing& ring) {
     std::rotate(ring.turn.begin(), ring.turn.begin() + 1, ring.turn.end());
 }
 
-std::vector<MergedFace> merge_ring(Surface& surface, FaceCharts& charts, const VertexRing& ring) {
-    if (ring.half_edge.size() == 3) return {merge_three(surface, charts, ring)};
+std::array<MergedFace, 2> merge_ring(Surface& surface, FaceCharts& charts, const VertexRing& ring) {
+    if (ring.half_edge.size() == 3) return {merge_three(surface, charts, ring), {}};
     return merge_straight(surface, charts, ring);
 }
 

@@ -18,7 +18,8 @@ struct VertexRing {
     bool is_simple = true;         //!< No face comes twice, and no edge comes back.
 };
 
-[[nodiscard]] VertexRing ring_at(const Surface& surface, FaceCharts& charts, Index vertex);
+//! \param ring  is overwritten; its memory is used again.
+void lay_ring(const Surface& surface, FaceCharts& charts, Index vertex, VertexRing& ring);
 
 //! A ring of four with the second face first.
 void rotate_ring(VertexRing& ring);
@@ -34,7 +35,8 @@ struct MergedFace {
 //! Three faces become one; of four, whose first and third edge are one straight line, two on each
 //! side of it do. The vertex, other faces and edges leave gaps.
 //! \param ring  simple, of a vertex without curvature.
-[[nodiscard]] std::vector<MergedFace> merge_ring(Surface& surface, FaceCharts& charts,
-                                                 const VertexRing& ring);
+//! \return without a face at the end, if there is one only.
+[[nodiscard]] std::array<MergedFace, 2> merge_ring(Surface& surface, FaceCharts& charts,
+                                                   const VertexRing& ring);
 
 }  // namespace agvd::detail

@@ -8,14 +8,15 @@
 namespace agvd {
 
 PlaceOnSurface place_of(const Surface& surface, const SurfacePoint& point) {
+    const std::uint64_t num_vertices = surface.num_vertices();
     if (const auto vertex = vertex_of(surface, point)) return {*vertex, {}};
     if (const auto h = half_edge_of(point)) {
-        const Index edge = surface.edge[*h];
+        const Index low = std::min(*h, surface.twin[*h]);  // no_index is higher.
         double tail = point.barycentric[*h % 3], head = point.barycentric[Surface::next(*h) % 3];
-        if (surface.edge_half[edge] != *h) std::swap(tail, head);
-        return {surface.num_vertices() + edge, {tail, head, 0}};
+        if (low != *h) std::swap(tail, head);
+        return {num_vertices + low, {tail, head, 0}};
     }
-    return {surface.num_vertices() + surface.num_edges() + point.face.value(), point.barycentric};
+    return {num_vertices + surface.twin.size() + point.face.value(), point.barycentric};
 }
 
 std::vector<Index> distinct_points(const Surface& surface, std::span<const SurfacePoint> points) {

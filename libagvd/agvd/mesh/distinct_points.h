@@ -4,6 +4,8 @@
 
 #include <array>
 #include <compare>
+#include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -14,8 +16,9 @@ namespace agvd {
 
 //! A vertex, an edge or a face, and where on it: equal for equal points, whatever face names them.
 struct PlaceOnSurface {
-    Index element = no_index;  //!< Vertices first, then edges, then faces.
-    //! Vertex: 0. Edge: shares of the ends of its edge_half. Face: barycentric coordinates.
+    //! Vertices first, then edges by their lower half-edge, then faces.
+    std::uint64_t element = std::numeric_limits<std::uint64_t>::max();
+    //! Vertex: 0. Edge: shares of the ends of that half-edge. Face: barycentric coordinates.
     std::array<double, 3> where{};
 
     auto operator<=>(const PlaceOnSurface&) const = default;

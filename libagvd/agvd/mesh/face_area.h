@@ -8,8 +8,8 @@ namespace agvd {
 
 //! Square mesh units.
 [[nodiscard]] inline double face_area(const Surface& surface, Index face) {
-    const std::size_t h = std::size_t{3} * face;
-    return surface.length[surface.edge[h]] * surface.apex[h].y() / 2;
+    const Index h = 3 * face;
+    return surface.length_of(h) * surface.apex_of(h).y() / 2;
 }
 
 //! Of all faces, summed in their order. Cost: O(#F).

@@ -137,12 +137,10 @@ void number_edges(Surface& surface, int num_threads, Poller& poller) {
 }
 
 void measure(Surface& surface, int num_threads, Poller& poller) {
-    const auto& p = surface.mesh.positions;
     surface.length.resize(surface.num_edges());
     const auto measure_edges = [&](Index, Index begin, Index end) {
         for (Index e = begin; e < end; ++e) {
-            const Index h = surface.edge_half[e];
-            surface.length[e] = (p[surface.head(h)] - p[surface.tail(h)]).norm();
+            surface.length[e] = surface.length_in_space(surface.edge_half[e]);
         }
     };
     parallel_chunks(surface.num_edges(), grain, num_threads, measure_edges, poller);
@@ -152,15 +150,9 @@ void measure(Surface& surface, int num_threads, Poller& poller) {
     std::vector<Index> flat(num_chunks(num_half_edges, grain), no_index);
     const auto find_apexes = [&](Index chunk, Index begin, Index end) {
         for (Index h = begin; h < end; ++h) {
-            const Vec3& origin = p[surface.tail(h)];
-            const Vec3 along = p[surface.head(h)] - origin;
-            const Vec3 up = p[surface.tail(Surface::previous(h))] - origin;
-            const double length = surface.length_of(h);
-            const double doubled_area = along.cross(up).norm();
-            if (!(doubled_area > 0) || !std::isfinite(doubled_area)) {
-                flat[chunk] = std::min(flat[chunk], h);
-            }
-            surface.apex[h] = {along.dot(up) / length, doubled_area / length};
+            surface.apex[h] = surface.apex_in_space(h);
+            const double height = surface.apex[h].y();
+            if (!(height > 0) || !std::isfinite(height)) flat[chunk] = std::min(flat[chunk], h);
         }
     };
     parallel_chunks(num_half_edges, grain, num_threads, find_apexes, poller);

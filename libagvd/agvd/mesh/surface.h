@@ -15,7 +15,9 @@ namespace agvd {
 //! The frame of half-edge h: its tail at (0, 0), its head at (length, 0), its face above (y > 0).
 struct Surface {
     TriangleMesh mesh;
-    std::vector<Index> twin;       //!< #H: the half-edge across; no_index on the boundary.
+    std::vector<Index> twin;  //!< #H: the half-edge across; no_index on the boundary.
+    //! These four may have been given away (IntrinsicTriangulation) and are empty then: length_of
+    //! and apex_of tell the same numbers from the positions.
     std::vector<Index> edge;       //!< #H: its undirected edge.
     std::vector<Index> edge_half;  //!< #E: the edge's half-edge with the lower index.
     std::vector<double> length;    //!< #E, mesh units.
@@ -40,11 +42,30 @@ struct Surface {
         return mesh.triangles[half_edge / 3][half_edge % 3];
     }
     [[nodiscard]] Index head(Index half_edge) const { return tail(next(half_edge)); }
-    [[nodiscard]] double length_of(Index half_edge) const { return length[edge[half_edge]]; }
+    [[nodiscard]] double length_of(Index half_edge) const {
+        return edge.empty() ? length_in_space(half_edge) : length[edge[half_edge]];
+    }
+    [[nodiscard]] Vec2 apex_of(Index half_edge) const {
+        return apex.empty() ? apex_in_space(half_edge) : apex[half_edge];
+    }
+    //! Between the positions of the ends; for a face in space, the half-edge's length.
+    [[nodiscard]] double length_in_space(Index half_edge) const {
+        return (mesh.positions[head(half_edge)] - mesh.positions[tail(half_edge)]).norm();
+    }
+    //! Likewise. Not finite where the half-edge has no length.
+    [[nodiscard]] Vec2 apex_in_space(Index half_edge) const;
     [[nodiscard]] bool is_boundary_vertex(Index vertex) const {
         return outgoing[vertex] != no_index && twin[outgoing[vertex]] == no_index;
     }
 };
+
+inline Vec2 Surface::apex_in_space(Index half_edge) const {
+    const Vec3& origin = mesh.positions[tail(half_edge)];
+    const Vec3 along = mesh.positions[head(half_edge)] - origin;
+    const Vec3 up = mesh.positions[tail(previous(half_edge))] - origin;
+    const double norm = along.norm();
+    return {along.dot(up) / norm, along.cross(up).norm() / norm};
+}
 
 //! Builds connectivity and lengths; copies the mesh.
 //!

@@ -1,8 +1,8 @@
 #include "agvd/propagation/arc_graph.h"
 
-#include <algorithm>
+#include <atomic>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/parallel.h"
 
 namespace agvd {
 namespace {
@@ -22,37 +22,27 @@ double flip_length(const Corners& corners, Index half_edge) {
     return (above - below).norm();
 }
 
-}  // namespace
+// Counts up and returns what was there; with others at it, too, if `is_shared`.
+template <bool is_shared>
+Index take_next(Index& count) {
+    if constexpr (is_shared) {
+        return std::atomic_ref(count).fetch_add(1, std::memory_order_relaxed);
+    }
+    return count++;
+}
 
 // Edge by edge: a third less time on 100k faces than by half-edges, one in two of which is the
 // wrong side.
-ArcGraph::ArcGraph(const Surface& surface, const Corners& corners, const Progress& progress)
-    : offsets(surface.num_vertices() + 1, 0) {
-    Poller poller(progress);
-    Ticker ticker(poller);
-    // An edge and a flip for each face, and one edge more on the boundary.
-    for_each_ticked(surface.mesh.triangles, ticker, [&](const Triangle& triangle) {
-        for (const Index v : triangle) offsets[v + 1] += 2;
-    });
-    for (Index v = 0; v < surface.num_vertices(); ++v) {
-        offsets[v + 1] += offsets[v] + (surface.is_boundary_vertex(v) ? 1 : 0);
-    }
-    ticker.poll();
-    ends.assign(offsets.begin(), offsets.end() - 1);
-    arcs.reserve(offsets.back());
-    while (arcs.size() < offsets.back()) {  // New pages take longer than all else.
-        constexpr std::size_t step = 1 << 19;
-        arcs.resize(std::min<std::size_t>(offsets.back(), arcs.size() + step));
-        ticker.poll();
-    }
-    const auto add = [this](Index a, Index b, double length) {
+template <bool is_shared>
+void add_arcs(const Surface& surface, const Corners& corners, Index begin, Index end,
+              ArcGraph& graph) {
+    const auto add = [&](Index a, Index b, double length) {
         const float rounded = static_cast<float>(length) * round_up;
-        arcs[ends[a]++] = {b, rounded};
-        arcs[ends[b]++] = {a, rounded};
+        graph.arcs[take_next<is_shared>(graph.ends[a])] = {b, rounded};
+        graph.arcs[take_next<is_shared>(graph.ends[b])] = {a, rounded};
     };
     constexpr Index ahead = 15;  // Edges.
-    for (Index e = 0; e < surface.num_edges(); ++e) {
-        ticker.tick();
+    for (Index e = begin; e < end; ++e) {
         if (e + ahead < surface.num_edges()) {
             const Index twin = surface.twin[surface.edge_half[e + ahead]];
             if (twin != no_index) corners.prefetch(Surface::face(twin));
@@ -64,6 +54,34 @@ ArcGraph::ArcGraph(const Surface& surface, const Corners& corners, const Progres
         const double length = flip_length(corners, h);
         if (length > 0) add(corners.apex_vertex(h), corners.apex_vertex(twin), length);
     }
+}
+
+}  // namespace
+
+ArcGraph::ArcGraph(const Surface& surface, const Corners& corners, int num_threads,
+                   const Progress& progress)
+    : offsets(surface.num_vertices() + 1, 0) {
+    constexpr Index grain = 1 << 14;  // Edges.
+    Poller poller(progress);
+    Ticker ticker(poller);
+    // An edge and a flip for each face, and one edge more on the boundary.
+    for_each_ticked(surface.mesh.triangles, ticker, [&](const Triangle& triangle) {
+        for (const Index v : triangle) offsets[v + 1] += 2;
+    });
+    for (Index v = 0; v < surface.num_vertices(); ++v) {
+        offsets[v + 1] += offsets[v] + (surface.is_boundary_vertex(v) ? 1 : 0);
+    }
+    ticker.poll();
+    ends.assign(offsets.begin(), offsets.end() - 1);
+    arcs = std::make_unique_for_overwrite<Arc[]>(offsets.back());
+    const auto body = [&](Index, Index begin, Index end) {
+        if (num_threads == 1) {
+            add_arcs<false>(surface, corners, begin, end, *this);
+        } else {
+            add_arcs<true>(surface, corners, begin, end, *this);
+        }
+    };
+    parallel_chunks(surface.num_edges(), grain, num_threads, body, poller);
 }
 
 }  // namespace agvd

@@ -2,6 +2,7 @@
 //! The graph on which quick upper bounds of distances run.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "agvd/propagation/corners.h"
@@ -18,18 +19,21 @@ struct ArcGraph {
     };
     std::vector<Index> offsets;  //!< #V + 1
     std::vector<Index> ends;  //!< #V: the arcs of v are [offsets[v], ends[v]); the rest is empty.
-    std::vector<Arc> arcs;
+    //! offsets.back(); those of a vertex in any order. Not a vector: that would write everything
+    //! twice, the first time on one thread.
+    std::unique_ptr<Arc[]> arcs;
 
     //! Cost: O(#H) time and space.
-    ArcGraph(const Surface& surface, const Corners& corners, const Progress& progress = {});
+    ArcGraph(const Surface& surface, const Corners& corners, int num_threads,
+             const Progress& progress = {});
 
     //! Starts to load the arcs of a vertex, which will be read soon.
     [[gnu::always_inline]] void prefetch(Index tail) const {
-        __builtin_prefetch(arcs.data() + offsets[tail]);
-        __builtin_prefetch(arcs.data() + offsets[tail] + 8);
+        __builtin_prefetch(arcs.get() + offsets[tail]);
+        __builtin_prefetch(arcs.get() + offsets[tail] + 8);
     }
     [[nodiscard]] std::size_t bytes() const {
-        return arcs.capacity() * sizeof(Arc) +
+        return offsets.back() * sizeof(Arc) +
                (offsets.capacity() + ends.capacity()) * sizeof(Index);
     }
 };

@@ -220,6 +220,8 @@ void BoundsSearch::search_slab(std::span<const Index> starts, Chunk& chunk, Tick
             if (key_of(vertex) != from) continue;  // Lowered since, by whoever goes on from there.
             for (Index a = graph_.offsets[vertex]; a < graph_.ends[vertex]; ++a) {
                 const auto [head, length] = graph_.arcs[a];
+                // Most arcs end here.
+                if (distance_of(from) + length > distance_of(key_of(head))) continue;
                 const Key key = to_key(sum_rounded_up(distance_of(from), length), site_of(from));
                 if (!lower(keys_[head], key)) continue;
                 if (distance_of(key) < slab_end) {
@@ -241,12 +243,16 @@ DistanceBounds distance_bounds(const Surface& surface, const ArcGraph& graph, do
     for (Index s = 0; s < sites.size(); ++s) search.add(sites[s], s);
     search.run(progress);
     DistanceBounds bounds;
-    bounds.distance.reserve(surface.num_vertices());
-    bounds.site.reserve(surface.num_vertices());
-    for (Index v = 0; v < surface.num_vertices(); ++v) {
-        bounds.distance.push_back(search.distance(v));
-        bounds.site.push_back(search.site(v));
-    }
+    bounds.distance.resize(surface.num_vertices());
+    bounds.site.resize(surface.num_vertices());
+    const auto take = [&](Index, Index begin, Index end) {
+        for (Index v = begin; v < end; ++v) {
+            bounds.distance[v] = search.distance(v);
+            bounds.site[v] = search.site(v);
+        }
+    };
+    constexpr Index grain = 1 << 16;  // Vertices.
+    parallel_chunks(surface.num_vertices(), grain, num_threads, take);
     bounds.peak_bytes = search.bytes();
     return bounds;
 }

@@ -1,5 +1,9 @@
 #include "agvd/propagation/propagate.h"
 
+#include <memory>
+#include <optional>
+#include <utility>
+
 #include "agvd/mesh/distinct_points.h"
 #include "agvd/propagation/option_checks.h"
 #include "agvd/propagation/site_placement.h"
@@ -13,13 +17,21 @@ namespace {
 
 // \param bounds  gives the DistanceBounds, which only windows want.
 template <typename Bounds>
-Propagation carry(const Surface& surface, const Corners& corners, const Bounds& bounds,
-                  std::span<const SurfacePoint> sites, const PropagationOptions& options) {
+Propagation carry(const Surface& surface, std::shared_ptr<const Corners> corners,
+                  const Bounds& bounds, std::span<const SurfacePoint> sites,
+                  const PropagationOptions& options) {
     poll(options.progress, 0);
     if (options.engine == Engine::Vertex) {
-        return propagate_vertices(surface, corners, sites, options);
+        return propagate_vertices(surface, *corners, sites, options);
     }
-    return propagate_windows(surface, corners, bounds(), sites, options);
+    DistanceBounds known = bounds(*corners);
+    return propagate_windows(surface, std::move(corners), std::move(known), sites, options);
+}
+
+DistanceBounds find_bounds(const Surface& surface, const Corners& corners, const ArcGraph& arcs,
+                           std::span<const SurfacePoint> sites, const PropagationOptions& options) {
+    return distance_bounds(surface, arcs, corners.mean_length(), sites, options.num_threads,
+                           within(options.progress, 0, 0));
 }
 
 // Of the distinct sites. The others own nothing, but their windows would go as far as those of the
@@ -58,13 +70,14 @@ Propagation propagate(const Surface& surface, std::span<const SurfacePoint> site
                       const PropagationOptions& options) {
     const auto run = [&](std::span<const SurfacePoint> distinct) {
         if (options.engine == Engine::Steiner) return propagate_steiner(surface, distinct, options);
-        const Corners corners(surface, options.num_threads, within(options.progress, 0, 0));
-        const auto bounds = [&] {  // The arcs go before the windows come.
-            const Progress begin = within(options.progress, 0, 0);
-            return distance_bounds(surface, ArcGraph(surface, corners, begin),
-                                   corners.mean_length(), distinct, options.num_threads, begin);
+        const Progress begin = within(options.progress, 0, 0);
+        const auto bounds = [&](const Corners& corners) {  // The arcs go before the windows come.
+            return find_bounds(surface, corners,
+                               ArcGraph(surface, corners, options.num_threads, begin), distinct,
+                               options);
         };
-        return carry(surface, corners, bounds, distinct, options);
+        return carry(surface, std::make_shared<const Corners>(surface, options.num_threads, begin),
+                     bounds, distinct, options);
     };
     return propagate_distinct(surface, sites, options, run);
 }
@@ -73,12 +86,25 @@ Propagation propagate(const Surface& surface, const SurfaceLayout& layout,
                       std::span<const SurfacePoint> sites, const PropagationOptions& options) {
     const auto run = [&](std::span<const SurfacePoint> distinct) {
         if (options.engine == Engine::Steiner) return propagate_steiner(surface, distinct, options);
-        const Corners& corners = layout.corners();
-        const auto bounds = [&] {
-            return distance_bounds(surface, layout.arcs(), corners.mean_length(), distinct,
-                                   options.num_threads, within(options.progress, 0, 0));
+        const auto bounds = [&](const Corners& corners) {
+            return find_bounds(surface, corners, layout.arcs(), distinct, options);
         };
-        return carry(surface, corners, bounds, distinct, options);
+        return carry(surface, layout.shared_corners(), bounds, distinct, options);
+    };
+    return propagate_distinct(surface, sites, options, run);
+}
+
+Propagation propagate(const Surface& surface, SurfaceLayout&& layout,
+                      std::span<const SurfacePoint> sites, const PropagationOptions& options) {
+    std::optional<SurfaceLayout> owned(std::move(layout));
+    const auto run = [&](std::span<const SurfacePoint> distinct) {
+        if (options.engine == Engine::Steiner) return propagate_steiner(surface, distinct, options);
+        const auto bounds = [&](const Corners& corners) {
+            DistanceBounds found = find_bounds(surface, corners, owned->arcs(), distinct, options);
+            owned.reset();
+            return found;
+        };
+        return carry(surface, owned->shared_corners(), bounds, distinct, options);
     };
     return propagate_distinct(surface, sites, options, run);
 }

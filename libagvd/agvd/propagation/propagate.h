@@ -59,5 +59,10 @@ inline constexpr double default_max_error = 1e-4;
 [[nodiscard]] Propagation propagate(const Surface& surface, const SurfaceLayout& layout,
                                     std::span<const SurfacePoint> sites,
                                     const PropagationOptions& options = {});
+//! The same for a layout that nobody needs any more: its parts, larger than the surface, go as soon
+//! as propagation is done with them.
+[[nodiscard]] Propagation propagate(const Surface& surface, SurfaceLayout&& layout,
+                                    std::span<const SurfacePoint> sites,
+                                    const PropagationOptions& options = {});
 
 }  // namespace agvd

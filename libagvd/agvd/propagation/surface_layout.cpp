@@ -5,8 +5,8 @@
 namespace agvd {
 
 SurfaceLayout::SurfaceLayout(const Surface& surface, int num_threads, const Progress& progress)
-    : corners_(std::make_unique<Corners>(surface, num_threads, progress)),
-      arcs_(std::make_unique<ArcGraph>(surface, *corners_, progress)) {}
+    : corners_(std::make_shared<const Corners>(surface, num_threads, progress)),
+      arcs_(std::make_unique<ArcGraph>(surface, *corners_, num_threads, progress)) {}
 
 SurfaceLayout::SurfaceLayout(SurfaceLayout&&) noexcept = default;
 SurfaceLayout& SurfaceLayout::operator=(SurfaceLayout&&) noexcept = default;

@@ -26,11 +26,13 @@ public:
     ~SurfaceLayout();
 
     [[nodiscard]] const Corners& corners() const { return *corners_; }
+    //! For whoever outlives this.
+    [[nodiscard]] std::shared_ptr<const Corners> shared_corners() const { return corners_; }
     [[nodiscard]] const ArcGraph& arcs() const { return *arcs_; }
     [[nodiscard]] std::size_t bytes() const;
 
 private:
-    std::unique_ptr<Corners> corners_;
+    std::shared_ptr<const Corners> corners_;
     std::unique_ptr<ArcGraph> arcs_;
 };
 

@@ -96,24 +96,24 @@ private:
 
 class WindowEngine {
 public:
-    WindowEngine(const Surface& surface, const Corners& corners, DistanceBounds bounds,
-                 std::span<const SurfacePoint> sites, const PropagationOptions& options,
-                 Index work_cap)
+    WindowEngine(const Surface& surface, std::shared_ptr<const Corners> corners,
+                 DistanceBounds bounds, std::span<const SurfacePoint> sites,
+                 const PropagationOptions& options, Index work_cap)
         : surface_(surface),
-          corners_(corners),
+          corners_(std::move(corners)),
           sites_(sites),
           options_(options),
           max_error_(options.max_error.value_or(default_max_error)),
           work_cap_(work_cap),
           placement_(surface, sites),
-          borders_(faces_near_borders(surface, corners, bounds)),
+          borders_(faces_near_borders(surface, *corners_, bounds)),
           bounds_(std::move(bounds.distance)),
           labels_(std::move(bounds.site)),
           logs_(surface.num_faces()) {}
 
     Propagation run() {
         {
-            WorkerPool workers(surface_, corners_, max_error_, poller_);
+            WorkerPool workers(surface_, *corners_, max_error_, poller_);
             result_.vertex_distance.assign(surface_.num_vertices(),
                                            std::numeric_limits<double>::infinity());
             result_.vertex_site.assign(surface_.num_vertices(), SiteId());
@@ -121,11 +121,13 @@ public:
             propagate_all(workers);
             take_bounds();
             propagate_again(workers);
-            result_.peak_bytes = corners_.bytes() + workers.bytes() +
+            result_.peak_bytes = corners_->bytes() + workers.bytes() +
                                  bounds_.capacity() * sizeof(float) +
                                  labels_.capacity() * sizeof(Index) + common_bytes();
         }
+        corners_.reset();
         std::vector<float>().swap(bounds_);
+        std::vector<std::uint8_t>().swap(borders_);
         std::vector<Index>().swap(labels_);
         const std::size_t log_bytes = common_bytes();
         write_mixed_faces(surface_, placement_, std::move(logs_), options_.num_threads, poller_,
@@ -248,8 +250,8 @@ private:
         }
     }
 
-    // Of the vertices that no window reached: bounds are lengths of real paths, too, and not so long
-    // as those that windows would have brought within their error.
+    // Of the vertices that no window reached: bounds are lengths of real paths, too, and not so
+    // long as those that windows would have brought within their error.
     void take_bounds() {
         for (Index v = 0; v < bounds_.size(); ++v) {
             if (result_.vertex_site[v].is_valid() || labels_[v] == no_index) continue;
@@ -304,7 +306,7 @@ private:
     }
 
     const Surface& surface_;
-    const Corners& corners_;
+    std::shared_ptr<const Corners> corners_;
     std::span<const SurfacePoint> sites_;
     const PropagationOptions& options_;
     Poller poller_{options_.progress};
@@ -321,10 +323,11 @@ private:
 
 }  // namespace
 
-Propagation propagate_windows(const Surface& surface, const Corners& corners, DistanceBounds bounds,
-                              std::span<const SurfacePoint> sites,
+Propagation propagate_windows(const Surface& surface, std::shared_ptr<const Corners> corners,
+                              DistanceBounds bounds, std::span<const SurfacePoint> sites,
                               const PropagationOptions& options, Index work_cap) {
-    return WindowEngine(surface, corners, std::move(bounds), sites, options, work_cap).run();
+    return WindowEngine(surface, std::move(corners), std::move(bounds), sites, options, work_cap)
+        .run();
 }
 
 }  // namespace agvd

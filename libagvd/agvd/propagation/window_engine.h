@@ -2,6 +2,8 @@
 //! The window engine: exact or error-bounded propagation.
 #pragma once
 
+#include <memory>
+
 #include "agvd/propagation/distance_bounds.h"
 #include "agvd/propagation/propagate.h"
 
@@ -19,13 +21,14 @@ inline constexpr Index default_work_cap = 1 << 11;
 
 //! propagate() with Engine::Window, its options checked.
 //!
-//! \param corners  Corners(surface).
+//! \param corners  Corners(surface); given back before the relays are sorted by face.
 //! \param bounds   distance_bounds of the sites.
 //! Sites are propagated one by one, each as far as the bounds allow, and side by side: what a site
 //! gives depends on nothing but itself and the bounds. Windows are kept as relays near the borders
 //! that the bounds show; where that misses a border the sites concerned run once more.
 //! Cost: about O(n sqrt(n / t)) time for exact distances, O(n) for error-bounded ones, O(n) space.
-[[nodiscard]] Propagation propagate_windows(const Surface& surface, const Corners& corners,
+[[nodiscard]] Propagation propagate_windows(const Surface& surface,
+                                            std::shared_ptr<const Corners> corners,
                                             DistanceBounds bounds,
                                             std::span<const SurfacePoint> sites,
                                             const PropagationOptions& options,

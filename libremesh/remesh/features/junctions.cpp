@@ -5,6 +5,8 @@
 #include <numeric>
 #include <tuple>
 
+#include "agvd/core/union_find.h"
+
 namespace remesh {
 namespace {
 
@@ -44,12 +46,7 @@ std::vector<NamedEdge> edges_at_copies(const Surface& surface, std::span<const I
 // The sets of vertices that the ends of such edges make one.
 std::vector<std::vector<Index>> join_ends(const Surface& surface, std::span<const Index> origin,
                                           const std::vector<std::vector<Index>>& edges) {
-    std::vector<Index> first(surface.num_vertices());
-    std::iota(first.begin(), first.end(), Index{0});
-    const auto root = [&](Index v) {
-        while (first[v] != v) v = first[v] = first[first[v]];
-        return v;
-    };
+    agvd::UnionFind joined(surface.num_vertices());
     for (const std::vector<Index>& group : edges) {
         const auto ends = [&](Index e) {
             const Index h = surface.edge_half[e];
@@ -59,13 +56,12 @@ std::vector<std::vector<Index>> join_ends(const Surface& surface, std::span<cons
         };
         for (const Index e : group) {
             for (const std::size_t k : {0u, 1u}) {
-                const Index a = root(ends(group[0])[k]), b = root(ends(e)[k]);
-                first[std::max(a, b)] = std::min(a, b);
+                joined.unite(ends(group[0])[k], ends(e)[k]);
             }
         }
     }
     std::vector<std::vector<Index>> sets(surface.num_vertices());
-    for (Index v = 0; v < sets.size(); ++v) sets[root(v)].push_back(v);
+    for (Index v = 0; v < sets.size(); ++v) sets[joined.root(v)].push_back(v);
     std::erase_if(sets, [](const std::vector<Index>& set) { return set.size() < 2; });
     return sets;
 }
@@ -77,6 +73,7 @@ const char* junctions_name(Junctions junctions) {
 }
 
 JunctionSet find_junctions(const Surface& surface, std::span<const Index> vertex_origin) {
+    if (vertex_origin.empty()) return {};
     const std::vector<NamedEdge> named = edges_at_copies(surface, vertex_origin);
     JunctionSet junctions;
     for (std::size_t i = 0, end = 0; i < named.size(); i = end) {
@@ -93,6 +90,29 @@ JunctionSet find_junctions(const Surface& surface, std::span<const Index> vertex
         junctions.vertices = join_ends(surface, vertex_origin, junctions.edges);
     }
     return junctions;
+}
+
+void drop_short_junctions(const Surface& surface, double least_length, JunctionSet& junctions) {
+    const std::vector<Index> first = first_copies(junctions, surface.num_vertices());
+    const auto ends = [&](const std::vector<Index>& copies) {
+        const Index h = surface.edge_half[copies.front()];
+        return std::array{first[surface.tail(h)], first[surface.head(h)]};
+    };
+    agvd::UnionFind joined(surface.num_vertices());
+    for (const std::vector<Index>& copies : junctions.edges) {
+        joined.unite(ends(copies)[0], ends(copies)[1]);
+    }
+    std::vector<double> length(surface.num_vertices(), 0);  // Of what hangs together, at its root.
+    for (const std::vector<Index>& copies : junctions.edges) {
+        length[joined.root(ends(copies)[0])] += surface.length[copies.front()];
+    }
+    const auto is_short = [&](Index vertex) {
+        return length[joined.root(first[vertex])] < least_length;
+    };
+    std::erase_if(junctions.edges,
+                  [&](const std::vector<Index>& copies) { return is_short(ends(copies)[0]); });
+    std::erase_if(junctions.vertices,
+                  [&](const std::vector<Index>& copies) { return is_short(copies.front()); });
 }
 
 std::vector<Index> first_copies(const JunctionSet& junctions, Index num_vertices) {

@@ -30,10 +30,15 @@ struct JunctionSet {
 
 //! Edges whose ends have the same origins were one edge: places do not count.
 //!
-//! \param vertex_origin  #V: see CleanResult.
+//! \param vertex_origin  #V: see CleanResult; empty: each is its own.
 //! Cost: O(#V + #E + k log k), k = edges at vertices of which there are copies.
 [[nodiscard]] JunctionSet find_junctions(const agvd::Surface& surface,
                                          std::span<const agvd::Index> vertex_origin);
+
+//! Takes out what hangs together and is shorter, mesh units. Cost: O(#V + k), k = edges of
+//! junctions.
+void drop_short_junctions(const agvd::Surface& surface, double least_length,
+                          JunctionSet& junctions);
 
 //! #V: the first of the vertices that are one at a junction; of the others the vertex itself.
 [[nodiscard]] std::vector<agvd::Index> first_copies(const JunctionSet& junctions,

@@ -49,8 +49,8 @@ void check_options(const RemeshOptions& options, std::size_t num_faces) {
 }
 
 // The text for a run that has too few samples: with a number that was tried.
-std::string describe_too_few(const agvd::MeshView& mesh, const RemeshOptions& options,
-                             Index reached) {
+template <typename Mesh>
+std::string describe_too_few(Mesh& mesh, const RemeshOptions& options, Index reached) {
     constexpr int max_tries = 6;
     RemeshOptions more = options;
     more.sites.reset();
@@ -115,6 +115,9 @@ Index num_new_crossings(const RemeshResult& result) {
     return pairs - std::min(pairs, result.input_self_intersections);
 }
 
+const agvd::MeshView& view_of(const agvd::MeshView& mesh) { return mesh; }
+agvd::MeshView view_of(const agvd::TriangleMesh& mesh) { return mesh.view(); }
+
 // Lengths of what was made from a mesh times 2^-exponent.
 void scale_back(RemeshResult& result, int exponent) {
     result.mesh = agvd::scaled(result.mesh.view(), exponent);
@@ -128,7 +131,8 @@ void scale_back(RemeshResult& result, int exponent) {
 
 // With fewer creases where no mesh with all of them was found, or only one that runs through
 // itself; without any at last. Only where there is none either is it tried without junctions.
-RemeshResult run(const agvd::MeshView& mesh, const RemeshOptions& options) {
+template <typename Mesh>
+RemeshResult run_with_features(Mesh& mesh, const RemeshOptions& options) {
     const bool has_creases = options.features != Features::Off || !options.feature_edges.empty() ||
                              !options.face_labels.empty();
     const std::vector<double> drop_shares =
@@ -153,18 +157,19 @@ RemeshResult run(const agvd::MeshView& mesh, const RemeshOptions& options) {
     return std::move(*best);
 }
 
-}  // namespace
-
-RemeshResult remesh(const agvd::MeshView& mesh, const RemeshOptions& options) {
+// \param mesh  const agvd::MeshView, or agvd::TriangleMesh to be given away.
+template <typename Mesh>
+RemeshResult run(Mesh& mesh, const RemeshOptions& options) {
     check_options(options, mesh.triangles.size());
-    if (const double size = agvd::extent(mesh); !agvd::is_in_scale(size)) {
+    if (const double size = agvd::extent(view_of(mesh)); !agvd::is_in_scale(size)) {
         const int exponent = std::ilogb(size);
-        RemeshResult result = remesh(agvd::scaled(mesh, -exponent).view(), options);
+        agvd::TriangleMesh normal = agvd::scaled(view_of(mesh), -exponent);
+        RemeshResult result = run(normal, options);
         scale_back(result, exponent);
         return result;
     }
     try {
-        return run(mesh, options);
+        return run_with_features(mesh, options);
     } catch (const TooFewSamples& failure) {
         const std::string asked = std::to_string(failure.asked);
         const std::string who =
@@ -173,6 +178,16 @@ RemeshResult remesh(const agvd::MeshView& mesh, const RemeshOptions& options) {
         throw agvd::ConstraintUnmet(who + " are too few for the topology of the mesh; " +
                                     describe_too_few(mesh, options, failure.reached));
     }
+}
+
+}  // namespace
+
+RemeshResult remesh(const agvd::MeshView& mesh, const RemeshOptions& options) {
+    return run(mesh, options);
+}
+
+RemeshResult remesh_moved(agvd::TriangleMesh mesh, const RemeshOptions& options) {
+    return run(mesh, options);
 }
 
 }  // namespace remesh

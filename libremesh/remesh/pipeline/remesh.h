@@ -162,4 +162,8 @@ struct RemeshResult {
 //! Cost: O(m n log n) a round, n = #F. Re-entrant: no global state.
 [[nodiscard]] RemeshResult remesh(const agvd::MeshView& mesh, const RemeshOptions& options = {});
 
+//! The same for a mesh that the caller does not need any more: where nothing has to be repaired its
+//! memory, 36 bytes for each face, is given back before all else is made.
+[[nodiscard]] RemeshResult remesh_moved(agvd::TriangleMesh mesh, const RemeshOptions& options = {});
+
 }  // namespace remesh

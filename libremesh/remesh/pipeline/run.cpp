@@ -39,6 +39,9 @@ using agvd::Vec3;
 constexpr std::size_t least_scale = 300;
 // Of the spacing: lengths not above this are rounding.
 constexpr double rounding = 1e-10;
+// In spacings. Shorter ones are specks on a scan: cells would have to wind around them, and five of
+// them on bunny cost .02 of the mean quality.
+constexpr double least_junction = 2;
 // Rounds of putting vertices back onto the surface there.
 constexpr int max_unfits = 4;
 
@@ -46,9 +49,13 @@ using CrossingFaces = std::optional<std::vector<std::pair<Index, Index>>>;
 
 class Pipeline {
 public:
-    Pipeline(const agvd::MeshView& mesh, const RemeshOptions& options, int most_mends,
-             const KeptCurves& kept)
-        : input_(mesh), options_(options), most_mends_(most_mends), kept_(kept) {
+    Pipeline(const agvd::MeshView& mesh, agvd::TriangleMesh* owned, const RemeshOptions& options,
+             int most_mends, const KeptCurves& kept)
+        : input_(mesh),
+          owned_input_(owned),
+          options_(options),
+          most_mends_(most_mends),
+          kept_(kept) {
         for (const Stage stage :
              {Stage::Clean, Stage::Sample, Stage::Relax, Stage::Propagate, Stage::Diagram,
               Stage::Dual, Stage::Delaunay, Stage::Place, Stage::Check}) {
@@ -57,14 +64,23 @@ public:
     }
 
     RemeshResult run() {
-        clean();
-        triangulate();
-        place_sites();
-        relax();
-        drop_duplicates();
-        build_mesh();
-        check_mesh();
-        if (clean_.mesh.triangles.empty()) clean_.mesh = std::move(surface_.mesh);
+        try {
+            clean();
+            triangulate();
+            place_sites();
+            relax();
+            drop_duplicates();
+            build_mesh();
+            check_mesh();
+        } catch (const TooFewSamples&) {
+            give_input_back();
+            throw;
+        } catch (const NetworkFailed&) {
+            give_input_back();
+            throw;
+        }
+        if (plan_) give_input_back();
+        if (!clean_.face_origin.empty()) clean_.mesh = surface().mesh;
         result_.sites = to_original(result_.sites, input_, clean_);
         return std::move(result_);
     }
@@ -88,7 +104,24 @@ private:
                 result_.input_topology = analyze_topology(clean_.mesh.view(), half);
             }
         }
+        // Nothing was repaired or dropped where connectivity is known.
+        if (!clean_.connectivity.twin.empty() && !needs_input()) forget_input();
         agvd::poll(progress, 1);
+    }
+
+    // What nothing has changed is had once: in the cleaned mesh.
+    void forget_input() {
+        std::vector<Index>().swap(clean_.vertex_origin);
+        std::vector<Index>().swap(clean_.face_origin);
+        if (owned_input_ == nullptr) return;
+        *owned_input_ = {};
+        input_ = {};
+        is_input_gone_ = true;
+    }
+
+    // For another run.
+    void give_input_back() {
+        if (is_input_gone_) *owned_input_ = surface().mesh;
     }
 
     // Where edges span several cells, the intrinsic triangulation has vertices of its own.
@@ -96,26 +129,34 @@ private:
         const StageClock clock(Stage::Clean, result_);
         const agvd::Progress all = progress_of(Stage::Clean, options_);
         const agvd::Progress progress = agvd::within(all, 1, 1);
-        build_input_surface(progress);
+        Surface surface = build_input_surface(progress);
         spacing_ =
-            mean_spacing(surface_, options_.sites ? options_.sites->size() : options_.num_samples);
-        find_features(progress);
-        prepared_.emplace(cut_surface(), spacing_, options_.num_threads, progress);
+            mean_spacing(surface, options_.sites ? options_.sites->size() : options_.num_samples);
+        find_features(surface, progress);
+        if (plan_) {
+            uncut_ = std::move(surface);
+            prepared_.emplace(plan_->cut.surface, spacing_, options_.num_threads, progress);
+        } else {
+            prepared_.emplace(std::move(surface), spacing_, options_.num_threads, progress);
+        }
         component_ = parts_of_base(prepared_->base, topology().face_component, progress);
         result_.refined_faces = base().num_faces();
     }
 
     // Where there are creases or junctions, all that follows sees a surface that is cut along them.
-    void find_features(const agvd::Progress& progress) {
-        JunctionSet junctions = find_junctions(surface_, clean_.vertex_origin);
+    void find_features(const Surface& surface, const agvd::Progress& progress) {
+        JunctionSet junctions = find_junctions(surface, clean_.vertex_origin);
         junctions.in_result = options_.junctions;
         result_.junctions.edges = static_cast<Index>(junctions.edges.size());
         result_.junctions.apart_edges = result_.junctions.edges;
         if (options_.sites || options_.boundary == Boundary::Free) return;
         if (!kept_.has_junctions) junctions = {};
+        if (options_.junctions == Junctions::Apart) {
+            drop_short_junctions(surface, least_junction * spacing_, junctions);
+        }
         if (!wants_creases() && junctions.empty()) return;
         NetworkPlan plan =
-            plan_network(surface_, creases_with_given(progress), options_.num_samples,
+            plan_network(surface, creases_with_given(surface, progress), options_.num_samples,
                          std::move(junctions), kept_.drop_share, options_.num_threads, progress);
         FeatureCounts& counts = result_.features;
         counts.curves = static_cast<Index>(plan.network.curves.size());
@@ -125,7 +166,7 @@ private:
         counts.samples_for_all = plan.sites_for_all;
         result_.junctions.samples_for_all = plan.sites_for_junctions;
         if (plan.network.curves.empty()) return;
-        if (!plan.junctions.empty()) result_.junctions.apart_edges = 0;
+        result_.junctions.apart_edges -= static_cast<Index>(plan.junctions.edges.size());
         result_.junctions.curves = static_cast<Index>(
             std::count_if(plan.network.curves.begin(), plan.network.curves.end(),
                           [](const Curve& curve) { return curve.is_junction(); }));
@@ -141,45 +182,46 @@ private:
     }
 
     [[nodiscard]] std::vector<std::uint8_t> creases_with_given(
-        const agvd::Progress& progress) const {
-        std::vector<std::uint8_t> is_crease(surface_.num_edges(), 0);
+        const Surface& surface, const agvd::Progress& progress) const {
+        std::vector<std::uint8_t> is_crease(surface.num_edges(), 0);
         if (options_.features != Features::Off) {
             is_crease = find_creases(
-                surface_, {.angle = options_.feature_angle,
-                           .spacing = std::min(spacing_, mean_spacing(surface_, least_scale)),
-                           .is_automatic = options_.features == Features::Auto,
-                           .num_threads = options_.num_threads,
-                           .progress = progress});
+                surface, {.angle = options_.feature_angle,
+                          .spacing = std::min(spacing_, mean_spacing(surface, least_scale)),
+                          .is_automatic = options_.features == Features::Auto,
+                          .num_threads = options_.num_threads,
+                          .progress = progress});
         }
         const auto add = [&](const std::vector<std::uint8_t>& is_given) {
             for (std::size_t e = 0; e < is_given.size(); ++e) is_crease[e] |= is_given[e];
         };
         if (!options_.feature_edges.empty()) {
-            add(carry_edges(options_.feature_edges, input_, clean_, surface_));
+            add(carry_edges(options_.feature_edges, input_, clean_, surface));
         }
         if (!options_.face_labels.empty()) {
-            add(find_label_borders(options_.face_labels, clean_, surface_));
+            add(find_label_borders(options_.face_labels, clean_, surface));
         }
         return is_crease;
     }
 
-    // What cleaning has found is handed on. The mesh moves, unless given sites or edges still need
-    // it there.
-    void build_input_surface(const agvd::Progress& progress) {
-        const bool is_needed = options_.sites || !options_.feature_edges.empty();
-        agvd::TriangleMesh mesh = is_needed ? clean_.mesh : std::exchange(clean_.mesh, {});
-        surface_ = clean_.connectivity.twin.empty()
-                       ? agvd::build_surface(mesh.view(), options_.num_threads, progress)
-                       : agvd::build_surface(std::move(mesh), std::move(clean_.connectivity),
-                                             options_.num_threads, progress);
+    // What was given in terms of the input is carried over to the cleaned mesh later.
+    [[nodiscard]] bool needs_input() const {
+        return options_.sites || !options_.feature_edges.empty() || !options_.face_labels.empty();
     }
 
-    // The surface, cut along the creases if there are any.
-    [[nodiscard]] const Surface& cut_surface() const {
-        return plan_ ? plan_->cut.surface : surface_;
+    // What cleaning has found is handed on. The mesh moves, unless it is still needed there.
+    Surface build_input_surface(const agvd::Progress& progress) {
+        agvd::TriangleMesh mesh = needs_input() ? clean_.mesh : std::exchange(clean_.mesh, {});
+        return clean_.connectivity.twin.empty()
+                   ? agvd::build_surface(mesh.view(), options_.num_threads, progress)
+                   : agvd::build_surface(std::move(mesh), std::move(clean_.connectivity),
+                                         options_.num_threads, progress);
     }
 
-    // Of cut_surface().
+    // The cleaned mesh.
+    [[nodiscard]] const Surface& surface() const { return plan_ ? uncut_ : prepared_->input(); }
+
+    // Of the surface, cut along the creases if there are any.
     [[nodiscard]] const Topology& topology() const {
         return plan_ ? patches_ : result_.input_topology;
     }
@@ -192,11 +234,11 @@ private:
         if (options_.sites) {
             sites_ = to_cleaned(*options_.sites, input_, clean_);
         } else {
-            if (!plan_ && !is_coarse_to_fine()) sites_ = sample_sites(surface_, sampling());
+            if (!plan_ && !is_coarse_to_fine()) sites_ = sample_sites(surface(), sampling());
         }
         if (options_.boundary == Boundary::Keep && !plan_) {
-            for (const std::vector<Index>& loop : agvd::boundary_loops(surface_)) {
-                const std::vector<Index> corners = find_corners(surface_, loop, spacing_);
+            for (const std::vector<Index>& loop : agvd::boundary_loops(surface())) {
+                const std::vector<Index> corners = find_corners(surface(), loop, spacing_);
                 corners_.insert(corners_.end(), corners.begin(), corners.end());
             }
             std::sort(corners_.begin(), corners_.end());
@@ -255,15 +297,15 @@ private:
 
     void drop_duplicates() {
         if (!options_.sites) return;
-        sites_ = agvd::points_of(sites_, agvd::distinct_points(surface_, sites_));
+        sites_ = agvd::points_of(sites_, agvd::distinct_points(surface(), sites_));
         num_distinct_ = static_cast<Index>(sites_.size());
     }
 
     // The dual with the count asked for. Where it runs through itself more often than the input, it
     // is built again with more sites there; the best counts.
     void build_mesh() {
-        const Ground ground{base(),     prepared_->layout, topology().components,
-                            component_, corners_,          chain_};
+        std::optional<agvd::SurfaceLayout> layout(std::move(prepared_->layout));
+        const Ground ground{base(), layout, topology().components, component_, corners_, chain_};
         const RemeshOptions cell_options = options_of_cells();
         on_base_ = prepared_->base.to_intrinsic(sites_);
         const std::vector<SurfacePoint> first_on_base = on_base_;
@@ -463,7 +505,7 @@ private:
         std::vector<Vec3> positions;
         positions.reserve(points.size());
         for (const SurfacePoint& point : points) {
-            positions.push_back(position(surface_.mesh.view(), point));
+            positions.push_back(position(surface().mesh.view(), point));
         }
         return positions;
     }
@@ -502,13 +544,13 @@ private:
         std::vector<Vec3> positions;
         positions.reserve(mesh.points.size());
         for (Index v = 0; v < mesh.points.size(); ++v) {
-            positions.push_back(mesh.position(surface_.mesh.view(), v));
+            positions.push_back(mesh.position(surface().mesh.view(), v));
         }
         return positions;
     }
 
     void fit_network(PlacedMesh& placed) const {
-        const std::vector<Vec3> offsets = fit_curves(surface_, plan_->network, curves_);
+        const std::vector<Vec3> offsets = fit_curves(uncut_, plan_->network, curves_);
         for (Index v = 0; v < groups_.size(); ++v) {
             if (groups_[v] < offsets.size()) placed.offsets[v] = offsets[groups_[v]];
         }
@@ -556,11 +598,11 @@ private:
         const agvd::TriangleMesh placed = welded_mesh_of(mesh);
         CrossingFaces found = find(placed.view());
         if (found && !found->empty() && !has_judged_input_) {
-            const agvd::TriangleMesh& input = surface_.mesh;
+            const agvd::TriangleMesh& input = surface().mesh;
             std::vector<agvd::Triangle> welded;
             if (has_junctions()) {
                 welded = rename_vertices(input.triangles,
-                                         first_copies(plan_->junctions, surface_.num_vertices()));
+                                         first_copies(plan_->junctions, surface().num_vertices()));
             }
             result_.input_self_intersections = static_cast<Index>(
                 find({input.positions, has_junctions() ? welded : input.triangles})->size());
@@ -629,16 +671,18 @@ private:
     }
 
     agvd::MeshView input_;
+    agvd::TriangleMesh* owned_input_;  // What input_ shows if it may be given away, or null.
     const RemeshOptions& options_;
     const int most_mends_;
     const KeptCurves kept_;
     RemeshResult result_;
     CleanResult clean_;
-    double spacing_ = 0;  // Mean distance of the sites.
-    Surface surface_;     // Of the cleaned mesh.
-    std::optional<PreparedSurface> prepared_;
-    std::optional<NetworkPlan> plan_;    // Its cut surface is here the whole one.
-    Topology patches_;                   // Of the cut surface; without a plan not used.
+    double spacing_ = 0;                       // Mean distance of the sites.
+    std::optional<NetworkPlan> plan_;          // Its cut surface is here the whole one.
+    Surface uncut_;                            // The cleaned mesh, if there is a plan.
+    Topology patches_;                         // Of the cut surface; without a plan not used.
+    std::optional<PreparedSurface> prepared_;  // The cleaned mesh, cut along the creases.
+    bool is_input_gone_ = false;
     std::vector<Index> component_;       // #F of the base.
     CurveSites curves_;                  // The first ones of the sites; empty without a plan.
     std::vector<ChainEdge> chain_;       // Likewise.
@@ -658,7 +702,12 @@ private:
 
 RemeshResult run_pipeline(const agvd::MeshView& mesh, const RemeshOptions& options, int most_mends,
                           const KeptCurves& kept) {
-    return Pipeline(mesh, options, most_mends, kept).run();
+    return Pipeline(mesh, nullptr, options, most_mends, kept).run();
+}
+
+RemeshResult run_pipeline(agvd::TriangleMesh& mesh, const RemeshOptions& options, int most_mends,
+                          const KeptCurves& kept) {
+    return Pipeline(mesh.view(), &mesh, options, most_mends, kept).run();
 }
 
 }  // namespace remesh::detail

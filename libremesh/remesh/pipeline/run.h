@@ -26,5 +26,9 @@ struct KeptCurves {
 //! \throw TooFewSamples, NetworkFailed (only with creases or junctions), and what remesh() throws.
 [[nodiscard]] RemeshResult run_pipeline(const agvd::MeshView& mesh, const RemeshOptions& options,
                                         int most_mends, const KeptCurves& kept = {});
+//! \param mesh  is given away as soon as cleaning has found nothing to repair; with TooFewSamples,
+//!              NetworkFailed or a result with curves it is as it was.
+[[nodiscard]] RemeshResult run_pipeline(agvd::TriangleMesh& mesh, const RemeshOptions& options,
+                                        int most_mends, const KeptCurves& kept = {});
 
 }  // namespace remesh::detail

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "agvd/mesh/distinct_points.h"
 #include "agvd/mesh/point_faces.h"
@@ -118,17 +119,25 @@ private:
         std::erase_if(fixes.added, has_failed);
     }
 
+    [[nodiscard]] agvd::Propagation propagate() const {
+        const agvd::PropagationOptions options{.engine = options_.engine,
+                                               .max_error = options_.max_error,
+                                               .steiner_points = options_.steiner_points,
+                                               .lambda = options_.lambda,
+                                               .num_threads = options_.num_threads,
+                                               .progress = progress_of(Stage::Propagate, options_)};
+        if (!ground_.layout) return agvd::propagate(surface_, sites_, options);
+        agvd::SurfaceLayout layout = *std::move(ground_.layout);
+        ground_.layout.reset();
+        return agvd::propagate(surface_, std::move(layout), sites_, options);
+    }
+
     void build_diagram() {
+        dual_.diagram = {};  // Before there is another.
         agvd::Propagation propagation;
         {
             const StageClock clock(Stage::Propagate, result_);
-            propagation = agvd::propagate(surface_, ground_.layout, sites_,
-                                          {.engine = options_.engine,
-                                           .max_error = options_.max_error,
-                                           .steiner_points = options_.steiner_points,
-                                           .lambda = options_.lambda,
-                                           .num_threads = options_.num_threads,
-                                           .progress = progress_of(Stage::Propagate, options_)});
+            propagation = propagate();
             result_.certified_error = propagation.certified_error;
             result_.propagation_bytes = propagation.peak_bytes;
         }

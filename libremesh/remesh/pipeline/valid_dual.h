@@ -2,7 +2,10 @@
 //! Sites, moved and added until their cells give a mesh of the surface's topology; and that mesh.
 #pragma once
 
+#include <optional>
+
 #include "agvd/diagram/diagram.h"
+#include "agvd/propagation/surface_layout.h"
 #include "remesh/features/curve_sites.h"
 #include "remesh/pipeline/remesh.h"
 
@@ -10,8 +13,10 @@ namespace remesh::detail {
 
 //! The surface with all that is worth keeping between propagations.
 struct Ground {
-    const agvd::Surface& surface;       //!< That of the intrinsic triangulation.
-    const agvd::SurfaceLayout& layout;  //!< SurfaceLayout(surface).
+    const agvd::Surface& surface;  //!< That of the intrinsic triangulation.
+    //! SurfaceLayout(surface) or none: the first propagation uses it up, and others make their own,
+    //! which takes a tenth of a round. It is larger than the surface.
+    std::optional<agvd::SurfaceLayout>& layout;
     std::span<const ComponentTopology> components;
     std::span<const agvd::Index> component;  //!< #F of it: index into components.
     std::span<const agvd::Index> corners;    //!< Boundary vertices that need a site.

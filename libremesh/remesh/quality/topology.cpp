@@ -7,6 +7,7 @@
 
 #include "agvd/core/bucket_sort.h"
 #include "agvd/core/half_edge.h"
+#include "agvd/core/union_find.h"
 #include "remesh/quality/edge_sides.h"
 #include "remesh/sampling/components.h"
 
@@ -16,20 +17,6 @@ namespace {
 using agvd::Index;
 using agvd::no_index;
 using agvd::Triangle;
-
-Index find_root(std::vector<Index>& parent, Index i) {
-    while (parent[i] != i) {
-        parent[i] = parent[parent[i]];
-        i = parent[i];
-    }
-    return i;
-}
-
-void unite(std::vector<Index>& parent, Index a, Index b) {
-    a = find_root(parent, a);
-    b = find_root(parent, b);
-    parent[std::max(a, b)] = std::min(a, b);
-}
 
 bool has_bad_faces(const agvd::MeshView& mesh, agvd::Ticker& ticker) {
     std::vector<Triangle> sorted(mesh.triangles.begin(), mesh.triangles.end());
@@ -54,8 +41,7 @@ double face_area(const agvd::MeshView& mesh, Index face) {
 // One umbrella per vertex: the corners at a vertex hang together through the edges at it.
 bool has_one_umbrella_each(const agvd::MeshView& mesh, const std::vector<EdgeSide>& sides,
                            agvd::Ticker& ticker) {
-    std::vector<Index> corner(3 * mesh.triangles.size());
-    std::iota(corner.begin(), corner.end(), Index{0});
+    agvd::UnionFind corner(3 * mesh.triangles.size());
     ticker.poll();
     const auto corner_of = [&](Index face, Index vertex) {
         const Triangle& t = mesh.triangles[face];
@@ -65,14 +51,14 @@ bool has_one_umbrella_each(const agvd::MeshView& mesh, const std::vector<EdgeSid
         ticker.tick();
         if (sides[i].ends != sides[i + 1].ends) continue;
         for (const Index v : {sides[i].low(), sides[i].high()}) {
-            unite(corner, corner_of(sides[i].face(), v), corner_of(sides[i + 1].face(), v));
+            corner.unite(corner_of(sides[i].face(), v), corner_of(sides[i + 1].face(), v));
         }
     }
     std::vector<Index> umbrella(mesh.positions.size(), no_index);
-    for (Index c = 0; c < corner.size(); ++c) {
+    for (Index c = 0; c < 3 * mesh.triangles.size(); ++c) {
         ticker.tick();
         Index& seen = umbrella[mesh.triangles[c / 3][c % 3]];
-        const Index root = find_root(corner, c);
+        const Index root = corner.root(c);
         if (seen != no_index && seen != root) return false;
         seen = root;
     }
@@ -99,14 +85,13 @@ Topology analyze_topology(const agvd::MeshView& mesh, const agvd::Progress& prog
     const std::vector<EdgeSide> sides = sorted_edge_sides(mesh.triangles, ticker);
     const auto num_faces = static_cast<Index>(mesh.triangles.size());
 
-    std::vector<Index> parent(num_faces);
-    std::iota(parent.begin(), parent.end(), Index{0});
+    agvd::UnionFind parent(num_faces);
     result.is_manifold = !has_bad_faces(mesh, ticker);
     result.is_oriented = true;
     for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
         ticker.tick();
         for (const EdgeSide* side = begin; side != end; ++side) {
-            unite(parent, begin->face(), side->face());
+            parent.unite(begin->face(), side->face());
         }
         if (end - begin > 2) result.is_manifold = false;
         if (end - begin == 2 && begin[0].forward == begin[1].forward) result.is_oriented = false;
@@ -117,7 +102,7 @@ Topology analyze_topology(const agvd::MeshView& mesh, const agvd::Progress& prog
     result.face_component.resize(num_faces);
     for (Index f = 0; f < num_faces; ++f) {
         ticker.tick();
-        Index& id = component_of_root[find_root(parent, f)];
+        Index& id = component_of_root[parent.root(f)];
         if (id == no_index) {
             id = static_cast<Index>(result.components.size());
             result.components.emplace_back();
@@ -148,21 +133,20 @@ Topology analyze_topology(const agvd::MeshView& mesh, const agvd::Progress& prog
     }
 
     // Boundary loops: the connected pieces of the graph of boundary edges.
-    std::vector<Index> boundary(mesh.positions.size());
-    std::iota(boundary.begin(), boundary.end(), Index{0});
+    agvd::UnionFind boundary(mesh.positions.size());
     std::vector<std::pair<Index, Index>> boundary_ends;  // (lower vertex, face)
     for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
         ticker.tick();
         --result.components[result.face_component[begin->face()]].euler;
         if (end - begin != 1) return;
-        unite(boundary, begin->low(), begin->high());
+        boundary.unite(begin->low(), begin->high());
         boundary_ends.emplace_back(begin->low(), begin->face());
     });
     ticker.poll();
     std::vector<bool> counted(mesh.positions.size(), false);
     for (const auto& [vertex, face] : boundary_ends) {
         ticker.tick();
-        const Index root = find_root(boundary, vertex);
+        const Index root = boundary.root(vertex);
         if (counted[root]) continue;
         counted[root] = true;
         ++result.components[result.face_component[face]].boundary_loops;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "agvd/core/poller.h"
 #include "agvd/mesh/face_area.h"
@@ -31,15 +32,27 @@ agvd::Index most_splits(const agvd::Surface& input, double spacing) {
     return static_cast<agvd::Index>(std::min(most, 1e9));
 }
 
+agvd::IntrinsicOptions options_for(const agvd::Surface& input, double spacing, int num_threads,
+                                   const agvd::Progress& progress) {
+    return {.max_length = longest_edge * spacing,
+            .min_length = std::isfinite(spacing) ? shortest_edge * spacing : 0,
+            .most_splits = most_splits(input, spacing),
+            .num_threads = num_threads,
+            .progress = progress};
+}
+
 }  // namespace
 
 PreparedSurface::PreparedSurface(const agvd::Surface& input, double spacing, int num_threads,
                                  const agvd::Progress& progress)
-    : base(input, {.max_length = longest_edge * spacing,
-                   .min_length = std::isfinite(spacing) ? shortest_edge * spacing : 0,
-                   .most_splits = most_splits(input, spacing),
-                   .progress = progress}),
-      pieces(base, piece_share * spacing * spacing, progress),
+    : base(input, options_for(input, spacing, num_threads, progress)),
+      pieces(base, piece_share * spacing * spacing, num_threads, progress),
+      layout(base.surface(), num_threads, progress) {}
+
+PreparedSurface::PreparedSurface(agvd::Surface&& input, double spacing, int num_threads,
+                                 const agvd::Progress& progress)
+    : base(std::move(input), options_for(input, spacing, num_threads, progress)),
+      pieces(base, piece_share * spacing * spacing, num_threads, progress),
       layout(base.surface(), num_threads, progress) {}
 
 double mean_spacing(const agvd::Surface& surface, std::size_t num_sites) {

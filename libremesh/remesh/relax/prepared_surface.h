@@ -18,10 +18,13 @@ struct PreparedSurface {
     //! Cost: that of the base, and O(#F) for the rest. Some 280 bytes for each face of the base.
     PreparedSurface(const agvd::Surface& input, double spacing, int num_threads = 0,
                     const agvd::Progress& progress = {});
+    //! The same for an input that nobody else needs (see IntrinsicTriangulation).
+    PreparedSurface(agvd::Surface&& input, double spacing, int num_threads = 0,
+                    const agvd::Progress& progress = {});
 
     agvd::IntrinsicTriangulation base;
     agvd::FacePieces pieces;     //!< Of the base's faces.
-    agvd::SurfaceLayout layout;  //!< Of base.surface().
+    agvd::SurfaceLayout layout;  //!< Of base.surface(). May be moved from when sites are at rest.
 
     [[nodiscard]] const agvd::Surface& input() const { return base.input(); }
 };

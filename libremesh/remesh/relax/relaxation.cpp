@@ -249,9 +249,7 @@ void Relaxation::choose_move(Index i, double keep) {
 [[gnu::always_inline]] inline void Relaxation::prefetch(Index i) const {
     const std::size_t f = sites_[i].face.value();
     __builtin_prefetch(&surface_.mesh.triangles[f]);
-    __builtin_prefetch(&surface_.edge[3 * f]);
     __builtin_prefetch(&surface_.twin[3 * f]);
-    __builtin_prefetch(&surface_.apex[3 * f]);
 }
 
 void Relaxation::walk() {

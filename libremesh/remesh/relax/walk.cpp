@@ -37,12 +37,12 @@ struct Ray {
 Ray in_next(const Surface& surface, const Ray& ray) {
     const Vec2 head(surface.length_of(ray.half_edge), 0);
     const Index next = Surface::next(ray.half_edge);
-    const Vec2 axis = (surface.apex[ray.half_edge] - head) / surface.length_of(next);
+    const Vec2 axis = (surface.apex_of(ray.half_edge) - head) / surface.length_of(next);
     return {next, turned_back(ray.at - head, axis), turned_back(ray.direction, axis)};
 }
 
 SurfacePoint point_at(const Surface& surface, const Ray& ray) {
-    const Vec2 apex = surface.apex[ray.half_edge];
+    const Vec2 apex = surface.apex_of(ray.half_edge);
     const double length = surface.length_of(ray.half_edge);
     const double up = ray.at.y() / apex.y();
     const double head = (ray.at.x() - up * apex.x()) / length;
@@ -76,7 +76,7 @@ void find_exit(const Surface& surface, Ray& ray, bool is_inside) {
         }
         return;
     }
-    const bool is_left = cross(ray.direction, surface.apex[ray.half_edge] - ray.at) > 0;
+    const bool is_left = cross(ray.direction, surface.apex_of(ray.half_edge) - ray.at) > 0;
     ray = in_next(surface, ray);
     if (!is_left) ray = in_next(surface, ray);
 }
@@ -97,13 +97,14 @@ SurfacePoint walk_straight(const Surface& surface, const SurfacePoint& from, con
     const double length = surface.length_of(h);
     const Vec3 x_axis = (p[t[1]] - p[t[0]]) / length;
     const Vec3 up = p[t[2]] - p[t[0]];
-    const Vec3 y_axis = (up - surface.apex[h].x() * x_axis) / surface.apex[h].y();
+    const Vec2 apex = surface.apex_of(h);
+    const Vec3 y_axis = (up - apex.x() * x_axis) / apex.y();
     const Vec2 flat(x_axis.dot(step), y_axis.dot(step));
     double left = step.norm();
     const double flat_length = flat.norm();
     if (!(flat_length > least_cosine * left)) return from;
 
-    Ray ray{h, from.barycentric[2] * surface.apex[h] + Vec2(from.barycentric[1] * length, 0),
+    Ray ray{h, from.barycentric[2] * apex + Vec2(from.barycentric[1] * length, 0),
             flat / flat_length};
     for (int crossings = 0; crossings < most_crossings; ++crossings) {
         find_exit(surface, ray, crossings == 0);

@@ -150,6 +150,12 @@ std::vector<SurfacePoint> to_cleaned(const std::vector<SurfacePoint>& sites, con
 
 std::vector<SurfacePoint> to_original(const std::vector<SurfacePoint>& sites, const MeshView& mesh,
                                       const CleanResult& clean) {
+    if (clean.face_origin.empty()) {
+        std::vector<SurfacePoint> carried;
+        carried.reserve(sites.size());
+        for (const SurfacePoint& site : sites) carried.push_back(normalized(site));
+        return carried;
+    }
     const MeshView cleaned = clean.mesh.view();
     const double reach_sq = squared_reach(cleaned);
     std::optional<agvd::ClosestPointTree> tree;  // Few meshes need it.

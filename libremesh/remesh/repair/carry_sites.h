@@ -20,7 +20,8 @@ namespace remesh {
     const CleanResult& clean);
 
 //! The way back: points of `clean.mesh` on the mesh that it came from; for part of a face, the
-//! closest point of the whole. Cost: O(#sites).
+//! closest point of the whole. Without clean.face_origin the mesh was clean: only the sums of
+//! coordinates become 1. Cost: O(#sites).
 [[nodiscard]] std::vector<agvd::SurfacePoint> to_original(
     const std::vector<agvd::SurfacePoint>& sites, const agvd::MeshView& mesh,
     const CleanResult& clean);

@@ -62,13 +62,16 @@ std::vector<Component> find_components(const Surface& surface, const agvd::Progr
         ticker.tick();
         Component& component = components[label[f]];
         const double before = component.faces.empty() ? 0 : component.area();
-        const double doubled_area = surface.length_of(3 * f) * surface.apex[3 * f].y();
+        const double doubled_area = surface.length_of(3 * f) * surface.apex_of(3 * f).y();
         component.faces.push_back(f);
         component.area_up_to.push_back(before + doubled_area / 2);
         ++component.euler;
     }
-    agvd::for_each_ticked(surface.edge_half, ticker,
-                          [&](Index h) { --components[label[Surface::face(h)]].euler; });
+    for (Index h = 0; h < surface.twin.size(); ++h) {
+        ticker.tick();
+        // An edge counts at its lower half-edge; no_index is higher.
+        if (surface.twin[h] > h) --components[label[Surface::face(h)]].euler;
+    }
     agvd::for_each_ticked(surface.outgoing, ticker, [&](Index h) {
         if (h != no_index) ++components[label[Surface::face(h)]].euler;
     });

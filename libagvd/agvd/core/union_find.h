@@ -1,0 +1,36 @@
+//! \file
+//! Elements that are put together set by set.
+#pragma once
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "agvd/core/types.h"
+
+namespace agvd {
+
+//! Disjoint sets of 0 to n - 1. The root of a set is its lowest element.
+class UnionFind {
+public:
+    explicit UnionFind(std::size_t count) : parent_(count) {
+        std::iota(parent_.begin(), parent_.end(), Index{0});
+    }
+
+    //! Cost: O(log n) amortized; paths are halved.
+    [[nodiscard]] Index root(Index i) {
+        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+        return i;
+    }
+    void unite(Index a, Index b) {
+        if (parent_[a] == parent_[b]) return;
+        a = root(a);
+        b = root(b);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+private:
+    std::vector<Index> parent_;
+};
+
+}  // namespace agvd
