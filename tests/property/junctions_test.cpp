@@ -157,12 +157,28 @@ TEST(Junctions, AnEdgeAloneIsASlitAndNoReasonToThinTheSurface) {
     const Vec3 middle = (mesh.positions[a] + mesh.positions[b]) / 2;
     mesh.triangles.push_back({b, a, static_cast<Index>(mesh.positions.size())});
     mesh.positions.emplace_back(1.2 * middle);
-    const RemeshResult result = run(mesh, {.num_samples = 2000});
-    expect_apart(result, 2000);
+    const RemeshResult result = run(mesh, {.num_samples = 20000});
+    expect_apart(result, 20000);
     EXPECT_EQ(result.junctions.edges, 1u);
     EXPECT_EQ(result.junctions.apart_edges, 0u);
-    EXPECT_EQ(result.junctions.vertices, 6u);
+    EXPECT_EQ(result.junctions.vertices, 8u);
     EXPECT_LE(result.features.thinned_patches, 1u);  // The triangle that stands off.
+}
+
+TEST(Junctions, ShorterOnesThanTwoSpacingsStayApart) {
+    TriangleMesh mesh = shapes::sphere(4);
+    const auto [a, b, c] = mesh.triangles[100];
+    const Vec3 middle = (mesh.positions[a] + mesh.positions[b]) / 2;
+    mesh.triangles.push_back({b, a, static_cast<Index>(mesh.positions.size())});
+    mesh.positions.emplace_back(1.2 * middle);
+    const RemeshResult apart = run(mesh, {.num_samples = 500});
+    expect_apart(apart, 500);
+    EXPECT_EQ(apart.junctions.edges, 1u);
+    EXPECT_EQ(apart.junctions.apart_edges, 1u);
+    EXPECT_EQ(apart.junctions.curves, 0u);
+    const RemeshResult kept = run(mesh, {.num_samples = 500, .junctions = Junctions::Keep});
+    EXPECT_EQ(kept.junctions.apart_edges, 0u);
+    EXPECT_EQ(kept.junctions.welded_edges, 2u);
 }
 
 TEST(Junctions, EachSheetsSitesLieOnItself) {

@@ -8,7 +8,9 @@
 
 #include "agvd/core/error.h"
 #include "agvd/mesh/point_faces.h"
+#include "agvd/propagation/moving_sites.h"
 #include "support/checks.h"
+#include "support/dirty_shapes.h"
 #include "support/points.h"
 #include "support/random_meshes.h"
 #include "support/shapes.h"
@@ -309,6 +311,65 @@ TEST(WindowEngine, FewSitesNeedLittleMoreMemoryThanTheLayout) {
     EXPECT_LT(bytes_per_face(1, 0), 300);
     EXPECT_LT(bytes_per_face(1, 1e-3), 250);
     EXPECT_LT(bytes_per_face(10, 0), 600);
+}
+
+// Contract of Propagation::mixed_faces, and all is reached.
+void expect_sound(const Surface& s, const Propagation& p) {
+    std::vector<bool> is_mixed(s.num_faces(), false);
+    for (const Index f : p.mixed_faces) is_mixed[f] = true;
+    for (Index f = 0; f < s.num_faces(); ++f) {
+        for (const Index v : s.mesh.triangles[f]) {
+            EXPECT_TRUE(p.vertex_site[v].is_valid());
+            EXPECT_TRUE(std::isfinite(p.vertex_distance[v]));
+            EXPECT_TRUE(is_mixed[f] || p.vertex_site[v] == p.vertex_site[s.mesh.triangles[f][0]]);
+        }
+    }
+}
+
+TEST(WindowEngine, AllIsReachedWhereSpikesLeaveNoDigits) {
+    Index num_off = 0, num_uncertified = 0, num_tried = 0;
+    for (std::uint64_t seed = 0; seed < 60; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        Surface s;
+        try {
+            s = build_surface(shapes::spiked(seed).view());
+        } catch (const InvalidInput&) {
+            continue;  // A face without area.
+        }
+        ++num_tried;
+        for (const Index num_sites : {1u, 3u, 40u}) {
+            const auto sites = points::scattered(s, num_sites, seed);
+            for (const double max_error : {0.0, 1e-3}) {
+                const PropagationOptions options{.max_error = max_error};
+                const Propagation p = propagate(s, sites, options);
+                expect_sound(s, p);
+                num_off += static_cast<Index>(p.vertices_off_windows.size());
+                num_uncertified += std::isinf(p.certified_error) ? 1 : 0;
+                const SurfaceLayout layout(s);
+                checks::expect_same(MovingSites(s, layout, sites, options).propagation(), p);
+            }
+        }
+    }
+    EXPECT_GE(num_tried, 20u);
+    EXPECT_GT(num_off, 0u) << "no case of it";
+    EXPECT_GT(num_uncertified, 0u) << "no case of it";
+}
+
+TEST(WindowEngine, WindowsReachAllOfSoundMeshes) {
+    Index num_tried = 0;
+    for (const char* family : random_meshes::families()) {
+        for (std::uint64_t seed = 0; seed < 5; ++seed) {
+            const Surface s = build_surface(random_meshes::make(family, seed).view());
+            const auto sites = points::scattered(s, 5, seed);
+            for (const double max_error : {0.0, 1e-4, 1e-2}) {
+                const Propagation p = propagate(s, sites, {.max_error = max_error});
+                EXPECT_TRUE(p.vertices_off_windows.empty()) << family << " " << seed;
+                EXPECT_LE(p.certified_error, max_error);
+                ++num_tried;
+            }
+        }
+    }
+    EXPECT_GE(num_tried, 100u);
 }
 
 TEST(WindowEngine, RefusesErrorsOutOfRange) {

@@ -199,6 +199,7 @@ void expect_valid_complex(const Surface& surface, const Diagram& d) {
 void expect_same(const Propagation& a, const Propagation& b) {
     EXPECT_EQ(a.vertex_site, b.vertex_site);
     EXPECT_EQ(a.vertex_distance, b.vertex_distance);
+    EXPECT_EQ(a.vertices_off_windows, b.vertices_off_windows);
     EXPECT_EQ(a.mixed_faces, b.mixed_faces);
     const auto is_same_relay = [](const Relay& r, const Relay& s) {
         return r.x == s.x && r.y == s.y && r.weight == s.weight && r.begin == s.begin &&

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "agvd/core/random.h"
+#include "support/dice.h"
 #include "support/shapes.h"
 
 namespace shapes {
@@ -141,6 +142,18 @@ TriangleMesh random_soup(Index vertices, Index faces, std::uint64_t seed) {
             return static_cast<Index>(agvd::random_bits(seed, stream, f) % vertices);
         };
         mesh.triangles.push_back({corner(3), corner(4), corner(5)});
+    }
+    return mesh;
+}
+
+TriangleMesh spiked(std::uint64_t seed) {
+    TriangleMesh mesh = subdivide(cube());
+    mesh.triangles.resize(mesh.triangles.size() * 3 / 4);
+    Dice dice(seed);
+    for (int i = 0; i < 6; ++i) {
+        agvd::Vec3& p =
+            mesh.positions[dice.count(0, static_cast<agvd::Index>(mesh.positions.size()) - 1)];
+        p[dice.count(0, 2)] *= std::pow(10.0, dice.count(0, 17));
     }
     return mesh;
 }

@@ -259,7 +259,13 @@ TEST(CleanInput, NamesTheElementThatCannotBeUsed) {
     EXPECT_NE(error_of(mesh).find("face 4 names vertex 8"), std::string::npos);
     mesh = shapes::cube();
     for (Vec3& p : mesh.positions) p *= 1e200;
-    EXPECT_NE(error_of(mesh).find("face 0 is too large"), std::string::npos);
+    EXPECT_NE(error_of(mesh).find("scale it to a length between"), std::string::npos);
+    mesh = shapes::cube();
+    for (Vec3& p : mesh.positions) p.x() += 1e15;
+    EXPECT_NE(error_of(mesh).find("move it to the origin"), std::string::npos);
+    mesh = shapes::cube();
+    for (Vec3& p : mesh.positions) p.x() += 1e12;
+    EXPECT_EQ(error_of(mesh), "no error");
 }
 
 TEST(CleanInput, RefusesMeshesWithoutArea) {

@@ -50,22 +50,25 @@ bool is_in_scale(double extent) {
 }
 
 void check_scale(const MeshView& mesh) {
+    const double side = extent(mesh);
+    if (is_in_scale(side)) return;
+    std::ostringstream text;
+    text << "the mesh is " << side << " long; scale it to a length between "
+         << std::ldexp(1.0, -max_scale) << " and " << std::ldexp(1.0, max_scale);
+    throw InvalidInput(text.str());
+}
+
+void check_digits(const MeshView& mesh) {
     const Box box = box_of(mesh);
     if (box.is_empty() || box.longest_side() == 0) return;
-    const double side = box.longest_side();
     const double farthest = std::max(box.high.maxCoeff(), -box.low.minCoeff());
+    constexpr int most_lost = std::numeric_limits<double>::digits - least_bits;
+    if (box.longest_side() >= std::ldexp(farthest, -most_lost)) return;
     std::ostringstream text;
-    if (side < std::ldexp(farthest, least_bits - std::numeric_limits<double>::digits)) {
-        text << "the mesh is " << side << " long, but lies " << farthest
-             << " from the origin: its coordinates have no digits left for its shape; move it to "
-                "the origin before it is saved";
-        throw InvalidInput(text.str());
-    }
-    if (!is_in_scale(side)) {
-        text << "the mesh is " << side << " long; scale it to a length between "
-             << std::ldexp(1.0, -max_scale) << " and " << std::ldexp(1.0, max_scale);
-        throw InvalidInput(text.str());
-    }
+    text << "the mesh is " << box.longest_side() << " long, but lies " << farthest
+         << " from the origin: its coordinates have no digits left for its shape; move it to the "
+            "origin before it is saved";
+    throw InvalidInput(text.str());
 }
 
 TriangleMesh scaled(const MeshView& mesh, int exponent) {

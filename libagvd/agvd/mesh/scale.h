@@ -17,10 +17,12 @@ inline constexpr int max_scale = 80;
 //! Whether the extent is that of a mesh that can be computed on, or 0.
 [[nodiscard]] bool is_in_scale(double extent);
 
-//! \throw InvalidInput  the extent is out of scale, or the mesh lies so far from the origin that
-//! its
-//!        coordinates have less than 10 of their 53 bits left. Cost: O(#F).
+//! \throw InvalidInput  the extent is out of scale. Cost: O(#F).
 void check_scale(const MeshView& mesh);
+
+//! \throw InvalidInput  the mesh lies so far from the origin that its coordinates have less than 10
+//!        of their 53 bits left for its shape. Cost: O(#F).
+void check_digits(const MeshView& mesh);
 
 //! The mesh times 2^exponent. Exact, unless a coordinate becomes subnormal. Cost: O(n).
 [[nodiscard]] TriangleMesh scaled(const MeshView& mesh, int exponent);

@@ -183,6 +183,7 @@ CleanResult clean_input(const agvd::MeshView& mesh, int num_threads,
     agvd::Ticker ticker(poller);
     check_elements(mesh, ticker);
     agvd::check_scale(mesh);
+    agvd::check_digits(mesh);
     if (std::optional<CleanResult> clean = take_clean(mesh, num_threads, progress)) {
         return *std::move(clean);
     }

@@ -1,0 +1,62 @@
+#include "agvd/mesh/scale.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "agvd/core/error.h"
+#include "agvd/mesh/surface.h"
+#include "support/shapes.h"
+
+using namespace agvd;
+
+namespace {
+
+TriangleMesh cube_of(double size) {
+    TriangleMesh mesh = shapes::cube();
+    for (Vec3& p : mesh.positions) p *= size;
+    return mesh;
+}
+
+}  // namespace
+
+TEST(Scale, ExtentIsThatOfTheFaces) {
+    TriangleMesh mesh = cube_of(3);
+    mesh.positions.emplace_back(100, 0, 0);  // In no face.
+    mesh.positions[mesh.triangles[0][0]].x() = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_EQ(extent(mesh.view()), 3);
+    EXPECT_EQ(extent({}), 0);
+    EXPECT_EQ(extent(cube_of(1e308).view()), 1e308);
+    mesh = cube_of(1);
+    for (Vec3& p : mesh.positions) p = (p - Vec3(0.5, 0.5, 0.5)) * 2 * 1.7e308;
+    EXPECT_EQ(extent(mesh.view()), std::numeric_limits<double>::max());
+}
+
+TEST(Scale, RangeEndsAtTwoToTheEighty) {
+    EXPECT_TRUE(is_in_scale(0));
+    EXPECT_TRUE(is_in_scale(0x1p80));
+    EXPECT_TRUE(is_in_scale(0x1p-80));
+    EXPECT_FALSE(is_in_scale(0x1.1p80));
+    EXPECT_FALSE(is_in_scale(0x0.fp-80));
+    EXPECT_THROW((void)build_surface(cube_of(1e-40).view()), InvalidInput);
+    EXPECT_THROW((void)build_surface(cube_of(1e40).view()), InvalidInput);
+    EXPECT_NO_THROW((void)build_surface(cube_of(1e20).view()));
+}
+
+TEST(Scale, ScaledAndBackIsTheSame) {
+    const TriangleMesh mesh = shapes::jitter(shapes::sphere(2), 0.1, 3);
+    const TriangleMesh small = scaled(mesh.view(), -300);
+    EXPECT_EQ(small.positions[7].x(), std::ldexp(mesh.positions[7].x(), -300));
+    EXPECT_EQ(scaled(small.view(), 300).positions, mesh.positions);
+    EXPECT_EQ(small.triangles, mesh.triangles);
+}
+
+TEST(Scale, DigitsRunOutFarFromTheOrigin) {
+    TriangleMesh mesh = shapes::cube();
+    for (Vec3& p : mesh.positions) p.z() -= 0x1p43 * 1.1;
+    EXPECT_THROW(check_digits(mesh.view()), InvalidInput);
+    mesh = shapes::cube();
+    for (Vec3& p : mesh.positions) p.z() -= 0x1p42;
+    EXPECT_NO_THROW(check_digits(mesh.view()));
+}
