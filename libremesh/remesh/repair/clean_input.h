@@ -54,8 +54,8 @@ struct CleanResult {
 //! vertices and faces keep their order; copies of vertices come last.
 //!
 //! \throw agvd::InvalidInput  an index is out of range, a coordinate is not finite, the mesh is out
-//!        of scale (see agvd::check_scale) or too far from the origin, a piece is not orientable (each names the element), or
-//!        no face is left.
+//!        of scale (see agvd::check_scale) or too far from the origin, a piece is not orientable
+//!        (each names the element), or no face is left.
 //! \throw agvd::Cancelled     the progress callback returned false.
 //! \param num_threads  >= 0; 0: all cores. The result is the same for any number.
 //! Cost: O(n log n); O(n) if there is no defect.
