@@ -6,6 +6,8 @@
 #include <numbers>
 #include <numeric>
 
+#include "support/dice.h"
+
 using agvd::Index;
 using agvd::Triangle;
 using agvd::Vec3;
@@ -114,6 +116,22 @@ TEST(Triangulate, RoundPolygonsGetNoSliversAroundOneCorner) {
         for (const Index v : triangle) ++valence[v];
     }
     EXPECT_LE(*std::max_element(valence.begin(), valence.end()), 2 * std::log2(n));
+}
+
+// Every corner was looked at for every ear: 20 000 took a minute.
+TEST(Triangulate, RoughPolygonsOfManyCornersAreCutInside) {
+    Dice dice(7);
+    std::vector<Vec3> star;
+    constexpr int count = 20000;
+    for (int i = 0; i < count; ++i) {
+        const double angle = 2 * std::numbers::pi * i / count, radius = dice.number(1, 1.5);
+        star.emplace_back(radius * std::cos(angle), radius * std::sin(angle), 0);
+    }
+    double area = 0;
+    for (std::size_t i = 0; i < star.size(); ++i) {
+        area += star[i].cross(star[(i + 1) % star.size()]).z() / 2;
+    }
+    expect_partition(star, {0, 0, 1}, area);
 }
 
 TEST(Triangulate, PolygonsWithoutAnAnswerStillEnd) {

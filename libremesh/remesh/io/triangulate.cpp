@@ -4,6 +4,8 @@
 #include <numeric>
 #include <vector>
 
+#include "remesh/io/corner_tree.h"
+
 namespace remesh {
 namespace {
 
@@ -65,13 +67,15 @@ double area(const Vec2& a, const Vec2& b, const Vec2& c) {
 struct Ring {
     std::vector<Vec2> point;
     std::vector<std::size_t> previous, next;
+    CornerTree reflex;  // Those that do not turn left.
 
     explicit Ring(std::vector<Vec2> points)
-        : point(std::move(points)), previous(point.size()), next(point.size()) {
+        : point(std::move(points)), previous(point.size()), next(point.size()), reflex(point) {
         for (std::size_t i = 0; i < point.size(); ++i) {
             next[i] = (i + 1) % point.size();
             previous[next[i]] = i;
         }
+        for (std::size_t i = 0; i < point.size(); ++i) reflex.mark(i, !(turn(i) > 0));
     }
 
     [[nodiscard]] double turn(std::size_t i) const {
@@ -84,17 +88,19 @@ struct Ring {
     [[nodiscard]] bool is_ear(std::size_t i) const {
         if (!(turn(i) > 0)) return false;
         const Vec2 &a = point[previous[i]], &b = point[i], &c = point[next[i]];
-        for (std::size_t j = next[next[i]]; j != previous[i]; j = next[j]) {
+        const auto is_inside = [&](std::size_t j) {
             const Vec2& p = point[j];
-            if (p == a || p == b || p == c || turn(j) > 0) continue;
-            if (area(a, b, p) >= 0 && area(b, c, p) >= 0 && area(c, a, p) >= 0) return false;
-        }
-        return true;
+            if (p == a || p == b || p == c) return false;
+            return area(a, b, p) >= 0 && area(b, c, p) >= 0 && area(c, a, p) >= 0;
+        };
+        return !reflex.any_in(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c), is_inside);
     }
 
     void remove(std::size_t i) {
         next[previous[i]] = next[i];
         previous[next[i]] = previous[i];
+        reflex.mark(i, false);
+        for (const std::size_t j : {previous[i], next[i]}) reflex.mark(j, !(turn(j) > 0));
     }
 };
 
@@ -117,7 +123,7 @@ void append_triangles(std::span<const Index> polygon, std::span<const Vec3> posi
     };
     std::size_t corner = 1, failed = 0, left = polygon.size();
     for (; left > 3 && failed < left; corner = ring.next[corner]) {
-        ticker.tick(1 + left / 8);  // It looks at all that are left.
+        ticker.tick(8);
         if (!ring.is_ear(corner)) {
             ++failed;
             continue;

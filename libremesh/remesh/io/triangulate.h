@@ -15,7 +15,7 @@ namespace remesh {
 //! crosses itself, or has no area) is finished as a fan: there is no right answer.
 //!
 //! \param polygon    at least three indices into positions, which may repeat.
-//! Cost: O(k^2) for k corners, typically; O(1) for k <= 4.
+//! Cost: O(k log k) for k corners, typically; O(1) for k <= 4.
 void append_triangles(std::span<const agvd::Index> polygon, std::span<const agvd::Vec3> positions,
                       agvd::Ticker& ticker, std::vector<agvd::Triangle>& triangles);
 

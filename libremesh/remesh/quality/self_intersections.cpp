@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 #include "agvd/core/bucket_sort.h"
 #include "agvd/core/parallel.h"
@@ -22,6 +23,9 @@ using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, Index>;
 
 // Pairs of boxes tested per chunk.
 constexpr Index grain = 4096;
+// Pairs of boxes that are held at once. Meshes have some 10 a face; a polygon of 20 000 corners cut
+// into needles has hundreds of millions.
+constexpr std::size_t most_candidates = std::size_t{1} << 25;
 
 class Soup {
 public:
@@ -91,26 +95,12 @@ private:
     agvd::Ticker ticker_;
 };
 
-// Every face meets its neighbours, so that pairs, and polls with them, keep coming.
-std::vector<Pair> overlapping_boxes(std::vector<Box> boxes, Index num_faces, agvd::Ticker ticker) {
-    std::vector<Pair> pairs;
-    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
-        ticker.tick(2);
-        pairs.push_back(std::minmax(a.info(), b.info()));
-    });
-    return agvd::sort_in_buckets(
-        pairs, num_faces, [](const Pair& pair) { return pair.first; }, std::less<>(), ticker);
-}
-
-}  // namespace
-
-std::optional<std::vector<Pair>> find_self_intersections(const agvd::MeshView& mesh,
-                                                         int num_threads,
-                                                         const agvd::Progress& progress) {
-    agvd::Poller poller(progress);
-    Soup soup(mesh, agvd::Ticker(poller));
-    const std::vector<Pair> candidates = overlapping_boxes(
-        soup.boxes(), static_cast<Index>(mesh.triangles.size()), agvd::Ticker(poller));
+// The pairs that intersect, in order.
+std::vector<Pair> intersecting(const Soup& soup, std::vector<Pair> candidates, Index num_faces,
+                               int num_threads, agvd::Poller& poller) {
+    candidates = agvd::sort_in_buckets(
+        candidates, num_faces, [](const Pair& pair) { return pair.first; }, std::less<>(),
+        agvd::Ticker(poller));
     const auto count = static_cast<Index>(candidates.size());
     std::vector<std::vector<Pair>> found(agvd::num_chunks(count, grain));
     const auto test = [&](Index chunk, Index begin, Index end) {
@@ -121,6 +111,34 @@ std::optional<std::vector<Pair>> find_self_intersections(const agvd::MeshView& m
     agvd::parallel_chunks(count, grain, num_threads, test, poller);
     std::vector<Pair> all;
     for (const std::vector<Pair>& part : found) all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+}  // namespace
+
+std::optional<std::vector<Pair>> find_self_intersections(const agvd::MeshView& mesh,
+                                                         int num_threads,
+                                                         const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    Soup soup(mesh, agvd::Ticker(poller));
+    const auto num_faces = static_cast<Index>(mesh.triangles.size());
+    std::vector<Box> boxes = soup.boxes();
+    std::vector<Pair> candidates, all;
+    const auto test_candidates = [&] {
+        const std::vector<Pair> found =
+            intersecting(soup, std::exchange(candidates, {}), num_faces, num_threads, poller);
+        all.insert(all.end(), found.begin(), found.end());
+    };
+    // Every face meets its neighbours, so that pairs, and polls with them, keep coming.
+    agvd::Ticker ticker(poller);
+    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
+        ticker.tick(2);
+        candidates.push_back(std::minmax(a.info(), b.info()));
+        if (candidates.size() == most_candidates) test_candidates();
+    });
+    const bool is_sorted = all.empty();
+    test_candidates();
+    if (!is_sorted) std::sort(all.begin(), all.end());
     return all;
 }
 
