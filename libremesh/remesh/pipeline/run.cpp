@@ -350,14 +350,11 @@ private:
     }
 
     // Narrow parts between curves are thinned at once: sites added there would be of no use.
-    // Distances are exact: with few sites on large patches that costs little, and bounds would
-    // leave islands of other cells.
     [[nodiscard]] RemeshOptions options_of_cells() const {
         RemeshOptions options = options_;
         if (!plan_) return options;
         options.boundary = Boundary::Free;
         options.repair_rounds = 0;
-        if (!options.max_error && options.engine == agvd::Engine::Window) options.max_error = 0;
         return options;
     }
 
