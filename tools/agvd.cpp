@@ -5,6 +5,7 @@
 #include "agvd/diagram/diagram_on_input.h"
 #include "agvd/metrics/compare_diagrams.h"
 #include "arguments.h"
+#include "remesh/io/atomic_file.h"
 #include "remesh/io/read_diagram.h"
 #include "remesh/io/read_mesh.h"
 #include "remesh/io/read_sites.h"
@@ -80,6 +81,12 @@ void check_outputs(const DiagramArguments& arguments) {
             throw agvd::IoError(output.string() + ": unknown extension; use .vtp, .obj or .ply");
         }
         cli::check_output(output, {arguments.input, arguments.sites}, arguments.force);
+        const auto same =
+            std::count_if(arguments.outputs.begin(), arguments.outputs.end(),
+                          [&](const fs::path& other) { return cli::is_same_file(output, other); });
+        if (same > 1) {
+            throw agvd::InvalidOption(output.string() + " is named twice; choose another file");
+        }
     }
 }
 
@@ -108,9 +115,12 @@ void run_diagram(const DiagramArguments& arguments, cli::Console& console) {
     propagating.num_threads = arguments.common.threads;
     const auto [diagram, certified_error] = build(surface, sites, propagating, console);
 
+    const agvd::Progress writing = console.progress_of("write");
+    std::vector<remesh::FileContent> files;
     for (const fs::path& output : arguments.outputs) {
-        remesh::write_diagram(output, surface, sites, diagram, console.progress_of("write"));
+        files.push_back({output, remesh::format_diagram(output, surface, sites, diagram, writing)});
     }
+    remesh::write_files_atomically(files, writing);
     const auto unreached = std::count_if(diagram.nearest_site.begin(), diagram.nearest_site.end(),
                                          [](agvd::SiteId site) { return !site.is_valid(); });
     if (unreached > 0) {

@@ -38,6 +38,9 @@ extern "C" void on_signal(int number) {
 }
 
 void catch_signals() {
+    // A closed pipe and a file that may grow no more are errors of the write instead.
+    ::signal(SIGPIPE, SIG_IGN);
+    ::signal(SIGXFSZ, SIG_IGN);
     for (const int number : {SIGINT, SIGTERM}) {
         // What the caller ignores (a shell does so for background jobs) stays ignored.
         struct sigaction action {};
@@ -61,7 +64,6 @@ ExitCode parse_and_run(CLI::App& app, int argc, const char* const* argv,
         std::fputs(err.str().c_str(), stderr);
         return code == 0 ? ExitCode::Done : ExitCode::Usage;
     }
-    catch_signals();
     job();
     return ExitCode::Done;
 }
@@ -86,6 +88,7 @@ int run(CLI::App& app, int argc, const char* const* argv, const std::function<vo
         std::fprintf(stderr, "%s: error: %s\n", name.c_str(), text.c_str());
         return static_cast<int>(code);
     };
+    catch_signals();
     try {
         return static_cast<int>(parse_and_run(app, argc, argv, job));
     } catch (const agvd::InvalidOption& error) {
@@ -118,10 +121,15 @@ void stop_if_interrupted() {
     if (interrupted()) throw agvd::Cancelled();
 }
 
+bool is_same_file(const fs::path& a, const fs::path& b) {
+    std::error_code ignored;  // Such as that there is no such file yet.
+    return fs::equivalent(a, b, ignored) ||
+           fs::weakly_canonical(fs::absolute(a)) == fs::weakly_canonical(fs::absolute(b));
+}
+
 void check_output(const fs::path& path, std::initializer_list<fs::path> inputs, bool force) {
-    std::error_code ignored;  // Such as that there is no old file.
     for (const fs::path& input : inputs) {
-        if (!force && fs::equivalent(path, input, ignored)) {
+        if (!force && !input.empty() && is_same_file(path, input)) {
             throw agvd::InvalidOption(path.string() +
                                       " would overwrite an input; use --force if you mean it");
         }

@@ -52,6 +52,9 @@ void add_common_options(CLI::App& app, CommonOptions& options);
 //! Call before writing. \throw agvd::Cancelled if interrupted().
 void stop_if_interrupted();
 
+//! Whether both name one file, which need not exist yet.
+[[nodiscard]] bool is_same_file(const std::filesystem::path& a, const std::filesystem::path& b);
+
 //! Checks an output path before the long work.
 //! \param inputs  files that must not be overwritten without `force`; may be empty paths.
 //! \throw agvd::InvalidOption  the path is one of the inputs (also through links).

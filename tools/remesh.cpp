@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "arguments.h"
+#include "remesh/io/atomic_file.h"
 #include "remesh/io/read_edges.h"
 #include "remesh/io/read_mesh.h"
 #include "remesh/io/read_sites.h"
@@ -188,7 +189,7 @@ void check_outputs(const Arguments& arguments) {
     if (arguments.report.empty() || arguments.report == "-") return;
     cli::check_output(arguments.report, {arguments.input, arguments.sites, arguments.feature_edges},
                       arguments.force);
-    if (fs::weakly_canonical(arguments.report) == fs::weakly_canonical(arguments.output)) {
+    if (cli::is_same_file(arguments.report, arguments.output)) {
         throw agvd::InvalidOption("--report and the output name the same file; choose another one");
     }
 }
@@ -235,14 +236,20 @@ void run_job(const Arguments& arguments, cli::Console& console) {
         arguments.input, [&] { return remesh::remesh_moved(std::move(input.mesh), options); });
     judge(result, arguments.strict, console);
     warn_of_junctions(result.junctions, arguments.junctions, console);
-    remesh::write_mesh(arguments.output, result.mesh.view(), console.progress_of("write"));
     const remesh::RunInfo info{.version = REMESH_VERSION,
                                .input_path = arguments.input.string(),
                                .output_path = arguments.output.string(),
                                .options = options};
-    if (!arguments.report.empty()) {
-        cli::write_text(arguments.report, remesh::to_json(result, info));
+    const agvd::Progress writing = console.progress_of("write");
+    std::vector<remesh::FileContent> files;
+    files.push_back(
+        {arguments.output, remesh::format_mesh(arguments.output, result.mesh.view(), writing)});
+    if (arguments.report == "-") {
+        cli::print(remesh::to_json(result, info));
+    } else if (!arguments.report.empty()) {
+        files.push_back({arguments.report, remesh::to_json(result, info)});
     }
+    remesh::write_files_atomically(files, writing);
     console.info(remesh::to_text(result, info));
 }
 

@@ -70,6 +70,7 @@ TEST_F(AgvdDiagram, ExitCodes) {
     EXPECT_EQ(run(AGVD_PROGRAM, {"--help"}).exit_code, 0);
     EXPECT_EQ(diagram({"--help"}).exit_code, 0);
     EXPECT_EQ(diagram({in}).exit_code, 2);
+    EXPECT_EQ(diagram({in, "-n", "5", "-o", at("d.ply"), "-o", at("./d.ply")}).exit_code, 2);
     EXPECT_EQ(diagram({in, "-n", "0", "-o", at("d.vtp")}).exit_code, 2);
     EXPECT_EQ(diagram({in, "--engine", "magic", "-o", at("d.vtp")}).exit_code, 2);
     EXPECT_EQ(diagram({in, "--max-error", "1", "-o", at("d.vtp")}).exit_code, 2);

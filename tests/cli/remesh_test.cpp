@@ -230,6 +230,38 @@ TEST_F(Remesh, AFullStandardOutputIsThree) {
     EXPECT_EQ(remesh({"--help"}, {.out = "/dev/full"}).exit_code, 3);
 }
 
+TEST_F(Remesh, TwoNamesOfOneFileThatIsNotThereYetAreRefused) {
+    put("in.off", shapes::sphere(2));
+    const auto outcome =
+        process::run({"/bin/sh", "-c",
+                      "cd '" + at("") + "' && '" REMESH_PROGRAM "' in.off q.obj --report ./q.obj"});
+    EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+    EXPECT_NE(outcome.err.find("same file"), std::string::npos) << outcome.err;
+    EXPECT_EQ(num_files(), 1u);
+}
+
+TEST_F(Remesh, AReportThatCannotBeWrittenLeavesTheOldMesh) {
+    const std::string in = put("in.off", shapes::sphere(2));
+    put("out.off", "old");
+    for (const std::string report : {"/dev/full", "-"}) {
+        const auto outcome =
+            remesh({in, at("out.off"), "-n", "50", "--report", report}, {.out = "/dev/full"});
+        EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+        EXPECT_EQ(bytes("out.off"), "old") << report;
+    }
+    EXPECT_EQ(num_files(), 2u);
+}
+
+TEST_F(Remesh, AFileThatMayGrowNoMoreIsThreeAndLeavesNothing) {
+    put("in.off", shapes::sphere(2));
+    const auto outcome = process::run(
+        {"/bin/sh", "-c",
+         "ulimit -f 1; cd '" + at("") + "' && exec '" REMESH_PROGRAM "' in.off o.off -n 2000"});
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+    EXPECT_NE(outcome.err.find("o.off"), std::string::npos) << outcome.err;
+    EXPECT_EQ(num_files(), 1u);
+}
+
 TEST_F(Remesh, OverwritesAnInputOnlyWithForce) {
     const std::string in = put("in.off", shapes::sphere(3));
     const std::string sites = put("sites.off", "v 0\n");

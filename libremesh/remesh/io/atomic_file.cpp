@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <deque>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -83,10 +84,15 @@ public:
         write_all(fd_, bytes, target_, progress);
     }
 
-    // Closes before renaming: some file systems tell only then that they are full.
-    void rename_to_target() {
+    // Some file systems tell only then that they are full.
+    void close() {
+        if (fd_ < 0) return;
         const int fd = std::exchange(fd_, -1);
         if (::close(fd) != 0 && errno != EINTR) fail(target_, errno, "free some room");
+    }
+
+    void rename_to_target() {
+        close();
         if (::rename(name_.c_str(), target_.c_str()) != 0) fail(target_, errno, check_folder);
         name_.clear();
     }
@@ -132,6 +138,22 @@ void write_file_atomically(const fs::path& path, std::string_view bytes,
     file.write(bytes, progress);
     agvd::poll(progress, 1);
     file.rename_to_target();
+}
+
+void write_files_atomically(std::span<const FileContent> files, const agvd::Progress& progress) {
+    std::deque<TemporaryFile> temporaries;  // They stay where they are.
+    for (const FileContent& file : files) {
+        const fs::path target = follow_links(file.path);
+        if (is_special(target)) continue;
+        temporaries.emplace_back(target).write(file.bytes, progress);
+    }
+    for (const FileContent& file : files) {
+        const fs::path target = follow_links(file.path);
+        if (is_special(target)) write_directly(target, file.bytes, progress);
+    }
+    agvd::poll(progress, 1);
+    for (TemporaryFile& temporary : temporaries) temporary.close();
+    for (TemporaryFile& temporary : temporaries) temporary.rename_to_target();
 }
 
 void require_writable(const fs::path& path) {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
+#include <string>
 #include <string_view>
 
 #include "agvd/core/progress.h"
@@ -26,6 +28,18 @@ namespace remesh {
 //!        temporary is gone. A pipe may have got a part.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes,
                            const agvd::Progress& progress = {});
+
+//! What a file is to hold.
+struct FileContent {
+    std::filesystem::path path;
+    std::string bytes;
+};
+
+//! The same for files that belong together: all are written before the first is renamed, pipes and
+//! devices first. So a full disk, or a device that takes nothing, leaves all old files as they
+//! were.
+void write_files_atomically(std::span<const FileContent> files,
+                            const agvd::Progress& progress = {});
 
 //! Finds out before a long computation whether write_file_atomically can begin: creates and removes
 //! the temporary file. \throw agvd::IoError  as above.

@@ -182,21 +182,22 @@ std::string format_ply_diagram(const Surface& surface, std::span<const agvd::Sur
 
 }  // namespace
 
-void write_diagram(const std::filesystem::path& path, const Surface& surface,
-                   std::span<const agvd::SurfacePoint> sites, const Diagram& diagram,
-                   const agvd::Progress& progress) {
+std::string format_diagram(const std::filesystem::path& path, const Surface& surface,
+                           std::span<const agvd::SurfacePoint> sites, const Diagram& diagram,
+                           const agvd::Progress& progress) {
     agvd::Poller poller(progress);
     const agvd::Ticker ticker(poller);
     const std::string extension = lower_extension(path);
-    if (extension == ".vtp") {
-        write_file_atomically(path, format_vtp(surface, diagram, ticker), progress);
-    } else if (extension == ".obj") {
-        write_file_atomically(path, format_obj_lines(surface, diagram, ticker), progress);
-    } else if (extension == ".ply") {
-        write_file_atomically(path, format_ply_diagram(surface, sites, diagram, ticker), progress);
-    } else {
-        throw agvd::IoError(path.string() + ": unknown extension; use .vtp, .obj or .ply");
-    }
+    if (extension == ".vtp") return format_vtp(surface, diagram, ticker);
+    if (extension == ".obj") return format_obj_lines(surface, diagram, ticker);
+    if (extension == ".ply") return format_ply_diagram(surface, sites, diagram, ticker);
+    throw agvd::IoError(path.string() + ": unknown extension; use .vtp, .obj or .ply");
+}
+
+void write_diagram(const std::filesystem::path& path, const Surface& surface,
+                   std::span<const agvd::SurfacePoint> sites, const Diagram& diagram,
+                   const agvd::Progress& progress) {
+    write_file_atomically(path, format_diagram(path, surface, sites, diagram, progress), progress);
 }
 
 bool is_known_diagram_extension(const std::filesystem::path& path) {

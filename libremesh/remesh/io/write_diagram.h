@@ -28,6 +28,14 @@ void write_diagram(const std::filesystem::path& path, const agvd::Surface& surfa
                    std::span<const agvd::SurfacePoint> sites, const agvd::Diagram& diagram,
                    const agvd::Progress& progress = {});
 
+//! The bytes that write_diagram writes, for write_files_atomically.
+//! \throw agvd::IoError, agvd::Cancelled  as write_diagram.
+[[nodiscard]] std::string format_diagram(const std::filesystem::path& path,
+                                         const agvd::Surface& surface,
+                                         std::span<const agvd::SurfacePoint> sites,
+                                         const agvd::Diagram& diagram,
+                                         const agvd::Progress& progress = {});
+
 //! True for the extensions that write_diagram knows.
 [[nodiscard]] bool is_known_diagram_extension(const std::filesystem::path& path);
 

@@ -33,12 +33,17 @@ void check(const std::filesystem::path& path, const MeshFormat& format,
 
 }  // namespace
 
-void write_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
-                const agvd::Progress& progress) {
+std::string format_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
+                        const agvd::Progress& progress) {
     agvd::Poller poller(progress);
     const MeshFormat& format = require_format(path);
     check(path, format, mesh);
-    write_file_atomically(path, format.format(mesh, agvd::Ticker(poller)), progress);
+    return format.format(mesh, agvd::Ticker(poller));
+}
+
+void write_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
+                const agvd::Progress& progress) {
+    write_file_atomically(path, format_mesh(path, mesh, progress), progress);
 }
 
 bool is_known_mesh_extension(const std::filesystem::path& path) {

@@ -24,6 +24,11 @@ namespace remesh {
 void write_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
                 const agvd::Progress& progress = {});
 
+//! The bytes that write_mesh writes, for write_files_atomically.
+//! \throw agvd::IoError, agvd::InvalidInput, agvd::Cancelled  as write_mesh.
+[[nodiscard]] std::string format_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
+                                      const agvd::Progress& progress = {});
+
 //! The extensions read_mesh and write_mesh know: true for "out.ply", "out.OBJ", ...
 [[nodiscard]] bool is_known_mesh_extension(const std::filesystem::path& path);
 
