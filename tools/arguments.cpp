@@ -115,6 +115,8 @@ void add_diagram_options(CLI::App& app, DiagramArguments& arguments) {
         ->type_name("BYTES")
         ->default_str("75%");
     app.add_flag("--force", arguments.force, "Allow an output to overwrite an input");
+    app.add_flag("--lenient", arguments.is_lenient,
+                 "Read a file that holds more elements than its header announces");
     add_common_options(app, arguments.common);
 }
 
@@ -126,7 +128,11 @@ remesh::MeshFile read_input(const DiagramArguments& arguments, Console& console)
     std::error_code none;  // Reading will tell what is wrong.
     const std::uintmax_t size = std::filesystem::file_size(arguments.input, none);
     console.require_memory("read", none ? 0 : static_cast<std::size_t>(size));
-    return remesh::read_mesh(arguments.input, console.progress_of("read"));
+    remesh::MeshFile file = remesh::read_mesh(
+        arguments.input, remesh::ReadOptions{.is_lenient = arguments.is_lenient,
+                                             .progress = console.progress_of("read")});
+    for (const std::string& warning : file.warnings) console.warn(warning);
+    return file;
 }
 
 std::string describe(const std::filesystem::path& path, const agvd::MeshView& mesh) {

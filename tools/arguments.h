@@ -21,6 +21,7 @@ struct DiagramArguments {
     agvd::PropagationOptions propagation;
     std::size_t memory_limit = 0;  //!< Bytes; 0: unknown what the machine has.
     bool force = false;
+    bool is_lenient = false;
     CommonOptions common;
 };
 
@@ -28,7 +29,7 @@ struct DiagramArguments {
 [[nodiscard]] std::map<std::string, agvd::Engine> engines_by_name();
 
 //! Adds IN, --samples, --init, --seed, --sites, --engine, --max-error, --steiner-points, --lambda,
-//! --memory-limit, --force and the common options.
+//! --memory-limit, --force, --lenient and the common options.
 void add_diagram_options(CLI::App& app, DiagramArguments& arguments);
 
 //! The limit for a Console.

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "remesh/io/write_mesh.h"
 #include "remesh/quality/topology.h"
 #include "support/files.h"
 #include "support/read_text.h"
+#include "support/shapes.h"
 
 using agvd::IoError;
 using texts::expect_error;
@@ -37,6 +39,66 @@ TEST(ReadMesh, ExtensionsAreKnownInAnyCase) {
     EXPECT_EQ(texts::read_bytes("A.Off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")
                   .mesh.triangles.size(),
               1u);
+}
+
+TEST(ReadMesh, MoreElementsThanAnnouncedAreAnErrorThatNamesBothCounts) {
+    const agvd::TriangleMesh mesh = shapes::sphere(1);  // 80 faces.
+    const files::TemporaryFolder folder;
+    const auto halved = [&](const char* name, const std::string& count, const std::string& half) {
+        const std::filesystem::path path = folder / name;
+        remesh::write_mesh(path, mesh.view());
+        std::string bytes = files::read(path);
+        const std::size_t at = bytes.find(count);
+        EXPECT_NE(at, std::string::npos) << name;
+        files::write(path, bytes.replace(at, count.size(), half));
+        const std::string error = what_reading_says(path);
+        EXPECT_NE(error.find("announces 40 "), std::string::npos) << error;
+        EXPECT_NE(error.find("holds 80"), std::string::npos) << error;
+        const remesh::MeshFile file =
+            remesh::read_mesh(path, remesh::ReadOptions{.is_lenient = true});
+        EXPECT_EQ(file.mesh.triangles.size(), 40u) << name;
+        ASSERT_EQ(file.warnings.size(), 1u) << name;
+        EXPECT_NE(file.warnings[0].find("announces 40 "), std::string::npos) << file.warnings[0];
+    };
+    halved("a.stl", std::string("\x50\0\0\0", 4), std::string("\x28\0\0\0", 4));
+    halved("a.off", "42 80", "42 40");
+    halved("a.ply", "face 80", "face 40");
+    files::write(folder / "b.ply",
+                 "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                 "property float z\nelement face 1\nproperty list uchar int vertex_index\n"
+                 "end_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n");
+    EXPECT_NE(
+        what_reading_says(folder / "b.ply").find("announces 1 face elements, the file holds 2"),
+        std::string::npos);
+}
+
+TEST(ReadMesh, StrayBytesAreAWarningAndCommentsAreNot) {
+    const files::TemporaryFolder folder;
+    const std::string off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    files::write(folder / "a.off", off + "made by hand\n");
+    const auto warned = remesh::read_mesh(folder / "a.off").warnings;
+    ASSERT_EQ(warned.size(), 1u);
+    EXPECT_NE(warned[0].find("line 7: what follows the last element"), std::string::npos)
+        << warned[0];
+    files::write(folder / "b.off", off + "# 3 0 1 2\n\n");
+    EXPECT_TRUE(remesh::read_mesh(folder / "b.off").warnings.empty());
+    remesh::write_mesh(folder / "c.stl", shapes::tetrahedron().view());
+    files::write(folder / "d.stl", files::read(folder / "c.stl") + "xyz");
+    EXPECT_EQ(remesh::read_mesh(folder / "d.stl").warnings.size(), 1u);
+    EXPECT_TRUE(remesh::read_mesh(folder / "c.stl").warnings.empty());
+}
+
+TEST(ReadMesh, ByteOrderMarksAndLowerCaseAreRead) {
+    const std::string mark = "\xEF\xBB\xBF";
+    const std::string off = "3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    EXPECT_EQ(texts::read_bytes("a.off", "off\n" + off).mesh.triangles.size(), 1u);
+    EXPECT_EQ(texts::read_bytes("a.off", mark + "OFF\n" + off).mesh.triangles.size(), 1u);
+    EXPECT_EQ(
+        texts::read_bytes("a.stl", mark + "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 "
+                                          "0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+                                          "endsolid a\n")
+            .mesh.triangles.size(),
+        1u);
 }
 
 TEST(ReadMesh, ErrorsStayReadableOnBinaryGarbage) {

@@ -14,6 +14,11 @@ namespace remesh {
 [[nodiscard]] MeshFile read_off(SourceFile file);
 [[nodiscard]] MeshFile read_stl(SourceFile file);
 
+//! Unless it is empty.
+inline void add_warning(const std::string& text, MeshFile& file) {
+    if (!text.empty()) file.warnings.push_back(text);
+}
+
 //! The whole file's bytes.
 [[nodiscard]] std::string format_ply(const agvd::MeshView& mesh, agvd::Ticker ticker);
 [[nodiscard]] std::string format_obj(const agvd::MeshView& mesh, agvd::Ticker ticker);

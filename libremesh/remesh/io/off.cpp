@@ -22,7 +22,7 @@ void read_keyword(TextScanner& scan) {
         scan.fail_malformed(
             "4OFF and nOFF hold points of other than three dimensions; export as OFF");
     }
-    if (!scan.take("OFF")) {
+    if (!scan.take("OFF") && !scan.take("off")) {
         scan.fail_expecting("the keyword OFF (or COFF, NOFF, STOFF)");
     }
     if (scan.has_word() && scan.take("BINARY")) {
@@ -74,7 +74,11 @@ MeshFile read_off(SourceFile file) {
         soup.end_polygon();
         scan.skip_line();
     }
-    return std::move(soup).finish();
+    (void)scan.find_word();  // Comments are no rest.
+    const std::string rest = file.judge_rest(scan.offset(), "faces", num_faces);
+    MeshFile result = std::move(soup).finish();
+    add_warning(rest, result);
+    return result;
 }
 
 std::string format_off(const agvd::MeshView& mesh, agvd::Ticker ticker) {

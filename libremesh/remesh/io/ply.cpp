@@ -79,7 +79,9 @@ template <typename Values>
 MeshFile read_body(Values values, const PlyHeader& header, const SourceFile& file) {
     PolygonSoup soup(file, 0);
     bool has_vertices = false, has_faces = false;
+    std::size_t begin = values.offset();  // Of the last element.
     for (const PlyElement& element : header.elements) {
+        begin = values.offset();
         if (element.name == "vertex" && !std::exchange(has_vertices, true)) {
             soup.reserve(element.count, 0);
             read_vertices(values, element, file, soup);
@@ -97,7 +99,16 @@ MeshFile read_body(Values values, const PlyHeader& header, const SourceFile& fil
             }
         }
     }
-    return std::move(soup).finish();
+    MeshFile result = std::move(soup).finish();
+    if (header.elements.empty()) return result;
+    const PlyElement& last = header.elements.back();
+    const std::size_t end = values.offset();
+    const std::size_t size = last.count > 0 ? (end - begin) / last.count : 0;  // Of one, the mean.
+    const std::uint64_t num_more =
+        file.is_binary && size > 0 ? (file.bytes.size() - end) / size : 0;
+    const std::string kind = last.name + " elements";
+    add_warning(file.judge_rest(end, kind.c_str(), last.count, num_more), result);
+    return result;
 }
 
 }  // namespace

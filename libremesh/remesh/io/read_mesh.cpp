@@ -4,11 +4,17 @@
 
 namespace remesh {
 
-MeshFile read_mesh(const std::filesystem::path& path, const agvd::Progress& progress) {
-    agvd::Poller poller(progress);
+MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
+    agvd::Poller poller(options.progress);
     poller.poll();
     const MeshFormat& format = require_format(path);
-    return format.read(load_file(path, poller));
+    SourceFile file = load_file(path, poller);
+    file.is_lenient = options.is_lenient;
+    return format.read(std::move(file));
+}
+
+MeshFile read_mesh(const std::filesystem::path& path, const agvd::Progress& progress) {
+    return read_mesh(path, ReadOptions{.progress = progress});
 }
 
 }  // namespace remesh

@@ -16,6 +16,13 @@ struct MeshFile {
     agvd::Index welded_vertices = 0;   //!< STL only: corners merged at equal positions.
     //! #F: the polygon (face of the file, from 0) each triangle came from.
     std::vector<agvd::Index> face_polygon;
+    std::vector<std::string> warnings;  //!< What of the file was passed over, with its name.
+};
+
+struct ReadOptions {
+    //! Whole elements behind those that the header announces are a warning, not an error.
+    bool is_lenient = false;
+    agvd::Progress progress = {};
 };
 
 //! The format is chosen by the extension (any case): ply (ascii and both binaries), obj (v, v/vt,
@@ -23,7 +30,9 @@ struct MeshFile {
 //! STOFF), stl (ascii, binary; welded at equal positions). Coordinates are kept in double. A quad
 //! is cut along the shorter of its inner diagonals, a larger polygon by clipping ears.
 //!
-//! \throw agvd::IoError       the file is missing, empty, unreadable, truncated or malformed, or
+//! \throw agvd::IoError       the file is missing, empty, unreadable, truncated, goes on behind
+//! what
+//!        its header announces (but for a few stray bytes, which are a warning) or malformed, or
 //! the
 //!        extension is unknown; the text names the file, the line (or byte) and the remedy.
 //! \throw agvd::InvalidInput  the file reads well but is no usable mesh: no face (a point cloud),
@@ -34,5 +43,6 @@ struct MeshFile {
 //! \throw agvd::Cancelled     the progress callback returned false.
 [[nodiscard]] MeshFile read_mesh(const std::filesystem::path& path,
                                  const agvd::Progress& progress = {});
+[[nodiscard]] MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options);
 
 }  // namespace remesh

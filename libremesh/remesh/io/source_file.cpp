@@ -55,6 +55,31 @@ void SourceFile::fail_malformed(std::size_t offset, const std::string& text) con
     throw agvd::IoError(place(offset) + text);
 }
 
+std::string SourceFile::judge_rest(std::size_t offset, const char* kind,
+                                   std::uint64_t num_announced, std::uint64_t num_more) const {
+    constexpr const char* blanks = " \t\r\n\v\f";
+    if (!is_binary) offset = std::min(bytes.find_first_not_of(blanks, offset), bytes.size());
+    if (offset >= bytes.size()) return {};
+    if (!is_binary) {
+        // An element begins with a number; anything else is a remark.
+        if (std::string_view("+-.0123456789").find(bytes[offset]) != std::string_view::npos) {
+            for (std::size_t at = offset; at < bytes.size(); ++num_more) {
+                at = bytes.find_first_not_of(blanks, std::min(bytes.find('\n', at), bytes.size()));
+            }
+        }
+    }
+    if (num_more == 0) {
+        return place(offset) + "what follows the last element is passed over (" +
+               std::to_string(bytes.size() - offset) + " bytes)";
+    }
+    const std::string text = "the header announces " + std::to_string(num_announced) + " " + kind +
+                             ", the file holds " + std::to_string(num_announced + num_more);
+    if (!is_lenient) {
+        fail_malformed(offset, text + "; export it again, or read what is announced (--lenient)");
+    }
+    return place(offset) + text + "; the others are passed over";
+}
+
 void SourceFile::fail_unusable(std::size_t offset, const std::string& text) const {
     throw agvd::InvalidInput(place(offset) + text);
 }

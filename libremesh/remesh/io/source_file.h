@@ -15,12 +15,21 @@ struct SourceFile {
     std::filesystem::path path;
     std::string bytes;
     bool is_binary = false;    //!< Errors name bytes instead of lines.
+    bool is_lenient = false;   //!< See ReadOptions.
     agvd::Ticker ticker = {};  //!< Of the call that reads it; readers tick copies.
 
     //! "mesh.off: line 12: ", counted here and not while reading, which costs good files nothing.
     [[nodiscard]] std::string place(std::size_t offset) const;
     //! Throws agvd::IoError: the bytes are no file of this format.
     [[noreturn]] void fail_malformed(std::size_t offset, const std::string& text) const;
+    //! What is left behind the last element that the header announces: whole elements throw
+    //! agvd::IoError unless is_lenient. \return a warning of them, or of a few stray bytes; empty:
+    //! there is nothing but blanks in a text.
+    //! \param num_more  whole elements for which there is room; in a text lines are counted
+    //! instead.
+    [[nodiscard]] std::string judge_rest(std::size_t offset, const char* kind,
+                                         std::uint64_t num_announced,
+                                         std::uint64_t num_more = 0) const;
     //! Throws agvd::InvalidInput: the format is right, the mesh is not.
     [[noreturn]] void fail_unusable(std::size_t offset, const std::string& text) const;
 };

@@ -30,7 +30,8 @@ bool is_binary(const std::string& bytes) {
         return true;
     }
     const std::size_t first = std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size());
-    return !equals_keyword(std::string_view(bytes).substr(first, 5), "solid") ||
+    const std::size_t mark = bytes.compare(0, 3, "\xEF\xBB\xBF") == 0 ? 3 : first;  // Of UTF-8.
+    return !equals_keyword(std::string_view(bytes).substr(mark, 5), "solid") ||
            bytes.find('\0') != std::string::npos;
 }
 
@@ -73,7 +74,11 @@ MeshFile read_binary(const SourceFile& file) {
         }
         soup.end_polygon();
     }
-    return finish(std::move(soup), std::move(welder), 3 * count);
+    const std::size_t end = header_size + count * record_size;
+    MeshFile result = finish(std::move(soup), std::move(welder), 3 * count);
+    add_warning(file.judge_rest(end, "triangles", count, (bytes.size() - end) / record_size),
+                result);
+    return result;
 }
 
 // Goes to the next word, on whatever line: facets and loops need no lines of their own.
