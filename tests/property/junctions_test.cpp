@@ -91,6 +91,16 @@ void expect_apart(const RemeshResult& result, Index num_samples) {
     EXPECT_TRUE(same_topology(topology, result.input_topology));
 }
 
+// A sphere on one edge of which a triangle stands.
+TriangleMesh sphere_with_a_fin() {
+    TriangleMesh mesh = shapes::sphere(4);
+    const auto [a, b, c] = mesh.triangles[100];
+    const Vec3 middle = (mesh.positions[a] + mesh.positions[b]) / 2;
+    mesh.triangles.push_back({b, a, static_cast<Index>(mesh.positions.size())});
+    mesh.positions.emplace_back(1.2 * middle);
+    return mesh;
+}
+
 RemeshResult run(const TriangleMesh& mesh, const RemeshOptions& options) {
     return remesh::remesh(mesh.view(), options);
 }
@@ -152,11 +162,7 @@ TEST(Junctions, VerticesCountOnceForEachSheetUnlessWelded) {
 }
 
 TEST(Junctions, AnEdgeAloneIsASlitAndNoReasonToThinTheSurface) {
-    TriangleMesh mesh = shapes::sphere(4);
-    const auto [a, b, c] = mesh.triangles[100];
-    const Vec3 middle = (mesh.positions[a] + mesh.positions[b]) / 2;
-    mesh.triangles.push_back({b, a, static_cast<Index>(mesh.positions.size())});
-    mesh.positions.emplace_back(1.2 * middle);
+    const TriangleMesh mesh = sphere_with_a_fin();
     const RemeshResult result = run(mesh, {.num_samples = 20000});
     expect_apart(result, 20000);
     EXPECT_EQ(result.junctions.edges, 1u);
@@ -166,11 +172,7 @@ TEST(Junctions, AnEdgeAloneIsASlitAndNoReasonToThinTheSurface) {
 }
 
 TEST(Junctions, ShorterOnesThanTwoSpacingsStayApart) {
-    TriangleMesh mesh = shapes::sphere(4);
-    const auto [a, b, c] = mesh.triangles[100];
-    const Vec3 middle = (mesh.positions[a] + mesh.positions[b]) / 2;
-    mesh.triangles.push_back({b, a, static_cast<Index>(mesh.positions.size())});
-    mesh.positions.emplace_back(1.2 * middle);
+    const TriangleMesh mesh = sphere_with_a_fin();
     const RemeshResult apart = run(mesh, {.num_samples = 500});
     expect_apart(apart, 500);
     EXPECT_EQ(apart.junctions.edges, 1u);

@@ -196,6 +196,18 @@ void expect_valid_complex(const Surface& surface, const Diagram& d) {
     EXPECT_EQ(complex_euler, surface_euler);
 }
 
+void expect_same(const Surface& a, const Surface& b) {
+    EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
+    EXPECT_EQ(a.mesh.positions, b.mesh.positions);
+    EXPECT_EQ(a.twin, b.twin);
+    EXPECT_EQ(a.edge, b.edge);
+    EXPECT_EQ(a.edge_half, b.edge_half);
+    EXPECT_EQ(a.length, b.length);
+    EXPECT_EQ(a.apex, b.apex);
+    EXPECT_EQ(a.outgoing, b.outgoing);
+    EXPECT_EQ(a.can_turn, b.can_turn);
+}
+
 void expect_same(const Propagation& a, const Propagation& b) {
     EXPECT_EQ(a.vertex_site, b.vertex_site);
     EXPECT_EQ(a.vertex_distance, b.vertex_distance);

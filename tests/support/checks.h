@@ -14,7 +14,8 @@ namespace checks {
 //! Polylines run from face to face, and inside a face no two of their segments cross.
 void expect_valid_complex(const agvd::Surface& surface, const agvd::Diagram& diagram);
 
-//! All but the work done and the memory held.
+//! All; of a propagation all but the work done and the memory held.
+void expect_same(const agvd::Surface& a, const agvd::Surface& b);
 void expect_same(const agvd::Propagation& a, const agvd::Propagation& b);
 void expect_same(const agvd::Diagram& a, const agvd::Diagram& b);
 

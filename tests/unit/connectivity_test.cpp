@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "agvd/mesh/surface.h"
+#include "support/checks.h"
 #include "support/shapes.h"
 
 using namespace agvd;
@@ -116,13 +117,7 @@ TEST(Connectivity, GivesTheSurfaceThatTheMeshAloneGives) {
         for (const int threads : {1, 2, 8}) {
             const Surface s =
                 build_surface(mesh, *find_connectivity(mesh.view(), threads), threads);
-            EXPECT_EQ(s.twin, expected.twin);
-            EXPECT_EQ(s.edge, expected.edge);
-            EXPECT_EQ(s.edge_half, expected.edge_half);
-            EXPECT_EQ(s.length, expected.length);
-            EXPECT_EQ(s.apex, expected.apex);
-            EXPECT_EQ(s.outgoing, expected.outgoing);
-            EXPECT_EQ(s.can_turn, expected.can_turn);
+            checks::expect_same(s, expected);
         }
     }
 }

@@ -11,6 +11,7 @@
 #include "agvd/mesh/one_ring.h"
 #include "agvd/mesh/point_faces.h"
 #include "agvd/mesh/uniform_points.h"
+#include "support/checks.h"
 #include "support/delta_shapes.h"
 #include "support/dice.h"
 #include "support/points.h"
@@ -415,22 +416,6 @@ TEST(IntrinsicTriangulation, InvalidOptionsThrow) {
     EXPECT_THROW(IntrinsicTriangulation(input, {.is_kept = too_few}), InvalidOption);
 }
 
-namespace {
-
-void expect_same(const Surface& a, const Surface& b) {
-    EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
-    EXPECT_EQ(a.mesh.positions, b.mesh.positions);
-    EXPECT_EQ(a.twin, b.twin);
-    EXPECT_EQ(a.edge, b.edge);
-    EXPECT_EQ(a.edge_half, b.edge_half);
-    EXPECT_EQ(a.length, b.length);
-    EXPECT_EQ(a.apex, b.apex);
-    EXPECT_EQ(a.outgoing, b.outgoing);
-    EXPECT_EQ(a.can_turn, b.can_turn);
-}
-
-}  // namespace
-
 TEST(IntrinsicTriangulation, IsTheSameForAnyNumberOfThreads) {
     // So many edges that they are several chunks.
     const Surface input = build_surface(shapes::jitter(shapes::torus(160, 80), 0.004, 5).view());
@@ -440,7 +425,7 @@ TEST(IntrinsicTriangulation, IsTheSameForAnyNumberOfThreads) {
     for (const int threads : {2, 8}) {
         const IntrinsicTriangulation other(input, {.max_length = 0.06, .num_threads = threads});
         EXPECT_EQ(one.counts().flips, other.counts().flips);
-        expect_same(one.surface(), other.surface());
+        checks::expect_same(one.surface(), other.surface());
     }
 }
 
@@ -449,7 +434,7 @@ TEST(IntrinsicTriangulation, AnInputThatIsGivenAwayChangesNothing) {
         const IntrinsicTriangulation kept(input, options_of(input, seed));
         Surface given = input;
         const IntrinsicTriangulation taken(std::move(given), options_of(input, seed));
-        expect_same(kept.surface(), taken.surface());
+        checks::expect_same(kept.surface(), taken.surface());
         const Surface& left = taken.input();
         EXPECT_TRUE(left.edge.empty() && left.length.empty() && left.apex.empty());
         EXPECT_EQ(left.mesh.triangles, input.mesh.triangles);

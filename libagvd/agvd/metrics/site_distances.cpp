@@ -21,7 +21,7 @@ constexpr std::size_t most_points = 200;
 std::vector<double> distances_from(const TriangleMesh& mesh, Index vertex,
                                    const Progress& progress) {
     const Surface surface = build_surface(mesh.view(), 1, progress);
-    const IntrinsicTriangulation base(surface, {.progress = progress});
+    const IntrinsicTriangulation base(surface, {.num_threads = 1, .progress = progress});
     SurfacePoint site{FaceId(Surface::face(surface.outgoing[vertex])), {0, 0, 0}};
     site.barycentric[surface.outgoing[vertex] % 3] = 1;
     site = base.to_intrinsic(site);

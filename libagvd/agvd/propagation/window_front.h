@@ -183,7 +183,7 @@ private:
     void wait(const Arrivals& arrivals, Index half_edge, Index tail, Index head);
     void serve_edge(Index record);
     void take_in(EdgeRecord& edge, const WindowFace& face);
-    [[nodiscard]] Index most_windows_through(const EdgeRecord& edge) const;
+    [[nodiscard]] Index most_windows_through(const EdgeRecord& edge, const WindowFace& face) const;
     void drop_waiting(EdgeRecord& edge);
     [[nodiscard]] Index gather(Index waiting, Index envelope);
     [[nodiscard]] Index insert_rest(Index run, Index kept, Index i, const WindowFace& face);

@@ -92,13 +92,12 @@ inline void WindowFront::take_in(EdgeRecord& edge, const WindowFace& face) {
 
 // Fewer where a distance's rounding is more than the face is wide: no window tells there where it
 // is.
-Index WindowFront::most_windows_through(const EdgeRecord& edge) const {
+Index WindowFront::most_windows_through(const EdgeRecord& edge, const WindowFace& face) const {
     constexpr Index most_without_digits = 32;
     if (edge.num_served <= most_without_digits) return no_index;
-    const WindowFace face(corners_, edge.half_edge);
     const double longest = std::max({face.length, face.next.length, face.previous.length});
     const double width = face.length * face.apex_y / longest;
-    if (width < path_rounding * (vertices_[edge.tail].bound + face.length)) {
+    if (width < path_rounding * (face.tail_bound + face.length)) {
         return most_without_digits;
     }
     return queue_.order() == WindowQueue::Order::Nearest ? most_windows : no_index;
@@ -278,14 +277,14 @@ inline WindowFront::Arrivals WindowFront::pass_on(const WindowFace& face, Index 
 void WindowFront::serve_edge(Index record) {
     EdgeRecord& edge = edges_[record];
     if (edge.waiting == no_index) return;
-    if (edge.num_served > most_windows_through(edge)) {
+    WindowFace face(corners_, edge.half_edge);
+    face.tail_bound = vertices_[edge.tail].bound;
+    face.head_bound = vertices_[edge.head].bound;
+    if (edge.num_served > most_windows_through(edge, face)) {
         drop_waiting(edge);
         return;
     }
     if (may_close() && !std::exchange(edge.is_watched, true)) watch(record, queue_.current() + 3);
-    WindowFace face(corners_, edge.half_edge);
-    face.tail_bound = vertices_[edge.tail].bound;
-    face.head_bound = vertices_[edge.head].bound;
     take_in(edge, face);
     if (edge.windows == no_index) return;
     face.apex_record = vertex_record(face.previous.tail);

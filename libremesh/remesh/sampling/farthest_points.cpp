@@ -64,8 +64,10 @@ struct Ground {
            agvd::Index most_splits, int num_threads, const agvd::Progress& progress)
         : faces(component.faces),
           input(component_surface(whole, component, num_threads, progress)),
-          base(input,
-               {.max_length = max_length, .most_splits = most_splits, .progress = progress}) {}
+          base(input, {.max_length = max_length,
+                       .most_splits = most_splits,
+                       .num_threads = num_threads,
+                       .progress = progress}) {}
     Ground(const Ground&) = delete;
 
     std::span<const Index> faces;  // Ascending: those of the whole surface, by face of `input`.
