@@ -2,9 +2,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "agvd/diagram/build_diagram.h"
 #include "agvd/diagram/diagram_on_input.h"
 #include "agvd/metrics/compare_diagrams.h"
+#include "agvd/propagation/propagate.h"
 #include "arguments.h"
+#include "remesh/clean/carry_sites.h"
 #include "remesh/io/atomic_file.h"
 #include "remesh/io/read_diagram.h"
 #include "remesh/io/read_mesh.h"
@@ -12,7 +15,6 @@
 #include "remesh/io/report.h"
 #include "remesh/io/write_diagram.h"
 #include "remesh/relax/prepared_surface.h"
-#include "remesh/repair/carry_sites.h"
 
 namespace fs = std::filesystem;
 

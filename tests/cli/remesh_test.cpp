@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "remesh/io/read_mesh.h"
-#include "remesh/quality/topology.h"
+#include "remesh/topology/topology.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
 

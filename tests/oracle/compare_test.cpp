@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "agvd/diagram/build_diagram.h"
 #include "agvd/mesh/point_faces.h"
 #include "agvd/metrics/compare_diagrams.h"
 #include "agvd/propagation/propagate.h"

@@ -1,12 +1,11 @@
 // Distances and diagrams of the engine against exact geodesics.
 
-#include "agvd/diagram/diagram.h"
-
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <filesystem>
 
+#include "agvd/diagram/build_diagram.h"
 #include "agvd/mesh/point_faces.h"
 #include "agvd/metrics/compare.h"
 #include "agvd/propagation/propagate.h"

@@ -3,6 +3,7 @@
 
 #include <numeric>
 
+#include "agvd/diagram/build_diagram.h"
 #include "agvd/mesh/uniform_points.h"
 #include "agvd/metrics/oracle.h"
 #include "agvd/propagation/propagate.h"

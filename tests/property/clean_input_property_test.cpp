@@ -7,8 +7,8 @@
 #include "agvd/core/error.h"
 #include "agvd/core/random.h"
 #include "agvd/mesh/surface.h"
-#include "remesh/quality/topology.h"
-#include "remesh/repair/clean_input.h"
+#include "remesh/clean/clean_input.h"
+#include "remesh/topology/topology.h"
 #include "support/dirty_shapes.h"
 #include "support/shapes.h"
 

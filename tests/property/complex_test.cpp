@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "agvd/diagram/build_diagram.h"
 #include "agvd/mesh/point_faces.h"
 #include "agvd/propagation/propagate.h"
 #include "support/checks.h"

@@ -5,10 +5,10 @@
 #include <numbers>
 
 #include "agvd/mesh/face_area.h"
+#include "remesh/clean/clean_input.h"
 #include "remesh/features/edge_angles.h"
 #include "remesh/features/find_creases.h"
 #include "remesh/io/read_mesh.h"
-#include "remesh/repair/clean_input.h"
 #include "support/files.h"
 #include "support/parts.h"
 #include "support/shapes.h"

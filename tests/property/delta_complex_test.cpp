@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <numeric>
 
+#include "agvd/diagram/build_diagram.h"
 #include "agvd/diagram/moving_diagram.h"
 #include "agvd/diagram/point_label.h"
 #include "agvd/intrinsic/intrinsic_triangulation.h"
@@ -12,10 +13,10 @@
 #include "agvd/mesh/point_faces.h"
 #include "agvd/mesh/uniform_points.h"
 #include "agvd/propagation/propagate.h"
+#include "remesh/clean/clean_input.h"
 #include "remesh/dual/build_dual.h"
 #include "remesh/dual/delaunay.h"
 #include "remesh/io/read_mesh.h"
-#include "remesh/repair/clean_input.h"
 #include "support/arbiter.h"
 #include "support/checks.h"
 #include "support/delta_shapes.h"

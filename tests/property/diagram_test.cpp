@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "agvd/core/random.h"
+#include "agvd/diagram/build_diagram.h"
 #include "agvd/diagram/cells.h"
 #include "agvd/propagation/propagate.h"
 #include "support/checks.h"

@@ -5,7 +5,9 @@
 
 #include "agvd/core/error.h"
 #include "agvd/core/random.h"
+#include "agvd/diagram/build_diagram.h"
 #include "agvd/mesh/point_faces.h"
+#include "agvd/propagation/propagate.h"
 #include "support/checks.h"
 #include "support/points.h"
 #include "support/random_meshes.h"

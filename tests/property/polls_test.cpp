@@ -4,10 +4,13 @@
 
 #include <map>
 
+#include "agvd/diagram/build_diagram.h"
 #include "agvd/diagram/diagram_on_input.h"
 #include "agvd/intrinsic/face_pieces.h"
 #include "agvd/metrics/compare_diagrams.h"
+#include "agvd/propagation/propagate.h"
 #include "remesh/features/find_creases.h"
+#include "remesh/guarantee/closed_ball.h"
 #include "remesh/io/atomic_file.h"
 #include "remesh/io/read_diagram.h"
 #include "remesh/io/read_mesh.h"
@@ -17,8 +20,7 @@
 #include "remesh/quality/evaluate.h"
 #include "remesh/quality/self_intersections.h"
 #include "remesh/relax/relax_sites.h"
-#include "remesh/repair/closed_ball.h"
-#include "remesh/repair/reduce_vertices.h"
+#include "remesh/simplify/reduce_vertices.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
 

@@ -10,16 +10,16 @@
 #include <numeric>
 
 #include "agvd/core/random.h"
-#include "agvd/diagram/diagram.h"
+#include "agvd/diagram/build_diagram.h"
 #include "agvd/mesh/point_faces.h"
 #include "agvd/propagation/propagate.h"
+#include "remesh/guarantee/boundary_cells.h"
 #include "remesh/io/read_mesh.h"
-#include "remesh/quality/topology.h"
 #include "remesh/relax/even_out.h"
 #include "remesh/relax/relaxation.h"
 #include "remesh/relax/walk.h"
-#include "remesh/repair/boundary_cells.h"
 #include "remesh/sampling/boundary_curves.h"
+#include "remesh/topology/topology.h"
 #include "support/files.h"
 #include "support/shapes.h"
 

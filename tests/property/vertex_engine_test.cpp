@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "agvd/diagram/build_diagram.h"
 #include "agvd/diagram/face_relays.h"
 #include "agvd/mesh/point_faces.h"
 #include "agvd/propagation/propagate.h"

@@ -1,4 +1,4 @@
-#include "remesh/repair/carry_sites.h"
+#include "remesh/clean/carry_sites.h"
 
 #include <gtest/gtest.h>
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "agvd/diagram/build_diagram.h"
 #include "agvd/mesh/point_faces.h"
 #include "agvd/mesh/uniform_points.h"
 #include "agvd/propagation/propagate.h"

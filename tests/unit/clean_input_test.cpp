@@ -1,4 +1,4 @@
-#include "remesh/repair/clean_input.h"
+#include "remesh/clean/clean_input.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "agvd/core/error.h"
 #include "agvd/mesh/surface.h"
-#include "remesh/quality/topology.h"
+#include "remesh/topology/topology.h"
 #include "support/dirty_shapes.h"
 #include "support/shapes.h"
 

@@ -8,7 +8,7 @@
 
 #include "agvd/mesh/connectivity.h"
 #include "remesh/features/cut_surface.h"
-#include "remesh/quality/topology.h"
+#include "remesh/topology/topology.h"
 #include "support/flag_edges.h"
 #include "support/parts.h"
 #include "support/shapes.h"

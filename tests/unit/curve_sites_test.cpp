@@ -7,7 +7,7 @@
 #include <numbers>
 #include <set>
 
-#include "remesh/quality/topology.h"
+#include "remesh/topology/topology.h"
 #include "support/flag_edges.h"
 #include "support/parts.h"
 #include "support/shapes.h"

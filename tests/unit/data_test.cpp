@@ -14,7 +14,7 @@
 #include "make_data/planar.h"
 #include "remesh/io/read_mesh.h"
 #include "remesh/io/write_mesh.h"
-#include "remesh/quality/topology.h"
+#include "remesh/topology/topology.h"
 #include "support/shapes.h"
 
 namespace {

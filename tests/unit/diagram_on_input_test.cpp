@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "agvd/diagram/build_diagram.h"
 #include "agvd/diagram/curve_piece.h"
 #include "agvd/mesh/point_faces.h"
 #include "agvd/mesh/uniform_points.h"

@@ -1,5 +1,7 @@
 // Quick upper bounds: shortest paths along arcs, in whatever order they are found.
 #include "agvd/propagation/distance_bounds.h"
+#include "agvd/propagation/arc_graph.h"
+#include "agvd/propagation/corners.h"
 
 #include <gtest/gtest.h>
 

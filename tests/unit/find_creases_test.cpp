@@ -9,8 +9,8 @@
 
 #include "agvd/core/error.h"
 #include "agvd/mesh/face_area.h"
+#include "remesh/clean/clean_input.h"
 #include "remesh/features/crease_chains.h"
-#include "remesh/repair/clean_input.h"
 #include "support/dice.h"
 #include "support/parts.h"
 #include "support/shapes.h"

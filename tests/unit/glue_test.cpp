@@ -7,8 +7,8 @@
 #include <set>
 
 #include "agvd/mesh/point_faces.h"
-#include "remesh/quality/topology.h"
-#include "remesh/repair/thin_patch.h"
+#include "remesh/simplify/thin_patch.h"
+#include "remesh/topology/topology.h"
 #include "support/shapes.h"
 
 using agvd::Index;

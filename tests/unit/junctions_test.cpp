@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
+#include "remesh/clean/clean_input.h"
 #include "remesh/features/curve_sites.h"
-#include "remesh/repair/clean_input.h"
-#include "remesh/repair/weld_sheets.h"
+#include "remesh/features/weld_sheets.h"
 #include "support/junction_shapes.h"
 
 using agvd::Index;

@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
+#include <map>
 #include <optional>
 #include <regex>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -14,16 +17,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Layer {
-    const char* folder;
-    int row;
-};
-
-constexpr Layer layers[] = {
-    {"agvd/core", 0},      {"agvd/mesh", 1},       {"agvd/intrinsic", 2},   {"agvd/propagation", 3},
-    {"agvd/diagram", 4},   {"agvd/metrics", 4},    {"remesh/features", 5},  {"remesh/sampling", 5},
-    {"remesh/relax", 6},   {"remesh/dual", 6},     {"remesh/placement", 6}, {"remesh/repair", 6},
-    {"remesh/quality", 6}, {"remesh/pipeline", 7}, {"remesh/io", 8},
+// The folders in the order in which the data passes through them.
+constexpr const char* folders[] = {
+    "agvd/core",       "agvd/mesh",        "agvd/intrinsic", "agvd/propagation", "agvd/diagram",
+    "agvd/metrics",    "remesh/topology",  "remesh/clean",   "remesh/features",  "remesh/sampling",
+    "remesh/simplify", "remesh/guarantee", "remesh/dual",    "remesh/relax",     "remesh/placement",
+    "remesh/quality",  "remesh/pipeline",  "remesh/io",
 };
 
 struct Package {
@@ -32,20 +31,45 @@ struct Package {
 };
 
 constexpr Package packages[] = {
-    {"Eigen/", R"(agvd/(core|diagram)/.*|remesh/(dual|placement|repair|quality)/.*)"},
+    {"Eigen/", R"(agvd/core/types\.h)"},
     {"tbb/", R"(agvd/core/parallel\.cpp)"},
-    {"CGAL/", R"(agvd/metrics/oracle\.cpp|remesh/(repair|quality)/.*\.cpp)"},
+    {"CGAL/", R"(agvd/metrics/oracle\.cpp|remesh/quality/.*\.cpp)"},
     {"OpenMesh/", R"(remesh/io/(.*\.cpp|openmesh_exchange\.h))"},
     {"nlohmann/", R"(remesh/io/.*\.cpp)"},
     {"fast_float/", R"(remesh/io/(.*\.cpp|text_scanner\.h))"},
     {"sys/", R"(remesh/io/.*\.cpp)"},
 };
 
-std::optional<int> row_of(const std::string& file) {
-    for (const Layer& layer : layers) {
-        if (file.rfind(std::string(layer.folder) + "/", 0) == 0) return layer.row;
+std::string folder_of(const std::string& file) { return file.substr(0, file.rfind('/')); }
+
+std::optional<std::size_t> row_of(const std::string& file) {
+    const auto* const found = std::find(std::begin(folders), std::end(folders), folder_of(file));
+    if (found == std::end(folders)) return std::nullopt;
+    return static_cast<std::size_t>(found - std::begin(folders));
+}
+
+// agvd/agvd.h and remesh/remesh.h include all that users need.
+bool is_umbrella(const std::string& file) {
+    return file == "agvd/agvd.h" || file == "remesh/remesh.h";
+}
+
+// Headers that are installed: those that the libraries' CMakeLists.txt name.
+std::set<std::string> find_public_headers() {
+    std::set<std::string> headers;
+    static const std::regex header(R"((agvd|remesh)/[a-z_/]+\.h)");
+    for (const char* library : {"libagvd", "libremesh"}) {
+        std::ifstream stream(fs::path(AGVD_SOURCE_DIR) / library / "CMakeLists.txt");
+        for (std::string line; std::getline(stream, line);) {
+            std::smatch match;
+            if (std::regex_search(line, match, header)) headers.insert(match[0]);
+        }
     }
-    return std::nullopt;
+    return headers;
+}
+
+bool is_public(const std::string& header) {
+    static const std::set<std::string> headers = find_public_headers();
+    return headers.count(header) > 0;
 }
 
 // What is wrong with `line` in `file` (a path such as agvd/mesh/surface.h); empty: nothing.
@@ -55,18 +79,26 @@ std::string complaint(const std::string& file, const std::string& line) {
     if (!std::regex_match(line, match, include)) return "";
     const std::string header = match[2];
     if (match[1] == "\"") {
-        const std::optional<int> row = row_of(header);
+        if (is_umbrella(file)) return is_public(header) ? "" : "is not installed";
+        const auto row = row_of(header);
         if (!row) return "is not a path from the root of a library";
         if (!row_of(file)) return "stands in a folder that has no row";
         if (*row > row_of(file)) return "points to a lower row";
+        // Both libraries are built on core and mesh; of other folders only the other library's
+        // installed headers may be seen.
+        if (file.rfind("remesh/", 0) == 0 && header.rfind("agvd/", 0) == 0 &&
+            folder_of(header) != "agvd/core" && folder_of(header) != "agvd/mesh" &&
+            !is_public(header)) {
+            return "is private to the other library";
+        }
         // What propagation runs on is a surface, whatever made it.
         if (file.rfind("agvd/propagation/", 0) == 0 && header.rfind("agvd/intrinsic/", 0) == 0) {
             return "points to the intrinsic base";
         }
         // Creases are found before there are sites, on the input as it is.
-        if (file.rfind("remesh/features/", 0) == 0 && *row > 1 &&
-            header.rfind("remesh/features/", 0) != 0) {
-            return "points to what comes after features";
+        if (folder_of(file) == "remesh/features" && folder_of(header) != "remesh/features" &&
+            folder_of(header) != "remesh/topology" && *row > 1) {
+            return "is more than features are found on";
         }
         return "";
     }
@@ -109,6 +141,71 @@ TEST(Layering, EveryIncludeKeepsToTheRows) {
     }
 }
 
+namespace {
+
+// Of files without their extension: a header and its source file are one module.
+using Includes = std::map<std::string, std::set<std::string>>;
+
+Includes read_includes(const fs::path& root) {
+    static const std::regex include(R"re(\s*#\s*include\s*"([^"]*)\.h".*)re");
+    Includes includes;
+    for (const std::string& path : source_files(root)) {
+        const fs::path relative = fs::relative(path, root);
+        const fs::path file = fs::relative(relative, *relative.begin());
+        const std::string module = (file.parent_path() / file.stem()).string();
+        std::ifstream stream(path);
+        for (std::string line; std::getline(stream, line);) {
+            std::smatch match;
+            if (std::regex_match(line, match, include) && match[1] != module) {
+                includes[module].insert(match[1]);
+            }
+        }
+    }
+    return includes;
+}
+
+// A module, those that it includes in turn, and the module again; empty: there is no circle.
+std::string find_circle(const Includes& includes) {
+    enum class State { New, Open, Done };
+    std::map<std::string, State> states;
+    std::string circle;
+    const std::function<bool(const std::string&)> visit = [&](const std::string& module) {
+        State& state = states[module];
+        if (state == State::Done) return false;
+        if (state == State::Open) {
+            circle = module;
+            return true;
+        }
+        state = State::Open;
+        if (const auto found = includes.find(module); found != includes.end()) {
+            for (const std::string& next : found->second) {
+                if (!visit(next)) continue;
+                circle = module + " -> " + circle;
+                return true;
+            }
+        }
+        states[module] = State::Done;
+        return false;
+    };
+    for (const auto& [module, headers] : includes) {
+        if (visit(module)) return circle;
+    }
+    return "";
+}
+
+}  // namespace
+
+TEST(Layering, NoModulesIncludeEachOtherInACircle) {
+    const Includes includes = read_includes(AGVD_SOURCE_DIR);
+    EXPECT_GT(includes.size(), 150u);
+    EXPECT_EQ(find_circle(includes), "");
+}
+
+TEST(Layering, CirclesAreSeen) {
+    EXPECT_EQ(find_circle({{"a", {"b"}}, {"b", {"c", "d"}}}), "");
+    EXPECT_EQ(find_circle({{"a", {"b"}}, {"b", {"c", "d"}}, {"d", {"b"}}}), "a -> b -> d -> b");
+}
+
 TEST(Layering, BreachesAreSeen) {
     EXPECT_NE(complaint("agvd/core/types.h", "#include \"agvd/mesh/surface.h\""), "");
     EXPECT_NE(complaint("agvd/diagram/cells.cpp", "#include \"remesh/dual/build_dual.h\""), "");
@@ -117,9 +214,9 @@ TEST(Layering, BreachesAreSeen) {
     EXPECT_NE(complaint("agvd/mesh/surface.cpp", "#include \"../core/types.h\""), "");
     EXPECT_NE(complaint("agvd/misc/a.cpp", "#include \"agvd/core/types.h\""), "");
     EXPECT_NE(complaint("agvd/diagram/cells.cpp", "  #  include <CGAL/Surface_mesh.h>"), "");
-    EXPECT_NE(complaint("remesh/repair/closed_ball.h", "#include <CGAL/Surface_mesh.h>"), "");
+    EXPECT_NE(complaint("remesh/guarantee/closed_ball.h", "#include <CGAL/Surface_mesh.h>"), "");
     EXPECT_NE(complaint("agvd/propagation/propagate.cpp", "#include <tbb/parallel_for.h>"), "");
-    EXPECT_NE(complaint("remesh/quality/topology.cpp", "#include <OpenMesh/Core/IO/MeshIO.hh>"),
+    EXPECT_NE(complaint("remesh/topology/topology.cpp", "#include <OpenMesh/Core/IO/MeshIO.hh>"),
               "");
     EXPECT_NE(complaint("agvd/mesh/surface.cpp", "#include <boost/version.hpp>"), "");
     EXPECT_NE(complaint("agvd/intrinsic/face_charts.h", "#include \"agvd/propagation/corners.h\""),

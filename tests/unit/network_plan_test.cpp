@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include "agvd/mesh/point_faces.h"
-#include "remesh/quality/topology.h"
 #include "remesh/relax/relax_network.h"
 #include "remesh/sampling/sample_sites.h"
+#include "remesh/topology/topology.h"
 #include "support/flag_edges.h"
 #include "support/parts.h"
 #include "support/shapes.h"

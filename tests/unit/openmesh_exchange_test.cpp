@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "agvd/core/random.h"
-#include "remesh/quality/topology.h"
+#include "remesh/topology/topology.h"
 #include "support/shapes.h"
 
 using agvd::FaceId;

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "remesh/io/write_mesh.h"
-#include "remesh/quality/topology.h"
+#include "remesh/topology/topology.h"
 #include "support/files.h"
 #include "support/read_text.h"
 #include "support/shapes.h"

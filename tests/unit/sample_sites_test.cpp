@@ -12,6 +12,7 @@
 #include "agvd/propagation/propagate.h"
 #include "remesh/sampling/boundary_curves.h"
 #include "remesh/sampling/farthest_points.h"
+#include "remesh/sampling/minimum_samples.h"
 #include "support/shapes.h"
 
 using agvd::Index;

@@ -1,4 +1,4 @@
-#include "remesh/quality/topology.h"
+#include "remesh/topology/topology.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,6 @@
 // Error of the diagram against the exact one.
 
+#include "agvd/diagram/build_diagram.h"
 #include "agvd/diagram/diagram_on_input.h"
 #include "agvd/metrics/compare.h"
 #include "agvd/propagation/propagate.h"

@@ -10,8 +10,8 @@
 #include "bench/paper_plots.h"
 #include "cli.h"
 #include "make_data/data_files.h"
+#include "remesh/clean/clean_input.h"
 #include "remesh/io/read_mesh.h"
-#include "remesh/repair/clean_input.h"
 
 namespace {
 

@@ -4,8 +4,9 @@
 #include <optional>
 #include <utility>
 
-#include "agvd/diagram/diagram.h"
+#include "agvd/diagram/build_diagram.h"
 #include "agvd/intrinsic/intrinsic_triangulation.h"
+#include "agvd/propagation/propagate.h"
 #include "arguments.h"
 #include "bench/exact.h"
 #include "bench/medians.h"

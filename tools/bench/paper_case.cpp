@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "agvd/diagram/build_diagram.h"
 #include "agvd/metrics/compare_diagrams.h"
+#include "agvd/propagation/propagate.h"
 #include "bench/allocations.h"
 #include "bench/p0.h"
 #include "bench/timing.h"

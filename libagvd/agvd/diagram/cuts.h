@@ -3,6 +3,7 @@
 #pragma once
 
 #include "agvd/diagram/edge_labels.h"
+#include "agvd/diagram/relay_groups.h"
 #include "agvd/propagation/site_placement.h"
 
 namespace agvd {

@@ -70,12 +70,4 @@ struct DiagramOptions {
     Progress progress = {};
 };
 
-//! Builds local Apollonius diagrams in the mixed faces and joins them ([meng2023] Sec. 4.2, 5.3).
-//!
-//! Cost: O(k) per mixed face and label change, k = relays of the face. Re-entrant.
-//! \throw Cancelled  the progress callback returned false.
-[[nodiscard]] Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> sites,
-                                    const Propagation& propagation,
-                                    const DiagramOptions& options = {});
-
 }  // namespace agvd

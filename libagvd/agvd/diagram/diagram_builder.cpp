@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "agvd/core/parallel.h"
+#include "agvd/diagram/label_edges.h"
 #include "agvd/mesh/one_ring.h"
 
 namespace agvd {

@@ -2,7 +2,8 @@
 //! The plainest face: two label changes and one straight arc between them.
 #pragma once
 
-#include "agvd/diagram/apollonius.h"
+#include "agvd/diagram/face_relays.h"
+#include "agvd/diagram/local_diagram.h"
 
 namespace agvd {
 

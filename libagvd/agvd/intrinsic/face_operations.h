@@ -16,14 +16,6 @@ struct QuadShares {
     double apex = 0;
 };
 
-//! Twice the area of a face that has none, as a share of the square of its longest edge. Such a
-//! face gets this height; that changes its lengths by less than rounding.
-inline constexpr double least_doubled_area = 0x1p-50;
-
-//! Length of an edge that an operation makes, as a share of the longest beside it: rounding might
-//! leave it none.
-inline constexpr double least_length = 0x1p-50;
-
 //! Gives a height to every face that has less than `least_doubled_area`.
 //! \return the number of such faces. Cost: O(#F).
 Index raise_flat_faces(Surface& surface, Ticker& ticker);

@@ -8,10 +8,17 @@
 #include <span>
 
 #include "agvd/intrinsic/face_charts.h"
-#include "agvd/intrinsic/face_operations.h"
 #include "agvd/mesh/surface.h"
 
 namespace agvd::detail {
+
+//! Twice the area of a face that has none, as a share of the square of its longest edge. Such a
+//! face gets this height; that changes its lengths by less than rounding.
+inline constexpr double least_doubled_area = 0x1p-50;
+
+//! Length of an edge that an operation makes, as a share of the longest beside it: rounding might
+//! leave it none.
+inline constexpr double least_length = 0x1p-50;
 
 [[nodiscard]] inline double cross(const Vec2& a, const Vec2& b) {
     return a.x() * b.y() - a.y() * b.x();

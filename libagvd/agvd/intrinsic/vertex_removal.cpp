@@ -7,6 +7,7 @@
 #include <queue>
 
 #include "agvd/intrinsic/delaunay_queue.h"
+#include "agvd/intrinsic/face_sides.h"
 #include "agvd/intrinsic/flatten.h"
 #include "agvd/intrinsic/simplicial.h"
 #include "agvd/intrinsic/vertex_operations.h"

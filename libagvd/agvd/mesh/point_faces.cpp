@@ -83,4 +83,12 @@ SurfacePoint point_at(const Surface& surface, Index vertex) {
     return point;
 }
 
+Vec2 position_in_frame(const Surface& surface, const SurfacePoint& point, Index half_edge) {
+    assert(Surface::face(half_edge) == point.face.value());
+    const Index k = half_edge % 3;
+    const double head = point.barycentric[(k + 1) % 3];
+    const double apex = point.barycentric[(k + 2) % 3];
+    return apex * surface.apex[half_edge] + Vec2(head * surface.length_of(half_edge), 0);
+}
+
 }  // namespace agvd

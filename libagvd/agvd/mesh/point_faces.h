@@ -70,4 +70,8 @@ struct CommonFaces {
 //! The vertex as a point of one of its faces. It must have one.
 [[nodiscard]] SurfacePoint point_at(const Surface& surface, Index vertex);
 
+//! Position of a surface point in the frame of one of its face's half-edges.
+[[nodiscard]] Vec2 position_in_frame(const Surface& surface, const SurfacePoint& point,
+                                     Index half_edge);
+
 }  // namespace agvd

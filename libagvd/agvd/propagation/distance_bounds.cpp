@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "agvd/core/parallel.h"
+#include "agvd/propagation/arc_graph.h"
+#include "agvd/propagation/corners.h"
 #include "agvd/propagation/site_placement.h"
 
 namespace agvd {
@@ -95,6 +97,9 @@ void BoundsSearch::for_each_start(const SurfacePoint& point, const Each& each) c
         start_in_face(across_edge(surface_, point, *half_edge));
     }
 }
+
+BoundsSearch::BoundsSearch(const Surface& surface, const SurfaceLayout& layout, int num_threads)
+    : BoundsSearch(surface, layout.arcs(), layout.corners().mean_length(), num_threads) {}
 
 void BoundsSearch::add(const SurfacePoint& point, Index site) {
     for_each_start(point, [&](Index vertex, double distance) {
@@ -255,6 +260,13 @@ DistanceBounds distance_bounds(const Surface& surface, const ArcGraph& graph, do
     parallel_chunks(surface.num_vertices(), grain, num_threads, take);
     bounds.peak_bytes = search.bytes();
     return bounds;
+}
+
+DistanceBounds distance_bounds(const Surface& surface, const SurfaceLayout& layout,
+                               std::span<const SurfacePoint> sites, int num_threads,
+                               const Progress& progress) {
+    return distance_bounds(surface, layout.arcs(), layout.corners().mean_length(), sites,
+                           num_threads, progress);
 }
 
 }  // namespace agvd

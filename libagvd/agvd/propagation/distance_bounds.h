@@ -5,8 +5,9 @@
 #include <span>
 
 #include "agvd/core/poller.h"
+#include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_point.h"
-#include "agvd/propagation/arc_graph.h"
+#include "agvd/propagation/surface_layout.h"
 
 namespace agvd {
 
@@ -26,6 +27,8 @@ public:
     //! \param num_steps       as well; 0: as suits the graph.
     BoundsSearch(const Surface& surface, const ArcGraph& graph, double mean_edge, int num_threads,
                  Index num_steps = 0);
+    //! \param layout  outlives the search; SurfaceLayout(surface).
+    BoundsSearch(const Surface& surface, const SurfaceLayout& layout, int num_threads);
 
     //! Adds a site, whose paths the next run() follows.
     void add(const SurfacePoint& point, Index site);
@@ -86,5 +89,8 @@ private:
 [[nodiscard]] DistanceBounds distance_bounds(const Surface& surface, const ArcGraph& graph,
                                              double mean_edge, std::span<const SurfacePoint> sites,
                                              int num_threads, const Progress& progress = {});
+[[nodiscard]] DistanceBounds distance_bounds(const Surface& surface, const SurfaceLayout& layout,
+                                             std::span<const SurfacePoint> sites, int num_threads,
+                                             const Progress& progress = {});
 
 }  // namespace agvd

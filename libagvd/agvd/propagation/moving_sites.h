@@ -3,18 +3,14 @@
 #pragma once
 
 #include <memory>
-#include <utility>
+#include <span>
 
-#include "agvd/propagation/propagate.h"
+#include "agvd/propagation/propagation_options.h"
+#include "agvd/propagation/relays.h"
+#include "agvd/propagation/site_changes.h"
+#include "agvd/propagation/surface_layout.h"
 
 namespace agvd {
-
-//! What happens to a list of sites, in this order. Indices are those before the change.
-struct SiteChanges {
-    std::vector<std::pair<Index, SurfacePoint>> moved;
-    std::vector<Index> removed;       //!< Those behind move up.
-    std::vector<SurfacePoint> added;  //!< At the end.
-};
 
 //! Keeps what each site has propagated, and repeats only what a change touches: the sites that
 //! changed and those whose bounds did. The result is that of propagate() with Engine::Window on the

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "agvd/core/error.h"
+#include "agvd/mesh/check_sites.h"
 #include "agvd/mesh/point_faces.h"
 #include "agvd/propagation/site_placement.h"
 
@@ -13,7 +14,7 @@ namespace agvd {
 
 NumberedSites::NumberedSites(const Surface& surface, const SurfaceLayout& layout, int num_threads)
     : surface_(surface),
-      search_(surface, layout.arcs(), layout.corners().mean_length(), num_threads),
+      search_(surface, layout, num_threads),
       bounds_(surface.num_vertices(), std::numeric_limits<float>::infinity()),
       starting_at_(surface.num_vertices()) {
     (void)search_.take_changes();

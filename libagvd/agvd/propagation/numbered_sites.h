@@ -7,7 +7,8 @@
 
 #include "agvd/mesh/distinct_points.h"
 #include "agvd/propagation/distance_bounds.h"
-#include "agvd/propagation/moving_sites.h"
+#include "agvd/propagation/site_changes.h"
+#include "agvd/propagation/surface_layout.h"
 #include "agvd/propagation/window_engine.h"
 
 namespace agvd {

@@ -2,7 +2,8 @@
 //! Options that an engine cannot serve.
 #pragma once
 
-#include "agvd/propagation/propagate.h"
+#include "agvd/mesh/surface.h"
+#include "agvd/propagation/propagation_options.h"
 
 namespace agvd {
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "agvd/mesh/check_sites.h"
 #include "agvd/mesh/distinct_points.h"
 #include "agvd/propagation/option_checks.h"
 #include "agvd/propagation/site_placement.h"
@@ -24,13 +25,13 @@ Propagation carry(const Surface& surface, std::shared_ptr<const Corners> corners
     if (options.engine == Engine::Vertex) {
         return propagate_vertices(surface, *corners, sites, options);
     }
-    DistanceBounds known = bounds(*corners);
+    DistanceBounds known = bounds();
     return propagate_windows(surface, std::move(corners), std::move(known), sites, options);
 }
 
-DistanceBounds find_bounds(const Surface& surface, const Corners& corners, const ArcGraph& arcs,
+DistanceBounds find_bounds(const Surface& surface, const SurfaceLayout& layout,
                            std::span<const SurfacePoint> sites, const PropagationOptions& options) {
-    return distance_bounds(surface, arcs, corners.mean_length(), sites, options.num_threads,
+    return distance_bounds(surface, layout, sites, options.num_threads,
                            within(options.progress, 0, 0));
 }
 
@@ -54,30 +55,14 @@ Propagation propagate_distinct(const Surface& surface, std::span<const SurfacePo
 
 }  // namespace
 
-const char* engine_name(Engine engine) {
-    switch (engine) {
-        case Engine::Window:
-            return "window";
-        case Engine::Steiner:
-            return "steiner";
-        case Engine::Vertex:
-            return "vertex";
-    }
-    return "unknown";
-}
-
 Propagation propagate(const Surface& surface, std::span<const SurfacePoint> sites,
                       const PropagationOptions& options) {
     const auto run = [&](std::span<const SurfacePoint> distinct) {
         if (options.engine == Engine::Steiner) return propagate_steiner(surface, distinct, options);
-        const Progress begin = within(options.progress, 0, 0);
-        const auto bounds = [&](const Corners& corners) {  // The arcs go before the windows come.
-            return find_bounds(surface, corners,
-                               ArcGraph(surface, corners, options.num_threads, begin), distinct,
-                               options);
-        };
-        return carry(surface, std::make_shared<const Corners>(surface, options.num_threads, begin),
-                     bounds, distinct, options);
+        if (options.engine == Engine::Window) return propagate_windows(surface, distinct, options);
+        poll(options.progress, 0);
+        const Corners corners(surface, options.num_threads, within(options.progress, 0, 0));
+        return propagate_vertices(surface, corners, distinct, options);
     };
     return propagate_distinct(surface, sites, options, run);
 }
@@ -86,9 +71,7 @@ Propagation propagate(const Surface& surface, const SurfaceLayout& layout,
                       std::span<const SurfacePoint> sites, const PropagationOptions& options) {
     const auto run = [&](std::span<const SurfacePoint> distinct) {
         if (options.engine == Engine::Steiner) return propagate_steiner(surface, distinct, options);
-        const auto bounds = [&](const Corners& corners) {
-            return find_bounds(surface, corners, layout.arcs(), distinct, options);
-        };
+        const auto bounds = [&] { return find_bounds(surface, layout, distinct, options); };
         return carry(surface, layout.shared_corners(), bounds, distinct, options);
     };
     return propagate_distinct(surface, sites, options, run);
@@ -99,8 +82,8 @@ Propagation propagate(const Surface& surface, SurfaceLayout&& layout,
     std::optional<SurfaceLayout> owned(std::move(layout));
     const auto run = [&](std::span<const SurfacePoint> distinct) {
         if (options.engine == Engine::Steiner) return propagate_steiner(surface, distinct, options);
-        const auto bounds = [&](const Corners& corners) {
-            DistanceBounds found = find_bounds(surface, corners, owned->arcs(), distinct, options);
+        const auto bounds = [&] {
+            DistanceBounds found = find_bounds(surface, *owned, distinct, options);
             owned.reset();
             return found;
         };

@@ -6,33 +6,11 @@
 #include <string>
 
 #include "agvd/core/error.h"
+#include "agvd/mesh/check_sites.h"
 #include "agvd/mesh/distinct_points.h"
 
 namespace agvd {
 namespace {
-
-// Barycentric coordinates that come from files or float sums; checked against 1.
-constexpr double barycentric_tolerance = 1e-6;
-
-void check_site(const Surface& surface, const SurfacePoint& site, std::size_t index) {
-    const auto refuse = [&](const std::string& why) {
-        throw InvalidInput("site " + std::to_string(index) + why);
-    };
-    if (site.face.value() >= surface.num_faces()) {
-        refuse(" names a face that does not exist; there are " +
-               std::to_string(surface.num_faces()) + " faces, counted from 0");
-    }
-    double sum = 0;
-    for (const double b : site.barycentric) {
-        if (!(b >= 0)) {
-            refuse(" has a negative barycentric coordinate; a site must lie in its face");
-        }
-        sum += b;
-    }
-    if (!(std::abs(sum - 1) <= barycentric_tolerance)) {
-        refuse(" has barycentric coordinates that do not sum to 1; divide them by their sum");
-    }
-}
 
 bool by_face(const PlacedSite& a, const PlacedSite& b) {
     if (a.point.face != b.point.face) return a.point.face < b.point.face;
@@ -40,18 +18,6 @@ bool by_face(const PlacedSite& a, const PlacedSite& b) {
 }
 
 }  // namespace
-
-Vec2 position_in_frame(const Surface& surface, const SurfacePoint& point, Index half_edge) {
-    assert(Surface::face(half_edge) == point.face.value());
-    const Index k = half_edge % 3;
-    const double head = point.barycentric[(k + 1) % 3];
-    const double apex = point.barycentric[(k + 2) % 3];
-    return apex * surface.apex[half_edge] + Vec2(head * surface.length_of(half_edge), 0);
-}
-
-void check_sites(const Surface& surface, std::span<const SurfacePoint> sites) {
-    for (Index s = 0; s < sites.size(); ++s) check_site(surface, sites[s], s);
-}
 
 SitePlacement::SitePlacement(const Surface& surface, std::span<const SurfacePoint> sites) {
     check_sites(surface, sites);

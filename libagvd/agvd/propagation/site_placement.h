@@ -9,13 +9,6 @@
 
 namespace agvd {
 
-//! Position of a surface point in the frame of one of its face's half-edges.
-[[nodiscard]] Vec2 position_in_frame(const Surface& surface, const SurfacePoint& point,
-                                     Index half_edge);
-
-//! \throw InvalidInput naming the site when its face does not exist or it is off the face.
-void check_sites(const Surface& surface, std::span<const SurfacePoint> sites);
-
 //! A site that lies in a face or on one of its edges (not at a corner), seen from that face.
 struct PlacedSite {
     Index site;

@@ -2,7 +2,8 @@
 //! The paper's engine: multi-source propagation over Steiner points.
 #pragma once
 
-#include "agvd/propagation/propagate.h"
+#include "agvd/propagation/propagation_options.h"
+#include "agvd/propagation/relays.h"
 
 namespace agvd {
 

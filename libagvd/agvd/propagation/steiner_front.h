@@ -6,7 +6,8 @@
 
 #include "agvd/core/poller.h"
 #include "agvd/propagation/front_queue.h"
-#include "agvd/propagation/propagate.h"
+#include "agvd/propagation/propagation_options.h"
+#include "agvd/propagation/relays.h"
 #include "agvd/propagation/site_placement.h"
 #include "agvd/propagation/steiner_pool.h"
 #include "agvd/propagation/steiner_retirement.h"

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "agvd/propagation/steiner_insertion.h"
+#include "agvd/propagation/window_engine.h"
 
 namespace agvd {
 namespace {
@@ -72,10 +73,9 @@ Propagation propagate_steiner_within(const Surface& surface, std::span<const Sur
     const double max_error = options.max_error.value();
     double done = 0.1;
     PropagationOptions exactly = options;
-    exactly.engine = Engine::Window;
     exactly.max_error = 0;
     exactly.progress = within(options.progress, 0, done);
-    Propagation exact = propagate(surface, sites, exactly);
+    Propagation exact = propagate_windows(surface, sites, exactly);
     const std::size_t bytes_of_exact = exact.peak_bytes;
     std::vector<Relay>().swap(exact.relays);
 

@@ -2,7 +2,8 @@
 //! The Steiner engine with an error bound: points are inserted where paths are too long.
 #pragma once
 
-#include "agvd/propagation/propagate.h"
+#include "agvd/propagation/propagation_options.h"
+#include "agvd/propagation/relays.h"
 
 namespace agvd {
 

@@ -3,7 +3,8 @@
 #pragma once
 
 #include "agvd/propagation/corners.h"
-#include "agvd/propagation/propagate.h"
+#include "agvd/propagation/propagation_options.h"
+#include "agvd/propagation/relays.h"
 
 namespace agvd {
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "agvd/core/parallel.h"
+#include "agvd/propagation/arc_graph.h"
 #include "agvd/propagation/border_faces.h"
 #include "agvd/propagation/mixed_faces.h"
 #include "agvd/propagation/site_placement.h"
@@ -328,6 +329,20 @@ Propagation propagate_windows(const Surface& surface, std::shared_ptr<const Corn
                               const PropagationOptions& options, Index work_cap) {
     return WindowEngine(surface, std::move(corners), std::move(bounds), sites, options, work_cap)
         .run();
+}
+
+Propagation propagate_windows(const Surface& surface, std::span<const SurfacePoint> sites,
+                              const PropagationOptions& options) {
+    poll(options.progress, 0);
+    const Progress begin = within(options.progress, 0, 0);
+    auto corners = std::make_shared<const Corners>(surface, options.num_threads, begin);
+    const auto find_bounds = [&] {  // The arcs go before the windows come.
+        const ArcGraph arcs(surface, *corners, options.num_threads, begin);
+        return distance_bounds(surface, arcs, corners->mean_length(), sites, options.num_threads,
+                               begin);
+    };
+    DistanceBounds bounds = find_bounds();
+    return propagate_windows(surface, std::move(corners), std::move(bounds), sites, options);
 }
 
 }  // namespace agvd

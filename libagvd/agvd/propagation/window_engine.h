@@ -4,8 +4,10 @@
 
 #include <memory>
 
+#include "agvd/propagation/corners.h"
 #include "agvd/propagation/distance_bounds.h"
-#include "agvd/propagation/propagate.h"
+#include "agvd/propagation/propagation_options.h"
+#include "agvd/propagation/relays.h"
 
 namespace agvd {
 
@@ -33,5 +35,9 @@ inline constexpr Index default_work_cap = 1 << 11;
                                             std::span<const SurfacePoint> sites,
                                             const PropagationOptions& options,
                                             Index work_cap = default_work_cap);
+//! The same; it makes the corners and the bounds.
+[[nodiscard]] Propagation propagate_windows(const Surface& surface,
+                                            std::span<const SurfacePoint> sites,
+                                            const PropagationOptions& options);
 
 }  // namespace agvd

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "agvd/core/poller.h"
-#include "remesh/dual/degenerate_edges.h"
+#include "remesh/guarantee/degenerate_edges.h"
 
 namespace remesh {
 namespace {

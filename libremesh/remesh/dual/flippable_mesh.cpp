@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
-#include "remesh/quality/edge_sides.h"
+#include "remesh/topology/edge_sides.h"
 
 namespace remesh {
 

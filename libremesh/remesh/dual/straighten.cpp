@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "agvd/propagation/site_placement.h"
+#include "agvd/mesh/point_faces.h"
 
 namespace remesh {
 

@@ -2,9 +2,11 @@
 //! The four formats: what the dispatch of reading and writing shares. Private.
 #pragma once
 
+#include <filesystem>
 #include <string>
 
-#include "remesh/io/read_mesh.h"
+#include "agvd/core/poller.h"
+#include "remesh/io/mesh_file.h"
 #include "remesh/io/source_file.h"
 
 namespace remesh {

@@ -69,46 +69,6 @@ std::string describe_too_few(Mesh& mesh, const RemeshOptions& options, Index rea
     return "more than " + std::to_string(more.num_samples) + " are needed";
 }
 
-}  // namespace
-
-const char* features_name(Features features) {
-    switch (features) {
-        case Features::Auto:
-            return "auto";
-        case Features::Angle:
-            return "angle";
-        case Features::Off:
-            return "off";
-    }
-    return "unknown";
-}
-
-const char* stage_name(Stage stage) {
-    switch (stage) {
-        case Stage::Clean:
-            return "clean";
-        case Stage::Sample:
-            return "sample";
-        case Stage::Relax:
-            return "relax";
-        case Stage::Propagate:
-            return "propagate";
-        case Stage::Diagram:
-            return "diagram";
-        case Stage::Dual:
-            return "dual";
-        case Stage::Delaunay:
-            return "delaunay";
-        case Stage::Place:
-            return "place";
-        case Stage::Check:
-            return "check";
-    }
-    return "unknown";
-}
-
-namespace {
-
 // Pairs of faces that run through each other where the input has none.
 Index num_new_crossings(const RemeshResult& result) {
     const Index pairs = result.self_intersections.value_or(0);

@@ -2,7 +2,8 @@
 //! The stages of remesh() in their order. Private to the pipeline.
 #pragma once
 
-#include "remesh/pipeline/remesh.h"
+#include "remesh/pipeline/remesh_options.h"
+#include "remesh/pipeline/remesh_result.h"
 
 namespace remesh::detail {
 

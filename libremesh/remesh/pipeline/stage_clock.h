@@ -4,7 +4,8 @@
 
 #include <chrono>
 
-#include "remesh/pipeline/remesh.h"
+#include "remesh/pipeline/remesh_options.h"
+#include "remesh/pipeline/remesh_result.h"
 
 namespace remesh::detail {
 

@@ -4,16 +4,18 @@
 #include <limits>
 #include <utility>
 
+#include "agvd/diagram/build_diagram.h"
 #include "agvd/mesh/distinct_points.h"
 #include "agvd/mesh/point_faces.h"
+#include "agvd/propagation/propagate.h"
 #include "remesh/dual/build_dual.h"
 #include "remesh/features/close_rim.h"
+#include "remesh/guarantee/boundary_cells.h"
+#include "remesh/guarantee/closed_ball.h"
+#include "remesh/guarantee/farthest_corner.h"
 #include "remesh/pipeline/stage_clock.h"
-#include "remesh/quality/topology.h"
-#include "remesh/repair/boundary_cells.h"
-#include "remesh/repair/closed_ball.h"
-#include "remesh/repair/farthest_corner.h"
-#include "remesh/repair/thin_patch.h"
+#include "remesh/simplify/thin_patch.h"
+#include "remesh/topology/topology.h"
 
 namespace remesh::detail {
 namespace {

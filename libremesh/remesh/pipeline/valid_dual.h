@@ -7,7 +7,8 @@
 #include "agvd/diagram/diagram.h"
 #include "agvd/propagation/surface_layout.h"
 #include "remesh/features/curve_sites.h"
-#include "remesh/pipeline/remesh.h"
+#include "remesh/pipeline/remesh_options.h"
+#include "remesh/pipeline/remesh_result.h"
 
 namespace remesh::detail {
 

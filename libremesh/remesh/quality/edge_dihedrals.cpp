@@ -7,7 +7,7 @@
 #include <unordered_map>
 
 #include "agvd/core/position_hash.h"
-#include "remesh/quality/edge_sides.h"
+#include "remesh/topology/edge_sides.h"
 
 namespace remesh::detail {
 namespace {

@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "remesh/clean/clean_input.h"
 #include "remesh/quality/feature_coverage.h"
 #include "remesh/quality/surface_distance.h"
-#include "remesh/quality/topology.h"
 #include "remesh/quality/triangle_quality.h"
-#include "remesh/repair/clean_input.h"
+#include "remesh/topology/topology.h"
 
 namespace remesh {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "remesh/quality/edge_sides.h"
+#include "remesh/topology/edge_sides.h"
 
 namespace remesh {
 namespace {

@@ -10,9 +10,9 @@
 #include "agvd/mesh/face_area.h"
 #include "agvd/mesh/point_faces.h"
 #include "remesh/relax/walk.h"
-#include "remesh/sampling/components.h"
 #include "remesh/sampling/farthest_vertex.h"
 #include "remesh/sampling/shares.h"
+#include "remesh/topology/components.h"
 
 namespace remesh::detail {
 namespace {
@@ -85,7 +85,7 @@ public:
                 const agvd::Progress& progress)
         : surface_(surface),
           progress_(progress),
-          search_(surface, layout.arcs(), layout.corners().mean_length(), num_threads),
+          search_(surface, layout, num_threads),
           farthest_(surface, search_) {}
 
     // At least `count`, and one for each component.

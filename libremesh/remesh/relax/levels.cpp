@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "agvd/core/poller.h"
-#include "agvd/diagram/diagram.h"
+#include "agvd/diagram/build_diagram.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/dual/build_dual.h"
 #include "remesh/features/close_rim.h"

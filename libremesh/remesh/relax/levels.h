@@ -6,7 +6,8 @@
 
 #include "agvd/propagation/distance_bounds.h"
 #include "remesh/features/curve_sites.h"
-#include "remesh/relax/relax_sites.h"
+#include "remesh/relax/prepared_surface.h"
+#include "remesh/relax/relax_options.h"
 #include "remesh/relax/relaxation.h"
 
 namespace remesh::detail {

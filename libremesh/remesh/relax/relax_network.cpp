@@ -10,8 +10,8 @@
 #include "remesh/relax/levels.h"
 #include "remesh/relax/subdivide.h"
 #include "remesh/relax/walk.h"
-#include "remesh/repair/thin_patch.h"
-#include "remesh/sampling/components.h"
+#include "remesh/simplify/thin_patch.h"
+#include "remesh/topology/components.h"
 
 namespace remesh {
 namespace {

@@ -5,12 +5,12 @@
 #include <string>
 
 #include "agvd/core/poller.h"
-#include "agvd/propagation/site_placement.h"
+#include "agvd/mesh/check_sites.h"
 #include "remesh/relax/even_out.h"
 #include "remesh/relax/levels.h"
 #include "remesh/relax/subdivide.h"
 #include "remesh/relax/walk.h"
-#include "remesh/sampling/components.h"
+#include "remesh/topology/components.h"
 
 namespace remesh {
 namespace {

@@ -82,8 +82,7 @@ void add_part(const PreparedSurface& prepared, const agvd::DistanceBounds& label
 agvd::DistanceBounds label_vertices(const PreparedSurface& surface,
                                     std::span<const SurfacePoint> sites, int num_threads,
                                     const agvd::Progress& progress) {
-    return agvd::distance_bounds(surface.base.surface(), surface.layout.arcs(),
-                                 surface.layout.corners().mean_length(),
+    return agvd::distance_bounds(surface.base.surface(), surface.layout,
                                  surface.base.to_intrinsic(sites), num_threads, progress);
 }
 

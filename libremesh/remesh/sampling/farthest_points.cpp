@@ -85,7 +85,7 @@ public:
           ground_(ground),
           progress_(progress),
           layout_(ground_.surface(), num_threads, progress),
-          search_(ground_.surface(), layout_.arcs(), layout_.corners().mean_length(), num_threads),
+          search_(ground_.surface(), layout_, num_threads),
           seed_(seed),
           stream_(stream) {}
 

@@ -4,8 +4,8 @@
 
 #include <span>
 
-#include "remesh/sampling/components.h"
 #include "remesh/sampling/scatter.h"
+#include "remesh/topology/components.h"
 
 namespace remesh::detail {
 

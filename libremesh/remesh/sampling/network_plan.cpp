@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "agvd/mesh/face_area.h"
-#include "remesh/sampling/components.h"
 #include "remesh/sampling/shares.h"
+#include "remesh/topology/components.h"
 
 namespace remesh {
 namespace {

@@ -2,17 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
-#include <numeric>
 #include <string>
 
 #include "agvd/core/error.h"
 #include "remesh/sampling/boundary_curves.h"
-#include "remesh/sampling/components.h"
 #include "remesh/sampling/eliminate.h"
 #include "remesh/sampling/farthest_points.h"
 #include "remesh/sampling/scatter.h"
 #include "remesh/sampling/shares.h"
+#include "remesh/topology/components.h"
 
 namespace remesh {
 namespace {
@@ -110,18 +108,6 @@ const char* init_name(Init init) {
             return "farthest";
     }
     return "unknown";
-}
-
-Index minimum_samples(int genus, int boundary_loops) {
-    if (boundary_loops == 0) {
-        if (genus == 2) return 10;  // The one orientable surface that misses the bound.
-        return static_cast<Index>(std::ceil((7 + std::sqrt(1.0 + 48.0 * genus)) / 2));
-    }
-    // E <= V (V - 1) / 2 with all vertices on the boundary; loops have three vertices each,
-    // unshared.
-    const double euler = 2.0 - 2.0 * genus - boundary_loops;
-    const double bound = std::ceil((5 + std::sqrt(25 - 24 * euler)) / 2);
-    return std::max(static_cast<Index>(bound), static_cast<Index>(3 * boundary_loops));
 }
 
 std::vector<agvd::SurfacePoint> sample_sites(const agvd::Surface& surface,

@@ -55,13 +55,6 @@ struct SamplingOptions {
 [[nodiscard]] std::vector<agvd::SurfacePoint> sample_sites(const agvd::Surface& surface,
                                                            const SamplingOptions& options = {});
 
-//! No simplicial surface of this genus and number of boundary loops has fewer vertices: 4 for the
-//! sphere, 7 for the torus, 3 for the disc, 6 for the open tube. Reached by every closed surface
-//! ([jungerman1980]); a bound by counting edges for those with boundary.
-//!
-//! \param genus, boundary_loops  >= 0, of one connected component.
-[[nodiscard]] agvd::Index minimum_samples(int genus, int boundary_loops);
-
 //! Sites strictly inside the faces of a surface whose boundary has its sites already.
 //!
 //! \param rim      sites on the boundary: inner ones keep off them.

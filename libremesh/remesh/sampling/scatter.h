@@ -3,7 +3,7 @@
 #pragma once
 
 #include "agvd/mesh/surface_point.h"
-#include "remesh/sampling/components.h"
+#include "remesh/topology/components.h"
 
 namespace remesh::detail {
 

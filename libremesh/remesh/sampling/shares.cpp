@@ -5,7 +5,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "remesh/sampling/sample_sites.h"
+#include "remesh/sampling/minimum_samples.h"
 
 namespace remesh::detail {
 

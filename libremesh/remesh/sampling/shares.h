@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "remesh/sampling/components.h"
+#include "remesh/topology/components.h"
 
 namespace remesh::detail {
 

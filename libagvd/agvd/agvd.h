@@ -1,0 +1,24 @@
+//! \file
+//! All of libagvd that users need, but for the oracle (agvd/metrics/oracle.h,
+//! agvd/metrics/compare.h).
+#pragma once
+
+#include "agvd/core/error.h"
+#include "agvd/diagram/build_diagram.h"
+#include "agvd/diagram/cells.h"
+#include "agvd/diagram/diagram_on_input.h"
+#include "agvd/diagram/moving_diagram.h"
+#include "agvd/intrinsic/intrinsic_triangulation.h"
+#include "agvd/intrinsic/thin.h"
+#include "agvd/mesh/closest_point.h"
+#include "agvd/mesh/connectivity.h"
+#include "agvd/mesh/mesh_view.h"
+#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/scale.h"
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_point.h"
+#include "agvd/metrics/bisector_error.h"
+#include "agvd/metrics/compare_diagrams.h"
+#include "agvd/metrics/frechet.h"
+#include "agvd/propagation/moving_sites.h"
+#include "agvd/propagation/propagate.h"

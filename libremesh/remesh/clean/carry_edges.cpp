@@ -1,0 +1,80 @@
+#include "remesh/clean/carry_edges.h"
+
+#include <algorithm>
+#include <map>
+#include <string>
+
+#include "agvd/core/error.h"
+#include "agvd/mesh/point_faces.h"
+#include "remesh/clean/carry_sites.h"
+
+namespace remesh {
+namespace {
+
+using agvd::Index;
+using agvd::SurfacePoint;
+
+// A face beside an edge, and the edge's middle as a point of it.
+struct Beside {
+    double area = -1;
+    SurfacePoint middle;
+};
+
+double area_of(const agvd::MeshView& mesh, const agvd::Triangle& t) {
+    const auto& p = mesh.positions;
+    return (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).norm();
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> carry_edges(std::span<const std::array<Index, 2>> edges,
+                                      const agvd::MeshView& mesh, const CleanResult& clean,
+                                      const agvd::Surface& surface) {
+    std::vector<std::uint8_t> is_carried(surface.num_edges(), 0);
+    std::map<std::pair<Index, Index>, Beside> beside;
+    for (const auto& [u, v] : edges) beside[std::minmax(u, v)];
+    // The larger of two faces is the one that cleaning keeps.
+    for (Index f = 0; f < mesh.triangles.size(); ++f) {
+        const agvd::Triangle& t = mesh.triangles[f];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const auto found = beside.find(std::minmax(t[k], t[(k + 1) % 3]));
+            if (found == beside.end()) continue;
+            const double area = area_of(mesh, t);
+            if (!(area > found->second.area)) continue;
+            SurfacePoint middle{agvd::FaceId(f), {0, 0, 0}};
+            middle.barycentric[k] = middle.barycentric[(k + 1) % 3] = 0.5;
+            found->second = {area, middle};
+        }
+    }
+    std::vector<SurfacePoint> middles;
+    for (const auto& [ends, face] : beside) {
+        if (face.area < 0) {
+            throw agvd::InvalidInput("vertices " + std::to_string(ends.first) + " and " +
+                                     std::to_string(ends.second) +
+                                     " of a feature edge are not the ends of an edge of the mesh; "
+                                     "name two that are, counted from 0");
+        }
+        if (face.area > 0) middles.push_back(face.middle);
+    }
+    for (const SurfacePoint& middle : to_cleaned(middles, mesh, clean)) {
+        const auto half_edge = agvd::half_edge_of(middle);
+        if (half_edge) is_carried[surface.edge[*half_edge]] = 1;
+    }
+    return is_carried;
+}
+
+std::vector<std::uint8_t> find_label_borders(std::span<const Index> face_labels,
+                                             const CleanResult& clean,
+                                             const agvd::Surface& surface) {
+    const auto label = [&](Index h) {
+        return face_labels[clean.face_origin[agvd::Surface::face(h)]];
+    };
+    std::vector<std::uint8_t> is_border(surface.num_edges(), 0);
+    for (Index e = 0; e < surface.num_edges(); ++e) {
+        const Index h = surface.edge_half[e], twin = surface.twin[h];
+        if (twin != agvd::no_index && label(h) != label(twin)) is_border[e] = 1;
+    }
+    return is_border;
+}
+
+}  // namespace remesh

@@ -1,0 +1,31 @@
+//! \file
+//! Edges of a mesh as the caller has it, on the same mesh cleaned.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "agvd/mesh/surface.h"
+#include "remesh/clean/clean_input.h"
+
+namespace remesh {
+
+//! \param edges    pairs of vertices of `mesh`.
+//! \param clean    of clean_input(mesh). \param surface  of clean.mesh.
+//! \return #E of the surface: 1 for those that the given edges are now; those whose faces cleaning
+//!         has split elsewhere are none.
+//! \throw agvd::InvalidInput  a pair is no edge of the mesh; the text names it.
+//! Cost: O(#F log #edges).
+[[nodiscard]] std::vector<std::uint8_t> carry_edges(
+    std::span<const std::array<agvd::Index, 2>> edges, const agvd::MeshView& mesh,
+    const CleanResult& clean, const agvd::Surface& surface);
+
+//! Edges between faces of different labels.
+//!
+//! \param face_labels  of the faces of the mesh that clean_input() got.
+//! \return #E of the surface: 1 for such edges. Cost: O(#E).
+[[nodiscard]] std::vector<std::uint8_t> find_label_borders(std::span<const agvd::Index> face_labels,
+                                                           const CleanResult& clean,
+                                                           const agvd::Surface& surface);
+
+}  // namespace remesh

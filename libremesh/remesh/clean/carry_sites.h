@@ -1,0 +1,29 @@
+//! \file
+//! Sites on a mesh as the caller has it, and on the same mesh cleaned.
+#pragma once
+
+#include "agvd/mesh/surface_point.h"
+#include "remesh/clean/clean_input.h"
+
+namespace remesh {
+
+//! The same points on `clean.mesh`; `clean` must come from clean_input(mesh). A face that has kept
+//! its corners keeps the coordinates bit for bit, so that sites on vertices and edges stay there;
+//! a site on a face that was split or dropped goes to the closest point. Sums of coordinates that
+//! are 1 only to the decimals of a file become 1 to rounding.
+//! \throw agvd::InvalidInput  a site's face does not exist, its coordinates are not barycentric, or
+//!        its face was dropped and no other surface is there (within 1e-9 of the box diagonal); the
+//!        text names the site.
+//! Cost: O(#F log #F + #sites log #F).
+[[nodiscard]] std::vector<agvd::SurfacePoint> to_cleaned(
+    const std::vector<agvd::SurfacePoint>& sites, const agvd::MeshView& mesh,
+    const CleanResult& clean);
+
+//! The way back: points of `clean.mesh` on the mesh that it came from; for part of a face, the
+//! closest point of the whole. Without clean.face_origin the mesh was clean: only the sums of
+//! coordinates become 1. Cost: O(#sites).
+[[nodiscard]] std::vector<agvd::SurfacePoint> to_original(
+    const std::vector<agvd::SurfacePoint>& sites, const agvd::MeshView& mesh,
+    const CleanResult& clean);
+
+}  // namespace remesh

@@ -1,0 +1,23 @@
+//! \file
+//! What the repair of an input did.
+#pragma once
+
+#include "agvd/core/types.h"
+
+namespace remesh {
+
+//! How many elements each step of the repair touched.
+struct CleanCounts {
+    agvd::Index welded_vertices = 0;    //!< Merged into another vertex at the same position.
+    agvd::Index degenerate_faces = 0;   //!< Dropped: repeated corner, or no area.
+    agvd::Index absorbed_faces = 0;     //!< Without area, removed by an edge flip: no hole is left.
+    agvd::Index duplicate_faces = 0;    //!< Dropped: same three corners as an earlier face.
+    agvd::Index flipped_faces = 0;      //!< Turned over for a consistent orientation.
+    agvd::Index split_edges = 0;        //!< Edges of more than two faces, cut apart.
+    agvd::Index split_vertices = 0;     //!< Copies made where faces around a vertex are no fan.
+    agvd::Index isolated_vertices = 0;  //!< Dropped: in no face, or only in dropped ones.
+
+    [[nodiscard]] bool operator==(const CleanCounts&) const = default;
+};
+
+}  // namespace remesh

@@ -1,0 +1,215 @@
+#include "remesh/clean/clean_input.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+#include "agvd/core/error.h"
+#include "agvd/core/parallel.h"
+#include "agvd/mesh/scale.h"
+#include "remesh/clean/soup.h"
+
+namespace remesh {
+namespace detail {
+namespace {
+
+using agvd::Index;
+using agvd::InvalidInput;
+using agvd::no_index;
+using agvd::Triangle;
+
+constexpr Index grain = 1 << 14;  // Faces.
+
+void check_elements(const agvd::MeshView& mesh, agvd::Ticker& ticker) {
+    if (mesh.triangles.size() > no_index / 3 || mesh.positions.size() >= no_index) {
+        throw InvalidInput("the mesh has more than 2^32 / 3 faces; split it into parts");
+    }
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        ticker.tick();
+        if (mesh.positions[v].allFinite()) continue;
+        throw InvalidInput("vertex " + std::to_string(v) +
+                           " has a coordinate that is not finite; correct or delete it");
+    }
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        ticker.tick();
+        for (const Index v : mesh.triangles[f]) {
+            if (v < mesh.positions.size()) continue;
+            throw InvalidInput("face " + std::to_string(f) + " names vertex " + std::to_string(v) +
+                               ", but there are only " + std::to_string(mesh.positions.size()) +
+                               " (counted from 0); correct or delete it");
+        }
+    }
+}
+
+Soup as_soup(const agvd::MeshView& mesh, agvd::Ticker ticker) {
+    Soup soup;
+    soup.ticker = ticker;
+    soup.positions.assign(mesh.positions.begin(), mesh.positions.end());
+    soup.triangles.assign(mesh.triangles.begin(), mesh.triangles.end());
+    ticker.poll();
+    soup.vertex_origin.resize(soup.positions.size());
+    soup.face_origin.resize(soup.triangles.size());
+    std::iota(soup.vertex_origin.begin(), soup.vertex_origin.end(), Index{0});
+    std::iota(soup.face_origin.begin(), soup.face_origin.end(), Index{0});
+    ticker.poll();
+    return soup;
+}
+
+// The input as it is, if nothing is to be done: linear passes only.
+std::optional<CleanResult> take_clean(const agvd::MeshView& mesh, int num_threads,
+                                      const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    agvd::Ticker ticker(poller);
+    std::optional<agvd::Connectivity> found = agvd::find_connectivity(mesh, num_threads, progress);
+    if (!found || found->outgoing.empty()) return std::nullopt;
+    const auto& [twin, outgoing] = *found;
+    if (std::find(outgoing.begin(), outgoing.end(), no_index) != outgoing.end()) {
+        return std::nullopt;  // An isolated vertex.
+    }
+    const auto apex = [&](Index h) {
+        return mesh.triangles[h / 3][agvd::previous_half_edge(h) % 3];
+    };
+    std::atomic<bool> is_clean = true;
+    const auto num_faces = static_cast<Index>(mesh.triangles.size());
+    const auto check_faces = [&](Index, Index begin, Index end) {
+        for (Index f = begin; f < end; ++f) {
+            const double area = smallest_doubled_area(mesh.positions, mesh.triangles[f]);
+            bool is_good = area > 0 && std::isfinite(area);
+            for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+                is_good = is_good && (twin[h] == no_index || apex(h) != apex(twin[h]));
+            }
+            if (!is_good) is_clean.store(false, std::memory_order_relaxed);
+        }
+    };
+    agvd::parallel_chunks(num_faces, grain, num_threads, check_faces, poller);
+    if (!is_clean) return std::nullopt;
+    std::vector<bool> is_boundary(outgoing.size());
+    for (Index v = 0; v < outgoing.size(); ++v) {
+        ticker.tick();
+        is_boundary[v] = twin[outgoing[v]] == no_index;
+    }
+    if (share_positions(mesh.positions, is_boundary, ticker))
+        return std::nullopt;  // A crack, perhaps.
+    Soup soup = as_soup(mesh, ticker);
+    return CleanResult{{std::move(soup.positions), std::move(soup.triangles)},
+                       std::move(soup.vertex_origin),
+                       std::move(soup.face_origin),
+                       {},
+                       *std::move(found)};
+}
+
+// Erases the marked faces and returns how many they were.
+Index drop_faces(Soup& soup, const std::vector<bool>& is_dead) {
+    const auto dropped = static_cast<Index>(std::count(is_dead.begin(), is_dead.end(), true));
+    std::vector<Index> no_twins;
+    if (dropped > 0) erase_faces(soup, is_dead, no_twins);
+    return dropped;
+}
+
+void check_not_empty(const Soup& soup) {
+    if (!soup.triangles.empty()) return;
+    throw InvalidInput("the mesh has no face with an area; check that the file holds a surface");
+}
+
+}  // namespace
+
+bool drop_repeated_corners(Soup& soup) {
+    std::vector<bool> is_dead(soup.triangles.size());
+    for (std::size_t f = 0; f < is_dead.size(); ++f) {
+        soup.ticker.tick();
+        const auto& [a, b, c] = soup.triangles[f];
+        is_dead[f] = a == b || b == c || c == a;
+    }
+    const Index dropped = drop_faces(soup, is_dead);
+    soup.counts.degenerate_faces += dropped;
+    return dropped > 0;
+}
+
+// Duplicates are neighbours in every one of their edges, and have the same third corner there.
+bool drop_duplicates(Soup& soup, std::span<const EdgeUse> uses) {
+    std::vector<bool> is_dead(soup.triangles.size(), false);
+    std::vector<std::pair<Index, Index>> sheets;  // (third corner, face)
+    for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
+        soup.ticker.tick(edge.size());
+        if (edge.size() < 2) return;
+        if (edge.size() == 2 && soup.apex(edge[0].half_edge) != soup.apex(edge[1].half_edge)) {
+            return;  // By far the most frequent case.
+        }
+        sheets.clear();
+        for (const EdgeUse& use : edge) {
+            sheets.emplace_back(soup.apex(use.half_edge), use.half_edge / 3);
+        }
+        std::sort(sheets.begin(), sheets.end());
+        for (std::size_t i = 1; i < sheets.size(); ++i) {
+            if (sheets[i].first == sheets[i - 1].first) is_dead[sheets[i].second] = true;
+        }
+    });
+    const Index dropped = drop_faces(soup, is_dead);
+    soup.counts.duplicate_faces += dropped;
+    return dropped > 0;
+}
+
+void drop_isolated_vertices(Soup& soup) {
+    std::vector<Index> new_vertex(soup.positions.size(), no_index);
+    agvd::for_each_ticked(soup.triangles, soup.ticker, [&](const Triangle& t) {
+        for (const Index v : t) new_vertex[v] = 0;
+    });
+    Index count = 0;
+    for (Index v = 0; v < new_vertex.size(); ++v) {
+        if (new_vertex[v] == no_index) continue;
+        new_vertex[v] = count;
+        soup.positions[count] = soup.positions[v];
+        soup.vertex_origin[count] = soup.vertex_origin[v];
+        ++count;
+    }
+    if (count == soup.positions.size()) return;
+    soup.counts.isolated_vertices +=
+        static_cast<Index>(soup.positions.size()) - count - soup.counts.welded_vertices;
+    soup.positions.resize(count);
+    soup.vertex_origin.resize(count);
+    for (Triangle& t : soup.triangles) {
+        for (Index& v : t) v = new_vertex[v];
+    }
+}
+
+}  // namespace detail
+
+CleanResult clean_input(const agvd::MeshView& mesh, int num_threads,
+                        const agvd::Progress& progress) {
+    using namespace detail;
+    agvd::Poller poller(progress);
+    agvd::Ticker ticker(poller);
+    check_elements(mesh, ticker);
+    agvd::check_scale(mesh);
+    agvd::check_digits(mesh);
+    if (std::optional<CleanResult> clean = take_clean(mesh, num_threads, progress)) {
+        return *std::move(clean);
+    }
+    Soup soup = as_soup(mesh, ticker);
+
+    std::vector<EdgeUse> uses = edge_uses(soup);
+    const auto refresh = [&](bool is_changed) {
+        if (is_changed) uses = edge_uses(soup);
+    };
+    refresh(weld_cracks(soup, uses));
+    const bool is_collapsed = collapse_zero_edges(soup);
+    refresh(drop_repeated_corners(soup) || is_collapsed);
+    refresh(drop_duplicates(soup, uses));
+    check_not_empty(soup);
+    refresh(orient_faces(soup, uses));
+    std::vector<agvd::Index> twin = pair_sheets(soup, uses);
+    remove_flat_faces(soup, twin);
+    check_not_empty(soup);
+    split_vertices(soup, twin);
+    drop_isolated_vertices(soup);
+
+    return {{std::move(soup.positions), std::move(soup.triangles)},
+            std::move(soup.vertex_origin),
+            std::move(soup.face_origin),
+            soup.counts,
+            {}};
+}
+
+}  // namespace remesh

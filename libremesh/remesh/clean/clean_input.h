@@ -1,0 +1,52 @@
+//! \file
+//! Turns any triangle soup into oriented 2-manifold pieces, and tells what it did.
+#pragma once
+
+#include "agvd/core/progress.h"
+#include "agvd/mesh/connectivity.h"
+#include "remesh/clean/clean_counts.h"
+
+namespace remesh {
+
+struct CleanResult {
+    agvd::TriangleMesh mesh;  //!< What agvd::build_surface accepts.
+    //! #V: the input vertex each vertex came from. Edges between the same two origins were one
+    //! edge: find_junctions.
+    std::vector<agvd::Index> vertex_origin;
+    //! #F: the input face in which each face lies (it may be part of it, or have its corners in
+    //! another order).
+    std::vector<agvd::Index> face_origin;
+    CleanCounts counts;
+    //! agvd::find_connectivity(mesh) where nothing had to be repaired; else empty.
+    agvd::Connectivity connectivity;
+};
+
+//! Repairs in this order, without moving anything:
+//! 1. Boundary edges between the same two positions are welded: cracks and soups close, while parts
+//!    that touch at a point, and closed parts that touch anywhere, stay apart. Zero-length edges
+//!    collapse.
+//! 2. Faces with a repeated corner and duplicate faces (the first stays) are dropped.
+//! 3. Faces that hang together through edges of two faces are oriented alike. What was consistent
+//! is
+//!    not turned; else the side of a clear majority (3/4) wins, then for closed pieces the outside,
+//!    for open ones the larger part.
+//! 4. At an edge of more than two faces those pairs stay together that make the flattest sheet (a
+//!    convex one among equals); the others are cut off.
+//! 5. A face without area in double (its corners on one line) is absorbed: its longest edge is
+//!    flipped, so that the neighbour is split at the third corner. Where no neighbour can take it,
+//!    it is dropped.
+//! 6. Vertices whose faces are more than one fan are copied for each fan; isolated ones dropped.
+//!
+//! An input without these defects comes back unchanged, bit for bit and in the same order. Kept
+//! vertices and faces keep their order; copies of vertices come last.
+//!
+//! \throw agvd::InvalidInput  an index is out of range, a coordinate is not finite, the mesh is out
+//!        of scale (see agvd::check_scale) or too far from the origin, a piece is not orientable
+//!        (each names the element), or no face is left.
+//! \throw agvd::Cancelled     the progress callback returned false.
+//! \param num_threads  >= 0; 0: all cores. The result is the same for any number.
+//! Cost: O(n log n); O(n) if there is no defect.
+[[nodiscard]] CleanResult clean_input(const agvd::MeshView& mesh, int num_threads = 0,
+                                      const agvd::Progress& progress = {});
+
+}  // namespace remesh

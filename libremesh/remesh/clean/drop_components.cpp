@@ -1,0 +1,53 @@
+#include "remesh/clean/drop_components.h"
+
+#include <algorithm>
+#include <string>
+
+#include "agvd/core/error.h"
+
+namespace remesh {
+
+using agvd::Index;
+using agvd::no_index;
+
+Index drop_components(CleanResult& clean, const Topology& topology, double percent) {
+    double area = 0;
+    for (const ComponentTopology& c : topology.components) area += c.area;
+    std::vector<bool> stays;
+    for (const ComponentTopology& c : topology.components) {
+        stays.push_back(c.area >= percent / 100 * area);
+    }
+    const auto dropped = static_cast<Index>(std::count(stays.begin(), stays.end(), false));
+    if (dropped == 0) return 0;
+    if (dropped == stays.size()) {
+        throw agvd::InvalidOption("each of the " + std::to_string(dropped) +
+                                  " components has less than " + std::to_string(percent) +
+                                  " % of the area, so that none is left; drop fewer");
+    }
+    clean.connectivity = {};
+    std::vector<Index> number(clean.mesh.positions.size(), no_index);
+    Index num_faces = 0;
+    for (Index f = 0; f < clean.mesh.triangles.size(); ++f) {
+        if (!stays[topology.face_component[f]]) continue;
+        for (const Index v : clean.mesh.triangles[f]) number[v] = 0;
+        clean.mesh.triangles[num_faces] = clean.mesh.triangles[f];
+        clean.face_origin[num_faces++] = clean.face_origin[f];
+    }
+    clean.mesh.triangles.resize(num_faces);
+    clean.face_origin.resize(num_faces);
+    Index num_vertices = 0;
+    for (Index v = 0; v < number.size(); ++v) {
+        if (number[v] == no_index) continue;
+        clean.mesh.positions[num_vertices] = clean.mesh.positions[v];
+        clean.vertex_origin[num_vertices] = clean.vertex_origin[v];
+        number[v] = num_vertices++;
+    }
+    clean.mesh.positions.resize(num_vertices);
+    clean.vertex_origin.resize(num_vertices);
+    for (agvd::Triangle& t : clean.mesh.triangles) {
+        for (Index& v : t) v = number[v];
+    }
+    return dropped;
+}
+
+}  // namespace remesh

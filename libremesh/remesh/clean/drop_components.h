@@ -1,0 +1,18 @@
+//! \file
+//! Leaves small pieces of the input out, if asked to.
+#pragma once
+
+#include "remesh/clean/clean_input.h"
+#include "remesh/topology/topology.h"
+
+namespace remesh {
+
+//! Drops every component with less than `percent` % of the surface's area, and the vertices that
+//! only it uses.
+//! \param topology  of clean.mesh.
+//! \return the number of components dropped.
+//! \throw agvd::InvalidOption  none would be left.
+[[nodiscard]] agvd::Index drop_components(CleanResult& clean, const Topology& topology,
+                                          double percent);
+
+}  // namespace remesh

@@ -1,0 +1,61 @@
+#include "remesh/clean/soup.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "agvd/core/bucket_sort.h"
+
+namespace remesh::detail {
+
+using agvd::Index;
+using agvd::no_index;
+
+std::vector<EdgeUse> sort_edge_uses(const std::vector<EdgeUse>& uses, Index num_vertices,
+                                    agvd::Ticker ticker) {
+    return agvd::sort_in_buckets(
+        uses, num_vertices, [](const EdgeUse& use) { return use.low; },
+        [](const EdgeUse& a, const EdgeUse& b) {
+            return std::tie(a.high, a.half_edge) < std::tie(b.high, b.half_edge);
+        },
+        ticker);
+}
+
+std::vector<EdgeUse> edge_uses(const Soup& soup) {
+    std::vector<EdgeUse> uses(soup.num_half_edges());
+    agvd::Ticker ticker = soup.ticker;
+    ticker.poll();
+    for (Index h = 0; h < uses.size(); ++h) {
+        ticker.tick();
+        const auto [low, high] = std::minmax({soup.tail(h), soup.head(h)});
+        uses[h] = {low, high, h};
+    }
+    return sort_edge_uses(uses, static_cast<Index>(soup.positions.size()), ticker);
+}
+
+void erase_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<Index>& twin) {
+    std::vector<Index> new_face(soup.triangles.size(), no_index);
+    Index count = 0;
+    for (Index f = 0; f < new_face.size(); ++f) {
+        soup.ticker.tick();
+        if (is_dead[f]) continue;
+        new_face[f] = count;
+        soup.triangles[count] = soup.triangles[f];
+        soup.face_origin[count] = soup.face_origin[f];
+        ++count;
+    }
+    soup.triangles.resize(count);
+    soup.face_origin.resize(count);
+    if (twin.empty()) return;
+    for (Index f = 0; f < new_face.size(); ++f) {
+        soup.ticker.tick();
+        if (new_face[f] == no_index) continue;
+        for (Index k = 0; k < 3; ++k) {
+            const Index across = twin[3 * f + k];
+            const bool is_open = across == no_index || new_face[across / 3] == no_index;
+            twin[3 * new_face[f] + k] = is_open ? no_index : 3 * new_face[across / 3] + across % 3;
+        }
+    }
+    twin.resize(3 * std::size_t{count});
+}
+
+}  // namespace remesh::detail

@@ -1,0 +1,122 @@
+// Vertices at one position that should be one: cracks and zero-length edges.
+#include <algorithm>
+#include <numeric>
+
+#include "agvd/core/position_hash.h"
+#include "remesh/clean/soup.h"
+
+namespace remesh::detail {
+namespace {
+
+using agvd::Index;
+using agvd::no_index;
+using agvd::Vec3;
+
+// For each vertex that `is_wanted`, the first such vertex at its position.
+std::vector<Index> first_at_position(std::span<const Vec3> positions,
+                                     const std::vector<bool>& is_wanted, agvd::Ticker& ticker) {
+    const auto wanted =
+        static_cast<std::size_t>(std::count(is_wanted.begin(), is_wanted.end(), true));
+    std::vector<Index> table(std::bit_ceil(2 * wanted + 1), no_index);  // Open addressing.
+    std::vector<Index> first(positions.size(), no_index);
+    for (Index v = 0; v < positions.size(); ++v) {
+        ticker.tick();
+        if (!is_wanted[v]) continue;
+        std::size_t slot = agvd::PositionHash{}(positions[v]) & (table.size() - 1);
+        while (table[slot] != no_index && positions[table[slot]] != positions[v]) {
+            slot = (slot + 1) & (table.size() - 1);
+        }
+        if (table[slot] == no_index) table[slot] = v;
+        first[v] = table[slot];
+    }
+    return first;
+}
+
+// Sets of vertices that become one; the lowest of a set stays.
+class Merger {
+public:
+    explicit Merger(std::size_t num_vertices) : parent_(num_vertices) {
+        std::iota(parent_.begin(), parent_.end(), Index{0});
+    }
+    Index root(Index v) {
+        while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
+        return v;
+    }
+    void unite(Index a, Index b) {
+        a = root(a);
+        b = root(b);
+        if (a == b) return;
+        parent_[std::max(a, b)] = std::min(a, b);
+        ++merged_;
+    }
+    bool apply(Soup& soup) {
+        if (merged_ == 0) return false;
+        for (agvd::Triangle& t : soup.triangles) {
+            soup.ticker.tick();
+            for (Index& v : t) v = root(v);
+        }
+        soup.counts.welded_vertices += merged_;
+        return true;
+    }
+
+private:
+    std::vector<Index> parent_;
+    Index merged_ = 0;
+};
+
+}  // namespace
+
+bool share_positions(std::span<const Vec3> positions, const std::vector<bool>& is_wanted,
+                     agvd::Ticker& ticker) {
+    const std::vector<Index> first = first_at_position(positions, is_wanted, ticker);
+    for (Index v = 0; v < first.size(); ++v) {
+        if (first[v] != no_index && first[v] != v) return true;
+    }
+    return false;
+}
+
+// Only edges are welded, and only boundary edges: parts that touch at a point, and closed parts
+// that touch anywhere, are manifold as they are.
+bool weld_cracks(Soup& soup, std::span<const EdgeUse> uses) {
+    std::vector<EdgeUse> open;
+    for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
+        soup.ticker.tick();
+        if (edge.size() == 1) open.push_back(edge[0]);
+    });
+    if (open.empty()) return false;
+
+    std::vector<bool> is_boundary(soup.positions.size(), false);
+    for (const EdgeUse& use : open) is_boundary[use.low] = is_boundary[use.high] = true;
+    const std::vector<Index> place = first_at_position(soup.positions, is_boundary, soup.ticker);
+    for (EdgeUse& use : open) {
+        std::tie(use.low, use.high) = std::minmax({place[use.low], place[use.high]});
+    }
+    open = sort_edge_uses(open, static_cast<Index>(soup.positions.size()), soup.ticker);
+
+    Merger merger(soup.positions.size());
+    for_each_edge(open, [&](std::span<const EdgeUse> edge) {
+        soup.ticker.tick(edge.size());
+        if (edge[0].low == edge[0].high) return;
+        const auto end_at = [&](const EdgeUse& use, Index where) {
+            const Index tail = soup.tail(use.half_edge);
+            return place[tail] == where ? tail : soup.head(use.half_edge);
+        };
+        for (const EdgeUse& use : edge.subspan(1)) {
+            merger.unite(end_at(edge[0], use.low), end_at(use, use.low));
+            merger.unite(end_at(edge[0], use.high), end_at(use, use.high));
+        }
+    });
+    return merger.apply(soup);
+}
+
+bool collapse_zero_edges(Soup& soup) {
+    Merger merger(soup.positions.size());
+    for (Index h = 0; h < soup.num_half_edges(); ++h) {
+        soup.ticker.tick();
+        const Index a = soup.tail(h), b = soup.head(h);
+        if (a != b && soup.positions[a] == soup.positions[b]) merger.unite(a, b);
+    }
+    return merger.apply(soup);
+}
+
+}  // namespace remesh::detail

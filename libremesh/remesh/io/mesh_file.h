@@ -1,0 +1,29 @@
+//! \file
+//! What a mesh file holds, and how strictly it is read.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "agvd/core/progress.h"
+#include "agvd/mesh/mesh_view.h"
+
+namespace remesh {
+
+struct MeshFile {
+    agvd::TriangleMesh mesh;           //!< As in the file: order kept, defects too.
+    agvd::Index polygons = 0;          //!< Faces of more than three corners, triangulated.
+    agvd::Index dropped_polygons = 0;  //!< Faces of fewer than three corners (lines), left out.
+    agvd::Index welded_vertices = 0;   //!< STL only: corners merged at equal positions.
+    //! #F: the polygon (face of the file, from 0) each triangle came from.
+    std::vector<agvd::Index> face_polygon;
+    std::vector<std::string> warnings;  //!< What of the file was passed over, with its name.
+};
+
+struct ReadOptions {
+    //! Whole elements behind those that the header announces are a warning, not an error.
+    bool is_lenient = false;
+    agvd::Progress progress = {};
+};
+
+}  // namespace remesh

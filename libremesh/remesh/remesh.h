@@ -1,0 +1,19 @@
+//! \file
+//! All of libremesh that users need, but for the exchange with OpenMesh
+//! (remesh/io/openmesh_exchange.h).
+#pragma once
+
+#include "remesh/clean/clean_input.h"
+#include "remesh/dual/build_dual.h"
+#include "remesh/io/read_diagram.h"
+#include "remesh/io/read_edges.h"
+#include "remesh/io/read_mesh.h"
+#include "remesh/io/read_sites.h"
+#include "remesh/io/report.h"
+#include "remesh/io/write_diagram.h"
+#include "remesh/io/write_mesh.h"
+#include "remesh/pipeline/remesh.h"
+#include "remesh/quality/evaluate.h"
+#include "remesh/quality/self_intersections.h"
+#include "remesh/relax/relax_sites.h"
+#include "remesh/sampling/sample_sites.h"

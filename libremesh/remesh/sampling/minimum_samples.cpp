@@ -1,0 +1,22 @@
+#include "remesh/sampling/minimum_samples.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace remesh {
+
+using agvd::Index;
+
+Index minimum_samples(int genus, int boundary_loops) {
+    if (boundary_loops == 0) {
+        if (genus == 2) return 10;  // The one orientable surface that misses the bound.
+        return static_cast<Index>(std::ceil((7 + std::sqrt(1.0 + 48.0 * genus)) / 2));
+    }
+    // E <= V (V - 1) / 2 with all vertices on the boundary; loops have three vertices each,
+    // unshared.
+    const double euler = 2.0 - 2.0 * genus - boundary_loops;
+    const double bound = std::ceil((5 + std::sqrt(25 - 24 * euler)) / 2);
+    return std::max(static_cast<Index>(bound), static_cast<Index>(3 * boundary_loops));
+}
+
+}  // namespace remesh

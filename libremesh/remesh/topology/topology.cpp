@@ -1,0 +1,203 @@
+#include "remesh/topology/topology.h"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <numeric>
+
+#include "agvd/core/bucket_sort.h"
+#include "agvd/core/half_edge.h"
+#include "agvd/core/union_find.h"
+#include "remesh/topology/components.h"
+#include "remesh/topology/edge_sides.h"
+
+namespace remesh {
+namespace {
+
+using agvd::Index;
+using agvd::no_index;
+using agvd::Triangle;
+
+bool has_bad_faces(const agvd::MeshView& mesh, agvd::Ticker& ticker) {
+    std::vector<Triangle> sorted(mesh.triangles.begin(), mesh.triangles.end());
+    ticker.poll();
+    for (Triangle& t : sorted) {
+        ticker.tick();
+        std::sort(t.begin(), t.end());
+        if (t[0] == t[1] || t[1] == t[2]) return true;
+    }
+    sorted = agvd::sort_in_buckets(
+        sorted, static_cast<Index>(mesh.positions.size()), [](const Triangle& t) { return t[0]; },
+        std::less<>(), ticker);
+    return std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end();
+}
+
+double face_area(const agvd::MeshView& mesh, Index face) {
+    const auto& [a, b, c] = mesh.triangles[face];
+    const agvd::Vec3& origin = mesh.positions[a];
+    return 0.5 * (mesh.positions[b] - origin).cross(mesh.positions[c] - origin).norm();
+}
+
+// One umbrella per vertex: the corners at a vertex hang together through the edges at it.
+bool has_one_umbrella_each(const agvd::MeshView& mesh, const std::vector<EdgeSide>& sides,
+                           agvd::Ticker& ticker) {
+    agvd::UnionFind corner(3 * mesh.triangles.size());
+    ticker.poll();
+    const auto corner_of = [&](Index face, Index vertex) {
+        const Triangle& t = mesh.triangles[face];
+        return 3 * face + (t[0] == vertex ? 0u : t[1] == vertex ? 1u : 2u);
+    };
+    for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
+        ticker.tick();
+        if (sides[i].ends != sides[i + 1].ends) continue;
+        for (const Index v : {sides[i].low(), sides[i].high()}) {
+            corner.unite(corner_of(sides[i].face(), v), corner_of(sides[i + 1].face(), v));
+        }
+    }
+    std::vector<Index> umbrella(mesh.positions.size(), no_index);
+    for (Index c = 0; c < 3 * mesh.triangles.size(); ++c) {
+        ticker.tick();
+        Index& seen = umbrella[mesh.triangles[c / 3][c % 3]];
+        const Index root = corner.root(c);
+        if (seen != no_index && seen != root) return false;
+        seen = root;
+    }
+    return true;
+}
+
+}  // namespace
+
+int Topology::genus() const {
+    return std::accumulate(components.begin(), components.end(), 0,
+                           [](int sum, const ComponentTopology& c) { return sum + c.genus; });
+}
+
+int Topology::boundary_loops() const {
+    return std::accumulate(
+        components.begin(), components.end(), 0,
+        [](int sum, const ComponentTopology& c) { return sum + c.boundary_loops; });
+}
+
+Topology analyze_topology(const agvd::MeshView& mesh, const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    agvd::Ticker ticker(poller);
+    Topology result;
+    const std::vector<EdgeSide> sides = sorted_edge_sides(mesh.triangles, ticker);
+    const auto num_faces = static_cast<Index>(mesh.triangles.size());
+
+    agvd::UnionFind parent(num_faces);
+    result.is_manifold = !has_bad_faces(mesh, ticker);
+    result.is_oriented = true;
+    for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
+        ticker.tick();
+        for (const EdgeSide* side = begin; side != end; ++side) {
+            parent.unite(begin->face(), side->face());
+        }
+        if (end - begin > 2) result.is_manifold = false;
+        if (end - begin == 2 && begin[0].forward == begin[1].forward) result.is_oriented = false;
+    });
+    if (result.is_manifold) result.is_manifold = has_one_umbrella_each(mesh, sides, ticker);
+
+    std::vector<Index> component_of_root(num_faces, no_index);
+    result.face_component.resize(num_faces);
+    for (Index f = 0; f < num_faces; ++f) {
+        ticker.tick();
+        Index& id = component_of_root[parent.root(f)];
+        if (id == no_index) {
+            id = static_cast<Index>(result.components.size());
+            result.components.emplace_back();
+        }
+        result.face_component[f] = id;
+        ComponentTopology& c = result.components[id];
+        ++c.faces;
+        ++c.euler;
+        c.area += face_area(mesh, f);
+    }
+
+    // A vertex counts once for each component that meets there.
+    std::vector<Index> by_component(num_faces);
+    std::iota(by_component.begin(), by_component.end(), Index{0});
+    if (result.components.size() > 1) {
+        by_component = agvd::sort_in_buckets(
+            by_component, static_cast<Index>(result.components.size()),
+            [&](Index face) { return result.face_component[face]; }, std::less<>(), ticker);
+    }
+    std::vector<Index> last_component(mesh.positions.size(), no_index);
+    for (const Index f : by_component) {
+        ticker.tick();
+        for (const Index v : mesh.triangles[f]) {
+            if (last_component[v] == result.face_component[f]) continue;
+            last_component[v] = result.face_component[f];
+            ++result.components[last_component[v]].euler;
+        }
+    }
+
+    // Boundary loops: the connected pieces of the graph of boundary edges.
+    agvd::UnionFind boundary(mesh.positions.size());
+    std::vector<std::pair<Index, Index>> boundary_ends;  // (lower vertex, face)
+    for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
+        ticker.tick();
+        --result.components[result.face_component[begin->face()]].euler;
+        if (end - begin != 1) return;
+        boundary.unite(begin->low(), begin->high());
+        boundary_ends.emplace_back(begin->low(), begin->face());
+    });
+    ticker.poll();
+    std::vector<bool> counted(mesh.positions.size(), false);
+    for (const auto& [vertex, face] : boundary_ends) {
+        ticker.tick();
+        const Index root = boundary.root(vertex);
+        if (counted[root]) continue;
+        counted[root] = true;
+        ++result.components[result.face_component[face]].boundary_loops;
+    }
+    for (ComponentTopology& c : result.components) c.genus = (2 - c.euler - c.boundary_loops) / 2;
+    return result;
+}
+
+Topology analyze_topology(const agvd::MeshView& mesh, const agvd::Connectivity& connectivity,
+                          const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    agvd::Ticker ticker(poller);
+    const auto& [twin, outgoing] = connectivity;
+    detail::FaceLabels labels = detail::label_components(twin, ticker);
+    Topology result{true, true, std::vector<ComponentTopology>(labels.count),
+                    std::move(labels.of_face)};
+    const auto component_of = [&](Index half_edge) -> ComponentTopology& {
+        return result.components[result.face_component[half_edge / 3]];
+    };
+    for (Index f = 0; f < result.face_component.size(); ++f) {
+        ticker.tick();
+        ComponentTopology& c = component_of(3 * f);
+        ++c.faces;
+        ++c.euler;
+        c.area += face_area(mesh, f);
+        for (Index h = 3 * f; h < 3 * f + 3; ++h) c.euler -= twin[h] > h ? 1 : 0;  // Edges.
+    }
+    agvd::for_each_ticked(outgoing, ticker, [&](Index h) {
+        if (h != no_index) ++component_of(h).euler;
+    });
+    std::vector<bool> is_seen(twin.size(), false);
+    for (Index start = 0; start < twin.size(); ++start) {
+        ticker.tick();
+        if (twin[start] != no_index || is_seen[start]) continue;
+        ++component_of(start).boundary_loops;
+        for (Index h = start; !is_seen[h];) {
+            is_seen[h] = true;
+            h = outgoing[mesh.triangles[h / 3][agvd::next_half_edge(h) % 3]];
+        }
+    }
+    for (ComponentTopology& c : result.components) c.genus = (2 - c.euler - c.boundary_loops) / 2;
+    return result;
+}
+
+bool same_topology(const Topology& a, const Topology& b) {
+    const auto types = [](const Topology& t) {
+        std::map<std::pair<int, int>, int> count;
+        for (const ComponentTopology& c : t.components) ++count[{c.genus, c.boundary_loops}];
+        return count;
+    };
+    return types(a) == types(b);
+}
+
+}  // namespace remesh
