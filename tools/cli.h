@@ -49,7 +49,8 @@ void add_common_options(CLI::App& app, CommonOptions& options);
 //! True once SIGINT or SIGTERM has come.
 [[nodiscard]] bool interrupted();
 
-//! Call before writing. \throw agvd::Cancelled if interrupted().
+//! Call before writing.
+//! \throw agvd::Cancelled if interrupted().
 void stop_if_interrupted();
 
 //! Whether both name one file, which need not exist yet.
@@ -72,7 +73,8 @@ auto naming_file(const std::filesystem::path& path, const Work& work) {
     }
 }
 
-//! Writes to stdout and flushes. \throw agvd::IoError if that fails.
+//! Writes to stdout and flushes.
+//! \throw agvd::IoError if that fails.
 void print(std::string_view text);
 
 //! Writes a text to `path`, all or nothing, or to stdout if the path is "-".

@@ -32,7 +32,8 @@ public:
 //! As parse_bytes takes it, with three digits.
 [[nodiscard]] std::string format_bytes(std::size_t bytes);
 
-//! What to try where a stage needs too much. \param stage  its name in logs.
+//! What to try where a stage needs too much.
+//! \param stage  its name in logs.
 [[nodiscard]] std::string memory_remedy(std::string_view stage, agvd::Engine engine);
 
 }  // namespace cli

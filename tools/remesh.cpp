@@ -49,7 +49,8 @@ std::map<std::string, remesh::Delaunay> delaunay_by_name() {
     return names;
 }
 
-// auto, off, or degrees above 0 and below 180. \return what is wrong with others; else empty.
+// auto, off, or degrees above 0 and below 180.
+// \return what is wrong with others; else empty.
 std::string take_features(const std::string& text, Arguments& arguments) {
     if (text == "auto" || text == "off") {
         arguments.features = text == "auto" ? remesh::Features::Auto : remesh::Features::Off;

@@ -55,8 +55,8 @@ Case make_case(std::uint64_t seed) {
     return c;
 }
 
-std::vector<Joint> label_boundary(const Case& c) {
-    std::vector<Joint> joints;
+std::vector<Breakpoint> label_boundary(const Case& c) {
+    std::vector<Breakpoint> breakpoints;
     EnvelopeScratch scratch;
     std::vector<LabelInterval> intervals;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -71,12 +71,12 @@ std::vector<Joint> label_boundary(const Case& c) {
                        scratch, intervals);
         for (std::size_t i = 0; i + 1 < intervals.size(); ++i) {
             const Vec2 at = p + intervals[i].end * (q - p);
-            const auto name = static_cast<Index>(joints.size());
-            joints.push_back(
+            const auto name = static_cast<Index>(breakpoints.size());
+            breakpoints.push_back(
                 {at, nearest(c.relays, at).distance, name, intervals[i + 1].site, name});
         }
     }
-    return joints;
+    return breakpoints;
 }
 
 Graph graph_of(const Case& c) {
@@ -152,22 +152,23 @@ void expect_on_bisector(const Case& c, const Graph& graph, const Vec2& p, const 
 }  // namespace
 
 TEST(Apollonius, InATriangleIsThatOfCgal) {
-    std::size_t num_branches = 0, num_arcs = 0;
+    std::size_t num_voronoi_vertices = 0, num_arcs = 0;
     for (std::uint64_t seed = 0; seed < 1000 && !HasFailure(); ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         const Case c = make_case(seed);
-        const std::vector<Joint> joints = label_boundary(c);
+        const std::vector<Breakpoint> breakpoints = label_boundary(c);
         const Graph graph = graph_of(c);
         LocalDiagram local;
         TriangleSolver solver(0.01, local);
         std::vector<Index> sites;
         for (const PlanarRelay& relay : c.relays) sites.push_back(relay.site);
         solver.set_relays(c.relays, sites);
-        if (!joints.empty()) solver.solve(0, c.corners, joints);
+        if (!breakpoints.empty()) solver.solve(0, c.corners, breakpoints);
 
         std::vector<Vertex> ours;
-        for (const LocalBranch& branch : local.branches) {
-            ours.push_back({{branch.sites.begin(), branch.sites.end()}, branch.position});
+        for (const LocalVoronoiVertex& voronoi_vertex : local.voronoi_vertices) {
+            ours.push_back({{voronoi_vertex.sites.begin(), voronoi_vertex.sites.end()},
+                            voronoi_vertex.position});
         }
         const std::vector<Vertex> theirs = vertices_of(c, graph);
         for (const Vertex& v : ours) {
@@ -183,9 +184,9 @@ TEST(Apollonius, InATriangleIsThatOfCgal) {
                 expect_on_bisector(c, graph, local.points[i], arc);
             }
         }
-        num_branches += local.branches.size();
+        num_voronoi_vertices += local.voronoi_vertices.size();
         num_arcs += local.arcs.size();
     }
-    EXPECT_GT(num_branches, 500u);
+    EXPECT_GT(num_voronoi_vertices, 500u);
     EXPECT_GT(num_arcs, 2000u);
 }

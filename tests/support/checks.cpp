@@ -205,7 +205,7 @@ void expect_same(const Surface& a, const Surface& b) {
     EXPECT_EQ(a.length, b.length);
     EXPECT_EQ(a.apex, b.apex);
     EXPECT_EQ(a.outgoing, b.outgoing);
-    EXPECT_EQ(a.can_turn, b.can_turn);
+    EXPECT_EQ(a.can_be_pseudo_source, b.can_be_pseudo_source);
 }
 
 void expect_same(const Propagation& a, const Propagation& b) {

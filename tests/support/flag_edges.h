@@ -8,7 +8,8 @@
 #include "agvd/mesh/surface.h"
 #include "remesh/features/find_creases.h"
 
-//! \param is  gets the positions of both ends. \return #E: 1 where it says yes.
+//! \param is  gets the positions of both ends.
+//! \return #E: 1 where it says yes.
 template <typename Is>
 [[nodiscard]] std::vector<std::uint8_t> flag_edges(const agvd::Surface& surface, const Is& is) {
     std::vector<std::uint8_t> flags;

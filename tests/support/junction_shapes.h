@@ -37,7 +37,8 @@ struct JunctionShape {
 //! All of these.
 [[nodiscard]] std::vector<JunctionShape> straight_junctions();
 
-//! A round pipe on a round plate: the junction is closed. \param sides  of the circle of radius 1.
+//! A round pipe on a round plate: the junction is closed.
+//! \param sides  of the circle of radius 1.
 [[nodiscard]] agvd::TriangleMesh round_pipe_on_plate(agvd::Index sides);
 //! Three pages around a circle, each the next one after a turn: one sheet comes thrice.
 [[nodiscard]] agvd::TriangleMesh twisted_pages(agvd::Index sides);

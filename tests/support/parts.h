@@ -28,7 +28,8 @@ namespace parts {
 //! the ends. n even.
 [[nodiscard]] agvd::TriangleMesh crossing_vaults(agvd::Index n);
 //! A plate |x| <= 4, |y| <= half_width, n x m quads, m even, folded along y = 0 by an angle that
-//! may differ from x to x. \param degrees  of the fold, at x.
+//! may differ from x to x.
+//! \param degrees  of the fold, at x.
 [[nodiscard]] agvd::TriangleMesh folded_plate(agvd::Index n, agvd::Index m, double half_width,
                                               const std::function<double(double x)>& degrees);
 //! Cut open along x = `at` for |y| < reach, where it has an edge: vertices inside are copied.
@@ -38,7 +39,8 @@ namespace parts {
 [[nodiscard]] agvd::TriangleMesh ribbed_plate(double width, agvd::Index n);
 
 //! Splits edges next to an end and faces next to a side: new faces are `aspect` as high as they are
-//! long, and no point of the surface moves. \param share  of the faces, 0 to 1.
+//! long, and no point of the surface moves.
+//! \param share  of the faces, 0 to 1.
 [[nodiscard]] agvd::TriangleMesh with_needles(const agvd::TriangleMesh& mesh, double aspect,
                                               double share, std::uint64_t seed);
 //! Turned at random.

@@ -132,7 +132,7 @@ TEST(FaceOperations, RandomFlipsAndSplitsKeepEverythingConsistent) {
             if (dice.one_in(6)) {
                 surface.mesh.positions.emplace_back(Vec3::Zero());
                 surface.outgoing.push_back(no_index);
-                surface.can_turn.push_back(0);
+                surface.can_be_pseudo_source.push_back(0);
                 (void)detail::split_edge(surface, charts, h, 0.5, surface.num_vertices() - 1);
                 num_self_glued +=
                     twin != no_index && Surface::face(h) == Surface::face(twin) ? 1 : 0;
@@ -166,7 +166,7 @@ TEST(FaceOperations, AFaceGluedToItselfIsSplitAlongTheSeam) {
             detail::FaceCharts charts(split);
             split.mesh.positions.emplace_back(Vec3::Zero());
             split.outgoing.push_back(no_index);
-            split.can_turn.push_back(0);
+            split.can_be_pseudo_source.push_back(0);
             (void)detail::split_edge(split, charts, h, 0.5, split.num_vertices() - 1);
             expect_consistent(split);
             EXPECT_EQ(split.num_faces(), base.surface().num_faces() + 2);

@@ -115,7 +115,7 @@ TEST(Straighten, OverAConeItPassesTheApexOnTheNarrowSide) {
 
 TEST(Straighten, OverASaddleItGoesThroughTheVertex) {
     const Surface surface = fan(8, pi / 3);  // 480 degrees, 240 on each side.
-    ASSERT_TRUE(surface.can_turn[0]);
+    ASSERT_TRUE(surface.can_be_pseudo_source[0]);
     const SurfacePoint a = on_spoke(0, 0.5), b = on_spoke(4, 0.75);
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
         const GeodesicPath path =

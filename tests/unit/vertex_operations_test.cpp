@@ -17,7 +17,7 @@ namespace {
 Index add_vertex(Surface& surface) {
     surface.mesh.positions.push_back(Vec3::Zero());
     surface.outgoing.push_back(no_index);
-    surface.can_turn.push_back(0);
+    surface.can_be_pseudo_source.push_back(0);
     return surface.num_vertices() - 1;
 }
 

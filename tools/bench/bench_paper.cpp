@@ -47,7 +47,8 @@ public:
 
     [[nodiscard]] bool is_quick_look() const { return !arguments_.instead.empty(); }
 
-    // A mesh without defects. \param min_faces  subdivided until it has as many.
+    // A mesh without defects.
+    // \param min_faces  subdivided until it has as many.
     [[nodiscard]] Surface mesh(const char* name, Index min_faces = 0, double jitter = 0.1) const {
         constexpr Index few = 100;
         const fs::path path = is_quick_look() ? arguments_.instead : arguments_.meshes / name;

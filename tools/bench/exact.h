@@ -16,8 +16,8 @@ struct ExactRun {
 };
 
 //! exact_nearest_sites of all vertices: one search from all sites, which alone is not to be
-//! trusted, and one from each site as far as it may be nearest. \throw agvd::InvalidOption  built
-//! without CGAL.
+//! trusted, and one from each site as far as it may be nearest.
+//! \throw agvd::InvalidOption  built without CGAL.
 [[nodiscard]] ExactRun run_exact(const agvd::Surface& surface,
                                  std::span<const agvd::SurfacePoint> sites);
 

@@ -14,13 +14,16 @@ struct Seconds {
 };
 [[nodiscard]] Seconds time(const std::function<void()>& job);
 
-//! The least value. \pre not empty.
+//! The least value.
+//! \pre not empty.
 [[nodiscard]] double quickest(const std::vector<double>& values);
 
-//! The middle value, or the mean of the middle two. \pre not empty.
+//! The middle value, or the mean of the middle two.
+//! \pre not empty.
 [[nodiscard]] double median(std::vector<double> values);
 
-//! Largest minus smallest over the median. \pre not empty.
+//! Largest minus smallest over the median.
+//! \pre not empty.
 [[nodiscard]] double spread(const std::vector<double>& values);
 
 }  // namespace bench

@@ -26,7 +26,7 @@ public:
     //! Released blocks included.
     [[nodiscard]] Index size() const { return static_cast<Index>(elements_.size()); }
     [[nodiscard]] std::size_t num_released() const { return num_released_; }
-    //! More is released than in use, and it is worth the name.
+    //! More is released than in use, and not just a few items.
     [[nodiscard]] bool is_wasteful() const {
         constexpr std::size_t least = 1024;
         return num_released_ > least && 2 * num_released_ > elements_.size();

@@ -24,7 +24,8 @@ public:
     Poller(const Poller&) = delete;
     Poller& operator=(const Poller&) = delete;
 
-    //! Any thread. \throw Cancelled if the callback said stop, now or before.
+    //! Any thread.
+    //! \throw Cancelled if the callback said stop, now or before.
     void poll() {
         if (progress_ == nullptr) return;
         if (std::this_thread::get_id() == owner_ && !has_stopped() && !(*progress_)(fraction_)) {
@@ -68,11 +69,13 @@ public:
     //! \param poller  outlives this.
     explicit Ticker(Poller& poller) : poller_(&poller) {}
 
-    //! After a large allocation, or before a step that has no ticks. \throw Cancelled
+    //! After a large allocation, or before a step that has no ticks.
+    //! \throw Cancelled
     void poll() {
         if (poller_ != nullptr) poller_->poll();
     }
-    //! \param work  steps done since the last call. \throw Cancelled
+    //! \param work  steps done since the last call.
+    //! \throw Cancelled
     void tick(std::size_t work = 1) {
         if (work < left_) {
             left_ -= work;

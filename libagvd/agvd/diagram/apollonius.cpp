@@ -14,13 +14,13 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int max_newton_steps = 25;
 // Equalities are met to this share of the triangle's size: below it lies rounding.
 constexpr double convergence = 1e-11;
-// A branch point this far outside (share of the size) still counts as inside.
+// A Voronoi vertex this far outside (share of the size) still counts as inside.
 constexpr double inside_tolerance = 1e-9;
 // A step that the distances contradict by more (share of the size) is drawn straight, so that arcs
 // do not cross.
 constexpr double largest_violation = 1e-3;
-// The violation (share of the size) where there is no branch at all.
-constexpr double no_branch = 2;
+// The violation (share of the size) where there is no Voronoi vertex at all.
+constexpr double no_voronoi_vertex = 2;
 // A search that strays this far (share of the size) from its start does not come back.
 constexpr double lost = 2;
 // Relays chosen at one point of a bisector stand for their sites this far along (share of the
@@ -28,8 +28,8 @@ constexpr double lost = 2;
 constexpr double near_enough = 0.02;
 constexpr int max_arc_depth = 4;  // At most 2^4 pieces an arc and face.
 
-// Interval i lies between joint i and joint i + 1. At a joint, looking inwards, the interval
-// before lies on the left.
+// Interval i lies between breakpoint i and breakpoint i + 1. At a breakpoint, looking inwards, the
+// interval before lies on the left.
 std::size_t after(std::size_t i, std::size_t n) { return i + 1 == n ? 0 : i + 1; }
 std::size_t before(std::size_t i, std::size_t n) { return i == 0 ? n - 1 : i - 1; }
 
@@ -84,59 +84,63 @@ void TriangleSolver::begin(Index face, const std::array<Vec2, 3>& corners) {
 }
 
 TriangleSolver::Mark TriangleSolver::mark() const {
-    return {out_.points.size(), out_.arcs.size(), out_.branches.size(), out_.connections.size()};
+    return {out_.points.size(), out_.arcs.size(), out_.voronoi_vertices.size(),
+            out_.connections.size()};
 }
 
 void TriangleSolver::go_back(const Mark& mark) {
     out_.points.resize(mark.points);
     out_.point_distance.resize(mark.points);
     out_.arcs.resize(mark.arcs);
-    out_.branches.resize(mark.branches);
+    out_.voronoi_vertices.resize(mark.voronoi_vertices);
     out_.connections.resize(mark.connections);
 }
 
 bool TriangleSolver::try_solve(Index face, const std::array<Vec2, 3>& corners,
-                               std::span<const Joint> joints) {
+                               std::span<const Breakpoint> breakpoints) {
     begin(face, corners);
-    for (std::size_t i = 0; i < joints.size(); ++i) {
-        if (!agrees(joints[i], joints[before(i, joints.size())].site_after)) return false;
+    for (std::size_t i = 0; i < breakpoints.size(); ++i) {
+        if (!agrees(breakpoints[i], breakpoints[before(i, breakpoints.size())].site_after))
+            return false;
     }
-    draw(joints);
+    draw(breakpoints);
     if (is_sound_ && !straighten_crossing_arcs(start_)) return true;
     go_back(start_);
     return false;
 }
 
 void TriangleSolver::solve(Index face, const std::array<Vec2, 3>& corners,
-                           std::span<const Joint> joints) {
+                           std::span<const Breakpoint> breakpoints) {
     begin(face, corners);
-    draw(joints);
+    draw(breakpoints);
     if (!straighten_crossing_arcs(start_) || !straighten_crossing_arcs(start_)) return;
-    redraw_straight(joints);
+    redraw_straight(breakpoints);
 }
 
-void TriangleSolver::redraw_straight(std::span<const Joint> joints) {
+void TriangleSolver::redraw_straight(std::span<const Breakpoint> breakpoints) {
     go_back(start_);
     is_safe_ = true;
-    draw(joints);
+    draw(breakpoints);
 }
 
-void TriangleSolver::draw(std::span<const Joint> joints) {
-    joints_.assign(joints.begin(), joints.end());
+void TriangleSolver::draw(std::span<const Breakpoint> breakpoints) {
+    breakpoints_.assign(breakpoints.begin(), breakpoints.end());
     ends_.clear();
-    open_branches_.clear();
+    open_vertices_.clear();
     is_sound_ = true;
-    if (joints_.size() > 3) close_ears();
-    if (joints_.size() == 3) {
-        close_with_branch(0, find_branch(joints_[2], joints_[0], joints_[1], true));
+    if (breakpoints_.size() > 3) close_ears();
+    if (breakpoints_.size() == 3) {
+        close_with_vertex(
+            0, find_voronoi_vertex(breakpoints_[2], breakpoints_[0], breakpoints_[1], true));
     } else {
-        assert(joints_.size() == 2);
-        add_arc(joints_[0], joints_[1].position, joints_[1].node, joints_[1].site_after, true);
+        assert(breakpoints_.size() == 2);
+        add_arc(breakpoints_[0], breakpoints_[1].position, breakpoints_[1].node,
+                breakpoints_[1].site_after, true);
     }
 }
 
 // Whether both sites are as near as the edge says.
-bool TriangleSolver::agrees(const Joint& at, Index site_before) const {
+bool TriangleSolver::agrees(const Breakpoint& at, Index site_before) const {
     const double limit = at.distance + largest_disagreement * size_;
     const auto reaches = [&](const PlanarRelay& relay) {
         return reach(relay, at.position).distance <= limit;
@@ -151,46 +155,46 @@ bool TriangleSolver::is_accepted(double violation) const {
 }
 
 TriangleSolver::Ear TriangleSolver::judge_ear(std::size_t i, bool is_thorough) const {
-    const Joint& previous = joints_[before(i, joints_.size())];
-    const Joint& next = joints_[after(i, joints_.size())];
+    const Breakpoint& previous = breakpoints_[before(i, breakpoints_.size())];
+    const Breakpoint& next = breakpoints_[after(i, breakpoints_.size())];
     Ear ear{};
     ear.state = is_thorough ? Ear::Settled : Ear::Judged;
     ear.is_lens = previous.site_after == next.site_after;
     if (ear.is_lens) {
-        judge_lens(joints_[i], next, ear);
+        judge_lens(breakpoints_[i], next, ear);
         return ear;
     }
-    ear.branch = find_branch(previous, joints_[i], next, is_thorough);
-    const Vec2& p = ear.branch.position;
-    ear.violation = ear.branch.violation;
-    if (ear.violation >= no_branch * size_) return ear;
-    ear.violation = std::max({ear.violation, arc_undercut(previous.site_after, joints_[i], p),
-                              arc_undercut(joints_[i].site_after, next, p)});
+    ear.voronoi_vertex = find_voronoi_vertex(previous, breakpoints_[i], next, is_thorough);
+    const Vec2& p = ear.voronoi_vertex.position;
+    ear.violation = ear.voronoi_vertex.violation;
+    if (ear.violation >= no_voronoi_vertex * size_) return ear;
+    ear.violation = std::max({ear.violation, arc_undercut(previous.site_after, breakpoints_[i], p),
+                              arc_undercut(breakpoints_[i].site_after, next, p)});
     ear.is_certain = ear.violation <= inside_tolerance * size_;
     return ear;
 }
 
-// Closes ears until at most three joints are left: the first about which there is no doubt, else
-// the best. Most triangles with many joints are crossed by strips; there only the lenses at both
-// ends of the row are ears, and told without looking for branches. Closing an ear changes the sites
-// around two others at most.
+// Closes ears until at most three breakpoints are left: the first about which there is no doubt,
+// else the best. Most triangles with many breakpoints are crossed by strips; there only the lenses
+// at both ends of the row are ears, and told without looking for Voronoi vertices. Closing an ear
+// changes the sites around two others at most.
 void TriangleSolver::close_ears() {
-    ears_.assign(joints_.size(), {});
-    while (joints_.size() > 3) {
+    ears_.assign(breakpoints_.size(), {});
+    while (breakpoints_.size() > 3) {
         const std::size_t i = choose_ear();
         const Ear ear = ears_[i];
-        const std::size_t next = after(i, joints_.size());
+        const std::size_t next = after(i, breakpoints_.size());
         close_ear(i, ear);
-        if (joints_.size() <= 3) return;
-        // The joints at both ends of the interval gave way to one branch, which took the place of
-        // the first, or to none.
+        if (breakpoints_.size() <= 3) return;
+        // The breakpoints at both ends of the interval gave way to one Voronoi vertex, which took
+        // the place of the first, or to none.
         if (ear.is_lens) {
             ears_.erase(ears_.begin() + static_cast<std::ptrdiff_t>(std::max(i, next)));
             ears_.erase(ears_.begin() + static_cast<std::ptrdiff_t>(std::min(i, next)));
         } else {
             ears_.erase(ears_.begin() + static_cast<std::ptrdiff_t>(next));
         }
-        const std::size_t n = joints_.size();
+        const std::size_t n = breakpoints_.size();
         const std::size_t here = next < i ? n - 1 : i % n;
         ears_[before(here, n)].state = Ear::Unknown;
         if (ear.is_lens) {
@@ -204,12 +208,12 @@ void TriangleSolver::close_ears() {
 }
 
 std::size_t TriangleSolver::choose_ear() {
-    const std::size_t n = joints_.size();
+    const std::size_t n = breakpoints_.size();
     for (const bool of_lenses : {true, false}) {
         for (std::size_t i = 0; i < n; ++i) {
             if (ears_[i].state != Ear::Unknown) continue;
             const bool is_lens =
-                joints_[before(i, n)].site_after == joints_[after(i, n)].site_after;
+                breakpoints_[before(i, n)].site_after == breakpoints_[after(i, n)].site_after;
             if (is_lens != of_lenses) continue;
             ears_[i] = judge_ear(i, false);
             if (ears_[i].is_certain) return i;
@@ -228,63 +232,66 @@ std::size_t TriangleSolver::choose_ear() {
 
 void TriangleSolver::close_ear(std::size_t i, const Ear& ear) {
     if (!ear.is_lens) {
-        close_with_branch(i, ear.branch);
+        close_with_vertex(i, ear.voronoi_vertex);
         return;
     }
     // The interval is cut off by one arc; its two neighbours are one piece.
     const bool is_sound = is_accepted(ear.violation);
     is_sound_ = is_sound_ && is_sound;
-    const std::size_t next = after(i, joints_.size());
-    const Joint from = joints_[i];
-    const Joint to = joints_[next];
+    const std::size_t next = after(i, breakpoints_.size());
+    const Breakpoint from = breakpoints_[i];
+    const Breakpoint to = breakpoints_[next];
     add_arc(from, to.position, to.node, to.site_after, is_sound);
     out_.connections.push_back(
-        {joints_[before(i, joints_.size())].interval, to.interval, to.site_after});
+        {breakpoints_[before(i, breakpoints_.size())].interval, to.interval, to.site_after});
     // The interval before the ear now reaches to the end of the one after it.
-    joints_.erase(joints_.begin() + static_cast<std::ptrdiff_t>(std::max(i, next)));
-    joints_.erase(joints_.begin() + static_cast<std::ptrdiff_t>(std::min(i, next)));
+    breakpoints_.erase(breakpoints_.begin() + static_cast<std::ptrdiff_t>(std::max(i, next)));
+    breakpoints_.erase(breakpoints_.begin() + static_cast<std::ptrdiff_t>(std::min(i, next)));
 }
 
-// Two arcs run from the interval's joints to the branch; with three joints left, all three do.
-void TriangleSolver::close_with_branch(std::size_t i, BranchPoint branch) {
-    const std::size_t n = joints_.size();
+// Two arcs run from the interval's breakpoints to the Voronoi vertex; with three breakpoints left,
+// all three do.
+void TriangleSolver::close_with_vertex(std::size_t i, VertexPlace voronoi_vertex) {
+    const std::size_t n = breakpoints_.size();
     const std::size_t next = after(i, n);
-    const Joint& previous = joints_[before(i, n)];
+    const Breakpoint& previous = breakpoints_[before(i, n)];
     const Index site_before = previous.site_after;
-    const Index site = joints_[i].site_after;
-    const Index site_after = joints_[next].site_after;
-    const bool is_sound = is_accepted(branch.violation);
+    const Index site = breakpoints_[i].site_after;
+    const Index site_after = breakpoints_[next].site_after;
+    const bool is_sound = is_accepted(voronoi_vertex.violation);
     is_sound_ = is_sound_ && is_sound;
     if (!is_sound) {
         // On the chord that cuts the ear off what is left stays convex.
-        const Vec2& p = joints_[i].position;
-        const Vec2& q = joints_[next].position;
+        const Vec2& p = breakpoints_[i].position;
+        const Vec2& q = breakpoints_[next].position;
         const Vec2& r = previous.position;
         const Vec2 places[] = {(p + q) / 2, p, q, (p + q + r) / 3, r, (q + r) / 2, (r + p) / 2};
         const std::size_t count = n == 3 ? 7 : 3;
-        branch = least_unequal({places, count}, site_before, site, site_after);
+        voronoi_vertex = least_unequal({places, count}, site_before, site, site_after);
     }
-    const Index node = LocalDiagram::first_branch + static_cast<Index>(out_.branches.size());
+    const Index node =
+        LocalDiagram::first_voronoi_vertex + static_cast<Index>(out_.voronoi_vertices.size());
     const auto first_arc = static_cast<Index>(out_.arcs.size());
-    out_.branches.push_back({face_,
-                             branch.position,
-                             branch.distance,
-                             {first_arc, first_arc + 1, first_arc + 2},
-                             {false, false, false},
-                             {site, site_after, site_before}});
-    add_arc(joints_[i], branch.position, node, site_before, is_sound);
-    add_arc(joints_[next], branch.position, node, site, is_sound);
+    out_.voronoi_vertices.push_back({face_,
+                                     voronoi_vertex.position,
+                                     voronoi_vertex.distance,
+                                     {first_arc, first_arc + 1, first_arc + 2},
+                                     {false, false, false},
+                                     {site, site_after, site_before}});
+    add_arc(breakpoints_[i], voronoi_vertex.position, node, site_before, is_sound);
+    add_arc(breakpoints_[next], voronoi_vertex.position, node, site, is_sound);
     if (n == 3) {
-        add_arc(previous, branch.position, node, site_after, is_sound);
+        add_arc(previous, voronoi_vertex.position, node, site_after, is_sound);
         return;
     }
-    open_branches_.push_back(static_cast<Index>(out_.branches.size()) - 1);
-    joints_[i] = {branch.position, branch.distance, node, site_after, joints_[next].interval};
-    joints_.erase(joints_.begin() + static_cast<std::ptrdiff_t>(next));
+    open_vertices_.push_back(static_cast<Index>(out_.voronoi_vertices.size()) - 1);
+    breakpoints_[i] = {voronoi_vertex.position, voronoi_vertex.distance, node, site_after,
+                       breakpoints_[next].interval};
+    breakpoints_.erase(breakpoints_.begin() + static_cast<std::ptrdiff_t>(next));
 }
 
-// An arc inwards from a joint; `left` is the site before the joint.
-void TriangleSolver::add_arc(const Joint& from, const Vec2& to, Index head, Index left,
+// An arc inwards from a breakpoint; `left` is the site before the breakpoint.
+void TriangleSolver::add_arc(const Breakpoint& from, const Vec2& to, Index head, Index left,
                              bool is_curved) {
     const auto arc = static_cast<Index>(out_.arcs.size());
     const auto first_point = static_cast<Index>(out_.points.size());
@@ -294,19 +301,19 @@ void TriangleSolver::add_arc(const Joint& from, const Vec2& to, Index head, Inde
     out_.arcs.push_back({face_, from.node, head, left, from.site_after, first_point,
                          static_cast<Index>(out_.points.size()) - first_point});
     ends_.push_back({from.position, to});
-    connect_open_branch(from.node, arc, true);
-    connect_open_branch(head, arc, false);
+    connect_open_vertex(from.node, arc, true);
+    connect_open_vertex(head, arc, false);
 }
 
-// A branch that became a joint gets its third arc when that joint is used.
-void TriangleSolver::connect_open_branch(Index node, Index arc, bool at_tail) {
-    if (node < LocalDiagram::first_branch) return;
-    const auto found =
-        std::find(open_branches_.begin(), open_branches_.end(), node - LocalDiagram::first_branch);
-    if (found == open_branches_.end()) return;
-    out_.branches[*found].arcs[2] = arc;
-    out_.branches[*found].at_tail[2] = at_tail;
-    open_branches_.erase(found);
+// A Voronoi vertex that became a breakpoint gets its third arc when that breakpoint is used.
+void TriangleSolver::connect_open_vertex(Index node, Index arc, bool at_tail) {
+    if (node < LocalDiagram::first_voronoi_vertex) return;
+    const auto found = std::find(open_vertices_.begin(), open_vertices_.end(),
+                                 node - LocalDiagram::first_voronoi_vertex);
+    if (found == open_vertices_.end()) return;
+    out_.voronoi_vertices[*found].arcs[2] = arc;
+    out_.voronoi_vertices[*found].at_tail[2] = at_tail;
+    open_vertices_.erase(found);
 }
 
 // --- Crossings -------------------------------------------------------------------------------
@@ -445,9 +452,10 @@ bool TriangleSolver::find_equal(Relays a, Relays b, Relays c, Vec2& p, double& d
 
 // Where the sites before, at and after an interval meet. Most that are not found at once are
 // nowhere; to be thorough takes twice the time.
-TriangleSolver::BranchPoint TriangleSolver::find_branch(const Joint& before, const Joint& at,
-                                                        const Joint& after,
-                                                        bool is_thorough) const {
+TriangleSolver::VertexPlace TriangleSolver::find_voronoi_vertex(const Breakpoint& before,
+                                                                const Breakpoint& at,
+                                                                const Breakpoint& after,
+                                                                bool is_thorough) const {
     const Index sites[] = {before.site_after, at.site_after, after.site_after};
     const Relays a = relays_of_site(sites[0]);
     const Relays b = relays_of_site(sites[1]);
@@ -475,15 +483,15 @@ TriangleSolver::BranchPoint TriangleSolver::find_branch(const Joint& before, con
     }
     // Cells may meet at the very end of an interval, where distances have no derivative.
     const Vec2 places[] = {at.position, after.position, before.position};
-    const BranchPoint at_joint = least_unequal(places, sites[0], sites[1], sites[2]);
-    if (at_joint.violation <= inside_tolerance * size_) return at_joint;
-    return {centroid, least_reach(b, centroid).distance, no_branch * size_};
+    const VertexPlace at_breakpoint = least_unequal(places, sites[0], sites[1], sites[2]);
+    if (at_breakpoint.violation <= inside_tolerance * size_) return at_breakpoint;
+    return {centroid, least_reach(b, centroid).distance, no_voronoi_vertex * size_};
 }
 
 // Where three distances differ least; by how much is the violation.
-TriangleSolver::BranchPoint TriangleSolver::least_unequal(std::span<const Vec2> places, Index a,
+TriangleSolver::VertexPlace TriangleSolver::least_unequal(std::span<const Vec2> places, Index a,
                                                           Index b, Index c) const {
-    BranchPoint best{places[0], 0, infinity};
+    VertexPlace best{places[0], 0, infinity};
     for (const Vec2& p : places) {
         const double da = least_reach(relays_of_site(a), p).distance;
         const double db = least_reach(relays_of_site(b), p).distance;
@@ -498,7 +506,8 @@ TriangleSolver::BranchPoint TriangleSolver::least_unequal(std::span<const Vec2> 
 }
 
 // By how much some other site is nearer in the middle of an arc.
-double TriangleSolver::arc_undercut(Index site_before, const Joint& from, const Vec2& to) const {
+double TriangleSolver::arc_undercut(Index site_before, const Breakpoint& from,
+                                    const Vec2& to) const {
     Vec2 p;
     double distance;
     return project(relays_of_site(site_before), relays_of_site(from.site_after), from.position, to,
@@ -507,24 +516,25 @@ double TriangleSolver::arc_undercut(Index site_before, const Joint& from, const 
                : 0;
 }
 
-// Closing off an interval by one arc from its joint to the next: wrong where a third site is
+// Closing off an interval by one arc from its breakpoint to the next: wrong where a third site is
 // nearer on the arc, and the less likely the farther the arc strays from its chord. Certain where
 // the site has no other interval that this one could hang together with.
-void TriangleSolver::judge_lens(const Joint& from, const Joint& to, Ear& ear) const {
+void TriangleSolver::judge_lens(const Breakpoint& from, const Breakpoint& to, Ear& ear) const {
     Vec2 p;
     double distance;
     if (!project(relays_of_site(from.site_after), relays_of_site(to.site_after), from.position,
                  to.position, p, distance)) {
-        ear.violation = no_branch * size_;
+        ear.violation = no_voronoi_vertex * size_;
         return;
     }
     constexpr double stray_weight = 1e-3;
     const double below = undercut(p, distance, from.site_after, to.site_after, no_index);
     ear.violation = below + stray_weight * (p - (from.position + to.position) / 2).norm();
-    ear.is_certain = below <= inside_tolerance * size_ &&
-                     std::count_if(joints_.begin(), joints_.end(), [&](const Joint& joint) {
-                         return joint.site_after == from.site_after;
-                     }) == 1;
+    ear.is_certain =
+        below <= inside_tolerance * size_ &&
+        std::count_if(breakpoints_.begin(), breakpoints_.end(), [&](const Breakpoint& breakpoint) {
+            return breakpoint.site_after == from.site_after;
+        }) == 1;
 }
 
 // The point of the bisector of a and b opposite the middle of a chord; false where there is

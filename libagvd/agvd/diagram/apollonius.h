@@ -1,6 +1,6 @@
 //! \file
 //! The local Apollonius diagram of a triangle whose boundary is already labelled ([meng2023]
-//! Sec. 4.2): which arcs join the label changes on the boundary, and where they branch.
+//! Sec. 4.2): which arcs join the label changes on the boundary, and where three arcs meet.
 #pragma once
 
 #include "agvd/diagram/face_relays.h"
@@ -8,8 +8,8 @@
 
 namespace agvd {
 
-//! Distances at a joint that differ by more (share of the triangle's longest side) are not those
-//! of its labels.
+//! Distances at a breakpoint that differ by more (share of the triangle's longest side) are not
+//! those of its labels.
 inline constexpr double largest_disagreement = 1e-2;
 
 [[nodiscard]] double longest_side(const std::array<Vec2, 3>& corners);
@@ -25,29 +25,31 @@ public:
     //! \param sites   those that the next triangle's boundary shows: nobody else is asked.
     void set_relays(std::span<const PlanarRelay> relays, std::span<const Index> sites);
 
-    //! Appends the diagram if the relays agree with the joints and with each other: equal
-    //! joints no farther than they say, branch points where they should be, no arcs that cross.
-    //! \param joints  at least 2, neighbours differ in site_after.
+    //! Appends the diagram if the relays agree with the breakpoints and with each other: equal
+    //! breakpoints no farther than they say, Voronoi vertices where they should be, no arcs that
+    //! cross.
+    //! \param breakpoints  at least 2, neighbours differ in site_after.
     //! \return false: nothing was appended.
     [[nodiscard]] bool try_solve(Index face, const std::array<Vec2, 3>& corners,
-                                 std::span<const Joint> joints);
+                                 std::span<const Breakpoint> breakpoints);
 
     //! The same for any relays. The result is a planar forest whatever the distances are: the
-    //! boundary's intervals are closed off one after the other, each by an arc or branch, those
-    //! about which there is no doubt first and then what fits the distances best, and each step
-    //! leaves a shorter cycle. Where the distances are those of a true Apollonius diagram it is
-    //! that diagram. Arcs that would cross others are drawn straight, and if that is not enough all
-    //! are, with branches on the chords that cut intervals off. Cost: O(k) branch points for k
-    //! joints, each O(relays), and O(k^2) comparisons.
-    void solve(Index face, const std::array<Vec2, 3>& corners, std::span<const Joint> joints);
+    //! boundary's intervals are closed off one after the other, each by an arc or Voronoi vertex,
+    //! those about which there is no doubt first and then what fits the distances best, and each
+    //! step leaves a shorter cycle. Where the distances are those of a true Apollonius diagram it
+    //! is that diagram. Arcs that would cross others are drawn straight, and if that is not enough
+    //! all are, with Voronoi vertices on the chords that cut intervals off. Cost: O(k) Voronoi
+    //! vertices for k breakpoints, each O(relays), and O(k^2) comparisons.
+    void solve(Index face, const std::array<Vec2, 3>& corners,
+               std::span<const Breakpoint> breakpoints);
 
     //! Draws what the last of these calls drew once more, all straight.
-    void redraw_straight(std::span<const Joint> joints);
+    void redraw_straight(std::span<const Breakpoint> breakpoints);
 
 private:
     using Relays = std::span<const PlanarRelay>;
 
-    struct BranchPoint {
+    struct VertexPlace {
         Vec2 position;
         double distance;
         double violation;  // How badly the distances contradict it; 0: not at all.
@@ -59,7 +61,7 @@ private:
         bool is_lens;
         bool is_certain;
         double violation;
-        BranchPoint branch;
+        VertexPlace voronoi_vertex;
     };
     struct Group {
         Index site;
@@ -70,7 +72,7 @@ private:
     };
     // Sizes of `out_`, to go back to.
     struct Mark {
-        std::size_t points, arcs, branches, connections;
+        std::size_t points, arcs, voronoi_vertices, connections;
     };
     struct Segment {
         Index arc;
@@ -78,20 +80,20 @@ private:
     };
 
     void begin(Index face, const std::array<Vec2, 3>& corners);
-    void draw(std::span<const Joint> joints);
+    void draw(std::span<const Breakpoint> breakpoints);
     [[nodiscard]] Mark mark() const;
     void go_back(const Mark& mark);
 
-    [[nodiscard]] bool agrees(const Joint& at, Index site_before) const;
+    [[nodiscard]] bool agrees(const Breakpoint& at, Index site_before) const;
     [[nodiscard]] bool is_accepted(double violation) const;
     [[nodiscard]] Ear judge_ear(std::size_t i, bool is_thorough) const;
-    void judge_lens(const Joint& from, const Joint& to, Ear& ear) const;
+    void judge_lens(const Breakpoint& from, const Breakpoint& to, Ear& ear) const;
     void close_ears();
     [[nodiscard]] std::size_t choose_ear();
     void close_ear(std::size_t i, const Ear& ear);
-    void close_with_branch(std::size_t i, BranchPoint branch);
-    void add_arc(const Joint& from, const Vec2& to, Index head, Index left, bool is_curved);
-    void connect_open_branch(Index node, Index arc, bool at_tail);
+    void close_with_vertex(std::size_t i, VertexPlace voronoi_vertex);
+    void add_arc(const Breakpoint& from, const Vec2& to, Index head, Index left, bool is_curved);
+    void connect_open_vertex(Index node, Index arc, bool at_tail);
 
     [[nodiscard]] bool straighten_crossing_arcs(const Mark& since);
     void collect_segments(const Mark& since);
@@ -103,11 +105,12 @@ private:
     [[nodiscard]] double undercut(const Vec2& p, double distance, Index a, Index b, Index c) const;
     [[nodiscard]] bool find_equal(Relays a, Relays b, Relays c, Vec2& p, double& distance,
                                   double& turn) const;
-    [[nodiscard]] BranchPoint find_branch(const Joint& before, const Joint& at, const Joint& after,
-                                          bool is_thorough) const;
-    [[nodiscard]] BranchPoint least_unequal(std::span<const Vec2> places, Index a, Index b,
+    [[nodiscard]] VertexPlace find_voronoi_vertex(const Breakpoint& before, const Breakpoint& at,
+                                                  const Breakpoint& after, bool is_thorough) const;
+    [[nodiscard]] VertexPlace least_unequal(std::span<const Vec2> places, Index a, Index b,
                                             Index c) const;
-    [[nodiscard]] double arc_undercut(Index site_before, const Joint& from, const Vec2& to) const;
+    [[nodiscard]] double arc_undercut(Index site_before, const Breakpoint& from,
+                                      const Vec2& to) const;
     [[nodiscard]] bool project(Relays a, Relays b, const Vec2& from, const Vec2& to, Vec2& p,
                                double& distance) const;
     [[nodiscard]] bool is_straight(Relays a, Relays b, const Vec2& from, const Vec2& to) const;
@@ -124,9 +127,9 @@ private:
     double size_ = 0;       // Longest side.
     bool is_safe_ = false;  // Draw all straight.
     bool is_sound_ = true;  // Nothing drawn contradicts the distances.
-    std::vector<Joint> joints_;
+    std::vector<Breakpoint> breakpoints_;
     std::vector<Ear> ears_;
-    std::vector<Index> open_branches_;
+    std::vector<Index> open_vertices_;
     std::vector<Ends> ends_;  // Of the arcs drawn.
     std::vector<Segment> segments_;
     std::vector<Index> crossing_;  // Arcs.

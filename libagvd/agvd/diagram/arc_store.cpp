@@ -12,8 +12,8 @@ void ArcStore::reserve_for(double times) {
     };
     reserve(faces_);
     reserve(arcs_);
-    reserve(branches_);
-    reserve(branch_points_);
+    reserve(voronoi_vertices_);
+    reserve(vertex_places_);
     reserve(points_);
     reserve(connections_);
     reserve(parts_);
@@ -38,23 +38,26 @@ void ArcStore::add(std::span<const Index> faces, const FaceArcs& chunk, Index fi
     all.connections = connections_.add(part(local.connections, begin.connections, end.connections));
     all.parts = parts_.add(part(chunk.parts, begin.parts, end.parts));
     all.arcs = arcs_.add(part(local.arcs, begin.arcs, end.arcs));
-    new_branches_.clear();
-    new_branch_points_.clear();
-    for (const LocalBranch& branch : part(local.branches, begin.branches, end.branches)) {
-        Branch& added = new_branches_.emplace_back();
+    new_voronoi_vertices_.clear();
+    new_vertex_places_.clear();
+    for (const LocalVoronoiVertex& voronoi_vertex :
+         part(local.voronoi_vertices, begin.voronoi_vertices, end.voronoi_vertices)) {
+        VoronoiVertex& added = new_voronoi_vertices_.emplace_back();
         for (std::size_t k = 0; k < 3; ++k) {
-            const Index arc = branch.arcs[k] - begin.arcs + all.arcs.begin;
-            added.ends[k] = 2 * arc + (branch.at_tail[k] ? 0 : 1);
+            const Index arc = voronoi_vertex.arcs[k] - begin.arcs + all.arcs.begin;
+            added.ends[k] = 2 * arc + (voronoi_vertex.at_tail[k] ? 0 : 1);
         }
-        added.sites = branch.sites;
-        new_branch_points_.push_back(
-            {to_surface(*surface_, branch.face, branch.position), branch.distance});
+        added.sites = voronoi_vertex.sites;
+        new_vertex_places_.push_back(
+            {to_surface(*surface_, voronoi_vertex.face, voronoi_vertex.position),
+             voronoi_vertex.distance});
     }
-    all.branches = branches_.add(new_branches_);
-    (void)branch_points_.add(new_branch_points_);
+    all.voronoi_vertices = voronoi_vertices_.add(new_voronoi_vertices_);
+    (void)vertex_places_.add(new_vertex_places_);
 
     const auto rename = [&](Index& node) {
-        if (node >= LocalDiagram::first_branch) node += all.branches.begin - begin.branches;
+        if (node >= LocalDiagram::first_voronoi_vertex)
+            node += all.voronoi_vertices.begin - begin.voronoi_vertices;
     };
     for (LocalArc& arc : arcs_[all.arcs]) {
         rename(arc.tail);
@@ -67,12 +70,13 @@ void ArcStore::add(std::span<const Index> faces, const FaceArcs& chunk, Index fi
         const auto block = [&](const Block& of_all, Index FaceArcs::Mark::*place) {
             return Block{of_all.begin + from.*place - begin.*place, to.*place - from.*place};
         };
-        faces_[take_slot(faces[i])] = {block(all.arcs, &FaceArcs::Mark::arcs),
-                                       block(all.branches, &FaceArcs::Mark::branches),
-                                       block(all.points, &FaceArcs::Mark::points),
-                                       block(all.connections, &FaceArcs::Mark::connections),
-                                       block(all.parts, &FaceArcs::Mark::parts),
-                                       chunk.is_local[first + i] != 0};
+        faces_[take_slot(faces[i])] = {
+            block(all.arcs, &FaceArcs::Mark::arcs),
+            block(all.voronoi_vertices, &FaceArcs::Mark::voronoi_vertices),
+            block(all.points, &FaceArcs::Mark::points),
+            block(all.connections, &FaceArcs::Mark::connections),
+            block(all.parts, &FaceArcs::Mark::parts),
+            chunk.is_local[first + i] != 0};
         from = to;
     }
 }
@@ -92,8 +96,8 @@ void ArcStore::remove(Index face) {
     if (slot == no_index) return;
     const Face& stored = faces_[slot];
     arcs_.release(stored.arcs);
-    branches_.release(stored.branches);
-    branch_points_.release(stored.branches);
+    voronoi_vertices_.release(stored.voronoi_vertices);
+    vertex_places_.release(stored.voronoi_vertices);
     points_.release(stored.points);
     connections_.release(stored.connections);
     parts_.release(stored.parts);
@@ -105,15 +109,15 @@ void ArcStore::renumber(const Renumbering& renumbering) {
         renumbering.apply(arc.left);
         renumbering.apply(arc.right);
     }
-    for (Branch& branch : branches_) {
-        for (Index& site : branch.sites) renumbering.apply(site);
+    for (VoronoiVertex& voronoi_vertex : voronoi_vertices_) {
+        for (Index& site : voronoi_vertex.sites) renumbering.apply(site);
     }
     for (Connection& connection : connections_) renumbering.apply(connection.site);
     for (FaceArcs::CellPart& part : parts_) renumbering.apply(part.site);
 }
 
 bool ArcStore::is_wasteful() const {
-    return arcs_.is_wasteful() || branches_.is_wasteful() || points_.is_wasteful() ||
+    return arcs_.is_wasteful() || voronoi_vertices_.is_wasteful() || points_.is_wasteful() ||
            connections_.is_wasteful() || parts_.is_wasteful();
 }
 

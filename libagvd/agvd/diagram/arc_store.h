@@ -7,26 +7,26 @@
 
 namespace agvd {
 
-//! As in FaceArcs, but for names: nodes from LocalDiagram::first_branch on and the arcs of branches
-//! are places in the pools, which last as long as the face keeps its arcs.
+//! As in FaceArcs, but for names: nodes from LocalDiagram::first_voronoi_vertex on and the arcs of
+//! Voronoi vertices are places in the pools, which last as long as the face keeps its arcs.
 class ArcStore {
 public:
     //! What a face has.
     struct Face {
-        Block arcs, branches, points, connections, parts;
+        Block arcs, voronoi_vertices, points, connections, parts;
         bool is_local = false;  //!< They depend on no relays of other faces.
     };
     struct Point {
         Vec2 position;  //!< In the face's own frame.
         double distance;
     };
-    //! A branch as it hangs together. Counter-clockwise around it: ends[i], then sites[i].
-    struct Branch {
+    //! A Voronoi vertex as it hangs together. Counter-clockwise around it: ends[i], then sites[i].
+    struct VoronoiVertex {
         std::array<Index, 3> ends;  //!< 2 * arc + (0: its tail, 1: its head).
         std::array<Index, 3> sites;
     };
-    //! Where a branch lies.
-    struct BranchPoint {
+    //! Where a Voronoi vertex lies.
+    struct VertexPlace {
         SurfacePoint point;
         double distance;
     };
@@ -52,9 +52,11 @@ public:
         return slots_[face] == no_index ? none : faces_[slots_[face]];
     }
     [[nodiscard]] const BlockPool<LocalArc>& arcs() const { return arcs_; }
-    [[nodiscard]] const BlockPool<Branch>& branches() const { return branches_; }
-    //! In the places of the branches.
-    [[nodiscard]] const BlockPool<BranchPoint>& branch_points() const { return branch_points_; }
+    [[nodiscard]] const BlockPool<VoronoiVertex>& voronoi_vertices() const {
+        return voronoi_vertices_;
+    }
+    //! In the places of the Voronoi vertices.
+    [[nodiscard]] const BlockPool<VertexPlace>& vertex_places() const { return vertex_places_; }
     [[nodiscard]] const BlockPool<Point>& points() const { return points_; }
     [[nodiscard]] const BlockPool<Connection>& connections() const { return connections_; }
     [[nodiscard]] const BlockPool<FaceArcs::CellPart>& parts() const { return parts_; }
@@ -86,16 +88,16 @@ private:
     std::vector<Face> faces_;
     std::vector<Index> free_slots_;
     BlockPool<LocalArc> arcs_;
-    BlockPool<Branch> branches_;
-    BlockPool<BranchPoint> branch_points_;
+    BlockPool<VoronoiVertex> voronoi_vertices_;
+    BlockPool<VertexPlace> vertex_places_;
     BlockPool<Point> points_;
     BlockPool<Connection> connections_;
     BlockPool<FaceArcs::CellPart> parts_;
 
     // Of the faces at hand.
     std::vector<Point> new_points_;
-    std::vector<Branch> new_branches_;
-    std::vector<BranchPoint> new_branch_points_;
+    std::vector<VoronoiVertex> new_voronoi_vertices_;
+    std::vector<VertexPlace> new_vertex_places_;
 };
 
 }  // namespace agvd

@@ -20,7 +20,8 @@ public:
     void resize(Index num_sites) { cells_.resize(num_sites); }
     void renumber(const Renumbering& renumbering) { renumbering.apply_to_places(cells_); }
 
-    // What is no_index belongs to no cell. \param sign  1: comes in; -1: goes out.
+    // What is no_index belongs to no cell.
+    // \param sign  1: comes in; -1: goes out.
 
     //! A vertex, and the first interval of each edge whose edge_half leaves it.
     void count_vertex(Index vertex, Index site, int sign);

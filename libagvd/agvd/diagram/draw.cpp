@@ -13,12 +13,12 @@ public:
         : surface_(surface), labels_(labels), arcs_(arcs) {}
 
     [[nodiscard]] double distance(Index node) const {
-        return node >= LocalDiagram::first_branch ? branch_point(node).distance
-                                                  : labels_.crossings[node].distance;
+        return node >= LocalDiagram::first_voronoi_vertex ? place_of(node).distance
+                                                          : labels_.crossings[node].distance;
     }
 
     [[nodiscard]] SurfacePoint point(Index node) const {
-        if (node >= LocalDiagram::first_branch) return branch_point(node).point;
+        if (node >= LocalDiagram::first_voronoi_vertex) return place_of(node).point;
         const Crossing& crossing = labels_.crossings[node];
         if (crossing.line >= Crossing::first_cut) {
             return point_on_cut(labels_.cuts[crossing.line - Crossing::first_cut], crossing.at);
@@ -32,15 +32,15 @@ public:
 
     // \param is_across  the curve goes on from the twin of the half-edge that the crossing names.
     [[nodiscard]] Passage passage(Index node, bool is_across) const {
-        if (node >= LocalDiagram::first_branch) return {};
+        if (node >= LocalDiagram::first_voronoi_vertex) return {};
         const Index line = labels_.crossings[node].line;
         if (line >= Crossing::first_cut) return {};
         return {static_cast<std::uint8_t>(line % 3), is_across};
     }
 
 private:
-    [[nodiscard]] const ArcStore::BranchPoint& branch_point(Index node) const {
-        return arcs_.branch_points()[node - LocalDiagram::first_branch];
+    [[nodiscard]] const ArcStore::VertexPlace& place_of(Index node) const {
+        return arcs_.vertex_places()[node - LocalDiagram::first_voronoi_vertex];
     }
 
     [[nodiscard]] SurfacePoint point_on_cut(const Cut& cut, double at) const {
@@ -74,14 +74,14 @@ public:
         out_.vertex_offsets.assign(1, 0);
         out_.vertex_ends.clear();
         out_.vertex_sites.clear();
-        add_branches();
+        add_voronoi_vertices();
         add_boundary();
 
         gather_points();
         out_.vertices.clear();
         out_.vertex_distance.clear();
-        for (const FaceBranches& in_face : in_.branches_) {
-            for (const auto& [point, distance] : arcs_.branch_points()[in_face.branches]) {
+        for (const FaceVoronoiVertices& in_face : in_.voronoi_vertices_) {
+            for (const auto& [point, distance] : arcs_.vertex_places()[in_face.voronoi_vertices]) {
                 out_.vertices.push_back(point);
                 out_.vertex_distance.push_back(distance);
             }
@@ -137,13 +137,14 @@ private:
         out_.vertex_offsets.push_back(static_cast<Index>(out_.vertex_ends.size()));
     }
 
-    void add_branches() {
+    void add_voronoi_vertices() {
         Index vertex = 0;
-        for (const FaceBranches& in_face : in_.branches_) {
+        for (const FaceVoronoiVertices& in_face : in_.voronoi_vertices_) {
             ticker_.tick();
-            for (const ArcStore::Branch& branch : arcs_.branches()[in_face.branches]) {
+            for (const ArcStore::VoronoiVertex& voronoi_vertex :
+                 arcs_.voronoi_vertices()[in_face.voronoi_vertices]) {
                 for (std::size_t k = 0; k < 3; ++k) {
-                    attach(edge_end(branch.ends[k]), branch.sites[k], vertex);
+                    attach(edge_end(voronoi_vertex.ends[k]), voronoi_vertex.sites[k], vertex);
                 }
                 finish_vertex();
                 ++vertex;

@@ -85,8 +85,8 @@ private:
     // `site`: that of its first corner.
     void trace_triangle(const std::array<Vec2, 3>& corners, Index site) {
         first_part_ = out_.parts.size();
-        collect_joints(site);
-        if (joints_.empty()) {
+        collect_breakpoints(site);
+        if (breakpoints_.empty()) {
             if (site != no_index) out_.parts.push_back({site, 1, area_of(corners)});
             return;
         }
@@ -102,7 +102,7 @@ private:
         // Arcs that lie on each other, or on a side, escape a search for crossings, but turn a
         // piece inside out.
         if (!is_plain && has_inverted_part(corners)) {
-            solver_.redraw_straight(joints_);
+            solver_.redraw_straight(breakpoints_);
             out_.parts.resize(first_part_);
             out_.parts.insert(out_.parts.end(), boundary_parts_.begin(), boundary_parts_.end());
             count_parts(before);
@@ -110,14 +110,14 @@ private:
         name_nodes(before);
     }
 
-    // Until here joints have their places in the row: a face that is glued to itself meets one
+    // Until here breakpoints have their places in the row: a face that is glued to itself meets one
     // crossing at two of them.
     void name_nodes(const FaceArcs::Mark& before) {
         for (std::size_t i = before.arcs; i < out_.local.arcs.size(); ++i) {
             LocalArc& arc = out_.local.arcs[i];
             for (const bool at_tail : {true, false}) {
                 Index& node = at_tail ? arc.tail : arc.head;
-                if (node >= LocalDiagram::first_branch) continue;
+                if (node >= LocalDiagram::first_voronoi_vertex) continue;
                 (at_tail ? arc.tail_is_across : arc.head_is_across) = nodes_[node].is_across;
                 node = nodes_[node].name;
             }
@@ -126,7 +126,7 @@ private:
 
     // What the triangle's arcs, all from a mark on, add to the cells.
     void count_parts(const FaceArcs::Mark& before) {
-        for (const Joint& joint : joints_) count(joint.site_after, 1, 0);
+        for (const Breakpoint& breakpoint : breakpoints_) count(breakpoint.site_after, 1, 0);
         for (std::size_t i = before.connections; i < out_.local.connections.size(); ++i) {
             count(out_.local.connections[i].site, -1, 0);
         }
@@ -147,8 +147,8 @@ private:
     }
 
     // Also adds what the boundary contributes to the areas, by Green's theorem.
-    void collect_joints(Index site) {
-        joints_.clear();
+    void collect_breakpoints(Index site) {
+        breakpoints_.clear();
         nodes_.clear();
         for (const Side& side : sides_) {
             Vec2 last = side.from;
@@ -163,13 +163,13 @@ private:
                 const Index interval =
                     is_last ? side.to_point
                             : FaceArcs::first_interval + (side.forward ? node : node - 1);
-                const auto place = static_cast<Index>(joints_.size());
-                joints_.push_back({p, c.distance, place, site, interval});
+                const auto place = static_cast<Index>(breakpoints_.size());
+                breakpoints_.push_back({p, c.distance, place, site, interval});
                 nodes_.push_back({node, side.is_across});
                 last = p;
             }
-            // Without a joint the area is that of the triangle.
-            if (!joints_.empty() || has_crossings_after(side)) {
+            // Without a breakpoint the area is that of the triangle.
+            if (!breakpoints_.empty() || has_crossings_after(side)) {
                 count(site, 0, cross(last, side.to) / 2);
             }
         }
@@ -184,9 +184,9 @@ private:
 
     // As most faces are.
     [[nodiscard]] bool solve_by_one_arc(const std::array<Vec2, 3>& corners) {
-        if (joints_.size() != 2) return false;
-        const Joint& from = joints_[0];
-        const Joint& to = joints_[1];
+        if (breakpoints_.size() != 2) return false;
+        const Breakpoint& from = breakpoints_[0];
+        const Breakpoint& to = breakpoints_[1];
         if (!joins_straight(relays_of(propagation_, mixed_index_), corners_, from, to,
                             largest_disagreement * longest_side(corners), chord_tolerance_)) {
             return false;
@@ -199,9 +199,9 @@ private:
 
     void collect_sites() {
         sites_.clear();
-        for (const Joint& joint : joints_) {
-            if (std::find(sites_.begin(), sites_.end(), joint.site_after) == sites_.end()) {
-                sites_.push_back(joint.site_after);
+        for (const Breakpoint& breakpoint : breakpoints_) {
+            if (std::find(sites_.begin(), sites_.end(), breakpoint.site_after) == sites_.end()) {
+                sites_.push_back(breakpoint.site_after);
             }
         }
     }
@@ -210,14 +210,14 @@ private:
         if (!has_own_relays_) inside_relays_.gather_own(mixed_index_, own_relays_);
         has_own_relays_ = true;
         solver_.set_relays(own_relays_, sites_);
-        return solver_.try_solve(face_, corners, joints_);
+        return solver_.try_solve(face_, corners, breakpoints_);
     }
 
     void solve_by_all_relays(const std::array<Vec2, 3>& corners) {
         if (!has_all_relays_) inside_relays_.gather_all(mixed_index_, all_relays_);
         has_all_relays_ = true;
         solver_.set_relays(all_relays_, sites_);
-        solver_.solve(face_, corners, joints_);
+        solver_.solve(face_, corners, breakpoints_);
     }
 
     void add_area_beside(Index i) {
@@ -235,10 +235,10 @@ private:
     }
 
     [[nodiscard]] Vec2 node_position(Index node) const {
-        if (node >= LocalDiagram::first_branch) {
-            return out_.local.branches[node - LocalDiagram::first_branch].position;
+        if (node >= LocalDiagram::first_voronoi_vertex) {
+            return out_.local.voronoi_vertices[node - LocalDiagram::first_voronoi_vertex].position;
         }
-        return joints_[node].position;
+        return breakpoints_[node].position;
     }
 
     void count(Index site, int pieces, double area) {
@@ -270,12 +270,12 @@ private:
     std::size_t first_part_ = 0;
     std::vector<FaceArcs::CellPart> boundary_parts_;  // What the boundary alone contributes.
     std::vector<Index> sites_;
-    std::vector<Joint> joints_;
+    std::vector<Breakpoint> breakpoints_;
     struct Node {
         Index name;
         bool is_across;
     };
-    std::vector<Node> nodes_;  // By joint.
+    std::vector<Node> nodes_;  // By breakpoint.
 };
 
 }  // namespace

@@ -8,9 +8,9 @@
 namespace agvd {
 
 //! What the faces of one chunk contribute. Nodes are the crossings (their index in EdgeLabels) and
-//! the chunk's branches from LocalDiagram::first_branch. Intervals have the name of the point at
-//! which they end, if there is one, else first_interval + the crossing that they follow along the
-//! edge_half or the cut.
+//! the chunk's Voronoi vertices from LocalDiagram::first_voronoi_vertex. Intervals have the name of
+//! the point at which they end, if there is one, else first_interval + the crossing that they
+//! follow along the edge_half or the cut.
 struct FaceArcs {
     static constexpr Index first_interval = Index{1} << 31;
 
@@ -26,7 +26,7 @@ struct FaceArcs {
 
     //! Where a face's contributions begin.
     struct Mark {
-        Index points, arcs, branches, connections, parts;
+        Index points, arcs, voronoi_vertices, connections, parts;
     };
     std::vector<Mark> faces;
     std::vector<std::uint8_t> is_local;  //!< By face: 1: no relays of other faces were asked.
@@ -35,7 +35,7 @@ struct FaceArcs {
         local.points.clear();
         local.point_distance.clear();
         local.arcs.clear();
-        local.branches.clear();
+        local.voronoi_vertices.clear();
         local.connections.clear();
         parts.clear();
         faces.clear();
@@ -44,7 +44,7 @@ struct FaceArcs {
 
     [[nodiscard]] Mark mark() const {
         return {static_cast<Index>(local.points.size()), static_cast<Index>(local.arcs.size()),
-                static_cast<Index>(local.branches.size()),
+                static_cast<Index>(local.voronoi_vertices.size()),
                 static_cast<Index>(local.connections.size()), static_cast<Index>(parts.size())};
     }
 };

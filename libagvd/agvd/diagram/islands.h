@@ -29,13 +29,13 @@ void find_displaced(const Surface& surface, std::span<const SurfacePoint> sites,
 
 //! Finds the parts of cells in doubt that do not hang together with their site and gives each to a
 //! cell that it borders on. The labels then say so. Calling it again and again comes to an end,
-//! since label changes only vanish.
-//! Cost: nearly linear in the points and crossings of those faces, and O(#V + crossings) quick
-//! steps. \param faces        all that the cells in doubt reach into. \param tally        is told
-//! of rows, not of points. \param old_labels   the points whose label changes are appended, with
-//! their old labels. \param stale_faces  the faces around changed labels are appended, which are to
-//! be traced again;
-//!                     maybe some of them twice.
+//! since label changes only vanish. Cost: nearly linear in the points and crossings of those faces,
+//! and O(#V + crossings) quick steps.
+//! \param faces        all that the cells in doubt reach into.
+//! \param tally        is told of rows, not of points.
+//! \param old_labels   the points whose label changes are appended, with their old labels.
+//! \param stale_faces  the faces around changed labels are appended, which are to be traced again;
+//!        maybe some of them twice.
 //! \return the number of parts.
 [[nodiscard]] Index absorb_islands(const Surface& surface, std::span<const SurfacePoint> sites,
                                    const ArcStore& arcs, const CellSet& in_doubt,

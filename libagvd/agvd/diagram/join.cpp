@@ -7,7 +7,7 @@
 namespace agvd {
 
 bool ArcJoiner::is_vertex(Index node) const {
-    return node >= LocalDiagram::first_branch || crossing_ends_[node][1] == no_index;
+    return node >= LocalDiagram::first_voronoi_vertex || crossing_ends_[node][1] == no_index;
 }
 
 // The other arc's end at a crossing.
@@ -25,7 +25,7 @@ void ArcJoiner::forget(const ArcStore& arcs, Index face) {
     }
     for (ArcEnd end = tail_of(block.begin); end < tail_of(block.end()); ++end) {
         const Index node = node_at(arcs, end);
-        if (node >= crossing_ends_.size()) continue;  // A branch, or not joined yet.
+        if (node >= crossing_ends_.size()) continue;  // A Voronoi vertex, or not joined yet.
         auto& ends = crossing_ends_[node];
         if (ends[0] == end) ends[0] = std::exchange(ends[1], no_index);
         if (ends[1] == end) ends[1] = no_index;
@@ -51,7 +51,7 @@ public:
         // All their arcs are of other edges by now: where a face was kept, they lead into one that
         // was not.
         in_.free_edges_.insert(in_.free_edges_.end(), gone.begin(), gone.end());
-        list_branches(new_faces);
+        list_voronoi_vertices(new_faces);
     }
 
 private:
@@ -64,7 +64,7 @@ private:
             for (Index arc = block.begin; arc < block.end(); ++arc) {
                 for (const ArcEnd end : {tail_of(arc), head_of(arc)}) {
                     const Index node = node_at(end);
-                    if (node >= LocalDiagram::first_branch) continue;
+                    if (node >= LocalDiagram::first_voronoi_vertex) continue;
                     auto& ends = in_.crossing_ends_[node];
                     assert(ends[1] == no_index);
                     ends[ends[0] == no_index ? 0 : 1] = end;
@@ -160,22 +160,25 @@ private:
                             true};
     }
 
-    void list_branches(std::span<const Index> new_faces) {
+    void list_voronoi_vertices(std::span<const Index> new_faces) {
         std::sort(in_.forgotten_.begin(), in_.forgotten_.end());
         auto forgotten = in_.forgotten_.begin();
-        std::erase_if(in_.branches_, [&](const FaceBranches& old) {
+        std::erase_if(in_.voronoi_vertices_, [&](const FaceVoronoiVertices& old) {
             forgotten = std::lower_bound(forgotten, in_.forgotten_.end(), old.face);
             return forgotten != in_.forgotten_.end() && *forgotten == old.face;
         });
         in_.forgotten_.clear();
-        const auto num_old = static_cast<std::ptrdiff_t>(in_.branches_.size());
+        const auto num_old = static_cast<std::ptrdiff_t>(in_.voronoi_vertices_.size());
         for (const Index face : new_faces) {
-            const Block& branches = arcs_.of_face(face).branches;
-            if (branches.count > 0) in_.branches_.push_back({face, branches});
+            const Block& voronoi_vertices = arcs_.of_face(face).voronoi_vertices;
+            if (voronoi_vertices.count > 0)
+                in_.voronoi_vertices_.push_back({face, voronoi_vertices});
         }
-        std::inplace_merge(
-            in_.branches_.begin(), in_.branches_.begin() + num_old, in_.branches_.end(),
-            [](const FaceBranches& a, const FaceBranches& b) { return a.face < b.face; });
+        std::inplace_merge(in_.voronoi_vertices_.begin(), in_.voronoi_vertices_.begin() + num_old,
+                           in_.voronoi_vertices_.end(),
+                           [](const FaceVoronoiVertices& a, const FaceVoronoiVertices& b) {
+                               return a.face < b.face;
+                           });
     }
 
     const EdgeLabels& labels_;

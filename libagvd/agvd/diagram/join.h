@@ -27,8 +27,9 @@ public:
                                                  const ArcStore& arcs, const CellSet& cells) const;
 
     //! Replaces edges, vertices and points of `diagram`. Edges stand in the order of the first of
-    //! their ends in the faces, closed ones behind, then those on the boundary; branches become the
-    //! first Voronoi vertices, then the label changes on the boundary. All that whatever was kept.
+    //! their ends in the faces, then come closed edges, then those on the boundary. Voronoi
+    //! vertices inside the surface come first, then the label changes on the boundary. The order
+    //! does not depend on what was kept from earlier calls.
     //! Cost: O(edges + points of new ones + boundary), and copying the points of the others.
     //! \param diagram  as the last call left it; of no use any more if the ticker throws.
     void draw(const Surface& surface, const EdgeLabels& labels, const ArcStore& arcs, Ticker ticker,
@@ -60,9 +61,9 @@ private:
         [[nodiscard]] bool is_closed() const { return key >> 63 != 0; }
     };
 
-    struct FaceBranches {
+    struct FaceVoronoiVertices {
         Index face;
-        Block branches;
+        Block voronoi_vertices;
     };
     class Run;
     class LoopCounter;
@@ -76,11 +77,11 @@ private:
     std::vector<Index> edge_of_arc_;                    // no_index: none yet; or one that is gone.
     std::vector<std::array<ArcEnd, 2>> crossing_ends_;  // One only: on the boundary.
     std::vector<Edge> edges_;
-    std::vector<ArcEnd> first_ends_;      // By edge; no_index: it is gone.
-    std::vector<Index> order_;            // Of edges: old ones by key, then new ones.
-    std::vector<Index> free_edges_;       // Gone, and no arc says that it is of them.
-    std::vector<Index> forgotten_;        // Faces, since the last call of join().
-    std::vector<FaceBranches> branches_;  // By face.
+    std::vector<ArcEnd> first_ends_;  // By edge; no_index: it is gone.
+    std::vector<Index> order_;        // Of edges: old ones by key, then new ones.
+    std::vector<Index> free_edges_;   // Gone, and no arc says that it is of them.
+    std::vector<Index> forgotten_;    // Faces, since the last call of join().
+    std::vector<FaceVoronoiVertices> voronoi_vertices_;  // By face.
     // Memory for the next points.
     std::vector<SurfacePoint> points_;
     std::vector<double> point_distance_;

@@ -9,9 +9,9 @@
 
 namespace agvd {
 
-//! A label change on the triangle's boundary. Joints run counter-clockwise; between joint i and
-//! joint i + 1 (cyclic) the boundary has label joints[i].site_after.
-struct Joint {
+//! A label change on the triangle's boundary. Breakpoints run counter-clockwise; between breakpoint
+//! i and breakpoint i + 1 (cyclic) the boundary has label breakpoints[i].site_after.
+struct Breakpoint {
     Vec2 position;
     double distance;  //!< From both sites.
     Index node;       //!< Caller's name of the point.
@@ -30,8 +30,8 @@ struct LocalArc {
     bool tail_is_across = false, head_is_across = false;
 };
 
-//! A point where three cells meet. Counter-clockwise around it: arc_ends[i], then sites[i].
-struct LocalBranch {
+//! A point where three cells meet. Counter-clockwise around it: arcs[i], then sites[i].
+struct LocalVoronoiVertex {
     Index face;
     Vec2 position;
     double distance;
@@ -48,12 +48,12 @@ struct Connection {
 
 //! What the faces of one chunk contribute.
 struct LocalDiagram {
-    static constexpr Index first_branch = Index{1} << 31;
+    static constexpr Index first_voronoi_vertex = Index{1} << 31;
 
     std::vector<Vec2> points;  //!< In the own frame of the face concerned.
     std::vector<double> point_distance;
     std::vector<LocalArc> arcs;
-    std::vector<LocalBranch> branches;  //!< Branch b is node first_branch + b.
+    std::vector<LocalVoronoiVertex> voronoi_vertices;  //!< v is node first_voronoi_vertex + v.
     std::vector<Connection> connections;
 };
 

@@ -53,22 +53,23 @@ private:
         }
     }
 
-    // Around a branch, a cell arrives along an end and leaves along the one before; at a label
-    // change on the boundary it goes on along the boundary to the next one.
+    // Around a Voronoi vertex, a cell arrives along an end and leaves along the one before; at a
+    // label change on the boundary it goes on along the boundary to the next one.
     [[nodiscard]] Side next(Side side) const {
         const Index edge = side / 2;
         if (in_.edges_[edge].is_closed()) return side;
         const ArcEnd arriving = side % 2 == 0 ? in_.edges_[edge].last : in_.first_ends_[edge];
         const Index node = node_at(arcs_, arriving);
-        const ArcEnd leaving = node >= LocalDiagram::first_branch
-                                   ? before_at_branch(node - LocalDiagram::first_branch, arriving)
-                                   : in_.crossing_ends_[next_on_boundary_.at(node)][0];
+        const ArcEnd leaving =
+            node >= LocalDiagram::first_voronoi_vertex
+                ? before_at_vertex(node - LocalDiagram::first_voronoi_vertex, arriving)
+                : in_.crossing_ends_[next_on_boundary_.at(node)][0];
         const Index next_edge = in_.edge_of_arc_[leaving / 2];
         return 2 * next_edge + (in_.first_ends_[next_edge] == leaving ? 0 : 1);
     }
 
-    [[nodiscard]] ArcEnd before_at_branch(Index branch, ArcEnd end) const {
-        const auto& ends = arcs_.branches()[branch].ends;
+    [[nodiscard]] ArcEnd before_at_vertex(Index voronoi_vertex, ArcEnd end) const {
+        const auto& ends = arcs_.voronoi_vertices()[voronoi_vertex].ends;
         return end == ends[0] ? ends[2] : end == ends[1] ? ends[0] : ends[1];
     }
 

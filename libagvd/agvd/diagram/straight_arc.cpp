@@ -51,7 +51,7 @@ bool is_nearly_straight(const Vec2& chord, const Vec2& middle, const Reach& a, c
 }
 
 bool joins_straight(std::span<const Relay> relays, const std::array<Vec2, 3>& corners,
-                    const Joint& from, const Joint& to, double slack, double tolerance) {
+                    const Breakpoint& from, const Breakpoint& to, double slack, double tolerance) {
     const Vec2 middle = (from.position + to.position) / 2;
     struct Frame {
         Vec2 along;

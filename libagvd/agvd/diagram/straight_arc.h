@@ -14,13 +14,14 @@ namespace agvd {
 [[nodiscard]] bool is_nearly_straight(const Vec2& chord, const Vec2& middle, const Reach& a,
                                       const Reach& b, double tolerance);
 
-//! Whether a face's own relays say so of the chord between two joints, and agree with the joints'
-//! distances up to `slack`. False: ask TriangleSolver, which does with arcs of any shape.
+//! Whether a face's own relays say so of the chord between two breakpoints, and agree with the
+//! breakpoints' distances up to `slack`. False: ask TriangleSolver, which does with arcs of any
+//! shape.
 //! \param relays    of the face.
-//! \param corners   of the face, in whose frame the joints are.
+//! \param corners   of the face, in whose frame the breakpoints are.
 //! \param tolerance  see is_nearly_straight().
 [[nodiscard]] bool joins_straight(std::span<const Relay> relays, const std::array<Vec2, 3>& corners,
-                                  const Joint& from, const Joint& to, double slack,
+                                  const Breakpoint& from, const Breakpoint& to, double slack,
                                   double tolerance);
 
 }  // namespace agvd

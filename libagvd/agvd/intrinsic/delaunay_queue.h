@@ -33,7 +33,8 @@ public:
 
     //! Looks at an edge, and lets it wait if it fails.
     void push(Index edge);
-    //! The same for all edges. \param num_threads  0: all cores. The same for any number.
+    //! The same for all edges.
+    //! \param num_threads  0: all cores. The same for any number.
     void push_all(int num_threads, Poller& poller);
     //! Flips until nothing waits, or `most_flips` were made.
     //! \return false if edges are left.

@@ -44,7 +44,8 @@ public:
     void add(Index face, const FaceChart& chart);
     //! Makes the face's chart anew where its lengths have changed, and tells those across.
     void renew(Index face);
-    //! Tells the charts across a face's sides of its turns. \param face  has a chart.
+    //! Tells the charts across a face's sides of its turns.
+    //! \param face  has a chart.
     void share_turns(Index face);
     //! The face is gone: its place is for another.
     void forget(Index face);

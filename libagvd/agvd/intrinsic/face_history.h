@@ -92,8 +92,7 @@ public:
 
     //! Appends the parts of a face of the end in the faces of the beginning.
     //! \return false if that takes more than `most_steps` passes of a part through an operation, or
-    //! a
-    //!         part with too many corners; then `parts` means nothing.
+    //!        a part with too many corners; then `parts` means nothing.
     [[nodiscard]] bool parts_of(Index face, Index most_steps,
                                 std::vector<FacePolygon>& parts) const;
     //! Whether a point passes no more operations than that on its way back.

@@ -42,8 +42,9 @@ struct Quad {
 [[nodiscard]] Quad quad_at(const Surface& surface, FaceCharts& charts, Index half_edge);
 
 //! Replaces faces f = (a, b, c) and g = (b, a, d) at an edge by f = (a, d, c) and g = (d, b, c).
-//! The edge keeps its number. \param half_edge  of face f, from a to b; its twin lies in another
-//! face. \param quad       there, from the charts.
+//! The edge keeps its number.
+//! \param half_edge  of face f, from a to b; its twin lies in another face.
+//! \param quad       there, from the charts.
 void flip(Surface& surface, FaceCharts& charts, Index half_edge, const Quad& quad);
 
 //! What splitting an edge has made. An edge on the boundary has one side only.

@@ -96,7 +96,7 @@ private:
         const Index vertex = surface_.num_vertices();
         surface_.mesh.positions.push_back(Vec3::Zero());
         surface_.outgoing.push_back(no_index);
-        surface_.can_turn.push_back(0);
+        surface_.can_be_pseudo_source.push_back(0);
         is_claimed_.push_back(1);
         return vertex;
     }

@@ -89,7 +89,7 @@ private:
         const Index vertex = surface_.num_vertices();
         surface_.mesh.positions.push_back(Vec3::Zero());  // Known at the end.
         surface_.outgoing.push_back(no_index);
-        surface_.can_turn.push_back(0);
+        surface_.can_be_pseudo_source.push_back(0);
         const EdgeSplit made = detail::split_edge(surface_, charts_, h, 0.5, vertex);
         if (!is_kept_.empty()) {
             is_kept_.resize(surface_.num_edges(), 0);

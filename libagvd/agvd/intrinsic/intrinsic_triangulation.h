@@ -78,7 +78,8 @@ public:
 
     //! The face is not one of the input's.
     [[nodiscard]] bool is_changed(Index face) const;
-    //! Where an added vertex lies on the input. \param vertex  >= input().num_vertices().
+    //! Where an added vertex lies on the input.
+    //! \param vertex  >= input().num_vertices().
     [[nodiscard]] const SurfacePoint& place_of_added(Index vertex) const {
         return added_[vertex - input_->num_vertices()];
     }
@@ -95,7 +96,8 @@ public:
 
     //! A straight segment in one face of this, as a polyline on the input: two points for each face
     //! crossed, both as points of that face; the second lies where the first of the next does.
-    //! \param begin, end  of one face. \param parts  appended to.
+    //! \param begin, end  of one face.
+    //! \param parts  appended to.
     void to_input(const SurfacePoint& begin, const SurfacePoint& end,
                   std::vector<SurfacePoint>& parts) const;
     //! The same for a segment in one face of the input.

@@ -66,7 +66,7 @@ Part part_of(const Surface& whole, std::span<const Index> faces) {
     for (const Index v : vertices) {
         s.mesh.positions.push_back(whole.mesh.positions[v]);
         s.outgoing.push_back(moved(whole.outgoing[v]));
-        s.can_turn.push_back(whole.can_turn[v]);
+        s.can_be_pseudo_source.push_back(whole.can_be_pseudo_source[v]);
     }
     for (const Index e : edges) {
         s.edge_half.push_back(moved(whole.edge_half[e]));
@@ -90,7 +90,7 @@ FaceHistory make_simplicial(Part& part, FaceCharts& charts, std::span<const Inde
             const Index vertex = s.num_vertices();
             s.mesh.positions.push_back(Vec3::Zero());
             s.outgoing.push_back(no_index);
-            s.can_turn.push_back(0);
+            s.can_be_pseudo_source.push_back(0);
             for (const detail::EdgeSplit::Side& side :
                  detail::split_edge(s, charts, h, 0.5, vertex).side) {
                 if (side.half_edge != no_index) history.add_split(side.half_edge, side.new_face);

@@ -18,7 +18,8 @@ void bury(Surface& surface, Index face);
 void renew_face(Surface& surface, FaceCharts& charts, Index face);
 
 //! Cuts face (a, b, c) into (a, b, m), and the new faces (b, c, m) and (c, a, m).
-//! \param where  barycentric coordinates of m, > 0. \param vertex  m: without faces.
+//! \param where  barycentric coordinates of m, > 0.
+//! \param vertex  m: without faces.
 void insert_in_face(Surface& surface, FaceCharts& charts, Index face,
                     const std::array<double, 3>& where, Index vertex);
 

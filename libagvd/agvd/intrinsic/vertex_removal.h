@@ -11,7 +11,9 @@ namespace agvd::detail {
 
 //! Takes away every vertex whose number is no_index, those first that disturb least, and keeps the
 //! rest Delaunay. A vertex stays where the complex would not stay simplicial without it. See
-//! thin(). \param surface  simplicial; left with gaps. \return flips made.
+//! thin().
+//! \param surface  simplicial; left with gaps.
+//! \return flips made.
 std::size_t remove_vertices(Surface& surface, FaceCharts& charts, const std::vector<Index>& number);
 
 }  // namespace agvd::detail

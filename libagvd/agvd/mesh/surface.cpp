@@ -186,9 +186,9 @@ struct ConeAngle {
     static constexpr double tolerance = 1e-9;
 };
 
-void find_turning_vertices(Surface& surface, int num_threads, Poller& poller) {
-    surface.can_turn.resize(surface.num_vertices());
-    const auto find_turning = [&](Index, Index begin, Index end) {
+void find_pseudo_sources(Surface& surface, int num_threads, Poller& poller) {
+    surface.can_be_pseudo_source.resize(surface.num_vertices());
+    const auto find = [&](Index, Index begin, Index end) {
         for (Index v = begin; v < end; ++v) {
             const Index first = surface.outgoing[v];
             ConeAngle cone;
@@ -197,12 +197,12 @@ void find_turning_vertices(Surface& surface, int num_threads, Poller& poller) {
                 h = surface.twin[Surface::previous(h)];
                 if (h == first) break;
             }
-            const bool can_turn =
+            const bool can_be_pseudo_source =
                 surface.is_boundary_vertex(v) ? cone.exceeds_pi() : cone.exceeds_two_pi();
-            surface.can_turn[v] = can_turn ? 1 : 0;
+            surface.can_be_pseudo_source[v] = can_be_pseudo_source ? 1 : 0;
         }
     };
-    parallel_chunks(surface.num_vertices(), grain, num_threads, find_turning, poller);
+    parallel_chunks(surface.num_vertices(), grain, num_threads, find, poller);
 }
 
 }  // namespace
@@ -228,7 +228,7 @@ Surface build_surface(TriangleMesh mesh, Connectivity connectivity, int num_thre
     surface.outgoing = std::move(connectivity.outgoing);
     number_edges(surface, num_threads, poller);
     measure(surface, num_threads, poller);
-    find_turning_vertices(surface, num_threads, poller);
+    find_pseudo_sources(surface, num_threads, poller);
     return surface;
 }
 

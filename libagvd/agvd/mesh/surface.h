@@ -25,9 +25,10 @@ struct Surface {
     //! #V: a half-edge that leaves the vertex; on the boundary the one without twin, from which
     //! `previous` and `twin` walk through the whole one-ring. no_index for an isolated vertex.
     std::vector<Index> outgoing;
-    //! #V: 1 where a shortest path can turn: cone angle above 2 pi, on the boundary above pi. The
-    //! excess must pass 1e-9, so that flat vertices are not taken for saddles.
-    std::vector<std::uint8_t> can_turn;
+    //! #V: 1 where a shortest path may bend (a pseudo-source): cone angle above 2 pi, on the
+    //! boundary above pi. The excess must pass 1e-9, so that flat vertices are not taken for
+    //! saddles.
+    std::vector<std::uint8_t> can_be_pseudo_source;
 
     [[nodiscard]] Index num_vertices() const { return static_cast<Index>(mesh.positions.size()); }
     [[nodiscard]] Index num_faces() const { return static_cast<Index>(mesh.triangles.size()); }

@@ -346,7 +346,7 @@ private:
             for (const Index v : surface_.mesh.triangles[near]) {
                 __builtin_prefetch(&result_.vertex_site[v]);
                 __builtin_prefetch(&result_.vertex_distance[v]);
-                __builtin_prefetch(&surface_.can_turn[v]);
+                __builtin_prefetch(&surface_.can_be_pseudo_source[v]);
             }
         }
     }

@@ -55,8 +55,7 @@ struct RunChanges {
 //! Replaces a run by the last one of a front, and appends where they differ.
 //!
 //! \param is_other_place  the site has moved: all is told to differ, since its turn among other
-//! sites
-//!                        may be another, too.
+//!        sites may be another, too.
 void replace_run(const WindowFront& front, bool is_other_place, SiteRun& run, RunChanges& changes);
 
 //! Replaces a run by none.

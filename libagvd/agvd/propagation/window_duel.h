@@ -20,8 +20,7 @@ struct Duel {
 };
 
 //! \param low, high  an interval that both cover. Where they tie, b holds the ground, unless only a
-//! is
-//!                   served.
+//!        is served.
 [[nodiscard]] Duel fight(const Window& a, const Window& b, double low, double high);
 
 }  // namespace agvd

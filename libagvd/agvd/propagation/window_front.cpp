@@ -38,8 +38,8 @@ bool WindowFront::run_in(WindowQueue::Order order, const SurfacePoint& site, Ind
     edges_.clear();
     num_arrivals_ = 0;
     free_edge_ = no_index;
-    turns_.clear();
-    free_turn_ = no_index;
+    pseudo_sources_.clear();
+    free_pseudo_source_ = no_index;
     store_.clear();
     queue_.start(order);
     watched_.fill(no_index);
@@ -50,9 +50,9 @@ bool WindowFront::run_in(WindowQueue::Order order, const SurfacePoint& site, Ind
     start(site);
     for (Index item = next_item(); item != no_index; item = next_item()) {
         if (item % 2 == 1) {
-            const Turn turn = turns_[item / 2];
-            turns_[item / 2].vertex = std::exchange(free_turn_, item / 2);
-            emit(turn);
+            const PseudoSource source = pseudo_sources_[item / 2];
+            pseudo_sources_[item / 2].vertex = std::exchange(free_pseudo_source_, item / 2);
+            emit(source);
         } else {
             serve_edge(item / 2);
             if (edges_[item / 2].num_served > work_cap) return false;
@@ -63,7 +63,7 @@ bool WindowFront::run_in(WindowQueue::Order order, const SurfacePoint& site, Ind
 
 std::size_t WindowFront::bytes() const {
     return (vertex_slot_.capacity() + edge_slot_.capacity()) * sizeof(Index) + vertices_.bytes() +
-           edges_.bytes() + turns_.bytes() + store_.bytes() + queue_.bytes();
+           edges_.bytes() + pseudo_sources_.bytes() + store_.bytes() + queue_.bytes();
 }
 
 // --- Queue -------------------------------------------------------------------------------------
@@ -98,10 +98,10 @@ Index WindowFront::next_item() {
 
 // --- Vertices ----------------------------------------------------------------------------------
 
-// Arrivals within each other's error may turn at a vertex one after the other, and send each other
-// back and forth between vertices that lie closer than the error. After so many the whole fan is
-// emitted, which holds all their shadows.
-constexpr Index max_turns = 32;
+// Arrivals within each other's error may each make a vertex a pseudo-source, and send each other
+// back and forth between vertices that lie closer than the error. After so many the whole fan of
+// the vertex is emitted, which holds what any further one would emit.
+constexpr Index max_pseudo_sources = 32;
 
 Index WindowFront::vertex_record(Index vertex) {
     Index& slot = vertex_slot_[vertex];
@@ -118,23 +118,24 @@ void WindowFront::reach_vertex(Index record, double distance, float error, Index
     VertexRecord& v = vertices_[record];
     const bool is_nearest = distance < v.low;
     if (is_nearest) v.low = distance;
-    if (surface_.can_turn[v.vertex] == 0 || !(distance <= v.bound * (1 + grazing))) return;
+    if (surface_.can_be_pseudo_source[v.vertex] == 0) return;
+    if (!(distance <= v.bound * (1 + grazing))) return;
     // Of exact arrivals the nearest tells where the shadow lies; of others any may.
     if (!is_nearest && (max_error_ == 0 || distance == v.last_arrival)) return;
     v.last_arrival = distance;
-    if (++v.num_turns > max_turns) {
-        if (v.num_turns > max_turns + 1 && !is_nearest) return;
+    if (++v.num_pseudo_sources > max_pseudo_sources) {
+        if (v.num_pseudo_sources > max_pseudo_sources + 1 && !is_nearest) return;
         half_edge = no_index;
     }
-    const Turn turn{record, half_edge, arrival.x(), arrival.y(), distance};
-    Index place = free_turn_;
+    const PseudoSource source{record, half_edge, arrival.x(), arrival.y(), distance};
+    Index place = free_pseudo_source_;
     if (place == no_index) {
-        place = turns_.push(turn);
+        place = pseudo_sources_.push(source);
     } else {
-        free_turn_ = std::exchange(turns_[place], turn).vertex;
+        free_pseudo_source_ = std::exchange(pseudo_sources_[place], source).vertex;
     }
     Index bucket = no_index;
-    queue_.push(turn_item(place), distance, bucket);
+    queue_.push(pseudo_source_item(place), distance, bucket);
 }
 
 // --- Half-edges --------------------------------------------------------------------------------

@@ -134,7 +134,7 @@ private:
         double upper = infinity;         // Of a path from this site.
         double low = infinity;           // Least that a window gives.
         double last_arrival = infinity;  // The last one that may turn here,
-        Index num_turns = 0;             // and how many there were.
+        Index num_pseudo_sources = 0;    // and how many there were.
     };
     // What of a window goes on through the other two half-edges.
     struct Division {
@@ -145,8 +145,8 @@ private:
         Index run, count;
         double nearest;  // The least of their distances.
     };
-    // Paths that arrive at a vertex around which they may turn.
-    struct Turn {
+    // A path that arrives at a vertex around which it may bend.
+    struct PseudoSource {
         Index vertex;                 // Its record; of a free one the next.
         Index half_edge;              // Leaves the vertex; no_index: the direction is not known.
         double arrival_x, arrival_y;  // Towards where they come from, in the half-edge's frame.
@@ -157,7 +157,7 @@ private:
     void start(const SurfacePoint& site);
     [[nodiscard]] Index next_item();
     void prefetch(Index item) const;
-    [[nodiscard]] static constexpr Index turn_item(Index turn) { return 2 * turn + 1; }
+    [[nodiscard]] static constexpr Index pseudo_source_item(Index place) { return 2 * place + 1; }
     [[nodiscard]] static constexpr Index edge_item(Index record) { return 2 * record; }
     [[nodiscard]] Index vertex_record(Index vertex);
     void reach_vertex(Index record, double distance, float error, Index half_edge,
@@ -196,7 +196,7 @@ private:
                                         EdgeRecord& edge);
     template <auto part>
     [[nodiscard]] Arrivals pass_on(const WindowFace& face, Index most);
-    void emit(const Turn& turn);
+    void emit(const PseudoSource& source);
     bool emit_fan(Index first, const Vec2* from, Index last, const Vec2* to, const VertexRecord& v);
     void emit_into(Index half_edge, double weight, float error, const Vec2* from, const Vec2* to);
 
@@ -215,8 +215,8 @@ private:
     RunArray<EdgeRecord> edges_;
     Index num_arrivals_ = 0;  // Of half-edges; more than records if some were used again.
     Index free_edge_ = no_index;
-    RunArray<Turn> turns_;
-    Index free_turn_ = no_index;
+    RunArray<PseudoSource> pseudo_sources_;
+    Index free_pseudo_source_ = no_index;
     WindowStore store_;
     WindowQueue queue_;
     static constexpr Index most_watched_ahead = 15;

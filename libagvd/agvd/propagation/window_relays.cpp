@@ -14,7 +14,7 @@ bool is_source(const Surface& surface, const Propagation& result, Index half_edg
     const std::vector<Index>& unseen = result.vertices_off_windows;
     if (!unseen.empty() && std::binary_search(unseen.begin(), unseen.end(), v)) return true;
     return result.vertex_site[v].is_valid() &
-           ((surface.can_turn[v] != 0) |
+           ((surface.can_be_pseudo_source[v] != 0) |
             (result.vertex_distance[v] <= beside_vertex * surface.length_of(half_edge)));
 }
 

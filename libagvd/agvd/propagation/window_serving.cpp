@@ -223,8 +223,9 @@ inline double WindowFront::reach_apex(const Window& w, double ray, const WindowF
     // the other side in other directions.
     const bool touches = w.error > 0 && !(w.begin < ray && ray < w.end);
     const VertexRecord& apex = vertices_[face.apex_record];
-    const bool may_turn = max_error_ > 0 && surface_.can_turn[apex.vertex] != 0;
-    if (at_apex < apex.low || may_turn) {
+    const bool may_be_pseudo_source =
+        max_error_ > 0 && surface_.can_be_pseudo_source[apex.vertex] != 0;
+    if (at_apex < apex.low || may_be_pseudo_source) {
         reach_vertex(face.apex_record, at_apex, w.error,
                      touches ? no_index : Surface::previous(face.half_edge),
                      into(Vec2(-face.left_x, -face.left_y), to_image));

@@ -1,4 +1,4 @@
-// Where windows start: at sites, and at the vertices around which paths turn.
+// Where windows start: at sites, and at the vertices around which paths may bend.
 
 #include <algorithm>
 
@@ -94,11 +94,11 @@ void WindowFront::emit_into(Index half_edge, double weight, float error, const V
 
 // The shadow behind a saddle or boundary vertex: the directions that make an angle of pi or more
 // with the arrival on both sides. Faces are unfolded around the vertex one after the other.
-void WindowFront::emit(const Turn& turn) {
-    const VertexRecord v = vertices_[turn.vertex];
-    if (!(turn.distance <= v.bound * (1 + grazing))) return;
-    if (max_error_ == 0 && turn.distance > v.low) return;
-    if (turn.half_edge == no_index) {
+void WindowFront::emit(const PseudoSource& source) {
+    const VertexRecord v = vertices_[source.vertex];
+    if (!(source.distance <= v.bound * (1 + grazing))) return;
+    if (max_error_ == 0 && source.distance > v.low) return;
+    if (source.half_edge == no_index) {
         emit_fan(surface_.outgoing[v.vertex], nullptr, no_index, nullptr, v);
         return;
     }
@@ -106,23 +106,23 @@ void WindowFront::emit(const Turn& turn) {
     // Counter-clockwise: the arrival in the frame of each next half-edge turns clockwise, and has
     // turned by pi where it comes up again.
     Index first = no_index;
-    Vec2 from(turn.arrival_x, turn.arrival_y);
-    for (Index h = turn.half_edge; h != no_index;) {
+    Vec2 from(source.arrival_x, source.arrival_y);
+    for (Index h = source.half_edge; h != no_index;) {
         const Vec2 turned = into(corners_[h].turn, from);
-        if (h != turn.half_edge && from.y() <= 0 && turned.y() > 0) {
+        if (h != source.half_edge && from.y() <= 0 && turned.y() > 0) {
             first = h;
             break;
         }
         from = turned;
         h = corners_.twin(Surface::previous(h));
-        if (h == turn.half_edge) break;
+        if (h == source.half_edge) break;
     }
     // Clockwise, the other way round.
     Index last = no_index;
-    Vec2 to(turn.arrival_x, turn.arrival_y);
-    for (Index twin = corners_[turn.half_edge].twin; twin != no_index;) {
+    Vec2 to(source.arrival_x, source.arrival_y);
+    for (Index twin = corners_[source.half_edge].twin; twin != no_index;) {
         const Index h = Surface::next(twin);
-        if (h == turn.half_edge) break;
+        if (h == source.half_edge) break;
         const Vec2& corner = corners_[h].turn;
         const Vec2 turned(corner.x() * to.x() - corner.y() * to.y(),
                           corner.x() * to.y() + corner.y() * to.x());

@@ -25,7 +25,8 @@ public:
         next_block_ = 0;
         room_ = {};
     }
-    //! \param count  > 0. \return the name of a run, whose windows are to be written.
+    //! \param count  > 0.
+    //! \return the name of a run, whose windows are to be written.
     [[nodiscard]] Index take(Index count) {
         const int size_class = std::bit_width(count - 1);
         Index& free_run = free_runs_[static_cast<std::size_t>(size_class)];

@@ -11,7 +11,8 @@
 namespace remesh {
 
 //! \param edges    pairs of vertices of `mesh`.
-//! \param clean    of clean_input(mesh). \param surface  of clean.mesh.
+//! \param clean    of clean_input(mesh).
+//! \param surface  of clean.mesh.
 //! \return #E of the surface: 1 for those that the given edges are now; those whose faces cleaning
 //!         has split elsewhere are none.
 //! \throw agvd::InvalidInput  a pair is no edge of the mesh; the text names it.

@@ -27,9 +27,8 @@ struct CleanResult {
 //!    collapse.
 //! 2. Faces with a repeated corner and duplicate faces (the first stays) are dropped.
 //! 3. Faces that hang together through edges of two faces are oriented alike. What was consistent
-//! is
-//!    not turned; else the side of a clear majority (3/4) wins, then for closed pieces the outside,
-//!    for open ones the larger part.
+//!    is not turned; else the side of a clear majority (3/4) wins, then for closed pieces the
+//!    outside, for open ones the larger part.
 //! 4. At an edge of more than two faces those pairs stay together that make the flattest sheet (a
 //!    convex one among equals); the others are cut off.
 //! 5. A face without area in double (its corners on one line) is absorbed: its longest edge is

@@ -35,7 +35,8 @@ struct Curve {
     [[nodiscard]] bool is_closed() const { return begin == agvd::no_index; }
     [[nodiscard]] bool is_junction() const { return num_sheets > 1; }
     [[nodiscard]] bool is_crease() const { return !is_junction() && sides.size() == 2; }
-    //! The vertex before edge i, or after the last one. \param i  at most num_edges().
+    //! The vertex before edge i, or after the last one.
+    //! \param i  at most num_edges().
     [[nodiscard]] agvd::Index vertex(const agvd::Surface& surface, std::size_t i,
                                      std::size_t side = 0) const;
 };
@@ -68,7 +69,9 @@ struct CurveNetwork {
 //! Vertices (see Curve::vertex) where a curve turns by more than 45 degrees: at the vertex itself,
 //! and between the chords to the points half a spacing before and after it, so that a rough curve
 //! has no corners that sites at this spacing could not follow. Of several within half a spacing the
-//! sharpest, and none so near an end. \return ascending. Cost: O(k log k + k c), c = corners.
+//! sharpest, and none so near an end.
+//! \return ascending.
+//! Cost: O(k log k + k c), c = corners.
 [[nodiscard]] std::vector<std::size_t> corners_of_curve(const agvd::Surface& surface,
                                                         const Curve& curve, double spacing);
 

@@ -22,8 +22,8 @@ namespace remesh {
 //! The temporary is removed on every failure. Signals: nothing is on disk but during this call, and
 //! a signal whose handler returns (such as one that sets a flag for the progress callbacks) does
 //! not disturb it. Only a signal that ends the process at once (SIGKILL; SIGINT or SIGTERM without
-//! a handler) can leave a `.remesh-PID-N.tmp` behind; the target is whole even then. \throw
-//! agvd::IoError  naming the path and the system's reason.
+//! a handler) can leave a `.remesh-PID-N.tmp` behind; the target is whole even then.
+//! \throw agvd::IoError  naming the path and the system's reason.
 //! \throw agvd::Cancelled  the progress callback returned false: the target is as it was, the
 //!        temporary is gone. A pipe may have got a part.
 void write_file_atomically(const std::filesystem::path& path, std::string_view bytes,
@@ -42,7 +42,8 @@ void write_files_atomically(std::span<const FileContent> files,
                             const agvd::Progress& progress = {});
 
 //! Finds out before a long computation whether write_file_atomically can begin: creates and removes
-//! the temporary file. \throw agvd::IoError  as above.
+//! the temporary file.
+//! \throw agvd::IoError  as above.
 void require_writable(const std::filesystem::path& path);
 
 }  // namespace remesh

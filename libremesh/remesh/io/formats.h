@@ -40,7 +40,8 @@ struct MeshFormat {
 //! The format of the path's extension (any case), or nullptr.
 [[nodiscard]] const MeshFormat* find_format(const std::filesystem::path& path);
 
-//! As find_format. \throw agvd::IoError  unknown; lists the extensions there are.
+//! As find_format.
+//! \throw agvd::IoError  unknown; lists the extensions there are.
 [[nodiscard]] const MeshFormat& require_format(const std::filesystem::path& path);
 
 }  // namespace remesh

@@ -26,8 +26,9 @@ struct FromOpenMesh {
 };
 
 //! Copies vertices and faces in their order; deleted ones are skipped, whether or not the garbage
-//! was collected. Isolated vertices stay. Coordinates are converted to double. \throw
-//! agvd::InvalidInput  a coordinate is not finite; the text names the vertex. Cost: O(n).
+//! was collected. Isolated vertices stay. Coordinates are converted to double.
+//! \throw agvd::InvalidInput  a coordinate is not finite; the text names the vertex.
+//! Cost: O(n).
 template <OpenMeshTriangles Mesh>
 [[nodiscard]] FromOpenMesh from_openmesh(const Mesh& source) {
     FromOpenMesh result;
@@ -71,8 +72,9 @@ struct ToOpenMesh {
 
 //! Copies all vertices, and the faces that fit, in order. Nothing is torn: a face that OpenMesh
 //! would refuse, or attach to doubled vertices as its file readers do, is left out and reported.
-//! What remesh::remesh returns fits whole. \throw agvd::InvalidInput  an index is out of range; the
-//! text names the face. Cost: O(n) for bounded valence.
+//! What remesh::remesh returns fits whole.
+//! \throw agvd::InvalidInput  an index is out of range; the text names the face.
+//! Cost: O(n) for bounded valence.
 [[nodiscard]] ToOpenMesh to_openmesh(const agvd::MeshView& mesh);
 
 }  // namespace remesh

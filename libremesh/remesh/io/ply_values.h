@@ -120,7 +120,8 @@ void skip_property(Values& values, const PlyProperty& property, const SourceFile
     values.skip(property.type, property.size_type ? read_length(values, property, file) : 1);
 }
 
-//! Passes over a whole element. \param index  which one, for errors.
+//! Passes over a whole element.
+//! \param index  which one, for errors.
 template <typename Values>
 void skip_element(Values& values, const PlyElement& element, std::uint64_t index,
                   const SourceFile& file) {

@@ -22,7 +22,8 @@ public:
     //! Makes room for what the file announces, as far as its size makes that believable.
     void reserve(std::uint64_t vertices, std::uint64_t polygons);
 
-    //! Adds a corner, counted from 0, to the polygon in work. \param offset  its place in the file.
+    //! Adds a corner, counted from 0, to the polygon in work.
+    //! \param offset  its place in the file.
     //! \throw agvd::InvalidInput  it is negative or beyond any index.
     void add_corner(std::int64_t vertex, std::size_t offset);
 

@@ -14,13 +14,10 @@ namespace remesh {
 //! is cut along the shorter of its inner diagonals, a larger polygon by clipping ears.
 //!
 //! \throw agvd::IoError       the file is missing, empty, unreadable, truncated, goes on behind
-//! what
-//!        its header announces (but for a few stray bytes, which are a warning) or malformed, or
-//! the
-//!        extension is unknown; the text names the file, the line (or byte) and the remedy.
+//!        what its header announces (but for a few stray bytes, which are a warning) or malformed,
+//!        or the extension is unknown; the text names the file, the line (or byte) and the remedy.
 //! \throw agvd::InvalidInput  the file reads well but is no usable mesh: no face (a point cloud),
-//! an
-//!        index out of range, a coordinate that is not finite; the text names file and element.
+//!        an index out of range, a coordinate that is not finite; the text names file and element.
 //! Cost: O(file size), and O(k^2) for each polygon of k corners. Memory follows the size of the
 //! file, never a count that it announces.
 //! \throw agvd::Cancelled     the progress callback returned false.

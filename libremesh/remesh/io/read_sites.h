@@ -25,8 +25,7 @@ namespace remesh {
 //!
 //! \param mesh  #V x 3 positions, finite; #F x 3 indices, in range; may be dirty otherwise.
 //! \throw agvd::IoError       the file cannot be read, a line is none of these, or there is no
-//! site;
-//!        the text names the file, the line and the remedy.
+//!        site; the text names the file, the line and the remedy.
 //! \throw agvd::InvalidInput  an index is out of range, a vertex is in no face, a coordinate is not
 //!        finite, or barycentric coordinates are negative or do not sum to 1; names file and line.
 //! Cost: O(file size), and O(#F log #F) once for the first `p`.

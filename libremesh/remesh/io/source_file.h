@@ -23,8 +23,9 @@ struct SourceFile {
     //! Throws agvd::IoError: the bytes are no file of this format.
     [[noreturn]] void fail_malformed(std::size_t offset, const std::string& text) const;
     //! What is left behind the last element that the header announces: whole elements throw
-    //! agvd::IoError unless is_lenient. \return a warning of them, or of a few stray bytes; empty:
-    //! there is nothing but blanks in a text.
+    //! agvd::IoError unless is_lenient.
+    //! \return a warning of them, or of a few stray bytes; empty: there is nothing but blanks in a
+    //!        text.
     //! \param num_more  whole elements for which there is room; in a text lines are counted
     //! instead.
     [[nodiscard]] std::string judge_rest(std::size_t offset, const char* kind,

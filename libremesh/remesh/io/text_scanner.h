@@ -85,7 +85,8 @@ public:
         return value;
     }
 
-    //! The next whole number of this line. \param stop  may follow it like a blank.
+    //! The next whole number of this line.
+    //! \param stop  may follow it like a blank.
     std::int64_t integer(const char* what, char stop = ' ') {
         skip_blanks();
         std::int64_t value = 0;

@@ -15,8 +15,7 @@ namespace remesh {
 //! format's nature).
 //!
 //! \throw agvd::IoError       the extension is unknown or the file cannot be written; says which
-//! and
-//!        why.
+//!        and why.
 //! \throw agvd::InvalidInput  read_mesh could not read it back: an index is out of range, a
 //!        coordinate is not finite (STL: beyond float).
 //! Cost: O(n) time; holds the whole file in memory.

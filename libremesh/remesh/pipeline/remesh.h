@@ -14,10 +14,11 @@ namespace remesh {
 //! genus and boundary loops, and with num_samples vertices (or those of `sites` that own
 //! something): checked before it is returned. A junction of k sheets has k vertices at one point;
 //! with Junctions::Keep the mesh is one of these sheets, welded. docs/algorithm.md says why this
-//! always ends well. \param mesh  #V x 3 positions, #F x 3 indices; read only during the call; may
-//! be dirty. \throw agvd::InvalidOption    an option is out of range. \throw agvd::InvalidInput the
-//! mesh cannot be repaired (see clean_input), a given site is not
-//!        on it, or a feature edge is none of its edges.
+//! always ends well.
+//! \param mesh  #V x 3 positions, #F x 3 indices; read only during the call; may be dirty.
+//! \throw agvd::InvalidOption    an option is out of range.
+//! \throw agvd::InvalidInput the mesh cannot be repaired (see clean_input), a given site is not on
+//!        it, or a feature edge is none of its edges.
 //! \throw agvd::ConstraintUnmet  num_samples is too small for the topology; the text gives a number
 //!        that was tried and works.
 //! \throw agvd::Cancelled        the progress callback returned false.

@@ -30,8 +30,9 @@ struct RightTriangle {
     }
 };
 
-// \param edge       from the site that has it; the triangle lies on its left. \param up  its
-// normal. \param cotangent  of the angle opposite.
+// \param edge       from the site that has it; the triangle lies on its left.
+// \param up  its normal.
+// \param cotangent  of the angle opposite.
 RightTriangle right_triangle(const Vec3& edge, const Vec3& up, double cotangent, double density) {
     RightTriangle result;
     const double squared_length = edge.squaredNorm();

@@ -17,7 +17,8 @@ namespace remesh::detail {
 
 //! The sites' triangulation by labels; exactly where faces are too large for those.
 //!
-//! \param labels  of the base's vertices. \param chain  edges that are to be on its rim.
+//! \param labels  of the base's vertices.
+//! \param chain  edges that are to be on its rim.
 [[nodiscard]] std::vector<agvd::Triangle> triangulate_sites(
     const PreparedSurface& prepared, const agvd::DistanceBounds& labels,
     std::span<const agvd::SurfacePoint> sites, std::span<const ChainEdge> chain, int num_threads,

@@ -11,9 +11,8 @@ namespace remesh {
 struct PreparedSurface {
     //! \param input    outlives this.
     //! \param spacing  mean distance of the sites, > 0: the base's edges are not much longer, and
-    //! vertices
-    //!                 without curvature not much closer. Infinity: its vertices are those of the
-    //!                 input.
+    //!        vertices without curvature not much closer. Infinity: its vertices are those of the
+    //!        input.
     //! \throw agvd::Cancelled  the progress callback returned false.
     //! Cost: that of the base, and O(#F) for the rest. Some 280 bytes for each face of the base.
     PreparedSurface(const agvd::Surface& input, double spacing, int num_threads = 0,
@@ -35,7 +34,8 @@ struct PreparedSurface {
 //! Carries numbers of the input's components over to the base's faces.
 //!
 //! \param of_face  #F of the input: equal on all faces that hang together.
-//! \return #F of the base. \throw agvd::Cancelled  the progress callback returned false.
+//! \return #F of the base.
+//! \throw agvd::Cancelled  the progress callback returned false.
 //! Cost: O(#F).
 [[nodiscard]] std::vector<agvd::Index> parts_of_base(const agvd::IntrinsicTriangulation& base,
                                                      std::span<const agvd::Index> of_face,

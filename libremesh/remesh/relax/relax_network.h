@@ -16,8 +16,8 @@ struct NetworkSites {
 //! As many sites as asked for, those of curves counted as often as vertices come of them, and
 //! relaxes them, coarse to fine: those of curves slide along these.
 //!
-//! \param surface   of plan.cut.surface. \param plan  its network needs no more than
-//!                  sampling.num_samples vertices.
+//! \param surface   of plan.cut.surface.
+//! \param plan  its network needs no more than sampling.num_samples vertices.
 //! \param options   boundary and corners do not count.
 //! \throw as sample_relaxed_sites.
 [[nodiscard]] NetworkSites sample_network_sites(const PreparedSurface& surface,

@@ -34,7 +34,8 @@ public:
 
     //! Sites of curves, which come first, slide along these from now on, those at nodes stay.
     //!
-    //! \param network  outlives this. \param curves  its sites: the first ones of all.
+    //! \param network  outlives this.
+    //! \param curves  its sites: the first ones of all.
     void hold(const CurveNetwork& network, CurveSites curves);
 
     //! By what the cells hold of the surface.

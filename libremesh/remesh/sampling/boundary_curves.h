@@ -7,8 +7,9 @@
 
 namespace remesh {
 
-//! corners_of_curve for a loop of agvd::boundary_loops. \param spacing  > 0, mesh units. \return
-//! vertices, in the loop's order.
+//! corners_of_curve for a loop of agvd::boundary_loops.
+//! \param spacing  > 0, mesh units.
+//! \return vertices, in the loop's order.
 [[nodiscard]] std::vector<agvd::Index> find_corners(const agvd::Surface& surface,
                                                     const std::vector<agvd::Index>& loop,
                                                     double spacing);

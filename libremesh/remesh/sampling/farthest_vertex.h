@@ -28,7 +28,8 @@ public:
     [[nodiscard]] bool is_empty() const { return queue_.empty(); }
 
     //! The farthest vertex of those left (at infinity where no site reaches; of equals the highest
-    //! index), which is left no more. \pre not empty.
+    //! index), which is left no more.
+    //! \pre not empty.
     //! Cost: O(log #V) for each vertex that has come nearer since.
     [[nodiscard]] agvd::Index pop() {
         while (true) {

@@ -23,7 +23,8 @@ struct NetworkPlan {
 //! are so many. Where these are too few for all curves, the shortest creases go first; where they
 //! are too few for the junctions alone, these go at once.
 //!
-//! \param is_crease   #E. \param num_vertices  of the result: see num_curve_vertices.
+//! \param is_crease   #E.
+//! \param num_vertices  of the result: see num_curve_vertices.
 //! \param drop_share  in [0, 1]: of the creases, shortest first, that go whatever there is.
 //! \return without curves if there is neither crease nor junction, or none is left.
 //! \throw agvd::Cancelled  the progress callback returned false.

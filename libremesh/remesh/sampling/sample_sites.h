@@ -46,9 +46,8 @@ struct SamplingOptions {
 //! \throw agvd::InvalidOption    num_samples < 1 or > 8e8, or num_threads < 0.
 //! \throw agvd::InvalidInput     the surface has no face.
 //! \throw agvd::ConstraintUnmet  num_samples is below the sum of minimum_samples over the
-//! components
-//!        (the text gives that sum), or a component is too small, compared with its coordinates, to
-//!        hold its share of different points.
+//!        components (the text gives that sum), or a component is too small, compared with its
+//!        coordinates, to hold its share of different points.
 //! \throw agvd::Cancelled        the progress callback returned false.
 //! Cost: O(#F + N log N); farthest points O((#F + N) log(#F + N) log N), a few seconds for 20 000
 //! on 100 000 faces.

@@ -9,7 +9,8 @@ namespace remesh {
 //! agvd::thin; vertices that it leaves besides the points go by collapses, if they can: beside a
 //! curve no patch may have vertices that the patch across lacks.
 //!
-//! \param surface  may be a Delta-complex. \param faces  ascending: one component of it.
+//! \param surface  may be a Delta-complex.
+//! \param faces  ascending: one component of it.
 //! \param points   of these faces, no two at one place.
 //! Cost: as agvd::thin.
 [[nodiscard]] agvd::ThinnedMesh thin_patch(const agvd::Surface& surface,
