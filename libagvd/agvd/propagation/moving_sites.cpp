@@ -84,7 +84,7 @@ public:
         if (sites_.has_placed() || !placement_.is_empty()) placement_ = {surface_, sites()};
         const std::vector<Index> dirty = find_dirty();
         num_propagated_ = static_cast<Index>(std::count_if(
-            dirty.begin(), dirty.end(), [&](Index site) { return !sites_.is_silent(site); }));
+            dirty.begin(), dirty.end(), [&](Index site) { return !sites_.owns_nothing(site); }));
         propagate(dirty);
 
         take_changes(dirty);
@@ -147,7 +147,7 @@ private:
             out.ends.clear();
             for (Index i = begin; i < end; ++i) {
                 const Index site = sites[i];
-                if (sites_.is_silent(site)) {
+                if (sites_.owns_nothing(site)) {
                     forget_run(runs_[site], out.changes);
                 } else {
                     front->run(sites_.point(site), sites_.bounds(), default_work_cap);

@@ -34,7 +34,7 @@ public:
     //! no_index: removed.
     [[nodiscard]] Index rank(Index number) const { return ranks_[number]; }
     //! Owns nothing: it is removed, or lies where an earlier one does.
-    [[nodiscard]] bool is_silent(Index number) const {
+    [[nodiscard]] bool owns_nothing(Index number) const {
         return sources_[number].is_removed || sources_[number].is_repeat;
     }
     //! In the order in which propagate() takes sites in.
@@ -50,7 +50,7 @@ public:
 
     // What the last change did.
 
-    //! By number: 1 for the sites that came, went, moved, fell silent or do no more.
+    //! By number: 1 for the sites that came, went, moved, or began or ceased to own nothing.
     [[nodiscard]] const std::vector<std::uint8_t>& is_changed() const { return is_changed_; }
     //! The faces in which these lay and lie, in any order.
     [[nodiscard]] const std::vector<Index>& changed_faces() const { return changed_faces_; }

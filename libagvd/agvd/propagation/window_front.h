@@ -133,7 +133,7 @@ private:
         double bound;                    // The lower of that and `upper`.
         double upper = infinity;         // Of a path from this site.
         double low = infinity;           // Least that a window gives.
-        double last_arrival = infinity;  // The last one that may turn here,
+        double last_arrival = infinity;  // The last one that may bend here,
         Index num_pseudo_sources = 0;    // and how many there were.
     };
     // What of a window goes on through the other two half-edges.

@@ -1,5 +1,5 @@
 //! \file
-//! In which order half-edges are served and paths turn.
+//! The order in which half-edges are served and pseudo-sources emit.
 #pragma once
 
 #include <algorithm>

@@ -28,7 +28,7 @@ struct FaceRelays {
     }
 };
 
-//! Relays that start in a face itself: its placed sites, and corners that are sites or turn paths,
+//! Relays that start in a face itself: its placed sites, and corners that are sites or pseudo-sources,
 //! at the distances of `result`.
 [[nodiscard]] Index count_inner_relays(const Surface& surface, std::span<const PlacedSite> placed,
                                        const Propagation& result, Index face);

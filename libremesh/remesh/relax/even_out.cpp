@@ -143,7 +143,7 @@ public:
             area_ += components_[c].area();
         }
         is_moved_.assign(sites.size(), 0);
-        find_homeless();
+        find_surplus();
     }
 
     Index run(const agvd::SurfaceLayout& layout, int num_threads, const agvd::Progress& progress) {
@@ -173,7 +173,7 @@ public:
 
 private:
     // Sites on one spot: but for one, they wait for a region.
-    void find_homeless() {
+    void find_surplus() {
         const double cell = same_place * std::sqrt(area_ / static_cast<double>(sites_.size()));
         std::unordered_set<Vec3, agvd::PositionHash> taken;
         for (const bool moves : {false, true}) {
@@ -181,10 +181,10 @@ private:
                 if ((may_move_[i] != 0) != moves) continue;
                 const Vec3 at = agvd::position(base_.input().mesh.view(), sites_[i]) / cell;
                 const Vec3 key(std::round(at.x()), std::round(at.y()), std::round(at.z()));
-                if (!taken.insert(key).second && moves) homeless_.push_back(i);
+                if (!taken.insert(key).second && moves) surplus_.push_back(i);
             }
         }
-        for (const Index i : homeless_) is_moved_[i] = 1;
+        for (const Index i : surplus_) is_moved_[i] = 1;
     }
 
     // Of the sites that each component has, by area.
@@ -204,11 +204,11 @@ private:
         const auto num_sites = static_cast<Index>(sites_.size());
         std::vector<std::vector<Index>> residents(regions.size());  // Ascending.
         std::vector<std::uint8_t> waits(num_sites, 0);
-        for (const Index i : homeless_) waits[i] = 1;
+        for (const Index i : surplus_) waits[i] = 1;
         for (Index i = 0; i < num_sites; ++i) {
             if (waits[i] == 0) residents[regions.of_face[on_base_[i].face.value()]].push_back(i);
         }
-        if (homeless_.empty() && is_even(residents, shares)) return;
+        if (surplus_.empty() && is_even(residents, shares)) return;
 
         const std::vector<Index> quota = apportion(shares, num_sites);
         std::vector<double> missing;
@@ -221,15 +221,15 @@ private:
         }
         if (num_missing == 0) return;
         // Fewer than are missing where some that are too many may not move.
-        const std::vector<Index> gets = apportion(missing, static_cast<Index>(homeless_.size()));
+        const std::vector<Index> gets = apportion(missing, static_cast<Index>(surplus_.size()));
         Index next = 0;
         for (Index r = 0; r < regions.size(); ++r) {
             for (Index k = 0; k < gets[r]; ++k, ++next) {
-                on_base_[homeless_[next]] = regions.draw(r, stream, next);
-                sites_[homeless_[next]] = base_.to_input(on_base_[homeless_[next]]);
+                on_base_[surplus_[next]] = regions.draw(r, stream, next);
+                sites_[surplus_[next]] = base_.to_input(on_base_[surplus_[next]]);
             }
         }
-        homeless_.clear();
+        surplus_.clear();
     }
 
     [[nodiscard]] static bool is_even(const std::vector<std::vector<Index>>& residents,
@@ -253,7 +253,7 @@ private:
         std::sort(order.begin(), order.end());
         order.resize(std::min<std::size_t>(order.size(), count));
         for (const auto& [bits, i] : order) {
-            homeless_.push_back(i);
+            surplus_.push_back(i);
             is_moved_[i] = 1;
         }
     }
@@ -267,7 +267,7 @@ private:
     double area_ = 0;
     std::vector<std::uint8_t> may_move_;  // #sites
     std::vector<std::uint8_t> is_moved_;  // #sites
-    std::vector<Index> homeless_;
+    std::vector<Index> surplus_;
 };
 
 }  // namespace
