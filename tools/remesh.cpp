@@ -140,7 +140,7 @@ void add_options(CLI::App& app, Arguments& arguments) {
         ->type_name("PERCENT")
         ->capture_default_str();
     app.add_flag("--strict", arguments.strict,
-                 "Fail where the result runs through itself and the input does not");
+                 "Fail where the result self-intersects and the input does not");
     app.add_option("--relax,--lloyd", arguments.relax_steps,
                    "Steps of Lloyd relaxation; 0: the dual of the sites as sampled")
         ->check(CLI::Range(0, 1'000'000).description(""))
@@ -164,7 +164,7 @@ void judge(const remesh::RemeshResult& result, bool strict, cli::Console& consol
     const agvd::Index pairs = result.self_intersections.value_or(0);
     if (pairs <= result.input_self_intersections) return;
     const std::string text = "the result has " + std::to_string(pairs) +
-                             " pairs of faces that run through each other, the input " +
+                             " pairs of intersecting faces, the input " +
                              std::to_string(result.input_self_intersections) +
                              "; ask for more samples";
     if (strict) throw agvd::ConstraintUnmet(text + ", or leave --strict out");

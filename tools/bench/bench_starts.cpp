@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "agvd/core/random.h"
+#include "agvd/mesh/uniform_points.h"
 #include "agvd/propagation/propagate.h"
 #include "bench/report.h"
 #include "cli.h"
@@ -49,9 +50,8 @@ std::vector<SurfacePoint> around(const Surface& surface, const SurfacePoint& spo
         const double at = random_unit(3, 0, i) * area_up_to.back();
         const auto up_to = std::upper_bound(area_up_to.begin() + 1, area_up_to.end() - 1, at);
         const Index f = faces[static_cast<std::size_t>(up_to - area_up_to.begin()) - 1].second;
-        const double root = std::sqrt(random_unit(3, 1, i));
-        const double v = root * random_unit(3, 2, i);
-        sites.push_back({FaceId(f), {1 - root, root - v, v}});
+        sites.push_back(
+            {FaceId(f), uniform_barycentric(random_unit(3, 1, i), random_unit(3, 2, i))});
     }
     return sites;
 }

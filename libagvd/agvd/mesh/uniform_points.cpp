@@ -20,11 +20,8 @@ std::vector<SurfacePoint> uniform_points(const Surface& surface, Index count, st
         const double share = random_unit(seed, 0, i) * area;
         const auto found = std::upper_bound(area_up_to.begin(), area_up_to.end(), share);
         const auto face = std::min(found - area_up_to.begin(), std::ssize(area_up_to) - 1);
-        // The square root makes up for the triangle's width growing away from corner 0.
-        const double away = std::sqrt(1 - random_unit(seed, 1, i));
-        const double across = random_unit(seed, 2, i);
         points[i] = {FaceId(static_cast<Index>(face)),
-                     {1 - away, away * (1 - across), away * across}};
+                     uniform_barycentric(1 - random_unit(seed, 1, i), random_unit(seed, 2, i))};
     }
     return points;
 }

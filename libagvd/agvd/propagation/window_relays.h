@@ -28,8 +28,8 @@ struct FaceRelays {
     }
 };
 
-//! Relays that start in a face itself: its placed sites, and corners that are sites or pseudo-sources,
-//! at the distances of `result`.
+//! Relays that start in a face itself: its placed sites, and corners that are sites or
+//! pseudo-sources, at the distances of `result`.
 [[nodiscard]] Index count_inner_relays(const Surface& surface, std::span<const PlacedSite> placed,
                                        const Propagation& result, Index face);
 //! \param out  room for as many as count_inner_relays says.

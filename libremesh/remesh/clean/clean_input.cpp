@@ -128,18 +128,18 @@ bool drop_repeated_corners(Soup& soup) {
 }
 
 // Duplicates are neighbours in every one of their edges, and have the same third corner there.
-bool drop_duplicates(Soup& soup, std::span<const EdgeUse> uses) {
+bool drop_duplicates(Soup& soup, std::span<const EdgeSide> sides) {
     std::vector<bool> is_dead(soup.triangles.size(), false);
     std::vector<std::pair<Index, Index>> sheets;  // (third corner, face)
-    for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
+    for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
         soup.ticker.tick(edge.size());
         if (edge.size() < 2) return;
         if (edge.size() == 2 && soup.apex(edge[0].half_edge) != soup.apex(edge[1].half_edge)) {
             return;  // By far the most frequent case.
         }
         sheets.clear();
-        for (const EdgeUse& use : edge) {
-            sheets.emplace_back(soup.apex(use.half_edge), use.half_edge / 3);
+        for (const EdgeSide& side : edge) {
+            sheets.emplace_back(soup.apex(side.half_edge), side.half_edge / 3);
         }
         std::sort(sheets.begin(), sheets.end());
         for (std::size_t i = 1; i < sheets.size(); ++i) {
@@ -189,17 +189,17 @@ CleanResult clean_input(const agvd::MeshView& mesh, int num_threads,
     }
     Soup soup = as_soup(mesh, ticker);
 
-    std::vector<EdgeUse> uses = edge_uses(soup);
+    std::vector<EdgeSide> sides = sorted_edge_sides(soup.triangles, soup.ticker);
     const auto refresh = [&](bool is_changed) {
-        if (is_changed) uses = edge_uses(soup);
+        if (is_changed) sides = sorted_edge_sides(soup.triangles, soup.ticker);
     };
-    refresh(weld_cracks(soup, uses));
+    refresh(weld_cracks(soup, sides));
     const bool is_collapsed = collapse_zero_edges(soup);
     refresh(drop_repeated_corners(soup) || is_collapsed);
-    refresh(drop_duplicates(soup, uses));
+    refresh(drop_duplicates(soup, sides));
     check_not_empty(soup);
-    refresh(orient_faces(soup, uses));
-    std::vector<agvd::Index> twin = pair_sheets(soup, uses);
+    refresh(orient_faces(soup, sides));
+    std::vector<agvd::Index> twin = pair_sheets(soup, sides);
     remove_flat_faces(soup, twin);
     check_not_empty(soup);
     split_vertices(soup, twin);

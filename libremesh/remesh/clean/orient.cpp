@@ -79,10 +79,10 @@ bool first_side_yields(const Soup& soup, const Patch& patch, const std::vector<b
 
 }  // namespace
 
-bool orient_faces(Soup& soup, std::span<const EdgeUse> uses) {
+bool orient_faces(Soup& soup, std::span<const EdgeSide> sides) {
     std::vector<Index> across(soup.num_half_edges(), no_index);
     bool is_consistent = true;
-    for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
+    for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
         soup.ticker.tick();
         if (edge.size() != 2) return;
         const Index a = edge[0].half_edge, b = edge[1].half_edge;

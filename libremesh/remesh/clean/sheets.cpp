@@ -33,16 +33,16 @@ double flatness(const Soup& soup, Index a, Index b) {
     return normal_a.dot(normal_b) + (normal_a.dot(up_b) < 0 ? convex_bonus : 0);
 }
 
-void pair_flattest(const Soup& soup, std::span<const EdgeUse> edge, std::vector<Index>& twin) {
+void pair_flattest(const Soup& soup, std::span<const EdgeSide> edge, std::vector<Index>& twin) {
     if (edge.size() > most_sheets) return;
     struct Pair {
         double flatness;
         Index a, b;
     };
     std::vector<Pair> pairs;
-    for (const EdgeUse& up : edge) {
+    for (const EdgeSide& up : edge) {
         if (!soup.runs_up(up.half_edge)) continue;
-        for (const EdgeUse& down : edge) {
+        for (const EdgeSide& down : edge) {
             if (soup.runs_up(down.half_edge)) continue;
             const Index a = up.half_edge, b = down.half_edge;
             pairs.push_back({flatness(soup, a, b), a, b});
@@ -90,16 +90,16 @@ void separate_fans(Soup& soup, const std::vector<Index>& twin) {
 }
 
 // Is `edge` what its twins say, seen by vertex indices alone?
-bool is_told_by_indices(const Soup& soup, std::span<const EdgeUse> edge) {
+bool is_told_by_indices(const Soup& soup, std::span<const EdgeSide> edge) {
     if (edge.size() == 1) return true;
     return edge.size() == 2 && soup.runs_up(edge[0].half_edge) != soup.runs_up(edge[1].half_edge);
 }
 
 }  // namespace
 
-std::vector<Index> pair_sheets(Soup& soup, std::span<const EdgeUse> uses) {
+std::vector<Index> pair_sheets(Soup& soup, std::span<const EdgeSide> sides) {
     std::vector<Index> twin(soup.num_half_edges(), no_index);
-    for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
+    for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
         soup.ticker.tick(edge.size());
         if (edge.size() == 2) join(twin, edge[0].half_edge, edge[1].half_edge);
         if (edge.size() <= 2) return;
@@ -119,19 +119,21 @@ void split_vertices(Soup& soup, std::vector<Index>& twin) {
     if (counts.split_edges + counts.absorbed_faces + counts.degenerate_faces == 0) return;
     for (bool is_first_round = true;; is_first_round = false) {
         bool is_clear = true;
-        for_each_edge(edge_uses(soup), [&](std::span<const EdgeUse> edge) {
-            soup.ticker.tick();
-            if (is_told_by_indices(soup, edge)) return;
-            is_clear = false;
-            for (const EdgeUse& use : edge) {
-                const Index first = 3 * (use.half_edge / 3);
-                for (Index h = first; h < first + 3; ++h) {
-                    if ((is_first_round && h != use.half_edge) || twin[h] == no_index) continue;
-                    twin[twin[h]] = no_index;
-                    twin[h] = no_index;
+        for_each_edge(
+            sorted_edge_sides(soup.triangles, soup.ticker), [&](std::span<const EdgeSide> edge) {
+                soup.ticker.tick();
+                if (is_told_by_indices(soup, edge)) return;
+                is_clear = false;
+                for (const EdgeSide& side : edge) {
+                    const Index first = 3 * (side.half_edge / 3);
+                    for (Index h = first; h < first + 3; ++h) {
+                        if ((is_first_round && h != side.half_edge) || twin[h] == no_index)
+                            continue;
+                        twin[twin[h]] = no_index;
+                        twin[h] = no_index;
+                    }
                 }
-            }
-        });
+            });
         if (is_clear) return;
         separate_fans(soup, twin);
     }

@@ -1,36 +1,9 @@
 #include "remesh/clean/soup.h"
 
-#include <algorithm>
-#include <tuple>
-
-#include "agvd/core/bucket_sort.h"
-
 namespace remesh::detail {
 
 using agvd::Index;
 using agvd::no_index;
-
-std::vector<EdgeUse> sort_edge_uses(const std::vector<EdgeUse>& uses, Index num_vertices,
-                                    agvd::Ticker ticker) {
-    return agvd::sort_in_buckets(
-        uses, num_vertices, [](const EdgeUse& use) { return use.low; },
-        [](const EdgeUse& a, const EdgeUse& b) {
-            return std::tie(a.high, a.half_edge) < std::tie(b.high, b.half_edge);
-        },
-        ticker);
-}
-
-std::vector<EdgeUse> edge_uses(const Soup& soup) {
-    std::vector<EdgeUse> uses(soup.num_half_edges());
-    agvd::Ticker ticker = soup.ticker;
-    ticker.poll();
-    for (Index h = 0; h < uses.size(); ++h) {
-        ticker.tick();
-        const auto [low, high] = std::minmax({soup.tail(h), soup.head(h)});
-        uses[h] = {low, high, h};
-    }
-    return sort_edge_uses(uses, static_cast<Index>(soup.positions.size()), ticker);
-}
 
 void erase_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<Index>& twin) {
     std::vector<Index> new_face(soup.triangles.size(), no_index);

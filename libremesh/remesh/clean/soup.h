@@ -11,6 +11,7 @@
 #include "agvd/core/poller.h"
 #include "agvd/mesh/surface.h"
 #include "remesh/clean/clean_counts.h"
+#include "remesh/topology/edge_sides.h"
 
 namespace remesh::detail {
 
@@ -33,49 +34,25 @@ struct Soup {
     [[nodiscard]] bool runs_up(agvd::Index h) const { return tail(h) < head(h); }
 };
 
-//! One half-edge under its undirected edge.
-struct EdgeUse {
-    agvd::Index low, high;  //!< Ends, low <= high.
-    agvd::Index half_edge;
-};
-
-//! Sorts by (low, high, half_edge) in linear time for bounded vertex degrees.
-[[nodiscard]] std::vector<EdgeUse> sort_edge_uses(const std::vector<EdgeUse>& uses,
-                                                  agvd::Index num_vertices, agvd::Ticker ticker);
-//! All half-edges of the soup, sorted.
-[[nodiscard]] std::vector<EdgeUse> edge_uses(const Soup& soup);
-
-//! Calls body(group) for the uses of each edge.
-template <typename Body>
-void for_each_edge(std::span<const EdgeUse> uses, const Body& body) {
-    for (std::size_t i = 0, end = 0; i < uses.size(); i = end) {
-        for (end = i + 1;
-             end < uses.size() && uses[end].low == uses[i].low && uses[end].high == uses[i].high;) {
-            ++end;
-        }
-        body(uses.subspan(i, end - i));
-    }
-}
-
 //! Removes the marked faces; `twin` (may be empty) follows.
 void erase_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<agvd::Index>& twin);
 
 // The passes, in the order in which they run. Those that return bool tell whether they changed a
-// triangle, so that sorted uses must be made anew.
+// triangle, so that sorted sides must be made anew.
 
 //! Whether two of the vertices that are wanted have the same position.
 [[nodiscard]] bool share_positions(std::span<const agvd::Vec3> positions,
                                    const std::vector<bool>& is_wanted, agvd::Ticker& ticker);
 //! Boundary edges between the same two positions become one edge.
-bool weld_cracks(Soup& soup, std::span<const EdgeUse> uses);
+bool weld_cracks(Soup& soup, std::span<const EdgeSide> sides);
 //! Different corners of a face at one position become one vertex.
 bool collapse_zero_edges(Soup& soup);
 bool drop_repeated_corners(Soup& soup);
-bool drop_duplicates(Soup& soup, std::span<const EdgeUse> uses);
+bool drop_duplicates(Soup& soup, std::span<const EdgeSide> sides);
 //! \throw agvd::InvalidInput  a component is not orientable.
-bool orient_faces(Soup& soup, std::span<const EdgeUse> uses);
+bool orient_faces(Soup& soup, std::span<const EdgeSide> sides);
 //! The twins. At an edge of more than two faces the flattest pairs stay together, the rest is cut.
-[[nodiscard]] std::vector<agvd::Index> pair_sheets(Soup& soup, std::span<const EdgeUse> uses);
+[[nodiscard]] std::vector<agvd::Index> pair_sheets(Soup& soup, std::span<const EdgeSide> sides);
 //! Twice the least area that agvd::build_surface finds at the three corners of a face: it rejects
 //! those of 0 and what is not finite.
 [[nodiscard]] double smallest_doubled_area(std::span<const agvd::Vec3> positions,

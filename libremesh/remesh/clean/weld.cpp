@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "agvd/core/edge_key.h"
 #include "agvd/core/position_hash.h"
 #include "remesh/clean/soup.h"
 
@@ -77,33 +78,33 @@ bool share_positions(std::span<const Vec3> positions, const std::vector<bool>& i
 
 // Only edges are welded, and only boundary edges: parts that touch at a point, and closed parts
 // that touch anywhere, are manifold as they are.
-bool weld_cracks(Soup& soup, std::span<const EdgeUse> uses) {
-    std::vector<EdgeUse> open;
-    for_each_edge(uses, [&](std::span<const EdgeUse> edge) {
+bool weld_cracks(Soup& soup, std::span<const EdgeSide> sides) {
+    std::vector<EdgeSide> open;
+    for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
         soup.ticker.tick();
         if (edge.size() == 1) open.push_back(edge[0]);
     });
     if (open.empty()) return false;
 
     std::vector<bool> is_boundary(soup.positions.size(), false);
-    for (const EdgeUse& use : open) is_boundary[use.low] = is_boundary[use.high] = true;
+    for (const EdgeSide& side : open) is_boundary[side.low()] = is_boundary[side.high()] = true;
     const std::vector<Index> place = first_at_position(soup.positions, is_boundary, soup.ticker);
-    for (EdgeUse& use : open) {
-        std::tie(use.low, use.high) = std::minmax({place[use.low], place[use.high]});
+    for (EdgeSide& side : open) {
+        side.ends = agvd::edge_key(place[side.low()], place[side.high()]);
     }
-    open = sort_edge_uses(open, static_cast<Index>(soup.positions.size()), soup.ticker);
+    open = sort_edge_sides(open, static_cast<Index>(soup.positions.size()), soup.ticker);
 
     Merger merger(soup.positions.size());
-    for_each_edge(open, [&](std::span<const EdgeUse> edge) {
+    for_each_edge(open, [&](std::span<const EdgeSide> edge) {
         soup.ticker.tick(edge.size());
-        if (edge[0].low == edge[0].high) return;
-        const auto end_at = [&](const EdgeUse& use, Index where) {
-            const Index tail = soup.tail(use.half_edge);
-            return place[tail] == where ? tail : soup.head(use.half_edge);
+        if (edge[0].low() == edge[0].high()) return;
+        const auto end_at = [&](const EdgeSide& side, Index where) {
+            const Index tail = soup.tail(side.half_edge);
+            return place[tail] == where ? tail : soup.head(side.half_edge);
         };
-        for (const EdgeUse& use : edge.subspan(1)) {
-            merger.unite(end_at(edge[0], use.low), end_at(use, use.low));
-            merger.unite(end_at(edge[0], use.high), end_at(use, use.high));
+        for (const EdgeSide& side : edge.subspan(1)) {
+            merger.unite(end_at(edge[0], side.low()), end_at(side, side.low()));
+            merger.unite(end_at(edge[0], side.high()), end_at(side, side.high()));
         }
     });
     return merger.apply(soup);

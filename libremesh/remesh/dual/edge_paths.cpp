@@ -4,6 +4,7 @@
 #include <array>
 #include <tuple>
 
+#include "agvd/core/edge_key.h"
 #include "agvd/core/parallel.h"
 #include "remesh/dual/site_paths.h"
 
@@ -22,8 +23,6 @@ constexpr Index grain = 128;
 constexpr double length_tolerance = 1e-12;
 // Over the triangles, while sides get shorter.
 constexpr int max_passes = 100;
-
-std::uint64_t key(Index a, Index b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
 
 // Where two cells touch nearest to their sites.
 struct Gate {
@@ -53,8 +52,8 @@ std::vector<Gate> find_gates(const DualVertices& vertices) {
         const auto begin = diagram.point_distance.begin() + diagram.edge_points[e];
         const auto end = diagram.point_distance.begin() + diagram.edge_points[e + 1];
         const auto nearest = std::min_element(begin, end);
-        gates.push_back(
-            {key(a, b), *nearest, static_cast<Index>(nearest - diagram.point_distance.begin())});
+        gates.push_back({agvd::edge_key(a, b), *nearest,
+                         static_cast<Index>(nearest - diagram.point_distance.begin())});
     }
     std::sort(gates.begin(), gates.end());
     return gates;
@@ -117,9 +116,10 @@ void find_paths_through_gates(const Surface& surface, const DualVertices& vertic
         for (Index e = begin; e < end; ++e) {
             const auto [a, b] = ends_of(mesh, e);
             // Both are sorted by their ends.
-            if (e == begin) gate = std::lower_bound(gate, gates.end(), Gate{key(a, b), -1, 0});
-            while (gate != gates.end() && gate->ends < key(a, b)) ++gate;
-            if (gate == gates.end() || gate->ends != key(a, b)) continue;
+            if (e == begin)
+                gate = std::lower_bound(gate, gates.end(), Gate{agvd::edge_key(a, b), -1, 0});
+            while (gate != gates.end() && gate->ends < agvd::edge_key(a, b)) ++gate;
+            if (gate == gates.end() || gate->ends != agvd::edge_key(a, b)) continue;
             const Index face = vertices.diagram.points[gate->point].face.value();
             paths[e] = path_in(site_paths.through(a, face, b), a, straightener);
         }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "agvd/core/edge_key.h"
 #include "remesh/topology/edge_sides.h"
 
 namespace remesh {
@@ -10,11 +11,7 @@ namespace remesh {
 using agvd::Index;
 using agvd::no_index;
 
-namespace {
-
-std::uint64_t key(Index a, Index b) { return std::uint64_t{std::min(a, b)} << 32 | std::max(a, b); }
-
-}  // namespace
+namespace {}  // namespace
 
 FlippableMesh::FlippableMesh(std::span<const agvd::Triangle> triangles, agvd::Ticker ticker)
     : triangles_(triangles.begin(), triangles.end()), edge_(3 * triangles.size()) {
@@ -27,16 +24,15 @@ FlippableMesh::FlippableMesh(std::span<const agvd::Triangle> triangles, agvd::Ti
     const std::vector<EdgeSide> sides = sorted_edge_sides(triangles_, ticker);
     first_ends_.reserve(sides.size() / 2);
     sides_.reserve(sides.size() / 2);
-    for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
+    for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
         ticker.tick();
-        const bool is_inner = end - begin == 2 && begin[0].forward != begin[1].forward;
-        for (const EdgeSide* side = begin; side != end; ++side)
-            edge_[side->half_edge] = num_edges();
-        const bool is_swapped = is_inner && !begin[0].forward;
-        sides_.push_back({begin[is_swapped ? 1 : 0].half_edge,
-                          is_inner ? begin[is_swapped ? 0 : 1].half_edge : no_index});
-        first_ends_.push_back(begin->ends);
-        for (const Index v : {begin->low(), begin->high()}) {
+        const bool is_inner = edge.size() == 2 && edge[0].forward != edge[1].forward;
+        for (const EdgeSide& side : edge) edge_[side.half_edge] = num_edges();
+        const bool is_swapped = is_inner && !edge[0].forward;
+        sides_.push_back({edge[is_swapped ? 1 : 0].half_edge,
+                          is_inner ? edge[is_swapped ? 0 : 1].half_edge : no_index});
+        first_ends_.push_back(edge[0].ends);
+        for (const Index v : {edge[0].low(), edge[0].high()}) {
             ++valence_[v];
             if (!is_inner) is_boundary_[v] = true;
         }
@@ -56,7 +52,7 @@ bool FlippableMesh::can_flip(Index edge) const {
         if (valence_[v] <= (is_boundary_[v] ? 2U : 3U)) return false;
     }
     const Index c = tail(previous(h)), d = tail(previous(g));
-    return c != d && !has_edge(key(c, d));
+    return c != d && !has_edge(agvd::edge_key(c, d));
 }
 
 void FlippableMesh::flip(Index edge) {
@@ -79,8 +75,8 @@ void FlippableMesh::flip(Index edge) {
     }
     edge_[3 * first + 2] = edge_[3 * second + 2] = edge;
     sides_[edge] = {3 * second + 2, 3 * first + 2};
-    if (added_.erase(key(a, b)) == 0) removed_.insert(key(a, b));
-    if (removed_.erase(key(c, d)) == 0) added_.insert(key(c, d));
+    if (added_.erase(agvd::edge_key(a, b)) == 0) removed_.insert(agvd::edge_key(a, b));
+    if (removed_.erase(agvd::edge_key(c, d)) == 0) added_.insert(agvd::edge_key(c, d));
     --valence_[a];
     --valence_[b];
     ++valence_[c];

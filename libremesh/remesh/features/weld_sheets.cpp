@@ -40,8 +40,8 @@ std::vector<Index> weld_sheets(std::span<const Index> group, agvd::TriangleMesh&
 
 Index num_branched_edges(std::span<const Triangle> triangles) {
     Index count = 0;
-    for_each_edge(sorted_edge_sides(triangles), [&](const EdgeSide* begin, const EdgeSide* end) {
-        if (end - begin > 2) ++count;
+    for_each_edge(sorted_edge_sides(triangles), [&](std::span<const EdgeSide> edge) {
+        if (edge.size() > 2) ++count;
     });
     return count;
 }

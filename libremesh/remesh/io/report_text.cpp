@@ -158,7 +158,7 @@ std::string describe(const FeatureCounts& features) {
     if (features.dropped_length > 0) {
         text += ", of " + fixed(features.dropped_length, 4) + " dropped: " +
                 (features.gave_up
-                     ? "with all of them the result would run through itself, or not close"
+                     ? "with all of them the result would self-intersect, or not close"
                      : "all take " + std::to_string(features.samples_for_all) + " samples");
     }
     if (features.thinned_patches > 0) {

@@ -14,7 +14,7 @@ using agvd::Index;
 using detail::run_pipeline;
 using detail::TooFewSamples;
 
-// Rounds of new sites where the result runs through itself.
+// Rounds of new sites where the result self-intersects.
 constexpr int max_mends = 4;
 
 void check_options(const RemeshOptions& options, std::size_t num_faces) {
@@ -69,7 +69,7 @@ std::string describe_too_few(Mesh& mesh, const RemeshOptions& options, Index rea
     return "more than " + std::to_string(more.num_samples) + " are needed";
 }
 
-// Pairs of faces that run through each other where the input has none.
+// Intersecting pairs of faces, less those that the input has.
 Index num_new_crossings(const RemeshResult& result) {
     const Index pairs = result.self_intersections.value_or(0);
     return pairs - std::min(pairs, result.input_self_intersections);
@@ -89,8 +89,8 @@ void scale_back(RemeshResult& result, int exponent) {
     }
 }
 
-// With fewer creases where no mesh with all of them was found, or only one that runs through
-// itself; without any at last. Only where there is none either is it tried without junctions.
+// With fewer creases where no mesh with all of them was found, or only one that
+// self-intersects; without any at last. Only where there is none either is it tried without junctions.
 template <typename Mesh>
 RemeshResult run_with_features(Mesh& mesh, const RemeshOptions& options) {
     const bool has_creases = options.features != Features::Off || !options.feature_edges.empty() ||

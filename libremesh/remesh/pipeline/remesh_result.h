@@ -28,8 +28,8 @@ struct FeatureCounts {
     double dropped_length = 0;  //!< Of those for which the sites are too few.
     agvd::Index samples_for_all = 0;  //!< Fewest with which all are kept.
     agvd::Index thinned_patches = 0;  //!< Parts between curves too narrow for Voronoi cells.
-    //! Creases were dropped as no mesh with all of them was found, or only such as run through
-    //! themselves.
+    //! Creases were dropped as no mesh with all of them was found, or only such as
+    //! self-intersect.
     bool gave_up = false;
 };
 

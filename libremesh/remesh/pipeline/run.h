@@ -23,7 +23,7 @@ struct KeptCurves {
 };
 
 //! \param options     checked.
-//! \param most_mends  rounds of new sites where the result runs through itself.
+//! \param most_mends  rounds of new sites where the result self-intersects.
 //! \throw TooFewSamples, NetworkFailed (only with creases or junctions), and what remesh() throws.
 [[nodiscard]] RemeshResult run_pipeline(const agvd::MeshView& mesh, const RemeshOptions& options,
                                         int most_mends, const KeptCurves& kept = {});

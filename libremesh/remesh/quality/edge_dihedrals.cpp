@@ -27,13 +27,13 @@ public:
         : sides_(sorted_edge_sides(mesh.triangles, ticker)),
           first_side_(sides_.size()),
           length_(sides_.size()) {
-        for_each_edge(sides_, [&](const EdgeSide* begin, const EdgeSide* end) {
+        for_each_edge(sides_, [&](std::span<const EdgeSide> edge) {
             ticker.tick();
             const double length =
-                (mesh.positions[begin->low()] - mesh.positions[begin->high()]).norm();
-            for (const EdgeSide* side = begin; side != end; ++side) {
-                first_side_[side->half_edge] = static_cast<Index>(begin - sides_.data());
-                length_[side->half_edge] = length;
+                (mesh.positions[edge[0].low()] - mesh.positions[edge[0].high()]).norm();
+            for (const EdgeSide& side : edge) {
+                first_side_[side.half_edge] = static_cast<Index>(edge.data() - sides_.data());
+                length_[side.half_edge] = length;
             }
         });
         for (Index f = 0; f < mesh.triangles.size(); ++f) {
@@ -141,16 +141,16 @@ std::vector<EdgeDihedral> edge_dihedrals(const agvd::MeshView& mesh, double thin
                                          agvd::Ticker& ticker) {
     const FaceNormals normals(mesh, thin, ticker);
     std::vector<EdgeDihedral> edges;
-    for_each_edge(normals.sides(), [&](const EdgeSide* begin, const EdgeSide* end) {
+    for_each_edge(normals.sides(), [&](std::span<const EdgeSide> edge) {
         ticker.tick();
-        const auto num_faces = static_cast<Index>(end - begin);
+        const auto num_faces = static_cast<Index>(edge.size());
         double angle = std::numbers::pi;
         if (num_faces == 2) {
             // Seen from the edge the other face lies on the other side.
-            const Vec3 a = normals.normal(begin[0]), b = -normals.normal(begin[1]);
+            const Vec3 a = normals.normal(edge[0]), b = -normals.normal(edge[1]);
             angle = std::atan2(a.cross(b).norm(), a.dot(b));
         }
-        edges.push_back({{begin->low(), begin->high()}, angle, num_faces});
+        edges.push_back({{edge[0].low(), edge[0].high()}, angle, num_faces});
     });
     return edges;
 }

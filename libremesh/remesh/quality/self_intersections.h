@@ -1,5 +1,5 @@
 //! \file
-//! Faces that run through each other.
+//! Pairs of faces that intersect.
 #pragma once
 
 #include <optional>

@@ -12,6 +12,7 @@
 #include "agvd/core/error.h"
 #include "agvd/core/parallel.h"
 #include "agvd/core/random.h"
+#include "agvd/mesh/uniform_points.h"
 
 namespace remesh {
 namespace {
@@ -75,10 +76,9 @@ public:
         const double area = (i + agvd::random_unit(0, 0, i)) / n * area_up_to_.back();
         const auto at = std::upper_bound(area_up_to_.begin(), area_up_to_.end() - 1, area);
         const Kernel::Triangle_3& t = *(triangles_.begin() + (at - area_up_to_.begin()));
-        const double root = std::sqrt(agvd::random_unit(0, 1, i));
-        const double split = agvd::random_unit(0, 2, i);
-        return (1 - root) * from_cgal(t[0]) + root * (1 - split) * from_cgal(t[1]) +
-               root * split * from_cgal(t[2]);
+        const auto [a, b, c] =
+            agvd::uniform_barycentric(agvd::random_unit(0, 1, i), agvd::random_unit(0, 2, i));
+        return a * from_cgal(t[0]) + b * from_cgal(t[1]) + c * from_cgal(t[2]);
     }
 
 private:

@@ -70,11 +70,11 @@ void measure_edges(const agvd::MeshView& mesh, const std::vector<EdgeSide>& side
                    const std::vector<double>& opposite, agvd::Ticker& ticker,
                    TriangleQuality& result) {
     std::vector<double> lengths;
-    for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
+    for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
         ticker.tick();
-        lengths.push_back((mesh.positions[begin->high()] - mesh.positions[begin->low()]).norm());
-        if (end - begin != 2) return;
-        const double sum = opposite[begin[0].half_edge] + opposite[begin[1].half_edge];
+        lengths.push_back((mesh.positions[edge[0].high()] - mesh.positions[edge[0].low()]).norm());
+        if (edge.size() != 2) return;
+        const double sum = opposite[edge[0].half_edge] + opposite[edge[1].half_edge];
         if (sum > std::numbers::pi + delaunay_tolerance) ++result.non_delaunay_edges;
     });
     result.edges = static_cast<Index>(lengths.size());
@@ -89,11 +89,11 @@ void measure_valences(const agvd::MeshView& mesh, const std::vector<EdgeSide>& s
                       agvd::Ticker& ticker, TriangleQuality& result) {
     std::vector<Index> valence(mesh.positions.size(), 0);
     std::vector<bool> on_boundary(mesh.positions.size(), false);
-    for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
+    for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
         ticker.tick();
-        for (const Index v : {begin->low(), begin->high()}) {
+        for (const Index v : {edge[0].low(), edge[0].high()}) {
             ++valence[v];
-            if (end - begin == 1) on_boundary[v] = true;
+            if (edge.size() == 1) on_boundary[v] = true;
         }
     });
     Index used = 0, regular = 0;

@@ -9,6 +9,7 @@
 #include "agvd/core/random.h"
 #include "agvd/mesh/face_area.h"
 #include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/uniform_points.h"
 #include "remesh/relax/walk.h"
 #include "remesh/sampling/farthest_vertex.h"
 #include "remesh/sampling/shares.h"
@@ -68,10 +69,9 @@ struct Regions {
         const auto first = area_up_to.begin() + begin[region];
         const auto last = area_up_to.begin() + begin[region + 1] - 1;
         const auto found = std::upper_bound(first, last, unit(0) * area[region]);
-        const double root = std::sqrt(unit(1));  // Uniform in the triangle.
-        const double b1 = root * (1 - unit(2)), b2 = root * unit(2);
+        const std::array<double, 3> b = agvd::uniform_barycentric(unit(1), unit(2));
         const Index face = faces[static_cast<std::size_t>(found - area_up_to.begin())];
-        return {agvd::FaceId(face), {1 - b1 - b2, b1, b2}};
+        return {agvd::FaceId(face), {1 - b[1] - b[2], b[1], b[2]}};
     }
 };
 

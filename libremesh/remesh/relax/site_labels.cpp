@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "agvd/core/edge_key.h"
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/point_faces.h"
 
@@ -134,8 +135,7 @@ SiteDual label_dual(const agvd::IntrinsicTriangulation& base, const agvd::Distan
         const Index a = labels.site[u], b = labels.site[v];
         if (a == b) continue;
         const double length = static_cast<double>(labels.distance[u]) + labels.distance[v];
-        crossings.push_back({std::uint64_t{std::min(a, b)} << 32 | std::max(a, b),
-                             (surface.twin[h] != no_index) != keeps_inside,
+        crossings.push_back({agvd::edge_key(a, b), (surface.twin[h] != no_index) != keeps_inside,
                              length + surface.length[e], h});
     }
     std::sort(crossings.begin(), crossings.end(), [](const Crossing& x, const Crossing& y) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <functional>
 
+#include "agvd/core/edge_key.h"
+
 namespace remesh::detail {
 namespace {
 
@@ -111,8 +113,7 @@ SiteMesh build_site_mesh(std::vector<Triangle> triangles, Index num_sites, agvd:
     const auto num_half_edges = static_cast<Index>(3 * mesh.triangles.size());
     std::vector<std::pair<std::uint64_t, Index>> keys(num_half_edges);
     for (Index h = 0; h < num_half_edges; ++h) {
-        const std::pair<Index, Index> ends = std::minmax({mesh.tail(h), mesh.head(h)});
-        keys[h] = {std::uint64_t{ends.first} << 32 | ends.second, h};
+        keys[h] = {agvd::edge_key(mesh.tail(h), mesh.head(h)), h};
     }
     agvd::sort_ticked(keys, ticker, std::less<>());
     mesh.twin.assign(num_half_edges, no_index);

@@ -1,11 +1,12 @@
 #include "remesh/sampling/scatter.h"
 
 #include <algorithm>
-#include <cmath>
+#include <array>
 #include <unordered_set>
 
 #include "agvd/core/poller.h"
 #include "agvd/core/position_hash.h"
+#include "agvd/mesh/uniform_points.h"
 
 namespace remesh::detail {
 namespace {
@@ -21,9 +22,9 @@ agvd::SurfacePoint draw(const Component& component, double pick, double u, doubl
     const auto found = std::upper_bound(sums.begin(), sums.end(), pick * component.area());
     const auto slot = std::min<std::ptrdiff_t>(found - sums.begin(),
                                                static_cast<std::ptrdiff_t>(sums.size()) - 1);
-    const double root = std::sqrt(u);  // Uniform in the triangle: u is the share of area cut off.
+    const std::array<double, 3> uniform = agvd::uniform_barycentric(u, v);
     const auto inner = [](double b) { return interior_margin + (1 - 3 * interior_margin) * b; };
-    const double b1 = inner(root * (1 - v)), b2 = inner(root * v);
+    const double b1 = inner(uniform[1]), b2 = inner(uniform[2]);
     return {agvd::FaceId(component.faces[static_cast<std::size_t>(slot)]), {1 - b1 - b2, b1, b2}};
 }
 

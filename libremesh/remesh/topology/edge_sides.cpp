@@ -3,10 +3,21 @@
 #include <algorithm>
 
 #include "agvd/core/bucket_sort.h"
+#include "agvd/core/edge_key.h"
 
 namespace remesh {
 
 using agvd::Index;
+
+std::vector<EdgeSide> sort_edge_sides(const std::vector<EdgeSide>& sides, Index num_vertices,
+                                      agvd::Ticker ticker) {
+    return agvd::sort_in_buckets(
+        sides, num_vertices, [](const EdgeSide& side) { return side.low(); },
+        [](const EdgeSide& a, const EdgeSide& b) {
+            return a.ends != b.ends ? a.ends < b.ends : a.half_edge < b.half_edge;
+        },
+        ticker);
+}
 
 std::vector<EdgeSide> sorted_edge_sides(std::span<const agvd::Triangle> triangles,
                                         agvd::Ticker ticker) {
@@ -19,16 +30,10 @@ std::vector<EdgeSide> sorted_edge_sides(std::span<const agvd::Triangle> triangle
             const Index a = triangles[f][k];
             const Index b = triangles[f][(k + 1) % 3];
             num_vertices = std::max(num_vertices, a + 1);
-            sides.push_back(
-                {std::uint64_t{std::min(a, b)} << 32 | std::max(a, b), 3 * f + k, a < b});
+            sides.push_back({agvd::edge_key(a, b), 3 * f + k, a < b});
         }
     }
-    return agvd::sort_in_buckets(
-        sides, num_vertices, [](const EdgeSide& side) { return side.low(); },
-        [](const EdgeSide& a, const EdgeSide& b) {
-            return a.ends != b.ends ? a.ends < b.ends : a.half_edge < b.half_edge;
-        },
-        ticker);
+    return sort_edge_sides(sides, num_vertices, ticker);
 }
 
 }  // namespace remesh

@@ -14,7 +14,7 @@ namespace remesh {
 
 //! One side of one face.
 struct EdgeSide {
-    std::uint64_t ends;     //!< Lower vertex << 32 | higher vertex.
+    std::uint64_t ends;     //!< agvd::edge_key of its ends.
     agvd::Index half_edge;  //!< 3 f + k runs from corner k to corner k + 1 of face f.
     bool forward;           //!< Runs from the lower vertex to the higher one.
 
@@ -27,13 +27,16 @@ struct EdgeSide {
 [[nodiscard]] std::vector<EdgeSide> sorted_edge_sides(std::span<const agvd::Triangle> triangles,
                                                       agvd::Ticker ticker = {});
 
-//! Calls visit(begin, end), pointers into `sides`, once for each edge.
+//! Sorts sides by edge, then by half-edge. Cost: linear for bounded vertex degrees.
+[[nodiscard]] std::vector<EdgeSide> sort_edge_sides(const std::vector<EdgeSide>& sides,
+                                                    agvd::Index num_vertices, agvd::Ticker ticker);
+
+//! Calls visit(edge) for the sides of each edge, a part of `sides`.
 template <typename Visit>
-void for_each_edge(const std::vector<EdgeSide>& sides, const Visit& visit) {
-    const EdgeSide* const last = sides.data() + sides.size();
-    for (const EdgeSide *begin = sides.data(), *end = begin; begin != last; begin = end) {
-        while (end != last && end->ends == begin->ends) ++end;
-        visit(begin, end);
+void for_each_edge(std::span<const EdgeSide> sides, const Visit& visit) {
+    for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end) {
+        while (end < sides.size() && sides[end].ends == sides[begin].ends) ++end;
+        visit(sides.subspan(begin, end - begin));
     }
 }
 

@@ -88,13 +88,11 @@ Topology analyze_topology(const agvd::MeshView& mesh, const agvd::Progress& prog
     agvd::UnionFind parent(num_faces);
     result.is_manifold = !has_bad_faces(mesh, ticker);
     result.is_oriented = true;
-    for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
+    for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
         ticker.tick();
-        for (const EdgeSide* side = begin; side != end; ++side) {
-            parent.unite(begin->face(), side->face());
-        }
-        if (end - begin > 2) result.is_manifold = false;
-        if (end - begin == 2 && begin[0].forward == begin[1].forward) result.is_oriented = false;
+        for (const EdgeSide& side : edge) parent.unite(edge[0].face(), side.face());
+        if (edge.size() > 2) result.is_manifold = false;
+        if (edge.size() == 2 && edge[0].forward == edge[1].forward) result.is_oriented = false;
     });
     if (result.is_manifold) result.is_manifold = has_one_umbrella_each(mesh, sides, ticker);
 
@@ -135,12 +133,12 @@ Topology analyze_topology(const agvd::MeshView& mesh, const agvd::Progress& prog
     // Boundary loops: the connected pieces of the graph of boundary edges.
     agvd::UnionFind boundary(mesh.positions.size());
     std::vector<std::pair<Index, Index>> boundary_ends;  // (lower vertex, face)
-    for_each_edge(sides, [&](const EdgeSide* begin, const EdgeSide* end) {
+    for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
         ticker.tick();
-        --result.components[result.face_component[begin->face()]].euler;
-        if (end - begin != 1) return;
-        boundary.unite(begin->low(), begin->high());
-        boundary_ends.emplace_back(begin->low(), begin->face());
+        --result.components[result.face_component[edge[0].face()]].euler;
+        if (edge.size() != 1) return;
+        boundary.unite(edge[0].low(), edge[0].high());
+        boundary_ends.emplace_back(edge[0].low(), edge[0].face());
     });
     ticker.poll();
     std::vector<bool> counted(mesh.positions.size(), false);
