@@ -65,6 +65,12 @@ struct CurveSites {
 [[nodiscard]] CurveSites place_curve_sites(const CurveNetwork& network, const CutSurface& cut,
                                            double spacing, std::span<const agvd::Index> intervals);
 
+//! At the places given.
+//!
+//! \param along  #curves: ascending, mesh units; those of its ends are no part of it.
+[[nodiscard]] CurveSites curve_sites_at(const CurveNetwork& network, const CutSurface& cut,
+                                        std::span<const std::vector<double>> along);
+
 //! Puts a group that is no node at another place of its curve, all copies of it.
 //!
 //! \param curve  the group's.

@@ -128,6 +128,7 @@ Json to_json(const FeatureCounts& counts) {
             {"vertices", counts.vertices},
             {"crease_length_mesh_units", counts.length},
             {"dropped_crease_length_mesh_units", counts.dropped_length},
+            {"curves_off_given_sites", counts.uncarried_curves},
             {"samples_for_all", counts.samples_for_all},
             {"thinned_patches", counts.thinned_patches},
             {"gave_up", counts.gave_up}};

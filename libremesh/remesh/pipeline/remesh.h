@@ -40,9 +40,10 @@ struct FeatureCounts {
     agvd::Index nodes = 0;      //!< Corners, ends and junctions.
     agvd::Index vertices = 0;   //!< Of the result, on curves and nodes.
     double length = 0;          //!< Of the creases that were kept, mesh units.
-    double dropped_length = 0;  //!< Of those for which the sites are too few.
-    agvd::Index samples_for_all = 0;  //!< Fewest with which all are kept.
-    agvd::Index thinned_patches = 0;  //!< Parts between curves too narrow for Voronoi cells.
+    double dropped_length = 0;  //!< Of those for which the sites are too few, or lie elsewhere.
+    agvd::Index uncarried_curves = 0;  //!< Creases that given sites do not lie on.
+    agvd::Index samples_for_all = 0;   //!< Fewest with which all are kept.
+    agvd::Index thinned_patches = 0;   //!< Parts between curves too narrow for Voronoi cells.
     //! Creases were dropped as no mesh with all of them was found, or only such as run through
     //! themselves.
     bool gave_up = false;
@@ -70,11 +71,13 @@ enum class VertexCount {
 struct RemeshOptions {
     agvd::Index num_samples = 2000;  //!< Sites to place, >= 1: one output vertex each.
     VertexCount vertex_count = VertexCount::Exact;
-    Boundary boundary = Boundary::Keep;  //!< Keep: boundary vertices lie on the input's boundary.
+    //! Keep: boundary vertices lie on the input's boundary. Free: near it; beside creases, which
+    //! stay where they are, only as far as the result lies nearer to it so.
+    Boundary boundary = Boundary::Keep;
     double drop_components = 0;  //!< Leave out components with less than this % of the area.
     Init init = Init::BlueNoise;
-    //! Creases become chains of edges, and their corners vertices. Not with given sites, nor with
-    //! Boundary::Free.
+    //! Creases become chains of edges, and their corners vertices. Of given sites those on creases
+    //! become their vertices, and creases that have too few are dropped: see plan_given_network.
     Features features = Features::Auto;
     double feature_angle = CreaseOptions{}.angle;  //!< Degrees, in (0, 180): see CreaseOptions.
     //! Edges that are creases whatever their angle, as pairs of the caller's vertices; with

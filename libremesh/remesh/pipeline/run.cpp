@@ -24,6 +24,7 @@
 #include "remesh/repair/reduce_vertices.h"
 #include "remesh/repair/weld_sheets.h"
 #include "remesh/sampling/boundary_curves.h"
+#include "remesh/sampling/given_network.h"
 
 namespace remesh::detail {
 namespace {
@@ -42,6 +43,9 @@ constexpr double rounding = 1e-10;
 // In spacings. Shorter ones are specks on a scan: cells would have to wind around them, and five of
 // them on bunny cost .02 of the mean quality.
 constexpr double least_junction = 2;
+// In spacings: given sites this near to a curve go onto it where they are relaxed. Vertices of an
+// earlier result, which were fitted, stand up to .05 off.
+constexpr double on_curve = 0.1;
 // Rounds of putting vertices back onto the surface there.
 constexpr int max_unfits = 4;
 
@@ -149,15 +153,39 @@ private:
         junctions.in_result = options_.junctions;
         result_.junctions.edges = static_cast<Index>(junctions.edges.size());
         result_.junctions.apart_edges = result_.junctions.edges;
-        if (options_.sites || options_.boundary == Boundary::Free) return;
-        if (!kept_.has_junctions) junctions = {};
+        const bool has_junctions =
+            !options_.sites && options_.boundary == Boundary::Keep && kept_.has_junctions;
+        if (!has_junctions) junctions = {};
         if (options_.junctions == Junctions::Apart) {
             drop_short_junctions(surface, least_junction * spacing_, junctions);
         }
         if (!wants_creases() && junctions.empty()) return;
-        NetworkPlan plan =
-            plan_network(surface, creases_with_given(surface, progress), options_.num_samples,
-                         std::move(junctions), kept_.drop_share, options_.num_threads, progress);
+        std::vector<std::uint8_t> is_crease = creases_with_given(surface, progress);
+        take_plan(options_.sites ? plan_with_given(surface, std::move(is_crease), progress)
+                                 : plan_network(surface, std::move(is_crease), options_.num_samples,
+                                                std::move(junctions), kept_.drop_share,
+                                                options_.num_threads, progress),
+                  progress);
+    }
+
+    NetworkPlan plan_with_given(const Surface& surface, std::vector<std::uint8_t> is_crease,
+                                const agvd::Progress& progress) {
+        const std::vector<SurfacePoint> sites = to_cleaned(*options_.sites, input_, clean_);
+        GivenNetwork given =
+            plan_given_network(surface, std::move(is_crease),
+                               agvd::points_of(sites, agvd::distinct_points(surface, sites)),
+                               {.spacing = spacing_,
+                                .tolerance = is_relaxed() ? on_curve : site_rounding,
+                                .drop_share = kept_.drop_share,
+                                .num_threads = options_.num_threads,
+                                .progress = progress});
+        result_.features.uncarried_curves = given.dropped_curves;
+        curves_ = std::move(given.curves);
+        sites_ = std::move(given.inner);
+        return std::move(given.plan);
+    }
+
+    void take_plan(NetworkPlan plan, const agvd::Progress& progress) {
         FeatureCounts& counts = result_.features;
         counts.curves = static_cast<Index>(plan.network.curves.size());
         counts.nodes = static_cast<Index>(plan.network.nodes.size());
@@ -232,7 +260,7 @@ private:
     void place_sites() {
         const StageClock clock(Stage::Sample, result_);
         if (options_.sites) {
-            sites_ = to_cleaned(*options_.sites, input_, clean_);
+            if (!plan_) sites_ = to_cleaned(*options_.sites, input_, clean_);
         } else {
             if (!plan_ && !is_coarse_to_fine()) sites_ = sample_sites(surface(), sampling());
         }
@@ -283,10 +311,12 @@ private:
         const StageClock clock(Stage::Relax, result_);
         SamplingOptions exactly = sampling();
         exactly.num_samples = options_.num_samples;
-        NetworkSites made = sample_network_sites(*prepared_, *plan_, exactly,
-                                                 {.steps = options_.relax_steps,
-                                                  .num_threads = options_.num_threads,
-                                                  .progress = progress_of(Stage::Relax, options_)});
+        const RelaxOptions relax{.steps = is_relaxed() ? options_.relax_steps : 0,
+                                 .num_threads = options_.num_threads,
+                                 .progress = progress_of(Stage::Relax, options_)};
+        NetworkSites made = options_.sites
+                                ? relax_network_sites(*prepared_, *plan_, curves_, sites_, relax)
+                                : sample_network_sites(*prepared_, *plan_, exactly, relax);
         sites_ = std::move(made.sites);
         result_.relaxation = std::move(made.levels);
         curves_ = std::move(made.curves);
@@ -297,7 +327,10 @@ private:
 
     void drop_duplicates() {
         if (!options_.sites) return;
-        sites_ = agvd::points_of(sites_, agvd::distinct_points(surface(), sites_));
+        // Copies of curve sites lie on one another.
+        if (!plan_) {
+            sites_ = agvd::points_of(sites_, agvd::distinct_points(surface(), sites_));
+        }
         num_distinct_ = static_cast<Index>(sites_.size());
     }
 
@@ -419,16 +452,22 @@ private:
     }
 
     void set_target(const agvd::Diagram& diagram) {
-        target_ = options_.num_samples;
-        if (plan_) {
-            target_ += static_cast<Index>(curves_.sites.size()) -
-                       num_result_vertices(plan_->network, curves_);
-        }
+        target_ = options_.num_samples + num_other_copies();
         if (!options_.sites) return;
+        const auto num_copies = static_cast<Index>(curves_.sites.size());
         const auto first = diagram.cell_area.begin();
-        target_ = static_cast<Index>(
-            std::count_if(first, first + num_distinct_, [](double area) { return area > 0; }));
-        result_.sites_dropped = static_cast<Index>(options_.sites->size()) - target_;
+        target_ =
+            num_copies + static_cast<Index>(std::count_if(first + num_copies, first + num_distinct_,
+                                                          [](double area) { return area > 0; }));
+        result_.sites_dropped =
+            static_cast<Index>(options_.sites->size()) - (target_ - num_other_copies());
+    }
+
+    // Sites of curves that become no vertex besides those of the first copies.
+    [[nodiscard]] Index num_other_copies() const {
+        if (!plan_) return 0;
+        return static_cast<Index>(curves_.sites.size()) -
+               num_result_vertices(plan_->network, curves_);
     }
 
     // Takes vertices away until the count is met; returns how many.
@@ -547,7 +586,8 @@ private:
     }
 
     void fit_network(PlacedMesh& placed) const {
-        const std::vector<Vec3> offsets = fit_curves(uncut_, plan_->network, curves_);
+        const std::vector<Vec3> offsets =
+            fit_curves(uncut_, plan_->network, curves_, options_.boundary);
         for (Index v = 0; v < groups_.size(); ++v) {
             if (groups_[v] < offsets.size()) placed.offsets[v] = offsets[groups_[v]];
         }
@@ -650,7 +690,7 @@ private:
         }
         if (has_junctions() && options_.junctions == Junctions::Keep) weld_junctions();
         if (plan_ && options_.vertex_count == VertexCount::Exact &&
-            result_.mesh.positions.size() != options_.num_samples) {
+            result_.mesh.positions.size() != target_ - num_other_copies()) {
             throw NetworkFailed{};
         }
     }

@@ -55,20 +55,6 @@ double find_spacing(const Surface& surface, const CurveNetwork& network,
     return high;
 }
 
-// The shortest creases.
-void drop_shortest(const Surface& surface, const CurveNetwork& network, double share,
-                   std::vector<std::uint8_t>& is_crease) {
-    std::vector<std::pair<double, Index>> order;
-    for (Index c = 0; c < network.curves.size(); ++c) {
-        if (network.curves[c].is_crease()) order.emplace_back(network.curves[c].length(), c);
-    }
-    std::sort(order.begin(), order.end());
-    order.resize(static_cast<std::size_t>(std::ceil(share * static_cast<double>(order.size()))));
-    for (const auto& [length, c] : order) {
-        for (const Index h : network.curves[c].sides[0].half_edges) is_crease[surface.edge[h]] = 0;
-    }
-}
-
 // Creases at junctions are part of these.
 void leave_out(const JunctionSet& junctions, std::vector<std::uint8_t>& is_crease) {
     for (const std::vector<Index>& copies : junctions.edges) {
@@ -91,16 +77,30 @@ Index fewest_vertices(const CurveNetwork& network) {
 
 }  // namespace
 
+void drop_shortest(const Surface& surface, const CurveNetwork& network, double share,
+                   std::vector<std::uint8_t>& is_crease) {
+    std::vector<std::pair<double, Index>> order;
+    for (Index c = 0; c < network.curves.size(); ++c) {
+        if (network.curves[c].is_crease()) order.emplace_back(network.curves[c].length(), c);
+    }
+    std::sort(order.begin(), order.end());
+    order.resize(static_cast<std::size_t>(std::ceil(share * static_cast<double>(order.size()))));
+    for (const auto& [length, c] : order) {
+        for (const Index h : network.curves[c].sides[0].half_edges) is_crease[surface.edge[h]] = 0;
+    }
+}
+
+double length_of(const Surface& surface, std::span<const std::uint8_t> is_crease) {
+    double length = 0;
+    for (Index e = 0; e < surface.num_edges(); ++e) {
+        if (is_crease[e] != 0) length += surface.length[e];
+    }
+    return length;
+}
+
 NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_crease,
                          Index num_vertices, JunctionSet junctions, double drop_share,
                          int num_threads, const agvd::Progress& progress) {
-    const auto length_of_creases = [&] {
-        double length = 0;
-        for (Index e = 0; e < surface.num_edges(); ++e) {
-            if (is_crease[e] != 0) length += surface.length[e];
-        }
-        return length;
-    };
     const double spacing = detail::spacing_of(num_vertices, agvd::surface_area(surface), 0);
     NetworkPlan plan;
     plan.junctions = std::move(junctions);
@@ -117,7 +117,7 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
         if (plan.sites_for_junctions > num_vertices) plan.junctions = {};
         leave_out(plan.junctions, is_crease);
     }
-    const double length_at_first = length_of_creases();
+    const double length_at_first = length_of(surface, is_crease);
     if (drop_share > 0) {
         (void)find();
         drop_shortest(surface, plan.network, drop_share, is_crease);
@@ -135,7 +135,7 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
         plan.spacing = find_spacing(surface, plan.network, find_patches(plan.cut.surface, progress),
                                     num_vertices);
         plan.intervals = curve_intervals(surface, plan.network, plan.spacing);
-        plan.length = length_of_creases();
+        plan.length = length_of(surface, is_crease);
         plan.dropped_length = length_at_first - plan.length;
         return plan;
     }

@@ -34,4 +34,14 @@ struct NetworkPlan {
                                        double drop_share = 0, int num_threads = 0,
                                        const agvd::Progress& progress = {});
 
+//! Takes the shortest creases of a network away.
+//!
+//! \param share  in [0, 1]: of their number, rounded up. \param is_crease  #E; changed.
+void drop_shortest(const agvd::Surface& surface, const CurveNetwork& network, double share,
+                   std::vector<std::uint8_t>& is_crease);
+
+//! Sum over the edges that are creases.
+[[nodiscard]] double length_of(const agvd::Surface& surface,
+                               std::span<const std::uint8_t> is_crease);
+
 }  // namespace remesh
