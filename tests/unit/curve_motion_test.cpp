@@ -25,7 +25,8 @@ struct Cube {
         network = remesh::find_network(surface, flags, spacing);
         cut = remesh::cut_surface(surface, flags);
         const std::vector<Index> intervals(12, 5);
-        sites = remesh::place_curve_sites(network, cut, spacing, intervals);
+        sites = remesh::curve_sites_at(
+            network, cut, remesh::even_places(cut.surface, network, spacing, intervals));
         cells.assign(sites.sites.size(), {Vec3::Zero(), Vec3::Zero(), 1, 1});
     }
 

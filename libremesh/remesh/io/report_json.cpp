@@ -105,6 +105,9 @@ Json to_json(const std::optional<FeatureCoverage>& measured) {
     object["false_percent"] = percent(features.false_share, measured.has_value());
     object["corners"] = measured ? Json(features.corners) : Json();
     object["corners_kept"] = has_corners ? Json(features.corners_kept) : Json();
+    object["acute_corners"] = measured ? Json(features.acute_corners) : Json();
+    object["min_angle_off_acute_corners_deg"] =
+        measured ? Json(features.min_angle_elsewhere * degrees) : Json();
     return object;
 }
 

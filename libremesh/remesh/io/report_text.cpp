@@ -95,6 +95,10 @@ void add_features(Table& table, const FeatureCoverage& features) {
     }
     if (features.corners > 0)
         table.row("corners, and those kept", features.corners, features.corners_kept);
+    if (features.acute_corners > 0) {
+        table.row("corners below 30 deg", features.acute_corners, "");
+        table.row("smallest angle off these", "", fixed(features.min_angle_elsewhere * degrees, 2));
+    }
 }
 
 void add_distance(Table& table, const SurfaceDistance& distance) {

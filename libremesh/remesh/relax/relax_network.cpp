@@ -301,7 +301,8 @@ private:
     std::unique_ptr<Relaxation> start_coarse() {
         const std::vector<Index> intervals = coarse_intervals(plan_);
         const CurveSites coarse =
-            place_curve_sites(plan_.network, plan_.cut, plan_.spacing, intervals);
+            curve_sites_at(plan_.network, plan_.cut,
+                           even_places(plan_.cut.surface, plan_.network, plan_.spacing, intervals));
         const double euler = detail::euler_of(plan_.cut.surface);
         const double wanted =
             (num_inner_ - static_cast<double>(coarse.sites.size()) + 3 * euler) / 4 + 1;
@@ -375,7 +376,7 @@ private:
 
 NetworkSites sample_network_sites(const PreparedSurface& surface, const NetworkPlan& plan,
                                   const SamplingOptions& sampling, const RelaxOptions& options) {
-    CurveSites curves = place_curve_sites(plan.network, plan.cut, plan.spacing, plan.intervals);
+    CurveSites curves = curve_sites_at(plan.network, plan.cut, plan.along);
     return NetworkSampler(surface, plan, std::move(curves), options, 2).run(sampling);
 }
 

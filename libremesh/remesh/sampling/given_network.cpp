@@ -241,12 +241,9 @@ GivenNetwork plan_given_network(const Surface& surface, std::vector<std::uint8_t
     plan.network = carrier.network();
     plan.cut = cut_surface(surface, carrier.is_crease(), options.num_threads, options.progress);
     plan.spacing = options.spacing;
-    for (std::size_t c = 0; c < plan.network.curves.size(); ++c) {
-        const bool is_closed = plan.network.curves[c].is_closed();
-        plan.intervals.push_back(
-            static_cast<Index>(carrier.along()[c].size() + (is_closed ? 0 : 1)));
-    }
-    result.curves = curve_sites_at(plan.network, plan.cut, carrier.along());
+    plan.along = carrier.along();
+    plan.intervals = intervals_between(plan.network, plan.along);
+    result.curves = curve_sites_at(plan.network, plan.cut, plan.along);
     result.inner = carrier.inner_sites();
     return result;
 }

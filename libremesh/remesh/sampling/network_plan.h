@@ -9,14 +9,15 @@ namespace remesh {
 //! A network with what sampling has to know of it.
 struct NetworkPlan {
     CurveNetwork network;
-    CutSurface cut;                       //!< The surface, cut along it.
-    std::vector<agvd::Index> intervals;   //!< Of each curve: see curve_intervals.
-    JunctionSet junctions;                //!< Those given; none where the sites are too few.
-    double spacing = 0;                   //!< Mesh units: of neighbouring sites.
-    double length = 0;                    //!< Of the creases kept, mesh units.
-    double dropped_length = 0;            //!< Of those that the sites are too few for.
-    agvd::Index sites_for_junctions = 0;  //!< Fewest vertices with which these are kept.
-    agvd::Index sites_for_all = 0;        //!< Fewest vertices with which all are kept.
+    CutSurface cut;                          //!< The surface, cut along it.
+    std::vector<std::vector<double>> along;  //!< By curve: where its sites belong.
+    std::vector<agvd::Index> intervals;      //!< By curve: these divide it into so many.
+    JunctionSet junctions;                   //!< Those given; none where the sites are too few.
+    double spacing = 0;                      //!< Mesh units: of neighbouring sites.
+    double length = 0;                       //!< Of the creases kept, mesh units.
+    double dropped_length = 0;               //!< Of those that the sites are too few for.
+    agvd::Index sites_for_junctions = 0;     //!< Fewest vertices with which these are kept.
+    agvd::Index sites_for_all = 0;           //!< Fewest vertices with which all are kept.
 };
 
 //! Boundary, creases and junctions, with the spacing at which the vertices of curves and patches
