@@ -12,6 +12,7 @@
 #include "agvd/mesh/closest_point.h"
 #include "remesh/io/read_mesh.h"
 #include "remesh/pipeline/remesh.h"
+#include "remesh/quality/triangle_quality.h"
 #include "remesh/sampling/sample_sites.h"
 #include "support/crease_checks.h"
 #include "support/dice.h"
@@ -471,6 +472,25 @@ TEST(Features, GivenEdgesAreKeptThoughTheyAreFlat) {
     const RemeshResult without =
         remesh::remesh(plate.view(), {.num_samples = 300, .num_threads = 1});
     EXPECT_LT(length_at(without.mesh, y), 0.5 * wanted);
+}
+
+// Triangles on it cannot have a good shape, and others are not to crowd around it for that.
+TEST(Features, AShortGivenEdgeLeavesTheOthersTheirShape) {
+    const TriangleMesh sphere = shapes::sphere(5);
+    const Triangle& t = sphere.triangles[1234];
+    const double length = (sphere.positions[t[0]] - sphere.positions[t[1]]).norm();
+    const RemeshOptions without{.num_samples = 500};
+    RemeshOptions with = without;
+    with.feature_edges = {{t[0], t[1]}};
+    const RemeshResult result = run(sphere, with);
+    expect_sound(result, 500);
+    EXPECT_NEAR(result.features.length, length, 1e-12);
+    EXPECT_LT(length, 0.3 * std::sqrt(4 * std::numbers::pi / 500));
+    const auto mean_quality = [](const RemeshResult& r) {
+        return remesh::measure_triangles(r.mesh.view()).mean_quality;
+    };
+    const double loss = mean_quality(run(sphere, without)) - mean_quality(result);
+    EXPECT_LT(loss, 0.012);
 }
 
 TEST(Features, GivenEdgesFollowCleaning) {

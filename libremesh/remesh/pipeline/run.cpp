@@ -41,7 +41,7 @@ constexpr std::size_t least_scale = 300;
 // Of the spacing: lengths not above this are rounding.
 constexpr double rounding = 1e-10;
 // In spacings. Shorter ones are specks on a scan: cells would have to wind around them, and five of
-// them on bunny cost .02 of the mean quality.
+// them on nefertiti cost .013 of the mean quality.
 constexpr double least_junction = 2;
 // In spacings: given sites this near to a curve go onto it where they are relaxed. Vertices of an
 // earlier result, which were fitted, stand up to .05 off.
