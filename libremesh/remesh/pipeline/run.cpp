@@ -182,6 +182,11 @@ private:
         result_.features.uncarried_curves = given.dropped_curves;
         curves_ = std::move(given.curves);
         sites_ = std::move(given.inner);
+        given_number_.clear();
+        for (const Index group : groups_of_copies(curves_)) {
+            given_number_.push_back(given.of_group[group]);
+        }
+        given_number_.insert(given_number_.end(), given.of_inner.begin(), given.of_inner.end());
         return std::move(given.plan);
     }
 
@@ -370,6 +375,7 @@ private:
             const CrossingFaces crossings = unfit_crossings(placed);
             if (mends == 0 || !crossings || crossings->size() < *result_.self_intersections) {
                 take_result(placed);
+                if (plan_ && options_.sites) order_as_given(dual);
                 result_.sites_removed = num_removed;
                 result_.delaunay = flips;
                 if (crossings) result_.self_intersections = static_cast<Index>(crossings->size());
@@ -418,6 +424,23 @@ private:
         result_.mesh = mesh_of(placed);
         result_.sites = plan_ ? take(placed.points, whole_.representative) : placed.points;
         if (has_junctions()) first_of_group_ = whole_.first_of_group;
+    }
+    // Vertices of curves come first else. Those that repair has added stay last.
+    void order_as_given(const ValidDual& dual) {
+        std::vector<std::pair<Index, Index>> order;  // (number of the site, vertex)
+        for (Index v = 0; v < whole_.representative.size(); ++v) {
+            const Index site = dual.site[whole_.representative[v]];
+            order.emplace_back(site < given_number_.size() ? given_number_[site] : no_index, v);
+        }
+        std::sort(order.begin(), order.end());
+        std::vector<Index> before, after(order.size());
+        for (const auto& [number, v] : order) {
+            after[v] = static_cast<Index>(before.size());
+            before.push_back(v);
+        }
+        result_.mesh = {take(result_.mesh.positions, before),
+                        rename_vertices(result_.mesh.triangles, after)};
+        result_.sites = take(result_.sites, before);
     }
     // Copies of a vertex are one, and sheets meet in the same points.
     [[nodiscard]] agvd::TriangleMesh mesh_of(const PlacedMesh& placed) const {
@@ -723,6 +746,7 @@ private:
     std::vector<Index> component_;       // #F of the base.
     CurveSites curves_;                  // The first ones of the sites; empty without a plan.
     std::vector<ChainEdge> chain_;       // Likewise.
+    std::vector<Index> given_number_;    // By site, of given ones with a plan: their order.
     std::vector<Index> groups_;          // Of the dual's vertices: equal for copies of one.
     GluedMesh whole_;                    // The dual with copies as one; without a plan not used.
     std::vector<Index> first_of_group_;  // Of the result's vertices; without junctions empty.

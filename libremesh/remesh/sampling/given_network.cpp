@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "agvd/mesh/closest_point.h"
+#include "agvd/mesh/distinct_points.h"
 #include "agvd/mesh/one_ring.h"
 
 namespace remesh {
@@ -91,17 +92,33 @@ public:
     [[nodiscard]] bool has_creases() const {
         return std::any_of(is_crease_.begin(), is_crease_.end(), [](auto c) { return c != 0; });
     }
-    [[nodiscard]] const std::vector<std::vector<double>>& along() const { return along_; }
+    [[nodiscard]] std::vector<std::vector<double>> along() const {
+        std::vector<std::vector<double>> result;
+        for (const std::vector<Stop>& stops : stops_) {
+            std::vector<double>& places = result.emplace_back();
+            for (const Stop& stop : stops) places.push_back(stop.first);
+        }
+        return result;
+    }
 
-    [[nodiscard]] std::vector<SurfacePoint> inner_sites() const {
-        std::vector<SurfacePoint> inner;
+    // Those at nodes, then curve by curve.
+    [[nodiscard]] std::vector<Index> network_sites() const {
+        std::vector<Index> result = at_node_;
+        for (const std::vector<Stop>& stops : stops_) {
+            for (const Stop& stop : stops) result.push_back(stop.second);
+        }
+        return result;
+    }
+    [[nodiscard]] std::vector<Index> inner_sites() const {
+        std::vector<Index> inner;
         for (Index s = 0; s < sites_.size(); ++s) {
-            if (is_on_network_[s] == 0) inner.push_back(sites_[s]);
+            if (is_on_network_[s] == 0) inner.push_back(s);
         }
         return inner;
     }
 
 private:
+    using Stop = std::pair<double, Index>;  // Place on its curve, site.
     struct OnCurve {
         Index curve = no_index;
         std::size_t edge = 0;
@@ -113,7 +130,7 @@ private:
         find_places();
         const std::vector<OnCurve> on_curve = curves_of_edges();
         is_on_network_.assign(sites_.size(), 0);
-        along_.assign(network_.curves.size(), {});
+        stops_.assign(network_.curves.size(), {});
         take_nodes();
         for (Index s = 0; s < sites_.size(); ++s) {
             if (is_on_network_[s] != 0 || places_[s].edge == no_index) continue;
@@ -122,17 +139,17 @@ private:
             const double place = along(curve, i, places_[s]);
             const double from_end = std::min(place, curve.length() - place);
             const bool is_at_node = !curve.is_closed() && from_end < site_rounding * spacing_;
-            if (!is_at_node) along_[c].push_back(place);
+            if (!is_at_node) stops_[c].emplace_back(place, s);
             // The node has a site.
             is_on_network_[s] =
                 !is_at_node || places_[s].vertex_distance < site_rounding * spacing_ ? 1 : 0;
         }
-        for (std::vector<double>& places : along_) {
-            std::sort(places.begin(), places.end());
-            const auto is_same = [&](double a, double b) {
-                return b - a < site_rounding * spacing_;
+        for (std::vector<Stop>& stops : stops_) {
+            std::sort(stops.begin(), stops.end());
+            const auto is_same = [&](const Stop& a, const Stop& b) {
+                return b.first - a.first < site_rounding * spacing_;
             };
-            places.erase(std::unique(places.begin(), places.end(), is_same), places.end());
+            stops.erase(std::unique(stops.begin(), stops.end(), is_same), stops.end());
         }
     }
 
@@ -161,21 +178,19 @@ private:
 
     // Each node takes the nearest site, if that is near enough.
     void take_nodes() {
-        std::vector<Index> nearest(network_.nodes.size(), no_index);
+        at_node_.assign(network_.nodes.size(), no_index);
         for (Index s = 0; s < sites_.size(); ++s) {
             const EdgePlace& place = places_[s];
             if (place.edge == no_index || place.vertex_distance > tolerance_) continue;
             const auto node =
                 std::lower_bound(network_.nodes.begin(), network_.nodes.end(), place.vertex);
             if (node == network_.nodes.end() || *node != place.vertex) continue;
-            Index& taken = nearest[static_cast<std::size_t>(node - network_.nodes.begin())];
+            Index& taken = at_node_[static_cast<std::size_t>(node - network_.nodes.begin())];
             if (taken == no_index || place.vertex_distance < places_[taken].vertex_distance) {
                 taken = s;
             }
         }
-        has_site_.clear();
-        for (const Index s : nearest) {
-            has_site_.push_back(s != no_index);
+        for (const Index s : at_node_) {
             if (s != no_index) is_on_network_[s] = 1;
         }
     }
@@ -194,12 +209,13 @@ private:
 
     [[nodiscard]] bool carries(Index c, Index fewest) const {
         const Curve& curve = network_.curves[c];
-        std::vector<double> stops = along_[c];
+        std::vector<double> stops;
+        for (const Stop& stop : stops_[c]) stops.push_back(stop.first);
         if (curve.is_closed()) {
             if (stops.size() < fewest) return false;
             stops.push_back(stops.front() + curve.length());
         } else {
-            if (!has_site_[curve.begin] || !has_site_[curve.end]) return false;
+            if (at_node_[curve.begin] == no_index || at_node_[curve.end] == no_index) return false;
             if (stops.size() + 1 < fewest) return false;
             stops.insert(stops.begin(), 0);
             stops.push_back(curve.length());
@@ -216,8 +232,8 @@ private:
     const double spacing_, tolerance_;
     std::vector<EdgePlace> places_;  // #sites
     CurveNetwork network_;
-    std::vector<std::vector<double>> along_;   // By curve: the sites between its ends, ascending.
-    std::vector<bool> has_site_;               // By node.
+    std::vector<std::vector<Stop>> stops_;     // By curve: the sites between its ends, ascending.
+    std::vector<Index> at_node_;               // By node: its site, or no_index.
     std::vector<std::uint8_t> is_on_network_;  // #sites
 };
 
@@ -244,7 +260,9 @@ GivenNetwork plan_given_network(const Surface& surface, std::vector<std::uint8_t
     plan.along = carrier.along();
     plan.intervals = intervals_between(plan.network, plan.along);
     result.curves = curve_sites_at(plan.network, plan.cut, plan.along);
-    result.inner = carrier.inner_sites();
+    result.of_group = carrier.network_sites();
+    result.of_inner = carrier.inner_sites();
+    result.inner = agvd::points_of(sites, result.of_inner);
     return result;
 }
 

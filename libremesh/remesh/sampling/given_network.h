@@ -10,6 +10,8 @@ struct GivenNetwork {
     NetworkPlan plan;   //!< Without curves if none is carried; nothing is counted for all.
     CurveSites curves;  //!< The sites on these.
     std::vector<agvd::SurfacePoint> inner;  //!< The others, in their order.
+    std::vector<agvd::Index> of_group;      //!< By group of `curves`: its number among the sites.
+    std::vector<agvd::Index> of_inner;      //!< Likewise.
     agvd::Index dropped_curves = 0;         //!< Creases that the sites do not carry.
 };
 
