@@ -163,10 +163,9 @@ void add_options(CLI::App& app, Arguments& arguments) {
 void judge(const remesh::RemeshResult& result, bool strict, cli::Console& console) {
     const agvd::Index pairs = result.self_intersections.value_or(0);
     if (pairs <= result.input_self_intersections) return;
-    const std::string text = "the result has " + std::to_string(pairs) +
-                             " pairs of intersecting faces, the input " +
-                             std::to_string(result.input_self_intersections) +
-                             "; ask for more samples";
+    const std::string text =
+        "the result has " + std::to_string(pairs) + " pairs of intersecting faces, the input " +
+        std::to_string(result.input_self_intersections) + "; ask for more samples";
     if (strict) throw agvd::ConstraintUnmet(text + ", or leave --strict out");
     console.warn(text);
 }

@@ -10,6 +10,7 @@
 #include "cli.h"
 #include "remesh/io/read_mesh.h"
 #include "render/canvas.h"
+#include "render/network_lines.h"
 
 namespace {
 
@@ -20,10 +21,12 @@ using render::Color;
 
 const Color front_color{0.84F, 0.40F, 0.24F};
 const Color back_color{0.06F, 0.13F, 0.55F};
+const Color plain_color{0.62F, 0.62F, 0.60F};  // Under lines in colour.
 const Color overlay_color{0.02F, 0.05F, 0.16F};
 
 struct Options {
-    std::string mesh, picture, overlay, size = "1200x900";
+    std::string mesh, picture, overlay, network, size = "1200x900";
+    agvd::Index num_vertices = 2000;
     std::vector<double> view{15, -30, 0};
     double line_width = 1.6;
     bool is_wire = false;
@@ -113,6 +116,22 @@ Color shade(const Vec3& normal, const Color& surface) {
     return surface.cwiseProduct(light) + Color::Constant(gloss);
 }
 
+void draw_network(const Options& options, const View& view, render::Canvas& canvas) {
+    const render::NetworkLines network =
+        render::network_lines(options.network, options.num_vertices);
+    const double width = 2 * options.line_width;
+    for (const auto& [points, color] : network.lines) {
+        for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+            canvas.draw_line(view.to_pixels(points[i]), view.to_pixels(points[i + 1]), color, width,
+                             width);
+        }
+    }
+    for (const Vec3& node : network.nodes) {
+        const Vec3 at = view.to_pixels(node);
+        canvas.draw_line(at, at, overlay_color, 2.2 * width, 2 * width);
+    }
+}
+
 void draw(const Options& options) {
     int width = 0, height = 0;
     if (char x = 0; !(std::istringstream(options.size) >> width >> x >> height) || x != 'x' ||
@@ -132,7 +151,8 @@ void draw(const Options& options) {
         // Lines fade where triangles are but a few pixels large, and would cover all.
         const double pixels = std::sqrt(std::abs(screen_normal.z()));
         const double opacity = options.is_wire ? 0.75 * std::clamp(pixels / 10, 0.1, 1.0) : 0.0;
-        canvas.draw_triangle(corners, shade(normal, is_front ? front_color : back_color),
+        const Color& front = options.network.empty() ? front_color : plain_color;
+        canvas.draw_triangle(corners, shade(normal, is_front ? front : back_color),
                              static_cast<float>(opacity));
     }
     canvas.shade_hollows(0.05 * std::min(width, height));
@@ -143,6 +163,7 @@ void draw(const Options& options) {
                              overlay_color, options.line_width, 2 * options.line_width);
         }
     }
+    if (!options.network.empty()) draw_network(options, view, canvas);
     canvas.write_png(options.picture);
 }
 
@@ -159,6 +180,13 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_flag("--wire", options.is_wire, "draw the edges");
     app.add_option("--overlay", options.overlay, "OBJ whose `l` lines are drawn on the surface");
+    app.add_option(
+        "--network", options.network,
+        "mesh whose creases are drawn in colours as `remesh` keeps them, dots at corners");
+    app.add_option("--vertices", options.num_vertices,
+                   "of that run: what a crease is depends on it")
+        ->check(CLI::Range(300, 1000000))
+        ->capture_default_str();
     app.add_option("--line-width", options.line_width, "of the overlay, in pixels")
         ->check(CLI::Range(0.1, 50.0))
         ->capture_default_str();

@@ -18,7 +18,10 @@ protected:
     [[nodiscard]] nlohmann::json report(const std::vector<std::string>& options) {
         const std::string in = put("in.ply", parts::hexagonal_prism(4));
         std::vector<std::string> arguments{in, at("out.ply"), "--report", "-"};
-        if (std::find(options.begin(), options.end(), "-n") == options.end()) {
+        const auto has = [&](const char* option) {
+            return std::find(options.begin(), options.end(), option) != options.end();
+        };
+        if (!has("-n") && !has("--sites")) {
             arguments.insert(arguments.end(), {"-n", "300"});
         }
         arguments.insert(arguments.end(), options.begin(), options.end());
@@ -68,6 +71,32 @@ TEST_F(RemeshFeatures, TheReportTellsTheNetwork) {
     const nlohmann::json few = report({"--features", "40", "-n", "11"})["features"];
     EXPECT_GT(few["dropped_crease_length_mesh_units"], 0.9);
     EXPECT_EQ(few["samples_for_all"], 12);
+}
+
+TEST_F(RemeshFeatures, CreasesThatGivenSitesDoNotCarryAreTold) {
+    std::string corners, others;
+    const agvd::TriangleMesh prism = parts::hexagonal_prism(4);
+    for (std::size_t v = 0; v < prism.positions.size(); ++v) {
+        corners += "v " + std::to_string(v) + '\n';
+    }
+    for (std::size_t f = 0; f < prism.triangles.size(); ++f) {
+        others += "f " + std::to_string(f) + " .5 .25 .25\n";
+    }
+    put("vertices.txt", corners);
+    put("inside.txt", others);
+    const nlohmann::json on = report({"--sites", at("vertices.txt"), "--keep-sites"});
+    EXPECT_EQ(on["output_vertices"], prism.positions.size());
+    EXPECT_EQ(on["features"]["curves"], 18);
+    EXPECT_EQ(on["features"]["curves_off_given_sites"], 0);
+    const nlohmann::json off = report({"--sites", at("inside.txt"), "--keep-sites"});
+    EXPECT_EQ(off["features"]["curves"], 0);
+    EXPECT_EQ(off["features"]["curves_off_given_sites"], 18);
+    EXPECT_NEAR(off["features"]["dropped_crease_length_mesh_units"], 18, 1e-5);
+    const auto outcome = run(
+        REMESH_PROGRAM, {at("in.ply"), at("out.ply"), "--sites", at("inside.txt"), "--keep-sites"});
+    EXPECT_NE(outcome.err.find("18 creases without enough of the given sites on them"),
+              std::string::npos)
+        << outcome.err;
 }
 
 TEST_F(RemeshFeatures, JunctionsAreApartUnlessTheyAreToBeKept) {

@@ -9,8 +9,11 @@
 
 #include <Eigen/Geometry>
 
+#include "agvd/mesh/closest_point.h"
 #include "remesh/io/read_mesh.h"
 #include "remesh/pipeline/remesh.h"
+#include "remesh/quality/triangle_quality.h"
+#include "remesh/sampling/sample_sites.h"
 #include "support/crease_checks.h"
 #include "support/dice.h"
 #include "support/files.h"
@@ -127,6 +130,14 @@ double diagonal(const TriangleMesh& mesh) {
 
 RemeshResult run(const TriangleMesh& mesh, const RemeshOptions& options) {
     return remesh::remesh(mesh.view(), options);
+}
+
+std::vector<Vec3> positions_of(const TriangleMesh& mesh, const RemeshResult& result) {
+    std::vector<Vec3> positions;
+    for (const SurfacePoint& site : result.sites) {
+        positions.push_back(position(mesh.view(), site));
+    }
+    return positions;
 }
 
 void expect_sound(const RemeshResult& result, Index num_samples) {
@@ -287,18 +298,87 @@ TEST(Features, AnglesDecide) {
     }
 }
 
-TEST(Features, GivenSitesAndFreeBoundariesHaveNone) {
-    const TriangleMesh mesh = parts::open_box({1, 1, 1}, 6);
-    const RemeshResult free = run(mesh, {.num_samples = 200, .boundary = remesh::Boundary::Free});
-    EXPECT_EQ(free.features.curves, 0u);
-    EXPECT_EQ(free.features.length, 0);
-    RemeshOptions given{.num_samples = 200, .features = Features::Off};
-    given.sites = run(mesh, given).sites;
-    const RemeshResult off = run(mesh, given);
-    given.features = Features::Auto;
-    const RemeshResult automatic = run(mesh, given);
-    EXPECT_EQ(automatic.features.curves, 0u);
-    EXPECT_EQ(automatic.mesh.positions, off.mesh.positions);
+// Only the boundary leaves the place where it was.
+TEST(Features, FreeBoundariesKeepTheCreasesInside) {
+    const TriangleMesh plate = cone().mesh;  // Its boundary is a circle of radius 3.
+    const auto farthest_outside = [&](const RemeshResult& result) {
+        const ClosestPointTree tree(plate.view());
+        double farthest = 0;
+        for (const Vec3& p : result.mesh.positions) {
+            if (std::hypot(p.x(), p.y()) < 2.9) continue;
+            farthest = std::max(farthest, std::sqrt(tree.query(p).distance_sq));
+        }
+        return farthest;
+    };
+    const RemeshResult keep = run(plate, {.num_samples = 200});
+    const RemeshResult free = run(plate, {.num_samples = 200, .boundary = remesh::Boundary::Free});
+    for (const RemeshResult& result : {keep, free}) {
+        expect_sound(result, 200);
+        expect_network(cone(), result);
+        EXPECT_EQ(crease_checks::coverage(plate, result.mesh, .03), 1);
+    }
+    EXPECT_LT(farthest_outside(keep), 1e-9);
+    EXPECT_GT(farthest_outside(free), 1e-3);
+    EXPECT_LT(farthest_outside(free), .05);
+}
+
+TEST(Features, GivenSitesCarryTheCreasesThatTheyLieOn) {
+    for (const Part& part : {box(), open_box(), extruded_l(), cylinder(), vaults()}) {
+        SCOPED_TRACE(part.name);
+        const RemeshResult first = run(part.mesh, {.num_samples = 400, .fit = false});
+        for (const bool keep_sites : {true, false}) {
+            const RemeshOptions options{
+                .sites = first.sites, .keep_sites = keep_sites, .fit = keep_sites};
+            const RemeshResult result = run(part.mesh, options);
+            expect_sound(result, 400);
+            expect_network(part, result);
+            expect_sharp(part, result, true);
+            EXPECT_EQ(result.features.uncarried_curves, 0u);
+            RemeshOptions one_thread = options;
+            one_thread.num_threads = 1;
+            EXPECT_EQ(run(part.mesh, one_thread).mesh.positions, result.mesh.positions);
+            EXPECT_EQ(result.sites_dropped, 0u);
+            if (!keep_sites) continue;
+            // In the order given.
+            const std::vector<Vec3> positions = positions_of(part.mesh, result);
+            for (Index i = 0; i < 400; ++i) {
+                EXPECT_LT((positions[i] - first.mesh.positions[i]).norm(), 1e-9);
+            }
+        }
+    }
+}
+
+TEST(Features, CreasesWithoutGivenSitesAreDroppedAndCounted) {
+    const Part part = box();
+    RemeshOptions options{.num_samples = 600, .fit = false};
+    const RemeshResult all = run(part.mesh, options);
+    // Those inside one edge go.
+    options.sites.emplace();
+    for (Index i = 0; i < all.sites.size(); ++i) {
+        const Vec3& p = all.mesh.positions[i];
+        if (p.x() > 0 && p.x() < 1 && p.y() == 0 && p.z() == 0) continue;
+        options.sites->push_back(all.sites[i]);
+    }
+    ASSERT_LT(options.sites->size(), 600u);
+    options.keep_sites = true;
+    const RemeshResult most = run(part.mesh, options);
+    expect_sound(most, static_cast<Index>(options.sites->size()));
+    EXPECT_EQ(most.features.uncarried_curves, 1u);
+    EXPECT_NEAR(most.features.length, 11, 1e-9);
+    EXPECT_NEAR(most.features.dropped_length, 1, 1e-9);
+    EXPECT_FALSE(most.features.gave_up);
+
+    // None lies on any.
+    options.sites = remesh::sample_sites(build_surface(part.mesh.view()), {.num_samples = 200});
+    const RemeshResult none = run(part.mesh, options);
+    EXPECT_EQ(none.features.uncarried_curves, 12u);
+    EXPECT_EQ(none.features.curves, 0u);
+    EXPECT_NEAR(none.features.dropped_length, 12, 1e-9);
+    options.features = Features::Off;
+    const RemeshResult off = run(part.mesh, options);
+    EXPECT_EQ(off.features.dropped_length, 0);
+    EXPECT_EQ(none.mesh.positions, off.mesh.positions);
+    EXPECT_EQ(none.mesh.triangles, off.mesh.triangles);
 }
 
 TEST(Features, ScansAreLeftAlone) {
@@ -394,6 +474,25 @@ TEST(Features, GivenEdgesAreKeptThoughTheyAreFlat) {
     const RemeshResult without =
         remesh::remesh(plate.view(), {.num_samples = 300, .num_threads = 1});
     EXPECT_LT(length_at(without.mesh, y), 0.5 * wanted);
+}
+
+// Triangles on it cannot have a good shape, and others are not to crowd around it for that.
+TEST(Features, AShortGivenEdgeLeavesTheOthersTheirShape) {
+    const TriangleMesh sphere = shapes::sphere(5);
+    const Triangle& t = sphere.triangles[1234];
+    const double length = (sphere.positions[t[0]] - sphere.positions[t[1]]).norm();
+    const RemeshOptions without{.num_samples = 500};
+    RemeshOptions with = without;
+    with.feature_edges = {{t[0], t[1]}};
+    const RemeshResult result = run(sphere, with);
+    expect_sound(result, 500);
+    EXPECT_NEAR(result.features.length, length, 1e-12);
+    EXPECT_LT(length, 0.3 * std::sqrt(4 * std::numbers::pi / 500));
+    const auto mean_quality = [](const RemeshResult& r) {
+        return remesh::measure_triangles(r.mesh.view()).mean_quality;
+    };
+    const double loss = mean_quality(run(sphere, without)) - mean_quality(result);
+    EXPECT_LT(loss, 0.012);
 }
 
 TEST(Features, GivenEdgesFollowCleaning) {

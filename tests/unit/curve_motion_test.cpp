@@ -25,7 +25,8 @@ struct Cube {
         network = remesh::find_network(surface, flags, spacing);
         cut = remesh::cut_surface(surface, flags);
         const std::vector<Index> intervals(12, 5);
-        sites = remesh::place_curve_sites(network, cut, spacing, intervals);
+        sites = remesh::curve_sites_at(
+            network, cut, remesh::even_places(cut.surface, network, spacing, intervals));
         cells.assign(sites.sites.size(), {Vec3::Zero(), Vec3::Zero(), 1, 1});
     }
 
@@ -124,7 +125,8 @@ TEST(CurveMotion, ClosedCurvesGoRound) {
     const std::vector<std::uint8_t> flags = flag_sharp_edges(surface);
     const auto network = remesh::find_network(surface, flags, .2);
     const auto cut = remesh::cut_surface(surface, flags);
-    const auto sites = remesh::place_curve_sites(network, cut, .2, std::vector<Index>(2, 16));
+    const auto sites = remesh::curve_sites_at(
+        network, cut, remesh::even_places(cut.surface, network, .2, std::vector<Index>(2, 16)));
     CurveMotion motion(surface, network, sites);
     for (int i = 0; i < 60; ++i) {
         std::vector<CvtEnergy::Cell> cells(sites.sites.size(), {Vec3::Zero(), Vec3::Zero(), 1, 1});

@@ -32,7 +32,8 @@ struct Placed {
         network = remesh::find_network(surface, flags, spacing);
         cut = remesh::cut_surface(surface, flags);
         intervals = remesh::curve_intervals(surface, network, spacing);
-        sites = remesh::place_curve_sites(network, cut, spacing, intervals);
+        sites = remesh::curve_sites_at(
+            network, cut, remesh::even_places(cut.surface, network, spacing, intervals));
         chain = remesh::chain_edges(network, cut, sites);
     }
 

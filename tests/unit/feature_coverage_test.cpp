@@ -218,3 +218,18 @@ TEST(FeatureCoverage, ResultFarAwayCoversNothing) {
     EXPECT_EQ(c.false_share, 1);
     EXPECT_EQ(c.corners_kept, 0u);
 }
+
+TEST(FeatureCoverage, AcuteCornersAreLeftOutOfTheSmallestAngle) {
+    // A wedge of 20 degrees; its other corners have 80.
+    const double tip = std::numbers::pi / 9;
+    const TriangleMesh wedge = prism({{0, 0, 0}, {1, 0, 0}, {std::cos(tip), std::sin(tip), 0}});
+    const FeatureCoverage c = coverage(wedge, wedge);
+    EXPECT_EQ(c.corners, 6u);
+    EXPECT_EQ(c.acute_corners, 2u);
+    // Only halves of the side across from the tip have no corner there: 1 high, 2 sin(tip / 2)
+    // wide.
+    EXPECT_NEAR(c.min_angle_elsewhere, std::atan(2 * std::sin(tip / 2)), 1e-12);
+    const FeatureCoverage cube = coverage(shapes::cube(), shapes::cube());
+    EXPECT_EQ(cube.acute_corners, 0u);
+    EXPECT_NEAR(cube.min_angle_elsewhere, std::numbers::pi / 4, 1e-12);
+}

@@ -25,7 +25,8 @@ struct Fitted {
         network = remesh::find_network(surface, flags, spacing);
         const remesh::CutSurface cut = remesh::cut_surface(surface, flags);
         intervals = remesh::curve_intervals(surface, network, spacing);
-        sites = remesh::place_curve_sites(network, cut, spacing, intervals);
+        sites = remesh::curve_sites_at(
+            network, cut, remesh::even_places(cut.surface, network, spacing, intervals));
         offsets = remesh::fit_curves(surface, network, sites);
     }
 

@@ -87,8 +87,7 @@ TEST(NetworkPlan, WithoutCreasesThereIsNone) {
 TEST(SampleInnerSites, PatchesGetTheirShareOffTheirRim) {
     const Surface surface = make(parts::box({1, 1, 1}, 4));
     const NetworkPlan plan = plan_of(surface, 300);
-    const remesh::CurveSites curves =
-        remesh::place_curve_sites(plan.network, plan.cut, plan.spacing, plan.intervals);
+    const remesh::CurveSites curves = remesh::curve_sites_at(plan.network, plan.cut, plan.along);
     const Index count = 300 - curves.num_groups();
     const remesh::Topology patches = remesh::analyze_topology(plan.cut.surface.mesh.view());
     for (const auto init : {remesh::Init::BlueNoise, remesh::Init::Farthest}) {

@@ -33,6 +33,8 @@ remesh::Evaluation example() {
                   .false_share = 0.25,
                   .corners = 8,
                   .corners_kept = 7,
+                  .acute_corners = 3,
+                  .min_angle_elsewhere = std::numbers::pi / 9,
                   .diagonal = 5};
     return e;
 }
@@ -83,6 +85,8 @@ TEST(EvaluationReport, GivesEveryFigureInTheUnitOfItsKey) {
     EXPECT_EQ(report["features"]["false_percent"], 25);
     EXPECT_EQ(report["features"]["corners"], 8);
     EXPECT_EQ(report["features"]["corners_kept"], 7);
+    EXPECT_EQ(report["features"]["acute_corners"], 3);
+    EXPECT_NEAR(report["features"]["min_angle_off_acute_corners_deg"], 20, 1e-12);
 }
 
 TEST(EvaluationReport, FeaturesAreThereWhereTheOriginalHasAny) {

@@ -171,8 +171,34 @@ Index num_junction_vertices(const CurveNetwork& network, const CurveSites& sites
     return static_cast<Index>(std::unique(vertices.begin(), vertices.end()) - vertices.begin());
 }
 
-CurveSites place_curve_sites(const CurveNetwork& network, const CutSurface& cut, double spacing,
-                             std::span<const Index> intervals) {
+std::vector<std::vector<double>> even_places(const agvd::Surface& surface,
+                                             const CurveNetwork& network, double spacing,
+                                             std::span<const Index> intervals) {
+    std::vector<std::vector<double>> along;
+    for (std::size_t c = 0; c < network.curves.size(); ++c) {
+        const Curve& curve = network.curves[c];
+        const std::vector<double> spacings = spacings_along(surface, curve, spacing);
+        std::vector<double>& places = along.emplace_back();
+        for (Index i = curve.is_closed() ? 0 : 1; i < intervals[c]; ++i) {
+            const double count = start_of(curve, spacings) + spacings.back() * i / intervals[c];
+            places.push_back(place_at(curve, spacings, count));
+        }
+    }
+    return along;
+}
+
+std::vector<Index> intervals_between(const CurveNetwork& network,
+                                     std::span<const std::vector<double>> along) {
+    std::vector<Index> intervals;
+    for (std::size_t c = 0; c < along.size(); ++c) {
+        const Index num_ends = network.curves[c].is_closed() ? 0 : 1;
+        intervals.push_back(static_cast<Index>(along[c].size()) + num_ends);
+    }
+    return intervals;
+}
+
+CurveSites curve_sites_at(const CurveNetwork& network, const CutSurface& cut,
+                          std::span<const std::vector<double>> along) {
     CurveSites result;
     SitePlacer placer(result);
     for (const std::vector<Index>& copies : copies_of_nodes(network, cut)) {
@@ -184,14 +210,11 @@ CurveSites place_curve_sites(const CurveNetwork& network, const CutSurface& cut,
     result.first_of_curve.push_back(result.num_groups());
     for (std::size_t c = 0; c < network.curves.size(); ++c) {
         const Curve& curve = network.curves[c];
-        const std::vector<double> spacings = spacings_along(cut.surface, curve, spacing);
-        for (Index i = curve.is_closed() ? 0 : 1; i < intervals[c]; ++i) {
-            const double count = start_of(curve, spacings) + spacings.back() * i / intervals[c];
-            const double along = place_at(curve, spacings, count);
+        for (const double place : along[c]) {
             for (std::size_t side = 0; side < curve.sides.size(); ++side) {
-                placer.add_copy(point_on_curve(curve, along, side), curve.sides[side].sheet);
+                placer.add_copy(point_on_curve(curve, place, side), curve.sides[side].sheet);
             }
-            placer.end_group(along);
+            placer.end_group(place);
         }
         result.first_of_curve.push_back(result.num_groups());
     }

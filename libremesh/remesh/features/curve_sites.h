@@ -59,11 +59,22 @@ struct CurveSites {
 [[nodiscard]] agvd::Index num_junction_vertices(const CurveNetwork& network,
                                                 const CurveSites& sites);
 
-//! At even distances by spacings_along.
+//! Places at even distances by spacings_along.
 //!
 //! \param intervals  #curves, >= 1.
-[[nodiscard]] CurveSites place_curve_sites(const CurveNetwork& network, const CutSurface& cut,
-                                           double spacing, std::span<const agvd::Index> intervals);
+//! \return #curves: ascending, mesh units; the ends of a curve are not among them.
+[[nodiscard]] std::vector<std::vector<double>> even_places(const agvd::Surface& surface,
+                                                           const CurveNetwork& network,
+                                                           double spacing,
+                                                           std::span<const agvd::Index> intervals);
+
+//! How many intervals such places divide each curve into.
+[[nodiscard]] std::vector<agvd::Index> intervals_between(
+    const CurveNetwork& network, std::span<const std::vector<double>> along);
+
+//! Sites at such places, and at the nodes.
+[[nodiscard]] CurveSites curve_sites_at(const CurveNetwork& network, const CutSurface& cut,
+                                        std::span<const std::vector<double>> along);
 
 //! Puts a group that is no node at another place of its curve, all copies of it.
 //!

@@ -105,6 +105,9 @@ Json to_json(const std::optional<FeatureCoverage>& measured) {
     object["false_percent"] = percent(features.false_share, measured.has_value());
     object["corners"] = measured ? Json(features.corners) : Json();
     object["corners_kept"] = has_corners ? Json(features.corners_kept) : Json();
+    object["acute_corners"] = measured ? Json(features.acute_corners) : Json();
+    object["min_angle_off_acute_corners_deg"] =
+        measured ? Json(features.min_angle_elsewhere * degrees) : Json();
     return object;
 }
 
@@ -128,6 +131,7 @@ Json to_json(const FeatureCounts& counts) {
             {"vertices", counts.vertices},
             {"crease_length_mesh_units", counts.length},
             {"dropped_crease_length_mesh_units", counts.dropped_length},
+            {"curves_off_given_sites", counts.uncarried_curves},
             {"samples_for_all", counts.samples_for_all},
             {"thinned_patches", counts.thinned_patches},
             {"gave_up", counts.gave_up}};

@@ -95,6 +95,10 @@ void add_features(Table& table, const FeatureCoverage& features) {
     }
     if (features.corners > 0)
         table.row("corners, and those kept", features.corners, features.corners_kept);
+    if (features.acute_corners > 0) {
+        table.row("corners below 30 deg", features.acute_corners, "");
+        table.row("smallest angle off these", "", fixed(features.min_angle_elsewhere * degrees, 2));
+    }
 }
 
 void add_distance(Table& table, const SurfaceDistance& distance) {
@@ -148,6 +152,20 @@ std::string describe(const DelaunayCounts& counts, Delaunay delaunay) {
     return text;
 }
 
+std::string why_dropped(const FeatureCounts& features) {
+    std::string text;
+    if (features.uncarried_curves > 0) {
+        text = counted(features.uncarried_curves, "crease") +
+               " without enough of the given sites on them, or on the boundary";
+        if (!features.gave_up) return text;
+        text += "; ";
+    }
+    if (!features.gave_up) {
+        return "all take " + std::to_string(features.samples_for_all) + " samples";
+    }
+    return text + "with all of them the result would self-intersect, or not close";
+}
+
 // Empty without creases.
 std::string describe(const FeatureCounts& features) {
     if (features.curves == 0 && features.dropped_length == 0) return "";
@@ -156,10 +174,7 @@ std::string describe(const FeatureCounts& features) {
                        counted(features.vertices, "vertex") + "; creases of length " +
                        fixed(features.length, 4) + " kept";
     if (features.dropped_length > 0) {
-        text += ", of " + fixed(features.dropped_length, 4) + " dropped: " +
-                (features.gave_up
-                     ? "with all of them the result would self-intersect, or not close"
-                     : "all take " + std::to_string(features.samples_for_all) + " samples");
+        text += ", of " + fixed(features.dropped_length, 4) + " dropped: " + why_dropped(features);
     }
     if (features.thinned_patches > 0) {
         text +=

@@ -90,7 +90,8 @@ void scale_back(RemeshResult& result, int exponent) {
 }
 
 // With fewer creases where no mesh with all of them was found, or only one that
-// self-intersects; without any at last. Only where there is none either is it tried without junctions.
+// self-intersects; without any at last. Only where there is none either is it tried without
+// junctions.
 template <typename Mesh>
 RemeshResult run_with_features(Mesh& mesh, const RemeshOptions& options) {
     const bool has_creases = options.features != Features::Off || !options.feature_edges.empty() ||

@@ -43,11 +43,13 @@ enum class VertexCount {
 struct RemeshOptions {
     agvd::Index num_samples = 2000;  //!< Sites to place, >= 1: one output vertex each.
     VertexCount vertex_count = VertexCount::Exact;
-    Boundary boundary = Boundary::Keep;  //!< Keep: boundary vertices lie on the input's boundary.
+    //! Keep: boundary vertices lie on the input's boundary. Free: near it; beside creases, which
+    //! stay where they are, only as far as the result lies nearer to it so.
+    Boundary boundary = Boundary::Keep;
     double drop_components = 0;  //!< Leave out components with less than this % of the area.
     Init init = Init::BlueNoise;
-    //! Creases become chains of edges, and their corners vertices. Not with given sites, nor with
-    //! Boundary::Free.
+    //! Creases become chains of edges, and their corners vertices. Of given sites those on creases
+    //! become their vertices, and creases that have too few are dropped: see plan_given_network.
     Features features = Features::Auto;
     double feature_angle = CreaseOptions{}.angle;  //!< Degrees, in (0, 180): see CreaseOptions.
     //! Edges that are creases whatever their angle, as pairs of the caller's vertices; with

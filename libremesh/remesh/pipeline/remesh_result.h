@@ -25,9 +25,10 @@ struct FeatureCounts {
     agvd::Index nodes = 0;      //!< Corners, ends and junctions.
     agvd::Index vertices = 0;   //!< Of the result, on curves and nodes.
     double length = 0;          //!< Of the creases that were kept, mesh units.
-    double dropped_length = 0;  //!< Of those for which the sites are too few.
-    agvd::Index samples_for_all = 0;  //!< Fewest with which all are kept.
-    agvd::Index thinned_patches = 0;  //!< Parts between curves too narrow for Voronoi cells.
+    double dropped_length = 0;  //!< Of those for which the sites are too few, or lie elsewhere.
+    agvd::Index uncarried_curves = 0;  //!< Creases that given sites do not lie on.
+    agvd::Index samples_for_all = 0;   //!< Fewest with which all are kept.
+    agvd::Index thinned_patches = 0;   //!< Parts between curves too narrow for Voronoi cells.
     //! Creases were dropped as no mesh with all of them was found, or only such as
     //! self-intersect.
     bool gave_up = false;

@@ -102,12 +102,13 @@ void fit(const agvd::Surface& surface, const Curve& curve, const Chain& chain,
 }  // namespace
 
 std::vector<Vec3> fit_curves(const agvd::Surface& surface, const CurveNetwork& network,
-                             const CurveSites& sites) {
+                             const CurveSites& sites, Boundary boundary) {
     std::vector<Vec3> offsets(sites.num_groups(), Vec3::Zero());
     for (std::size_t c = 0; c < network.curves.size(); ++c) {
         const Curve& curve = network.curves[c];
         const Index first = sites.first_of_curve[c], last = sites.first_of_curve[c + 1];
-        if (first == last || !curve.is_crease()) continue;
+        const bool is_free = curve.sides.size() == 1 && boundary == Boundary::Free;
+        if (first == last || !(curve.is_crease() || is_free)) continue;
         fit(surface, curve, chain_of(surface, curve, sites, first, last),
             std::span(offsets).subspan(first, last - first));
     }

@@ -32,6 +32,13 @@ constexpr int most_rounds = 8;
 constexpr std::array step_lengths{0.2, 0.07, 0.02};
 constexpr int most_tries = 4;
 constexpr int num_directions = 8;
+// A side that stays and is shorter than this share of the mean edge length makes its triangle slim
+// wherever the third corner is. Neighbours over three spacings would crowd around it: so the
+// triangle counts as good from this share of the quality on. Bunny with five given edges of .2
+// spacings: mean quality .908 to .923 (without them .927), RMS distance .069 to .061 % (.060),
+// smallest angle 28 to 9 degrees.
+constexpr double short_side = 0.25;
+constexpr double slim_quality = 0.3;
 // Less is not worth a move.
 constexpr double least_gain = 1e-4;
 
@@ -60,6 +67,7 @@ public:
           facing_(mesh.points.size()),
           planes_(mesh.points.size()) {
         for (Index v = 0; v < at_.size(); ++v) locate(v);
+        find_slim();
         const agvd::Surface& base = surface.base.surface();
         for (Index f = 0; f < base.num_faces(); ++f) {
             ticker_.tick();
@@ -85,11 +93,11 @@ private:
         is_worth_it_.assign(at_.size(), 1);
         for (int round = 0; round < most_rounds; ++round) {
             std::vector<std::pair<double, Index>> bad;
-            for (const Triangle& t : mesh_.triangles) {
+            for (Index i = 0; i < mesh_.triangles.size(); ++i) {
                 ticker_.tick();
-                const double q = quality(at_[t[0]], at_[t[1]], at_[t[2]]);
+                const double q = quality_of(i);
                 if (q >= least_quality) continue;
-                for (const Index v : t) bad.emplace_back(q, v);
+                for (const Index v : mesh_.triangles[i]) bad.emplace_back(q, v);
             }
             std::sort(bad.begin(), bad.end());
             bool is_better = false;
@@ -104,6 +112,35 @@ private:
             }
             if (!is_better) return;
         }
+    }
+
+    // Triangles on a short side between two vertices that stay.
+    void find_slim() {
+        std::vector<std::uint8_t> stays;
+        for (const SurfacePoint& point : mesh_.points) {
+            stays.push_back(agvd::is_on_boundary(surface_, point) ? 1 : 0);
+        }
+        double sum = 0;
+        for (const auto& [a, b, c] : mesh_.triangles) {
+            sum += (at_[b] - at_[a]).norm() + (at_[c] - at_[b]).norm() + (at_[a] - at_[c]).norm();
+        }
+        const double mean = sum / (3 * static_cast<double>(mesh_.triangles.size()));
+        for (const Triangle& t : mesh_.triangles) {
+            bool is_slim = false;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Index a = t[k], b = t[(k + 1) % 3];
+                const bool is_short = (at_[b] - at_[a]).norm() < short_side * mean;
+                is_slim = is_slim || (is_short && stays[a] != 0 && stays[b] != 0);
+            }
+            is_slim_.push_back(is_slim ? 1 : 0);
+        }
+    }
+
+    // As it counts.
+    [[nodiscard]] double quality_of(Index i) const {
+        const auto& [a, b, c] = mesh_.triangles[i];
+        const double q = quality(at_[a], at_[b], at_[c]);
+        return is_slim_[i] != 0 ? std::min(1.0, q / slim_quality) : q;
     }
 
     void locate(Index v) {
@@ -121,7 +158,7 @@ private:
             const auto& [a, b, c] = mesh_.triangles[i];
             const Vec3 normal = (at_[b] - at_[a]).cross(at_[c] - at_[a]);
             const bool is_turned = !(normal.dot(facing_[a] + facing_[b] + facing_[c]) > 0);
-            worst = std::min(worst, quality(at_[a], at_[b], at_[c]) - (is_turned ? 1 : 0));
+            worst = std::min(worst, quality_of(i) - (is_turned ? 1 : 0));
         }
         return worst;
     }
@@ -188,6 +225,7 @@ private:
     detail::VertexTriangles around_;
     std::vector<Vec3> at_, facing_;           // #V: positions, and normals of the surface.
     std::vector<detail::CellPlanes> planes_;  // #V
+    std::vector<std::uint8_t> is_slim_;       // By triangle: see short_side.
     double plane_cost_ = 0;
     std::vector<std::uint8_t> is_worth_it_;  // #V: 0 where the last try stood still, as all around.
 };

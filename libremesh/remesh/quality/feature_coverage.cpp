@@ -20,6 +20,7 @@ constexpr double degree = std::numbers::pi / 180;
 constexpr double sharp = 40 * degree;
 constexpr double blunt = 25 * degree;
 constexpr double corner_turn = 45 * degree;
+constexpr double acute = 30 * degree;
 
 // In diagonals.
 constexpr double near = 1e-3, very_near = 2e-4, near_corner = 5e-4;
@@ -101,7 +102,15 @@ Shares shares_near(std::vector<Vec3> points, const Edges& edges, Boundary bounda
     return {num_near / count, num_very_near / count};
 }
 
-std::vector<Vec3> corners_of(const Edges& edges, agvd::Ticker& ticker) {
+struct Corners {
+    std::vector<Vec3> all, acute;
+};
+
+double angle_between(const Vec3& a, const Vec3& b) {
+    return std::atan2(a.cross(b).norm(), a.dot(b));
+}
+
+Corners corners_of(const Edges& edges, agvd::Ticker& ticker) {
     const auto& p = edges.mesh.positions;
     std::vector<std::pair<Index, Index>> ends;  // (vertex, neighbour).
     edges.for_each_above(sharp, Boundary::Counts, [&](Index a, Index b) {
@@ -109,16 +118,25 @@ std::vector<Vec3> corners_of(const Edges& edges, agvd::Ticker& ticker) {
         ends.emplace_back(b, a);
     });
     agvd::sort_ticked(ends, ticker, std::less<>());
-    std::vector<Vec3> corners;
+    Corners corners;
     for (std::size_t i = 0, j = 0; i < ends.size(); i = j) {
         while (j < ends.size() && ends[j].first == ends[i].first) ++j;
         const Vec3& here = p[ends[i].first];
         bool is_corner = j - i > 2;
         if (j - i == 2) {
             const Vec3 in = here - p[ends[i].second], out = p[ends[i + 1].second] - here;
-            is_corner = std::atan2(in.cross(out).norm(), in.dot(out)) > corner_turn;
+            is_corner = angle_between(in, out) > corner_turn;
         }
-        if (is_corner) corners.push_back(here);
+        if (!is_corner) continue;
+        corners.all.push_back(here);
+        double least = acute;
+        for (std::size_t k = i; k < j; ++k) {
+            for (std::size_t l = i; l < k; ++l) {
+                const Vec3 first = p[ends[k].second] - here, second = p[ends[l].second] - here;
+                least = std::min(least, angle_between(first, second));
+            }
+        }
+        if (least < acute) corners.acute.push_back(here);
     }
     return corners;
 }
@@ -133,6 +151,25 @@ Index count_kept(const std::vector<Vec3>& corners, const TriangleMesh& result, d
         std::count_if(found.begin(), found.end(), [](double d) { return std::isfinite(d); }));
 }
 
+// Of triangles without a vertex near any of the points.
+double min_angle_off(const std::vector<Vec3>& points, const TriangleMesh& mesh, double reach,
+                     agvd::Ticker& ticker) {
+    detail::PointDistances distances(mesh.positions, reach, ticker);
+    for (const Vec3& p : points) distances.pass(p, p, ticker);
+    const auto is_near = [&](Index v) { return std::isfinite(distances.distances()[v]); };
+    double least = std::numbers::pi;
+    for (const agvd::Triangle& t : mesh.triangles) {
+        ticker.tick();
+        if (std::any_of(t.begin(), t.end(), is_near)) continue;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3& here = mesh.positions[t[k]];
+            least = std::min(least, angle_between(mesh.positions[t[(k + 1) % 3]] - here,
+                                                  mesh.positions[t[(k + 2) % 3]] - here));
+        }
+    }
+    return least;
+}
+
 }  // namespace
 
 std::optional<FeatureCoverage> feature_coverage(const agvd::MeshView& original,
@@ -144,8 +181,8 @@ std::optional<FeatureCoverage> feature_coverage(const agvd::MeshView& original,
     const double diagonal = diagonal_of(before.mesh);
     before.all = detail::edge_dihedrals(before.mesh.view(), thin_original * diagonal, ticker);
     FeatureCoverage coverage{.length = before.sharp_length(), .diagonal = diagonal};
-    const std::vector<Vec3> corners = corners_of(before, ticker);
-    if (coverage.length == 0 && corners.empty()) return std::nullopt;
+    const Corners corners = corners_of(before, ticker);
+    if (coverage.length == 0 && corners.all.empty()) return std::nullopt;
     Edges after{detail::without_copies(result, ticker), {}};
     after.all = detail::edge_dihedrals(after.mesh.view(), thin_result * diagonal, ticker);
     coverage.result_length = after.sharp_length();
@@ -160,8 +197,11 @@ std::optional<FeatureCoverage> feature_coverage(const agvd::MeshView& original,
                                           before, Boundary::Counts, diagonal, ticker);
         coverage.false_share = 1 - shares.near;
     }
-    coverage.corners = static_cast<Index>(corners.size());
-    coverage.corners_kept = count_kept(corners, after.mesh, near_corner * diagonal, ticker);
+    const double reach = near_corner * diagonal;
+    coverage.corners = static_cast<Index>(corners.all.size());
+    coverage.corners_kept = count_kept(corners.all, after.mesh, reach, ticker);
+    coverage.acute_corners = static_cast<Index>(corners.acute.size());
+    coverage.min_angle_elsewhere = min_angle_off(corners.acute, after.mesh, reach, ticker);
     return coverage;
 }
 

@@ -29,7 +29,13 @@ struct FeatureCoverage {
     //! by more than 45 degrees.
     agvd::Index corners = 0;
     agvd::Index corners_kept = 0;  //!< With a vertex of the result within .05 % of the diagonal.
-    double diagonal = 0;           //!< Of the box around the original's faces, mesh units.
+    //! Corners where two of these edges meet at less than 30 degrees: a triangle between them
+    //! cannot have a larger angle there.
+    agvd::Index acute_corners = 0;
+    //! Smallest angle of the result's triangles, radians, but for those with a vertex within .05 %
+    //! of the diagonal of an acute corner; pi if there is no other.
+    double min_angle_elsewhere = 0;
+    double diagonal = 0;  //!< Of the box around the original's faces, mesh units.
 };
 
 //! Shares are of 20 000 points at equal distances along the edges.

@@ -27,6 +27,10 @@ bool is_even(const CurveSites& sites, const Curve& curve, Index c) {
         most = std::max(most, sites.along[g] - before);
         before = sites.along[g];
     }
+    if (!curve.is_closed()) {
+        least = std::min(least, curve.length() - before);
+        most = std::max(most, curve.length() - before);
+    }
     return most <= even_ratio * least;
 }
 

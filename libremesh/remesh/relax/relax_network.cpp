@@ -236,20 +236,27 @@ private:
 
 class NetworkSampler {
 public:
-    NetworkSampler(const PreparedSurface& surface, const NetworkPlan& plan,
-                   const SamplingOptions& sampling, const RelaxOptions& options)
+    NetworkSampler(const PreparedSurface& surface, const NetworkPlan& plan, CurveSites fine,
+                   const RelaxOptions& options, int num_levels)
         : surface_(surface),
           plan_(plan),
-          sampling_(sampling),
           options_(options),
-          levels_(surface, options_, 2),
+          levels_(surface, options_, num_levels),
           patches_(surface),
-          fine_(place_curve_sites(plan.network, plan.cut, plan.spacing, plan.intervals)) {
+          fine_(std::move(fine)) {
         options_.boundary = Boundary::Free;
-        num_inner_ = sampling.num_samples - num_result_vertices(plan.network, fine_);
     }
 
-    NetworkSites run() {
+    NetworkSites run_given(std::span<const SurfacePoint> inner) {
+        std::vector<SurfacePoint> sites = fine_.sites;
+        sites.insert(sites.end(), inner.begin(), inner.end());
+        if (options_.steps == 0) return {fine_, std::move(sites), {}};
+        return finish(*start(fine_, std::move(sites)));
+    }
+
+    NetworkSites run(const SamplingOptions& sampling) {
+        sampling_ = sampling;
+        num_inner_ = sampling.num_samples - num_result_vertices(plan_.network, fine_);
         if (options_.steps == 0) return {fine_, sample(fine_, num_inner_, plan_.spacing), {}};
         std::unique_ptr<Relaxation> last = start_coarse();
         const std::vector<ChainEdge> chain = chain_edges(plan_.network, plan_.cut, fine_);
@@ -258,12 +265,14 @@ public:
         } else {
             last = start(fine_, sample(fine_, num_inner_, plan_.spacing));
         }
-        NetworkSites result{last->curves()->sites(), last->sites(), {}};
-        result.levels = levels_.finish({}).levels;
-        return result;
+        return finish(*last);
     }
 
 private:
+    NetworkSites finish(const Relaxation& last) {
+        return {last.curves()->sites(), last.sites(), levels_.finish({}).levels};
+    }
+
     std::vector<SurfacePoint> sample(const CurveSites& curves, Index num_inner, double spacing) {
         std::vector<SurfacePoint> sites = curves.sites;
         const auto inner =
@@ -292,7 +301,8 @@ private:
     std::unique_ptr<Relaxation> start_coarse() {
         const std::vector<Index> intervals = coarse_intervals(plan_);
         const CurveSites coarse =
-            place_curve_sites(plan_.network, plan_.cut, plan_.spacing, intervals);
+            curve_sites_at(plan_.network, plan_.cut,
+                           even_places(plan_.cut.surface, plan_.network, plan_.spacing, intervals));
         const double euler = detail::euler_of(plan_.cut.surface);
         const double wanted =
             (num_inner_ - static_cast<double>(coarse.sites.size()) + 3 * euler) / 4 + 1;
@@ -354,19 +364,26 @@ private:
 
     const PreparedSurface& surface_;
     const NetworkPlan& plan_;
-    const SamplingOptions& sampling_;
+    SamplingOptions sampling_;
     RelaxOptions options_;
     detail::Levels levels_;
     const Patches patches_;
     const CurveSites fine_;
-    Index num_inner_;
+    Index num_inner_ = 0;
 };
 
 }  // namespace
 
 NetworkSites sample_network_sites(const PreparedSurface& surface, const NetworkPlan& plan,
                                   const SamplingOptions& sampling, const RelaxOptions& options) {
-    return NetworkSampler(surface, plan, sampling, options).run();
+    CurveSites curves = curve_sites_at(plan.network, plan.cut, plan.along);
+    return NetworkSampler(surface, plan, std::move(curves), options, 2).run(sampling);
+}
+
+NetworkSites relax_network_sites(const PreparedSurface& surface, const NetworkPlan& plan,
+                                 CurveSites curves, std::span<const SurfacePoint> inner,
+                                 const RelaxOptions& options) {
+    return NetworkSampler(surface, plan, std::move(curves), options, 1).run_given(inner);
 }
 
 }  // namespace remesh

@@ -25,4 +25,13 @@ struct NetworkSites {
                                                 const SamplingOptions& sampling,
                                                 const RelaxOptions& options);
 
+//! The same from sites that are there, all at once.
+//!
+//! \param curves  sites of plan.network. \param inner  the others: inside faces, or on edges and
+//!                vertices off the curves.
+[[nodiscard]] NetworkSites relax_network_sites(const PreparedSurface& surface,
+                                               const NetworkPlan& plan, CurveSites curves,
+                                               std::span<const agvd::SurfacePoint> inner,
+                                               const RelaxOptions& options);
+
 }  // namespace remesh

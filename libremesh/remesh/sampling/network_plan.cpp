@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "agvd/mesh/face_area.h"
+#include "remesh/features/guard_corners.h"
 #include "remesh/sampling/shares.h"
 #include "remesh/topology/components.h"
 
@@ -29,44 +30,49 @@ std::vector<Patch> find_patches(const Surface& surface, const agvd::Progress& pr
     return patches;
 }
 
+std::vector<std::vector<double>> places_at(const Surface& surface, const CurveNetwork& network,
+                                           double spacing, bool has_guards) {
+    std::vector<std::vector<double>> along =
+        even_places(surface, network, spacing, curve_intervals(surface, network, spacing));
+    if (has_guards) guard_corners(surface, network, along);
+    return along;
+}
+
 double num_sites_at(const Surface& surface, const CurveNetwork& network,
-                    const std::vector<Patch>& patches, double spacing) {
-    auto count = static_cast<double>(
-        num_curve_vertices(network, curve_intervals(surface, network, spacing)));
+                    const std::vector<Patch>& patches, double spacing, bool has_guards) {
+    const auto along = places_at(surface, network, spacing, has_guards);
+    auto count =
+        static_cast<double>(num_curve_vertices(network, intervals_between(network, along)));
     for (const Patch& p : patches) {
         count += std::max(detail::inner_sites(p.area, p.boundary_length, spacing), 0.0);
     }
     return count;
 }
 
+struct Division {
+    double spacing = 0;
+    std::vector<std::vector<double>> along;  // By curve.
+};
+
 // The least spacing that needs no more sites than there are.
-double find_spacing(const Surface& surface, const CurveNetwork& network,
-                    const std::vector<Patch>& patches, double num_sites) {
+Division divide(const Surface& surface, const CurveNetwork& network,
+                const std::vector<Patch>& patches, double num_sites) {
     double area = 0, length = 0;
     for (const Patch& p : patches) {
         area += p.area;
         length += p.boundary_length;
     }
     double low = std::sqrt(area / num_sites) / 4, high = length + std::sqrt(area);
+    bool has_guards = true;
+    const auto num_needed = [&](double spacing) {
+        return num_sites_at(surface, network, patches, spacing, has_guards);
+    };
+    has_guards = num_needed(high) <= num_sites;
     for (int i = 0; i < num_halvings; ++i) {
         const double middle = (low + high) / 2;
-        (num_sites_at(surface, network, patches, middle) > num_sites ? low : high) = middle;
+        (num_needed(middle) > num_sites ? low : high) = middle;
     }
-    return high;
-}
-
-// The shortest creases.
-void drop_shortest(const Surface& surface, const CurveNetwork& network, double share,
-                   std::vector<std::uint8_t>& is_crease) {
-    std::vector<std::pair<double, Index>> order;
-    for (Index c = 0; c < network.curves.size(); ++c) {
-        if (network.curves[c].is_crease()) order.emplace_back(network.curves[c].length(), c);
-    }
-    std::sort(order.begin(), order.end());
-    order.resize(static_cast<std::size_t>(std::ceil(share * static_cast<double>(order.size()))));
-    for (const auto& [length, c] : order) {
-        for (const Index h : network.curves[c].sides[0].half_edges) is_crease[surface.edge[h]] = 0;
-    }
+    return {high, places_at(surface, network, high, has_guards)};
 }
 
 // Creases at junctions are part of these.
@@ -91,16 +97,30 @@ Index fewest_vertices(const CurveNetwork& network) {
 
 }  // namespace
 
+void drop_shortest(const Surface& surface, const CurveNetwork& network, double share,
+                   std::vector<std::uint8_t>& is_crease) {
+    std::vector<std::pair<double, Index>> order;
+    for (Index c = 0; c < network.curves.size(); ++c) {
+        if (network.curves[c].is_crease()) order.emplace_back(network.curves[c].length(), c);
+    }
+    std::sort(order.begin(), order.end());
+    order.resize(static_cast<std::size_t>(std::ceil(share * static_cast<double>(order.size()))));
+    for (const auto& [length, c] : order) {
+        for (const Index h : network.curves[c].sides[0].half_edges) is_crease[surface.edge[h]] = 0;
+    }
+}
+
+double length_of(const Surface& surface, std::span<const std::uint8_t> is_crease) {
+    double length = 0;
+    for (Index e = 0; e < surface.num_edges(); ++e) {
+        if (is_crease[e] != 0) length += surface.length[e];
+    }
+    return length;
+}
+
 NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_crease,
                          Index num_vertices, JunctionSet junctions, double drop_share,
                          int num_threads, const agvd::Progress& progress) {
-    const auto length_of_creases = [&] {
-        double length = 0;
-        for (Index e = 0; e < surface.num_edges(); ++e) {
-            if (is_crease[e] != 0) length += surface.length[e];
-        }
-        return length;
-    };
     const double spacing = detail::spacing_of(num_vertices, agvd::surface_area(surface), 0);
     NetworkPlan plan;
     plan.junctions = std::move(junctions);
@@ -117,7 +137,7 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
         if (plan.sites_for_junctions > num_vertices) plan.junctions = {};
         leave_out(plan.junctions, is_crease);
     }
-    const double length_at_first = length_of_creases();
+    const double length_at_first = length_of(surface, is_crease);
     if (drop_share > 0) {
         (void)find();
         drop_shortest(surface, plan.network, drop_share, is_crease);
@@ -132,10 +152,12 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
         }
         plan.cut =
             cut_surface(surface, edges_to_cut(plan.junctions, is_crease), num_threads, progress);
-        plan.spacing = find_spacing(surface, plan.network, find_patches(plan.cut.surface, progress),
-                                    num_vertices);
-        plan.intervals = curve_intervals(surface, plan.network, plan.spacing);
-        plan.length = length_of_creases();
+        Division division =
+            divide(surface, plan.network, find_patches(plan.cut.surface, progress), num_vertices);
+        plan.spacing = division.spacing;
+        plan.along = std::move(division.along);
+        plan.intervals = intervals_between(plan.network, plan.along);
+        plan.length = length_of(surface, is_crease);
         plan.dropped_length = length_at_first - plan.length;
         return plan;
     }
