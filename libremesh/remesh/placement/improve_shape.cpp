@@ -6,6 +6,7 @@
 
 #include "agvd/core/poller.h"
 #include "agvd/mesh/point_faces.h"
+#include "remesh/placement/shape_quality.h"
 #include "remesh/placement/vertex_triangles.h"
 #include "remesh/relax/cell_planes.h"
 #include "remesh/relax/walk.h"
@@ -18,12 +19,9 @@ using agvd::SurfacePoint;
 using agvd::Triangle;
 using agvd::Vec3;
 
-// Triangles below are worked on...
-constexpr double low_quality = 0.63;
-// ...and once more below that, wherever their corners have to go.
+// Triangles below detail::low_quality are worked on, and once more below that, wherever their
+// corners have to go.
 constexpr double poor_quality = 0.62;
-// What the sine of the smallest angle counts for: 32.5 degrees are as bad as `low_quality`.
-constexpr double sine_weight = low_quality / 0.5373;
 // Quality that a move must gain which leaves the planes of the cell by the mean length of the edges
 // around the vertex; by less, in proportion to the square.
 constexpr double plane_cost = 30;
@@ -34,19 +32,6 @@ constexpr int most_tries = 4;
 constexpr int num_directions = 8;
 // Less is not worth a move.
 constexpr double least_gain = 1e-4;
-
-// 6 / sqrt(3) * S / (p h) ([frey1999]): S area, p half the perimeter, h the longest edge; less
-// where an angle is small.
-double quality(const Vec3& a, const Vec3& b, const Vec3& c) {
-    const double ab = (b - a).norm(), bc = (c - b).norm(), ca = (a - c).norm();
-    const double doubled_area = (b - a).cross(c - a).norm();
-    if (!(doubled_area > 0)) return 0;
-    const double longest = std::max({ab, bc, ca});
-    // The smallest angle is the one between the longest sides.
-    const double sine = doubled_area * std::min({ab, bc, ca}) / (ab * bc * ca);
-    return std::min(2 * std::numbers::sqrt3 * doubled_area / ((ab + bc + ca) * longest),
-                    sine_weight * sine);
-}
 
 class Improvement {
 public:
@@ -75,7 +60,7 @@ public:
     }
 
     void run() {
-        work_below(low_quality, plane_cost);
+        work_below(detail::low_quality, plane_cost);
         work_below(poor_quality, 0);
     }
 
@@ -87,7 +72,7 @@ private:
             std::vector<std::pair<double, Index>> bad;
             for (const Triangle& t : mesh_.triangles) {
                 ticker_.tick();
-                const double q = quality(at_[t[0]], at_[t[1]], at_[t[2]]);
+                const double q = detail::shape_quality(at_[t[0]], at_[t[1]], at_[t[2]]);
                 if (q >= least_quality) continue;
                 for (const Index v : t) bad.emplace_back(q, v);
             }
@@ -121,7 +106,8 @@ private:
             const auto& [a, b, c] = mesh_.triangles[i];
             const Vec3 normal = (at_[b] - at_[a]).cross(at_[c] - at_[a]);
             const bool is_turned = !(normal.dot(facing_[a] + facing_[b] + facing_[c]) > 0);
-            worst = std::min(worst, quality(at_[a], at_[b], at_[c]) - (is_turned ? 1 : 0));
+            const double q = detail::shape_quality(at_[a], at_[b], at_[c]);
+            worst = std::min(worst, q - (is_turned ? 1 : 0));
         }
         return worst;
     }

@@ -1,0 +1,365 @@
+#include "remesh/placement/mend_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+#include "agvd/core/poller.h"
+#include "remesh/placement/shape_quality.h"
+
+namespace remesh {
+namespace {
+
+using agvd::Index;
+using agvd::no_index;
+using agvd::Triangle;
+using agvd::Vec3;
+using detail::EditedMesh;
+using detail::Mobility;
+
+// Triangles below are worked on: 25.2 degrees.
+constexpr double wanted_quality = 0.45;
+// What triangles must have where vertices are taken from, or are to go.
+constexpr double least_elsewhere = 0.6;
+// Less is not worth a step, or a trial of several.
+constexpr double least_gain = 1e-3, least_trial_gain = 0.02;
+// What a trial that leaves a spare vertex counts for besides.
+constexpr double for_spare = 0.05;
+constexpr int most_rounds = 6, most_sweeps = 3;
+// As in improve_shape.
+constexpr std::array step_lengths{0.2, 0.07, 0.02};
+constexpr int most_tries = 4;
+constexpr int num_directions = 8;
+
+class Mender {
+public:
+    Mender(EditedMesh& mesh, agvd::Ticker ticker) : mesh_(mesh), ticker_(ticker) {}
+
+    bool run() {
+        const EditedMesh::Mark start = mesh_.mark();
+        bool is_changed = false;
+        for (int round = 0; round < most_rounds; ++round) {
+            bool is_better = false;
+            for (const auto& [quality, f] : bad_faces()) {
+                if (!is_bad(f)) continue;
+                is_better = mend(f) || is_better;
+            }
+            if (!is_better) break;
+            is_changed = true;
+        }
+        while (num_spare_ > 0 && take_spare()) {}
+        if (num_spare_ == 0) return is_changed;
+        mesh_.take_back(start);
+        return false;
+    }
+
+private:
+    struct Trial {
+        Index face = no_index, k = 0;
+        bool is_split = false, is_reversed = false;
+    };
+
+    [[nodiscard]] bool is_bad(Index f) const {
+        const EditedMesh::Face& face = mesh_.face(f);
+        return face.is_there && face.quality < wanted_quality &&
+               std::any_of(face.corner.begin(), face.corner.end(),
+                           [&](Index v) { return mesh_.mobility(v) != Mobility::Fixed; });
+    }
+
+    [[nodiscard]] std::vector<std::pair<double, Index>> bad_faces() const {
+        std::vector<std::pair<double, Index>> bad;
+        for (Index f = 0; f < mesh_.num_faces(); ++f) {
+            if (is_bad(f)) bad.emplace_back(mesh_.face(f).quality, f);
+        }
+        std::sort(bad.begin(), bad.end());
+        return bad;
+    }
+
+    bool mend(Index f) {
+        const EditedMesh::Mark before = mesh_.mark();
+        if (improve(f)) {
+            relax(before);
+            if (!is_bad(f)) return true;
+        }
+        const bool is_better = mesh_.mark().faces > before.faces;
+        return try_edits(f) || is_better;
+    }
+
+    // A step that makes the worst triangle it touches better.
+    bool improve(Index f) {
+        ticker_.tick(200);
+        for (Index k = 0; k < 3; ++k) {
+            if (try_flip(f, k)) return true;
+        }
+        const Triangle corners = mesh_.face(f).corner;
+        bool is_better = false;
+        for (const Index v : corners) is_better = slide(v) || is_better;
+        return is_better;
+    }
+
+    bool try_flip(Index f, Index k) {
+        const EditedMesh::Mark before = mesh_.mark();
+        if (!mesh_.flip(f, k)) return false;
+        if (gain_since(before) > least_gain) return true;
+        mesh_.take_back(before);
+        return false;
+    }
+
+    // Of the worst triangle touched.
+    [[nodiscard]] double gain_since(const EditedMesh::Mark& mark) {
+        double worst_before = 1;
+        mesh_.changed_since(mark, changed_, worst_before);
+        return std::min(worst_of(changed_), wanted_quality) - worst_before;
+    }
+
+    [[nodiscard]] double worst_of(const std::vector<Index>& faces) const {
+        double worst = 1;
+        for (const Index f : faces) worst = std::min(worst, mesh_.face(f).quality);
+        return worst;
+    }
+
+    // Directions in which a vertex may go, and the mean length of the edges around it.
+    struct Ways {
+        std::vector<Vec3> steps;  // Unit.
+        Vec3 to_mean = Vec3::Zero();
+        double length = 0;
+    };
+
+    [[nodiscard]] Ways ways_of(Index v) const {
+        Ways ways;
+        Vec3 normal = Vec3::Zero();
+        const bool is_free = mesh_.mobility(v) == Mobility::Free;
+        double count = 0;
+        for (const Index f : mesh_.faces_at(v)) {
+            const EditedMesh::Face& face = mesh_.face(f);
+            const auto& [a, b, c] = face.corner;
+            normal += (mesh_.at(b) - mesh_.at(a)).cross(mesh_.at(c) - mesh_.at(a));
+            for (Index k = 0; k < 3; ++k) {
+                const Index from = face.corner[k], to = face.corner[(k + 1) % 3];
+                if (from != v && to != v) continue;
+                const Vec3 way = mesh_.at(from == v ? to : from) - mesh_.at(v);
+                ways.to_mean += way;
+                ways.length += way.norm();
+                ++count;
+                if (!is_free && (face.hard >> k & 1U) != 0 && way.norm() > 0) {
+                    ways.steps.push_back(way.normalized());
+                }
+            }
+        }
+        if (!(count > 0) || !(normal.norm() > 0)) return ways;
+        ways.to_mean /= count;
+        ways.length /= count;
+        if (!is_free) return ways;
+        const Vec3 x = normal.unitOrthogonal(), y = normal.normalized().cross(x);
+        for (int d = 0; d < num_directions; ++d) {
+            const double angle = 2 * std::numbers::pi * d / num_directions;
+            ways.steps.emplace_back(std::cos(angle) * x + std::sin(angle) * y);
+        }
+        return ways;
+    }
+
+    bool slide(Index v) {
+        if (mesh_.mobility(v) == Mobility::Fixed) return false;
+        const Ways ways = ways_of(v);
+        if (ways.steps.empty()) return false;
+        bool is_better = mesh_.move(v, ways.to_mean, least_gain);
+        for (const double share : step_lengths) {
+            bool helps = true;
+            for (int tries = 0; tries < most_tries && helps; ++tries) {
+                helps = false;
+                for (const Vec3& step : ways.steps) {
+                    ticker_.tick(mesh_.faces_at(v).size());
+                    helps = mesh_.move(v, share * ways.length * step, least_gain) || helps;
+                }
+                is_better = is_better || helps;
+            }
+        }
+        return is_better;
+    }
+
+    // Steps at bad triangles among those touched, as long as they help.
+    void relax(const EditedMesh::Mark& mark) {
+        for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+            double worst_before = 1;
+            std::vector<Index> touched;
+            mesh_.changed_since(mark, touched, worst_before);
+            std::vector<std::pair<double, Index>> bad;
+            for (const Index f : touched) {
+                if (is_bad(f)) bad.emplace_back(mesh_.face(f).quality, f);
+            }
+            std::sort(bad.begin(), bad.end());
+            bool is_better = false;
+            for (const auto& [quality, f] : bad) {
+                if (is_bad(f)) is_better = improve(f) || is_better;
+            }
+            if (!is_better) return;
+        }
+    }
+
+    // The best of splitting and collapsing the edges of a bad triangle.
+    bool try_edits(Index f) {
+        Trial best;
+        double most = least_trial_gain;
+        for (Index k = 0; k < 3; ++k) {
+            for (const Trial& trial : {Trial{f, k, true, false}, Trial{f, k, false, false},
+                                       Trial{f, k, false, true}}) {
+                const EditedMesh::Mark before = mesh_.mark();
+                const bool is_done = edit(trial);
+                double gain = is_done ? gain_since(before) : 0;
+                mesh_.take_back(before);
+                if (!trial.is_split && gain > 0) gain += for_spare;
+                if (!(gain > most)) continue;
+                most = gain;
+                best = trial;
+            }
+        }
+        if (best.face == no_index) return false;
+        const EditedMesh::Mark before = mesh_.mark();
+        (void)edit(best);
+        if (!best.is_split) {
+            ++num_spare_;
+            return true;
+        }
+        if (num_spare_ > 0) {
+            --num_spare_;
+            return true;
+        }
+        if (give_spare()) return true;
+        mesh_.take_back(before);
+        return false;
+    }
+
+    bool edit(const Trial& trial) {
+        const EditedMesh::Mark before = mesh_.mark();
+        const Triangle& t = mesh_.face(trial.face).corner;
+        const Index a = t[trial.k], b = t[(trial.k + 1) % 3];
+        if (trial.is_split) {
+            if (mesh_.split(trial.face, trial.k) == no_index) return false;
+        } else if (!mesh_.collapse(trial.is_reversed ? b : a, trial.is_reversed ? a : b)) {
+            return false;
+        }
+        relax(before);
+        return true;
+    }
+
+    // Takes a vertex away where triangles stay good.
+    bool give_spare() {
+        if (!has_collapses_) list_collapses();
+        while (!collapses_.empty()) {
+            const auto [quality, gone, into] = collapses_.back();
+            collapses_.pop_back();
+            if (mesh_.faces_at(gone).empty() || mesh_.faces_at(into).empty()) continue;
+            const EditedMesh::Mark before = mesh_.mark();
+            if (mesh_.worst_at(gone) >= least_elsewhere && mesh_.collapse(gone, into)) {
+                (void)mesh_.move(into, ways_of(into).to_mean, 0);
+                relax(before);
+                double worst_before = 1;
+                mesh_.changed_since(before, changed_, worst_before);
+                if (worst_of(changed_) >= least_elsewhere) return true;
+            }
+            mesh_.take_back(before);
+        }
+        return false;
+    }
+
+    struct Candidate {
+        double quality;
+        Index gone, into;
+        [[nodiscard]] bool operator<(const Candidate& other) const {
+            return std::tie(quality, gone, into) <
+                   std::tie(other.quality, other.gone, other.into);
+        }
+    };
+
+    // By the quality that triangles would have with the edge's middle in place of its ends.
+    void list_collapses() {
+        has_collapses_ = true;
+        for (Index f = 0; f < mesh_.num_faces(); ++f) {
+            if (!mesh_.face(f).is_there) continue;
+            ticker_.tick(30);
+            const Triangle& t = mesh_.face(f).corner;
+            for (Index k = 0; k < 3; ++k) {
+                const Index a = t[k], b = t[(k + 1) % 3];
+                if (a > b) continue;  // Twice else.
+                if (mesh_.mobility(a) != Mobility::Free || mesh_.mobility(b) != Mobility::Free) {
+                    continue;
+                }
+                const double quality = quality_of_middle(a, b);
+                if (quality >= wanted_quality) collapses_.push_back({quality, a, b});
+            }
+        }
+        std::sort(collapses_.begin(), collapses_.end());
+    }
+
+    [[nodiscard]] double quality_of_middle(Index a, Index b) const {
+        const Vec3 middle = (mesh_.at(a) + mesh_.at(b)) / 2;
+        double worst = 1;
+        for (const Index v : {a, b}) {
+            for (const Index f : mesh_.faces_at(v)) {
+                const Triangle& t = mesh_.face(f).corner;
+                std::array<Vec3, 3> at;
+                int num_moved = 0;
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const bool is_moved = t[k] == a || t[k] == b;
+                    num_moved += is_moved ? 1 : 0;
+                    at[k] = is_moved ? middle : mesh_.at(t[k]);
+                }
+                if (num_moved == 1) {
+                    worst = std::min(worst, detail::shape_quality(at[0], at[1], at[2]));
+                }
+            }
+        }
+        return worst;
+    }
+
+    // Puts a spare vertex where edges are long.
+    bool take_spare() {
+        std::vector<std::pair<double, std::pair<Index, Index>>> longest;
+        for (Index f = 0; f < mesh_.num_faces(); ++f) {
+            const EditedMesh::Face& face = mesh_.face(f);
+            if (!face.is_there) continue;
+            for (Index k = 0; k < 3; ++k) {
+                const Index a = face.corner[k], b = face.corner[(k + 1) % 3];
+                if (a < b) {
+                    longest.push_back({-(mesh_.at(a) - mesh_.at(b)).squaredNorm(), {f, k}});
+                }
+            }
+        }
+        std::sort(longest.begin(), longest.end());
+        for (const auto& [length, edge] : longest) {
+            const EditedMesh::Mark before = mesh_.mark();
+            if (edit({edge.first, edge.second, true, false})) {
+                double worst_before = 1;
+                mesh_.changed_since(before, changed_, worst_before);
+                if (worst_of(changed_) >= std::min(worst_before, wanted_quality)) {
+                    --num_spare_;
+                    return true;
+                }
+            }
+            mesh_.take_back(before);
+        }
+        return false;
+    }
+
+    EditedMesh& mesh_;
+    agvd::Ticker ticker_;
+    int num_spare_ = 0;  // Vertices taken away and not yet put elsewhere.
+    bool has_collapses_ = false;
+    std::vector<Candidate> collapses_;  // The best one last.
+    std::vector<Index> changed_;        // Scratch.
+};
+
+}  // namespace
+
+std::vector<Index> mend_shape(const agvd::Surface& surface, std::span<const Mobility> mobility,
+                              std::span<const DirectedEdge> hard, PlacedMesh& mesh,
+                              const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    EditedMesh edited(surface, mesh, mobility, hard);
+    std::vector<Index> numbers;
+    if (Mender(edited, agvd::Ticker(poller)).run()) mesh = edited.result(numbers);
+    return numbers;
+}
+
+}  // namespace remesh
