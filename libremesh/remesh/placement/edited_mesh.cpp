@@ -300,6 +300,16 @@ bool EditedMesh::may_collapse(Index gone, Index into) const {
 bool EditedMesh::collapse(Index gone, Index into) {
     if (!may_collapse(gone, into)) return false;
     const std::vector<Index> fan = fans_[gone];
+    // Two sides of a face that goes become one edge: hard if that at `into` is.
+    std::vector<DirectedEdge> hard;
+    for (const Index f : fan) {
+        if (!has_corner(f, into)) continue;
+        const Triangle& t = faces_[f].corner;
+        for (Index k = 0; k < 3; ++k) {
+            if (t[k] == gone || t[(k + 1) % 3] == gone || !is_hard(faces_[f], k)) continue;
+            hard.emplace_back(t[k], t[(k + 1) % 3]);
+        }
+    }
     log_fan(gone);
     log_fan(into);
     fans_[gone].clear();
@@ -318,6 +328,13 @@ bool EditedMesh::collapse(Index gone, Index into) {
             if (w != into) log_fan(w);
             std::erase(fans_[w], f);
         }
+    }
+    for (const auto& [from, to] : hard) {
+        // The face across has it in the same direction: the one that went lay between.
+        const std::optional<Half> side = half_edge(from, to);
+        if (!side) continue;
+        const Face& face = faces_[side->face];
+        put_face(side->face, face.corner, static_cast<std::uint8_t>(face.hard | 1U << side->k));
     }
     return true;
 }
@@ -370,9 +387,9 @@ void EditedMesh::take_back(const Mark& mark) {
 }
 
 void EditedMesh::changed_since(const Mark& mark, std::vector<Index>& now,
-                               double& worst_before) const {
+                               std::vector<double>& before) const {
     now.clear();
-    worst_before = 1;
+    before.clear();
     std::vector<std::pair<Index, std::size_t>> first;
     for (std::size_t i = mark.faces; i < old_faces_.size(); ++i) {
         first.emplace_back(old_faces_[i].first, i);
@@ -381,7 +398,7 @@ void EditedMesh::changed_since(const Mark& mark, std::vector<Index>& now,
     for (std::size_t i = 0; i < first.size(); ++i) {
         if (i > 0 && first[i].first == first[i - 1].first) continue;
         const Face& old = old_faces_[first[i].second].second;
-        if (old.is_there) worst_before = std::min(worst_before, old.quality);
+        if (old.is_there) before.push_back(old.quality);
         if (faces_[first[i].first].is_there) now.push_back(first[i].first);
     }
 }

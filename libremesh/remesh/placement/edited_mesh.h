@@ -63,9 +63,11 @@ public:
 
     [[nodiscard]] Mark mark() const;
     void take_back(const Mark& mark);
-    //! Faces that were changed since, as they are and as they were, each once.
+    //! Faces that were changed since, each once.
+    //! \param[out] now     those that are there.
+    //! \param[out] before  quality of those that were there, as it was.
     void changed_since(const Mark& mark, std::vector<agvd::Index>& now,
-                       double& worst_before) const;
+                       std::vector<double>& before) const;
 
     //! Without what is gone.
     //! \param[out] numbers  those of the vertices here.

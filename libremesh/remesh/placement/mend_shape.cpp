@@ -24,8 +24,6 @@ constexpr double wanted_quality = 0.45;
 constexpr double least_elsewhere = 0.6;
 // Less is not worth a step, or a trial of several.
 constexpr double least_gain = 1e-3, least_trial_gain = 0.02;
-// What a trial that leaves a spare vertex counts for besides.
-constexpr double for_spare = 0.05;
 constexpr int most_rounds = 6, most_sweeps = 3;
 // As in improve_shape.
 constexpr std::array step_lengths{0.2, 0.07, 0.02};
@@ -101,21 +99,49 @@ private:
     bool try_flip(Index f, Index k) {
         const EditedMesh::Mark before = mesh_.mark();
         if (!mesh_.flip(f, k)) return false;
-        if (gain_since(before) > least_gain) return true;
+        if (gain_since(before).worst > least_gain) return true;
         mesh_.take_back(before);
         return false;
     }
 
-    // Of the worst triangle touched.
-    [[nodiscard]] double gain_since(const EditedMesh::Mark& mark) {
-        double worst_before = 1;
-        mesh_.changed_since(mark, changed_, worst_before);
-        return std::min(worst_of(changed_), wanted_quality) - worst_before;
+    // Of the triangles touched since, as far as they lack of the wanted quality.
+    struct Gain {
+        double worst = 0, sum = 0;
+        bool is_all = false;  // None lacks any more.
+    };
+
+    [[nodiscard]] Gain gain_since(const EditedMesh::Mark& mark) {
+        mesh_.changed_since(mark, changed_, before_);
+        Gain gain;
+        double worst_before = wanted_quality, worst_now = wanted_quality;
+        for (const double quality : before_) {
+            gain.sum += std::max(wanted_quality - quality, 0.0);
+            worst_before = std::min(worst_before, quality);
+        }
+        for (const Index f : changed_) {
+            gain.sum -= std::max(wanted_quality - mesh_.face(f).quality, 0.0);
+            worst_now = std::min(worst_now, mesh_.face(f).quality);
+        }
+        gain.worst = worst_now - worst_before;
+        gain.is_all = worst_now >= wanted_quality;
+        return gain;
     }
 
-    [[nodiscard]] double worst_of(const std::vector<Index>& faces) const {
+    // What a trial is worth; not above 0: nothing. What leaves a spare vertex comes first where it
+    // mends all; else splits, whose sum counts, since a chain of equals has no other way. The sum
+    // is no measure of a collapse, which takes faces away.
+    [[nodiscard]] static double worth_of(const Gain& gain, bool is_split) {
+        if (gain.worst < 0 || gain.sum < least_trial_gain) return 0;
+        if (is_split) return 1 + gain.sum;
+        if (gain.is_all) return 100 + gain.sum;
+        return gain.worst < least_trial_gain ? 0 : gain.worst;
+    }
+
+    // Of the triangles touched since.
+    [[nodiscard]] double worst_since(const EditedMesh::Mark& mark) {
+        mesh_.changed_since(mark, changed_, before_);
         double worst = 1;
-        for (const Index f : faces) worst = std::min(worst, mesh_.face(f).quality);
+        for (const Index f : changed_) worst = std::min(worst, mesh_.face(f).quality);
         return worst;
     }
 
@@ -181,11 +207,9 @@ private:
     // Steps at bad triangles among those touched, as long as they help.
     void relax(const EditedMesh::Mark& mark) {
         for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-            double worst_before = 1;
-            std::vector<Index> touched;
-            mesh_.changed_since(mark, touched, worst_before);
+            mesh_.changed_since(mark, changed_, before_);
             std::vector<std::pair<double, Index>> bad;
-            for (const Index f : touched) {
+            for (const Index f : changed_) {
                 if (is_bad(f)) bad.emplace_back(mesh_.face(f).quality, f);
             }
             std::sort(bad.begin(), bad.end());
@@ -200,17 +224,17 @@ private:
     // The best of splitting and collapsing the edges of a bad triangle.
     bool try_edits(Index f) {
         Trial best;
-        double most = least_trial_gain;
+        double most = 0;
         for (Index k = 0; k < 3; ++k) {
             for (const Trial& trial : {Trial{f, k, true, false}, Trial{f, k, false, false},
                                        Trial{f, k, false, true}}) {
                 const EditedMesh::Mark before = mesh_.mark();
                 const bool is_done = edit(trial);
-                double gain = is_done ? gain_since(before) : 0;
+                const double worth =
+                    is_done ? worth_of(gain_since(before), trial.is_split) : 0;
                 mesh_.take_back(before);
-                if (!trial.is_split && gain > 0) gain += for_spare;
-                if (!(gain > most)) continue;
-                most = gain;
+                if (!(worth > most)) continue;
+                most = worth;
                 best = trial;
             }
         }
@@ -254,9 +278,7 @@ private:
             if (mesh_.worst_at(gone) >= least_elsewhere && mesh_.collapse(gone, into)) {
                 (void)mesh_.move(into, ways_of(into).to_mean, 0);
                 relax(before);
-                double worst_before = 1;
-                mesh_.changed_since(before, changed_, worst_before);
-                if (worst_of(changed_) >= least_elsewhere) return true;
+                if (worst_since(before) >= least_elsewhere) return true;
             }
             mesh_.take_back(before);
         }
@@ -329,13 +351,10 @@ private:
         std::sort(longest.begin(), longest.end());
         for (const auto& [length, edge] : longest) {
             const EditedMesh::Mark before = mesh_.mark();
-            if (edit({edge.first, edge.second, true, false})) {
-                double worst_before = 1;
-                mesh_.changed_since(before, changed_, worst_before);
-                if (worst_of(changed_) >= std::min(worst_before, wanted_quality)) {
-                    --num_spare_;
-                    return true;
-                }
+            if (edit({edge.first, edge.second, true, false}) &&
+                worst_since(before) >= wanted_quality) {
+                --num_spare_;
+                return true;
             }
             mesh_.take_back(before);
         }
@@ -348,6 +367,7 @@ private:
     bool has_collapses_ = false;
     std::vector<Candidate> collapses_;  // The best one last.
     std::vector<Index> changed_;        // Scratch.
+    std::vector<double> before_;        // Scratch.
 };
 
 }  // namespace
