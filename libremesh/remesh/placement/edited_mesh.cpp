@@ -20,8 +20,10 @@ constexpr double gentle_turn = 0.5;
 // Of an edge: a vertex between its ends lies no farther from the middle, or it is elsewhere on the
 // surface.
 constexpr double largest_miss = 0.35;
-// Of the edge that takes their place: what a vertex on a hard edge may lie off it and go.
+// Of a hard edge: what the boundary that it stands for may lie off it, if it did not before.
 constexpr double largest_bend = 0.25;
+// Edges of the boundary beside one hard edge that are looked at.
+constexpr int most_passed = 10000;
 
 bool is_gentle(const Vec3& before, const Vec3& after) {
     return after.dot(before) > gentle_turn * after.norm() * before.norm();
@@ -45,6 +47,10 @@ EditedMesh::EditedMesh(const agvd::Surface& surface, const PlacedMesh& mesh,
         places_[v] = {mesh.points[v], mesh.offsets[v], {}, {}, mobility[v]};
         locate(places_[v]);
     }
+    for (const Triangle& t : mesh.triangles) {
+        for (Index k = 0; k < 3; ++k) mean_length_ += (at(t[k]) - at(t[(k + 1) % 3])).norm();
+    }
+    mean_length_ /= 3 * static_cast<double>(std::max<std::size_t>(mesh.triangles.size(), 1));
     std::vector<DirectedEdge> edges(hard.begin(), hard.end());
     for (const auto& [from, to] : hard) edges.emplace_back(to, from);
     std::sort(edges.begin(), edges.end());
@@ -241,6 +247,48 @@ Index EditedMesh::split(Index face, Index k) {
     return vertex;
 }
 
+std::array<Index, 2> EditedMesh::hard_neighbours(Index v) const {
+    std::array<Index, 2> found{no_index, no_index};
+    for (const Index f : fans_[v]) {
+        const Face& face = faces_[f];
+        for (Index k = 0; k < 3; ++k) {
+            if (!is_hard(face, k)) continue;
+            if (face.corner[k] == v) found[1] = face.corner[(k + 1) % 3];
+            if (face.corner[(k + 1) % 3] == v) found[0] = face.corner[k];
+        }
+    }
+    return found;
+}
+
+// How far the surface's boundary between two vertices lies off the edge.
+double EditedMesh::bend(Index from, Index to) const {
+    const std::optional<Index> first = boundary_half_edge(surface_, places_[from].point),
+                               last = boundary_half_edge(surface_, places_[to].point);
+    if (!first || !last) return 0;
+    const Vec3 way = at(to) - at(from);
+    const double square = way.squaredNorm();
+    double most = 0;
+    int passed = 0;
+    for (Index h = *first; h != *last && passed < most_passed; ++passed) {
+        const Index v = surface_.head(h);
+        const Vec3 offset = surface_.mesh.positions[v] - at(from);
+        const double along = square > 0 ? std::clamp(offset.dot(way) / square, 0.0, 1.0) : 0;
+        most = std::max(most, (offset - along * way).norm());
+        h = surface_.outgoing[v];
+    }
+    return most;
+}
+
+double EditedMesh::largest_bend_at(Index v) const {
+    const auto [before, after] = hard_neighbours(v);
+    if (before == no_index || after == no_index) return 0;
+    return std::max(bend(before, v), bend(v, after));
+}
+
+bool EditedMesh::keeps_bend(Index from, Index to, double most_before) const {
+    return bend(from, to) <= std::max(most_before, largest_bend * std::min(0.6 * mean_length_, (at(to) - at(from)).norm()));
+}
+
 bool EditedMesh::may_collapse(Index gone, Index into) const {
     if (mobility(gone) == Mobility::Fixed) return false;
     std::array<Index, 2> apex{no_index, no_index};
@@ -269,8 +317,11 @@ bool EditedMesh::may_collapse(Index gone, Index into) const {
     if (mobility(gone) == Mobility::Boundary) {
         if (!is_along || hard_neighbour == no_index) return false;
         if (hard_neighbour == apex[0] || hard_neighbour == apex[1]) return false;
-        const Vec3 way = at(into) - at(hard_neighbour), to_gone = at(gone) - at(hard_neighbour);
-        if (way.cross(to_gone).norm() > largest_bend * way.squaredNorm()) return false;
+        const bool is_next = hard_neighbours(gone)[1] == into;
+        if (!keeps_bend(is_next ? hard_neighbour : into, is_next ? into : hard_neighbour,
+                        largest_bend_at(gone))) {
+            return false;
+        }
     }
     // A lone triangle has no other face at its apex.
     if (num_apexes == 1 && fans_[apex[0]].size() == 1) return false;
@@ -352,6 +403,8 @@ bool EditedMesh::move(Index v, const Vec3& step, double gain) {
     locate(place);
     const double worst = worst_at(v);
     const Place before = places_[v];
+    const bool is_on_boundary = place.mobility == Mobility::Boundary;
+    const double most_bend = is_on_boundary ? largest_bend_at(v) : 0;
     std::vector<Vec3> normals;
     for (const Index f : fans_[v]) normals.push_back(normal_of(faces_[f].corner));
     places_[v] = place;
@@ -359,6 +412,11 @@ bool EditedMesh::move(Index v, const Vec3& step, double gain) {
     for (std::size_t i = 0; i < normals.size() && is_better; ++i) {
         const Triangle& t = faces_[fans_[v][i]].corner;
         is_better = quality_of(t) > worst + gain && is_gentle(normals[i], normal_of(t));
+    }
+    if (is_better && is_on_boundary) {
+        const auto [previous, next] = hard_neighbours(v);
+        is_better = (previous == no_index || keeps_bend(previous, v, most_bend)) &&
+                    (next == no_index || keeps_bend(v, next, most_bend));
     }
     places_[v] = before;
     if (!is_better) return false;

@@ -51,6 +51,8 @@ public:
     [[nodiscard]] const agvd::Vec3& at(agvd::Index v) const { return places_[v].at; }
     [[nodiscard]] Mobility mobility(agvd::Index v) const { return places_[v].mobility; }
     [[nodiscard]] double worst_at(agvd::Index v) const;
+    //! Before and after a vertex along its hard edges; no_index where there is none.
+    [[nodiscard]] std::array<agvd::Index, 2> hard_neighbours(agvd::Index v) const;
 
     //! The edge from corner k of the face to the next.
     bool flip(agvd::Index face, agvd::Index k);
@@ -99,8 +101,12 @@ private:
     [[nodiscard]] std::optional<Place> place_between(agvd::Index a, agvd::Index b,
                                                      bool is_hard) const;
     void split_side(Half side, agvd::Index vertex);
+    [[nodiscard]] double bend(agvd::Index from, agvd::Index to) const;
+    [[nodiscard]] double largest_bend_at(agvd::Index v) const;
+    [[nodiscard]] bool keeps_bend(agvd::Index from, agvd::Index to, double most_before) const;
 
     const agvd::Surface& surface_;
+    double mean_length_ = 0;  // Of the edges at first.
     std::vector<Face> faces_;
     std::vector<Place> places_;                   // By vertex.
     std::vector<std::vector<agvd::Index>> fans_;  // By vertex: its faces.

@@ -19,7 +19,7 @@ using detail::EditedMesh;
 using detail::Mobility;
 
 // Triangles below are worked on: 25.2 degrees.
-constexpr double wanted_quality = 0.45;
+constexpr double wanted_quality = 0.425;
 // What triangles must have where vertices are taken from, or are to go.
 constexpr double least_elsewhere = 0.6;
 // Less is not worth a step, or a trial of several.
@@ -34,8 +34,27 @@ class Mender {
 public:
     Mender(EditedMesh& mesh, agvd::Ticker ticker) : mesh_(mesh), ticker_(ticker) {}
 
+    // Vertices that splits have added are taken away at the end, when it is clear how many they are:
+    // fewer than one for each split. Where that fails, one by one.
     bool run() {
         const EditedMesh::Mark start = mesh_.mark();
+        for (const bool pays_at_once : {false, true}) {
+            pays_at_once_ = pays_at_once;
+            has_collapses_ = false;
+            collapses_.clear();
+            num_spare_ = 0;
+            const bool is_changed = work();
+            if (num_spare_ < 0) prune();
+            while (num_spare_ > 0 && take_spare()) {}
+            while (num_spare_ < 0 && give_spare()) {}
+            if (num_spare_ == 0) return is_changed;
+            mesh_.take_back(start);
+        }
+        return false;
+    }
+
+private:
+    bool work() {
         bool is_changed = false;
         for (int round = 0; round < most_rounds; ++round) {
             bool is_better = false;
@@ -46,13 +65,30 @@ public:
             if (!is_better) break;
             is_changed = true;
         }
-        while (num_spare_ > 0 && take_spare()) {}
-        if (num_spare_ == 0) return is_changed;
-        mesh_.take_back(start);
-        return false;
+        return is_changed;
     }
 
-private:
+    // Takes away vertices at triangles as they are wanted, no better, where they remain that.
+    void prune() {
+        for (Index v = 0; v < mesh_.num_vertices() && num_spare_ < 0; ++v) {
+            if (mesh_.mobility(v) != Mobility::Boundary || mesh_.faces_at(v).empty()) continue;
+            const double worst = mesh_.worst_at(v);
+            if (worst < wanted_quality || worst >= least_elsewhere) continue;
+            for (const Index into : mesh_.hard_neighbours(v)) {
+                if (into == no_index) continue;
+                const EditedMesh::Mark before = mesh_.mark();
+                if (mesh_.collapse(v, into)) {
+                    relax(before);
+                    if (worst_since(before) >= wanted_quality) {
+                        ++num_spare_;
+                        break;
+                    }
+                }
+                mesh_.take_back(before);
+            }
+        }
+    }
+
     struct Trial {
         Index face = no_index, k = 0;
         bool is_split = false, is_reversed = false;
@@ -245,11 +281,9 @@ private:
             ++num_spare_;
             return true;
         }
-        if (num_spare_ > 0) {
-            --num_spare_;
-            return true;
-        }
-        if (give_spare()) return true;
+        --num_spare_;
+        if (!pays_at_once_ || num_spare_ >= 0 || give_spare()) return true;
+        ++num_spare_;
         mesh_.take_back(before);
         return false;
     }
@@ -278,7 +312,10 @@ private:
             if (mesh_.worst_at(gone) >= least_elsewhere && mesh_.collapse(gone, into)) {
                 (void)mesh_.move(into, ways_of(into).to_mean, 0);
                 relax(before);
-                if (worst_since(before) >= least_elsewhere) return true;
+                if (worst_since(before) >= least_elsewhere) {
+                    ++num_spare_;
+                    return true;
+                }
             }
             mesh_.take_back(before);
         }
@@ -363,7 +400,8 @@ private:
 
     EditedMesh& mesh_;
     agvd::Ticker ticker_;
-    int num_spare_ = 0;  // Vertices taken away and not yet put elsewhere.
+    bool pays_at_once_ = false;
+    int num_spare_ = 0;  // Vertices taken away and not yet put elsewhere; below 0: to be taken.
     bool has_collapses_ = false;
     std::vector<Candidate> collapses_;  // The best one last.
     std::vector<Index> changed_;        // Scratch.
