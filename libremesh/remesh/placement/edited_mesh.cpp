@@ -20,8 +20,9 @@ constexpr double gentle_turn = 0.5;
 // Of an edge: a vertex between its ends lies no farther from the middle, or it is elsewhere on the
 // surface.
 constexpr double largest_miss = 0.35;
-// Of a hard edge: what the boundary that it stands for may lie off it, if it did not before.
-constexpr double largest_bend = 0.25;
+// What the boundary that a hard edge stands for may lie off it, if it did not before: of its length,
+// and of the mean length of all edges. With the first alone edges reach around the tips of slots.
+constexpr double largest_bend = 0.25, most_bend = 0.15;
 // Edges of the boundary beside one hard edge that are looked at.
 constexpr int most_passed = 10000;
 
@@ -286,7 +287,9 @@ double EditedMesh::largest_bend_at(Index v) const {
 }
 
 bool EditedMesh::keeps_bend(Index from, Index to, double most_before) const {
-    return bend(from, to) <= std::max(most_before, largest_bend * std::min(0.6 * mean_length_, (at(to) - at(from)).norm()));
+    const double length = (at(to) - at(from)).norm();
+    return bend(from, to) <=
+           std::max(most_before, std::min(largest_bend * length, most_bend * mean_length_));
 }
 
 bool EditedMesh::may_collapse(Index gone, Index into) const {
@@ -403,8 +406,6 @@ bool EditedMesh::move(Index v, const Vec3& step, double gain) {
     locate(place);
     const double worst = worst_at(v);
     const Place before = places_[v];
-    const bool is_on_boundary = place.mobility == Mobility::Boundary;
-    const double most_bend = is_on_boundary ? largest_bend_at(v) : 0;
     std::vector<Vec3> normals;
     for (const Index f : fans_[v]) normals.push_back(normal_of(faces_[f].corner));
     places_[v] = place;
@@ -413,10 +414,13 @@ bool EditedMesh::move(Index v, const Vec3& step, double gain) {
         const Triangle& t = faces_[fans_[v][i]].corner;
         is_better = quality_of(t) > worst + gain && is_gentle(normals[i], normal_of(t));
     }
-    if (is_better && is_on_boundary) {
+    if (is_better && place.mobility == Mobility::Boundary) {
+        places_[v] = before;
+        const double bend_before = largest_bend_at(v);
+        places_[v] = place;
         const auto [previous, next] = hard_neighbours(v);
-        is_better = (previous == no_index || keeps_bend(previous, v, most_bend)) &&
-                    (next == no_index || keeps_bend(v, next, most_bend));
+        is_better = (previous == no_index || keeps_bend(previous, v, bend_before)) &&
+                    (next == no_index || keeps_bend(v, next, bend_before));
     }
     places_[v] = before;
     if (!is_better) return false;
