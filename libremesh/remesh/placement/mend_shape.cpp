@@ -257,22 +257,37 @@ private:
         }
     }
 
-    // The best of splitting and collapsing the edges of a bad triangle.
+    // Collapses first, the shortest edge first; then splits, the longest first.
+    [[nodiscard]] std::array<Trial, 9> trials_at(Index f) const {
+        const Triangle& t = mesh_.face(f).corner;
+        std::array<std::pair<double, Index>, 3> edges;
+        for (Index k = 0; k < 3; ++k) {
+            edges[k] = {(mesh_.at(t[k]) - mesh_.at(t[(k + 1) % 3])).norm(), k};
+        }
+        std::sort(edges.begin(), edges.end());
+        std::array<Trial, 9> trials;
+        for (std::size_t i = 0; i < 3; ++i) {
+            trials[2 * i] = {f, edges[i].second, false, false};
+            trials[2 * i + 1] = {f, edges[i].second, false, true};
+            trials[8 - i] = {f, edges[i].second, true, false};
+        }
+        return trials;
+    }
+
+    // The first collapse or split that mends all it touches, or the best.
     bool try_edits(Index f) {
         Trial best;
         double most = 0;
-        for (Index k = 0; k < 3; ++k) {
-            for (const Trial& trial : {Trial{f, k, true, false}, Trial{f, k, false, false},
-                                       Trial{f, k, false, true}}) {
-                const EditedMesh::Mark before = mesh_.mark();
-                const bool is_done = edit(trial);
-                const double worth =
-                    is_done ? worth_of(gain_since(before), trial.is_split) : 0;
-                mesh_.take_back(before);
-                if (!(worth > most)) continue;
-                most = worth;
-                best = trial;
-            }
+        for (const Trial& trial : trials_at(f)) {
+            const EditedMesh::Mark before = mesh_.mark();
+            const bool is_done = edit(trial);
+            const Gain gain = is_done ? gain_since(before) : Gain{};
+            mesh_.take_back(before);
+            const double worth = is_done ? worth_of(gain, trial.is_split) : 0;
+            if (!(worth > most)) continue;
+            most = worth;
+            best = trial;
+            if (gain.is_all) break;
         }
         if (best.face == no_index) return false;
         const EditedMesh::Mark before = mesh_.mark();
