@@ -63,8 +63,7 @@ TriangleMesh uneven_tube() {
 TEST(MendShape, GoodTrianglesStayAsTheyAre) {
     Placed placed(shapes::sphere(3));
     const std::vector<Triangle> before = placed.placed.triangles;
-    EXPECT_TRUE(
-        mend_shape(placed.surface, placed.mobility, placed.hard, placed.placed).empty());
+    EXPECT_TRUE(mend_shape(placed.surface, placed.mobility, placed.hard, placed.placed).empty());
     EXPECT_EQ(placed.placed.triangles, before);
 }
 

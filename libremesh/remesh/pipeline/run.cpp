@@ -45,6 +45,8 @@ constexpr double rounding = 1e-10;
 constexpr double least_junction = 2;
 // Rounds of putting vertices back onto the surface there.
 constexpr int max_unfits = 4;
+// Rounds of mending thinned components with fewer vertices that may move.
+constexpr int max_mended = 2;
 
 using CrossingFaces = std::optional<std::vector<std::pair<Index, Index>>>;
 
@@ -425,7 +427,7 @@ private:
     // corners stay.
     void mend_thinned() {
         if (thinned_.mesh.points.empty()) return;
-        for (int round = 0; round < max_unfits; ++round) {
+        for (int round = 0; round < max_mended; ++round) {
             PlacedMesh mended = thinned_.mesh;
             std::vector<Index> numbers;
             {
@@ -758,7 +760,7 @@ private:
         std::vector<Mobility> mobility;
         std::vector<DirectedEdge> hard;
     } thinned_;
-    std::vector<bool> is_wanted_;        // By site: stays where vertices are taken away.
+    std::vector<bool> is_wanted_;  // By site: stays where vertices are taken away.
     bool has_judged_input_ = false;
 };
 

@@ -113,7 +113,8 @@ private:
             const bool has_strips = is_first && p.in_strips > most_in_strips;
             p.stalled_rounds = p.faults < p.fewest ? 0 : p.stalled_rounds + 1;
             p.fewest = std::min(p.fewest, p.faults);
-            if (p.faults == 0 || (!is_last && !has_strips && p.stalled_rounds < max_stalled_rounds)) {
+            if (p.faults == 0 ||
+                (!is_last && !has_strips && p.stalled_rounds < max_stalled_rounds)) {
                 continue;
             }
             has_failed_[c] = true;

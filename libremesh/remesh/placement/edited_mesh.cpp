@@ -20,8 +20,9 @@ constexpr double gentle_turn = 0.5;
 // Of an edge: a vertex between its ends lies no farther from the middle, or it is elsewhere on the
 // surface.
 constexpr double largest_miss = 0.35;
-// What the boundary that a hard edge stands for may lie off it, if it did not before: of its length,
-// and of the mean length of all edges. With the first alone edges reach around the tips of slots.
+// What the boundary that a hard edge stands for may lie off it, if it did not before: of its
+// length, and of the mean length of all edges. With the first alone edges reach around the tips of
+// slots.
 constexpr double largest_bend = 0.25, most_bend = 0.15;
 // Edges of the boundary beside one hard edge that are looked at.
 constexpr int most_passed = 10000;
@@ -60,8 +61,8 @@ EditedMesh::EditedMesh(const agvd::Surface& surface, const PlacedMesh& mesh,
         std::array<bool, 3> is_found{};
         for (Index k = 0; k < 3; ++k) {
             fans_[t[k]].push_back(f);
-            is_found[k] = std::binary_search(edges.begin(), edges.end(),
-                                             DirectedEdge(t[k], t[(k + 1) % 3]));
+            is_found[k] =
+                std::binary_search(edges.begin(), edges.end(), DirectedEdge(t[k], t[(k + 1) % 3]));
         }
         faces_[f] = {t, bits(is_found[0], is_found[1], is_found[2]), true, quality_of(t)};
     }
@@ -180,9 +181,8 @@ bool EditedMesh::flip(Index face, Index k) {
     return true;
 }
 
-// A point of the surface near the middle; nothing where the surface between leads elsewhere.
-std::optional<EditedMesh::Place> EditedMesh::place_between(Index a, Index b, bool is_hard) const {
-    Place place;
+// A point of the surface near the middle; false where the surface between leads elsewhere.
+bool EditedMesh::place_between(Index a, Index b, bool is_hard, Place& place) const {
     place.mobility = is_hard ? Mobility::Boundary : Mobility::Free;
     place.offset = (places_[a].offset + places_[b].offset) / 2;
     const Vec3 middle = (at(a) + at(b)) / 2;
@@ -200,9 +200,9 @@ std::optional<EditedMesh::Place> EditedMesh::place_between(Index a, Index b, boo
             place.point = walk_straight(surface_, point, step);
         }
         locate(place);
-        if ((place.at - middle).norm() <= most) return place;
+        if ((place.at - middle).norm() <= most) return true;
     }
-    return std::nullopt;
+    return false;
 }
 
 void EditedMesh::split_side(Half side, Index vertex) {
@@ -228,20 +228,20 @@ Index EditedMesh::split(Index face, Index k) {
     const Triangle t = faces_[face].corner;
     const Index a = t[k], b = t[(k + 1) % 3];
     if (mobility(a) == Mobility::Fixed && mobility(b) == Mobility::Fixed) return no_index;
-    const std::optional<Place> place = place_between(a, b, is_hard(faces_[face], k));
-    if (!place) return no_index;
+    Place place;
+    if (!place_between(a, b, is_hard(faces_[face], k), place)) return no_index;
     const std::optional<Half> other = half_edge(b, a);
     const auto keeps_normal = [&](Half side) {
         const Triangle& corner = faces_[side.face].corner;
         const Vec3 &p = at(corner[side.k]), &q = at(corner[(side.k + 1) % 3]),
                    &r = at(corner[(side.k + 2) % 3]);
         const Vec3 before = (q - p).cross(r - p);
-        return is_gentle(before, (place->at - p).cross(r - p)) &&
-               is_gentle(before, (q - place->at).cross(r - place->at));
+        return is_gentle(before, (place.at - p).cross(r - p)) &&
+               is_gentle(before, (q - place.at).cross(r - place.at));
     };
     if (!keeps_normal({face, k}) || (other && !keeps_normal(*other))) return no_index;
     const Index vertex = num_vertices();
-    places_.push_back(*place);
+    places_.push_back(place);
     fans_.emplace_back();
     split_side({face, k}, vertex);
     if (other) split_side(*other, vertex);

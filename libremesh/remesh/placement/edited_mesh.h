@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "agvd/mesh/surface.h"
 #include "remesh/features/close_rim.h"
 #include "remesh/placement/placed_mesh.h"
-#include "agvd/mesh/surface.h"
 
 namespace remesh::detail {
 
@@ -98,8 +98,8 @@ private:
     [[nodiscard]] bool are_joined(agvd::Index a, agvd::Index b) const;
     [[nodiscard]] bool folds(const std::array<agvd::Index, 4>& quad, Half first, Half second) const;
     [[nodiscard]] bool may_collapse(agvd::Index gone, agvd::Index into) const;
-    [[nodiscard]] std::optional<Place> place_between(agvd::Index a, agvd::Index b,
-                                                     bool is_hard) const;
+    [[nodiscard]] bool place_between(agvd::Index a, agvd::Index b, bool is_hard,
+                                     Place& place) const;
     void split_side(Half side, agvd::Index vertex);
     [[nodiscard]] double bend(agvd::Index from, agvd::Index to) const;
     [[nodiscard]] double largest_bend_at(agvd::Index v) const;

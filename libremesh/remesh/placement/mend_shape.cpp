@@ -21,9 +21,15 @@ using detail::Mobility;
 // Triangles below are worked on: 25.2 degrees.
 constexpr double wanted_quality = 0.425;
 // What triangles must have where vertices are taken from, or are to go.
-constexpr double least_elsewhere = 0.6;
+constexpr double good_elsewhere = 0.6;
 // Less is not worth a step, or a trial of several.
 constexpr double least_gain = 1e-3, least_trial_gain = 0.02;
+// One of so many vertices may be put elsewhere: a surface all thinner than the spacing has no place
+// to take them from.
+constexpr agvd::Index most_moved = 8;
+// For each bad triangle at first, more or less: where all are bad, work would have no end. Lips
+// take half of it.
+constexpr std::size_t edits_for_each = 3, slides_for_each = 200;
 constexpr int most_rounds = 6, most_sweeps = 3;
 // As in improve_shape.
 constexpr std::array step_lengths{0.2, 0.07, 0.02};
@@ -32,21 +38,31 @@ constexpr int num_directions = 8;
 
 class Mender {
 public:
-    Mender(EditedMesh& mesh, agvd::Ticker ticker) : mesh_(mesh), ticker_(ticker) {}
+    Mender(EditedMesh& mesh, agvd::Ticker ticker)
+        : mesh_(mesh),
+          ticker_(ticker),
+          least_spare_(-static_cast<int>(mesh.num_vertices() / most_moved)) {}
 
-    // Vertices that splits have added are taken away at the end, when it is clear how many they are:
-    // fewer than one for each split. Where that fails, one by one.
+    // Vertices that splits have added are taken away at the end, when it is clear how many they
+    // are: fewer than one for each split. Where that fails, one by one.
     bool run() {
         const EditedMesh::Mark start = mesh_.mark();
+        const std::size_t num_bad = bad_faces().size();
         for (const bool pays_at_once : {false, true}) {
             pays_at_once_ = pays_at_once;
             has_collapses_ = false;
             collapses_.clear();
             num_spare_ = 0;
+            edits_left_ = edits_for_each * num_bad;
+            slides_left_ = slides_for_each * num_bad;
+            elsewhere_ = pays_at_once ? wanted_quality + least_trial_gain : good_elsewhere;
             const bool is_changed = work();
+            slides_left_ = slides_for_each * num_bad;
             if (num_spare_ < 0) prune();
-            while (num_spare_ > 0 && take_spare()) {}
-            while (num_spare_ < 0 && give_spare()) {}
+            while (num_spare_ > 0 && take_spare()) {
+            }
+            while (num_spare_ < 0 && give_spare()) {
+            }
             if (num_spare_ == 0) return is_changed;
             mesh_.take_back(start);
         }
@@ -73,7 +89,7 @@ private:
         for (Index v = 0; v < mesh_.num_vertices() && num_spare_ < 0; ++v) {
             if (mesh_.mobility(v) != Mobility::Boundary || mesh_.faces_at(v).empty()) continue;
             const double worst = mesh_.worst_at(v);
-            if (worst < wanted_quality || worst >= least_elsewhere) continue;
+            if (worst < wanted_quality || worst >= elsewhere_) continue;
             for (const Index into : mesh_.hard_neighbours(v)) {
                 if (into == no_index) continue;
                 const EditedMesh::Mark before = mesh_.mark();
@@ -222,7 +238,8 @@ private:
     }
 
     bool slide(Index v) {
-        if (mesh_.mobility(v) == Mobility::Fixed) return false;
+        if (mesh_.mobility(v) == Mobility::Fixed || slides_left_ == 0) return false;
+        --slides_left_;
         const Ways ways = ways_of(v);
         if (ways.steps.empty()) return false;
         bool is_better = mesh_.move(v, ways.to_mean, least_gain);
@@ -276,6 +293,8 @@ private:
 
     // The first collapse or split that mends all it touches, or the best.
     bool try_edits(Index f) {
+        if (edits_left_ == 0) return false;
+        --edits_left_;
         Trial best;
         double most = 0;
         for (const Trial& trial : trials_at(f)) {
@@ -289,7 +308,7 @@ private:
             best = trial;
             if (gain.is_all) break;
         }
-        if (best.face == no_index) return false;
+        if (best.face == no_index || (best.is_split && num_spare_ <= least_spare_)) return false;
         const EditedMesh::Mark before = mesh_.mark();
         (void)edit(best);
         if (!best.is_split) {
@@ -324,10 +343,10 @@ private:
             collapses_.pop_back();
             if (mesh_.faces_at(gone).empty() || mesh_.faces_at(into).empty()) continue;
             const EditedMesh::Mark before = mesh_.mark();
-            if (mesh_.worst_at(gone) >= least_elsewhere && mesh_.collapse(gone, into)) {
+            if (mesh_.worst_at(gone) >= elsewhere_ && mesh_.collapse(gone, into)) {
                 (void)mesh_.move(into, ways_of(into).to_mean, 0);
                 relax(before);
-                if (worst_since(before) >= least_elsewhere) {
+                if (worst_since(before) >= elsewhere_) {
                     ++num_spare_;
                     return true;
                 }
@@ -341,8 +360,7 @@ private:
         double quality;
         Index gone, into;
         [[nodiscard]] bool operator<(const Candidate& other) const {
-            return std::tie(quality, gone, into) <
-                   std::tie(other.quality, other.gone, other.into);
+            return std::tie(quality, gone, into) < std::tie(other.quality, other.gone, other.into);
         }
     };
 
@@ -415,12 +433,15 @@ private:
 
     EditedMesh& mesh_;
     agvd::Ticker ticker_;
+    const int least_spare_;
     bool pays_at_once_ = false;
     int num_spare_ = 0;  // Vertices taken away and not yet put elsewhere; below 0: to be taken.
     bool has_collapses_ = false;
     std::vector<Candidate> collapses_;  // The best one last.
-    std::vector<Index> changed_;        // Scratch.
-    std::vector<double> before_;        // Scratch.
+    double elsewhere_ = 0;              // What triangles keep where vertices are taken.
+    std::size_t edits_left_ = 0, slides_left_ = 0;
+    std::vector<Index> changed_;  // Scratch.
+    std::vector<double> before_;  // Scratch.
 };
 
 }  // namespace
