@@ -46,7 +46,7 @@ EditedMesh::EditedMesh(const agvd::Surface& surface, const PlacedMesh& mesh,
       places_(mesh.points.size()),
       fans_(mesh.points.size()) {
     for (Index v = 0; v < places_.size(); ++v) {
-        places_[v] = {mesh.points[v], mesh.offsets[v], {}, {}, mobility[v]};
+        places_[v] = {mesh.points[v], mesh.offsets[v], Vec3::Zero(), Vec3::Zero(), mobility[v]};
         locate(places_[v]);
     }
     for (const Triangle& t : mesh.triangles) {
