@@ -1,6 +1,9 @@
 // A surface thinned to points is a simplicial manifold of its topology, whatever the points.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include <algorithm>
 #include <set>
 
@@ -144,4 +147,26 @@ TEST(Thin, ServesWhereCellsFailAndTheResultSaysSo) {
     const remesh::RemeshResult ample =
         remesh::remesh(shapes::torus(60, 30).view(), {.num_samples = 1000, .num_threads = 1});
     EXPECT_EQ(ample.components_from_faces, 0u);
+}
+
+double smallest_angle(const TriangleMesh& mesh) {
+    return remesh::measure_triangles(mesh.view()).min_angle * 180 / std::numbers::pi;
+}
+
+// Strips a quarter of a spacing wide, so many that rounds would not end: there are none.
+TEST(Thin, LipsNarrowerThanTheSpacingGetNoThinTriangles) {
+    const TriangleMesh mesh = shapes::lips(300, 96, 12);
+    remesh::RemeshOptions options{.num_samples = 2000, .num_threads = 1};
+    const remesh::RemeshResult result = remesh::remesh(mesh.view(), options);
+    EXPECT_EQ(result.components_from_faces, 1u);
+    EXPECT_EQ(result.repair_rounds, 0);
+    EXPECT_EQ(result.mesh.positions.size(), 2000u);
+    EXPECT_EQ(result.sites.size(), 2000u);
+    EXPECT_TRUE(same_topology(remesh::analyze_topology(result.mesh.view()), result.input_topology));
+    EXPECT_GT(smallest_angle(result.mesh), 15);
+    EXPECT_EQ(result.self_intersections.value_or(0), 0u);
+    options.num_threads = 3;
+    const remesh::RemeshResult threads = remesh::remesh(mesh.view(), options);
+    EXPECT_EQ(threads.mesh.positions, result.mesh.positions);
+    EXPECT_EQ(threads.mesh.triangles, result.mesh.triangles);
 }

@@ -111,6 +111,31 @@ TriangleMesh tube(Index n, Index m) {
     return mesh;
 }
 
+TriangleMesh lips(Index n, Index m, Index teeth) {
+    TriangleMesh mesh;
+    std::vector<Index> number(n * (m + 1), agvd::no_index);
+    const auto vertex = [&](Index i, Index j) {
+        Index& v = number[(i % n) * (m + 1) + j];
+        if (v == agvd::no_index) {
+            v = static_cast<Index>(mesh.positions.size());
+            const double u = 2 * std::numbers::pi * (i % n) / n, z = 2.0 * j / m;
+            const double r = 1 + 0.15 * std::sin(3 * u) * std::sin(3 * z);
+            mesh.positions.emplace_back(r * std::cos(u), r * std::sin(u), z);
+        }
+        return v;
+    };
+    for (Index j = 0; j < m; ++j) {
+        for (Index i = 0; i < n; ++i) {
+            if (4 * j >= 3 * m && i < 2 * teeth && i % 2 == 1) continue;
+            const Index a = vertex(i, j), b = vertex(i + 1, j), c = vertex(i + 1, j + 1),
+                        d = vertex(i, j + 1);
+            mesh.triangles.push_back({a, b, c});
+            mesh.triangles.push_back({a, c, d});
+        }
+    }
+    return mesh;
+}
+
 TriangleMesh subdivide(const TriangleMesh& mesh) {
     TriangleMesh fine{mesh.positions, {}};
     std::map<std::pair<Index, Index>, Index> midpoint;

@@ -18,6 +18,9 @@ namespace shapes {
 [[nodiscard]] agvd::TriangleMesh torus(agvd::Index n, agvd::Index m, double tube = 0.35);
 //! Open cylinder of radius 1 and height 2 around z, n x m quads.
 [[nodiscard]] agvd::TriangleMesh tube(agvd::Index n, agvd::Index m);
+//! Open tube of height 2 and radius about 1, n x m quads, that ends in lips: the upper quarter is
+//! cut so that `teeth` columns are left, one column apart.
+[[nodiscard]] agvd::TriangleMesh lips(agvd::Index n, agvd::Index m, agvd::Index teeth);
 //! Every face split in four at the edge midpoints; positions are not moved.
 [[nodiscard]] agvd::TriangleMesh subdivide(const agvd::TriangleMesh& mesh);
 //! Every vertex moved by at most `amount`, reproducibly.

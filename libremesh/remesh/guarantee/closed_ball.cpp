@@ -38,7 +38,7 @@ public:
 
 private:
     void report(SiteId site, SiteId other, const char* reason, std::vector<SurfacePoint> remedies) {
-        found_.push_back({site, other, reason, std::move(remedies)});
+        found_.push_back({site, other, reason, std::move(remedies), false});
     }
 
     // The point of an edge farthest from its sites.
@@ -114,9 +114,11 @@ private:
                     // A new site between the two would meet both sides too, and so would the next.
                     report(edge.left, edge.right, "meets the boundary at both ends of its arc with",
                            {diagram_.vertices[edge.tail], diagram_.vertices[edge.head]});
+                    found_.back().is_at_boundary = true;
                 }
             } else if (++arcs[edge.left.value()] > 1) {
                 report(edge.left, {}, "meets the boundary more than once", {middle_point(e)});
+                found_.back().is_at_boundary = true;
             }
         }
     }

@@ -12,6 +12,7 @@ struct ClosedBallViolation {
     agvd::SiteId other;                        //!< The second cell, if two are concerned.
     const char* reason = "";                   //!< A fixed text that follows the cell's name.
     std::vector<agvd::SurfacePoint> remedies;  //!< Where to add sites.
+    bool is_at_boundary = false;  //!< A cell that meets the boundary twice, as in narrow strips.
 };
 
 //! All violations: every cell is a disc with one loop; two cells meet in nothing or one arc, and no

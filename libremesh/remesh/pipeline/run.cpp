@@ -20,6 +20,7 @@
 #include "remesh/placement/fit_curves.h"
 #include "remesh/placement/fit_vertices.h"
 #include "remesh/placement/improve_shape.h"
+#include "remesh/placement/mend_shape.h"
 #include "remesh/quality/self_intersections.h"
 #include "remesh/relax/relax_network.h"
 #include "remesh/sampling/boundary_curves.h"
@@ -49,6 +50,8 @@ constexpr double least_junction = 2;
 constexpr double on_curve = 0.1;
 // Rounds of putting vertices back onto the surface there.
 constexpr int max_unfits = 4;
+// Rounds of mending thinned components with fewer vertices that may move.
+constexpr int max_mended = 2;
 
 using CrossingFaces = std::optional<std::vector<std::pair<Index, Index>>>;
 
@@ -76,6 +79,7 @@ public:
             relax();
             drop_duplicates();
             build_mesh();
+            mend_thinned();
             check_mesh();
         } catch (const TooFewSamples&) {
             give_input_back();
@@ -377,6 +381,7 @@ private:
             if (mends == 0 || !crossings || crossings->size() < *result_.self_intersections) {
                 take_result(placed);
                 if (plan_ && options_.sites) order_as_given(dual);
+                take_thinned(std::move(placed), dual, is_thinned);
                 result_.sites_removed = num_removed;
                 result_.delaunay = flips;
                 if (crossings) result_.self_intersections = static_cast<Index>(crossings->size());
@@ -453,6 +458,65 @@ private:
         if (!has_junctions()) return mesh_of(placed);
         return {positions_of(placed), rename_vertices(whole_.triangles, whole_.first_of_group)};
     }
+    // Keeps what mending wants of a result with thinned components.
+    void take_thinned(PlacedMesh placed, const ValidDual& dual,
+                      const std::vector<bool>& is_thinned) {
+        thinned_ = {};
+        if (plan_ || result_.components_from_faces == 0 || !is_relaxed()) return;
+        std::vector<bool> is_corner(base().num_vertices(), false);
+        for (const Index v : corners_) is_corner[v] = true;
+        thinned_.hard = rim_of(placed.triangles);
+        thinned_.mobility.assign(placed.points.size(), Mobility::Free);
+        for (const auto& [from, to] : thinned_.hard) {
+            thinned_.mobility[from] = thinned_.mobility[to] = Mobility::Boundary;
+        }
+        for (Index i = 0; i < placed.points.size(); ++i) {
+            const SurfacePoint& point = dual.mesh.points[i];
+            const auto v = agvd::vertex_of(base(), point);
+            if ((v && is_corner[*v]) || !is_thinned[component_[point.face.value()]]) {
+                thinned_.mobility[i] = Mobility::Fixed;
+            }
+        }
+        thinned_.mesh = std::move(placed);
+    }
+
+    // Thinned components have thin triangles. Where better ones would run through each other, their
+    // corners stay.
+    void mend_thinned() {
+        if (thinned_.mesh.points.empty()) return;
+        for (int round = 0; round < max_mended; ++round) {
+            PlacedMesh mended = thinned_.mesh;
+            std::vector<Index> numbers;
+            {
+                const StageClock clock(Stage::Place, result_);
+                const agvd::Progress progress = progress_of(Stage::Place, options_);
+                numbers = mend_shape(prepared_->input(), thinned_.mobility, thinned_.hard, mended,
+                                     agvd::within(progress, 1, 1));
+            }
+            if (numbers.empty()) return;
+            const CrossingFaces crossings = find_crossings(mended);
+            if (!crossings || crossings->size() <= *result_.self_intersections) {
+                if (crossings) result_.self_intersections = static_cast<Index>(crossings->size());
+                return take_result(mended);
+            }
+            fix_corners(*crossings, mended.triangles, numbers);
+        }
+    }
+
+    void fix_corners(const std::vector<std::pair<Index, Index>>& faces,
+                     const std::vector<agvd::Triangle>& triangles,
+                     const std::vector<Index>& numbers) {
+        for (const auto& [f, g] : faces) {
+            for (const Index face : {f, g}) {
+                for (const Index v : triangles[face]) {
+                    if (numbers[v] < thinned_.mobility.size()) {
+                        thinned_.mobility[numbers[v]] = Mobility::Fixed;
+                    }
+                }
+            }
+        }
+    }
+
     [[nodiscard]] bool has_junctions() const { return plan_ && !plan_->junctions.empty(); }
     template <typename T>
     [[nodiscard]] static std::vector<T> take(const std::vector<T>& all,
@@ -756,7 +820,12 @@ private:
     std::vector<Index> corners_;         // Boundary vertices, ascending.
     Index num_distinct_ = 0;             // Given sites.
     Index target_ = 0;                   // Vertices of the result.
-    std::vector<bool> is_wanted_;        // By site: stays where vertices are taken away.
+    struct {
+        PlacedMesh mesh;  // Of no vertices: there is nothing to mend.
+        std::vector<Mobility> mobility;
+        std::vector<DirectedEdge> hard;
+    } thinned_;
+    std::vector<bool> is_wanted_;  // By site: stays where vertices are taken away.
     bool has_judged_input_ = false;
 };
 

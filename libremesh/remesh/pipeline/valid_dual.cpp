@@ -29,6 +29,10 @@ using agvd::Vec3;
 
 // Rounds without fewer violations than ever before: adding sites does not help here.
 constexpr int max_stalled_rounds = 3;
+// So many cells that meet the boundary twice, by the first diagram: strips far narrower than the
+// spacing. Twelve rounds leave some there, at ten times the cost of thinning (lips of .26 and .52
+// spacings: 154 and 146; of .79: 28, and 5 rounds mend all).
+constexpr std::size_t most_in_strips = 64;
 // Sites may grow to this many times the first ones, and what topology may need of a few, before a
 // component is thinned to its sites.
 constexpr std::size_t max_growth = 2;
@@ -65,6 +69,7 @@ private:
     // Of a component.
     struct Progress {
         std::size_t faults = 0;
+        std::size_t in_strips = 0;
         std::size_t fewest = std::numeric_limits<std::size_t>::max();
         int stalled_rounds = 0;
         bool gave_up = false;  // It is to be thinned.
@@ -94,17 +99,26 @@ private:
     // Components fail whose faults too many rounds have not lowered, and at the end all with any.
     void count_faults(const BoundaryFixes& fixes,
                       const std::vector<ClosedBallViolation>& violations) {
-        for (Progress& p : progress_) p.faults = 0;
-        for (const ClosedBallViolation& v : violations) ++progress_[component_of(v)].faults;
+        for (Progress& p : progress_) p.faults = p.in_strips = 0;
+        for (const ClosedBallViolation& v : violations) {
+            Progress& p = progress_[component_of(v)];
+            ++p.faults;
+            if (v.is_at_boundary) ++p.in_strips;
+        }
         for (const auto& [site, place] : fixes.moved) ++progress_[component_of(place)].faults;
         for (const SurfacePoint& place : fixes.added) ++progress_[component_of(place)].faults;
         const bool is_last =
             result_.repair_rounds >= options_.repair_rounds || sites_.size() >= most_sites_;
         for (Index c = 0; c < progress_.size(); ++c) {
             Progress& p = progress_[c];
+            const bool is_first = p.fewest == std::numeric_limits<std::size_t>::max();
+            const bool has_strips = is_first && p.in_strips > most_in_strips;
             p.stalled_rounds = p.faults < p.fewest ? 0 : p.stalled_rounds + 1;
             p.fewest = std::min(p.fewest, p.faults);
-            if (p.faults == 0 || (!is_last && p.stalled_rounds < max_stalled_rounds)) continue;
+            if (p.faults == 0 ||
+                (!is_last && !has_strips && p.stalled_rounds < max_stalled_rounds)) {
+                continue;
+            }
             has_failed_[c] = true;
             p.gave_up = true;
         }

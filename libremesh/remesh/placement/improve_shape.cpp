@@ -6,6 +6,7 @@
 
 #include "agvd/core/poller.h"
 #include "agvd/mesh/point_faces.h"
+#include "remesh/placement/shape_quality.h"
 #include "remesh/placement/vertex_triangles.h"
 #include "remesh/relax/cell_planes.h"
 #include "remesh/relax/walk.h"
@@ -18,12 +19,9 @@ using agvd::SurfacePoint;
 using agvd::Triangle;
 using agvd::Vec3;
 
-// Triangles below are worked on...
-constexpr double low_quality = 0.63;
-// ...and once more below that, wherever their corners have to go.
+// Triangles below detail::low_quality are worked on, and once more below that, wherever their
+// corners have to go.
 constexpr double poor_quality = 0.62;
-// What the sine of the smallest angle counts for: 32.5 degrees are as bad as `low_quality`.
-constexpr double sine_weight = low_quality / 0.5373;
 // Quality that a move must gain which leaves the planes of the cell by the mean length of the edges
 // around the vertex; by less, in proportion to the square.
 constexpr double plane_cost = 30;
@@ -41,19 +39,6 @@ constexpr double short_side = 0.25;
 constexpr double slim_quality = 0.3;
 // Less is not worth a move.
 constexpr double least_gain = 1e-4;
-
-// 6 / sqrt(3) * S / (p h) ([frey1999]): S area, p half the perimeter, h the longest edge; less
-// where an angle is small.
-double quality(const Vec3& a, const Vec3& b, const Vec3& c) {
-    const double ab = (b - a).norm(), bc = (c - b).norm(), ca = (a - c).norm();
-    const double doubled_area = (b - a).cross(c - a).norm();
-    if (!(doubled_area > 0)) return 0;
-    const double longest = std::max({ab, bc, ca});
-    // The smallest angle is the one between the longest sides.
-    const double sine = doubled_area * std::min({ab, bc, ca}) / (ab * bc * ca);
-    return std::min(2 * std::numbers::sqrt3 * doubled_area / ((ab + bc + ca) * longest),
-                    sine_weight * sine);
-}
 
 class Improvement {
 public:
@@ -83,7 +68,7 @@ public:
     }
 
     void run() {
-        work_below(low_quality, plane_cost);
+        work_below(detail::low_quality, plane_cost);
         work_below(poor_quality, 0);
     }
 
@@ -139,7 +124,7 @@ private:
     // As it counts.
     [[nodiscard]] double quality_of(Index i) const {
         const auto& [a, b, c] = mesh_.triangles[i];
-        const double q = quality(at_[a], at_[b], at_[c]);
+        const double q = detail::shape_quality(at_[a], at_[b], at_[c]);
         return is_slim_[i] != 0 ? std::min(1.0, q / slim_quality) : q;
     }
 

@@ -1,0 +1,459 @@
+#include "remesh/placement/mend_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+
+#include "agvd/core/poller.h"
+#include "remesh/placement/shape_quality.h"
+
+namespace remesh {
+namespace {
+
+using agvd::Index;
+using agvd::no_index;
+using agvd::Triangle;
+using agvd::Vec3;
+using detail::EditedMesh;
+using detail::Mobility;
+
+// Triangles below are worked on: 25.2 degrees.
+constexpr double wanted_quality = 0.425;
+// What triangles must have where vertices are taken from, or are to go.
+constexpr double good_elsewhere = 0.6;
+// Less is not worth a step, or a trial of several.
+constexpr double least_gain = 1e-3, least_trial_gain = 0.02;
+// One of so many vertices may be put elsewhere: a surface all thinner than the spacing has no place
+// to take them from.
+constexpr agvd::Index most_moved = 8;
+// For each bad triangle at first, more or less: where all are bad, work would have no end. Lips
+// take half of it.
+constexpr std::size_t edits_for_each = 3, slides_for_each = 200;
+constexpr int most_rounds = 6, most_sweeps = 3;
+// As in improve_shape.
+constexpr std::array step_lengths{0.2, 0.07, 0.02};
+constexpr int most_tries = 4;
+constexpr int num_directions = 8;
+
+class Mender {
+public:
+    Mender(EditedMesh& mesh, agvd::Ticker ticker)
+        : mesh_(mesh),
+          ticker_(ticker),
+          least_spare_(-static_cast<int>(mesh.num_vertices() / most_moved)) {}
+
+    // Vertices that splits have added are taken away at the end, when it is clear how many they
+    // are: fewer than one for each split. Where that fails, one by one.
+    bool run() {
+        const EditedMesh::Mark start = mesh_.mark();
+        const std::size_t num_bad = bad_faces().size();
+        for (const bool pays_at_once : {false, true}) {
+            pays_at_once_ = pays_at_once;
+            has_collapses_ = false;
+            collapses_.clear();
+            num_spare_ = 0;
+            edits_left_ = edits_for_each * num_bad;
+            slides_left_ = slides_for_each * num_bad;
+            elsewhere_ = pays_at_once ? wanted_quality + least_trial_gain : good_elsewhere;
+            const bool is_changed = work();
+            slides_left_ = slides_for_each * num_bad;
+            if (num_spare_ < 0) prune();
+            while (num_spare_ > 0 && take_spare()) {
+            }
+            while (num_spare_ < 0 && give_spare()) {
+            }
+            if (num_spare_ == 0) return is_changed;
+            mesh_.take_back(start);
+        }
+        return false;
+    }
+
+private:
+    bool work() {
+        bool is_changed = false;
+        for (int round = 0; round < most_rounds; ++round) {
+            bool is_better = false;
+            for (const auto& [quality, f] : bad_faces()) {
+                if (!is_bad(f)) continue;
+                is_better = mend(f) || is_better;
+            }
+            if (!is_better) break;
+            is_changed = true;
+        }
+        return is_changed;
+    }
+
+    // Takes away vertices at triangles as they are wanted, no better, where they remain that.
+    void prune() {
+        for (Index v = 0; v < mesh_.num_vertices() && num_spare_ < 0; ++v) {
+            if (mesh_.mobility(v) != Mobility::Boundary || mesh_.faces_at(v).empty()) continue;
+            const double worst = mesh_.worst_at(v);
+            if (worst < wanted_quality || worst >= elsewhere_) continue;
+            for (const Index into : mesh_.hard_neighbours(v)) {
+                if (into == no_index) continue;
+                const EditedMesh::Mark before = mesh_.mark();
+                if (mesh_.collapse(v, into)) {
+                    relax(before);
+                    if (worst_since(before) >= wanted_quality) {
+                        ++num_spare_;
+                        break;
+                    }
+                }
+                mesh_.take_back(before);
+            }
+        }
+    }
+
+    struct Trial {
+        Index face = no_index, k = 0;
+        bool is_split = false, is_reversed = false;
+    };
+
+    [[nodiscard]] bool is_bad(Index f) const {
+        const EditedMesh::Face& face = mesh_.face(f);
+        return face.is_there && face.quality < wanted_quality &&
+               std::any_of(face.corner.begin(), face.corner.end(),
+                           [&](Index v) { return mesh_.mobility(v) != Mobility::Fixed; });
+    }
+
+    [[nodiscard]] std::vector<std::pair<double, Index>> bad_faces() const {
+        std::vector<std::pair<double, Index>> bad;
+        for (Index f = 0; f < mesh_.num_faces(); ++f) {
+            if (is_bad(f)) bad.emplace_back(mesh_.face(f).quality, f);
+        }
+        std::sort(bad.begin(), bad.end());
+        return bad;
+    }
+
+    bool mend(Index f) {
+        const EditedMesh::Mark before = mesh_.mark();
+        if (improve(f)) {
+            relax(before);
+            if (!is_bad(f)) return true;
+        }
+        const bool is_better = mesh_.mark().faces > before.faces;
+        return try_edits(f) || is_better;
+    }
+
+    // A step that makes the worst triangle it touches better.
+    bool improve(Index f) {
+        ticker_.tick(200);
+        for (Index k = 0; k < 3; ++k) {
+            if (try_flip(f, k)) return true;
+        }
+        const Triangle corners = mesh_.face(f).corner;
+        bool is_better = false;
+        for (const Index v : corners) is_better = slide(v) || is_better;
+        return is_better;
+    }
+
+    bool try_flip(Index f, Index k) {
+        const EditedMesh::Mark before = mesh_.mark();
+        if (!mesh_.flip(f, k)) return false;
+        if (gain_since(before).worst > least_gain) return true;
+        mesh_.take_back(before);
+        return false;
+    }
+
+    // Of the triangles touched since, as far as they lack of the wanted quality.
+    struct Gain {
+        double worst = 0, sum = 0;
+        bool is_all = false;  // None lacks any more.
+    };
+
+    [[nodiscard]] Gain gain_since(const EditedMesh::Mark& mark) {
+        mesh_.changed_since(mark, changed_, before_);
+        Gain gain;
+        double worst_before = wanted_quality, worst_now = wanted_quality;
+        for (const double quality : before_) {
+            gain.sum += std::max(wanted_quality - quality, 0.0);
+            worst_before = std::min(worst_before, quality);
+        }
+        for (const Index f : changed_) {
+            gain.sum -= std::max(wanted_quality - mesh_.face(f).quality, 0.0);
+            worst_now = std::min(worst_now, mesh_.face(f).quality);
+        }
+        gain.worst = worst_now - worst_before;
+        gain.is_all = worst_now >= wanted_quality;
+        return gain;
+    }
+
+    // What a trial is worth; not above 0: nothing. What leaves a spare vertex comes first where it
+    // mends all; else splits, whose sum counts, since a chain of equals has no other way. The sum
+    // is no measure of a collapse, which takes faces away.
+    [[nodiscard]] static double worth_of(const Gain& gain, bool is_split) {
+        if (gain.worst < 0 || gain.sum < least_trial_gain) return 0;
+        if (is_split) return 1 + gain.sum;
+        if (gain.is_all) return 100 + gain.sum;
+        return gain.worst < least_trial_gain ? 0 : gain.worst;
+    }
+
+    // Of the triangles touched since.
+    [[nodiscard]] double worst_since(const EditedMesh::Mark& mark) {
+        mesh_.changed_since(mark, changed_, before_);
+        double worst = 1;
+        for (const Index f : changed_) worst = std::min(worst, mesh_.face(f).quality);
+        return worst;
+    }
+
+    // Directions in which a vertex may go, and the mean length of the edges around it.
+    struct Ways {
+        std::vector<Vec3> steps;  // Unit.
+        Vec3 to_mean = Vec3::Zero();
+        double length = 0;
+    };
+
+    [[nodiscard]] Ways ways_of(Index v) const {
+        Ways ways;
+        Vec3 normal = Vec3::Zero();
+        const bool is_free = mesh_.mobility(v) == Mobility::Free;
+        double count = 0;
+        for (const Index f : mesh_.faces_at(v)) {
+            const EditedMesh::Face& face = mesh_.face(f);
+            const auto& [a, b, c] = face.corner;
+            normal += (mesh_.at(b) - mesh_.at(a)).cross(mesh_.at(c) - mesh_.at(a));
+            for (Index k = 0; k < 3; ++k) {
+                const Index from = face.corner[k], to = face.corner[(k + 1) % 3];
+                if (from != v && to != v) continue;
+                const Vec3 way = mesh_.at(from == v ? to : from) - mesh_.at(v);
+                ways.to_mean += way;
+                ways.length += way.norm();
+                ++count;
+                if (!is_free && (face.hard >> k & 1U) != 0 && way.norm() > 0) {
+                    ways.steps.push_back(way.normalized());
+                }
+            }
+        }
+        if (!(count > 0) || !(normal.norm() > 0)) return ways;
+        ways.to_mean /= count;
+        ways.length /= count;
+        if (!is_free) return ways;
+        const Vec3 x = normal.unitOrthogonal(), y = normal.normalized().cross(x);
+        for (int d = 0; d < num_directions; ++d) {
+            const double angle = 2 * std::numbers::pi * d / num_directions;
+            ways.steps.emplace_back(std::cos(angle) * x + std::sin(angle) * y);
+        }
+        return ways;
+    }
+
+    bool slide(Index v) {
+        if (mesh_.mobility(v) == Mobility::Fixed || slides_left_ == 0) return false;
+        --slides_left_;
+        const Ways ways = ways_of(v);
+        if (ways.steps.empty()) return false;
+        bool is_better = mesh_.move(v, ways.to_mean, least_gain);
+        for (const double share : step_lengths) {
+            bool helps = true;
+            for (int tries = 0; tries < most_tries && helps; ++tries) {
+                helps = false;
+                for (const Vec3& step : ways.steps) {
+                    ticker_.tick(mesh_.faces_at(v).size());
+                    helps = mesh_.move(v, share * ways.length * step, least_gain) || helps;
+                }
+                is_better = is_better || helps;
+            }
+        }
+        return is_better;
+    }
+
+    // Steps at bad triangles among those touched, as long as they help.
+    void relax(const EditedMesh::Mark& mark) {
+        for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+            mesh_.changed_since(mark, changed_, before_);
+            std::vector<std::pair<double, Index>> bad;
+            for (const Index f : changed_) {
+                if (is_bad(f)) bad.emplace_back(mesh_.face(f).quality, f);
+            }
+            std::sort(bad.begin(), bad.end());
+            bool is_better = false;
+            for (const auto& [quality, f] : bad) {
+                if (is_bad(f)) is_better = improve(f) || is_better;
+            }
+            if (!is_better) return;
+        }
+    }
+
+    // Collapses first, the shortest edge first; then splits, the longest first.
+    [[nodiscard]] std::array<Trial, 9> trials_at(Index f) const {
+        const Triangle& t = mesh_.face(f).corner;
+        std::array<std::pair<double, Index>, 3> edges;
+        for (Index k = 0; k < 3; ++k) {
+            edges[k] = {(mesh_.at(t[k]) - mesh_.at(t[(k + 1) % 3])).norm(), k};
+        }
+        std::sort(edges.begin(), edges.end());
+        std::array<Trial, 9> trials;
+        for (std::size_t i = 0; i < 3; ++i) {
+            trials[2 * i] = {f, edges[i].second, false, false};
+            trials[2 * i + 1] = {f, edges[i].second, false, true};
+            trials[8 - i] = {f, edges[i].second, true, false};
+        }
+        return trials;
+    }
+
+    // The first collapse or split that mends all it touches, or the best.
+    bool try_edits(Index f) {
+        if (edits_left_ == 0) return false;
+        --edits_left_;
+        Trial best;
+        double most = 0;
+        for (const Trial& trial : trials_at(f)) {
+            const EditedMesh::Mark before = mesh_.mark();
+            const bool is_done = edit(trial);
+            const Gain gain = is_done ? gain_since(before) : Gain{};
+            mesh_.take_back(before);
+            const double worth = is_done ? worth_of(gain, trial.is_split) : 0;
+            if (!(worth > most)) continue;
+            most = worth;
+            best = trial;
+            if (gain.is_all) break;
+        }
+        if (best.face == no_index || (best.is_split && num_spare_ <= least_spare_)) return false;
+        const EditedMesh::Mark before = mesh_.mark();
+        (void)edit(best);
+        if (!best.is_split) {
+            ++num_spare_;
+            return true;
+        }
+        --num_spare_;
+        if (!pays_at_once_ || num_spare_ >= 0 || give_spare()) return true;
+        ++num_spare_;
+        mesh_.take_back(before);
+        return false;
+    }
+
+    bool edit(const Trial& trial) {
+        const EditedMesh::Mark before = mesh_.mark();
+        const Triangle& t = mesh_.face(trial.face).corner;
+        const Index a = t[trial.k], b = t[(trial.k + 1) % 3];
+        if (trial.is_split) {
+            if (mesh_.split(trial.face, trial.k) == no_index) return false;
+        } else if (!mesh_.collapse(trial.is_reversed ? b : a, trial.is_reversed ? a : b)) {
+            return false;
+        }
+        relax(before);
+        return true;
+    }
+
+    // Takes a vertex away where triangles stay good.
+    bool give_spare() {
+        if (!has_collapses_) list_collapses();
+        while (!collapses_.empty()) {
+            const auto [quality, gone, into] = collapses_.back();
+            collapses_.pop_back();
+            if (mesh_.faces_at(gone).empty() || mesh_.faces_at(into).empty()) continue;
+            const EditedMesh::Mark before = mesh_.mark();
+            if (mesh_.worst_at(gone) >= elsewhere_ && mesh_.collapse(gone, into)) {
+                (void)mesh_.move(into, ways_of(into).to_mean, 0);
+                relax(before);
+                if (worst_since(before) >= elsewhere_) {
+                    ++num_spare_;
+                    return true;
+                }
+            }
+            mesh_.take_back(before);
+        }
+        return false;
+    }
+
+    struct Candidate {
+        double quality;
+        Index gone, into;
+        [[nodiscard]] bool operator<(const Candidate& other) const {
+            return std::tie(quality, gone, into) < std::tie(other.quality, other.gone, other.into);
+        }
+    };
+
+    // By the quality that triangles would have with the edge's middle in place of its ends.
+    void list_collapses() {
+        has_collapses_ = true;
+        for (Index f = 0; f < mesh_.num_faces(); ++f) {
+            if (!mesh_.face(f).is_there) continue;
+            ticker_.tick(30);
+            const Triangle& t = mesh_.face(f).corner;
+            for (Index k = 0; k < 3; ++k) {
+                const Index a = t[k], b = t[(k + 1) % 3];
+                if (a > b) continue;  // Twice else.
+                if (mesh_.mobility(a) != Mobility::Free || mesh_.mobility(b) != Mobility::Free) {
+                    continue;
+                }
+                const double quality = quality_of_middle(a, b);
+                if (quality >= wanted_quality) collapses_.push_back({quality, a, b});
+            }
+        }
+        std::sort(collapses_.begin(), collapses_.end());
+    }
+
+    [[nodiscard]] double quality_of_middle(Index a, Index b) const {
+        const Vec3 middle = (mesh_.at(a) + mesh_.at(b)) / 2;
+        double worst = 1;
+        for (const Index v : {a, b}) {
+            for (const Index f : mesh_.faces_at(v)) {
+                const Triangle& t = mesh_.face(f).corner;
+                std::array<Vec3, 3> at;
+                int num_moved = 0;
+                for (std::size_t k = 0; k < 3; ++k) {
+                    const bool is_moved = t[k] == a || t[k] == b;
+                    num_moved += is_moved ? 1 : 0;
+                    at[k] = is_moved ? middle : mesh_.at(t[k]);
+                }
+                if (num_moved == 1) {
+                    worst = std::min(worst, detail::shape_quality(at[0], at[1], at[2]));
+                }
+            }
+        }
+        return worst;
+    }
+
+    // Puts a spare vertex where edges are long.
+    bool take_spare() {
+        std::vector<std::pair<double, std::pair<Index, Index>>> longest;
+        for (Index f = 0; f < mesh_.num_faces(); ++f) {
+            const EditedMesh::Face& face = mesh_.face(f);
+            if (!face.is_there) continue;
+            for (Index k = 0; k < 3; ++k) {
+                const Index a = face.corner[k], b = face.corner[(k + 1) % 3];
+                if (a < b) {
+                    longest.push_back({-(mesh_.at(a) - mesh_.at(b)).squaredNorm(), {f, k}});
+                }
+            }
+        }
+        std::sort(longest.begin(), longest.end());
+        for (const auto& [length, edge] : longest) {
+            const EditedMesh::Mark before = mesh_.mark();
+            if (edit({edge.first, edge.second, true, false}) &&
+                worst_since(before) >= wanted_quality) {
+                --num_spare_;
+                return true;
+            }
+            mesh_.take_back(before);
+        }
+        return false;
+    }
+
+    EditedMesh& mesh_;
+    agvd::Ticker ticker_;
+    const int least_spare_;
+    bool pays_at_once_ = false;
+    int num_spare_ = 0;  // Vertices taken away and not yet put elsewhere; below 0: to be taken.
+    bool has_collapses_ = false;
+    std::vector<Candidate> collapses_;  // The best one last.
+    double elsewhere_ = 0;              // What triangles keep where vertices are taken.
+    std::size_t edits_left_ = 0, slides_left_ = 0;
+    std::vector<Index> changed_;  // Scratch.
+    std::vector<double> before_;  // Scratch.
+};
+
+}  // namespace
+
+std::vector<Index> mend_shape(const agvd::Surface& surface, std::span<const Mobility> mobility,
+                              std::span<const DirectedEdge> hard, PlacedMesh& mesh,
+                              const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    EditedMesh edited(surface, mesh, mobility, hard);
+    std::vector<Index> numbers;
+    if (Mender(edited, agvd::Ticker(poller)).run()) mesh = edited.result(numbers);
+    return numbers;
+}
+
+}  // namespace remesh

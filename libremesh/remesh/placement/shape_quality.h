@@ -1,0 +1,31 @@
+//! \file
+//! One number for how bad a triangle is.
+#pragma once
+
+#include <algorithm>
+#include <numbers>
+
+#include "agvd/core/types.h"
+
+namespace remesh::detail {
+
+//! Triangles below are worked on.
+inline constexpr double low_quality = 0.63;
+//! What the sine of the smallest angle counts for: 32.5 degrees are as bad as `low_quality`.
+inline constexpr double sine_weight = low_quality / 0.5373;
+
+//! 6 / sqrt(3) * S / (p h) ([frey1999]): S area, p half the perimeter, h the longest edge; less
+//! where an angle is small. 0 to 1.
+[[nodiscard]] inline double shape_quality(const agvd::Vec3& a, const agvd::Vec3& b,
+                                          const agvd::Vec3& c) {
+    const double ab = (b - a).norm(), bc = (c - b).norm(), ca = (a - c).norm();
+    const double doubled_area = (b - a).cross(c - a).norm();
+    if (!(doubled_area > 0)) return 0;
+    const double longest = std::max({ab, bc, ca});
+    // The smallest angle is the one between the longest sides.
+    const double sine = doubled_area * std::min({ab, bc, ca}) / (ab * bc * ca);
+    return std::min(2 * std::numbers::sqrt3 * doubled_area / ((ab + bc + ca) * longest),
+                    sine_weight * sine);
+}
+
+}  // namespace remesh::detail

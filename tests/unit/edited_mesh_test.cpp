@@ -1,0 +1,181 @@
+// Steps on a mesh keep it a manifold, and can be taken back.
+#include "remesh/placement/edited_mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "remesh/features/close_rim.h"
+#include "remesh/topology/topology.h"
+#include "support/shapes.h"
+
+using namespace agvd;
+using remesh::PlacedMesh;
+using remesh::detail::EditedMesh;
+using remesh::detail::Mobility;
+
+namespace {
+
+// The vertices of a surface where they are; those on the boundary stay on it.
+struct Sample {
+    explicit Sample(const TriangleMesh& mesh) : surface(build_surface(mesh.view())) {
+        placed.triangles = mesh.triangles;
+        placed.points.resize(mesh.positions.size());
+        placed.offsets.assign(mesh.positions.size(), Vec3::Zero());
+        mobility.assign(mesh.positions.size(), Mobility::Free);
+        for (Index h = 0; h < surface.twin.size(); ++h) {
+            SurfacePoint corner{FaceId(h / 3), {0, 0, 0}};
+            corner.barycentric[h % 3] = 1;
+            placed.points[surface.tail(h)] = corner;
+        }
+        hard = remesh::rim_of(mesh.triangles);
+        for (const auto& [from, to] : hard) mobility[from] = Mobility::Boundary;
+    }
+
+    [[nodiscard]] EditedMesh edited() const { return {surface, placed, mobility, hard}; }
+
+    [[nodiscard]] TriangleMesh mesh_of(const PlacedMesh& mesh) const {
+        TriangleMesh result{{}, mesh.triangles};
+        for (Index v = 0; v < mesh.points.size(); ++v) {
+            result.positions.push_back(mesh.position(surface.mesh.view(), v));
+        }
+        return result;
+    }
+
+    [[nodiscard]] TriangleMesh result(const EditedMesh& edited) const {
+        std::vector<Index> numbers;
+        return mesh_of(edited.result(numbers));
+    }
+
+    Surface surface;
+    PlacedMesh placed;
+    std::vector<Mobility> mobility;
+    std::vector<remesh::DirectedEdge> hard;
+};
+
+bool is_like(const TriangleMesh& mesh, const TriangleMesh& other) {
+    const remesh::Topology a = remesh::analyze_topology(mesh.view());
+    return a.is_manifold && a.is_oriented &&
+           same_topology(a, remesh::analyze_topology(other.view()));
+}
+
+TEST(EditedMesh, AFlipTakesTheOtherDiagonalOnce) {
+    const TriangleMesh mesh = shapes::sphere(2);
+    const Sample sample(mesh);
+    EditedMesh edited = sample.edited();
+    const Triangle before = edited.face(0).corner;
+    ASSERT_TRUE(edited.flip(0, 0));
+    EXPECT_NE(edited.face(0).corner, before);
+    const TriangleMesh flipped = sample.result(edited);
+    EXPECT_EQ(flipped.positions.size(), mesh.positions.size());
+    EXPECT_EQ(flipped.triangles.size(), mesh.triangles.size());
+    EXPECT_TRUE(is_like(flipped, mesh));
+}
+
+TEST(EditedMesh, HardEdgesAreNotFlipped) {
+    const TriangleMesh mesh = shapes::sphere(1);
+    Sample sample(mesh);
+    const Triangle t = mesh.triangles[0];
+    sample.hard = {{t[1], t[0]}};
+    sample.mobility[t[0]] = sample.mobility[t[1]] = Mobility::Fixed;
+    EditedMesh edited = sample.edited();
+    EXPECT_FALSE(edited.flip(0, 0));
+    EXPECT_TRUE(edited.flip(0, 1));
+}
+
+TEST(EditedMesh, ASplitAddsAVertexAndACollapseTakesItAway) {
+    const TriangleMesh mesh = shapes::sphere(2);
+    const Sample sample(mesh);
+    EditedMesh edited = sample.edited();
+    const Index a = edited.face(5).corner[1], b = edited.face(5).corner[2];
+    const Index added = edited.split(5, 1);
+    ASSERT_NE(added, no_index);
+    EXPECT_LT((edited.at(added) - (edited.at(a) + edited.at(b)) / 2).norm(),
+              0.1 * (edited.at(a) - edited.at(b)).norm());
+    EXPECT_EQ(edited.faces_at(added).size(), 4u);
+    EXPECT_EQ(sample.result(edited).triangles.size(), mesh.triangles.size() + 2);
+    EXPECT_TRUE(is_like(sample.result(edited), mesh));
+    ASSERT_TRUE(edited.collapse(added, a));
+    EXPECT_TRUE(edited.faces_at(added).empty());
+    EXPECT_EQ(sample.result(edited).positions, mesh.positions);
+    EXPECT_TRUE(is_like(sample.result(edited), mesh));
+}
+
+// A collapse next to the boundary makes an inner edge one of the boundary.
+TEST(EditedMesh, AnyCollapsesKeepTheBoundaryHard) {
+    const TriangleMesh mesh = shapes::tube(24, 6);
+    const Sample sample(mesh);
+    EditedMesh edited = sample.edited();
+    for (Index v = 0; v < mesh.positions.size(); v += 2) {
+        if (edited.faces_at(v).empty()) continue;
+        for (const Index into : edited.face(edited.faces_at(v)[0]).corner) {
+            if (into != v && edited.collapse(v, into)) break;
+        }
+    }
+    const TriangleMesh result = sample.result(edited);
+    EXPECT_LT(result.positions.size(), mesh.positions.size());
+    EXPECT_TRUE(is_like(result, mesh));
+    std::size_t num_hard = 0;
+    for (Index f = 0; f < edited.num_faces(); ++f) {
+        if (!edited.face(f).is_there) continue;
+        for (unsigned k = 0; k < 3; ++k) num_hard += edited.face(f).hard >> k & 1U;
+    }
+    EXPECT_EQ(num_hard, remesh::rim_of(result.triangles).size());
+}
+
+TEST(EditedMesh, VerticesOnTheBoundaryMoveAlongItOnly) {
+    const TriangleMesh mesh = shapes::tube(24, 6);
+    const Sample sample(mesh);
+    EditedMesh edited = sample.edited();
+    const Index v = sample.hard[0].first;
+    const Vec3 before = edited.at(v);
+    ASSERT_TRUE(edited.move(v, {0.01, 0.02, 0.3}, -1));
+    EXPECT_NE(edited.at(v), before);
+    EXPECT_DOUBLE_EQ(edited.at(v).z(), before.z());
+    Sample fixed = sample;
+    fixed.mobility[v] = Mobility::Fixed;
+    EditedMesh other = fixed.edited();
+    EXPECT_FALSE(other.move(v, {0.01, 0.02, 0.3}, -1));
+}
+
+TEST(EditedMesh, StepsAreTakenBackToTheLastBit) {
+    const TriangleMesh mesh = shapes::jitter(shapes::tube(24, 8), 0.01, 3);
+    const Sample sample(mesh);
+    EditedMesh edited = sample.edited();
+    ASSERT_TRUE(edited.move(60, {0.01, 0, 0.01}, -1));
+    const PlacedMesh first = [&] {
+        std::vector<Index> numbers;
+        return edited.result(numbers);
+    }();
+    const EditedMesh::Mark mark = edited.mark();
+    int num_steps = 0;
+    for (Index f = 0; f < mesh.triangles.size(); f += 3) {
+        if (!edited.face(f).is_there) continue;
+        const Triangle t = edited.face(f).corner;
+        num_steps += edited.flip(f, f % 3) ? 1 : 0;
+        num_steps += edited.move(t[0], {0.01, 0.01, 0.02}, -1) ? 1 : 0;
+        num_steps += edited.split(f, (f + 1) % 3) != no_index ? 1 : 0;
+        num_steps += edited.collapse(t[1], t[2]) ? 1 : 0;
+    }
+    EXPECT_GT(num_steps, 100);
+    std::vector<Index> now;
+    std::vector<double> before;
+    edited.changed_since(mark, now, before);
+    EXPECT_FALSE(now.empty());
+    EXPECT_LE(before.size(), mesh.triangles.size());
+    edited.take_back(mark);
+    edited.changed_since(mark, now, before);
+    EXPECT_TRUE(now.empty());
+    std::vector<Index> numbers;
+    const PlacedMesh last = edited.result(numbers);
+    EXPECT_EQ(last.triangles, first.triangles);
+    EXPECT_EQ(sample.mesh_of(last).positions, sample.mesh_of(first).positions);
+    for (Index v = 0; v < edited.num_vertices(); ++v) {
+        for (const Index f : edited.faces_at(v)) {
+            const Triangle& t = edited.face(f).corner;
+            EXPECT_NE(std::find(t.begin(), t.end(), v), t.end());
+        }
+    }
+}
+
+}  // namespace
