@@ -17,7 +17,11 @@ Vec2 FaceCharts::direction(Index half_edge) const {
 }
 
 FaceChart& FaceCharts::of(Index face) {
-    if (has(face)) return charts_[place_[face]];
+    if (!has(face)) add(face, first_chart(face));
+    return charts_[place_[face]];
+}
+
+FaceChart FaceCharts::first_chart(Index face) const {
     FaceChart chart;
     for (Index k = 0; k < 3; ++k) {
         const Index h = 3 * face + k;
@@ -32,8 +36,15 @@ FaceChart& FaceCharts::of(Index face) {
             chart.turn[k] = turned_by(along, conjugate(-direction(twin))).normalized();
         }
     }
-    add(face, chart);
-    return charts_[place_[face]];
+    return chart;
+}
+
+void FaceCharts::set(Index face, const FaceChart& chart) {
+    if (has(face)) {
+        charts_[place_[face]] = chart;
+    } else {
+        add(face, chart);
+    }
 }
 
 void FaceCharts::add(Index face, const FaceChart& chart) {

@@ -40,8 +40,14 @@ public:
     void reserve(std::size_t num_faces) { charts_.reserve(num_faces); }
     //! The face's chart, which is made if there is none. Others may move in memory.
     FaceChart& of(Index face);
+    //! The chart that of() would hand out, without making one.
+    [[nodiscard]] FaceChart peek(Index face) const {
+        return has(face) ? charts_[place_[face]] : first_chart(face);
+    }
     //! Gives a new face, which has the highest number, its chart.
     void add(Index face, const FaceChart& chart);
+    //! Gives a face another chart.
+    void set(Index face, const FaceChart& chart);
     //! Makes the face's chart anew where its lengths have changed, and tells those across.
     void renew(Index face);
     //! Tells the charts across a face's sides of its turns. \param face  has a chart.
@@ -51,6 +57,7 @@ public:
 
 private:
     [[nodiscard]] Vec2 direction(Index half_edge) const;
+    [[nodiscard]] FaceChart first_chart(Index face) const;
 
     const Surface& surface_;
     std::vector<Index> place_;  // By face; no_index: none.
