@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "agvd/mesh/surface.h"
@@ -52,6 +53,10 @@ public:
     void renew(Index face);
     //! Tells the charts across a face's sides of its turns. \param face  has a chart.
     void share_turns(Index face);
+    //! A face gets another number, which is free; so it keeps its half-edges' order.
+    void move_face(Index from, Index to) {
+        if (has(from)) place_[to] = std::exchange(place_[from], no_index);
+    }
     //! The face is gone: its place is for another.
     void forget(Index face);
 

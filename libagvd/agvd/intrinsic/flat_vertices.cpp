@@ -171,15 +171,17 @@ void move_face(Surface& surface, Index from, Index to) {
     }
 }
 
-void compact_edges(Surface& surface) {
+void compact_edges(Surface& surface, std::vector<std::uint8_t>& is_kept) {
     std::vector<Index> number(surface.num_edges(), no_index);
     Index count = 0;
     for (Index e = 0; e < surface.num_edges(); ++e) {
         if (surface.edge_half[e] == no_index) continue;
         number[e] = count;
+        if (!is_kept.empty()) is_kept[count] = is_kept[e];
         surface.edge_half[count] = surface.edge_half[e];
         surface.length[count++] = surface.length[e];
     }
+    if (!is_kept.empty()) is_kept.resize(count);
     surface.edge_half.resize(count);
     surface.length.resize(count);
     surface.edge_half.shrink_to_fit();
@@ -189,7 +191,8 @@ void compact_edges(Surface& surface) {
 
 }  // namespace
 
-void compact_faces(Surface& surface, FaceHistory& history) {
+void compact_faces(Surface& surface, FaceCharts& charts, FaceHistory& history,
+                   std::vector<std::uint8_t>& is_kept) {
     const auto is_gap = [&](Index f) { return surface.mesh.triangles[f][0] == no_index; };
     Index last = surface.num_faces();
     for (Index f = 0; f < last; ++f) {
@@ -198,6 +201,7 @@ void compact_faces(Surface& surface, FaceHistory& history) {
         if (last <= f + 1) break;
         move_face(surface, --last, f);
         history.move_face(last, f);
+        charts.move_face(last, f);
     }
     while (last > 0 && is_gap(last - 1)) --last;
     surface.mesh.triangles.resize(last);
@@ -209,7 +213,7 @@ void compact_faces(Surface& surface, FaceHistory& history) {
     surface.edge.shrink_to_fit();
     surface.apex.shrink_to_fit();
     history.drop_faces_from(last);
-    compact_edges(surface);
+    compact_edges(surface, is_kept);
 }
 
 }  // namespace agvd::detail
