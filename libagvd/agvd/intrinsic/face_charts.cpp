@@ -52,15 +52,24 @@ void FaceCharts::add(Index face, const FaceChart& chart) {
     if (free_.empty()) {
         place_[face] = static_cast<Index>(charts_.size());
         charts_.push_back(chart);
+        face_of_.push_back(face);
     } else {
         place_[face] = free_.back();
         free_.pop_back();
         charts_[place_[face]] = chart;
+        face_of_[place_[face]] = face;
+    }
+}
+
+void FaceCharts::take(const FaceCharts& part) {
+    for (std::size_t i = 0; i < part.charts_.size(); ++i) {
+        if (part.face_of_[i] != no_index) add(part.face_of_[i], part.charts_[i]);
     }
 }
 
 void FaceCharts::forget(Index face) {
     if (!has(face)) return;
+    face_of_[place_[face]] = no_index;
     free_.push_back(place_[face]);
     place_[face] = no_index;
 }

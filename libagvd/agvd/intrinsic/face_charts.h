@@ -33,7 +33,21 @@ struct FaceChart {
 class FaceCharts {
 public:
     //! \param surface  outlives this; a face without a chart is still as this shows it.
-    explicit FaceCharts(const Surface& surface) : surface_(surface) {}
+    explicit FaceCharts(const Surface& surface) : surface_(surface), place_(own_place_) {}
+    //! Of faces that have none in `whole`, which must not change until it takes them over. Several
+    //! may be filled side by side, of different faces.
+    struct Part {
+        FaceCharts& whole;
+    };
+    explicit FaceCharts(Part part) : surface_(part.whole.surface_), place_(part.whole.place_) {}
+    FaceCharts(const FaceCharts&) = delete;
+    FaceCharts& operator=(const FaceCharts&) = delete;
+    ~FaceCharts() = default;
+
+    //! Before there are parts.
+    void make_places() { place_.resize(surface_.num_faces(), no_index); }
+    void take(const FaceCharts& part);
+
 
     [[nodiscard]] bool has(Index face) const {
         return face < place_.size() && place_[face] != no_index;
@@ -55,7 +69,9 @@ public:
     void share_turns(Index face);
     //! A face gets another number, which is free; so it keeps its half-edges' order.
     void move_face(Index from, Index to) {
-        if (has(from)) place_[to] = std::exchange(place_[from], no_index);
+        if (!has(from)) return;
+        place_[to] = std::exchange(place_[from], no_index);
+        face_of_[place_[to]] = to;
     }
     //! The face is gone: its place is for another.
     void forget(Index face);
@@ -65,9 +81,11 @@ private:
     [[nodiscard]] FaceChart first_chart(Index face) const;
 
     const Surface& surface_;
-    std::vector<Index> place_;  // By face; no_index: none.
+    std::vector<Index> own_place_;
+    std::vector<Index>& place_;  // By face; no_index: none. A part's are in those of the whole.
     std::vector<FaceChart> charts_;
-    std::vector<Index> free_;  // Places.
+    std::vector<Index> face_of_;  // By place; no_index: free.
+    std::vector<Index> free_;     // Places.
 };
 
 }  // namespace agvd::detail

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <mutex>
+#include <utility>
 
 #include "agvd/core/parallel.h"
 #include "agvd/intrinsic/face_sides.h"
@@ -13,40 +16,38 @@ namespace {
 
 // Radians: rounding of the sum of a vertex's angles in the input.
 constexpr double flat_enough = 1e-12;
-// Faces whose vertices go before those of others: what is read and written fits into the caches,
-// and charts of faces that are gone serve again. All at once take twice the time, and 40 MB more
-// for 1.4 M faces.
-constexpr Index part_size = 1 << 12;
+// Vertices of a part of the surface, about: what it is made of fits into the caches, charts of faces
+// that are gone serve again, and threads work side by side. All at once take twice the time, and
+// 40 MB more for 1.4 M faces.
+constexpr double part_size = 1 << 13;
+constexpr Index most_cells = 64;  // Along each axis.
 
-class FlatVertices {
+// What the parts share. Each changes faces whose corners are all its own, so that whatever it reads
+// or writes, across their edges too, no other one writes.
+struct Shared {
+    Surface& surface;
+    const std::vector<std::uint8_t>& is_kept;
+    double min_length;
+    std::vector<Index> part_of;           // By vertex.
+    std::vector<std::uint32_t> round_of;  // By vertex: of the last neighbour that went.
+};
+
+// Takes away what lies inside a part; or whatever is left, whose part is then no_index.
+class Remover {
 public:
-    FlatVertices(Surface& surface, FaceCharts& charts, FaceHistory& history,
-                 const std::vector<std::uint8_t>& is_kept, double min_length, Ticker& ticker)
-        : surface_(surface),
+    Remover(Shared& shared, FaceCharts& charts, FaceHistory& history, Index part, Ticker ticker)
+        : shared_(shared),
           history_(history),
-          is_kept_(is_kept),
-          min_length_(min_length),
+          part_(part),
           ticker_(ticker),
-          ring_(surface, charts),
-          round_of_(surface.num_vertices(), 0) {}
-
-    RemovalCounts run(std::vector<std::vector<Index>> parts) {
-        std::size_t num_flat = 0;
-        for (const std::vector<Index>& part : parts) num_flat += part.size();
-        history_.reserve(3 * num_flat, 2 * num_flat);  // For grids, whose vertices have six edges.
-        for (std::vector<Index>& part : parts) remove_all(std::move(part));
-        return counts_;
-    }
-
-private:
-    static constexpr std::size_t removal_work = 64;  // Steps that a vertex counts for.
-    // Vertices of more edges wait: hubs of needles lose them while others go.
-    static constexpr std::size_t few_edges = 8;
+          ring_(shared.surface, charts) {}
 
     // Rounds of vertices no two of which are neighbours: one after the other along a line, each
     // would change the faces of the one before, and points would pass as many operations as there
     // are vertices.
-    void remove_all(std::vector<Index> waiting) {
+    // \return those on the rim of the part.
+    std::vector<Index> run(std::vector<Index> waiting) {
+        std::vector<Index> on_rim;
         std::size_t most_edges = few_edges;
         while (!waiting.empty()) {
             ++round_;
@@ -55,12 +56,14 @@ private:
             std::size_t num_left = 0;
             for (const Index v : waiting) {
                 ticker_.tick(removal_work);
-                if (round_of_[v] == round_) {
+                if (shared_.round_of[v] == round_) {
                     waiting[num_left++] = v;
                     continue;
                 }
                 ring_.set(v);
-                if (ring_.half_edges().size() > most_edges) {
+                if (!is_inside(v)) {
+                    on_rim.push_back(v);
+                } else if (ring_.half_edges().size() > most_edges) {
                     has_large = true;
                     waiting[num_left++] = v;
                 } else if (is_dense() && ring_.remove()) {
@@ -72,14 +75,31 @@ private:
             if (!has_large) break;
             most_edges *= 2;
         }
+        return on_rim;
+    }
+
+    [[nodiscard]] const RemovalCounts& counts() const { return counts_; }
+
+private:
+    static constexpr std::size_t removal_work = 64;  // Steps that a vertex counts for.
+    // Vertices of more edges wait: hubs of needles lose them while others go.
+    static constexpr std::size_t few_edges = 8;
+
+    [[nodiscard]] bool is_inside(Index v) const {
+        if (part_ == no_index) return true;
+        return shared_.part_of[v] == part_ &&
+               std::all_of(ring_.half_edges().begin(), ring_.half_edges().end(), [&](Index h) {
+                   return shared_.part_of[shared_.surface.head(h)] == part_;
+               });
     }
 
     // The vertex has a short edge, and none that is kept.
     [[nodiscard]] bool is_dense() const {
         bool is_short = false, is_free = true;
         for (const Index h : ring_.half_edges()) {
-            is_short = is_short || surface_.length_of(h) < min_length_;
-            is_free = is_free && (is_kept_.empty() || is_kept_[surface_.edge[h]] == 0);
+            const Index edge = shared_.surface.edge[h];
+            is_short = is_short || shared_.surface.length[edge] < shared_.min_length;
+            is_free = is_free && (shared_.is_kept.empty() || shared_.is_kept[edge] == 0);
         }
         return is_short && is_free;
     }
@@ -91,16 +111,14 @@ private:
         for (const MergedFace& made : ring_.merged()) history_.add_merge(made);
         counts_.flips += ring_.flips().size();
         ++counts_.vertices;
-        for (const Index w : ring_.corners()) round_of_[w] = round_;
+        for (const Index w : ring_.corners()) shared_.round_of[w] = round_;
     }
 
-    Surface& surface_;
+    Shared& shared_;
     FaceHistory& history_;
-    const std::vector<std::uint8_t>& is_kept_;
-    double min_length_;
-    Ticker& ticker_;
+    Index part_;
+    Ticker ticker_;
     VertexRing ring_;
-    std::vector<std::uint32_t> round_of_;  // By vertex: of the last neighbour that went.
     std::uint32_t round_ = 0;
     RemovalCounts counts_;
 };
@@ -119,40 +137,150 @@ bool is_flat(const Surface& surface, Index vertex) {
            num_turns == (product.y() < 0 ? 0 : 1);
 }
 
-// Flat vertices inside with a short edge, in parts that lie close to each other.
-std::vector<std::vector<Index>> find_flat(const Surface& surface, double min_length,
-                                          int num_threads, Poller& poller) {
+// Flat vertices inside with a short edge, ascending.
+std::vector<Index> find_flat(const Shared& shared, int num_threads, Poller& poller) {
     constexpr Index grain = 1 << 14;  // Vertices.
-    std::vector<std::vector<Index>> chunks(num_chunks(surface.num_vertices(), grain));
+    const Surface& surface = shared.surface;
+    std::vector<std::vector<Index>> found(num_chunks(surface.num_vertices(), grain));
     const auto find = [&](Index chunk, Index begin, Index end) {
         for (Index v = begin; v < end; ++v) {
             if (surface.outgoing[v] == no_index || surface.is_boundary_vertex(v)) continue;
             bool is_short = false;
             for_each_outgoing(surface, v, [&](Index h) {
-                is_short = is_short || surface.length_of(h) < min_length;
+                is_short = is_short || surface.length_of(h) < shared.min_length;
             });
-            if (is_short && is_flat(surface, v)) chunks[chunk].push_back(v);
+            if (is_short && is_flat(surface, v)) found[chunk].push_back(v);
         }
     };
     parallel_chunks(surface.num_vertices(), grain, num_threads, find, poller);
-    std::vector<std::vector<Index>> parts(num_chunks(surface.num_faces(), part_size));
-    for (const std::vector<Index>& chunk : chunks) {
+    std::vector<Index> flat;
+    for (const std::vector<Index>& chunk : found) {
         poller.poll();
-        for (const Index v : chunk) {
-            parts[Surface::face(surface.outgoing[v]) / part_size].push_back(v);
+        flat.insert(flat.end(), chunk.begin(), chunk.end());
+    }
+    return flat;
+}
+
+// Parts are cells of a grid around the mesh, so many along its longest side that a round surface
+// fills them as wanted.
+std::vector<Index> find_parts(const std::vector<Vec3>& positions, int num_threads, Poller& poller) {
+    constexpr Index grain = 1 << 14;  // Vertices.
+    std::vector<Vec3> low(num_chunks(static_cast<Index>(positions.size()), grain));
+    std::vector<Vec3> high(low.size());
+    const auto num_vertices = static_cast<Index>(positions.size());
+    const auto measure = [&](Index chunk, Index begin, Index end) {
+        low[chunk] = high[chunk] = positions[begin];
+        for (Index v = begin; v < end; ++v) {
+            low[chunk] = low[chunk].cwiseMin(positions[v]);
+            high[chunk] = high[chunk].cwiseMax(positions[v]);
+        }
+    };
+    parallel_chunks(num_vertices, grain, num_threads, measure, poller);
+    for (std::size_t i = 1; i < low.size(); ++i) {
+        low[0] = low[0].cwiseMin(low[i]);
+        high[0] = high[0].cwiseMax(high[i]);
+    }
+    const double wanted = std::ceil(std::sqrt(num_vertices / part_size / 2));
+    const double num_cells = std::min(wanted, static_cast<double>(most_cells));
+    const double cell = (high[0] - low[0]).maxCoeff() / num_cells;
+    std::vector<Index> part_of(num_vertices);
+    const auto sort = [&](Index, Index begin, Index end) {
+        for (Index v = begin; v < end; ++v) {
+            const Vec3 at = (positions[v] - low[0]) / cell;
+            const auto along = [&](double x) {
+                return std::min(static_cast<Index>(std::max(x, 0.0)), most_cells - 1);
+            };
+            part_of[v] = (along(at.x()) * most_cells + along(at.y())) * most_cells + along(at.z());
+        }
+    };
+    parallel_chunks(num_vertices, grain, num_threads, sort, poller);
+    return part_of;
+}
+
+struct Part {
+    Part(FaceCharts& all_charts, FaceHistory& all_history)
+        : charts(FaceCharts::Part{all_charts}), history(FaceHistory::Part{all_history}) {}
+
+    FaceCharts charts;
+    FaceHistory history;
+    RemovalCounts counts;
+    std::vector<Index> left;
+};
+
+// Takes over what parts have done, in their order, as soon as those before are done.
+class PartsInOrder {
+public:
+    PartsInOrder(std::size_t num_parts, FaceCharts& charts, FaceHistory& history)
+        : charts_(charts), history_(history), waiting_(num_parts) {
+        charts.make_places();
+        history.start();
+    }
+
+    [[nodiscard]] std::unique_ptr<Part> make() const {
+        return std::make_unique<Part>(charts_, history_);
+    }
+    void take(Index number, std::unique_ptr<Part> part) {
+        const std::scoped_lock lock(mutex_);
+        waiting_[number] = std::move(part);
+        for (; next_ < waiting_.size() && waiting_[next_]; ++next_) {
+            const std::unique_ptr<Part> done = std::move(waiting_[next_]);
+            charts_.take(done->charts);
+            history_.take(done->history);
+            counts_.vertices += done->counts.vertices;
+            counts_.flips += done->counts.flips;
+            left_.insert(left_.end(), done->left.begin(), done->left.end());
         }
     }
-    return parts;
-}
+    [[nodiscard]] const RemovalCounts& counts() const { return counts_; }
+    [[nodiscard]] std::vector<Index> left() { return std::move(left_); }
+
+private:
+    FaceCharts& charts_;
+    FaceHistory& history_;
+    std::vector<std::unique_ptr<Part>> waiting_;
+    std::size_t next_ = 0;
+    RemovalCounts counts_;
+    std::vector<Index> left_;
+    std::mutex mutex_;
+};
 
 }  // namespace
 
 RemovalCounts remove_flat_vertices(Surface& surface, FaceCharts& charts, FaceHistory& history,
                                    const std::vector<std::uint8_t>& is_kept, double min_length,
                                    int num_threads, Poller& poller) {
+    Shared shared{surface, is_kept, min_length, {}, {}};
+    std::vector<Index> flat = find_flat(shared, num_threads, poller);
+    if (flat.empty()) return {};
+    shared.part_of = find_parts(surface.mesh.positions, num_threads, poller);
     Ticker ticker(poller);
-    return FlatVertices(surface, charts, history, is_kept, min_length, ticker)
-        .run(find_flat(surface, min_length, num_threads, poller));
+    sort_ticked(flat, ticker, [&](Index a, Index b) {
+        return shared.part_of[a] != shared.part_of[b] ? shared.part_of[a] < shared.part_of[b]
+                                                      : a < b;
+    });
+    std::vector<Index> begin{0};  // By part that has any: of its vertices.
+    for (Index i = 1; i < flat.size(); ++i) {
+        if (shared.part_of[flat[i]] != shared.part_of[flat[i - 1]]) begin.push_back(i);
+    }
+    const auto num_parts = static_cast<Index>(begin.size());
+    begin.push_back(static_cast<Index>(flat.size()));
+    history.reserve(3 * flat.size(), 2 * flat.size());  // Grids: their vertices have six edges.
+    shared.round_of.assign(surface.num_vertices(), 0);
+    PartsInOrder parts(num_parts, charts, history);
+    const auto remove_inside = [&](Index number, Index, Index) {
+        std::unique_ptr<Part> part = parts.make();
+        Remover remover(shared, part->charts, part->history, shared.part_of[flat[begin[number]]],
+                        Ticker(poller));
+        part->left = remover.run({flat.begin() + begin[number], flat.begin() + begin[number + 1]});
+        part->counts = remover.counts();
+        parts.take(number, std::move(part));
+    };
+    parallel_chunks(num_parts, 1, num_threads, remove_inside, poller);
+    shared.round_of.assign(surface.num_vertices(), 0);
+    Remover remover(shared, charts, history, no_index, Ticker(poller));
+    (void)remover.run(parts.left());
+    return {parts.counts().vertices + remover.counts().vertices,
+            parts.counts().flips + remover.counts().flips};
 }
 
 namespace {
