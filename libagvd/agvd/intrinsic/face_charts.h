@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <utility>
 #include <vector>
 
 #include "agvd/mesh/surface.h"
@@ -44,10 +43,10 @@ public:
     FaceCharts& operator=(const FaceCharts&) = delete;
     ~FaceCharts() = default;
 
-    //! Before there are parts.
+    //! Before there are parts: threads must not move what they share.
     void make_places() { place_.resize(surface_.num_faces(), no_index); }
+    //! Takes over a part's charts.
     void take(const FaceCharts& part);
-
 
     [[nodiscard]] bool has(Index face) const {
         return face < place_.size() && place_[face] != no_index;
@@ -67,12 +66,6 @@ public:
     void renew(Index face);
     //! Tells the charts across a face's sides of its turns. \param face  has a chart.
     void share_turns(Index face);
-    //! A face gets another number, which is free; so it keeps its half-edges' order.
-    void move_face(Index from, Index to) {
-        if (!has(from)) return;
-        place_[to] = std::exchange(place_[from], no_index);
-        face_of_[place_[to]] = to;
-    }
     //! The face is gone: its place is for another.
     void forget(Index face);
 

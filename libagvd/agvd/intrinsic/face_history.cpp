@@ -437,10 +437,10 @@ void FaceHistory::carry(Way way, const FaceSegment& segment,
     }
 }
 
-bool FaceHistory::pass_back(SurfacePoint& point, Index& steps) const {
+bool FaceHistory::is_near(SurfacePoint point, Index most_steps) const {
     Index link = first_link(Way::Backward, point.face.value());
-    for (; link != no_index; --steps) {
-        if (steps == 0) return false;
+    for (Index steps = 0; link != no_index; ++steps) {
+        if (steps == most_steps) return false;
         if (link >= first_merge) {
             link = carry_through_merge(Way::Backward, link, point);
             continue;
@@ -511,19 +511,18 @@ struct FaceHistory::Parts {
     }
 };
 
-bool FaceHistory::parts_of(const FacePolygon& polygon, Index& steps,
-                           std::vector<FacePolygon>& parts) const {
+bool FaceHistory::parts_of(Index face, Index most_steps, std::vector<FacePolygon>& parts) const {
     Parts all;
     all.waiting.reserve(16);
-    all.add(polygon, first_link(Way::Backward, polygon.face));
-    for (; !all.waiting.empty(); --steps) {
+    all.add(FacePolygon(face), first_link(Way::Backward, face));
+    for (Index steps = 0; !all.waiting.empty(); ++steps) {
         const auto& [part, link] = all.waiting.back();
         if (link == no_index) {
             parts.push_back(part);
             all.waiting.pop_back();
             continue;
         }
-        if (steps == 0 || part.num_corners + 2 > FacePolygon::most_corners) return false;
+        if (steps == most_steps || part.num_corners + 2 > FacePolygon::most_corners) return false;
         if (link >= first_merge) {
             all.pass(MergeStep(merges_[(link - first_merge) / 4]));
         } else {

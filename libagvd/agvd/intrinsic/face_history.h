@@ -58,8 +58,8 @@ public:
     FaceHistory() = default;
     explicit FaceHistory(Index num_faces) : num_faces_(num_faces) {}
 
-    //! Of flips and merges of faces that `whole` knows nothing of, until it takes them over. Several
-    //! may be filled side by side, of different faces.
+    //! Of flips and merges of faces that `whole` knows nothing of, until it takes them over.
+    //! Several may be filled side by side, of different faces.
     struct Part {
         FaceHistory& whole;
     };
@@ -100,15 +100,14 @@ public:
     void forward(const FaceSegment& segment, std::vector<FaceSegment>& parts) const;
     void backward(const FaceSegment& segment, std::vector<FaceSegment>& parts) const;
 
-    //! Appends the parts of a polygon in a face of the end in the faces of the beginning.
-    //! \param steps  passes of a part through an operation that are left; falls.
-    //! \return false if they do not suffice, or a part has too many corners; then `parts` means
-    //! nothing.
-    [[nodiscard]] bool parts_of(const FacePolygon& polygon, Index& steps,
+    //! Appends the parts of a face of the end in the faces of the beginning.
+    //! \return false if that takes more than `most_steps` passes of a part through an operation, or
+    //! a
+    //!         part with too many corners; then `parts` means nothing.
+    [[nodiscard]] bool parts_of(Index face, Index most_steps,
                                 std::vector<FacePolygon>& parts) const;
-    //! Takes a point of the end back, roughly. \param steps  operations that are left; falls.
-    //! \return false if they do not suffice.
-    [[nodiscard]] bool pass_back(SurfacePoint& point, Index& steps) const;
+    //! Whether a point passes no more operations than that on its way back.
+    [[nodiscard]] bool is_near(SurfacePoint point, Index most_steps) const;
 
 private:
     // Slot 0: the face of the half-edge; slot 1: that of the twin (flips only). New faces likewise:

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "agvd/core/parallel.h"
-#include "agvd/intrinsic/base_history.h"
 #include "agvd/mesh/face_area.h"
 
 namespace agvd {
@@ -31,6 +30,19 @@ Vec3 area_vector(const Surface& surface, Index face) {
     const auto& [a, b, c] = surface.mesh.triangles[face];
     const auto& p = surface.mesh.positions;
     return (p[b] - p[a]).cross(p[c] - p[a]) / 2;
+}
+
+// Its sides are straight in space, so that they lie on the surface; between them no surface is as
+// small as the triangle but itself.
+bool is_flat(const Surface& surface, Index face) {
+    constexpr double rounding = 1e-9;  // Of a side.
+    const auto& p = surface.mesh.positions;
+    for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+        const double length = surface.length_of(h);
+        const double in_space = (p[surface.head(h)] - p[surface.tail(h)]).norm();
+        if (!(in_space > (1 - rounding) * length)) return false;
+    }
+    return true;
 }
 
 // Of one chunk of faces.
@@ -69,7 +81,7 @@ void add_samples(const IntrinsicTriangulation& base, Index face, double piece_ar
 void add_pieces(const IntrinsicTriangulation& base, Index face, double piece_area,
                 std::vector<SurfacePiece>& pieces) {
     std::vector<InputPart> parts;
-    if (detail::is_flat_in_space(base.surface(), face)) {
+    if (is_flat(base.surface(), face)) {
         pieces.push_back(whole_face(base.surface(), face));
     } else if (base.parts_of(face, parts) && !parts.empty()) {
         add_parts(base.input(), parts, pieces);

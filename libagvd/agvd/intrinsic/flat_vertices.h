@@ -26,9 +26,4 @@ RemovalCounts remove_flat_vertices(Surface& surface, FaceCharts& charts, FaceHis
                                    const std::vector<std::uint8_t>& is_kept, double min_length,
                                    int num_threads, Poller& poller);
 
-//! Closes gaps: the last faces take the numbers of those that are gone, edges move up.
-//! \param is_kept  by edge, or empty; goes with them.
-void compact_faces(Surface& surface, FaceCharts& charts, FaceHistory& history,
-                   std::vector<std::uint8_t>& is_kept);
-
 }  // namespace agvd::detail

@@ -6,17 +6,17 @@
 #include <utility>
 
 #include "agvd/core/error.h"
-#include "agvd/intrinsic/base_history.h"
+#include "agvd/intrinsic/compact_faces.h"
 #include "agvd/intrinsic/delaunay_queue.h"
 #include "agvd/intrinsic/flat_vertices.h"
 
 namespace agvd {
 namespace {
 
-using detail::BaseHistory;
 using detail::DelaunayQueue;
 using detail::EdgeSplit;
 using detail::FaceCharts;
+using detail::FaceHistory;
 using detail::FaceSegment;
 
 // Flips end after so many for each edge, with an outcome. The worst part met, of needles, took 6.
@@ -40,7 +40,7 @@ void check_options(const Surface& input, const IntrinsicOptions& options) {
 // Splits edges, longest first, and flips after each split.
 class Refinement {
 public:
-    Refinement(Surface& surface, FaceCharts& charts, BaseHistory& history, DelaunayQueue& flips,
+    Refinement(Surface& surface, FaceCharts& charts, FaceHistory& history, DelaunayQueue& flips,
                std::vector<std::uint8_t>& is_kept, double max_length, Ticker& ticker)
         : surface_(surface),
           charts_(charts),
@@ -99,7 +99,7 @@ private:
         fresh_.clear();
         for (const EdgeSplit::Side& side : made.side) {
             if (side.half_edge == no_index) continue;
-            history_.flips.add_split(side.half_edge, side.new_face);
+            history_.add_split(side.half_edge, side.new_face);
             for (const Index face : {Surface::face(side.half_edge), side.new_face}) {
                 for (Index k = 3 * face; k < 3 * face + 3; ++k) {
                     flips_.push(surface_.edge[k]);
@@ -111,7 +111,7 @@ private:
 
     Surface& surface_;
     FaceCharts& charts_;
-    BaseHistory& history_;
+    FaceHistory& history_;
     DelaunayQueue& flips_;
     std::vector<std::uint8_t>& is_kept_;
     double max_length_;
@@ -122,8 +122,8 @@ private:
 
 }  // namespace
 
-struct IntrinsicTriangulation::History : BaseHistory {
-    using BaseHistory::BaseHistory;
+struct IntrinsicTriangulation::History : FaceHistory {
+    using FaceHistory::FaceHistory;
 };
 
 IntrinsicTriangulation::IntrinsicTriangulation(const Surface& input,
@@ -150,7 +150,8 @@ void IntrinsicTriangulation::run(const IntrinsicOptions& options) {
     ticker.poll();
     counts_.flat_faces = detail::raise_flat_faces(surface_, ticker);
     change_faces(options, poller, ticker);
-    history_->flips.shrink();
+    if (counts_.removed > 0) detail::compact_faces(surface_, *history_);
+    history_->shrink();
     counts_.splits = static_cast<Index>(added_.size());
     for (Index i = 0; i < added_.size(); ++i) {
         surface_.mesh.positions[input_->num_vertices() + i] =
@@ -164,14 +165,10 @@ void IntrinsicTriangulation::change_faces(const IntrinsicOptions& options, Polle
     FaceCharts charts(surface_);
     detail::RemovalCounts removal;
     if (options.min_length > 0) {
-        removal = detail::remove_flat_vertices(surface_, charts, history_->removal, is_kept,
+        removal = detail::remove_flat_vertices(surface_, charts, *history_, is_kept,
                                                options.min_length, options.num_threads, poller);
     }
-    if (removal.vertices > 0) {
-        detail::compact_faces(surface_, charts, history_->removal, is_kept);
-        history_->end_removal(surface_, ticker);
-    }
-    DelaunayQueue flips(surface_, charts, &history_->flips, is_kept, &ticker);
+    DelaunayQueue flips(surface_, charts, history_.get(), is_kept, &ticker);
     flips.push_all(options.num_threads, poller);
     charts.reserve(2 * flips.num_waiting());
     counts_.is_delaunay = flips.flip_all(most_flips * surface_.num_edges());
@@ -236,8 +233,40 @@ void IntrinsicTriangulation::to_intrinsic(const SurfacePoint& begin, const Surfa
     append(segments, parts);
 }
 
+namespace {
+
+// Longer ways back are left to samples.
+constexpr Index most_steps_back = 16, most_part_steps = 64;
+
+// Fans of triangles around the first corner; areas in shares of the face.
+InputPart measure(const detail::FacePolygon& polygon) {
+    const auto& corner = polygon.corner;
+    InputPart part{{FaceId(polygon.face), {0, 0, 0}}, 0};
+    for (Index i = 2; i < polygon.num_corners; ++i) {
+        const double share = (corner[i - 1][1] - corner[0][1]) * (corner[i][2] - corner[0][2]) -
+                             (corner[i - 1][2] - corner[0][2]) * (corner[i][1] - corner[0][1]);
+        part.share += share;
+        for (std::size_t k = 0; k < 3; ++k) {
+            part.centroid.barycentric[k] +=
+                share * (corner[0][k] + corner[i - 1][k] + corner[i][k]) / 3;
+        }
+    }
+    for (double& b : part.centroid.barycentric) b = part.share > 0 ? b / part.share : 1.0 / 3;
+    return part;
+}
+
+}  // namespace
+
 bool IntrinsicTriangulation::parts_of(Index face, std::vector<InputPart>& parts) const {
-    return history_->parts_of(*input_, face, parts);
+    constexpr double third = 1.0 / 3;
+    if (!history_->is_near({FaceId(face), {third, third, third}}, most_steps_back)) return false;
+    std::vector<detail::FacePolygon> polygons;
+    if (!history_->parts_of(face, most_part_steps, polygons)) return false;
+    for (const detail::FacePolygon& polygon : polygons) {
+        const InputPart part = measure(polygon);
+        if (part.share > 0) parts.push_back(part);
+    }
+    return true;
 }
 
 }  // namespace agvd

@@ -39,10 +39,10 @@ struct IntrinsicCounts {
     bool is_delaunay = true;  //!< False: flips ended before the condition held everywhere.
 };
 
-//! A convex part of the surface that lies in one plane of the input.
+//! A convex part of a face of the input.
 struct InputPart {
     SurfacePoint centroid;
-    double share = 0;  //!< Its area over that of the face of the input that holds the centroid.
+    double share = 0;  //!< Of the face's area.
 };
 
 //! The input's surface and vertices, other edges. An edge of the input with two triangles beside it
@@ -102,8 +102,7 @@ public:
     void to_intrinsic(const SurfacePoint& begin, const SurfacePoint& end,
                       std::vector<SurfacePoint>& parts) const;
 
-    //! The convex parts that make up a face of this in space: of a face of the input each, or of
-    //! several in one plane.
+    //! The convex parts of the input's faces that make up a face of this: what it is in space.
     //! \param parts  appended to.
     //! \return false where that would take long, as with hundreds of needles; `parts` is then as it
     //! was. Cost: some 50 ns for each operation and part, 64 at most.

@@ -54,13 +54,13 @@ bool VertexRing::lay() {
         const auto number = static_cast<Index>(sectors_.size());
         const Index twin = surface_.twin[across];
         for (const Index other : half_edge_) is_glued = is_glued || Surface::next(other) == twin;
-        sectors_.push_back({h,
-                            surface_.edge[h],
-                            surface_.head(h),
-                            turned_by(chart.side[h % 3], turn),
-                            {twin, surface_.edge[across], number,
-                             turned_by(chart.side[across % 3], turn),
-                             turned_by(chart.turn[across % 3], turn).normalized()}});
+        sectors_.push_back(
+            {h,
+             surface_.edge[h],
+             surface_.head(h),
+             turned_by(chart.side[h % 3], turn),
+             {twin, surface_.edge[across], number, turned_by(chart.side[across % 3], turn),
+              turned_by(chart.turn[across % 3], turn).normalized()}});
         corners_.push_back(sectors_.back().head);
         turns_.push_back(turn);
         turn = turned_by(chart.turn[Surface::previous(h) % 3], turn).normalized();
@@ -122,10 +122,10 @@ bool VertexRing::flip_away() {
     flips_.push_back({after.half_edge, Surface::previous(before.half_edge), quad.shares()});
     const Vec2 diagonal = quad.apex - quad.across;
     const Index edge = after.spoke_edge;
-    made_.push_back({near,
-                     {before.head, after.head, c},
-                     {before.rim, after.rim,
-                      Rim{no_index, edge, no_index, -diagonal, Vec2(1, 0)}}});
+    made_.push_back(
+        {near,
+         {before.head, after.head, c},
+         {before.rim, after.rim, Rim{no_index, edge, no_index, -diagonal, Vec2(1, 0)}}});
     before.half_edge = 3 * far;
     before.rim = {3 * near + 2, edge, no_index, diagonal, Vec2(1, 0)};
     sectors_.erase(sectors_.begin() + static_cast<std::ptrdiff_t>(best));
@@ -163,10 +163,10 @@ void VertexRing::merge_straight() {
     for (std::size_t k = 1; k < 4; ++k) gone_edges_.push_back(sectors_[k].spoke_edge);
     const Index line = sectors_[0].spoke_edge;
     const Vec2 across = sectors_[0].spoke - sectors_[2].spoke;
-    made_.push_back({a,
-                     {sectors_[0].head, sectors_[1].head, sectors_[2].head},
-                     {sectors_[0].rim, sectors_[1].rim,
-                      Rim{3 * b + 2, line, no_index, across, Vec2(1, 0)}}});
+    made_.push_back(
+        {a,
+         {sectors_[0].head, sectors_[1].head, sectors_[2].head},
+         {sectors_[0].rim, sectors_[1].rim, Rim{3 * b + 2, line, no_index, across, Vec2(1, 0)}}});
     made_.push_back(
         {b,
          {sectors_[2].head, sectors_[3].head, sectors_[0].head},
@@ -184,7 +184,8 @@ void VertexRing::write() {
     for (const Made& made : made_) {
         surface_.mesh.triangles[made.face] = made.corners;
         for (Index k = 0; k < 3; ++k) {
-            if (made.side[k].number != no_index) rim_places_[made.side[k].number] = 3 * made.face + k;
+            if (made.side[k].number != no_index)
+                rim_places_[made.side[k].number] = 3 * made.face + k;
         }
     }
     for (const Made& made : made_) write_sides(made);

@@ -29,7 +29,8 @@ struct RingFlip {
 //! Around an inner vertex without curvature, counter-clockwise: takes it away. Edges at it are
 //! flipped until three are left, or four of which two are one straight line, and the faces around
 //! merge. All that is found in one plane; faces are written once, when it is known that the vertex
-//! can go: removing all of 643 000 takes a third of the time that flips one by one take.
+//! can go: a run on 1.4 M faces that loses 643 000 vertices takes 4.6 s of user time, and 5.1 s
+//! with one flip after the other.
 class VertexRing {
 public:
     VertexRing(Surface& surface, FaceCharts& charts) : surface_(surface), charts_(charts) {}
@@ -39,8 +40,8 @@ public:
     //! Half-edges that leave the vertex.
     [[nodiscard]] std::span<const Index> half_edges() const { return half_edge_; }
     //! Takes the vertex away; it, faces and edges leave gaps.
-    //! \return false where it cannot go: a face comes twice, or nothing can be flipped. Then nothing
-    //! has changed.
+    //! \return false where it cannot go: a face comes twice, or nothing can be flipped. Then
+    //! nothing has changed.
     [[nodiscard]] bool remove();
     //! What remove() has done: first the flips, then the one or two faces that were made.
     [[nodiscard]] std::span<const RingFlip> flips() const { return flips_; }
