@@ -429,6 +429,29 @@ TEST(IntrinsicTriangulation, IsTheSameForAnyNumberOfThreads) {
     }
 }
 
+// So many vertices that they are several parts, with flat ones on the rims of these.
+TEST(IntrinsicTriangulation, FlatVerticesGoPartByPartForAnyNumberOfThreads) {
+    TriangleMesh mesh = shapes::cube();
+    for (int level = 0; level < 6; ++level) mesh = shapes::subdivide(mesh);
+    const Surface input = build_surface(mesh.view());
+    const double size = diagonal(mesh);
+    const IntrinsicTriangulation one(input, {.min_length = size, .num_threads = 1});
+    expect_consistent(one.surface());
+    EXPECT_GT(one.counts().removed, input.num_vertices() - 100);
+    EXPECT_EQ(one.surface().num_faces() + 2 * one.counts().removed, input.num_faces());
+    EXPECT_NEAR(area_of(one.surface()), area_of(input), 1e-12 * size * size);
+    Dice dice(1);
+    for (Index i = 0; i < 2000; ++i) {
+        const SurfacePoint point = points::anywhere(dice, dice.count(0, input.num_faces() - 1));
+        expect_same_place(input, one.to_input(one.to_intrinsic(point)), point, 1e-13 * size);
+    }
+    for (const int threads : {2, 8}) {
+        const IntrinsicTriangulation other(input, {.min_length = size, .num_threads = threads});
+        EXPECT_EQ(one.counts().flips, other.counts().flips);
+        checks::expect_same(one.surface(), other.surface());
+    }
+}
+
 TEST(IntrinsicTriangulation, AnInputThatIsGivenAwayChangesNothing) {
     for_each_mesh([](const TriangleMesh&, const Surface& input, std::uint64_t seed) {
         const IntrinsicTriangulation kept(input, options_of(input, seed));

@@ -17,7 +17,11 @@ Vec2 FaceCharts::direction(Index half_edge) const {
 }
 
 FaceChart& FaceCharts::of(Index face) {
-    if (has(face)) return charts_[place_[face]];
+    if (!has(face)) add(face, first_chart(face));
+    return charts_[place_[face]];
+}
+
+FaceChart FaceCharts::first_chart(Index face) const {
     FaceChart chart;
     for (Index k = 0; k < 3; ++k) {
         const Index h = 3 * face + k;
@@ -32,8 +36,15 @@ FaceChart& FaceCharts::of(Index face) {
             chart.turn[k] = turned_by(along, conjugate(-direction(twin))).normalized();
         }
     }
-    add(face, chart);
-    return charts_[place_[face]];
+    return chart;
+}
+
+void FaceCharts::set(Index face, const FaceChart& chart) {
+    if (has(face)) {
+        charts_[place_[face]] = chart;
+    } else {
+        add(face, chart);
+    }
 }
 
 void FaceCharts::add(Index face, const FaceChart& chart) {
@@ -41,15 +52,24 @@ void FaceCharts::add(Index face, const FaceChart& chart) {
     if (free_.empty()) {
         place_[face] = static_cast<Index>(charts_.size());
         charts_.push_back(chart);
+        face_of_.push_back(face);
     } else {
         place_[face] = free_.back();
         free_.pop_back();
         charts_[place_[face]] = chart;
+        face_of_[place_[face]] = face;
+    }
+}
+
+void FaceCharts::take(const FaceCharts& part) {
+    for (std::size_t i = 0; i < part.charts_.size(); ++i) {
+        if (part.face_of_[i] != no_index) add(part.face_of_[i], part.charts_[i]);
     }
 }
 
 void FaceCharts::forget(Index face) {
     if (!has(face)) return;
+    face_of_[place_[face]] = no_index;
     free_.push_back(place_[face]);
     place_[face] = no_index;
 }

@@ -32,7 +32,21 @@ struct FaceChart {
 class FaceCharts {
 public:
     //! \param surface  outlives this; a face without a chart is still as this shows it.
-    explicit FaceCharts(const Surface& surface) : surface_(surface) {}
+    explicit FaceCharts(const Surface& surface) : surface_(surface), place_(own_place_) {}
+    //! Of faces that have none in `whole`, which must not change until it takes them over. Several
+    //! may be filled side by side, of different faces.
+    struct Part {
+        FaceCharts& whole;
+    };
+    explicit FaceCharts(Part part) : surface_(part.whole.surface_), place_(part.whole.place_) {}
+    FaceCharts(const FaceCharts&) = delete;
+    FaceCharts& operator=(const FaceCharts&) = delete;
+    ~FaceCharts() = default;
+
+    //! Before there are parts: threads must not move what they share.
+    void make_places() { place_.resize(surface_.num_faces(), no_index); }
+    //! Takes over a part's charts.
+    void take(const FaceCharts& part);
 
     [[nodiscard]] bool has(Index face) const {
         return face < place_.size() && place_[face] != no_index;
@@ -40,8 +54,14 @@ public:
     void reserve(std::size_t num_faces) { charts_.reserve(num_faces); }
     //! The face's chart, which is made if there is none. Others may move in memory.
     FaceChart& of(Index face);
+    //! The chart that of() would hand out, without making one.
+    [[nodiscard]] FaceChart peek(Index face) const {
+        return has(face) ? charts_[place_[face]] : first_chart(face);
+    }
     //! Gives a new face, which has the highest number, its chart.
     void add(Index face, const FaceChart& chart);
+    //! Gives a face another chart.
+    void set(Index face, const FaceChart& chart);
     //! Makes the face's chart anew where its lengths have changed, and tells those across.
     void renew(Index face);
     //! Tells the charts across a face's sides of its turns.
@@ -52,11 +72,14 @@ public:
 
 private:
     [[nodiscard]] Vec2 direction(Index half_edge) const;
+    [[nodiscard]] FaceChart first_chart(Index face) const;
 
     const Surface& surface_;
-    std::vector<Index> place_;  // By face; no_index: none.
+    std::vector<Index> own_place_;
+    std::vector<Index>& place_;  // By face; no_index: none. A part's are in those of the whole.
     std::vector<FaceChart> charts_;
-    std::vector<Index> free_;  // Places.
+    std::vector<Index> face_of_;  // By place; no_index: free.
+    std::vector<Index> free_;     // Places.
 };
 
 }  // namespace agvd::detail

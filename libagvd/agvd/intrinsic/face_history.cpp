@@ -257,15 +257,15 @@ void FaceHistory::add_split(Index half_edge, Index new_face) {
 }
 
 void FaceHistory::start() {
-    if (!last_.empty()) return;
+    if (whole_ != nullptr || !last_.empty()) return;
     first_.assign(num_faces_, no_index);
     last_.assign(num_faces_, no_index);
 }
 
 Index FaceHistory::chain(Index face, Index link) {
-    const Index made_by = last_[face];
+    const Index made_by = links().last_[face];
     if (made_by == no_index) {
-        first_[face] = link;
+        links().first_[face] = link;
     } else if (made_by >= first_merge) {
         merges_[(made_by - first_merge) / 4].next = link;
     } else {
@@ -284,8 +284,9 @@ void FaceHistory::add(Operation operation) {
     }
     for (Index slot = 0; slot < 2; ++slot) {
         const Index face = operation.new_face[slot];
-        if (face >= last_.size()) last_.resize(face + 1, no_index);
-        last_[face] = 2 * number + slot;
+        std::vector<Index>& last = links().last_;
+        if (face >= last.size()) last.resize(face + 1, no_index);
+        last[face] = 2 * number + slot;
     }
     operations_.push_back(operation);
 }
@@ -298,8 +299,42 @@ void FaceHistory::add_merge(const MergedFace& made) {
         if (merge.half_edge[slot] == no_index) continue;
         merge.previous[slot] = chain(Surface::face(merge.half_edge[slot]), first + slot);
     }
-    last_[made.face] = first;
+    links().last_[made.face] = first;
     merges_.push_back(merge);
+}
+
+// Links of the part are counted from its own first operation and merge.
+void FaceHistory::take(const FaceHistory& part) {
+    const auto num_operations = static_cast<Index>(operations_.size());
+    const auto num_merges = static_cast<Index>(merges_.size());
+    const auto moved = [&](Index link) {
+        if (link == no_index) return no_index;
+        return link + (link >= first_merge ? 4 * num_merges : 2 * num_operations);
+    };
+    operations_.insert(operations_.end(), part.operations_.begin(), part.operations_.end());
+    merges_.insert(merges_.end(), part.merges_.begin(), part.merges_.end());
+    for (Index i = num_operations; i < operations_.size(); ++i) {
+        Operation& op = operations_[i];
+        for (Index slot = 0; slot < 2; ++slot) {
+            const Index link = 2 * i + slot;
+            if (op.previous[slot] == no_index) first_[Surface::face(op.half_edge[slot])] = link;
+            if (op.next[slot] == no_index) last_[op.new_face[slot]] = link;
+            op.previous[slot] = moved(op.previous[slot]);
+            op.next[slot] = moved(op.next[slot]);
+        }
+    }
+    for (Index i = num_merges; i < merges_.size(); ++i) {
+        Merge& merge = merges_[i];
+        const auto first = static_cast<Index>(first_merge + 4 * i);
+        for (Index slot = 0; slot < 3; ++slot) {
+            if (merge.half_edge[slot] == no_index) continue;
+            const Index face = Surface::face(merge.half_edge[slot]);
+            if (merge.previous[slot] == no_index) first_[face] = first + slot;
+            merge.previous[slot] = moved(merge.previous[slot]);
+        }
+        if (merge.next == no_index) last_[merge.new_face] = first;
+        merge.next = moved(merge.next);
+    }
 }
 
 void FaceHistory::move_face(Index from, Index to) {

@@ -58,6 +58,16 @@ public:
     FaceHistory() = default;
     explicit FaceHistory(Index num_faces) : num_faces_(num_faces) {}
 
+    //! Of flips and merges of faces that `whole` knows nothing of, until it takes them over.
+    //! Several may be filled side by side, of different faces.
+    struct Part {
+        FaceHistory& whole;
+    };
+    explicit FaceHistory(Part part) : whole_(&part.whole) {}
+    //! Before there are parts.
+    void start();
+    void take(const FaceHistory& part);
+
     //! Faces (a, b, c) and (b, a, d) at a half-edge became (a, d, c) and (d, b, c).
     void add_flip(Index half_edge, Index twin, const QuadShares& shares);
     //! Face (a, b, c) became (a, m, c), and (m, b, c) the new face, which has the highest number.
@@ -124,7 +134,6 @@ private:
     struct Parts;
 
     void add(Operation operation);
-    void start();
     // Follows the last link of an old face with another one.
     Index chain(Index face, Index link);
     [[nodiscard]] Index first_link(Way way, Index face) const;
@@ -133,6 +142,10 @@ private:
     [[nodiscard]] SurfacePoint carry(Way way, SurfacePoint point) const;
     void carry(Way way, const FaceSegment& segment, std::vector<FaceSegment>& parts) const;
 
+    // first_ and last_ of a part are in those of the whole.
+    [[nodiscard]] FaceHistory& links() { return whole_ != nullptr ? *whole_ : *this; }
+
+    FaceHistory* whole_ = nullptr;
     Index num_faces_ = 0;  // Of the beginning.
     std::vector<Operation> operations_;
     std::vector<Merge> merges_;

@@ -24,10 +24,6 @@ struct RemovalCounts {
 //! Cost: O(#F), and O(log n) for each vertex removed.
 RemovalCounts remove_flat_vertices(Surface& surface, FaceCharts& charts, FaceHistory& history,
                                    const std::vector<std::uint8_t>& is_kept, double min_length,
-                                   Ticker& ticker);
-
-//! Closes gaps: the last faces and edges take the numbers of those that are gone. Charts become
-//! invalid.
-void compact_faces(Surface& surface, FaceHistory& history);
+                                   int num_threads, Poller& poller);
 
 }  // namespace agvd::detail

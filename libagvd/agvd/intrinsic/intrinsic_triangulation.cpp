@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "agvd/core/error.h"
+#include "agvd/intrinsic/compact_faces.h"
 #include "agvd/intrinsic/delaunay_queue.h"
 #include "agvd/intrinsic/flat_vertices.h"
 
@@ -165,7 +166,7 @@ void IntrinsicTriangulation::change_faces(const IntrinsicOptions& options, Polle
     detail::RemovalCounts removal;
     if (options.min_length > 0) {
         removal = detail::remove_flat_vertices(surface_, charts, *history_, is_kept,
-                                               options.min_length, ticker);
+                                               options.min_length, options.num_threads, poller);
     }
     DelaunayQueue flips(surface_, charts, history_.get(), is_kept, &ticker);
     flips.push_all(options.num_threads, poller);

@@ -1,6 +1,7 @@
 #include "agvd/intrinsic/vertex_ring.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "agvd/intrinsic/face_sides.h"
 #include "agvd/intrinsic/vertex_operations.h"
@@ -9,139 +10,224 @@
 namespace agvd::detail {
 namespace {
 
-// The sides of the ring across from the vertex, and the turns of what lies beyond each into the
-// chart of the ring's first face.
-template <std::size_t N>
-struct Rim {
-    std::array<Side, N> side;
-    std::array<Vec2, N> along;
-    std::array<Vec2, N> turn;
-};
-
-template <std::size_t N>
-Rim<N> rim_of(const Surface& surface, FaceCharts& charts, const VertexRing& ring) {
-    Rim<N> rim;
-    for (std::size_t i = 0; i < N; ++i) {
-        const Index h = Surface::next(ring.half_edge[i]);
-        const FaceChart& chart = charts.of(Surface::face(h));
-        rim.side[i] = side_of(surface, h);
-        rim.along[i] = turned_by(chart.side[h % 3], ring.turn[i]);
-        rim.turn[i] = turned_by(chart.turn[h % 3], ring.turn[i]);
-        for (std::size_t k = 0; k < N; ++k) {  // What lies beyond may be of the ring.
-            if (rim.side[i].twin == Surface::next(ring.half_edge[k])) {
-                rim.turn[i] = turned_by(rim.turn[i], conjugate(ring.turn[k]));
-            }
-        }
-        rim.turn[i].normalize();
-    }
-    return rim;
-}
-
-void forget_edge(Surface& surface, Index half_edge) {
-    surface.edge_half[surface.edge[half_edge]] = no_index;
-}
-
-void set_chart(Surface& surface, FaceCharts& charts, Index face, const FaceChart& chart) {
-    charts.of(face) = chart;
-    charts.share_turns(face);
-    set_apexes(surface, face, charts.of(face));
-}
-
-MergedFace merge_three(Surface& surface, FaceCharts& charts, const VertexRing& ring) {
-    const Rim<3> rim = rim_of<3>(surface, charts, ring);
-    std::array<Index, 3> faces;
-    MergedFace made;
-    Triangle corners;
-    double sum = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-        faces[k] = Surface::face(ring.half_edge[k]);
-        made.half_edge[k] = rim.side[k].half_edge;
-        made.shares[k] = std::max(cross(ring.spoke[(k + 1) % 3], ring.spoke[(k + 2) % 3]), 0.0);
-        corners[k] = surface.head(ring.half_edge[k]);
-        sum += made.shares[k];
-    }
-    for (double& share : made.shares) share /= sum;
-    made.face = faces[0];
-    for (const Index h : ring.half_edge) forget_edge(surface, h);
-    forget_outgoing(surface, faces);
-    for (const Index f : faces) bury(surface, f);
-    surface.mesh.triangles[made.face] = corners;
-    move_sides<3>(surface, rim.side, {3 * made.face, 3 * made.face + 1, 3 * made.face + 2});
-    renew_outgoing(surface, std::span(faces.data(), 1));
-    charts.forget(faces[1]);
-    charts.forget(faces[2]);
-    set_chart(surface, charts, made.face, {rim.along, rim.turn});
-    return made;
-}
-
-std::array<MergedFace, 2> merge_straight(Surface& surface, FaceCharts& charts,
-                                         const VertexRing& ring) {
-    const Rim<4> rim = rim_of<4>(surface, charts, ring);
-    const Index a = Surface::face(ring.half_edge[0]), b = Surface::face(ring.half_edge[2]);
-    const Index n0 = surface.head(ring.half_edge[0]), n1 = surface.head(ring.half_edge[1]);
-    const Index n2 = surface.head(ring.half_edge[2]), n3 = surface.head(ring.half_edge[3]);
-    const double near = ring.spoke[0].norm(), far = ring.spoke[2].norm();
-    const double share = far / (near + far);  // Of the first spoke's end.
-    const std::array<MergedFace, 2> made{
-        {{a, {rim.side[0].half_edge, rim.side[1].half_edge, no_index}, {share, 0, 1 - share}},
-         {b, {rim.side[2].half_edge, rim.side[3].half_edge, no_index}, {1 - share, 0, share}}}};
-    const Index line = surface.edge[ring.half_edge[0]];
-    std::array<Index, 4> faces;
-    for (std::size_t i = 0; i < 4; ++i) faces[i] = Surface::face(ring.half_edge[i]);
-    for (const Index h : ring.half_edge) forget_edge(surface, h);
-    forget_outgoing(surface, faces);
-    for (const Index f : faces) bury(surface, f);
-    surface.mesh.triangles[a] = {n0, n1, n2};
-    surface.mesh.triangles[b] = {n2, n3, n0};
-    surface.length[line] = near + far;
-    move_sides<4>(surface, rim.side, {3 * a, 3 * a + 1, 3 * b, 3 * b + 1});
-    surface.edge[3 * a + 2] = surface.edge[3 * b + 2] = line;
-    join(surface, 3 * a + 2, 3 * b + 2, line);
-    renew_outgoing(surface, std::array{a, b});
-    charts.forget(faces[1]);
-    charts.forget(faces[3]);
-    const Vec2 across = ring.spoke[0] - ring.spoke[2];
-    const Vec2 none(1, 0);
-    set_chart(surface, charts, a,
-              {{rim.along[0], rim.along[1], across}, {rim.turn[0], rim.turn[1], none}});
-    set_chart(surface, charts, b,
-              {{rim.along[2], rim.along[3], -across}, {rim.turn[2], rim.turn[3], none}});
-    return made;
-}
+// Of the faces' size: how far two edges that are one straight line bend by the rounding of charts.
+constexpr double straight_enough = 1e-14;
 
 }  // namespace
 
-void lay_ring(const Surface& surface, FaceCharts& charts, Index vertex, VertexRing& ring) {
-    ring.half_edge.clear();
-    ring.spoke.clear();
-    ring.turn.clear();
-    ring.is_simple = true;
+void VertexRing::set(Index vertex) {
+    vertex_ = vertex;
+    half_edge_.clear();
+    for_each_outgoing(surface_, vertex, [&](Index h) { half_edge_.push_back(h); });
+}
+
+bool VertexRing::remove() {
+    flips_.clear();
+    merged_.clear();
+    made_.clear();
+    gone_edges_.clear();
+    if (!lay()) return false;
+    while (sectors_.size() > 3 && !(sectors_.size() == 4 && straighten())) {
+        if (!flip_away()) return false;
+    }
+    if (sectors_.size() == 3) {
+        merge_three();
+    } else {
+        merge_straight();
+    }
+    write();
+    return true;
+}
+
+// False if a face has the vertex at two corners.
+bool VertexRing::lay() {
+    sectors_.clear();
+    corners_.clear();
+    turns_.clear();
     Vec2 turn(1, 0);
-    for_each_outgoing(surface, vertex, [&](Index h) {
-        const FaceChart& chart = charts.of(Surface::face(h));
-        for (const Index other : ring.half_edge) {
-            ring.is_simple = ring.is_simple && Surface::face(other) != Surface::face(h);
-        }
-        ring.is_simple = ring.is_simple && surface.head(h) != vertex;
-        ring.half_edge.push_back(h);
-        ring.spoke.push_back(turned_by(chart.side[h % 3], turn));
-        ring.turn.push_back(turn);
+    bool is_glued = false;
+    for (const Index h : half_edge_) {
+        const Triangle& t = surface_.mesh.triangles[Surface::face(h)];
+        if ((t[0] == vertex_) + (t[1] == vertex_) + (t[2] == vertex_) != 1) return false;
+        const FaceChart chart = charts_.peek(Surface::face(h));
+        const Index across = Surface::next(h);
+        const auto number = static_cast<Index>(sectors_.size());
+        const Index twin = surface_.twin[across];
+        for (const Index other : half_edge_) is_glued = is_glued || Surface::next(other) == twin;
+        sectors_.push_back(
+            {h,
+             surface_.edge[h],
+             surface_.head(h),
+             turned_by(chart.side[h % 3], turn),
+             {twin, surface_.edge[across], number, turned_by(chart.side[across % 3], turn),
+              turned_by(chart.turn[across % 3], turn).normalized()}});
+        corners_.push_back(sectors_.back().head);
+        turns_.push_back(turn);
         turn = turned_by(chart.turn[Surface::previous(h) % 3], turn).normalized();
-    });
+    }
+    is_glued_ = is_glued;
+    if (is_glued) turn_glued_rims();
+    return true;
 }
 
-void rotate_ring(VertexRing& ring) {
-    const Vec2 back = conjugate(ring.turn[1]);
-    for (Vec2& turn : ring.turn) turn = turned_by(turn, back);
-    for (Vec2& spoke : ring.spoke) spoke = turned_by(spoke, back);
-    std::rotate(ring.half_edge.begin(), ring.half_edge.begin() + 1, ring.half_edge.end());
-    std::rotate(ring.spoke.begin(), ring.spoke.begin() + 1, ring.spoke.end());
-    std::rotate(ring.turn.begin(), ring.turn.begin() + 1, ring.turn.end());
+// All faces that are made have the chart of the first: those beyond a rim may be of the ring.
+void VertexRing::turn_glued_rims() {
+    for (Sector& sector : sectors_) {
+        for (std::size_t k = 0; k < half_edge_.size(); ++k) {
+            if (sector.rim.twin != Surface::next(half_edge_[k])) continue;
+            sector.rim.turn = turned_by(sector.rim.turn, conjugate(turns_[k])).normalized();
+        }
+    }
 }
 
-std::array<MergedFace, 2> merge_ring(Surface& surface, FaceCharts& charts, const VertexRing& ring) {
-    if (ring.half_edge.size() == 3) return {merge_three(surface, charts, ring), {}};
-    return merge_straight(surface, charts, ring);
+// Turns the ring so that its first and third edge are one line, if two are.
+bool VertexRing::straighten() {
+    for (std::size_t first = 0; first < 2; ++first) {
+        const Vec2 &a = sectors_[first].spoke, &b = sectors_[first + 2].spoke;
+        const double size =
+            std::max(sectors_[first + 1].spoke.norm(), sectors_[(first + 3) % 4].spoke.norm());
+        if (a.dot(b) < 0 && std::abs(cross(a, b)) <= straight_enough * size * (a - b).norm()) {
+            if (first == 1) std::rotate(sectors_.begin(), sectors_.begin() + 1, sectors_.end());
+            return true;
+        }
+    }
+    return false;
+}
+
+// Flips the edge at the vertex whose flip leaves the best triangle behind. Face (d, b, c) is left;
+// the spoke to d and the face behind that to b are one sector.
+bool VertexRing::flip_away() {
+    const std::size_t count = sectors_.size();
+    const auto quad_of = [&](std::size_t i) -> Quad {
+        return {sectors_[i].spoke, sectors_[(i + 1) % count].spoke,
+                sectors_[(i + count - 1) % count].spoke};
+    };
+    std::size_t best = count;
+    double best_quality = -1;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Quad quad = quad_of(i);
+        const Vec2 a = quad.apex - quad.head, b = quad.across - quad.head;
+        const double squares = a.squaredNorm() + b.squaredNorm() + (a - b).squaredNorm();
+        const double quality = std::abs(cross(a, b)) / squares;
+        if (!(quality > best_quality) || !quad.is_convex()) continue;
+        best_quality = quality;
+        best = i;
+    }
+    if (best == count) return false;
+    const Quad quad = quad_of(best);
+    Sector& after = sectors_[best];
+    Sector& before = sectors_[(best + count - 1) % count];
+    const Index near = Surface::face(before.half_edge), far = Surface::face(after.half_edge);
+    const Index c = sectors_[(best + 1) % count].head;
+    flips_.push_back({after.half_edge, Surface::previous(before.half_edge), quad.shares()});
+    const Vec2 diagonal = quad.apex - quad.across;
+    const Index edge = after.spoke_edge;
+    made_.push_back(
+        {near,
+         {before.head, after.head, c},
+         {before.rim, after.rim, Rim{no_index, edge, no_index, -diagonal, Vec2(1, 0)}}});
+    before.half_edge = 3 * far;
+    before.rim = {3 * near + 2, edge, no_index, diagonal, Vec2(1, 0)};
+    sectors_.erase(sectors_.begin() + static_cast<std::ptrdiff_t>(best));
+    return true;
+}
+
+void VertexRing::merge_three() {
+    MergedFace merged;
+    Made made{Surface::face(sectors_[0].half_edge), {}, {}};
+    merged.face = made.face;
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const Sector& sector = sectors_[k];
+        merged.half_edge[k] = Surface::next(sector.half_edge);
+        merged.shares[k] =
+            std::max(cross(sectors_[(k + 1) % 3].spoke, sectors_[(k + 2) % 3].spoke), 0.0);
+        sum += merged.shares[k];
+        made.corners[k] = sector.head;
+        made.side[k] = sector.rim;
+        gone_edges_.push_back(sector.spoke_edge);
+    }
+    for (double& share : merged.shares) share /= sum;
+    merged_.push_back(merged);
+    made_.push_back(made);
+}
+
+void VertexRing::merge_straight() {
+    const Index a = Surface::face(sectors_[0].half_edge), b = Surface::face(sectors_[2].half_edge);
+    const double near = sectors_[0].spoke.norm(), far = sectors_[2].spoke.norm();
+    const double share = far / (near + far);  // Of the first spoke's end.
+    std::array<Index, 4> side;
+    for (std::size_t k = 0; k < 4; ++k) side[k] = Surface::next(sectors_[k].half_edge);
+    merged_.push_back({a, {side[0], side[1], no_index}, {share, 0, 1 - share}});
+    merged_.push_back({b, {side[2], side[3], no_index}, {1 - share, 0, share}});
+    for (std::size_t k = 1; k < 4; ++k) gone_edges_.push_back(sectors_[k].spoke_edge);
+    const Index line = sectors_[0].spoke_edge;
+    const Vec2 across = sectors_[0].spoke - sectors_[2].spoke;
+    made_.push_back(
+        {a,
+         {sectors_[0].head, sectors_[1].head, sectors_[2].head},
+         {sectors_[0].rim, sectors_[1].rim, Rim{3 * b + 2, line, no_index, across, Vec2(1, 0)}}});
+    made_.push_back(
+        {b,
+         {sectors_[2].head, sectors_[3].head, sectors_[0].head},
+         {sectors_[2].rim, sectors_[3].rim, Rim{no_index, line, no_index, -across, Vec2(1, 0)}}});
+}
+
+void VertexRing::write() {
+    for (const Index e : gone_edges_) surface_.edge_half[e] = no_index;
+    for (const Index h : half_edge_) {
+        const Index face = Surface::face(h);
+        forget_outgoing(surface_, std::span(&face, 1));
+    }
+    for (const Index h : half_edge_) bury(surface_, Surface::face(h));
+    rim_places_.resize(half_edge_.size());
+    for (const Made& made : made_) {
+        surface_.mesh.triangles[made.face] = made.corners;
+        for (Index k = 0; k < 3; ++k) {
+            if (made.side[k].number != no_index)
+                rim_places_[made.side[k].number] = 3 * made.face + k;
+        }
+    }
+    for (const Made& made : made_) write_sides(made);
+    for (const Index h : half_edge_) {
+        const Index face = Surface::face(h);
+        if (surface_.mesh.triangles[face][0] == no_index) charts_.forget(face);
+    }
+    for (const Made& made : made_) {
+        FaceChart chart;
+        for (std::size_t k = 0; k < 3; ++k) {
+            chart.side[k] = made.side[k].along;
+            chart.turn[k] = made.side[k].turn;
+        }
+        charts_.set(made.face, chart);
+        set_apexes(surface_, made.face, chart);
+    }
+    for (const Made& made : made_) {
+        charts_.share_turns(made.face);
+        renew_outgoing(surface_, std::span(&made.face, 1));
+    }
+}
+
+void VertexRing::write_sides(const Made& made) {
+    for (Index k = 0; k < 3; ++k) {
+        const Rim& rim = made.side[k];
+        const Index h = 3 * made.face + k;
+        if (rim.number != no_index) {
+            join(surface_, h, is_glued_ ? twin_now(rim.twin) : rim.twin, rim.edge);
+            continue;
+        }
+        surface_.edge[h] = rim.edge;
+        surface_.length[rim.edge] = rim.along.norm();
+        if (rim.twin != no_index) join(surface_, h, rim.twin, rim.edge);
+    }
+}
+
+// A half-edge that may have been a rim of the ring.
+Index VertexRing::twin_now(Index half_edge) const {
+    for (std::size_t k = 0; k < half_edge_.size(); ++k) {
+        if (Surface::next(half_edge_[k]) == half_edge) return rim_places_[k];
+    }
+    return half_edge;
 }
 
 }  // namespace agvd::detail
