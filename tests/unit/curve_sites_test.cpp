@@ -254,6 +254,21 @@ TEST(CloseRim, GapsBetweenChainAndRimAreFilled) {
     EXPECT_EQ(triangles.size(), before.size() + 3);
 }
 
+TEST(CloseRim, SitesOfACurveThatTheRimGoesPastGetTriangles) {
+    // The rim goes from 1 to 2 at once, the chain through 4 and 5.
+    const std::vector<Triangle> before{{0, 1, 9}, {1, 2, 9}, {2, 0, 9}};
+    const std::vector<DirectedEdge> chain{{0, 1}, {1, 4}, {2, 0}, {4, 5}, {5, 2}};
+    std::vector<Triangle> triangles = before;
+    remesh::close_rim(chain, triangles);
+    EXPECT_EQ(triangles.size(), before.size() + 2);
+    EXPECT_EQ(remesh::rim_of(triangles), chain);
+    // Not where such a site has a triangle already: two fans would meet there.
+    triangles = before;
+    triangles.push_back({4, 7, 8});
+    remesh::close_rim(chain, triangles);
+    EXPECT_EQ(triangles.size(), before.size() + 1);
+}
+
 TEST(CloseRim, WaysThatLeadElsewhereStayOpen) {
     // From 0 the rim never comes to 7, and from 0 to 12 it takes more sites than a gap has.
     std::vector<Triangle> fan;

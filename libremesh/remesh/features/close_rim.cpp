@@ -9,7 +9,7 @@ using agvd::Index;
 using agvd::no_index;
 using agvd::Triangle;
 
-// Sites of a rim between two sites of a curve.
+// Sites between two that are to be joined.
 constexpr std::size_t longest_way = 8;
 
 // The site after another one on the rim; no_index if that is not one.
@@ -18,6 +18,29 @@ Index next_on(const std::vector<DirectedEdge>& rim, Index site) {
     if (found == rim.end() || found->first != site) return no_index;
     const auto other = found + 1;
     return other != rim.end() && other->first == site ? no_index : found->second;
+}
+
+bool has(const std::vector<DirectedEdge>& edges, const DirectedEdge& edge) {
+    return std::binary_search(edges.begin(), edges.end(), edge);
+}
+
+// From a site along edges up to one that is an end; empty if that is too far, or there is none.
+template <typename IsEnd>
+std::vector<Index> way_on(const std::vector<DirectedEdge>& edges, Index from, const IsEnd& is_end) {
+    std::vector<Index> way{from};
+    do {
+        way.push_back(next_on(edges, way.back()));
+        if (way.back() == no_index || way.size() > longest_way + 1) return {};
+    } while (!is_end(way.back()));
+    return way;
+}
+
+// Ascending.
+std::vector<Index> corners_of(std::span<const Triangle> triangles) {
+    std::vector<Index> corners;
+    for (const Triangle& t : triangles) corners.insert(corners.end(), t.begin(), t.end());
+    std::sort(corners.begin(), corners.end());
+    return corners;
 }
 
 }  // namespace
@@ -38,15 +61,21 @@ std::vector<DirectedEdge> rim_of(std::span<const Triangle> triangles) {
 
 void close_rim(std::span<const DirectedEdge> chain, std::vector<Triangle>& triangles) {
     const std::vector<DirectedEdge> rim = rim_of(triangles);
-    for (const auto& [from, to] : chain) {
-        if (std::binary_search(rim.begin(), rim.end(), DirectedEdge(from, to))) continue;
-        std::vector<Index> way{from};
-        while (way.size() <= longest_way && way.back() != to && way.back() != no_index) {
-            way.push_back(next_on(rim, way.back()));
-        }
-        if (way.back() != to) continue;
-        for (std::size_t i = way.size() - 1; i > 1; --i) {
+    std::vector<DirectedEdge> wanted(chain.begin(), chain.end());
+    std::sort(wanted.begin(), wanted.end());
+    const std::vector<Index> used = corners_of(triangles);
+    for (const auto& [from, to] : wanted) {
+        if (has(rim, {from, to})) continue;
+        const std::vector<Index> way = way_on(rim, from, [&](Index site) { return site == to; });
+        for (std::size_t i = way.size(); i-- > 2;) {
             triangles.push_back({from, way[i], way[i - 1]});
+        }
+        if (!way.empty() || std::binary_search(used.begin(), used.end(), to)) continue;
+        const std::vector<Index> past = way_on(wanted, from, [&](Index site) {
+            return has(rim, {from, site});
+        });
+        for (std::size_t i = 2; i < past.size(); ++i) {
+            triangles.push_back({from, past[i - 1], past[i]});
         }
     }
 }
