@@ -344,7 +344,7 @@ private:
         num_distinct_ = static_cast<Index>(sites_.size());
     }
 
-    // The dual with the count asked for. Where it runs through itself more often than the input, it
+    // The dual with the count asked for. Where it self-intersects more often than the input, it
     // is built again with more sites there; the best counts.
     void build_mesh() {
         std::optional<agvd::SurfaceLayout> layout(std::move(prepared_->layout));
@@ -480,7 +480,7 @@ private:
         thinned_.mesh = std::move(placed);
     }
 
-    // Thinned components have thin triangles. Where better ones would run through each other, their
+    // Thinned components have thin triangles. Where better ones would intersect, their
     // corners stay.
     void mend_thinned() {
         if (thinned_.mesh.points.empty()) return;
@@ -681,7 +681,7 @@ private:
         }
     }
 
-    // Puts vertices back onto the surface where triangles run through each other.
+    // Puts vertices back onto the surface where triangles intersect.
     CrossingFaces unfit_crossings(PlacedMesh& mesh) {
         CrossingFaces crossings = find_crossings(mesh);
         result_.unfitted_vertices = 0;
@@ -759,7 +759,7 @@ private:
         for (const Index v : corners) on_base_.push_back(dual.diagram.vertices[v]);
         is_wanted_.resize(on_base_.size(), true);
         result_.sites_added += static_cast<Index>(corners.size());
-        result_.added_because["runs through another part"] += static_cast<Index>(corners.size());
+        result_.added_because["self-intersects"] += static_cast<Index>(corners.size());
         return true;
     }
 
