@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "remesh/features/close_rim.h"
 #include "remesh/topology/topology.h"
+#include "support/movable_mesh.h"
 #include "support/shapes.h"
 
 using namespace agvd;
@@ -16,41 +16,15 @@ using remesh::detail::Mobility;
 
 namespace {
 
-// The vertices of a surface where they are; those on the boundary stay on it.
-struct Sample {
-    explicit Sample(const TriangleMesh& mesh) : surface(build_surface(mesh.view())) {
-        placed.triangles = mesh.triangles;
-        placed.points.resize(mesh.positions.size());
-        placed.offsets.assign(mesh.positions.size(), Vec3::Zero());
-        mobility.assign(mesh.positions.size(), Mobility::Free);
-        for (Index h = 0; h < surface.twin.size(); ++h) {
-            SurfacePoint corner{FaceId(h / 3), {0, 0, 0}};
-            corner.barycentric[h % 3] = 1;
-            placed.points[surface.tail(h)] = corner;
-        }
-        hard = remesh::rim_of(mesh.triangles);
-        for (const auto& [from, to] : hard) mobility[from] = Mobility::Boundary;
-    }
+struct Sample : MovableMesh {
+    using MovableMesh::MovableMesh;
 
     [[nodiscard]] EditedMesh edited() const { return {surface, placed, mobility, hard}; }
-
-    [[nodiscard]] TriangleMesh mesh_of(const PlacedMesh& mesh) const {
-        TriangleMesh result{{}, mesh.triangles};
-        for (Index v = 0; v < mesh.points.size(); ++v) {
-            result.positions.push_back(mesh.position(surface.mesh.view(), v));
-        }
-        return result;
-    }
 
     [[nodiscard]] TriangleMesh result(const EditedMesh& edited) const {
         std::vector<Index> numbers;
         return mesh_of(edited.result(numbers));
     }
-
-    Surface surface;
-    PlacedMesh placed;
-    std::vector<Mobility> mobility;
-    std::vector<remesh::DirectedEdge> hard;
 };
 
 bool is_like(const TriangleMesh& mesh, const TriangleMesh& other) {

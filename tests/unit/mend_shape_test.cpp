@@ -8,42 +8,13 @@
 
 #include "remesh/quality/triangle_quality.h"
 #include "remesh/topology/topology.h"
+#include "support/movable_mesh.h"
 #include "support/shapes.h"
 
 using namespace agvd;
-using remesh::PlacedMesh;
 using remesh::detail::Mobility;
 
 namespace {
-
-// The vertices of a surface where they are; those on the boundary stay on it.
-struct Placed {
-    explicit Placed(const TriangleMesh& mesh) : surface(build_surface(mesh.view())) {
-        placed.triangles = mesh.triangles;
-        placed.points.resize(mesh.positions.size());
-        placed.offsets.assign(mesh.positions.size(), Vec3::Zero());
-        mobility.assign(mesh.positions.size(), Mobility::Free);
-        for (Index h = 0; h < surface.twin.size(); ++h) {
-            SurfacePoint corner{FaceId(h / 3), {0, 0, 0}};
-            corner.barycentric[h % 3] = 1;
-            placed.points[surface.tail(h)] = corner;
-        }
-        hard = remesh::rim_of(mesh.triangles);
-        for (const auto& [from, to] : hard) mobility[from] = Mobility::Boundary;
-    }
-    [[nodiscard]] TriangleMesh mesh() const {
-        TriangleMesh result{{}, placed.triangles};
-        for (Index v = 0; v < placed.points.size(); ++v) {
-            result.positions.push_back(placed.position(surface.mesh.view(), v));
-        }
-        return result;
-    }
-
-    Surface surface;
-    PlacedMesh placed;
-    std::vector<Mobility> mobility;
-    std::vector<remesh::DirectedEdge> hard;
-};
 
 double smallest_angle(const TriangleMesh& mesh) {
     return remesh::measure_triangles(mesh.view()).min_angle * 180 / std::numbers::pi;
@@ -61,7 +32,7 @@ TriangleMesh uneven_tube() {
 }
 
 TEST(MendShape, GoodTrianglesStayAsTheyAre) {
-    Placed placed(shapes::sphere(3));
+    MovableMesh placed(shapes::sphere(3));
     const std::vector<Triangle> before = placed.placed.triangles;
     EXPECT_TRUE(mend_shape(placed.surface, placed.mobility, placed.hard, placed.placed).empty());
     EXPECT_EQ(placed.placed.triangles, before);
@@ -69,11 +40,11 @@ TEST(MendShape, GoodTrianglesStayAsTheyAre) {
 
 TEST(MendShape, ThinTrianglesGoAndTheCountAndTheTopologyStay) {
     const TriangleMesh mesh = uneven_tube();
-    Placed placed(mesh);
+    MovableMesh placed(mesh);
     ASSERT_LT(smallest_angle(mesh), 8);
     const std::vector<Index> numbers =
         mend_shape(placed.surface, placed.mobility, placed.hard, placed.placed);
-    const TriangleMesh mended = placed.mesh();
+    const TriangleMesh mended = placed.mesh_of(placed.placed);
     EXPECT_EQ(numbers.size(), mesh.positions.size());
     EXPECT_EQ(mended.positions.size(), mesh.positions.size());
     const remesh::Topology topology = remesh::analyze_topology(mended.view());
@@ -84,11 +55,11 @@ TEST(MendShape, ThinTrianglesGoAndTheCountAndTheTopologyStay) {
 
 TEST(MendShape, FixedVerticesStay) {
     const TriangleMesh mesh = uneven_tube();
-    Placed placed(mesh);
+    MovableMesh placed(mesh);
     for (Index v = 0; v < mesh.positions.size(); v += 2) placed.mobility[v] = Mobility::Fixed;
     const std::vector<Index> numbers =
         mend_shape(placed.surface, placed.mobility, placed.hard, placed.placed);
-    const TriangleMesh mended = placed.mesh();
+    const TriangleMesh mended = placed.mesh_of(placed.placed);
     ASSERT_EQ(numbers.size(), mesh.positions.size());
     Index num_fixed = 0;
     for (Index v = 0; v < numbers.size(); ++v) {

@@ -1,0 +1,40 @@
+// A mesh on its own surface, as mending and its steps take it.
+#pragma once
+
+#include <vector>
+
+#include "agvd/mesh/surface.h"
+#include "remesh/features/close_rim.h"
+#include "remesh/placement/edited_mesh.h"
+#include "remesh/placement/placed_mesh.h"
+
+// The vertices of a surface where they are; those on the boundary stay on it.
+struct MovableMesh {
+    explicit MovableMesh(const agvd::TriangleMesh& mesh)
+        : surface(agvd::build_surface(mesh.view())) {
+        placed.triangles = mesh.triangles;
+        placed.points.resize(mesh.positions.size());
+        placed.offsets.assign(mesh.positions.size(), agvd::Vec3::Zero());
+        mobility.assign(mesh.positions.size(), remesh::detail::Mobility::Free);
+        for (agvd::Index h = 0; h < surface.twin.size(); ++h) {
+            agvd::SurfacePoint corner{agvd::FaceId(h / 3), {0, 0, 0}};
+            corner.barycentric[h % 3] = 1;
+            placed.points[surface.tail(h)] = corner;
+        }
+        hard = remesh::rim_of(mesh.triangles);
+        for (const auto& [from, to] : hard) mobility[from] = remesh::detail::Mobility::Boundary;
+    }
+
+    [[nodiscard]] agvd::TriangleMesh mesh_of(const remesh::PlacedMesh& mesh) const {
+        agvd::TriangleMesh result{{}, mesh.triangles};
+        for (agvd::Index v = 0; v < mesh.points.size(); ++v) {
+            result.positions.push_back(mesh.position(surface.mesh.view(), v));
+        }
+        return result;
+    }
+
+    agvd::Surface surface;
+    remesh::PlacedMesh placed;
+    std::vector<remesh::detail::Mobility> mobility;
+    std::vector<remesh::DirectedEdge> hard;
+};
