@@ -28,7 +28,7 @@ double area_of(const agvd::MeshView& mesh, const agvd::Triangle& t) {
 }  // namespace
 
 std::vector<std::uint8_t> carry_edges(std::span<const std::array<Index, 2>> edges,
-                                      const agvd::MeshView& mesh, const CleanResult& clean,
+                                      const agvd::MeshView& mesh, const CleanedView& clean,
                                       const agvd::Surface& surface) {
     std::vector<std::uint8_t> is_carried(surface.num_edges(), 0);
     std::map<std::pair<Index, Index>, Beside> beside;
@@ -64,11 +64,9 @@ std::vector<std::uint8_t> carry_edges(std::span<const std::array<Index, 2>> edge
 }
 
 std::vector<std::uint8_t> find_label_borders(std::span<const Index> face_labels,
-                                             const CleanResult& clean,
+                                             std::span<const Index> face_origin,
                                              const agvd::Surface& surface) {
-    const auto label = [&](Index h) {
-        return face_labels[clean.face_origin[agvd::Surface::face(h)]];
-    };
+    const auto label = [&](Index h) { return face_labels[face_origin[agvd::Surface::face(h)]]; };
     std::vector<std::uint8_t> is_border(surface.num_edges(), 0);
     for (Index e = 0; e < surface.num_edges(); ++e) {
         const Index h = surface.edge_half[e], twin = surface.twin[h];

@@ -19,14 +19,15 @@ namespace remesh {
 //! Cost: O(#F log #edges).
 [[nodiscard]] std::vector<std::uint8_t> carry_edges(
     std::span<const std::array<agvd::Index, 2>> edges, const agvd::MeshView& mesh,
-    const CleanResult& clean, const agvd::Surface& surface);
+    const CleanedView& clean, const agvd::Surface& surface);
 
 //! Edges between faces of different labels.
 //!
 //! \param face_labels  of the faces of the mesh that clean_input() got.
+//! \param face_origin  #F of the surface: see CleanResult.
 //! \return #E of the surface: 1 for such edges. Cost: O(#E).
 [[nodiscard]] std::vector<std::uint8_t> find_label_borders(std::span<const agvd::Index> face_labels,
-                                                           const CleanResult& clean,
+                                                           std::span<const agvd::Index> face_origin,
                                                            const agvd::Surface& surface);
 
 }  // namespace remesh

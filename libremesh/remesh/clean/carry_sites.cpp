@@ -69,8 +69,8 @@ double squared_reach(const MeshView& mesh) {
 // Where points of the input lie on the cleaned mesh.
 class CleanedSurface {
 public:
-    CleanedSurface(const MeshView& mesh, const CleanResult& clean)
-        : mesh_(mesh), clean_(clean.mesh.view()) {
+    CleanedSurface(const MeshView& mesh, const CleanedView& clean)
+        : mesh_(mesh), clean_(clean.mesh) {
         pieces_.reserve(clean.face_origin.size());
         for (Index f = 0; f < clean.face_origin.size(); ++f) {
             pieces_.emplace_back(clean.face_origin[f], f);
@@ -130,7 +130,7 @@ void check_site(const SurfacePoint& site, std::size_t number, Index num_faces) {
 }  // namespace
 
 std::vector<SurfacePoint> to_cleaned(const std::vector<SurfacePoint>& sites, const MeshView& mesh,
-                                     const CleanResult& clean) {
+                                     const CleanedView& clean) {
     CleanedSurface surface(mesh, clean);
     std::vector<SurfacePoint> carried;
     carried.reserve(sites.size());
@@ -149,14 +149,14 @@ std::vector<SurfacePoint> to_cleaned(const std::vector<SurfacePoint>& sites, con
 }
 
 std::vector<SurfacePoint> to_original(const std::vector<SurfacePoint>& sites, const MeshView& mesh,
-                                      const CleanResult& clean) {
+                                      const CleanedView& clean) {
     if (clean.face_origin.empty()) {
         std::vector<SurfacePoint> carried;
         carried.reserve(sites.size());
         for (const SurfacePoint& site : sites) carried.push_back(normalized(site));
         return carried;
     }
-    const MeshView cleaned = clean.mesh.view();
+    const MeshView& cleaned = clean.mesh;
     const double reach_sq = squared_reach(cleaned);
     std::optional<agvd::ClosestPointTree> tree;  // Few meshes need it.
     std::vector<SurfacePoint> carried;

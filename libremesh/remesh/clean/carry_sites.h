@@ -17,13 +17,13 @@ namespace remesh {
 //! Cost: O(#F log #F + #sites log #F).
 [[nodiscard]] std::vector<agvd::SurfacePoint> to_cleaned(
     const std::vector<agvd::SurfacePoint>& sites, const agvd::MeshView& mesh,
-    const CleanResult& clean);
+    const CleanedView& clean);
 
 //! The way back: points of `clean.mesh` on the mesh that it came from; for part of a face, the
 //! closest point of the whole. Without clean.face_origin the mesh was clean: only the sums of
 //! coordinates become 1. Cost: O(#sites).
 [[nodiscard]] std::vector<agvd::SurfacePoint> to_original(
     const std::vector<agvd::SurfacePoint>& sites, const agvd::MeshView& mesh,
-    const CleanResult& clean);
+    const CleanedView& clean);
 
 }  // namespace remesh

@@ -2,6 +2,8 @@
 //! Turns any triangle soup into oriented 2-manifold pieces, and tells what it did.
 #pragma once
 
+#include <span>
+
 #include "agvd/core/progress.h"
 #include "agvd/mesh/connectivity.h"
 #include "remesh/clean/clean_counts.h"
@@ -19,6 +21,18 @@ struct CleanResult {
     CleanCounts counts;
     //! agvd::find_connectivity(mesh) where nothing had to be repaired; else empty.
     agvd::Connectivity connectivity;
+};
+
+//! A cleaned mesh and where its elements came from, as functions that carry points and edges over
+//! read it. Refers to the arrays of a CleanResult, or to what they have become.
+struct CleanedView {
+    agvd::MeshView mesh;
+    std::span<const agvd::Index> face_origin;  //!< See CleanResult; empty: mesh is as it was given.
+
+    CleanedView(const CleanResult& clean)
+        : mesh(clean.mesh.view()), face_origin(clean.face_origin) {}
+    CleanedView(const agvd::MeshView& cleaned, std::span<const agvd::Index> origin)
+        : mesh(cleaned), face_origin(origin) {}
 };
 
 //! Repairs in this order, without moving anything:

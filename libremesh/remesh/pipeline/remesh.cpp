@@ -10,13 +10,6 @@
 namespace remesh {
 namespace {
 
-using agvd::Index;
-using detail::run_pipeline;
-using detail::TooFewSamples;
-
-// Rounds of new sites where the result self-intersects.
-constexpr int max_mends = 4;
-
 void check_options(const RemeshOptions& options, std::size_t num_faces) {
     if (options.num_samples < 1) {
         throw agvd::InvalidOption("num_samples is 0; ask for at least 1");
@@ -48,36 +41,6 @@ void check_options(const RemeshOptions& options, std::size_t num_faces) {
     }
 }
 
-// The text for a run that has too few samples: with a number that was tried.
-template <typename Mesh>
-std::string describe_too_few(Mesh& mesh, const RemeshOptions& options, Index reached) {
-    constexpr int max_tries = 6;
-    RemeshOptions more = options;
-    more.sites.reset();
-    more.features = Features::Off;
-    more.feature_edges.clear();
-    more.face_labels.clear();
-    for (int tries = 0; tries < max_tries; ++tries) {
-        more.num_samples = reached;
-        try {
-            (void)run_pipeline(mesh, more, 0, {.has_junctions = false});
-            return std::to_string(reached) + " work";
-        } catch (const TooFewSamples& failure) {
-            reached = std::max(failure.reached, reached + reached / 4 + 1);
-        }
-    }
-    return "more than " + std::to_string(more.num_samples) + " are needed";
-}
-
-// Intersecting pairs of faces, less those that the input has.
-Index num_new_crossings(const RemeshResult& result) {
-    const Index pairs = result.self_intersections.value_or(0);
-    return pairs - std::min(pairs, result.input_self_intersections);
-}
-
-const agvd::MeshView& view_of(const agvd::MeshView& mesh) { return mesh; }
-agvd::MeshView view_of(const agvd::TriangleMesh& mesh) { return mesh.view(); }
-
 // Lengths of what was made from a mesh times 2^-exponent.
 void scale_back(RemeshResult& result, int exponent) {
     result.mesh = agvd::scaled(result.mesh.view(), exponent);
@@ -89,66 +52,25 @@ void scale_back(RemeshResult& result, int exponent) {
     }
 }
 
-// With fewer creases where no mesh with all of them was found, or only one that
-// self-intersects; without any at last. Only where there is none either is it tried without
-// junctions.
-template <typename Mesh>
-RemeshResult run_with_features(Mesh& mesh, const RemeshOptions& options) {
-    const bool has_creases = options.features != Features::Off || !options.feature_edges.empty() ||
-                             !options.face_labels.empty();
-    const std::vector<double> drop_shares =
-        has_creases ? std::vector{0.0, 0.3, 0.6, 1.0} : std::vector{0.0};
-    std::optional<RemeshResult> best;
-    for (const bool has_junctions : {true, false}) {
-        for (const double drop_share : drop_shares) {
-            try {
-                RemeshResult result =
-                    run_pipeline(mesh, options, max_mends, {has_junctions, drop_share});
-                result.features.gave_up = drop_share > 0;
-                if (!best || num_new_crossings(result) < num_new_crossings(*best)) {
-                    best = std::move(result);
-                }
-                if (num_new_crossings(*best) == 0 || best->features.curves == 0) break;
-            } catch (const detail::NetworkFailed&) {
-                continue;
-            }
-        }
-        if (best) break;
-    }
-    return std::move(*best);
-}
-
-// \param mesh  const agvd::MeshView, or agvd::TriangleMesh to be given away.
-template <typename Mesh>
-RemeshResult run(Mesh& mesh, const RemeshOptions& options) {
-    check_options(options, mesh.triangles.size());
-    if (const double size = agvd::extent(view_of(mesh)); !agvd::is_in_scale(size)) {
-        const int exponent = std::ilogb(size);
-        agvd::TriangleMesh normal = agvd::scaled(view_of(mesh), -exponent);
-        RemeshResult result = run(normal, options);
-        scale_back(result, exponent);
-        return result;
-    }
-    try {
-        return run_with_features(mesh, options);
-    } catch (const TooFewSamples& failure) {
-        const std::string asked = std::to_string(failure.asked);
-        const std::string who =
-            options.sites ? "the given sites, of which " + asked + " own a part of the surface,"
-                          : asked + " samples";
-        throw agvd::ConstraintUnmet(who + " are too few for the topology of the mesh; " +
-                                    describe_too_few(mesh, options, failure.reached));
-    }
+RemeshResult run(const detail::InputMesh& input, const RemeshOptions& options) {
+    check_options(options, input.view.triangles.size());
+    const double size = agvd::extent(input.view);
+    if (agvd::is_in_scale(size)) return detail::run_stages(input, options);
+    const int exponent = std::ilogb(size);
+    agvd::TriangleMesh normal = agvd::scaled(input.view, -exponent);
+    RemeshResult result = detail::run_stages({normal.view(), &normal}, options);
+    scale_back(result, exponent);
+    return result;
 }
 
 }  // namespace
 
 RemeshResult remesh(const agvd::MeshView& mesh, const RemeshOptions& options) {
-    return run(mesh, options);
+    return run({mesh, nullptr}, options);
 }
 
 RemeshResult remesh_moved(agvd::TriangleMesh mesh, const RemeshOptions& options) {
-    return run(mesh, options);
+    return run({mesh.view(), &mesh}, options);
 }
 
 }  // namespace remesh

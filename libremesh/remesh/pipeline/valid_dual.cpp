@@ -13,7 +13,7 @@
 #include "remesh/guarantee/boundary_cells.h"
 #include "remesh/guarantee/closed_ball.h"
 #include "remesh/guarantee/farthest_corner.h"
-#include "remesh/pipeline/stage_clock.h"
+#include "remesh/pipeline/stage_context.h"
 #include "remesh/simplify/thin_patch.h"
 #include "remesh/topology/topology.h"
 
@@ -41,19 +41,19 @@ constexpr const char* corner_of_boundary = "a corner of the boundary";
 
 class ValidDualBuilder {
 public:
-    ValidDualBuilder(const Ground& ground, std::vector<SurfacePoint>& sites,
+    ValidDualBuilder(const DualInput& input, std::vector<SurfacePoint>& sites,
                      std::vector<bool>& is_thinned, const RemeshOptions& options,
                      RemeshResult& result)
-        : ground_(ground),
-          surface_(ground.surface),
+        : input_(input),
+          surface_(input.surface),
           sites_(sites),
           options_(options),
           result_(result),
           given_(sites),
           most_sites_(max_growth * sites.size() + always_allowed),
-          progress_(ground.components.size()),
+          progress_(input.components.size()),
           has_failed_(is_thinned) {
-        has_failed_.resize(ground.components.size(), false);
+        has_failed_.resize(input.components.size(), false);
     }
 
     ValidDual run() {
@@ -80,7 +80,7 @@ private:
             build_diagram();
             BoundaryFixes fixes;
             if (options_.boundary == Boundary::Keep) {
-                fixes = find_boundary_fixes(surface_, dual_.diagram, sites_, ground_.corners);
+                fixes = find_boundary_fixes(surface_, dual_.diagram, sites_, input_.corners);
             }
             std::vector<ClosedBallViolation> violations = find_violations();
             move_empty_sites(fixes);
@@ -142,9 +142,9 @@ private:
                                                .lambda = options_.lambda,
                                                .num_threads = options_.num_threads,
                                                .progress = progress_of(Stage::Propagate, options_)};
-        if (!ground_.layout) return agvd::propagate(surface_, sites_, options);
-        agvd::SurfaceLayout layout = *std::move(ground_.layout);
-        ground_.layout.reset();
+        if (!input_.layout) return agvd::propagate(surface_, sites_, options);
+        agvd::SurfaceLayout layout = *std::move(input_.layout);
+        input_.layout.reset();
         return agvd::propagate(surface_, std::move(layout), sites_, options);
     }
 
@@ -177,7 +177,7 @@ private:
         std::vector<ClosedBallViolation> missing;
         std::vector<bool> is_told = has_failed_;
         for (Index f = 0; f < surface_.num_faces(); ++f) {
-            const Index component = ground_.component[f];
+            const Index component = input_.component[f];
             const Index v = surface_.mesh.triangles[f][0];
             if (dual_.diagram.nearest_site[v].is_valid() || is_told[component]) continue;
             is_told[component] = true;
@@ -276,9 +276,9 @@ private:
             if (const auto v = agvd::vertex_of(surface_, site)) has_site[*v] = true;
         }
         first_new_ = sites_.size();
-        for (const Index v : ground_.corners) {
+        for (const Index v : input_.corners) {
             const Index h = surface_.outgoing[v];
-            if (has_site[v] || !progress_[ground_.component[Surface::face(h)]].gave_up) continue;
+            if (has_site[v] || !progress_[input_.component[Surface::face(h)]].gave_up) continue;
             SurfacePoint corner{agvd::FaceId(Surface::face(h)), {0, 0, 0}};
             corner.barycentric[h % 3] = 1;
             add(corner, corner_of_boundary);
@@ -287,7 +287,7 @@ private:
     }
 
     [[nodiscard]] Index component_of(const SurfacePoint& point) const {
-        return ground_.component[point.face.value()];
+        return input_.component[point.face.value()];
     }
     [[nodiscard]] Index component_of(const ClosedBallViolation& violation) const {
         return component_of(violation.site.is_valid() ? sites_[violation.site.value()]
@@ -296,7 +296,7 @@ private:
 
     // Vertices in the order of their sites, then those of thinned components.
     void build_mesh() {
-        std::vector<std::vector<Triangle>> triangles(ground_.components.size());
+        std::vector<std::vector<Triangle>> triangles(input_.components.size());
         const agvd::Progress progress = progress_of(Stage::Dual, options_);
         for (const Triangle& t :
              build_dual(surface_, dual_.diagram, agvd::within(progress, 0, 0))) {
@@ -304,13 +304,13 @@ private:
         }
         const auto part_of = [&](Index site) { return component_of(sites_[site]); };
         const auto chain =
-            chain_by_part(ground_.chain, static_cast<Index>(ground_.components.size()), part_of);
+            chain_by_part(input_.chain, static_cast<Index>(input_.components.size()), part_of);
         std::vector<bool> has_vertex(sites_.size(), false);
         for (Index c = 0; c < triangles.size(); ++c) {
             if (!chain[c].empty()) close_rim(chain[c], triangles[c]);
             has_failed_[c] =
-                has_failed_[c] || !has_right_topology(triangles[c], ground_.components[c]);
-            if (!ground_.chain.empty()) {
+                has_failed_[c] || !has_right_topology(triangles[c], input_.components[c]);
+            if (!input_.chain.empty()) {
                 has_failed_[c] = has_failed_[c] || rim_of(triangles[c]) != chain[c];
             }
             if (has_failed_[c]) continue;
@@ -364,7 +364,7 @@ private:
     void append_thinned(Index component) {
         std::vector<Index> faces;
         for (Index f = 0; f < surface_.num_faces(); ++f) {
-            if (ground_.component[f] == component) faces.push_back(f);
+            if (input_.component[f] == component) faces.push_back(f);
         }
         const auto first = static_cast<Index>(dual_.mesh.points.size());
         std::vector<SurfacePoint> points;
@@ -373,8 +373,8 @@ private:
             points.push_back(sites_[s]);
             dual_.site.push_back(s);
         }
-        const agvd::ThinnedMesh part = ground_.chain.empty() ? agvd::thin(surface_, faces, points)
-                                                             : thin_patch(surface_, faces, points);
+        const agvd::ThinnedMesh part = input_.chain.empty() ? agvd::thin(surface_, faces, points)
+                                                            : thin_patch(surface_, faces, points);
         points.insert(points.end(), part.extra.begin(), part.extra.end());
         dual_.mesh.points.insert(dual_.mesh.points.end(), points.begin(), points.end());
         dual_.site.resize(dual_.mesh.points.size(), no_index);
@@ -383,7 +383,7 @@ private:
         }
     }
 
-    const Ground& ground_;
+    const DualInput& input_;
     const Surface& surface_;
     std::vector<SurfacePoint>& sites_;
     const RemeshOptions& options_;
@@ -399,10 +399,10 @@ private:
 
 }  // namespace
 
-ValidDual build_valid_dual(const Ground& ground, std::vector<SurfacePoint>& sites,
+ValidDual build_valid_dual(const DualInput& input, std::vector<SurfacePoint>& sites,
                            std::vector<bool>& is_thinned, const RemeshOptions& options,
                            RemeshResult& result) {
-    return ValidDualBuilder(ground, sites, is_thinned, options, result).run();
+    return ValidDualBuilder(input, sites, is_thinned, options, result).run();
 }
 
 }  // namespace remesh::detail

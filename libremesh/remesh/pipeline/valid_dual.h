@@ -12,8 +12,8 @@
 
 namespace remesh::detail {
 
-//! The surface with all that is worth keeping between propagations.
-struct Ground {
+//! The surface that cells lie on, and what the dual must respect.
+struct DualInput {
     const agvd::Surface& surface;  //!< That of the intrinsic triangulation.
     //! SurfaceLayout(surface) or none: the first propagation uses it up, and others make their own,
     //! which takes a tenth of a round. It is larger than the surface.
@@ -44,12 +44,12 @@ struct ValidDual {
 //! instead (agvd::thin), those added in vain are gone then. Whatever the sites, each component of
 //! the result is an oriented manifold of its topology.
 //!
-//! \param sites   on ground.surface; changed: moved, and new ones at the end.
+//! \param sites   on input.surface; changed: moved, and new ones at the end.
 //! \param is_thinned  by component, empty at first: which are thinned from the start, since cells
 //!                    have failed there before; those that fail now are added.
 //! \param result  its counts and times are added to.
 //! Cost: a propagation and a diagram per round.
-[[nodiscard]] ValidDual build_valid_dual(const Ground& ground,
+[[nodiscard]] ValidDual build_valid_dual(const DualInput& input,
                                          std::vector<agvd::SurfacePoint>& sites,
                                          std::vector<bool>& is_thinned,
                                          const RemeshOptions& options, RemeshResult& result);

@@ -1,5 +1,6 @@
 //! \file
-//! Where the time of a run goes. Private to the pipeline.
+//! What every stage gets besides its data, and where the time of a run goes. Private to the
+//! pipeline.
 #pragma once
 
 #include <chrono>
@@ -8,6 +9,12 @@
 #include "remesh/pipeline/remesh_result.h"
 
 namespace remesh::detail {
+
+//! Refers to values that the caller of the stage owns.
+struct StageContext {
+    const RemeshOptions& options;  //!< Checked.
+    RemeshResult& result;  //!< The stage adds its counts and times; nothing reads them back.
+};
 
 //! Adds the time until it ends to a stage of the result.
 class StageClock {
@@ -28,6 +35,11 @@ private:
     RemeshResult& result_;
     std::chrono::steady_clock::time_point start_;
 };
+
+//! Whether sites move, and vertices after them.
+[[nodiscard]] inline bool is_relaxed(const RemeshOptions& options) {
+    return options.relax_steps > 0 && !(options.sites && options.keep_sites);
+}
 
 //! The caller's callback as one of a single stage; empty if there is none.
 [[nodiscard]] inline agvd::Progress progress_of(Stage stage, const RemeshOptions& options) {

@@ -1,0 +1,305 @@
+#include "remesh/pipeline/build_mesh.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "agvd/mesh/point_faces.h"
+#include "remesh/features/weld_sheets.h"
+#include "remesh/guarantee/farthest_corner.h"
+#include "remesh/pipeline/place_vertices.h"
+#include "remesh/pipeline/vertex_count.h"
+
+namespace remesh::detail {
+namespace {
+
+using agvd::Index;
+using agvd::no_index;
+using agvd::SurfacePoint;
+using agvd::Vec3;
+
+// Sites of one round: the placed ones, and those that repair has added.
+struct RoundSites {
+    std::vector<SurfacePoint> on_surface;  // The cleaned one.
+    std::vector<SurfacePoint> on_base;     // The same sites.
+    std::vector<bool> is_wanted;           // Stays where vertices are taken away; may be shorter.
+};
+
+enum class Fault { None, WrongCurves, TooManyVertices };
+
+// The mesh of one round.
+struct Candidate {
+    Fault fault = Fault::None;
+    ValidDual dual;
+    PlacedDual placed;
+    CrossingFaces crossings;
+    Index num_removed = 0;
+    DelaunayCounts flips;
+};
+
+class MeshBuilder {
+public:
+    MeshBuilder(Domain& domain, PlacedSites placed, const StageContext& context)
+        : domain_(domain),
+          placed_(std::move(placed)),
+          context_(context),
+          finder_(domain, context),
+          layout_(std::move(domain.prepared.layout)),
+          is_corner_(domain.base().num_vertices(), false) {
+        for (const Index v : placed_.corners) is_corner_[v] = true;
+        sites_.on_surface = placed_.sites;
+        first_on_base_ = domain.prepared.base.to_intrinsic(placed_.sites);
+        sites_.on_base = first_on_base_;
+    }
+
+    BuiltMesh run(int most_mends) {
+        for (int mends = 0;; ++mends) {
+            Candidate candidate = build_candidate();
+            if (candidate.fault != Fault::None) {
+                if (mends == 0) fail(candidate);
+                break;
+            }
+            const CrossingFaces crossings = std::move(candidate.crossings);
+            const ValidDual dual = keep_if_better(std::move(candidate), crossings);
+            if (!crossings || crossings->size() <= context_.result.input_self_intersections ||
+                mends == most_mends || !add_sites_at(*crossings, dual)) {
+                break;
+            }
+        }
+        mend();
+        return std::move(best_);
+    }
+
+private:
+    Candidate build_candidate() {
+        Candidate candidate;
+        ValidDual& dual = candidate.dual;
+        dual = build_cells();
+        if (domain_.plan && !has_chain(dual, placed_.chain)) {
+            candidate.fault = Fault::WrongCurves;
+            return candidate;
+        }
+        if (!target_) target_ = target_count(domain_, placed_, dual.diagram, context_);
+        candidate.num_removed = reduce(dual);
+        if (dual.mesh.points.size() > *target_ &&
+            context_.options.vertex_count == VertexCount::Exact) {
+            candidate.fault = Fault::TooManyVertices;
+            return candidate;
+        }
+        candidate.flips = flip_edges(dual);
+        if (domain_.plan) candidate.placed.patches = join_patches(dual, placed_.curves);
+        candidate.placed.mesh =
+            place_vertices(domain_, placed_.curves, dual, places_of(dual),
+                           domain_.plan ? &*candidate.placed.patches : nullptr, context_);
+        candidate.crossings =
+            unfit_crossings(finder_, placed_.curves, candidate.placed, context_.result);
+        return candidate;
+    }
+
+    ValidDual build_cells() {
+        RemeshResult& result = context_.result;
+        const DualInput input{domain_.base(),    layout_,         domain_.parts->components,
+                              domain_.component, placed_.corners, placed_.chain};
+        ValidDual dual =
+            build_valid_dual(input, sites_.on_base, is_thinned_, cell_options(), context_.result);
+        carry_sites_back();
+        if (domain_.plan) {
+            result.features.thinned_patches = std::exchange(result.components_from_faces, 0);
+        }
+        return dual;
+    }
+
+    // Narrow parts between curves are thinned at once: sites added there would be of no use.
+    [[nodiscard]] RemeshOptions cell_options() const {
+        RemeshOptions options = context_.options;
+        if (!domain_.plan) return options;
+        options.boundary = Boundary::Free;
+        options.repair_rounds = 0;
+        return options;
+    }
+
+    // Repair has moved and added sites on the base.
+    void carry_sites_back() {
+        std::vector<SurfacePoint>& sites = sites_.on_surface;
+        sites.resize(first_on_base_.size());
+        for (Index s = 0; s < sites_.on_base.size(); ++s) {
+            const SurfacePoint& site = sites_.on_base[s];
+            if (s >= sites.size()) {
+                sites.push_back(domain_.prepared.base.to_input(site));
+            } else if (site != first_on_base_[s]) {
+                sites[s] = domain_.prepared.base.to_input(site);
+            }
+        }
+    }
+
+    // Where the vertices of the dual lie on the cleaned surface.
+    [[nodiscard]] std::vector<SurfacePoint> places_of(const ValidDual& dual) const {
+        std::vector<SurfacePoint> places;
+        places.reserve(dual.site.size());
+        for (Index v = 0; v < dual.site.size(); ++v) {
+            const Index site = dual.site[v];
+            places.push_back(site != no_index
+                                 ? sites_.on_surface[site]
+                                 : domain_.prepared.base.to_input(dual.mesh.points[v]));
+        }
+        return places;
+    }
+
+    [[nodiscard]] std::vector<Vec3> positions_of_vertices(const ValidDual& dual) const {
+        std::vector<Vec3> positions;
+        positions.reserve(dual.site.size());
+        for (const SurfacePoint& place : places_of(dual)) {
+            positions.push_back(position(domain_.whole->mesh.view(), place));
+        }
+        return positions;
+    }
+
+    // With VertexCount::Add only a thinned component has vertices to take away: it has more than
+    // it was to have sites.
+    Index reduce(ValidDual& dual) const {
+        const bool adds = context_.options.vertex_count == VertexCount::Add;
+        if (adds && context_.result.components_from_faces == 0) return 0;
+        const auto num_vertices = static_cast<Index>(dual.mesh.points.size());
+        const Index target = adds ? static_cast<Index>(sites_.on_base.size()) : *target_;
+        if (num_vertices <= target) return 0;
+        std::vector<std::uint8_t> keep(num_vertices, 0);
+        for (Index i = 0; i < num_vertices; ++i) {
+            const auto v = agvd::vertex_of(domain_.base(), dual.mesh.points[i]);
+            const Index site = dual.site[i];
+            const bool is_wanted =
+                site != no_index && site < sites_.is_wanted.size() && sites_.is_wanted[site];
+            keep[i] = (v && is_corner_[*v]) || site < placed_.curves.sites.size() || is_wanted;
+        }
+        return reduce_to(target, positions_of_vertices(dual), keep, dual, context_);
+    }
+
+    DelaunayCounts flip_edges(ValidDual& dual) const {
+        const auto& [options, result] = context_;
+        const StageClock clock(Stage::Delaunay, result);
+        const agvd::Progress progress = progress_of(Stage::Delaunay, options);
+        agvd::poll(progress, 0);
+        DelaunayResult made = make_delaunay(
+            domain_.base(), dual.mesh.points, positions_of_vertices(dual), dual.site, dual.diagram,
+            dual.mesh.triangles,
+            {.mode = options.delaunay, .num_threads = options.num_threads, .progress = progress});
+        agvd::poll(progress, 1);
+        dual.mesh.triangles = std::move(made.triangles);
+        return made.counts;
+    }
+
+    [[noreturn]] void fail(const Candidate& candidate) const {
+        if (domain_.plan) throw NetworkFailed{};
+        throw TooFewSamples{*target_, static_cast<Index>(candidate.dual.mesh.points.size())};
+    }
+
+    // \return the candidate's dual.
+    ValidDual keep_if_better(Candidate candidate, const CrossingFaces& crossings) {
+        const bool is_first = best_.mesh.triangles.empty();
+        if (!is_first && crossings && crossings->size() >= *best_.self_intersections) {
+            return std::move(candidate.dual);
+        }
+        const PlacedDual& placed = candidate.placed;
+        best_.num_wanted = *target_ - placed_.num_other_copies(domain_);
+        best_.mesh = whole_mesh(*domain_.whole, placed);
+        best_.sites = placed.mesh.points;
+        if (placed.patches) {
+            best_.sites = take(placed.mesh.points, placed.patches->glued.representative);
+            if (domain_.has_junctions()) {
+                best_.first_of_group = placed.patches->glued.first_of_group;
+            }
+            if (domain_.plan->given) order_as_given(candidate.dual, placed.patches->glued);
+        }
+        if (crossings) best_.self_intersections = static_cast<Index>(crossings->size());
+        context_.result.sites_removed = candidate.num_removed;
+        context_.result.delaunay = candidate.flips;
+        keep_thinned(candidate.dual, std::move(candidate.placed.mesh));
+        return std::move(candidate.dual);
+    }
+
+    // The caller's order of the sites, then vertices that repair has added; else those of curves
+    // come first.
+    void order_as_given(const ValidDual& dual, const GluedMesh& glued) {
+        const std::vector<Index>& number = domain_.plan->given->number;
+        std::vector<std::pair<Index, Index>> order;  // (number of the site, vertex)
+        for (Index v = 0; v < glued.representative.size(); ++v) {
+            const Index site = dual.site[glued.representative[v]];
+            order.emplace_back(site < number.size() ? number[site] : no_index, v);
+        }
+        std::sort(order.begin(), order.end());
+        std::vector<Index> before, after(order.size());
+        for (const auto& [site, v] : order) {
+            after[v] = static_cast<Index>(before.size());
+            before.push_back(v);
+        }
+        best_.mesh = {take(best_.mesh.positions, before),
+                      rename_vertices(best_.mesh.triangles, after)};
+        best_.sites = take(best_.sites, before);
+    }
+
+    void keep_thinned(const ValidDual& dual, PlacedMesh placed) {
+        thinned_.reset();
+        if (domain_.plan || context_.result.components_from_faces == 0 ||
+            !is_relaxed(context_.options)) {
+            return;
+        }
+        thinned_ = find_thinned_parts(domain_, dual, std::move(placed), is_thinned_, is_corner_);
+    }
+
+    // New sites where the cells of the faces' corners reach farthest; these cells' sites then
+    // stay. False if there is no such place.
+    bool add_sites_at(const std::vector<std::pair<Index, Index>>& crossings,
+                      const ValidDual& dual) {
+        const std::vector<Index> farthest = farthest_corners(dual.diagram);
+        std::vector<Index> corners;
+        sites_.is_wanted.resize(sites_.on_base.size(), false);
+        for (const auto& [f, g] : crossings) {
+            for (const Index face : {f, g}) {
+                for (const Index v : dual.mesh.triangles[face]) {
+                    const Index site = dual.site[v];
+                    if (site == no_index || farthest[site] == no_index) continue;
+                    corners.push_back(farthest[site]);
+                    sites_.is_wanted[site] = true;
+                }
+            }
+        }
+        if (corners.empty()) return false;
+        std::sort(corners.begin(), corners.end());
+        corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
+        for (const Index v : corners) sites_.on_base.push_back(dual.diagram.vertices[v]);
+        sites_.is_wanted.resize(sites_.on_base.size(), true);
+        context_.result.sites_added += static_cast<Index>(corners.size());
+        context_.result.added_because["self-intersects"] += static_cast<Index>(corners.size());
+        return true;
+    }
+
+    void mend() {
+        if (!thinned_) return;
+        std::optional<MendedMesh> mended = mend_thinned(
+            domain_, *std::move(thinned_), best_.self_intersections, finder_, context_);
+        if (!mended) return;
+        best_.mesh = whole_mesh(*domain_.whole, {mended->mesh, {}});
+        best_.sites = std::move(mended->mesh.points);
+        best_.self_intersections = mended->self_intersections;
+    }
+
+    Domain& domain_;
+    const PlacedSites placed_;
+    const StageContext& context_;
+    CrossingFinder finder_;
+    std::optional<agvd::SurfaceLayout> layout_;
+    std::vector<bool> is_corner_;  // #V of the base.
+    std::vector<SurfacePoint> first_on_base_;
+    RoundSites sites_;
+    std::vector<bool> is_thinned_;  // By component.
+    std::optional<Index> target_;   // Vertices of the dual.
+    BuiltMesh best_;
+    std::optional<ThinnedParts> thinned_;  // Of the best one.
+};
+
+}  // namespace
+
+BuiltMesh build_mesh(Domain& domain, PlacedSites sites, int most_mends,
+                     const StageContext& context) {
+    return MeshBuilder(domain, std::move(sites), context).run(most_mends);
+}
+
+}  // namespace remesh::detail

@@ -1,0 +1,36 @@
+//! \file
+//! From sites to a mesh: cells, dual, the exact count, flips to Delaunay, positions.
+#pragma once
+
+#include "remesh/pipeline/thinned_parts.h"
+
+namespace remesh::detail {
+
+//! Thrown where the topology of the input lets no further vertex go.
+struct TooFewSamples {
+    agvd::Index asked;
+    agvd::Index reached;  //!< Vertices that are left.
+};
+
+//! Thrown where the curves of the network could not all be reproduced.
+struct NetworkFailed {};
+
+struct BuiltMesh {
+    agvd::TriangleMesh mesh;
+    std::vector<agvd::SurfacePoint> sites;          //!< #V, on the cleaned surface.
+    std::vector<agvd::Index> first_of_group;        //!< #V: see GluedMesh; empty without junctions.
+    agvd::Index num_wanted = 0;                     //!< Vertices that were asked for.
+    std::optional<agvd::Index> self_intersections;  //!< Pairs of faces; unset without CGAL.
+};
+
+//! Builds the mesh of the sites. Where it self-intersects more often than the input, it is built
+//! again with more sites there, and the best one counts. Thinned components are mended last.
+//!
+//! \param domain      its layout is used up.
+//! \param most_mends  rounds of new sites where the mesh self-intersects.
+//! \throw TooFewSamples, or NetworkFailed if there is a plan.
+//! Cost: a propagation and a diagram for each round of build_valid_dual.
+[[nodiscard]] BuiltMesh build_mesh(Domain& domain, PlacedSites sites, int most_mends,
+                                   const StageContext& context);
+
+}  // namespace remesh::detail

@@ -1,0 +1,49 @@
+#include "remesh/pipeline/check_result.h"
+
+#include <stdexcept>
+
+#include "remesh/features/weld_sheets.h"
+
+namespace remesh::detail {
+namespace {
+
+using agvd::Index;
+
+// More than two faces meet nowhere but along the junctions.
+void weld_junctions(const CurveNetwork& network, std::span<const ChainEdge> chain, BuiltMesh& built,
+                    RemeshResult& result) {
+    built.sites = take(built.sites, weld_sheets(built.first_of_group, built.mesh));
+    result.junctions.welded_edges = num_branched_edges(built.mesh.triangles);
+    Index num_wanted = 0;
+    for (const ChainEdge& edge : chain) {
+        const bool is_branched = network.curves[edge.curve].sides.size() > 2;
+        if (is_branched && edge.side == 0) ++num_wanted;
+    }
+    if (result.junctions.welded_edges != num_wanted) throw NetworkFailed{};
+}
+
+}  // namespace
+
+void check_result(const CleanedInput& cleaned, const Domain& domain,
+                  std::span<const ChainEdge> chain, BuiltMesh& built, const StageContext& context) {
+    const auto& [options, result] = context;
+    const StageClock clock(Stage::Check, result);
+    const agvd::Progress progress = progress_of(Stage::Check, options);
+    agvd::poll(progress, 1);
+    const Topology topology = analyze_topology(built.mesh.view(), agvd::within(progress, 1, 1));
+    if (!topology.is_manifold || !topology.is_oriented ||
+        !same_topology(topology, cleaned.topology)) {
+        if (domain.plan) throw NetworkFailed{};
+        throw std::logic_error(
+            "the result lost the topology of the input; please report this with the mesh");
+    }
+    if (domain.has_junctions() && options.junctions == Junctions::Keep) {
+        weld_junctions(domain.plan->network.network, chain, built, result);
+    }
+    if (domain.plan && options.vertex_count == VertexCount::Exact &&
+        built.mesh.positions.size() != built.num_wanted) {
+        throw NetworkFailed{};
+    }
+}
+
+}  // namespace remesh::detail

@@ -1,0 +1,59 @@
+#include "remesh/pipeline/cleaned_input.h"
+
+#include <utility>
+
+#include "remesh/clean/drop_components.h"
+
+namespace remesh::detail {
+namespace {
+
+// Sites, edges and labels are given in terms of the caller's mesh; later stages carry them over.
+bool refers_to_input(const RemeshOptions& options) {
+    return options.sites || !options.feature_edges.empty() || !options.face_labels.empty();
+}
+
+Topology topology_of(const CleanResult& clean, const agvd::Progress& progress) {
+    return clean.connectivity.twin.empty()
+               ? analyze_topology(clean.mesh.view(), progress)
+               : analyze_topology(clean.mesh.view(), clean.connectivity, progress);
+}
+
+}  // namespace
+
+CleanedInput clean_stage(const InputMesh& input, const StageContext& context) {
+    const auto& [options, result] = context;
+    const StageClock clock(Stage::Clean, result);
+    const agvd::Progress progress = progress_of(Stage::Clean, options);
+    agvd::poll(progress, 0);
+    CleanResult clean = clean_input(input.view, options.num_threads, agvd::within(progress, 0, 0));
+    result.cleaned = clean.counts;
+    const agvd::Progress half = agvd::within(progress, 0.5, 0.5);
+    CleanedInput cleaned{.given = input.view};
+    cleaned.topology = topology_of(clean, half);
+    if (options.drop_components > 0) {
+        result.components_dropped =
+            drop_components(clean, cleaned.topology, options.drop_components);
+        if (result.components_dropped > 0) cleaned.topology = topology_of(clean, half);
+    }
+    const bool is_unchanged = !clean.connectivity.twin.empty();
+    if (!is_unchanged || refers_to_input(options)) {
+        cleaned.vertex_origin = std::move(clean.vertex_origin);
+        cleaned.face_origin = std::move(clean.face_origin);
+    } else {
+        clean.vertex_origin = std::vector<agvd::Index>();
+        clean.face_origin = std::vector<agvd::Index>();
+        if (input.owned != nullptr) {
+            *input.owned = {};
+            cleaned.given = {};
+        }
+    }
+    agvd::poll(progress, 1);
+    const agvd::Progress done = agvd::within(progress, 1, 1);
+    cleaned.surface =
+        is_unchanged ? agvd::build_surface(std::move(clean.mesh), std::move(clean.connectivity),
+                                           options.num_threads, done)
+                     : agvd::build_surface(clean.mesh.view(), options.num_threads, done);
+    return cleaned;
+}
+
+}  // namespace remesh::detail

@@ -1,0 +1,74 @@
+#include "remesh/pipeline/crossings.h"
+
+#include "remesh/features/weld_sheets.h"
+#include "remesh/quality/self_intersections.h"
+
+namespace remesh::detail {
+namespace {
+
+using agvd::Index;
+
+// Rounds of putting vertices back onto the surface.
+constexpr int max_unfits = 4;
+
+CrossingFaces find_in(const agvd::MeshView& mesh, const RemeshOptions& options) {
+    return find_self_intersections(mesh, options.num_threads, progress_of(Stage::Check, options));
+}
+
+// Copies of a vertex stay together.
+void unfit(Index v, const CurveSites& curves, PlacedDual& placed) {
+    placed.mesh.offsets[v].setZero();
+    if (!placed.patches) return;
+    const std::vector<Index>& group = placed.patches->group;
+    if (group[v] >= curves.num_groups()) return;
+    for (Index other = 0; other < group.size(); ++other) {
+        if (group[other] == group[v]) placed.mesh.offsets[other].setZero();
+    }
+}
+
+}  // namespace
+
+CrossingFaces CrossingFinder::find(const PlacedDual& placed) {
+    const StageClock clock(Stage::Check, context_.result);
+    agvd::poll(progress_of(Stage::Check, context_.options), 0);
+    CrossingFaces found = find_in(welded_mesh(domain_, placed).view(), context_.options);
+    if (found && !found->empty() && !has_counted_input_) count_in_input();
+    return found;
+}
+
+void CrossingFinder::count_in_input() {
+    const agvd::TriangleMesh& input = domain_.whole->mesh;
+    std::vector<agvd::Triangle> welded;
+    if (domain_.has_junctions()) {
+        welded = rename_vertices(input.triangles, first_copies(domain_.plan->network.junctions,
+                                                               domain_.whole->num_vertices()));
+    }
+    const agvd::MeshView mesh{input.positions, domain_.has_junctions() ? welded : input.triangles};
+    context_.result.input_self_intersections =
+        static_cast<Index>(find_in(mesh, context_.options)->size());
+    has_counted_input_ = true;
+}
+
+CrossingFaces unfit_crossings(CrossingFinder& finder, const CurveSites& curves, PlacedDual& placed,
+                              RemeshResult& result) {
+    CrossingFaces crossings = finder.find(placed);
+    result.unfitted_vertices = 0;
+    for (int round = 0; round < max_unfits && crossings && !crossings->empty(); ++round) {
+        bool is_changed = false;
+        for (const auto& [f, g] : *crossings) {
+            for (const Index face : {f, g}) {
+                for (const Index v : placed.mesh.triangles[face]) {
+                    if (placed.mesh.offsets[v].isZero(0)) continue;
+                    unfit(v, curves, placed);
+                    ++result.unfitted_vertices;
+                    is_changed = true;
+                }
+            }
+        }
+        if (!is_changed) break;
+        crossings = finder.find(placed);
+    }
+    return crossings;
+}
+
+}  // namespace remesh::detail

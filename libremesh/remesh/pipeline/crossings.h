@@ -1,0 +1,36 @@
+//! \file
+//! Where the result self-intersects.
+#pragma once
+
+#include "remesh/pipeline/whole_mesh.h"
+
+namespace remesh::detail {
+
+//! Pairs of faces that intersect; nothing without CGAL.
+using CrossingFaces = std::optional<std::vector<std::pair<agvd::Index, agvd::Index>>>;
+
+//! Finds self-intersections, and counts those of the input as soon as a result has any.
+class CrossingFinder {
+public:
+    //! \param domain, context  outlive this.
+    CrossingFinder(const Domain& domain, const StageContext& context)
+        : domain_(domain), context_(context) {}
+
+    //! Faces of placed.mesh. Sheets that meet at a junction do not count.
+    //! Cost: that of find_self_intersections.
+    [[nodiscard]] CrossingFaces find(const PlacedDual& placed);
+
+private:
+    void count_in_input();
+
+    const Domain& domain_;
+    const StageContext& context_;
+    bool has_counted_input_ = false;
+};
+
+//! Puts vertices back onto the surface where triangles intersect, a few rounds.
+//! \return what still intersects.
+CrossingFaces unfit_crossings(CrossingFinder& finder, const CurveSites& curves, PlacedDual& placed,
+                              RemeshResult& result);
+
+}  // namespace remesh::detail

@@ -1,0 +1,156 @@
+#include "remesh/pipeline/curves.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "agvd/mesh/distinct_points.h"
+#include "remesh/clean/carry_edges.h"
+#include "remesh/clean/carry_sites.h"
+#include "remesh/relax/prepared_surface.h"
+#include "remesh/sampling/given_network.h"
+
+namespace remesh::detail {
+namespace {
+
+using agvd::Index;
+using agvd::Surface;
+using agvd::SurfacePoint;
+
+// Creases are looked for at the spacing of so many sites where there are fewer: small parts are to
+// keep theirs, and what the sites are too few for is told.
+constexpr std::size_t least_scale = 300;
+// In spacings. Shorter ones are specks on a scan: cells would have to wind around them, and five of
+// them on nefertiti cost .013 of the mean quality.
+constexpr double least_junction = 2;
+// In spacings: given sites this near to a curve go onto it where they are relaxed. Vertices of an
+// earlier result, which were fitted, stand up to .05 off.
+constexpr double on_curve = 0.1;
+
+bool wants_creases(const RemeshOptions& options) {
+    return options.features != Features::Off || !options.feature_edges.empty() ||
+           !options.face_labels.empty();
+}
+
+bool wants_junctions(const RemeshOptions& options) {
+    return !options.sites && options.boundary == Boundary::Keep;
+}
+
+std::vector<std::uint8_t> find_all_creases(const CleanedInput& cleaned, double spacing,
+                                           const RemeshOptions& options,
+                                           const agvd::Progress& progress) {
+    const Surface& surface = cleaned.surface;
+    std::vector<std::uint8_t> is_crease(surface.num_edges(), 0);
+    if (options.features != Features::Off) {
+        is_crease =
+            find_creases(surface, {.angle = options.feature_angle,
+                                   .spacing = std::min(spacing, mean_spacing(surface, least_scale)),
+                                   .is_automatic = options.features == Features::Auto,
+                                   .num_threads = options.num_threads,
+                                   .progress = progress});
+    }
+    const auto add = [&](const std::vector<std::uint8_t>& is_given) {
+        for (std::size_t e = 0; e < is_given.size(); ++e) is_crease[e] |= is_given[e];
+    };
+    if (!options.feature_edges.empty()) {
+        add(carry_edges(options.feature_edges, cleaned.given,
+                        {surface.mesh.view(), cleaned.face_origin}, surface));
+    }
+    if (!options.face_labels.empty()) {
+        add(find_label_borders(options.face_labels, cleaned.face_origin, surface));
+    }
+    return is_crease;
+}
+
+std::pair<NetworkPlan, GivenSites> plan_with_given(const CleanedInput& cleaned,
+                                                   std::vector<std::uint8_t> is_crease,
+                                                   double drop_share, double spacing,
+                                                   const StageContext& context) {
+    const auto& [options, result] = context;
+    const agvd::Progress progress = progress_of(Stage::Clean, options);
+    const std::vector<SurfacePoint> sites = to_cleaned(
+        *options.sites, cleaned.given, {cleaned.surface.mesh.view(), cleaned.face_origin});
+    GivenNetwork given =
+        plan_given_network(cleaned.surface, std::move(is_crease),
+                           agvd::points_of(sites, agvd::distinct_points(cleaned.surface, sites)),
+                           {.spacing = spacing,
+                            .tolerance = is_relaxed(options) ? on_curve : site_rounding,
+                            .drop_share = drop_share,
+                            .num_threads = options.num_threads,
+                            .progress = agvd::within(progress, 1, 1)});
+    result.features.uncarried_curves = given.dropped_curves;
+    GivenSites sorted{std::move(given.curves), std::move(given.inner), {}};
+    for (const Index group : groups_of_copies(sorted.on_curves)) {
+        sorted.number.push_back(given.of_group[group]);
+    }
+    sorted.number.insert(sorted.number.end(), given.of_inner.begin(), given.of_inner.end());
+    return {std::move(given.plan), std::move(sorted)};
+}
+
+void count_plan(const NetworkPlan& plan, RemeshResult& result) {
+    FeatureCounts& counts = result.features;
+    counts.curves = static_cast<Index>(plan.network.curves.size());
+    counts.nodes = static_cast<Index>(plan.network.nodes.size());
+    counts.length = plan.length;
+    counts.dropped_length = plan.dropped_length;
+    counts.samples_for_all = plan.sites_for_all;
+    result.junctions.samples_for_all = plan.sites_for_junctions;
+    if (plan.network.curves.empty()) return;
+    result.junctions.apart_edges -= static_cast<Index>(plan.junctions.edges.size());
+    result.junctions.curves =
+        static_cast<Index>(std::count_if(plan.network.curves.begin(), plan.network.curves.end(),
+                                         [](const Curve& curve) { return curve.is_junction(); }));
+}
+
+}  // namespace
+
+FoundCurves find_curves(const CleanedInput& cleaned, double spacing, const StageContext& context) {
+    const auto& [options, result] = context;
+    const StageClock clock(Stage::Clean, result);
+    const agvd::Progress progress = progress_of(Stage::Clean, options);
+    FoundCurves found;
+    found.junctions = find_junctions(cleaned.surface, cleaned.vertex_origin);
+    found.junctions.in_result = options.junctions;
+    result.junctions.edges = static_cast<Index>(found.junctions.edges.size());
+    if (!wants_junctions(options)) {
+        found.junctions = {};
+    } else if (options.junctions == Junctions::Apart) {
+        drop_short_junctions(cleaned.surface, least_junction * spacing, found.junctions);
+    }
+    if (wants_creases(options)) {
+        found.is_crease = find_all_creases(cleaned, spacing, options, agvd::within(progress, 1, 1));
+    }
+    return found;
+}
+
+std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const FoundCurves& found,
+                                             const KeptCurves& kept, double spacing,
+                                             const StageContext& context) {
+    const auto& [options, result] = context;
+    const StageClock clock(Stage::Clean, result);
+    const agvd::Progress progress = progress_of(Stage::Clean, options);
+    const agvd::Progress done = agvd::within(progress, 1, 1);
+    result.junctions.apart_edges = result.junctions.edges;
+    JunctionSet junctions = kept.has_junctions ? found.junctions : JunctionSet{};
+    if (found.is_crease.empty() && junctions.empty()) return nullptr;
+    std::vector<std::uint8_t> is_crease = found.is_crease;
+    is_crease.resize(cleaned.surface.num_edges(), 0);
+    auto plan = std::make_unique<CurvePlan>();
+    if (options.sites) {
+        auto [network, given] =
+            plan_with_given(cleaned, std::move(is_crease), kept.drop_share, spacing, context);
+        plan->network = std::move(network);
+        plan->given = std::move(given);
+    } else {
+        plan->network =
+            plan_network(cleaned.surface, std::move(is_crease), options.num_samples,
+                         std::move(junctions), kept.drop_share, options.num_threads, done);
+    }
+    count_plan(plan->network, result);
+    if (plan->network.network.curves.empty()) return nullptr;
+    // Indices do not tell of a cut along one edge alone: both sides have the same ends.
+    const Surface& cut = plan->network.cut.surface;
+    plan->patches = analyze_topology(cut.mesh.view(), {cut.twin, cut.outgoing}, done);
+    return plan;
+}
+
+}  // namespace remesh::detail

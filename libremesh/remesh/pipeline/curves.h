@@ -1,0 +1,54 @@
+//! \file
+//! The curves that the result reproduces besides the boundary: creases and junctions.
+#pragma once
+
+#include <memory>
+
+#include "remesh/pipeline/cleaned_input.h"
+#include "remesh/sampling/network_plan.h"
+
+namespace remesh::detail {
+
+//! Creases and junctions of the cleaned surface.
+struct FoundCurves {
+    std::vector<std::uint8_t> is_crease;  //!< #E; empty: no creases are wanted.
+    JunctionSet junctions;
+
+    [[nodiscard]] bool empty() const { return is_crease.empty() && junctions.empty(); }
+};
+
+//! Which of them one attempt is to reproduce.
+struct KeptCurves {
+    bool has_junctions = true;
+    double drop_share = 0;  //!< In [0, 1], of the creases: see plan_network.
+};
+
+//! The caller's own sites, sorted into those on curves and the others.
+struct GivenSites {
+    CurveSites on_curves;
+    std::vector<agvd::SurfacePoint> inner;  //!< On the cleaned surface.
+    std::vector<agvd::Index> number;  //!< Of the sites' copies, then of inner ones: the caller's.
+};
+
+//! A network of curves and the surface cut along it.
+struct CurvePlan {
+    NetworkPlan network;              //!< Has curves.
+    Topology patches;                 //!< Of network.cut.surface.
+    std::optional<GivenSites> given;  //!< With the caller's sites only.
+
+    [[nodiscard]] bool has_junctions() const { return !network.junctions.empty(); }
+};
+
+//! \param spacing  mesh units: of the sites.
+//! Cost: O(#E) for each length at which creases are looked for.
+[[nodiscard]] FoundCurves find_curves(const CleanedInput& cleaned, double spacing,
+                                      const StageContext& context);
+
+//! \return null: no curve is to be reproduced but the boundary. Cost: see plan_network and
+//! plan_given_network.
+[[nodiscard]] std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned,
+                                                           const FoundCurves& found,
+                                                           const KeptCurves& kept, double spacing,
+                                                           const StageContext& context);
+
+}  // namespace remesh::detail

@@ -1,0 +1,43 @@
+#include "remesh/pipeline/domain.h"
+
+#include <utility>
+
+namespace remesh::detail {
+namespace {
+
+PreparedSurface prepare(CleanedInput& cleaned, const CurvePlan* plan, double spacing,
+                        int num_threads, const agvd::Progress& progress) {
+    if (plan != nullptr) return {plan->network.cut.surface, spacing, num_threads, progress};
+    return {std::move(cleaned.surface), spacing, num_threads, progress};
+}
+
+}  // namespace
+
+Domain prepare_domain(CleanedInput& cleaned, std::unique_ptr<const CurvePlan> plan, double spacing,
+                      const StageContext& context) {
+    const auto& [options, result] = context;
+    const StageClock clock(Stage::Clean, result);
+    const agvd::Progress all = progress_of(Stage::Clean, options);
+    const agvd::Progress progress = agvd::within(all, 1, 1);
+    const CurvePlan* cut = plan.get();
+    Domain domain{.plan = std::move(plan),
+                  .prepared = prepare(cleaned, cut, spacing, options.num_threads, progress),
+                  .whole = &cleaned.surface,
+                  .parts = &cleaned.topology,
+                  .spacing = spacing};
+    if (cut != nullptr) {
+        domain.parts = &cut->patches;
+    } else {
+        domain.whole = &domain.prepared.input();
+    }
+    domain.component = parts_of_base(domain.prepared.base, domain.parts->face_component, progress);
+    result.refined_faces = domain.base().num_faces();
+    return domain;
+}
+
+void give_back(Domain domain, CleanedInput& cleaned, const StageContext& context) {
+    if (domain.plan) return;
+    cleaned.surface = agvd::build_surface(domain.whole->mesh.view(), context.options.num_threads);
+}
+
+}  // namespace remesh::detail

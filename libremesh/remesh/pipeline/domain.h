@@ -1,0 +1,33 @@
+//! \file
+//! What sites live on.
+#pragma once
+
+#include "remesh/pipeline/curves.h"
+#include "remesh/relax/prepared_surface.h"
+
+namespace remesh::detail {
+
+//! The cleaned surface, cut along its curves, with what propagation runs on.
+struct Domain {
+    std::unique_ptr<const CurvePlan> plan;    //!< Null: the surface is not cut.
+    PreparedSurface prepared;                 //!< Of the surface, cut if there is a plan.
+    const agvd::Surface* whole;               //!< The cleaned surface, uncut.
+    const Topology* parts;                    //!< Of prepared.input().
+    std::vector<agvd::Index> component = {};  //!< #F of the base: index into parts->components.
+    double spacing = 0;                       //!< Mesh units: mean distance of the sites.
+
+    //! What propagation runs on.
+    [[nodiscard]] const agvd::Surface& base() const { return prepared.base.surface(); }
+    [[nodiscard]] bool has_junctions() const { return plan && plan->has_junctions(); }
+};
+
+//! \param cleaned  outlives the domain. Without a plan its surface moves into the domain (see
+//!                 give_back).
+//! Cost: that of PreparedSurface.
+[[nodiscard]] Domain prepare_domain(CleanedInput& cleaned, std::unique_ptr<const CurvePlan> plan,
+                                    double spacing, const StageContext& context);
+
+//! Ends a domain: `cleaned` has its surface again. Cost: O(#F) if it had moved.
+void give_back(Domain domain, CleanedInput& cleaned, const StageContext& context);
+
+}  // namespace remesh::detail

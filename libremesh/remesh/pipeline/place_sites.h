@@ -1,0 +1,26 @@
+//! \file
+//! Sites on the surface: sampled or given, and relaxed.
+#pragma once
+
+#include "remesh/pipeline/domain.h"
+
+namespace remesh::detail {
+
+struct PlacedSites {
+    //! On the cleaned surface, those of curves first: one copy for each side of the cut.
+    std::vector<agvd::SurfacePoint> sites;
+    CurveSites curves = {};                 //!< The first ones of the sites; empty without a plan.
+    std::vector<ChainEdge> chain = {};      //!< Edges along the curves that the dual must have.
+    std::vector<agvd::Index> corners = {};  //!< Boundary vertices that need a site, ascending.
+
+    //! Sites of curves that become no vertex of their own: copies but for the first.
+    [[nodiscard]] agvd::Index num_other_copies(const Domain& domain) const;
+};
+
+//! Samples sites or takes the caller's, and relaxes them if the options ask for it.
+//! \throw as sample_relaxed_sites, relax_sites and to_cleaned.
+//! Cost: see these.
+[[nodiscard]] PlacedSites place_sites(const CleanedInput& cleaned, const Domain& domain,
+                                      const StageContext& context);
+
+}  // namespace remesh::detail

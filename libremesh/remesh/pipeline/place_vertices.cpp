@@ -1,0 +1,68 @@
+#include "remesh/pipeline/place_vertices.h"
+
+#include <utility>
+
+#include "remesh/placement/fit_curves.h"
+#include "remesh/placement/fit_vertices.h"
+#include "remesh/placement/improve_shape.h"
+
+namespace remesh::detail {
+namespace {
+
+using agvd::Index;
+using agvd::no_index;
+using agvd::Vec3;
+
+// Of the spacing: lengths not above this are rounding.
+constexpr double rounding = 1e-10;
+
+// #V of the base: the vertex of the dual in whose cell each lies; no_index: none.
+std::vector<Index> nearest_vertices(const ValidDual& dual) {
+    std::vector<Index> vertex(dual.diagram.num_sites, no_index);
+    for (Index v = 0; v < dual.site.size(); ++v) {
+        if (dual.site[v] != no_index) vertex[dual.site[v]] = v;
+    }
+    std::vector<Index> nearest;
+    nearest.reserve(dual.diagram.nearest_site.size());
+    for (const agvd::SiteId site : dual.diagram.nearest_site) {
+        nearest.push_back(site.is_valid() ? vertex[site.value()] : no_index);
+    }
+    return nearest;
+}
+
+void fit_on_curves(const Domain& domain, const CurveSites& curves, const JoinedPatches& patches,
+                   Boundary boundary, PlacedMesh& placed) {
+    const std::vector<Vec3> offsets =
+        fit_curves(*domain.whole, domain.plan->network.network, curves, boundary);
+    for (Index v = 0; v < patches.group.size(); ++v) {
+        if (patches.group[v] < offsets.size()) placed.offsets[v] = offsets[patches.group[v]];
+    }
+}
+
+}  // namespace
+
+PlacedMesh place_vertices(const Domain& domain, const CurveSites& curves, const ValidDual& dual,
+                          std::vector<agvd::SurfacePoint> places, const JoinedPatches* patches,
+                          const StageContext& context) {
+    const auto& [options, result] = context;
+    const StageClock clock(Stage::Place, result);
+    const agvd::Progress progress = progress_of(Stage::Place, options);
+    agvd::poll(progress, 0);
+    PlacedMesh placed{std::move(places), {}, dual.mesh.triangles};
+    placed.offsets.assign(placed.points.size(), Vec3::Zero());
+    const std::vector<Index> nearest = nearest_vertices(dual);
+    if (options.fit.value_or(is_relaxed(options))) {
+        if (patches != nullptr) {
+            fit_on_curves(domain, curves, *patches, options.boundary, placed);
+        }
+        fit_vertices(domain.prepared, nearest, placed, options.num_threads,
+                     agvd::within(progress, 0, 0), domain.plan ? rounding * domain.spacing : 0);
+    }
+    if (is_relaxed(options)) {
+        improve_shape(domain.prepared, nearest, placed, agvd::within(progress, 0.5, 0.5));
+    }
+    agvd::poll(progress, 1);
+    return placed;
+}
+
+}  // namespace remesh::detail

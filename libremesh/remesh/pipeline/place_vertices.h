@@ -1,0 +1,20 @@
+//! \file
+//! The best position for each vertex of the dual.
+#pragma once
+
+#include "remesh/pipeline/whole_mesh.h"
+
+namespace remesh::detail {
+
+//! Fits the vertices to the surface and moves those of bad triangles, as far as the options ask
+//! for it.
+//!
+//! \param places   #V of the dual: where each vertex lies on the cleaned surface.
+//! \param patches  of the dual; null without a plan.
+//! Cost: that of fit_vertices and improve_shape.
+[[nodiscard]] PlacedMesh place_vertices(const Domain& domain, const CurveSites& curves,
+                                        const ValidDual& dual,
+                                        std::vector<agvd::SurfacePoint> places,
+                                        const JoinedPatches* patches, const StageContext& context);
+
+}  // namespace remesh::detail

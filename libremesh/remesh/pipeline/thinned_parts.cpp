@@ -1,0 +1,74 @@
+#include "remesh/pipeline/thinned_parts.h"
+
+#include <utility>
+
+#include "agvd/mesh/point_faces.h"
+#include "remesh/placement/mend_shape.h"
+
+namespace remesh::detail {
+namespace {
+
+using agvd::Index;
+
+// Rounds of mending; in the second fewer vertices may move.
+constexpr int max_rounds = 2;
+
+// \param numbers  of the mended mesh's vertices before mending.
+void fix_corners(const std::vector<std::pair<Index, Index>>& faces, const PlacedMesh& mended,
+                 const std::vector<Index>& numbers, std::vector<Mobility>& mobility) {
+    for (const auto& [f, g] : faces) {
+        for (const Index face : {f, g}) {
+            for (const Index v : mended.triangles[face]) {
+                if (numbers[v] < mobility.size()) mobility[numbers[v]] = Mobility::Fixed;
+            }
+        }
+    }
+}
+
+}  // namespace
+
+ThinnedParts find_thinned_parts(const Domain& domain, const ValidDual& dual, PlacedMesh placed,
+                                const std::vector<bool>& is_thinned,
+                                const std::vector<bool>& is_corner) {
+    ThinnedParts parts;
+    parts.hard = rim_of(placed.triangles);
+    parts.mobility.assign(placed.points.size(), Mobility::Free);
+    for (const auto& [from, to] : parts.hard) {
+        parts.mobility[from] = parts.mobility[to] = Mobility::Boundary;
+    }
+    for (Index i = 0; i < placed.points.size(); ++i) {
+        const agvd::SurfacePoint& point = dual.mesh.points[i];
+        const auto v = agvd::vertex_of(domain.base(), point);
+        if ((v && is_corner[*v]) || !is_thinned[domain.component[point.face.value()]]) {
+            parts.mobility[i] = Mobility::Fixed;
+        }
+    }
+    parts.mesh = std::move(placed);
+    return parts;
+}
+
+std::optional<MendedMesh> mend_thinned(const Domain& domain, ThinnedParts parts,
+                                       std::optional<Index> most_crossings, CrossingFinder& finder,
+                                       const StageContext& context) {
+    for (int round = 0; round < max_rounds; ++round) {
+        PlacedDual mended{parts.mesh, {}};
+        std::vector<Index> numbers;
+        {
+            const StageClock clock(Stage::Place, context.result);
+            const agvd::Progress progress = progress_of(Stage::Place, context.options);
+            numbers = mend_shape(domain.prepared.input(), parts.mobility, parts.hard, mended.mesh,
+                                 agvd::within(progress, 1, 1));
+        }
+        if (numbers.empty()) return std::nullopt;
+        const CrossingFaces crossings = finder.find(mended);
+        if (!crossings) return MendedMesh{std::move(mended.mesh), std::nullopt};
+        const auto num_crossings = static_cast<Index>(crossings->size());
+        if (num_crossings <= most_crossings) {
+            return MendedMesh{std::move(mended.mesh), num_crossings};
+        }
+        fix_corners(*crossings, mended.mesh, numbers, parts.mobility);
+    }
+    return std::nullopt;
+}
+
+}  // namespace remesh::detail

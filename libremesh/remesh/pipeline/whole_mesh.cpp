@@ -1,0 +1,66 @@
+#include "remesh/pipeline/whole_mesh.h"
+
+#include <algorithm>
+
+#include "remesh/features/weld_sheets.h"
+
+namespace remesh::detail {
+namespace {
+
+using agvd::Index;
+
+// The numbers of the copies on the curves, and later ones for the other vertices of the dual.
+std::vector<Index> numbers_of(const ValidDual& dual, std::span<const Index> of_copies, Index next) {
+    std::vector<Index> numbers;
+    numbers.reserve(dual.site.size());
+    for (const Index site : dual.site) {
+        numbers.push_back(site < of_copies.size() ? of_copies[site] : next++);
+    }
+    return numbers;
+}
+
+}  // namespace
+
+bool has_chain(const ValidDual& dual, std::span<const ChainEdge> chain) {
+    std::vector<DirectedEdge> rim = rim_of(dual.mesh.triangles), wanted = ends_of(chain);
+    for (auto& [from, to] : rim) {
+        from = dual.site[from];
+        to = dual.site[to];
+    }
+    std::sort(rim.begin(), rim.end());
+    std::sort(wanted.begin(), wanted.end());
+    return rim == wanted;
+}
+
+JoinedPatches join_patches(const ValidDual& dual, const CurveSites& curves) {
+    JoinedPatches patches;
+    patches.group = numbers_of(dual, groups_of_copies(curves), curves.num_groups());
+    patches.glued = glue(dual.mesh.triangles, patches.group,
+                         numbers_of(dual, curves.vertex, curves.num_vertices));
+    return patches;
+}
+
+std::vector<agvd::Vec3> positions_of(const agvd::Surface& whole, const PlacedMesh& mesh) {
+    std::vector<agvd::Vec3> positions;
+    positions.reserve(mesh.points.size());
+    for (Index v = 0; v < mesh.points.size(); ++v) {
+        positions.push_back(mesh.position(whole.mesh.view(), v));
+    }
+    return positions;
+}
+
+agvd::TriangleMesh whole_mesh(const agvd::Surface& whole, const PlacedDual& placed) {
+    std::vector<agvd::Vec3> positions = positions_of(whole, placed.mesh);
+    if (!placed.patches) return {std::move(positions), placed.mesh.triangles};
+    const GluedMesh& glued = placed.patches->glued;
+    return {take(positions, glued.first_of_group), glued.triangles};
+}
+
+agvd::TriangleMesh welded_mesh(const Domain& domain, const PlacedDual& placed) {
+    if (!domain.has_junctions()) return whole_mesh(*domain.whole, placed);
+    const GluedMesh& glued = placed.patches->glued;
+    return {positions_of(*domain.whole, placed.mesh),
+            rename_vertices(glued.triangles, glued.first_of_group)};
+}
+
+}  // namespace remesh::detail

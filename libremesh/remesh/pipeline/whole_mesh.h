@@ -1,0 +1,51 @@
+//! \file
+//! The patches between curves as one mesh.
+#pragma once
+
+#include "remesh/features/glue.h"
+#include "remesh/pipeline/place_sites.h"
+#include "remesh/pipeline/valid_dual.h"
+#include "remesh/placement/placed_mesh.h"
+
+namespace remesh::detail {
+
+//! How the patches of a dual hang together.
+struct JoinedPatches {
+    std::vector<agvd::Index> group;  //!< #V of the dual: equal for the copies of one vertex.
+    GluedMesh glued;
+};
+
+//! The vertices of a dual in space.
+struct PlacedDual {
+    PlacedMesh mesh;                       //!< On curves with a copy for each patch.
+    std::optional<JoinedPatches> patches;  //!< With a plan.
+};
+
+//! Whether each curve is the same chain of edges in all patches on its sides. Cost: O(n log n).
+[[nodiscard]] bool has_chain(const ValidDual& dual, std::span<const ChainEdge> chain);
+
+//! Cost: that of glue().
+[[nodiscard]] JoinedPatches join_patches(const ValidDual& dual, const CurveSites& curves);
+
+//! The elements of `all` at the places `chosen`.
+template <typename T>
+[[nodiscard]] std::vector<T> take(const std::vector<T>& all, std::span<const agvd::Index> chosen) {
+    std::vector<T> result;
+    result.reserve(chosen.size());
+    for (const agvd::Index i : chosen) result.push_back(all[i]);
+    return result;
+}
+
+//! Where the vertices are.
+//! \param whole  the cleaned surface.
+[[nodiscard]] std::vector<agvd::Vec3> positions_of(const agvd::Surface& whole,
+                                                   const PlacedMesh& mesh);
+
+//! The result: copies of a vertex are one, sheets meet in the same points.
+[[nodiscard]] agvd::TriangleMesh whole_mesh(const agvd::Surface& whole, const PlacedDual& placed);
+
+//! The same, for finding self-intersections: sheets have the same vertices where they meet. Some
+//! vertices may be in no triangle.
+[[nodiscard]] agvd::TriangleMesh welded_mesh(const Domain& domain, const PlacedDual& placed);
+
+}  // namespace remesh::detail
