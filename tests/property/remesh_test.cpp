@@ -183,7 +183,7 @@ TEST(Remesh, RealMeshesKeepTheirTopology) {
         SCOPED_TRACE(name);
         const TriangleMesh mesh = remesh::read_mesh(meshes() / name).mesh;
         const remesh::RemeshResult result =
-            remesh::remesh(mesh.view(), {.num_samples = 500, .steiner_points = 5});
+            remesh::remesh(mesh.view(), {.num_samples = 500, .propagation = {.steiner_points = 5}});
         EXPECT_TRUE(
             same_topology(remesh::analyze_topology(result.mesh.view()), result.input_topology));
     }

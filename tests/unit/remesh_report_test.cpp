@@ -37,17 +37,17 @@ remesh::RemeshResult example() {
 }  // namespace
 
 TEST(RemeshReport, GivesEveryFieldOfTheResult) {
-    const json report =
-        json::parse(remesh::to_json(example(), {.version = "1.2",
-                                                .input_path = "in.ply",
-                                                .output_path = "out.obj",
-                                                .options = {.num_samples = 77,
-                                                            .init = remesh::Init::Random,
-                                                            .seed = 9,
-                                                            .relax_steps = 12,
-                                                            .keep_sites = true,
-                                                            .engine = agvd::Engine::Window,
-                                                            .max_error = 0.25}}));
+    const json report = json::parse(remesh::to_json(
+        example(),
+        {.version = "1.2",
+         .input_path = "in.ply",
+         .output_path = "out.obj",
+         .options = {.num_samples = 77,
+                     .init = remesh::Init::Random,
+                     .seed = 9,
+                     .relax_steps = 12,
+                     .keep_sites = true,
+                     .propagation = {.engine = agvd::Engine::Window, .max_error = 0.25}}}));
     EXPECT_EQ(report["program"], "remesh");
     EXPECT_EQ(report["version"], "1.2");
     EXPECT_EQ(report["input_path"], "in.ply");
@@ -97,8 +97,8 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
 TEST(RemeshReport, AnErrorNotAskedForOrNotCertifiedIsNull) {
     remesh::RemeshResult result = example();
     result.certified_error = std::numeric_limits<double>::infinity();
-    const json report =
-        json::parse(remesh::to_json(result, {.options = {.engine = agvd::Engine::Vertex}}));
+    const json report = json::parse(
+        remesh::to_json(result, {.options = {.propagation = {.engine = agvd::Engine::Vertex}}}));
     EXPECT_EQ(report["options"]["engine"], "vertex");
     EXPECT_EQ(report["options"]["max_error"], nullptr);
     EXPECT_EQ(report["certified_error"], nullptr);
@@ -123,7 +123,8 @@ TEST(RemeshReport, WithoutDelaunayThereAreNoFiguresOfIt) {
 
 TEST(RemeshReport, TextTellsRepairTopologyTimeAndMemory) {
     const std::string text = remesh::to_text(
-        example(), {.input_path = "in.ply", .options = {.engine = agvd::Engine::Window}});
+        example(),
+        {.input_path = "in.ply", .options = {.propagation = {.engine = agvd::Engine::Window}}});
     for (const char* part :
          {"in.ply", "4 split edges", "1 component, genus 1, 0 boundary loops",
           "distances: window engine, at most 0.0123 %", "3 vertices, 1 face", "5 sites added, ",

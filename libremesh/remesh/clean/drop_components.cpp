@@ -10,18 +10,18 @@ namespace remesh {
 using agvd::Index;
 using agvd::no_index;
 
-Index drop_components(CleanResult& clean, const Topology& topology, double percent) {
+Index drop_components(CleanResult& clean, const Topology& topology, double least_share) {
     double area = 0;
     for (const ComponentTopology& c : topology.components) area += c.area;
     std::vector<bool> stays;
     for (const ComponentTopology& c : topology.components) {
-        stays.push_back(c.area >= percent / 100 * area);
+        stays.push_back(c.area >= least_share * area);
     }
     const auto dropped = static_cast<Index>(std::count(stays.begin(), stays.end(), false));
     if (dropped == 0) return 0;
     if (dropped == stays.size()) {
         throw agvd::InvalidOption("each of the " + std::to_string(dropped) +
-                                  " components has less than " + std::to_string(percent) +
+                                  " components has less than " + std::to_string(100 * least_share) +
                                   " % of the area, so that none is left; drop fewer");
     }
     clean.connectivity = {};

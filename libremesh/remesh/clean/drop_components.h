@@ -7,12 +7,13 @@
 
 namespace remesh {
 
-//! Drops every component with less than `percent` % of the surface's area, and the vertices that
+//! Drops every component with less than this share of the surface's area, and the vertices that
 //! only it uses.
+//! \param least_share  in [0, 1].
 //! \param topology  of clean.mesh.
 //! \return the number of components dropped.
 //! \throw agvd::InvalidOption  none would be left.
 [[nodiscard]] agvd::Index drop_components(CleanResult& clean, const Topology& topology,
-                                          double percent);
+                                          double least_share);
 
 }  // namespace remesh

@@ -37,7 +37,7 @@ public:
     }
 
 private:
-    void report(SiteId site, SiteId other, const char* reason, std::vector<SurfacePoint> remedies) {
+    void report(SiteId site, SiteId other, SiteReason reason, std::vector<SurfacePoint> remedies) {
         found_.push_back({site, other, reason, std::move(remedies), false});
     }
 
@@ -65,9 +65,9 @@ private:
                 num_loops == 0 && diagram_.cell_euler[s] == 0 && !(diagram_.cell_area[s] > 0);
             if (is_empty || (num_loops == 1 && diagram_.cell_euler[s] == 1)) continue;
             if (num_loops == 0) {
-                report(SiteId(s), {}, "covers a whole component", {farthest_vertex(SiteId(s))});
+                report(SiteId(s), {}, SiteReason::WholeComponent, {farthest_vertex(SiteId(s))});
             } else {
-                report(SiteId(s), {}, "is not a disc", {farthest_on_loops(s)});
+                report(SiteId(s), {}, SiteReason::NoDisc, {farthest_on_loops(s)});
             }
         }
     }
@@ -112,12 +112,12 @@ private:
                 if (edge.tail != no_index && is_on_boundary(edge.tail) &&
                     is_on_boundary(edge.head)) {
                     // A new site between the two would meet both sides too, and so would the next.
-                    report(edge.left, edge.right, "meets the boundary at both ends of its arc with",
+                    report(edge.left, edge.right, SiteReason::BoundaryAtBothEnds,
                            {diagram_.vertices[edge.tail], diagram_.vertices[edge.head]});
                     found_.back().is_at_boundary = true;
                 }
             } else if (++arcs[edge.left.value()] > 1) {
-                report(edge.left, {}, "meets the boundary more than once", {middle_point(e)});
+                report(edge.left, {}, SiteReason::BoundaryTwice, {middle_point(e)});
                 found_.back().is_at_boundary = true;
             }
         }
@@ -144,7 +144,7 @@ private:
             ticker_.tick(1 + diagram_.edge_points[e + 1] - diagram_.edge_points[e]);
             if (!edge.right.is_valid() || is_degenerate_[e]) continue;
             if (edge.tail == no_index) {
-                report(edge.left, edge.right, "meets along a closed curve",
+                report(edge.left, edge.right, SiteReason::ClosedCurve,
                        {diagram_.points[farthest_point(e)]});
             }
             arcs.push_back({std::min(edge.left, edge.right), std::max(edge.left, edge.right),
@@ -157,8 +157,7 @@ private:
         });
         for (std::size_t i = 1; i < arcs.size(); ++i) {
             if (arcs[i].a != arcs[i - 1].a || arcs[i].b != arcs[i - 1].b) continue;
-            report(arcs[i].a, arcs[i].b, "meets in more than one arc",
-                   {middle_point(arcs[i].edge)});
+            report(arcs[i].a, arcs[i].b, SiteReason::SeveralArcs, {middle_point(arcs[i].edge)});
         }
     }
 
@@ -191,8 +190,7 @@ private:
         for (std::size_t i = 1; i < corners.size(); ++i) {
             if (corners[i].sites != corners[i - 1].sites) continue;
             report(SiteId(corners[i].sites[0]), SiteId(corners[i].sites[1]),
-                   "meets twice, each time with the same third cell,",
-                   {diagram_.vertices[corners[i].vertex]});
+                   SiteReason::SameThirdCell, {diagram_.vertices[corners[i].vertex]});
         }
     }
 

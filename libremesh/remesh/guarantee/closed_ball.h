@@ -3,14 +3,15 @@
 #pragma once
 
 #include "agvd/diagram/cells.h"
+#include "remesh/guarantee/site_reason.h"
 
 namespace remesh {
 
 //! One way in which cells break the property, and points where more sites help.
 struct ClosedBallViolation {
-    agvd::SiteId site;                         //!< The cell named.
-    agvd::SiteId other;                        //!< The second cell, if two are concerned.
-    const char* reason = "";                   //!< A fixed text that follows the cell's name.
+    agvd::SiteId site;   //!< The cell named.
+    agvd::SiteId other;  //!< The second cell, if two are concerned.
+    SiteReason reason = SiteReason::NoDisc;
     std::vector<agvd::SurfacePoint> remedies;  //!< Where to add sites.
     bool is_at_boundary = false;  //!< A cell that meets the boundary twice, as in narrow strips.
 };

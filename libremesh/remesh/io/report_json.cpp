@@ -151,7 +151,7 @@ Json to_json(const RemeshOptions& options) {
     object["samples"] = options.num_samples;
     object["topology"] = options.vertex_count == VertexCount::Exact ? "exact" : "add";
     object["boundary"] = options.boundary == Boundary::Keep ? "keep" : "free";
-    object["drop_components_percent"] = options.drop_components;
+    object["drop_components"] = options.drop_components;
     object["features"] = features_name(options.features);
     object["feature_angle_degrees"] = options.feature_angle;
     object["given_feature_edges"] = options.feature_edges.size();
@@ -163,10 +163,11 @@ Json to_json(const RemeshOptions& options) {
     object["relax_steps"] = options.relax_steps;
     object["keep_sites"] = options.keep_sites;
     object["fit"] = options.fit ? Json(*options.fit) : Json();
-    object["engine"] = agvd::engine_name(options.engine);
-    object["max_error"] = options.max_error ? Json(*options.max_error) : Json();
-    object["steiner_points_per_edge"] = options.steiner_points;
-    object["lambda"] = options.lambda;
+    object["engine"] = agvd::engine_name(options.propagation.engine);
+    object["max_error"] =
+        options.propagation.max_error ? Json(*options.propagation.max_error) : Json();
+    object["steiner_points_per_edge"] = options.propagation.steiner_points;
+    object["lambda"] = options.propagation.lambda;
     object["delaunay"] = delaunay_name(options.delaunay);
     object["max_repair_rounds"] = options.repair_rounds;
     object["threads"] = options.num_threads;
@@ -191,7 +192,7 @@ std::string to_json(const RemeshResult& result, const RunInfo& info) {
     object["components_dropped"] = result.components_dropped;
     object["sites_added"] = result.sites_added;
     Json& reasons = object["sites_added_because"] = Json::object();
-    for (const auto& [reason, count] : result.added_because) reasons[reason] = count;
+    for (const auto& [reason, count] : result.added_because) reasons[to_text(reason)] = count;
     object["sites_moved"] = result.sites_moved;
     object["sites_removed"] = result.sites_removed;
     object["components_from_faces"] = result.components_from_faces;

@@ -213,7 +213,7 @@ std::string to_text(const RemeshResult& result, const RunInfo& info) {
     text += to_text(result.cleaned) + '\n';
     text += "surface: " + counted(result.input_topology.face_component.size(), "face") + ", " +
             describe(result.input_topology) + '\n';
-    text += to_text(info.options.engine, result.certified_error) + '\n';
+    text += to_text(info.options.propagation.engine, result.certified_error) + '\n';
     for (const RelaxLevel& level : result.relaxation) {
         const double ratio = level.energy.back() / level.energy.front();
         text += "relaxation: " + counted(level.num_sites, "site") + ", " +
@@ -231,7 +231,7 @@ std::string to_text(const RemeshResult& result, const RunInfo& info) {
                 counted(static_cast<std::size_t>(result.repair_rounds), "round");
     }
     for (const auto& [reason, count] : result.added_because) {
-        text += "\n  " + std::to_string(count) + " added: " + reason;
+        text += "\n  " + std::to_string(count) + " added: " + to_text(reason);
     }
     if (result.components_from_faces > 0) {
         text += "\n" + counted(result.components_from_faces, "component") +

@@ -267,7 +267,8 @@ private:
         for (const Index v : corners) sites_.on_base.push_back(dual.diagram.vertices[v]);
         sites_.is_wanted.resize(sites_.on_base.size(), true);
         context_.result.sites_added += static_cast<Index>(corners.size());
-        context_.result.added_because["self-intersects"] += static_cast<Index>(corners.size());
+        context_.result.added_because[SiteReason::SelfIntersection] +=
+            static_cast<Index>(corners.size());
         return true;
     }
 

@@ -22,9 +22,9 @@ void check_options(const RemeshOptions& options, std::size_t num_faces) {
         throw agvd::InvalidOption("relax_steps is " + std::to_string(options.relax_steps) +
                                   "; use 0 or more");
     }
-    if (!(options.drop_components >= 0 && options.drop_components <= 100)) {
+    if (!(options.drop_components >= 0 && options.drop_components <= 1)) {
         throw agvd::InvalidOption("drop_components is " + std::to_string(options.drop_components) +
-                                  "; use a percentage from 0 to 100");
+                                  "; use a share from 0 to 1");
     }
     if (!(options.feature_angle > 0 && options.feature_angle < 180)) {
         throw agvd::InvalidOption("feature_angle is " + std::to_string(options.feature_angle) +

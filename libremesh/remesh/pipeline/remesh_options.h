@@ -46,7 +46,7 @@ struct RemeshOptions {
     //! Keep: boundary vertices lie on the input's boundary. Free: near it; beside creases, which
     //! stay where they are, only as far as the result lies nearer to it so.
     Boundary boundary = Boundary::Keep;
-    double drop_components = 0;  //!< Leave out components with less than this % of the area.
+    double drop_components = 0;  //!< In [0, 1]: components with a smaller share of the area go.
     Init init = Init::BlueNoise;
     //! Creases become chains of edges, and their corners vertices. Of given sites those on creases
     //! become their vertices, and creases that have too few are dropped: see plan_given_network.
@@ -72,11 +72,8 @@ struct RemeshOptions {
     //! Vertices may leave the surface so that the triangles lie nearer to it. Unset: if sites are
     //! relaxed.
     std::optional<bool> fit = {};
-    agvd::Engine engine = agvd::PropagationOptions{}.engine;
-    //! Relative distance error, in [0, 1), 0: exact; unset: see agvd::PropagationOptions.
-    std::optional<double> max_error = {};
-    int steiner_points = 8;  //!< Steiner engine, m: Steiner points on each edge, in [0, 1000].
-    double lambda = 1;       //!< Steiner engine: triangles are retired every lambda * #F pops, > 0.
+    //! How distances are found that cells come from. num_threads and progress are those below.
+    agvd::PropagationOptions propagation = {};
     int repair_rounds = 12;  //!< Rounds of adding sites, >= 0; then components are thinned.
     //! Which edges to flip: those that fail by geodesic or by straight lengths, or none.
     Delaunay delaunay = DelaunayOptions{}.mode;

@@ -5,7 +5,6 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -13,6 +12,7 @@
 #include "agvd/mesh/surface_point.h"
 #include "remesh/clean/clean_counts.h"
 #include "remesh/dual/delaunay.h"
+#include "remesh/guarantee/site_reason.h"
 #include "remesh/pipeline/remesh_options.h"
 #include "remesh/relax/relax_options.h"
 #include "remesh/topology/topology.h"
@@ -58,7 +58,7 @@ struct RemeshResult {
     agvd::Index refined_faces = 0;          //!< Faces that propagation saw, long edges split.
     agvd::Index components_dropped = 0;     //!< See drop_components.
     agvd::Index sites_added = 0;            //!< By topology repair and against self-intersections.
-    std::map<std::string, agvd::Index> added_because = {};  //!< The same by reason.
+    std::map<SiteReason, agvd::Index> added_because = {};  //!< The same by reason.
     agvd::Index sites_moved = 0;        //!< Onto the boundary, or from where they owned nothing.
     agvd::Index sites_removed = 0;      //!< Vertices taken away to keep the count.
     agvd::Index sites_dropped = 0;      //!< Given sites that own nothing (e.g. duplicates).

@@ -37,7 +37,6 @@ constexpr std::size_t most_in_strips = 64;
 // component is thinned to its sites.
 constexpr std::size_t max_growth = 2;
 constexpr std::size_t always_allowed = 300;
-constexpr const char* corner_of_boundary = "a corner of the boundary";
 
 class ValidDualBuilder {
 public:
@@ -136,12 +135,9 @@ private:
     }
 
     [[nodiscard]] agvd::Propagation propagate() const {
-        const agvd::PropagationOptions options{.engine = options_.engine,
-                                               .max_error = options_.max_error,
-                                               .steiner_points = options_.steiner_points,
-                                               .lambda = options_.lambda,
-                                               .num_threads = options_.num_threads,
-                                               .progress = progress_of(Stage::Propagate, options_)};
+        agvd::PropagationOptions options = options_.propagation;
+        options.num_threads = options_.num_threads;
+        options.progress = progress_of(Stage::Propagate, options_);
         if (!input_.layout) return agvd::propagate(surface_, sites_, options);
         agvd::SurfaceLayout layout = *std::move(input_.layout);
         input_.layout.reset();
@@ -181,7 +177,7 @@ private:
             const Index v = surface_.mesh.triangles[f][0];
             if (dual_.diagram.nearest_site[v].is_valid() || is_told[component]) continue;
             is_told[component] = true;
-            missing.push_back({{}, {}, "no site on a component", {{agvd::FaceId(f), {1, 0, 0}}}});
+            missing.push_back({{}, {}, SiteReason::NoSite, {{agvd::FaceId(f), {1, 0, 0}}}});
         }
         return missing;
     }
@@ -213,7 +209,7 @@ private:
         }
         result_.sites_moved += static_cast<Index>(fixes.moved.size());
         first_new_ = sites_.size();
-        for (const SurfacePoint& place : fixes.added) add(place, corner_of_boundary);
+        for (const SurfacePoint& place : fixes.added) add(place, SiteReason::BoundaryCorner);
         for (const ClosedBallViolation& violation : violations) {
             bool is_free = true;
             for (const agvd::SiteId site : {violation.site, violation.other}) {
@@ -226,7 +222,7 @@ private:
         }
     }
 
-    void add(const SurfacePoint& place, const char* reason) {
+    void add(const SurfacePoint& place, SiteReason reason) {
         const agvd::MeshView mesh = surface_.mesh.view();
         const Vec3 where = position(mesh, place);
         const bool is_there =
@@ -254,7 +250,7 @@ private:
         }
         std::size_t num_left = given_.size();
         for (std::size_t s = given_.size(); s < sites_.size(); ++s) {
-            const char* reason = reasons_[s - given_.size()];
+            SiteReason reason = reasons_[s - given_.size()];
             if (gave_up(sites_[s])) {
                 --result_.sites_added;
                 const auto count = result_.added_because.find(reason);
@@ -281,7 +277,7 @@ private:
             if (has_site[v] || !progress_[input_.component[Surface::face(h)]].gave_up) continue;
             SurfacePoint corner{agvd::FaceId(Surface::face(h)), {0, 0, 0}};
             corner.barycentric[h % 3] = 1;
-            add(corner, corner_of_boundary);
+            add(corner, SiteReason::BoundaryCorner);
         }
         return sites_.size() > first_new_;
     }
@@ -390,10 +386,10 @@ private:
     RemeshResult& result_;
     const std::vector<SurfacePoint> given_;  // Sites at first.
     const std::size_t most_sites_;
-    std::vector<const char*> reasons_;  // Of the sites added since.
-    std::vector<Progress> progress_;    // By component.
-    std::vector<bool>& has_failed_;     // By component.
-    std::size_t first_new_ = 0;         // Of this round.
+    std::vector<SiteReason> reasons_;  // Of the sites added since.
+    std::vector<Progress> progress_;   // By component.
+    std::vector<bool>& has_failed_;    // By component.
+    std::size_t first_new_ = 0;        // Of this round.
     ValidDual dual_;
 };
 

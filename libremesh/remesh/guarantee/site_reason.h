@@ -1,0 +1,26 @@
+//! \file
+//! Why a site is added.
+#pragma once
+
+#include <cstdint>
+
+namespace remesh {
+
+//! What is wrong with a cell, or with the mesh, that one more site mends.
+enum class SiteReason : std::uint8_t {
+    BoundaryCorner,      //!< A corner of the boundary has no site.
+    WholeComponent,      //!< The cell covers a whole component.
+    NoDisc,              //!< The cell is not a disc.
+    ClosedCurve,         //!< It meets another one along a closed curve.
+    SeveralArcs,         //!< It meets another one in more than one arc.
+    BoundaryAtBothEnds,  //!< Its arc with another one cuts the surface apart.
+    BoundaryTwice,       //!< It meets the boundary in more than one arc.
+    SameThirdCell,       //!< Two Voronoi vertices have the same three cells.
+    NoSite,              //!< A component has no site.
+    SelfIntersection,    //!< The mesh self-intersects there.
+};
+
+//! A fixed text, for reports.
+[[nodiscard]] const char* to_text(SiteReason reason);
+
+}  // namespace remesh
