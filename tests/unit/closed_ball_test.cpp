@@ -129,6 +129,29 @@ TEST(ClosedBall, TwoCellsOnBothSidesOfASpindleMeetInTwoArcs) {
     }
 }
 
+// The two sites stand 120 degrees apart, so that one arc lies on the side where they are farther
+// from it, between the longer reaches of the other cells.
+TEST(ClosedBall, OfTwoArcsTheShorterOneIsBroken) {
+    const Scene scene = scene_of(spindle(6), {{1, 0, 0}, {-0.5, -0.87, 0}, {0, 0, 6}, {0, 0, -6}});
+    const auto violations = scene.violations();
+    const auto several = std::find_if(
+        violations.begin(), violations.end(),
+        [](const ClosedBallViolation& v) { return v.reason == SiteReason::SeveralArcs; });
+    ASSERT_NE(several, violations.end());
+    EXPECT_GT(scene.at(several->remedies.at(0)).y(), 0.5);
+}
+
+// One loop bounds the cell, but it is a torus with a hole.
+TEST(ClosedBall, ACellWithAHandleIsNoDisc) {
+    agvd::TriangleMesh mesh = shapes::torus(16, 8);
+    mesh.positions[0] *= 8;
+    const Vec3 far_side = -mesh.positions[0];
+    const Scene scene = scene_of(mesh, {mesh.positions[0], far_side});
+    const auto violations = scene.violations();
+    ASSERT_EQ(reasons_of(violations), (Reasons{SiteReason::NoDisc, SiteReason::ClosedCurve}));
+    EXPECT_EQ(violations[0].site, SiteId(1));
+}
+
 TEST(ClosedBall, AnArcAcrossAStripCutsItApart) {
     const Scene scene = scene_of(strip(6), {{0, 0.5, 0}, {6, 0.5, 0}});
     const auto violations = scene.violations();
@@ -162,9 +185,10 @@ TEST(ClosedBall, ACellInTheMiddleOfAStripMeetsTheBoundaryTwice) {
     }
 }
 
-// Four cells that meet in one point: a Voronoi edge of no length joins two of them.
+// Around each pole four cells meet in one point: a Voronoi edge of no length joins two of them,
+// the same two at both poles.
 TEST(ClosedBall, EdgesOfNoLengthAreNoArcs) {
-    const Scene scene = scene_of(shapes::grid(8), {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}});
+    const Scene scene = scene_of(spindle(1), {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}});
     EXPECT_EQ(reasons_of(scene.violations()), Reasons{});
 }
 
