@@ -87,6 +87,21 @@ TEST(Eliminate, FixedPointsCrowdOthersAndAreNotReturned) {
     EXPECT_NEAR(kept[0].x(), 0.9, 1e-12);
 }
 
+// A thin plate: the back looks the other way.
+TEST(Eliminate, PointsOnOppositeWallsDoNotCrowdEachOther) {
+    agvd::TriangleMesh back = shapes::grid(1);
+    for (agvd::Triangle& t : back.triangles) std::swap(t[1], t[2]);
+    Scene scene;
+    for (const double x : {0.3, 0.34, 0.32}) scene.add(x, 0.05);
+    scene.surface = build_surface(shapes::join(shapes::grid(1), back).view());
+    scene.points[2].point.face = agvd::FaceId(scene.points[2].point.face.value() + 2);
+    std::swap(scene.points[2].point.barycentric[1], scene.points[2].point.barycentric[2]);
+    const std::vector<Vec3> kept = scene.keep(2, 0, 0.2);
+    ASSERT_EQ(kept.size(), 2u);
+    EXPECT_NEAR(kept[0].x(), 0.3, 1e-12);
+    EXPECT_NEAR(kept[1].x(), 0.32, 1e-12);  // On the back.
+}
+
 TEST(Eliminate, KeepsAllWhereThatIsAskedFor) {
     Scene scene;
     for (const double x : {0.1, 0.11, 0.12}) scene.add(x, 0.05);

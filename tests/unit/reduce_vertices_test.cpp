@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "remesh/topology/topology.h"
 #include "support/shapes.h"
@@ -41,6 +42,21 @@ TEST(ReduceVertices, ReachesTheTargetAndKeepsTheTopology) {
             EXPECT_FALSE(std::ranges::binary_search(used(reduced), v)) << v;
         }
         expect_topology_of(mesh, reduced);
+    }
+}
+
+// Collapses of short edges alone would turn faces over and leave needles.
+TEST(ReduceVertices, KeepsTheShapeAsLongAsThatLeadsToTheTarget) {
+    const TriangleMesh mesh = shapes::jitter(shapes::sphere(3), 0.03, 1);
+    TriangleMesh reduced = mesh;
+    EXPECT_EQ(reduce_vertices(mesh.positions, reduced.triangles, 321).size(), 321u);
+    for (const auto& [a, b, c] : reduced.triangles) {
+        const auto& p = mesh.positions;
+        const agvd::Vec3 normal = (p[b] - p[a]).cross(p[c] - p[a]);
+        EXPECT_GT(normal.dot(p[a] + p[b] + p[c]), 0);
+        const double longest =
+            std::max({(p[a] - p[b]).norm(), (p[b] - p[c]).norm(), (p[c] - p[a]).norm()});
+        EXPECT_GT(2 / std::sqrt(3) * normal.norm() / (longest * longest), 0.3);
     }
 }
 
