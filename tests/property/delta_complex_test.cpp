@@ -174,6 +174,31 @@ TEST_P(DeltaComplexOf, NoEngineFallsShortOfExactDistances) {
     });
 }
 
+// A face may have a vertex at several corners: the relays of the face serve each of them.
+TEST_P(DeltaComplexOf, RelaysReachEveryCornerNoFartherThanItsVertex) {
+    for_each_case(4, [](const Case& c, std::uint64_t) {
+        const Surface& s = c.surface();
+        const double slack = rounding * longest_edge(c.input);
+        for (const auto engine : {Engine::Window, Engine::Steiner, Engine::Vertex}) {
+            SCOPED_TRACE(engine_name(engine));
+            PropagationOptions options{.engine = engine, .num_threads = 1};
+            if (engine == Engine::Window) options.max_error = 0;
+            const Propagation p = propagate(s, c.on_base, options);
+            PointLabels labels(s, p);
+            for (const Index face : p.mixed_faces) {
+                for (Index k = 0; k < 3; ++k) {
+                    SurfacePoint corner{FaceId(face), {0, 0, 0}};
+                    corner.barycentric[k] = 1;
+                    const PointLabel label = labels(corner);
+                    ASSERT_TRUE(label.distance.has_value());
+                    const double at_vertex = p.vertex_distance[s.tail(3 * face + k)];
+                    EXPECT_LE(*label.distance, at_vertex * (1 + 1e-6) + slack) << face << " " << k;
+                }
+            }
+        }
+    });
+}
+
 TEST_P(DeltaComplexOf, TheSteinerEngineMeetsItsBound) {
     for_each_case(3, [](const Case& c, std::uint64_t) {
         constexpr double bound = 0.02;
@@ -369,6 +394,53 @@ TEST(DeltaComplex, SitesOnSeamsAreSeenFromBothSides) {
         }
     }
     EXPECT_GT(num_seams, 10u);
+}
+
+// The face of a seam has one other side: what lies across that sees a site on the seam straight
+// from either of the two sides.
+TEST(DeltaComplex, ASiteOnASeamIsSeenFromAcrossByTheShorterWay) {
+    Index num_seen = 0;
+    for (const char* family : {"doubled_triangle", "spike", "delta_tetrahedron", "plane_needles"}) {
+        for (std::uint64_t seed = 0; seed < 24; ++seed) {
+            SCOPED_TRACE(std::string(family) + " " + std::to_string(seed));
+            const Surface input = build_surface(delta_shapes::make(family, seed).view());
+            const IntrinsicTriangulation base(input);
+            const Surface& s = base.surface();
+            for (Index h = 0; h < s.twin.size(); ++h) {
+                const Index face = Surface::face(h), twin = s.twin[h];
+                if (twin == no_index || Surface::face(twin) != face) continue;
+                const Index third = 9 * face + 3 - h - twin;
+                const Index across = s.twin[third];
+                if (across == no_index || Surface::face(across) == face) continue;
+                SurfacePoint site{FaceId(face), {0, 0, 0}};
+                site.barycentric[h % 3] = 0.3;
+                site.barycentric[Surface::next(h) % 3] = 0.7;
+                const double length = s.length_of(third);
+                const Vec2 apex(length - s.apex[across].x(), -s.apex[across].y());
+                double straight = std::numeric_limits<double>::infinity();
+                for (const SurfacePoint& view : {site, across_edge(s, site, h)}) {
+                    const Vec2 p = position_in_frame(s, view, third);
+                    const double x = p.x() + (apex.x() - p.x()) * p.y() / (p.y() - apex.y());
+                    if (x < 0.05 * length || x > 0.95 * length) continue;
+                    straight = std::min(straight, (p - apex).norm());
+                }
+                if (straight == std::numeric_limits<double>::infinity()) continue;
+                ++num_seen;
+                const Index v = s.tail(Surface::previous(across));
+                const std::vector<SurfacePoint> sites{site};
+                const auto distance = [&](const PropagationOptions& options) {
+                    return propagate(s, sites, options).vertex_distance[v];
+                };
+                EXPECT_LE(distance({.max_error = 0, .num_threads = 1}), straight * (1 + rounding));
+                EXPECT_LE(distance({.engine = Engine::Vertex, .num_threads = 1}),
+                          straight * (1 + rounding));
+                EXPECT_LE(
+                    distance({.engine = Engine::Steiner, .steiner_points = 200, .num_threads = 1}),
+                    straight * 1.001);
+            }
+        }
+    }
+    EXPECT_GT(num_seen, 10u);
 }
 
 TEST(DeltaComplex, TheFamiliesHoldWhatAMeshCannot) {

@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "agvd/core/error.h"
+#include "agvd/intrinsic/compact_faces.h"
 #include "agvd/intrinsic/face_operations.h"
+#include "agvd/intrinsic/vertex_operations.h"
 #include "agvd/mesh/face_area.h"
 #include "agvd/mesh/face_distance.h"
 #include "agvd/mesh/one_ring.h"
@@ -174,6 +176,35 @@ TEST(FaceOperations, AFaceGluedToItselfIsSplitAlongTheSeam) {
         }
     });
     EXPECT_GT(num_seams, 10u);
+}
+
+// The first component goes, so that the last faces of the second take its numbers.
+TEST(CompactFaces, AFaceGluedToItselfStaysSoUnderItsNewNumber) {
+    const TriangleMesh gone = shapes::icosahedron();
+    const auto num_gone = static_cast<Index>(gone.triangles.size());
+    Index num_moved = 0;
+    for_each_mesh([&](const TriangleMesh& mesh, const Surface&, std::uint64_t) {
+        const Surface input = build_surface(shapes::join(gone, mesh).view());
+        Surface s = IntrinsicTriangulation(input).surface();
+        const double area = area_of(s);
+        const Index num_left = s.num_faces() - num_gone;
+        double area_gone = 0;
+        for (Index f = 0; f < num_gone; ++f) area_gone += face_area(s, f);
+        for (Index h = 0; h < 3 * num_gone; ++h) {
+            s.outgoing[s.tail(h)] = no_index;
+            s.edge_half[s.edge[h]] = no_index;
+        }
+        for (Index f = 0; f < num_gone; ++f) detail::bury(s, f);
+        for (Index h = 3 * num_left; h < s.twin.size(); ++h) {
+            if (s.twin[h] != no_index && Surface::face(s.twin[h]) == Surface::face(h)) ++num_moved;
+        }
+        detail::FaceHistory history(input.num_faces());
+        detail::compact_faces(s, history);
+        expect_consistent(s);
+        EXPECT_EQ(s.num_faces(), num_left);
+        EXPECT_NEAR(area_of(s), area - area_gone, 1e-12 * area);
+    });
+    EXPECT_GT(num_moved, 5u);
 }
 
 TEST(IntrinsicTriangulation, IsConsistentDelaunayAndOfTheSameArea) {
@@ -349,6 +380,22 @@ TEST(IntrinsicTriangulation, FlatVerticesWithShortEdgesGo) {
     EXPECT_LT(10 * num_left, 3 * num_added);  // Those on the boundary stay.
     const Surface input = build_surface(shapes::cube().view());
     EXPECT_EQ(IntrinsicTriangulation(input, {.min_length = 10}).counts().removed, 0u);
+}
+
+// Once few vertices are left around it, a face has some of them at two corners.
+TEST(IntrinsicTriangulation, AroundATubeVerticesGoThatNoFaceHoldsTwice) {
+    for (const Index n : {3, 4}) {
+        for (const Index m : {4, 12, 20, 60}) {
+            SCOPED_TRACE(std::to_string(n) + " " + std::to_string(m));
+            const Surface input = build_surface(shapes::tube(n, m).view());
+            const IntrinsicTriangulation base(input, {.min_length = 100});
+            const Surface& s = base.surface();
+            expect_consistent(s);
+            EXPECT_EQ(s.num_faces() + 2 * base.counts().removed, input.num_faces());
+            EXPECT_GT(base.counts().removed, n * (m - 1) / 2);
+            EXPECT_NEAR(area_of(s), area_of(input), 1e-12 * area_of(input));
+        }
+    }
 }
 
 TEST(IntrinsicTriangulation, PartsOfMergedFacesMakeUpTheirArea) {

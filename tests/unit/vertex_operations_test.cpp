@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
+#include "agvd/intrinsic/face_operations.h"
 #include "agvd/intrinsic/flatten.h"
 #include "agvd/intrinsic/simplicial.h"
 #include "agvd/mesh/one_ring.h"
@@ -138,4 +140,37 @@ TEST(Simplicial, EdgesAreFoundByTheirEnds) {
         }
     }
     EXPECT_TRUE(detail::edges_to_cut(surface).empty());
+}
+
+// A flip away from a tip of three faces leaves two edges with the same ends, the next one a loop.
+TEST(Simplicial, LoopsAndAllButOneOfEqualEdgesAreToBeCut) {
+    Surface surface = build_surface(shapes::tetrahedron().view());
+    FaceCharts charts(surface);
+    const auto flip_at_tip = [&] {
+        const Index h = surface.outgoing[0];
+        const Index edge = surface.edge[h];
+        detail::flip(surface, charts, h, detail::quad_at(surface, charts, h));
+        return edge;
+    };
+    const auto ends = [&](Index edge) {
+        const Index h = surface.edge_half[edge];
+        return std::minmax({surface.tail(h), surface.head(h)});
+    };
+    const Index second = flip_at_tip();
+    std::vector<Index> cut = detail::edges_to_cut(surface);
+    ASSERT_EQ(cut.size(), 1u);
+    EXPECT_EQ(ends(cut[0]), ends(second));
+    const Index loop = flip_at_tip();
+    EXPECT_EQ(ends(loop).first, ends(loop).second);
+    const Index pair = cut[0];
+    cut = detail::edges_to_cut(surface);
+    const std::vector<Index> expected{std::min(pair, loop), std::max(pair, loop)};
+    EXPECT_EQ(cut, expected);
+}
+
+TEST(Simplicial, OneEdgeOfTwoFacesWithTheSameCornersIsToBeCut) {
+    TriangleMesh doubled;
+    doubled.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    doubled.triangles = {{0, 1, 2}, {1, 0, 2}};
+    EXPECT_EQ(detail::edges_to_cut(build_surface(doubled.view())).size(), 1u);
 }

@@ -9,6 +9,8 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <thread>
+#include <vector>
 
 namespace agvd {
 namespace {
@@ -91,6 +93,53 @@ private:
     bool is_closed_ = false;
 };
 
+// What runs a loop besides the calling thread.
+#if defined(__SANITIZE_THREAD__)
+
+// ThreadSanitizer sees into threads, but not into TBB, which is not compiled with it: it would take
+// all that a loop reads for a race.
+class Helpers {
+public:
+    explicit Helpers(int num_threads)
+        : num_threads_(num_threads > 0 ? static_cast<Index>(num_threads)
+                                       : std::thread::hardware_concurrency()) {}
+
+    [[nodiscard]] Index most() const { return num_threads_ - 1; }
+    void start(Index num, SharedLoop& loop) {
+        for (Index i = 0; i < num; ++i) threads_.emplace_back([&loop] { loop.help(); });
+    }
+    void wait() { threads_.clear(); }
+
+private:
+    Index num_threads_;
+    std::vector<std::jthread> threads_;
+};
+
+#else
+
+class Helpers {
+public:
+    explicit Helpers(int num_threads)
+        : arena_(num_threads == 0 ? tbb::task_arena::automatic : num_threads) {}
+
+    [[nodiscard]] Index most() { return static_cast<Index>(arena_.max_concurrency()) - 1; }
+    void start(Index num, SharedLoop& loop) {
+        arena_.execute([&] {
+            for (Index i = 0; i < num; ++i) tasks_.run([&loop] { loop.help(); });
+        });
+    }
+    // Those that have not begun find the loop closed, and are run here if nobody else does.
+    void wait() {
+        arena_.execute([&] { tasks_.wait(); });
+    }
+
+private:
+    tbb::task_arena arena_;
+    tbb::task_group tasks_;
+};
+
+#endif
+
 }  // namespace
 
 void parallel_chunks(Index count, Index grain, int num_threads,
@@ -110,16 +159,11 @@ void parallel_chunks(Index count, Index grain, int num_threads,
         return;
     }
     // Not tbb::parallel_for, in which the calling thread may wait long without a poll.
-    tbb::task_arena arena(num_threads == 0 ? tbb::task_arena::automatic : num_threads);
-    tbb::task_group helpers;
     SharedLoop loop(chunks, run, poller);
-    const auto num_helpers = std::min(static_cast<Index>(arena.max_concurrency()) - 1, chunks - 1);
-    arena.execute([&] {
-        for (Index i = 0; i < num_helpers; ++i) helpers.run([&loop] { loop.help(); });
-    });
+    Helpers helpers(num_threads);
+    helpers.start(std::min(helpers.most(), chunks - 1), loop);
     loop.run();
-    // Helpers that have not begun find the loop closed, and are run here if nobody else does.
-    arena.execute([&] { helpers.wait(); });
+    helpers.wait();
     loop.rethrow();
 }
 

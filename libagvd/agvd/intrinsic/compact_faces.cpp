@@ -9,8 +9,7 @@ void move_face(Surface& surface, Index from, Index to) {
     surface.mesh.triangles[to] = surface.mesh.triangles[from];
     for (Index k = 0; k < 3; ++k) {
         const Index old = 3 * from + k, now = 3 * to + k;
-        Index twin = surface.twin[old];
-        if (twin != no_index && Surface::face(twin) == from) twin = 3 * to + twin % 3;
+        const Index twin = surface.twin[old];  // In a seam the second join is right.
         surface.apex[now] = surface.apex[old];
         surface.twin[old] = no_index;
         join(surface, now, twin, surface.edge[old]);

@@ -511,14 +511,15 @@ struct FaceHistory::Parts {
     }
 };
 
-bool FaceHistory::parts_of(Index face, Index most_steps, std::vector<FacePolygon>& parts) const {
+bool FaceHistory::parts_of(Index face, Index most_steps,
+                           const std::function<void(const FacePolygon&)>& take) const {
     Parts all;
     all.waiting.reserve(16);
     all.add(FacePolygon(face), first_link(Way::Backward, face));
     for (Index steps = 0; !all.waiting.empty(); ++steps) {
         const auto& [part, link] = all.waiting.back();
         if (link == no_index) {
-            parts.push_back(part);
+            take(part);
             all.waiting.pop_back();
             continue;
         }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "agvd/intrinsic/face_operations.h"
@@ -100,11 +101,11 @@ public:
     void forward(const FaceSegment& segment, std::vector<FaceSegment>& parts) const;
     void backward(const FaceSegment& segment, std::vector<FaceSegment>& parts) const;
 
-    //! Appends the parts of a face of the end in the faces of the beginning.
+    //! Calls take(part) for the parts of a face of the end in the faces of the beginning.
     //! \return false if that takes more than `most_steps` passes of a part through an operation, or
-    //!        a part with too many corners; then `parts` means nothing.
+    //!        a part with too many corners; then what was taken means nothing.
     [[nodiscard]] bool parts_of(Index face, Index most_steps,
-                                std::vector<FacePolygon>& parts) const;
+                                const std::function<void(const FacePolygon&)>& take) const;
     //! Whether a point passes no more operations than that on its way back.
     [[nodiscard]] bool is_near(SurfacePoint point, Index most_steps) const;
 

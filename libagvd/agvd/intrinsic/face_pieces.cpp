@@ -78,9 +78,10 @@ void add_samples(const IntrinsicTriangulation& base, Index face, double piece_ar
     }
 }
 
+// \param parts  serves again for the next face.
 void add_pieces(const IntrinsicTriangulation& base, Index face, double piece_area,
-                std::vector<SurfacePiece>& pieces) {
-    std::vector<InputPart> parts;
+                std::vector<InputPart>& parts, std::vector<SurfacePiece>& pieces) {
+    parts.clear();
     if (is_flat(base.surface(), face)) {
         pieces.push_back(whole_face(base.surface(), face));
     } else if (base.parts_of(face, parts) && !parts.empty()) {
@@ -104,10 +105,11 @@ FacePieces::FacePieces(const IntrinsicTriangulation& base, double piece_area, in
     const auto find = [&](Index chunk, Index begin, Index end) {
         Ticker ticker(poller);
         auto& [ends, pieces] = chunks[chunk];
+        std::vector<InputPart> parts;
         for (Index f = begin; f < end; ++f) {
             if (!base.is_changed(f)) continue;
             const std::size_t before = pieces.size();
-            add_pieces(base, f, piece_area, pieces);
+            add_pieces(base, f, piece_area, parts, pieces);
             ends.push_back(static_cast<Index>(pieces.size()));
             ticker.tick(piece_work * (pieces.size() - before));
         }

@@ -260,13 +260,14 @@ InputPart measure(const detail::FacePolygon& polygon) {
 bool IntrinsicTriangulation::parts_of(Index face, std::vector<InputPart>& parts) const {
     constexpr double third = 1.0 / 3;
     if (!history_->is_near({FaceId(face), {third, third, third}}, most_steps_back)) return false;
-    std::vector<detail::FacePolygon> polygons;
-    if (!history_->parts_of(face, most_part_steps, polygons)) return false;
-    for (const detail::FacePolygon& polygon : polygons) {
+    const std::size_t num_before = parts.size();
+    const auto take = [&](const detail::FacePolygon& polygon) {
         const InputPart part = measure(polygon);
         if (part.share > 0) parts.push_back(part);
-    }
-    return true;
+    };
+    if (history_->parts_of(face, most_part_steps, take)) return true;
+    parts.resize(num_before);
+    return false;
 }
 
 }  // namespace agvd
