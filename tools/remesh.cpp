@@ -253,6 +253,7 @@ void run_job(const Arguments& arguments, cli::Console& console) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    // NOLINTBEGIN(concurrency-mt-unsafe): no other thread runs yet.
     // Each large array goes back to the system at once. By default ever larger ones stay, in holes
     // that the next does not fit into: a tenth more memory at 1.4 M faces.
     ::mallopt(M_MMAP_THRESHOLD, 1 << 22);
@@ -260,6 +261,7 @@ int main(int argc, char** argv) {
     // stage is over.
     ::mallopt(M_TOP_PAD, 1 << 25);
     ::mallopt(M_TRIM_THRESHOLD, 1 << 26);
+    // NOLINTEND(concurrency-mt-unsafe)
     CLI::App app("Replaces a mesh by the dual of its geodesic Voronoi diagram.", "remesh");
     Arguments arguments;
     add_options(app, arguments);
