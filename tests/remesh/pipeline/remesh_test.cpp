@@ -1,14 +1,11 @@
 // The whole job keeps the topology, whatever the surface and the number of samples.
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 
-#include "agvd/mesh/scale.h"
 #include "remesh/io/read_mesh.h"
 #include "remesh/pipeline/remesh.h"
-#include "support/dirty_shapes.h"
 #include "support/shapes.h"
 
 using namespace agvd;
@@ -37,51 +34,6 @@ std::filesystem::path meshes() {
 }
 
 }  // namespace
-
-TEST(Remesh, AnyScaleGivesTheScaledMesh) {
-    const TriangleMesh mesh = shapes::jitter(shapes::cube(), 0.1, 5);
-    const remesh::RemeshResult usual = remesh::remesh(mesh.view(), {.num_samples = 100});
-    ASSERT_GT(usual.features.length, 0);
-    for (const int exponent : {-900, -160, -100, 100, 160, 900}) {
-        SCOPED_TRACE(exponent);
-        const TriangleMesh other = scaled(mesh.view(), exponent);
-        const remesh::RemeshResult result = remesh::remesh(other.view(), {.num_samples = 100});
-        EXPECT_EQ(result.mesh.positions, scaled(usual.mesh.view(), exponent).positions);
-        EXPECT_EQ(result.mesh.triangles, usual.mesh.triangles);
-        EXPECT_EQ(result.features.length, std::ldexp(usual.features.length, exponent));
-        ASSERT_EQ(result.relaxation.size(), usual.relaxation.size());
-        EXPECT_EQ(result.relaxation[0].energy[0],
-                  std::ldexp(usual.relaxation[0].energy[0], 4 * exponent));
-    }
-}
-
-TEST(Remesh, SidesOfARoundingEndInAMeshOrAReason) {
-    Index num_done = 0;
-    for (const std::uint64_t seed : {0u, 1u, 2u, 5u, 7u, 8u}) {
-        SCOPED_TRACE("seed " + std::to_string(seed));
-        const TriangleMesh mesh = shapes::spiked(seed);
-        try {
-            const remesh::RemeshResult result = remesh::remesh(mesh.view(), {.num_samples = 20});
-            const remesh::Topology topology = remesh::analyze_topology(result.mesh.view());
-            EXPECT_TRUE(same_topology(topology, result.input_topology));
-            EXPECT_EQ(result.mesh.positions.size(), 20u);
-            ++num_done;
-        } catch (const agvd::ConstraintUnmet&) {
-        }
-    }
-    EXPECT_GE(num_done, 3u);
-}
-
-TEST(Remesh, AThinTriangleIsNotRefinedByItsLength) {
-    TriangleMesh mesh;
-    mesh.positions = {{0, 0, 0}, {1000, 0, 0}, {500, 1e-3, 0}};  // 10 000 spacings.
-    mesh.triangles = {{0, 1, 2}};
-    constexpr Index samples = 50;
-    const remesh::RemeshResult result = remesh::remesh(mesh.view(), {.num_samples = samples});
-    EXPECT_GT(result.refined_faces, samples);
-    EXPECT_LE(result.refined_faces, 40 * samples);  // At most 16 splits a site, 2 faces each.
-    EXPECT_EQ(result.mesh.positions.size(), samples);
-}
 
 TEST(Remesh, KeepsTheTopologyOfManySurfaces) {
     const std::vector<TriangleMesh> surfaces = {

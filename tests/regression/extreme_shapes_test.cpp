@@ -1,0 +1,127 @@
+// Shapes that once made remesh() crash or hang: scales, needles, spikes, strips and caps.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "agvd/mesh/scale.h"
+#include "remesh/pipeline/remesh.h"
+#include "support/dirty_shapes.h"
+#include "support/shapes.h"
+
+using namespace agvd;
+
+namespace {
+
+void expect_remeshed(const TriangleMesh& mesh, Index num_samples) {
+    const remesh::RemeshResult result = remesh::remesh(mesh.view(), {.num_samples = num_samples});
+    EXPECT_EQ(result.mesh.positions.size(), num_samples);
+    const remesh::Topology topology = remesh::analyze_topology(result.mesh.view());
+    EXPECT_TRUE(topology.is_manifold);
+    EXPECT_TRUE(topology.is_oriented);
+    EXPECT_TRUE(same_topology(topology, result.input_topology));
+}
+
+// A cap as CAD writes it: all faces around one apex.
+TriangleMesh cone(Index sides) {
+    TriangleMesh mesh;
+    mesh.positions.emplace_back(0, 0, 1);
+    for (Index i = 0; i < sides; ++i) {
+        const double angle = 2 * std::numbers::pi * i / sides;
+        mesh.positions.emplace_back(std::cos(angle), std::sin(angle), 0);
+        mesh.triangles.push_back({0, 1 + i, 1 + (i + 1) % sides});
+    }
+    return mesh;
+}
+
+TEST(ExtremeShapes, ATetrahedronOfTinySize) {
+    for (const double size : {1e-50, 1e50, 1e75}) {
+        SCOPED_TRACE(size);
+        TriangleMesh mesh = shapes::tetrahedron();
+        for (Vec3& p : mesh.positions) p *= size;
+        expect_remeshed(mesh, 4);
+        expect_remeshed(mesh, 10);
+    }
+}
+
+TEST(ExtremeShapes, AGridPressedFlat) {
+    for (const double height : {1e-3, 1e-6, 1e-9}) {
+        SCOPED_TRACE(height);
+        TriangleMesh mesh = shapes::grid(40);
+        for (Vec3& p : mesh.positions) p.y() *= height;
+        expect_remeshed(mesh, 200);
+    }
+}
+
+TEST(ExtremeShapes, ASphereWithALongSpike) {
+    TriangleMesh mesh = shapes::sphere(3);
+    mesh.positions[0] = {1e4, 0, 0};
+    expect_remeshed(mesh, 200);
+}
+
+TEST(ExtremeShapes, ATubeOfThreeSidesAndSixFaces) { expect_remeshed(shapes::tube(3, 1), 100); }
+
+TEST(ExtremeShapes, AConeOfThousandsOfFacesAroundOneApex) { expect_remeshed(cone(5000), 300); }
+
+// Its corners but for three lie on the sides of a triangle: all faces are needles.
+TEST(ExtremeShapes, APlateThatIsOnePolygonWithCornersOnItsSides) {
+    TriangleMesh mesh;
+    constexpr Index count = 333;
+    const std::array<Vec3, 3> corners{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+    for (std::size_t side = 0; side < 3; ++side) {
+        for (Index i = 0; i < count; ++i) {
+            const double share = static_cast<double>(i) / count;
+            mesh.positions.push_back((1 - share) * corners[side] + share * corners[(side + 1) % 3]);
+        }
+    }
+    // A fan around the corner (0, 0, 0): those along its own two sides have no area.
+    for (Index i = 1; i + 1 < 3 * count; ++i) mesh.triangles.push_back({0, i, i + 1});
+    expect_remeshed(mesh, 100);
+}
+
+TEST(ExtremeShapes, AnyScaleGivesTheScaledMesh) {
+    const TriangleMesh mesh = shapes::jitter(shapes::cube(), 0.1, 5);
+    const remesh::RemeshResult usual = remesh::remesh(mesh.view(), {.num_samples = 100});
+    ASSERT_GT(usual.features.length, 0);
+    for (const int exponent : {-900, -160, -100, 100, 160, 900}) {
+        SCOPED_TRACE(exponent);
+        const TriangleMesh other = scaled(mesh.view(), exponent);
+        const remesh::RemeshResult result = remesh::remesh(other.view(), {.num_samples = 100});
+        EXPECT_EQ(result.mesh.positions, scaled(usual.mesh.view(), exponent).positions);
+        EXPECT_EQ(result.mesh.triangles, usual.mesh.triangles);
+        EXPECT_EQ(result.features.length, std::ldexp(usual.features.length, exponent));
+        ASSERT_EQ(result.relaxation.size(), usual.relaxation.size());
+        EXPECT_EQ(result.relaxation[0].energy[0],
+                  std::ldexp(usual.relaxation[0].energy[0], 4 * exponent));
+    }
+}
+
+TEST(ExtremeShapes, SidesOfARoundingEndInAMeshOrAReason) {
+    Index num_done = 0;
+    for (const std::uint64_t seed : {0u, 1u, 2u, 5u, 7u, 8u}) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const TriangleMesh mesh = shapes::spiked(seed);
+        try {
+            const remesh::RemeshResult result = remesh::remesh(mesh.view(), {.num_samples = 20});
+            const remesh::Topology topology = remesh::analyze_topology(result.mesh.view());
+            EXPECT_TRUE(same_topology(topology, result.input_topology));
+            EXPECT_EQ(result.mesh.positions.size(), 20u);
+            ++num_done;
+        } catch (const agvd::ConstraintUnmet&) {
+        }
+    }
+    EXPECT_GE(num_done, 3u);
+}
+
+TEST(ExtremeShapes, AThinTriangleIsNotRefinedByItsLength) {
+    TriangleMesh mesh;
+    mesh.positions = {{0, 0, 0}, {1000, 0, 0}, {500, 1e-3, 0}};  // 10 000 spacings.
+    mesh.triangles = {{0, 1, 2}};
+    constexpr Index samples = 50;
+    const remesh::RemeshResult result = remesh::remesh(mesh.view(), {.num_samples = samples});
+    EXPECT_GT(result.refined_faces, samples);
+    EXPECT_LE(result.refined_faces, 40 * samples);  // At most 16 splits a site, 2 faces each.
+    EXPECT_EQ(result.mesh.positions.size(), samples);
+}
+
+}  // namespace
