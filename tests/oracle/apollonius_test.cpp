@@ -72,8 +72,8 @@ std::vector<Breakpoint> label_boundary(const Case& c) {
         for (std::size_t i = 0; i + 1 < intervals.size(); ++i) {
             const Vec2 at = p + intervals[i].end * (q - p);
             const auto name = static_cast<Index>(breakpoints.size());
-            breakpoints.push_back(
-                {at, nearest(c.relays, at).distance, name, intervals[i + 1].site, name});
+            breakpoints.push_back({at, nearest(c.relays, at).distance, NodeId::of_crossing(name),
+                                   intervals[i + 1].site, IntervalId::after_crossing(name)});
         }
     }
     return breakpoints;

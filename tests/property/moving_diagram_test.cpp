@@ -1,5 +1,5 @@
 // A diagram whose sites come, go and move against a fresh one of what is left.
-#include "agvd/diagram/moving_diagram.h"
+#include "agvd/update/moving_diagram.h"
 
 #include <gtest/gtest.h>
 

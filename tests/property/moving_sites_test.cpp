@@ -1,5 +1,5 @@
 // Sites that come, go and move against a fresh propagation of what is left.
-#include "agvd/propagation/moving_sites.h"
+#include "agvd/update/moving_sites.h"
 
 #include <gtest/gtest.h>
 

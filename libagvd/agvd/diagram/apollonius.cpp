@@ -269,8 +269,7 @@ void TriangleSolver::close_with_vertex(std::size_t i, VertexPlace voronoi_vertex
         const std::size_t count = n == 3 ? 7 : 3;
         voronoi_vertex = least_unequal({places, count}, site_before, site, site_after);
     }
-    const Index node =
-        LocalDiagram::first_voronoi_vertex + static_cast<Index>(out_.voronoi_vertices.size());
+    const auto node = NodeId::of_voronoi_vertex(static_cast<Index>(out_.voronoi_vertices.size()));
     const auto first_arc = static_cast<Index>(out_.arcs.size());
     out_.voronoi_vertices.push_back({face_,
                                      voronoi_vertex.position,
@@ -291,7 +290,7 @@ void TriangleSolver::close_with_vertex(std::size_t i, VertexPlace voronoi_vertex
 }
 
 // An arc inwards from a breakpoint; `left` is the site before the breakpoint.
-void TriangleSolver::add_arc(const Breakpoint& from, const Vec2& to, Index head, Index left,
+void TriangleSolver::add_arc(const Breakpoint& from, const Vec2& to, NodeId head, Index left,
                              bool is_curved) {
     const auto arc = static_cast<Index>(out_.arcs.size());
     const auto first_point = static_cast<Index>(out_.points.size());
@@ -306,10 +305,10 @@ void TriangleSolver::add_arc(const Breakpoint& from, const Vec2& to, Index head,
 }
 
 // A Voronoi vertex that became a breakpoint gets its third arc when that breakpoint is used.
-void TriangleSolver::connect_open_vertex(Index node, Index arc, bool at_tail) {
-    if (node < LocalDiagram::first_voronoi_vertex) return;
-    const auto found = std::find(open_vertices_.begin(), open_vertices_.end(),
-                                 node - LocalDiagram::first_voronoi_vertex);
+void TriangleSolver::connect_open_vertex(NodeId node, Index arc, bool at_tail) {
+    if (!node.is_voronoi_vertex()) return;
+    const auto found =
+        std::find(open_vertices_.begin(), open_vertices_.end(), node.voronoi_vertex());
     if (found == open_vertices_.end()) return;
     out_.voronoi_vertices[*found].arcs[2] = arc;
     out_.voronoi_vertices[*found].at_tail[2] = at_tail;

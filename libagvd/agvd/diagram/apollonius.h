@@ -92,8 +92,8 @@ private:
     [[nodiscard]] std::size_t choose_ear();
     void close_ear(std::size_t i, const Ear& ear);
     void close_with_vertex(std::size_t i, VertexPlace voronoi_vertex);
-    void add_arc(const Breakpoint& from, const Vec2& to, Index head, Index left, bool is_curved);
-    void connect_open_vertex(Index node, Index arc, bool at_tail);
+    void add_arc(const Breakpoint& from, const Vec2& to, NodeId head, Index left, bool is_curved);
+    void connect_open_vertex(NodeId node, Index arc, bool at_tail);
 
     [[nodiscard]] bool straighten_crossing_arcs(const Mark& since);
     void collect_segments(const Mark& since);

@@ -45,7 +45,7 @@ void ArcStore::add(std::span<const Index> faces, const FaceArcs& chunk, Index fi
         VoronoiVertex& added = new_voronoi_vertices_.emplace_back();
         for (std::size_t k = 0; k < 3; ++k) {
             const Index arc = voronoi_vertex.arcs[k] - begin.arcs + all.arcs.begin;
-            added.ends[k] = 2 * arc + (voronoi_vertex.at_tail[k] ? 0 : 1);
+            added.ends[k] = voronoi_vertex.at_tail[k] ? ArcEnd::tail_of(arc) : ArcEnd::head_of(arc);
         }
         added.sites = voronoi_vertex.sites;
         new_vertex_places_.push_back(
@@ -55,9 +55,10 @@ void ArcStore::add(std::span<const Index> faces, const FaceArcs& chunk, Index fi
     all.voronoi_vertices = voronoi_vertices_.add(new_voronoi_vertices_);
     (void)vertex_places_.add(new_vertex_places_);
 
-    const auto rename = [&](Index& node) {
-        if (node >= LocalDiagram::first_voronoi_vertex)
-            node += all.voronoi_vertices.begin - begin.voronoi_vertices;
+    const auto rename = [&](NodeId& node) {
+        if (!node.is_voronoi_vertex()) return;
+        node = NodeId::of_voronoi_vertex(node.voronoi_vertex() - begin.voronoi_vertices +
+                                         all.voronoi_vertices.begin);
     };
     for (LocalArc& arc : arcs_[all.arcs]) {
         rename(arc.tail);
@@ -102,23 +103,6 @@ void ArcStore::remove(Index face) {
     connections_.release(stored.connections);
     parts_.release(stored.parts);
     free_slots_.push_back(slot);
-}
-
-void ArcStore::renumber(const Renumbering& renumbering) {
-    for (LocalArc& arc : arcs_) {
-        renumbering.apply(arc.left);
-        renumbering.apply(arc.right);
-    }
-    for (VoronoiVertex& voronoi_vertex : voronoi_vertices_) {
-        for (Index& site : voronoi_vertex.sites) renumbering.apply(site);
-    }
-    for (Connection& connection : connections_) renumbering.apply(connection.site);
-    for (FaceArcs::CellPart& part : parts_) renumbering.apply(part.site);
-}
-
-bool ArcStore::is_wasteful() const {
-    return arcs_.is_wasteful() || voronoi_vertices_.is_wasteful() || points_.is_wasteful() ||
-           connections_.is_wasteful() || parts_.is_wasteful();
 }
 
 }  // namespace agvd

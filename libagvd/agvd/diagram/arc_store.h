@@ -3,12 +3,13 @@
 #pragma once
 
 #include "agvd/core/block_pool.h"
+#include "agvd/diagram/arc_end.h"
 #include "agvd/diagram/face_arcs.h"
 
 namespace agvd {
 
-//! As in FaceArcs, but for names: nodes from LocalDiagram::first_voronoi_vertex on and the arcs of
-//! Voronoi vertices are places in the pools, which last as long as the face keeps its arcs.
+//! As in FaceArcs, but for indices: Voronoi vertices, and the arcs around them, are known by their
+//! places in the pools, which last as long as the face keeps its arcs.
 class ArcStore {
 public:
     //! What a face has.
@@ -22,7 +23,7 @@ public:
     };
     //! A Voronoi vertex as it hangs together. Counter-clockwise around it: ends[i], then sites[i].
     struct VoronoiVertex {
-        std::array<Index, 3> ends;  //!< 2 * arc + (0: its tail, 1: its head).
+        std::array<ArcEnd, 3> ends;
         std::array<Index, 3> sites;
     };
     //! Where a Voronoi vertex lies.
@@ -44,7 +45,9 @@ public:
     //! Takes them away again, if there are any.
     void remove(Index face);
 
-    void renumber(const Renumbering& renumbering);
+    //! Calls change(site) for every site that is named here.
+    template <typename Change>
+    void for_each_site(const Change& change);
 
     //! Empty for a face without arcs.
     [[nodiscard]] const Face& of_face(Index face) const {
@@ -77,9 +80,6 @@ public:
         }
     }
 
-    //! More is released than in use: time to begin anew.
-    [[nodiscard]] bool is_wasteful() const;
-
 private:
     Index take_slot(Index face);
 
@@ -99,5 +99,18 @@ private:
     std::vector<VoronoiVertex> new_voronoi_vertices_;
     std::vector<VertexPlace> new_vertex_places_;
 };
+
+template <typename Change>
+void ArcStore::for_each_site(const Change& change) {
+    for (LocalArc& arc : arcs_) {
+        change(arc.left);
+        change(arc.right);
+    }
+    for (VoronoiVertex& voronoi_vertex : voronoi_vertices_) {
+        for (Index& site : voronoi_vertex.sites) change(site);
+    }
+    for (Connection& connection : connections_) change(connection.site);
+    for (FaceArcs::CellPart& part : parts_) change(part.site);
+}
 
 }  // namespace agvd

@@ -5,11 +5,6 @@
 
 namespace agvd {
 
-void CellSet::renumber(const Renumbering& renumbering) {
-    renumbering.apply_to_places(has_);
-    count_ = static_cast<Index>(std::count(has_.begin(), has_.end(), 1));
-}
-
 std::vector<Index> faces_of_cells(const Surface& surface, const EdgeLabels& labels,
                                   const ArcStore& arcs, const CellSet& cells,
                                   std::span<const Index> seeds) {

@@ -13,7 +13,6 @@ public:
     explicit CellSet(Index num_sites = 0) : has_(num_sites, 0) {}
     //! Of so many sites; there are none of the new ones in it.
     void resize(Index num_sites) { has_.resize(num_sites, 0); }
-    void renumber(const Renumbering& renumbering);
 
     [[nodiscard]] Index num_sites() const { return static_cast<Index>(has_.size()); }
     [[nodiscard]] bool is_empty() const { return count_ == 0; }

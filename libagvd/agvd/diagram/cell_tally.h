@@ -18,7 +18,6 @@ public:
     explicit CellTally(const Surface& surface);
     //! Of so many sites; new ones have nothing.
     void resize(Index num_sites) { cells_.resize(num_sites); }
-    void renumber(const Renumbering& renumbering) { renumbering.apply_to_places(cells_); }
 
     // What is no_index belongs to no cell.
     // \param sign  1: comes in; -1: goes out.
@@ -45,13 +44,15 @@ public:
     //! Sets cell_area and cell_euler.
     void write(Diagram& diagram) const;
 
-private:
     struct Cell {
-        std::int64_t area = 0;  // In units.
+        std::int64_t area = 0;  //!< In units.
         int euler = 0;
         bool is_changed = false;
     };
+    //! By site; for those who give sites other numbers.
+    [[nodiscard]] std::vector<Cell>& cells() { return cells_; }
 
+private:
     void count(Index site, int change) {
         if (site != no_index) change_cell(site, change, 0);
     }

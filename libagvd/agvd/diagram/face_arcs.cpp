@@ -45,9 +45,10 @@ public:
                 corners[k] = position_of(labels_, corners_, triangle.points[k]);
             }
             for (std::size_t k = 0; k < 3; ++k) {
-                sides_[k] = triangle.sides[k] < Crossing::first_cut
-                                ? mesh_side(triangle.sides[k], corners[k], corners[(k + 1) % 3])
-                                : cut_side(triangle, k, corners);
+                sides_[k] = triangle.sides[k].is_cut()
+                                ? cut_side(triangle, k, corners)
+                                : mesh_side(triangle.sides[k].half_edge(), corners[k],
+                                            corners[(k + 1) % 3]);
             }
             trace_triangle(corners, labels_.point_site[triangle.points[0].point]);
         }
@@ -72,7 +73,7 @@ private:
 
     [[nodiscard]] Side cut_side(const CutTriangle& triangle, std::size_t k,
                                 const std::array<Vec2, 3>& corners) const {
-        const Cut& cut = labels_.cuts[triangle.sides[k] - Crossing::first_cut];
+        const Cut& cut = labels_.cuts[triangle.sides[k].cut()];
         const std::size_t next = (k + 1) % 3;
         return {corners[k],
                 corners[next],
@@ -110,16 +111,17 @@ private:
         name_nodes(before);
     }
 
-    // Until here breakpoints have their places in the row: a face that is glued to itself meets one
-    // crossing at two of them.
+    // Until here a breakpoint's node is its place in the row: a face that is glued to itself meets
+    // one crossing at two breakpoints.
     void name_nodes(const FaceArcs::Mark& before) {
         for (std::size_t i = before.arcs; i < out_.local.arcs.size(); ++i) {
             LocalArc& arc = out_.local.arcs[i];
             for (const bool at_tail : {true, false}) {
-                Index& node = at_tail ? arc.tail : arc.head;
-                if (node >= LocalDiagram::first_voronoi_vertex) continue;
-                (at_tail ? arc.tail_is_across : arc.head_is_across) = nodes_[node].is_across;
-                node = nodes_[node].name;
+                NodeId& node = at_tail ? arc.tail : arc.head;
+                if (node.is_voronoi_vertex()) continue;
+                const auto& [crossing, is_across] = nodes_[node.crossing()];
+                (at_tail ? arc.tail_is_across : arc.head_is_across) = is_across;
+                node = NodeId::of_crossing(crossing);
             }
         }
     }
@@ -160,11 +162,11 @@ private:
                 count(site, 0, cross(last, p) / 2);
                 site = side.forward ? c.site_after : c.site_before;
                 const bool is_last = j + 1 == side.row.count;
-                const Index interval =
-                    is_last ? side.to_point
-                            : FaceArcs::first_interval + (side.forward ? node : node - 1);
+                const IntervalId interval =
+                    is_last ? IntervalId::to_point(side.to_point)
+                            : IntervalId::after_crossing(side.forward ? node : node - 1);
                 const auto place = static_cast<Index>(breakpoints_.size());
-                breakpoints_.push_back({p, c.distance, place, site, interval});
+                breakpoints_.push_back({p, c.distance, NodeId::of_crossing(place), site, interval});
                 nodes_.push_back({node, side.is_across});
                 last = p;
             }
@@ -234,11 +236,11 @@ private:
         count(arc.right, 0, -doubled / 2);
     }
 
-    [[nodiscard]] Vec2 node_position(Index node) const {
-        if (node >= LocalDiagram::first_voronoi_vertex) {
-            return out_.local.voronoi_vertices[node - LocalDiagram::first_voronoi_vertex].position;
+    [[nodiscard]] Vec2 node_position(NodeId node) const {
+        if (node.is_voronoi_vertex()) {
+            return out_.local.voronoi_vertices[node.voronoi_vertex()].position;
         }
-        return breakpoints_[node].position;
+        return breakpoints_[node.crossing()].position;
     }
 
     void count(Index site, int pieces, double area) {
@@ -272,7 +274,7 @@ private:
     std::vector<Index> sites_;
     std::vector<Breakpoint> breakpoints_;
     struct Node {
-        Index name;
+        Index crossing;
         bool is_across;
     };
     std::vector<Node> nodes_;  // By breakpoint.
@@ -280,17 +282,17 @@ private:
 
 }  // namespace
 
-void trace_faces(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
-                 const EdgeLabels& labels, double chord_tolerance, std::span<const Index> mixed,
-                 Ticker ticker, FaceArcs& out) {
+void find_arcs(const StageInput& input, const RelayGroups& groups, const EdgeLabels& labels,
+               std::span<const Index> mixed, FaceArcs& out) {
     out.clear();
-    FaceTracer tracer(surface, propagation, groups, labels, chord_tolerance, out);
+    FaceTracer tracer(input.surface, input.propagation, groups, labels, input.chord_tolerance, out);
+    Ticker ticker(input.poller);
     const auto comes_before = [](const CutFace& cut, Index face) { return cut.face < face; };
     auto cut = labels.cut_faces.begin();
     for (const Index i : mixed) {
         out.faces.push_back(out.mark());
-        ticker.tick(1 + relays_of(propagation, i).size());
-        const Index face = propagation.mixed_faces[i];
+        ticker.tick(1 + relays_of(input.propagation, i).size());
+        const Index face = input.propagation.mixed_faces[i];
         cut = std::lower_bound(cut, labels.cut_faces.end(), face, comes_before);
         if (cut != labels.cut_faces.end() && cut->face == face) {
             tracer.trace_cut(*cut);

@@ -7,13 +7,9 @@
 
 namespace agvd {
 
-//! What the faces of one chunk contribute. Nodes are the crossings (their index in EdgeLabels) and
-//! the chunk's Voronoi vertices from LocalDiagram::first_voronoi_vertex. Intervals have the name of
-//! the point at which they end, if there is one, else first_interval + the crossing that they
-//! follow along the edge_half or the cut.
+//! What the faces of one chunk contribute. Crossings and points are those of EdgeLabels, Voronoi
+//! vertices those of the chunk.
 struct FaceArcs {
-    static constexpr Index first_interval = Index{1} << 31;
-
     LocalDiagram local;
 
     //! What a triangle adds to a cell: its area there, and the number of its pieces.
@@ -49,13 +45,10 @@ struct FaceArcs {
     }
 };
 
-//! \param mixed  positions in mixed_faces, ascending; out.faces are in their order.
-//! \param out    replaced; its memory is used again.
-//!
-//! Most faces have two or three label changes, and there the face's own relays settle all; where
-//! they do not agree with each other, what the edges hand on does.
-void trace_faces(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
-                 const EdgeLabels& labels, double chord_tolerance, std::span<const Index> mixed,
-                 Ticker ticker, FaceArcs& out);
+//! Finds the arcs of mixed faces. Most faces have two or three label changes, and there the face's
+//! own relays settle all; where they do not agree with each other, what the edges hand on does.
+//! \param out  replaced, face after face; its memory is used again.
+void find_arcs(const StageInput& input, const RelayGroups& groups, const EdgeLabels& labels,
+               std::span<const Index> mixed, FaceArcs& out);
 
 }  // namespace agvd

@@ -5,24 +5,71 @@
 #include <array>
 #include <vector>
 
-#include "agvd/core/types.h"
+#include "agvd/core/either_index.h"
 
 namespace agvd {
+
+//! An end of an arc: a crossing on an edge or a cut, or a Voronoi vertex.
+class NodeId {
+public:
+    constexpr NodeId() = default;
+    [[nodiscard]] static constexpr NodeId of_crossing(Index crossing) {
+        return NodeId(EitherIndex::first(crossing));
+    }
+    [[nodiscard]] static constexpr NodeId of_voronoi_vertex(Index voronoi_vertex) {
+        return NodeId(EitherIndex::second(voronoi_vertex));
+    }
+
+    [[nodiscard]] constexpr bool is_voronoi_vertex() const { return id_.is_second(); }
+    [[nodiscard]] constexpr Index crossing() const { return id_.first(); }
+    [[nodiscard]] constexpr Index voronoi_vertex() const { return id_.second(); }
+
+    friend constexpr bool operator==(const NodeId&, const NodeId&) = default;
+
+private:
+    explicit constexpr NodeId(EitherIndex id) : id_(id) {}
+
+    EitherIndex id_;
+};
+
+//! A stretch of one label on an edge or a cut. It is named by the point at its end, if there is
+//! one, else by the crossing that it follows along the edge_half or the cut.
+class IntervalId {
+public:
+    constexpr IntervalId() = default;
+    [[nodiscard]] static constexpr IntervalId to_point(Index point) {
+        return IntervalId(EitherIndex::first(point));
+    }
+    [[nodiscard]] static constexpr IntervalId after_crossing(Index crossing) {
+        return IntervalId(EitherIndex::second(crossing));
+    }
+
+    [[nodiscard]] constexpr bool follows_crossing() const { return id_.is_second(); }
+    [[nodiscard]] constexpr Index point() const { return id_.first(); }
+    [[nodiscard]] constexpr Index crossing() const { return id_.second(); }
+
+    friend constexpr bool operator==(const IntervalId&, const IntervalId&) = default;
+
+private:
+    explicit constexpr IntervalId(EitherIndex id) : id_(id) {}
+
+    EitherIndex id_;
+};
 
 //! A label change on the triangle's boundary. Breakpoints run counter-clockwise; between breakpoint
 //! i and breakpoint i + 1 (cyclic) the boundary has label breakpoints[i].site_after.
 struct Breakpoint {
     Vec2 position;
     double distance;  //!< From both sites.
-    Index node;       //!< Caller's name of the point.
+    NodeId node;      //!< The caller's; a crossing.
     Index site_after;
-    Index interval;  //!< Caller's name of the interval after it.
+    IntervalId interval;  //!< The one after it.
 };
 
 //! A piece of bisector between two nodes.
 struct LocalArc {
     Index face;
-    Index tail, head;   //!< Nodes.
+    NodeId tail, head;
     Index left, right;  //!< Sites, walking from tail to head.
     Index first_point;  //!< Its inner polyline points in LocalDiagram::points.
     Index num_points;
@@ -42,18 +89,16 @@ struct LocalVoronoiVertex {
 
 //! Two boundary intervals of a site that hang together inside.
 struct Connection {
-    Index a, b;  //!< Names of intervals.
+    IntervalId a, b;
     Index site;
 };
 
 //! What the faces of one chunk contribute.
 struct LocalDiagram {
-    static constexpr Index first_voronoi_vertex = Index{1} << 31;
-
     std::vector<Vec2> points;  //!< In the own frame of the face concerned.
     std::vector<double> point_distance;
     std::vector<LocalArc> arcs;
-    std::vector<LocalVoronoiVertex> voronoi_vertices;  //!< v is node first_voronoi_vertex + v.
+    std::vector<LocalVoronoiVertex> voronoi_vertices;
     std::vector<Connection> connections;
 };
 

@@ -4,8 +4,9 @@
 
 #include <memory>
 
-#include "agvd/core/poller.h"
+#include "agvd/diagram/edge_labels.h"
 #include "agvd/diagram/face_relays.h"
+#include "agvd/diagram/stage_input.h"
 
 namespace agvd {
 
@@ -50,5 +51,9 @@ private:
     std::unique_ptr<Index[]> relays_;     // Face after face, group after group.
     std::unique_ptr<Index[]> begins_;     // Of the groups of each face, and the end of the last.
 };
+
+//! The relays of these faces and of their neighbours.
+[[nodiscard]] RelayGroups group_relays_around(const StageInput& input, const EdgeLabels& labels,
+                                              std::span<const Index> faces);
 
 }  // namespace agvd

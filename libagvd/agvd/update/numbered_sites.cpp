@@ -1,4 +1,4 @@
-#include "agvd/propagation/numbered_sites.h"
+#include "agvd/update/numbered_sites.h"
 
 #include <algorithm>
 #include <limits>

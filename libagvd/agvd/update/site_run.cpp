@@ -1,4 +1,4 @@
-#include "agvd/propagation/site_run.h"
+#include "agvd/update/site_run.h"
 
 #include <algorithm>
 #include <array>

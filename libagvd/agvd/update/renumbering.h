@@ -14,27 +14,20 @@ public:
     //! \param removed  in any order.
     Renumbering(Index num_sites, const std::vector<Index>& removed) : new_site_(num_sites, 0) {
         for (const Index site : removed) new_site_[site] = no_index;
-        Index next = 0;
         for (Index& site : new_site_) {
-            if (site != no_index) site = next++;
+            if (site != no_index) site = num_left_++;
         }
     }
 
-    void apply(Index& site) const {
-        if (site != no_index) site = new_site_[site];
-    }
-    //! To the elements of an array by site.
-    template <typename T>
-    void apply_to_places(std::vector<T>& by_site) const {
-        Index count = 0;
-        for (Index s = 0; s < by_site.size(); ++s) {
-            if (new_site_[s] != no_index) by_site[count++] = by_site[s];
-        }
-        by_site.resize(count);
+    [[nodiscard]] Index num_old() const { return static_cast<Index>(new_site_.size()); }
+    [[nodiscard]] Index num_left() const { return num_left_; }
+    [[nodiscard]] Index operator()(Index site) const {
+        return site == no_index ? no_index : new_site_[site];
     }
 
 private:
     std::vector<Index> new_site_;
+    Index num_left_ = 0;
 };
 
 }  // namespace agvd

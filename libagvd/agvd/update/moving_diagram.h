@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "agvd/diagram/diagram.h"
-#include "agvd/propagation/moving_sites.h"
+#include "agvd/update/moving_sites.h"
 
 namespace agvd {
 

@@ -7,8 +7,8 @@
 
 #include "agvd/propagation/propagation_options.h"
 #include "agvd/propagation/relays.h"
-#include "agvd/propagation/site_changes.h"
 #include "agvd/propagation/surface_layout.h"
+#include "agvd/update/site_changes.h"
 
 namespace agvd {
 

@@ -1,4 +1,4 @@
-#include "agvd/propagation/moving_sites.h"
+#include "agvd/update/moving_sites.h"
 
 #include <algorithm>
 #include <limits>
@@ -8,14 +8,14 @@
 
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/one_ring.h"
-#include "agvd/propagation/numbered_sites.h"
 #include "agvd/propagation/option_checks.h"
-#include "agvd/propagation/relay_store.h"
 #include "agvd/propagation/site_placement.h"
-#include "agvd/propagation/site_run.h"
 #include "agvd/propagation/window_engine.h"
 #include "agvd/propagation/window_front.h"
 #include "agvd/propagation/window_relays.h"
+#include "agvd/update/numbered_sites.h"
+#include "agvd/update/relay_store.h"
+#include "agvd/update/site_run.h"
 
 namespace agvd {
 namespace {

@@ -7,9 +7,9 @@
 
 #include "agvd/mesh/distinct_points.h"
 #include "agvd/propagation/distance_bounds.h"
-#include "agvd/propagation/site_changes.h"
 #include "agvd/propagation/surface_layout.h"
 #include "agvd/propagation/window_engine.h"
+#include "agvd/update/site_changes.h"
 
 namespace agvd {
 

@@ -1,4 +1,4 @@
-#include "agvd/diagram/touched_parts.h"
+#include "agvd/update/touched_parts.h"
 
 #include <algorithm>
 #include <utility>
@@ -29,7 +29,6 @@ TouchedParts::TouchedParts(const Surface& surface, std::span<const Index> faces)
 }
 
 bool TouchedParts::holds_on_edge(Index half_edge) const {
-    if (is_all_) return false;
     const Index twin = surface_.twin[half_edge];
     return is_face_touched_[Surface::face(half_edge)] == 0 &&
            (twin == no_index || is_face_touched_[Surface::face(twin)] == 0) &&
@@ -49,7 +48,6 @@ bool TouchedParts::is_touched(Index face) const {
 }
 
 bool TouchedParts::holds_in_face(Index face, bool is_local) const {
-    if (is_all_) return false;
     if (holds_on_edges_of(face)) return true;
     if (!is_local || is_touched(face)) return false;
     const Index first = 3 * face;

@@ -1,4 +1,4 @@
-#include "agvd/propagation/relay_store.h"
+#include "agvd/update/relay_store.h"
 
 #include <algorithm>
 
