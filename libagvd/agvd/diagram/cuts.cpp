@@ -5,6 +5,7 @@
 #include "agvd/core/parallel.h"
 #include "agvd/diagram/face_triangulation.h"
 #include "agvd/diagram/inside_relays.h"
+#include "agvd/diagram/label_line.h"
 #include "agvd/diagram/relay_tree.h"
 
 namespace agvd {
@@ -122,32 +123,10 @@ private:
         for (const PlanarRelay& relay : near_) {
             on_cut_.push_back(on_line(relay, from.position, chord / length, length));
         }
-        Crossing single{0, 0, from.site, to.site, name};
-        if (from.site != to.site &&
-            find_single_crossing(on_cut_, length, from.site, to.site, single.at, single.distance)) {
-            single.at /= length;
-            append_cut(from, to, {&single, 1});
-            return;
-        }
-        label_envelope(on_cut_, length, from.site, to.site, scratch_, intervals_);
-        crossings_.clear();
-        for (std::size_t i = 0; i + 1 < intervals_.size(); ++i) {
-            const Index before = intervals_[i].site;
-            const Index after = intervals_[i + 1].site;
-            const double at = intervals_[i].end;
-            crossings_.push_back({at,
-                                  std::max(distance_on_line(on_cut_, before, at * length),
-                                           distance_on_line(on_cut_, after, at * length)),
-                                  before, after, name});
-        }
-        append_cut(from, to, crossings_);
-    }
-
-    void append_cut(const Point& from, const Point& to, std::span<const Crossing> crossings) {
         Block row = block_from(out_.crossings);
-        row.count = static_cast<Index>(crossings.size());
+        label_line(on_cut_, {name, length, from.site, to.site}, scratch_, out_.crossings);
+        row.count = static_cast<Index>(out_.crossings.size()) - row.begin;
         out_.cuts.push_back({face_, from.name, to.name, row});
-        out_.crossings.insert(out_.crossings.end(), crossings.begin(), crossings.end());
     }
 
     template <typename T>
@@ -171,9 +150,7 @@ private:
     std::vector<LineRelay> on_cut_;
     std::vector<Point> points_;
     FaceTriangulation triangulation_;
-    std::vector<Crossing> crossings_;
-    std::vector<LabelInterval> intervals_;
-    EnvelopeScratch scratch_;
+    LineScratch scratch_;
 };
 
 // The elements of a block, to be changed.

@@ -21,28 +21,20 @@ struct FaceArcs {
     std::vector<CellPart> parts;
 
     //! Where a face's contributions begin.
-    struct Mark {
-        Index points, arcs, voronoi_vertices, connections, parts;
+    struct Mark : LocalDiagram::Mark {
+        Index parts;
     };
     std::vector<Mark> faces;
     std::vector<std::uint8_t> is_local;  //!< By face: 1: no relays of other faces were asked.
 
     void clear() {
-        local.points.clear();
-        local.point_distance.clear();
-        local.arcs.clear();
-        local.voronoi_vertices.clear();
-        local.connections.clear();
+        local.go_back({});
         parts.clear();
         faces.clear();
         is_local.clear();
     }
 
-    [[nodiscard]] Mark mark() const {
-        return {static_cast<Index>(local.points.size()), static_cast<Index>(local.arcs.size()),
-                static_cast<Index>(local.voronoi_vertices.size()),
-                static_cast<Index>(local.connections.size()), static_cast<Index>(parts.size())};
-    }
+    [[nodiscard]] Mark mark() const { return {local.mark(), static_cast<Index>(parts.size())}; }
 };
 
 //! Finds the arcs of mixed faces. Most faces have two or three label changes, and there the face's

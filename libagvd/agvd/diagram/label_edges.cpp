@@ -4,7 +4,7 @@
 
 #include "agvd/core/parallel.h"
 #include "agvd/diagram/edge_relays.h"
-#include "agvd/diagram/envelope.h"
+#include "agvd/diagram/label_line.h"
 
 namespace agvd {
 namespace {
@@ -28,53 +28,36 @@ namespace {
     }
 }
 
+// Labels edges one after the other. One for each thread.
 class EdgeLabeller {
 public:
-    EdgeLabeller(const Surface& surface, const EdgeLabels& labels, EdgeRelays relays,
+    EdgeLabeller(const StageInput& in, const RelayGroups& groups, const EdgeLabels& labels,
                  FoundRows& out)
-        : surface_(surface), labels_(labels), edge_relays_(std::move(relays)), out_(out) {}
+        : surface_(in.surface),
+          labels_(labels),
+          edge_relays_(in.surface, in.propagation, groups, labels),
+          out_(out) {}
 
     void label(Index half_edge) {
         const Index edge = surface_.edge[half_edge];
-        const LineId line = LineId::of_edge(half_edge);
         if (!edge_relays_.may_change(edge, relays_)) return;
-        const double length = surface_.length[edge];
-        const Index site_at_tail = labels_.point_site[surface_.tail(half_edge)];
-        const Index site_at_head = labels_.point_site[surface_.head(half_edge)];
-        double at, distance_there;
-        if (site_at_tail != site_at_head &&
-            find_single_crossing(relays_, length, site_at_tail, site_at_head, at, distance_there)) {
-            begin_row(edge, 1);
-            out_.crossings.push_back(
-                {at / length, distance_there, site_at_tail, site_at_head, line});
-            return;
-        }
-        label_envelope(relays_, length, site_at_tail, site_at_head, scratch_, intervals_);
-        const auto count = static_cast<Index>(intervals_.size()) - 1;
-        if (count == 0) return;
-        begin_row(edge, count);
-        for (Index k = 0; k < count; ++k) {
-            const Index before = intervals_[k].site;
-            const Index after = intervals_[k + 1].site;
-            const double x = intervals_[k].end * length;
-            const double distance =
-                std::max(distance_on_line(relays_, before, x), distance_on_line(relays_, after, x));
-            out_.crossings.push_back({intervals_[k].end, distance, before, after, line});
-        }
+        const auto begin = static_cast<Index>(out_.crossings.size());
+        label_line(relays_,
+                   {LineId::of_edge(half_edge), surface_.length[edge],
+                    labels_.point_site[surface_.tail(half_edge)],
+                    labels_.point_site[surface_.head(half_edge)]},
+                   scratch_, out_.crossings);
+        const Index count = static_cast<Index>(out_.crossings.size()) - begin;
+        if (count > 0) out_.rows.push_back({edge, {begin, count}});
     }
 
 private:
-    void begin_row(Index edge, Index count) {
-        out_.rows.push_back({edge, {static_cast<Index>(out_.crossings.size()), count}});
-    }
-
     const Surface& surface_;
     const EdgeLabels& labels_;
     EdgeRelays edge_relays_;
     FoundRows& out_;
-    std::vector<LineRelay> relays_;
-    std::vector<LabelInterval> intervals_;
-    EnvelopeScratch scratch_;
+    std::vector<LineRelay> relays_;  // Of the edge at hand.
+    LineScratch scratch_;
 };
 
 // Of all mixed faces.
@@ -104,8 +87,7 @@ std::vector<FoundRows> find_rows(const StageInput& input, const RelayGroups& gro
     const auto count = static_cast<Index>(half_edges.size());
     std::vector<FoundRows> found(num_chunks(count, grain));
     const auto label_chunk = [&](Index chunk, Index begin, Index end) {
-        EdgeLabeller labeller(input.surface, labels,
-                              {input.surface, input.propagation, groups, labels}, found[chunk]);
+        EdgeLabeller labeller(input, groups, labels, found[chunk]);
         Ticker ticker(input.poller);
         for (Index i = begin; i < end; ++i) {
             constexpr Index ahead = 3;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <vector>
 
 #include "agvd/core/either_index.h"
@@ -95,11 +96,30 @@ struct Connection {
 
 //! What the faces of one chunk contribute.
 struct LocalDiagram {
+    //! Sizes of the lists.
+    struct Mark {
+        Index points, arcs, voronoi_vertices, connections;
+    };
+
     std::vector<Vec2> points;  //!< In the own frame of the face concerned.
     std::vector<double> point_distance;
     std::vector<LocalArc> arcs;
     std::vector<LocalVoronoiVertex> voronoi_vertices;
     std::vector<Connection> connections;
+
+    [[nodiscard]] Mark mark() const {
+        return {static_cast<Index>(points.size()), static_cast<Index>(arcs.size()),
+                static_cast<Index>(voronoi_vertices.size()),
+                static_cast<Index>(connections.size())};
+    }
+    //! Drops all that came since.
+    void go_back(const Mark& mark) {
+        points.resize(mark.points);
+        point_distance.resize(mark.points);
+        arcs.resize(mark.arcs);
+        voronoi_vertices.resize(mark.voronoi_vertices);
+        connections.resize(mark.connections);
+    }
 };
 
 }  // namespace agvd
