@@ -5,6 +5,8 @@
 #include "agvd/core/block_pool.h"
 #include "agvd/diagram/arc_end.h"
 #include "agvd/diagram/face_arcs.h"
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_point.h"
 
 namespace agvd {
 
@@ -36,7 +38,7 @@ public:
     explicit ArcStore(const Surface& surface)
         : surface_(&surface), slots_(surface.num_faces(), no_index) {}
 
-    //! Never had any arcs.
+    //! No face ever had arcs.
     [[nodiscard]] bool is_empty() const { return faces_.empty(); }
     //! Makes room for so many times as much.
     void reserve_for(double times);
@@ -65,7 +67,7 @@ public:
     [[nodiscard]] const BlockPool<FaceArcs::CellPart>& parts() const { return parts_; }
 
     //! Starts to load what a face has, in three steps: call for the same face with 0, 1 and 2.
-    //! Inlined by force, as all that only prefetches must be.
+    //! Always inline: g++ drops calls of functions that do nothing but prefetch.
     [[gnu::always_inline]] void prefetch(Index face, int step) const {
         if (step == 0) {
             __builtin_prefetch(&slots_[face]);
@@ -81,7 +83,12 @@ public:
     }
 
 private:
-    Index take_slot(Index face);
+    // The arcs of a chunk from `first_arc` on are stored from `stored_at` on.
+    [[nodiscard]] Block add_voronoi_vertices(std::span<const LocalVoronoiVertex> local,
+                                             Index first_arc, Index stored_at);
+    // From the names of a chunk, counted from `begin`, to places in the pools.
+    void rename_in_arcs(const Face& stored, const FaceArcs::Mark& begin);
+    [[nodiscard]] Index take_slot(Index face);
 
     const Surface* surface_;
     std::vector<Index> slots_;  // #F: where in faces_; no_index: no arcs.

@@ -2,7 +2,10 @@
 //! Some of the cells of a diagram.
 #pragma once
 
-#include "agvd/diagram/arc_store.h"
+#include <cstdint>
+#include <vector>
+
+#include "agvd/core/types.h"
 
 namespace agvd {
 
@@ -35,11 +38,5 @@ private:
     std::vector<std::uint8_t> has_;
     Index count_ = 0;
 };
-
-//! The faces that any of the cells reaches into, as far as they hang together with one of the
-//! seeds. Ascending. Cost: O(seeds + faces), and a pass over #F bytes.
-[[nodiscard]] std::vector<Index> faces_of_cells(const Surface& surface, const EdgeLabels& labels,
-                                                const ArcStore& arcs, const CellSet& cells,
-                                                std::span<const Index> seeds);
 
 }  // namespace agvd

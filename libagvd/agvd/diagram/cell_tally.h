@@ -4,6 +4,8 @@
 
 #include "agvd/diagram/cell_set.h"
 #include "agvd/diagram/diagram.h"
+#include "agvd/diagram/edge_labels.h"
+#include "agvd/diagram/face_arcs.h"
 
 namespace agvd {
 

@@ -1,5 +1,7 @@
 #include "agvd/diagram/draw_points.h"
 
+#include "agvd/diagram/face_relays.h"
+
 namespace agvd {
 namespace {
 

@@ -1,9 +1,10 @@
 //! \file
-//! Second half of the diagram: the arcs inside the mixed faces, between the label changes on edges.
+//! The arcs of the faces of one chunk.
 #pragma once
 
-#include "agvd/diagram/apollonius.h"
-#include "agvd/diagram/inside_relays.h"
+#include <cstdint>
+
+#include "agvd/diagram/local_diagram.h"
 
 namespace agvd {
 
@@ -34,13 +35,9 @@ struct FaceArcs {
         is_local.clear();
     }
 
+    //! Where the contributions of a face begin; past the last face: the ends of all lists.
+    [[nodiscard]] Mark begin_of(Index i) const { return i < faces.size() ? faces[i] : mark(); }
     [[nodiscard]] Mark mark() const { return {local.mark(), static_cast<Index>(parts.size())}; }
 };
-
-//! Finds the arcs of mixed faces. Most faces have two or three label changes, and there the face's
-//! own relays settle all; where they do not agree with each other, what the edges hand on does.
-//! \param out  replaced, face after face; its memory is used again.
-void find_arcs(const StageInput& input, const RelayGroups& groups, const EdgeLabels& labels,
-               std::span<const Index> mixed, FaceArcs& out);
 
 }  // namespace agvd

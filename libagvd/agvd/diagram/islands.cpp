@@ -32,6 +32,33 @@ struct IslandSearch {
     std::vector<Row> island_rows;     // With an interval on an island.
 };
 
+// Ascending: the faces that any of these cells reaches into, as far as they hang together with an
+// edge between cells.
+std::vector<Index> faces_of_cells(const Surface& surface, const DiagramParts& parts,
+                                  const CellSet& cells) {
+    const auto is_reached = [&](Index face) {
+        if (parts.labels.mixed_index[face] == no_index) {
+            return cells.has(parts.labels.point_site[surface.mesh.triangles[face][0]]);
+        }
+        const auto in_face = parts.arcs.parts()[parts.arcs.of_face(face).parts];
+        return std::any_of(in_face.begin(), in_face.end(),
+                           [&](const FaceArcs::CellPart& part) { return cells.has(part.site); });
+    };
+    std::vector<Index> faces;
+    std::vector<std::uint8_t> is_seen(surface.num_faces(), 0);
+    const auto visit = [&](Index face) {
+        if (std::exchange(is_seen[face], 1) == 0 && is_reached(face)) faces.push_back(face);
+    };
+    for (const Index face : faces_beside(parts, cells)) visit(face);
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+        for (Index h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h) {
+            if (surface.twin[h] != no_index) visit(Surface::face(surface.twin[h]));
+        }
+    }
+    std::sort(faces.begin(), faces.end());
+    return faces;
+}
+
 // Along edges and cuts of one label.
 void unite_points(IslandSearch& search) {
     const Surface& surface = search.in.surface;
@@ -211,8 +238,7 @@ CellSet cells_in_doubt(const CellSet& displaced, std::span<const Index> num_loop
 RelabelledIslands relabel_islands(const StageInput& input, const CellSet& in_doubt,
                                   DiagramParts& parts) {
     const EdgeLabels& labels = parts.labels;
-    const std::vector<Index> faces =
-        faces_of_cells(input.surface, labels, parts.arcs, in_doubt, faces_beside(parts, in_doubt));
+    const std::vector<Index> faces = faces_of_cells(input.surface, parts, in_doubt);
     IslandSearch search{input,
                         in_doubt,
                         faces,

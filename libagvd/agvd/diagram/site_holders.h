@@ -3,6 +3,7 @@
 #pragma once
 
 #include "agvd/diagram/cell_set.h"
+#include "agvd/diagram/edge_labels.h"
 #include "agvd/diagram/stage_input.h"
 
 namespace agvd {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "agvd/core/parallel.h"
+#include "agvd/diagram/find_arcs.h"
 #include "agvd/diagram/join.h"
 
 namespace agvd {
