@@ -47,7 +47,7 @@ void recount_vertex(const Surface& surface, Index vertex, Index old_site, Diagra
     parts.tally.count_vertex(vertex, site, 1);
     for_each_outgoing(surface, vertex, [&](Index h) {
         const Index face = Surface::face(h);
-        // The first corner speaks for the face.
+        // An unlisted face has the label of its first corner.
         if (parts.labels.mixed_index[face] != no_index || h % 3 != 0) return;
         parts.tally.count_face(face, old_site, -1);
         parts.tally.count_face(face, site, 1);

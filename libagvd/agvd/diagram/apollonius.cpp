@@ -144,15 +144,15 @@ TriangleSolver::Ear TriangleSolver::judge_ear(std::size_t i, bool is_thorough) c
     if (ear.violation >= no_voronoi_vertex * triangle_.size) return ear;
     ear.violation =
         std::max({ear.violation,
-                  arc_undercut(triangle_, previous.site_after, at.site_after, {at.position, p}),
-                  arc_undercut(triangle_, at.site_after, next.site_after, {next.position, p})});
+                  arc_undercut(triangle_, {previous.site_after, at.site_after}, {at.position, p}),
+                  arc_undercut(triangle_, {at.site_after, next.site_after}, {next.position, p})});
     ear.is_certain = ear.violation <= inside_tolerance * triangle_.size;
     return ear;
 }
 
-// Wrong where a third site is nearer on the arc, and the less likely the farther the arc strays
-// from its chord. Certain where the site has no other interval that this one could hang together
-// with.
+// A lens is wrong where a third site is nearer on the arc, and the less likely the farther the arc
+// strays from its chord. It is certain where the site has no other interval that this one could be
+// connected to.
 void TriangleSolver::judge_lens(const Breakpoint& from, const Breakpoint& to, Ear& ear) const {
     const std::array sites{from.site_after, to.site_after};
     const auto middle = project(triangle_, relays_of_site(triangle_, sites[0]),
@@ -173,8 +173,8 @@ void TriangleSolver::judge_lens(const Breakpoint& from, const Breakpoint& to, Ea
 }
 
 // Closes ears until at most three breakpoints are left: the first that is certain, else the best.
-// Most triangles with many breakpoints are crossed by strips; there only the lenses at both ends of
-// the row are ears, and told without looking for Voronoi vertices. Closing an ear changes the sites
+// Most triangles with many breakpoints are crossed by strips. There only the lenses at both ends of
+// the row of strips are ears, and no Voronoi vertex is searched. Closing an ear changes the sites
 // around two others at most.
 void TriangleSolver::close_ears() {
     ears_.assign(breakpoints_.size(), {});
@@ -184,8 +184,8 @@ void TriangleSolver::close_ears() {
         const std::size_t next = after(i, breakpoints_.size());
         close_ear(i, ear);
         if (breakpoints_.size() <= 3) return;
-        // The breakpoints at both ends of the interval gave way to one Voronoi vertex, which took
-        // the place of the first, or to none.
+        // A Voronoi vertex has replaced the breakpoint at the interval's start, and the one at its
+        // end is gone; a lens leaves neither.
         if (ear.is_lens) {
             erase_both(ears_, i);
         } else {
@@ -308,7 +308,7 @@ void TriangleSolver::add_arc(const Breakpoint& from, const ArcHead& to, Index le
     const auto arc = static_cast<Index>(out_.arcs.size());
     const auto first_point = static_cast<Index>(out_.points.size());
     if (is_curved && !is_safe_) {
-        sample_bisector(triangle_, left, from.site_after, {from.position, to.position},
+        sample_bisector(triangle_, {left, from.site_after}, {from.position, to.position},
                         chord_tolerance_, out_);
     }
     out_.arcs.push_back({face_, from.node, to.node, left, from.site_after, first_point,

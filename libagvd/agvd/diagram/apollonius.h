@@ -20,7 +20,7 @@ public:
         : chord_tolerance_(chord_tolerance), out_(out) {}
 
     //! \param relays  by ascending site; kept by reference until the next call.
-    //! \param sites   those on the next triangle's boundary: no others are asked.
+    //! \param sites   those on the next triangle's boundary; others are not used.
     void set_relays(std::span<const PlanarRelay> relays, std::span<const Index> sites);
 
     //! Appends the diagram if the relays agree with the breakpoints and with each other: equal
@@ -31,12 +31,12 @@ public:
     [[nodiscard]] bool try_solve(Index face, const std::array<Vec2, 3>& corners,
                                  std::span<const Breakpoint> breakpoints);
 
-    //! The same for any relays. The result is a planar forest whatever the distances are: the
-    //! boundary's intervals are closed off one after the other, each by an arc or Voronoi vertex,
-    //! those about which there is no doubt first and then what fits the distances best, and each
-    //! step leaves a shorter cycle. Where the distances are those of a true Apollonius diagram it
-    //! is that diagram. Arcs that would cross others are drawn straight, and if that is not enough
-    //! all are, with Voronoi vertices on the chords that cut intervals off. Cost: O(k) Voronoi
+    //! The same for any relays. The result is a planar forest for any distances: the boundary's
+    //! intervals are closed off one after the other, each by an arc or a Voronoi vertex, those that
+    //! are certain first and then those that fit the distances best, and each step leaves a shorter
+    //! cycle. Where the distances are those of an Apollonius diagram the result is that diagram.
+    //! Arcs that would cross others are drawn straight, and if that is not enough all are, with
+    //! Voronoi vertices on the chords that cut intervals off. Cost: O(k) Voronoi
     //! vertices for k breakpoints, each O(relays), and O(k^2) comparisons.
     void solve(Index face, const std::array<Vec2, 3>& corners,
                std::span<const Breakpoint> breakpoints);

@@ -23,7 +23,7 @@ public:
         Vec2 position;  //!< In the face's own frame.
         double distance;
     };
-    //! A Voronoi vertex as it hangs together. Counter-clockwise around it: ends[i], then sites[i].
+    //! The arcs and cells around a Voronoi vertex, counter-clockwise: ends[i], then sites[i].
     struct VoronoiVertex {
         std::array<ArcEnd, 3> ends;
         std::array<Index, 3> sites;

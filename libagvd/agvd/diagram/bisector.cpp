@@ -84,16 +84,18 @@ std::optional<BisectorPoint> project(const TriangleSites& triangle, Relays a, Re
     return {};
 }
 
-void sample_bisector(const TriangleSites& triangle, Index a, Index b, const Chord& chord,
-                     double tolerance, LocalDiagram& out) {
-    sample({triangle, relays_of_site(triangle, a), relays_of_site(triangle, b), tolerance, out},
+void sample_bisector(const TriangleSites& triangle, const std::array<Index, 2>& sites,
+                     const Chord& chord, double tolerance, LocalDiagram& out) {
+    sample({triangle, relays_of_site(triangle, sites[0]), relays_of_site(triangle, sites[1]),
+            tolerance, out},
            chord, 0);
 }
 
-double arc_undercut(const TriangleSites& triangle, Index a, Index b, const Chord& chord) {
-    const auto point =
-        project(triangle, relays_of_site(triangle, a), relays_of_site(triangle, b), chord);
-    return point ? undercut(triangle, point->position, point->distance, std::array{a, b}) : 0;
+double arc_undercut(const TriangleSites& triangle, const std::array<Index, 2>& sites,
+                    const Chord& chord) {
+    const auto point = project(triangle, relays_of_site(triangle, sites[0]),
+                               relays_of_site(triangle, sites[1]), chord);
+    return point ? undercut(triangle, point->position, point->distance, sites) : 0;
 }
 
 }  // namespace agvd

@@ -25,11 +25,11 @@ struct BisectorPoint {
 
 //! Appends inner points of the bisector between the ends of a chord to `out.points`, such that it
 //! strays from the polyline by less than a share of each piece.
-void sample_bisector(const TriangleSites& triangle, Index a, Index b, const Chord& chord,
-                     double tolerance, LocalDiagram& out);
+void sample_bisector(const TriangleSites& triangle, const std::array<Index, 2>& sites,
+                     const Chord& chord, double tolerance, LocalDiagram& out);
 
 //! By how much a third site is nearer in the middle of the bisector of two sites.
-[[nodiscard]] double arc_undercut(const TriangleSites& triangle, Index a, Index b,
+[[nodiscard]] double arc_undercut(const TriangleSites& triangle, const std::array<Index, 2>& sites,
                                   const Chord& chord);
 
 }  // namespace agvd

@@ -7,8 +7,8 @@
 
 namespace agvd {
 
-//! Labels vertices and edges, traces the arcs in the faces and joins them. Cells may still have
-//! parts that do not hang together with their site: see absorb_islands.h.
+//! Labels vertices and edges, traces the arcs in the faces and joins them. Cells may still
+//! have parts that are not connected to their site: see absorb_islands.h.
 //! \throw Cancelled  the progress callback returned false.
 [[nodiscard]] DiagramParts build_parts(const StageInput& input);
 

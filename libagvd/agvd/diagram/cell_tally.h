@@ -9,24 +9,24 @@
 
 namespace agvd {
 
-//! Sums that take parts of the complex in and out again, in any order: areas are counted in units
-//! of about 2^-61 of the surface's. The open cell is a union of open pieces of triangles, open
-//! intervals of inner edges and cuts, and inner points, and for a surface without its boundary
-//! their alternating sum is the Euler characteristic.
+//! Parts of the complex are added and removed in any order. Areas are whole numbers of units of
+//! about 2^-61 of the surface's area, so that sums do not depend on the order. An open cell is a
+//! union of open pieces of triangles, open intervals of inner edges and cuts, and inner points; the
+//! alternating sum of their numbers is its Euler characteristic (without the surface's boundary).
 class CellTally {
 public:
-    //! Nothing counts yet.
+    //! Of no sites.
     //! \param surface  outlives this.
     explicit CellTally(const Surface& surface);
     //! Of so many sites; new ones have nothing.
     void resize(Index num_sites) { cells_.resize(num_sites); }
 
-    // What is no_index belongs to no cell.
-    // \param sign  1: comes in; -1: goes out.
+    // A site that is no_index has no cell, and nothing is counted.
+    // \param sign  1: the part is added; -1: it is removed.
 
     //! A vertex, and the first interval of each edge whose edge_half leaves it.
     void count_vertex(Index vertex, Index site, int sign);
-    //! All vertices, which come in. Cost: O(#F), in order.
+    //! Adds all vertices. Cost: O(#F), in order.
     void count_vertices(std::span<const Index> vertex_site);
     //! The other intervals of an edge.
     void count_row(std::span<const Crossing> row, int sign);
@@ -40,7 +40,7 @@ public:
     //! The pieces of a listed face.
     void count_parts(std::span<const FaceArcs::CellPart> parts, int sign);
 
-    //! The cells that have been told of since the last call.
+    //! The cells of which a part was added or removed since the last call.
     [[nodiscard]] CellSet take_changed();
 
     //! Sets cell_area and cell_euler.
@@ -51,7 +51,7 @@ public:
         int euler = 0;
         bool is_changed = false;
     };
-    //! By site; for those who give sites other numbers.
+    //! By site. For giving sites other numbers.
     [[nodiscard]] std::vector<Cell>& cells() { return cells_; }
 
 private:

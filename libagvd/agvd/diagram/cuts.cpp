@@ -11,8 +11,8 @@
 namespace agvd {
 namespace {
 
-// What the faces of one chunk add to the labels, each face numbered as if it were the only one.
-// Blocks are in these lists.
+// What the faces of one chunk add to the labels. Blocks are in these lists; the points and cuts of
+// each face are counted from 0.
 struct FoundCuts {
     std::vector<InnerPoint> inner_points;
     std::vector<Cut> cuts;
@@ -124,7 +124,7 @@ private:
             on_cut_.push_back(on_line(relay, from.position, chord / length, length));
         }
         Block row = block_from(out_.crossings);
-        label_line(on_cut_, {name, length, from.site, to.site}, scratch_, out_.crossings);
+        label_line(on_cut_, name, {length, from.site, to.site}, scratch_, out_.crossings);
         row.count = static_cast<Index>(out_.crossings.size()) - row.begin;
         out_.cuts.push_back({face_, from.name, to.name, row});
     }
@@ -159,7 +159,7 @@ std::vector<T> copy_of(const std::vector<T>& elements, const Block& block) {
     return {elements.begin() + block.begin, elements.begin() + block.end()};
 }
 
-// Under the names that they have among all.
+// Adds a face's cuts to the labels, with indices into these.
 CutFace add_cut_face(const FoundCuts& found, const CutFace& cut, Index num_vertices,
                      EdgeLabels& labels) {
     const auto inner_points = copy_of(found.inner_points, cut.inner_points);

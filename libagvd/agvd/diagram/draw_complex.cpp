@@ -1,5 +1,7 @@
 #include "agvd/diagram/draw_complex.h"
 
+#include <cassert>
+
 namespace agvd {
 namespace {
 
@@ -17,6 +19,7 @@ void finish_vertex(Diagram& out) {
 // \param numbers  by name of the edge, in the diagram.
 EdgeEnd edge_end(const JoinedEdges& joined, std::span<const Index> numbers, ArcEnd end) {
     const Index name = joined.edge_of_arc[end.arc()];
+    assert(joined.first_ends[name] == end || joined.edges[name].last == end);
     return {numbers[name], joined.first_ends[name] == end};
 }
 

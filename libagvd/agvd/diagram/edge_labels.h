@@ -1,6 +1,6 @@
 //! \file
-//! First half of the diagram: the labels on mesh vertices and edges, computed once and shared by
-//! the faces around them, so that neighbouring faces cannot disagree.
+//! The labels on mesh vertices and edges. They are computed once for the faces on both sides, so
+//! that these cannot disagree.
 #pragma once
 
 #include "agvd/core/block_pool.h"
@@ -9,7 +9,7 @@
 
 namespace agvd {
 
-//! What a label changes on: a mesh edge, known by a half-edge, or a cut.
+//! A line on which labels change: a mesh edge, named by one of its half-edges, or a cut.
 class LineId {
 public:
     constexpr LineId() = default;
@@ -47,7 +47,7 @@ struct Crossing {
 struct InnerPoint {
     Index face;
     Vec2 position;  //!< In the face's own frame.
-    Index site;     //!< no_index: a released one.
+    Index site;     //!< no_index: the point was removed.
 };
 
 //! An end of a cut: a corner of the face, which may have the same vertex at several, or a point

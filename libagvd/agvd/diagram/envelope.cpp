@@ -201,8 +201,9 @@ void drop_slivers(std::vector<LabelInterval>& intervals) {
 
 }  // namespace
 
-void label_envelope(std::span<const LineRelay> relays, double length, Index site_at_start,
-                    Index site_at_end, EnvelopeScratch& scratch, std::vector<LabelInterval>& out) {
+void label_envelope(std::span<const LineRelay> relays, const LabelledSegment& segment,
+                    EnvelopeScratch& scratch, std::vector<LabelInterval>& out) {
+    const auto& [length, site_at_start, site_at_end] = segment;
     assert(!relays.empty() && length > 0);
     out.clear();
     scratch.candidates.clear();

@@ -12,6 +12,12 @@ struct LabelInterval {
     Index site;
 };
 
+//! A segment and the sites of its ends.
+struct LabelledSegment {
+    double length;
+    Index site_at_start, site_at_end;
+};
+
 //! Scratch memory, so that a loop over many segments allocates once.
 struct EnvelopeScratch {
     std::vector<Candidate> candidates, left, right;
@@ -22,10 +28,10 @@ struct EnvelopeScratch {
 //! Distances along a straight segment are convex, so a relay whose tangents stay above the chord of
 //! another cannot win. The rest is bisected until one site, or one crossing of two sites, is left.
 //! Sites closer than rounding count as tied, and the lowest index takes them. The first and last
-//! interval get the sites named, with no length if need be, so that all segments at a corner agree
-//! on its site.
+//! interval get the sites of the ends, with no length if need be, so that all segments at a corner
+//! agree on its site.
 //! \param relays  not empty.
-void label_envelope(std::span<const LineRelay> relays, double length, Index site_at_start,
-                    Index site_at_end, EnvelopeScratch& scratch, std::vector<LabelInterval>& out);
+void label_envelope(std::span<const LineRelay> relays, const LabelledSegment& segment,
+                    EnvelopeScratch& scratch, std::vector<LabelInterval>& out);
 
 }  // namespace agvd

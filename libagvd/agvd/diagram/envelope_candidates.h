@@ -29,8 +29,9 @@ struct Candidate {
     return s;
 }
 
-//! Seen from x, two images differ in direction by at most their distance over either's distance, so
-//! near images have nearly parallel distances: one is told to be above the other without bisecting.
+//! Seen from x, two images differ in direction by at most their distance from each other over the
+//! distance of either. Distances from images that are near each other are thus nearly parallel:
+//! this decides without bisecting whether one is above the other.
 [[nodiscard]] inline bool is_parallel_above(const Candidate& c, const Candidate& b, double width,
                                             double slack) {
     if (c.lo.source != c.hi.source || b.lo.source != b.hi.source) return false;

@@ -13,7 +13,7 @@ namespace agvd {
 struct FaceArcs {
     LocalDiagram local;
 
-    //! What a triangle adds to a cell: its area there, and the number of its pieces.
+    //! The part of a triangle in a cell: area, and number of connected pieces.
     struct CellPart {
         Index site;
         int pieces;
@@ -26,7 +26,7 @@ struct FaceArcs {
         Index parts;
     };
     std::vector<Mark> faces;
-    std::vector<std::uint8_t> is_local;  //!< By face: 1: no relays of other faces were asked.
+    std::vector<std::uint8_t> is_local;  //!< By face: 1 if the arcs depend on its own relays only.
 
     void clear() {
         local.go_back({});

@@ -49,7 +49,7 @@ public:
         }
     }
 
-    // Whether the last face asked no relays of others.
+    // Whether the arcs of the last face depend on its own relays only.
     [[nodiscard]] bool is_local() const { return !has_all_relays_; }
 
 private:
@@ -119,13 +119,13 @@ private:
             [&](const FaceArcs::CellPart& part) { return part.area < -rounding * size * size; });
     }
 
-    // As most faces are.
+    // Suffices for most faces.
     [[nodiscard]] bool solve_by_one_arc(const std::array<Vec2, 3>& corners) {
         if (boundary_.breakpoints.size() != 2) return false;
         const Breakpoint& from = boundary_.breakpoints[0];
         const Breakpoint& to = boundary_.breakpoints[1];
         if (!joins_straight(relays_of(propagation_, mixed_index_), corners_, from, to,
-                            largest_disagreement * longest_side(corners), chord_tolerance_)) {
+                            {largest_disagreement * longest_side(corners), chord_tolerance_})) {
             return false;
         }
         const auto num_points = static_cast<Index>(out_.local.points.size());

@@ -1,5 +1,5 @@
 //! \file
-//! Second half of the diagram: the arcs inside the mixed faces, between the label changes on edges.
+//! Traces arcs of bisectors inside the mixed faces, between the label changes on their edges.
 #pragma once
 
 #include "agvd/diagram/edge_labels.h"
@@ -9,8 +9,9 @@
 
 namespace agvd {
 
-//! Finds the arcs of mixed faces. Most faces have two or three label changes, and there the face's
-//! own relays settle all; where they do not agree with each other, what the edges hand on does.
+//! Finds the arcs of mixed faces. Most faces have two or three label changes, and their own relays
+//! suffice. Where these contradict the labels on the edges or each other, the relays that are the
+//! nearest on the edges are used instead.
 //! \param out  replaced, face after face; its memory is used again.
 void find_arcs(const StageInput& input, const RelayGroups& groups, const EdgeLabels& labels,
                std::span<const Index> mixed, FaceArcs& out);

@@ -1,5 +1,5 @@
-// Points and intervals of one label that touch are united; what is not united with a cell's site
-// is an island. Nodes are numbered as in intervals.h.
+// Points and intervals of one label that touch are united by union-find. What is not united with
+// its cell's site is an island. Nodes are numbered as in intervals.h.
 #include "agvd/diagram/islands.h"
 
 #include <algorithm>
@@ -27,12 +27,12 @@ struct IslandSearch {
     std::span<const Index> faces;  // All that the cells in doubt reach into.
     DiagramParts& parts;
     UnionFind sets;                   // Of nodes.
-    std::vector<Index> mainland;      // By site: the root of what hangs together with it.
+    std::vector<Index> mainland;      // By site: the root of the set that holds it.
     std::map<Index, Index> new_site;  // By root of an island.
     std::vector<Row> island_rows;     // With an interval on an island.
 };
 
-// Ascending: the faces that any of these cells reaches into, as far as they hang together with an
+// Ascending: the faces that any of these cells reaches into, as far as they are connected to an
 // edge between cells.
 std::vector<Index> faces_of_cells(const Surface& surface, const DiagramParts& parts,
                                   const CellSet& cells) {
@@ -140,7 +140,7 @@ void for_each_row(IslandSearch& search, const Callback& callback) {
 }
 
 // Islands border on other cells at crossings. Each goes to the lowest-numbered cell that it borders
-// on and that hangs together with its site there.
+// on and that is connected to its site there.
 void choose_new_sites(IslandSearch& search) {
     const auto give = [&](Index island, Index site) {
         const auto [found, is_new] = search.new_site.try_emplace(search.sets.root(island), site);
@@ -208,7 +208,7 @@ void relabel_row(IslandSearch& search, const Row& row, std::vector<Index>& stale
     add_faces_beside(search, line, stale_faces);
 }
 
-// Inner points hang together with their sites: only mesh vertices get other labels.
+// An inner point is the place of its site, so only mesh vertices get other labels.
 void relabel_points(IslandSearch& search, RelabelledIslands& out) {
     const Surface& surface = search.in.surface;
     EdgeLabels& labels = search.parts.labels;

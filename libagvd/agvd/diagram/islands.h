@@ -1,5 +1,5 @@
 //! \file
-//! Parts of cells that do not hang together with their site.
+//! Parts of cells that are not connected to their site.
 #pragma once
 
 #include "agvd/diagram/cell_set.h"
@@ -28,8 +28,8 @@ struct RelabelledIslands {
     std::vector<Index> faces;
 };
 
-//! Finds the parts of cells in doubt that do not hang together with their site and gives each to a
-//! cell that it borders on: changes the labels, and the tally of the rows, not of the points.
+//! Finds the parts of cells in doubt that are not connected to their site and gives each to a cell
+//! that it borders on. Changes the labels, and the tally for rows but not for points.
 //! Cost: nearly linear in the points and crossings of the faces that these cells reach into, and
 //! O(#V + crossings) quick steps.
 [[nodiscard]] RelabelledIslands relabel_islands(const StageInput& input, const CellSet& in_doubt,

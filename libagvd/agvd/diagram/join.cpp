@@ -1,5 +1,5 @@
-// Follows arcs from crossing to crossing. An edge is taken apart as soon as one of its faces loses
-// its arcs; all that is left of it then is joined again.
+// Follows arcs from crossing to crossing. An edge is taken apart when one of its faces loses its
+// arcs; the arcs that it leaves in other faces are joined again.
 #include "agvd/diagram/join.h"
 
 #include <algorithm>
@@ -21,7 +21,7 @@ bool is_joined(const JoinedEdges& joined, Index arc) {
     return name != no_index && joined.first_ends[name].is_valid();
 }
 
-// Edges come in the order of the faces, and of the ends in a face, closed ones behind.
+// Ascends with the faces, and with the ends in a face; closed edges have the highest keys.
 std::uint64_t key_of(const ArcStore& arcs, ArcEnd end, bool is_closed) {
     const Index face = arcs.arcs()[end.arc()].face;
     return (std::uint64_t{is_closed} << 63) | (std::uint64_t{face} << 31) |
@@ -159,6 +159,7 @@ void forget_arcs(const ArcStore& arcs, Index face, JoinedEdges& joined) {
             const NodeId node = node_at(arcs, end);
             if (node.is_voronoi_vertex()) continue;
             auto& ends = joined.crossing_ends[node.crossing()];
+            assert(ends[0] == end || ends[1] == end);
             if (ends[0] == end) ends[0] = std::exchange(ends[1], {});
             if (ends[1] == end) ends[1] = {};
         }

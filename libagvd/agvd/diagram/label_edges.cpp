@@ -42,9 +42,8 @@ public:
         const Index edge = surface_.edge[half_edge];
         if (!edge_relays_.may_change(edge, relays_)) return;
         const auto begin = static_cast<Index>(out_.crossings.size());
-        label_line(relays_,
-                   {LineId::of_edge(half_edge), surface_.length[edge],
-                    labels_.point_site[surface_.tail(half_edge)],
+        label_line(relays_, LineId::of_edge(half_edge),
+                   {surface_.length[edge], labels_.point_site[surface_.tail(half_edge)],
                     labels_.point_site[surface_.head(half_edge)]},
                    scratch_, out_.crossings);
         const Index count = static_cast<Index>(out_.crossings.size()) - begin;

@@ -7,13 +7,6 @@
 
 namespace agvd {
 
-//! A line to be labelled, and the sites at its ends.
-struct UnlabelledLine {
-    LineId name;
-    double length;
-    Index site_at_start, site_at_end;
-};
-
 //! Scratch memory.
 struct LineScratch {
     EnvelopeScratch envelope;
@@ -23,7 +16,7 @@ struct LineScratch {
 //! Appends the label changes on a line, in their order.
 //! \param relays  all that are the nearest somewhere on it.
 //! Cost: O(relays) and a few square roots a label change, most often.
-void label_line(std::span<const LineRelay> relays, const UnlabelledLine& line, LineScratch& scratch,
-                std::vector<Crossing>& out);
+void label_line(std::span<const LineRelay> relays, LineId line, const LabelledSegment& segment,
+                LineScratch& scratch, std::vector<Crossing>& out);
 
 }  // namespace agvd

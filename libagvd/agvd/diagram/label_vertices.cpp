@@ -13,15 +13,15 @@ struct ShorterPath {
     double distance;
 };
 
-// Those to corners that are not fixed.
+// Appends the paths to corners that are not fixed.
 void find_shorter_paths(const Surface& surface, const Propagation& propagation,
                         std::span<const std::uint8_t> is_fixed, Index mixed_index,
                         std::vector<ShorterPath>& out) {
     const Index face = propagation.mixed_faces[mixed_index];
     const Triangle& corners = surface.mesh.triangles[face];
     if ((is_fixed[corners[0]] & is_fixed[corners[1]] & is_fixed[corners[2]]) != 0) return;
-    // No path through a relay is shorter than the straight line: most are told without roots. What
-    // is nearer by less than this share is not worth another label.
+    // No path through a relay is shorter than the straight line, which excludes most relays without
+    // a square root. A gain of less than this share changes no label.
     constexpr double least_gain = 1e-9;
     std::array<double, 3> limits;
     for (std::size_t k = 0; k < 3; ++k) {

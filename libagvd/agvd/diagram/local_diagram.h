@@ -88,7 +88,7 @@ struct LocalVoronoiVertex {
     std::array<Index, 3> sites;
 };
 
-//! Two boundary intervals of a site that hang together inside.
+//! Two boundary intervals of a site that are connected inside the triangle.
 struct Connection {
     IntervalId a, b;
     Index site;

@@ -1,5 +1,6 @@
 #include "agvd/diagram/loops.h"
 
+#include <cassert>
 #include <unordered_map>
 #include <utility>
 
@@ -62,6 +63,7 @@ Side next_side(const DiagramParts& parts, const NextOnBoundary& next_on_boundary
             ? end_before(parts.arcs.voronoi_vertices()[node.voronoi_vertex()], arriving)
             : joined.crossing_ends[next_on_boundary.at(node.crossing())][0];
     const Index next = joined.edge_of_arc[leaving.arc()];
+    assert(joined.first_ends[next] == leaving || joined.edges[next].last == leaving);
     return {next, joined.first_ends[next] != leaving};
 }
 

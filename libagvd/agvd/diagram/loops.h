@@ -1,5 +1,5 @@
 //! \file
-//! The boundaries of cells, told from joined arcs.
+//! The boundaries of cells, by joined arcs.
 #pragma once
 
 #include "agvd/diagram/cell_set.h"

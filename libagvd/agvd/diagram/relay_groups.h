@@ -1,5 +1,5 @@
 //! \file
-//! The relays of each mixed face by where their image lies.
+//! The relays of each mixed face, grouped by where their image lies.
 #pragma once
 
 #include <memory>
@@ -14,12 +14,12 @@ namespace agvd {
 class RelayGroups {
 public:
     //! Parallel; O(relays of those faces). Keeps a reference.
-    //! \param mixed  the mixed indices that will be asked for.
+    //! \param mixed  positions in mixed_faces: the faces whose groups will be read.
     RelayGroups(const Propagation& propagation, std::span<const Index> mixed, int num_threads,
                 Poller& poller);
 
-    //! The relays whose image lies across a half-edge of a mixed face. As all that follow in their
-    //! order.
+    //! The relays whose image lies across a half-edge of a mixed face. This group and the others
+    //! keep the order of the relays.
     [[nodiscard]] std::span<const Index> across(Index mixed_index, Index half_edge) const {
         return group(mixed_index, half_edge % 3);
     }

@@ -52,8 +52,8 @@ void sample_all(const Search& search, double x, Samples& samples) {
     }
 }
 
-// Tangents at the root against chords to the ends: neither site is overtaken again, and no other
-// one comes in.
+// Compares tangents at the root with the distances at the ends: neither site becomes the nearest
+// again beyond the root, and no third one is the nearest anywhere.
 // \param clear  differences below this decide nothing.
 bool is_only_change(const Search& search, const Samples& samples, const SingleCrossing& root,
                     double clear) {

@@ -27,7 +27,7 @@ void store(std::span<const Index> faces, std::span<const FaceArcs> chunks, Index
 
 void trace_faces(const StageInput& input, const RelayGroups& groups, std::span<const Index> mixed,
                  DiagramParts& parts) {
-    // Faces come in lots, so that what is traced is stored while it is in the cache.
+    // Some chunks at a time, so that arcs are stored while they are in the cache.
     constexpr Index most = 64 * grain;
     std::vector<FaceArcs> chunks(num_chunks(most, grain));
     const bool is_first = parts.arcs.is_empty();

@@ -17,7 +17,7 @@ inline constexpr int max_newton_steps = 25;
 
 using Relays = std::span<const PlanarRelay>;
 
-//! What is asked of other sites than those on the triangle's boundary decides nothing inside.
+//! Every cell inside reaches the boundary: other sites than those on it do not matter.
 struct TriangleSites {
     struct Group {
         Index site;

@@ -1,6 +1,6 @@
 // A Voronoi vertex p has equal distances f_a(p) = f_b(p) = f_c(p) from three sites, each the least
 // over the site's relays. Newton on (f_a - f_b, f_b - f_c) finds it, with the relays that are the
-// nearest at the start; at its end they are chosen anew until they stay the same.
+// nearest at the start; where it converges they are chosen again, until they stay the same.
 #include "agvd/diagram/voronoi_vertex.h"
 
 #include <algorithm>

@@ -29,7 +29,6 @@ void sort_by_face(FacePatches& patches) {
 struct Source {
     const MovingInput& in;
     const SiteRuns& runs;
-    const SitePlacement& placement;
     const RelayStore& store;
     const Propagation& result;
 };
@@ -101,7 +100,7 @@ void collect(const Source& source, Index face, std::span<const Patch> patches,
     for (const Index v : surface.mesh.triangles[face]) {
         all.add_site(source.result.vertex_site[v].value());
     }
-    const auto placed = source.placement.in_face(face);
+    const auto placed = source.in.placement.in_face(face);
     for (const PlacedSite& p : placed) all.add_site(p.site);
     const bool is_mixed = all.site == FaceRelays::several;
     if (is_mixed) {
@@ -158,13 +157,13 @@ void list_patches(const MovingInput& input, const SiteRuns& runs, std::span<cons
     sort_by_face(patches);
 }
 
-void replace_relays(const MovingInput& input, const SiteRuns& runs, const SitePlacement& placement,
-                    FacePatches& patches, RelayStore& store, Propagation& result) {
+void replace_relays(const MovingInput& input, const SiteRuns& runs, FacePatches& patches,
+                    RelayStore& store, Propagation& result) {
     constexpr Index grain = 256;
     const std::vector<Index>& faces = patches.changed_faces;
     const auto count = static_cast<Index>(faces.size());
     patches.collected.resize(num_chunks(count, grain));
-    const Source source{input, runs, placement, store, result};
+    const Source source{input, runs, store, result};
     const auto collect_chunk = [&](Index chunk, Index begin, Index end) {
         CollectedFaces& out = patches.collected[chunk];
         out.faces.clear();

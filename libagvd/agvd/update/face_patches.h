@@ -2,7 +2,6 @@
 //! Faces get other relays where sites ran again.
 #pragma once
 
-#include "agvd/propagation/site_placement.h"
 #include "agvd/update/relay_store.h"
 #include "agvd/update/site_runs.h"
 
@@ -51,7 +50,7 @@ void list_patches(const MovingInput& input, const SiteRuns& runs, std::span<cons
 
 //! Gives the listed faces their relays: those of sites that did not run again, and the patches.
 //! Parallel.
-void replace_relays(const MovingInput& input, const SiteRuns& runs, const SitePlacement& placement,
-                    FacePatches& patches, RelayStore& store, Propagation& result);
+void replace_relays(const MovingInput& input, const SiteRuns& runs, FacePatches& patches,
+                    RelayStore& store, Propagation& result);
 
 }  // namespace agvd

@@ -24,7 +24,7 @@ struct KeptDiagram {
 //! Gives the sites that are left their new numbers. Cost: O(size of the diagram).
 void renumber(const Renumbering& new_site, KeptDiagram& kept);
 
-//! Whether more memory is released than in use, so that it is time to begin anew.
+//! Whether more memory is released than in use: building a new diagram is better then.
 [[nodiscard]] bool is_wasteful(const DiagramParts& parts);
 
 }  // namespace agvd

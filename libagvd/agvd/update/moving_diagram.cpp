@@ -51,7 +51,7 @@ private:
     const Surface& surface_;
     DiagramOptions options_;
     MovingSites sites_;
-    std::optional<KeptDiagram> kept_;  // None: the next diagram is built anew.
+    std::optional<KeptDiagram> kept_;  // None: the next diagram is built from the start.
     Diagram diagram_;
 };
 

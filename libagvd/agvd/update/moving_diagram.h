@@ -10,11 +10,11 @@
 namespace agvd {
 
 //! Propagates, labels, traces and joins again only what a change touches. Propagation and diagram
-//! are those of a fresh run, byte for byte. Not for use by two threads at once.
+//! have the bytes of a fresh run. Not for use by two threads at once.
 class MovingDiagram {
 public:
     //! \param surface, layout  outlive this; SurfaceLayout(surface).
-    //! \param propagation     engine must be Window; progress is not told.
+    //! \param propagation     engine must be Window; its progress is not called.
     //! \throw as propagate() and build_diagram().
     //! Space: that of MovingSites, and four to eight times that of the diagram.
     MovingDiagram(const Surface& surface, const SurfaceLayout& layout,
@@ -27,7 +27,7 @@ public:
     //! \throw InvalidInput  as MovingSites::update(); nothing has changed then.
     //! \throw Cancelled     the diagram is that of before, the sites are the new ones; the next
     //!                      update makes up for it.
-    //! Cost: that of what is touched, copying the points of the other Voronoi edges, and O(#F)
+    //! Cost: that of the parts touched, copying the points of the other Voronoi edges, and O(#F)
     //! quick passes.
     void update(const SiteChanges& changes);
 

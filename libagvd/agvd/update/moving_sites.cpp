@@ -5,7 +5,6 @@
 #include <string>
 
 #include "agvd/propagation/option_checks.h"
-#include "agvd/propagation/site_placement.h"
 #include "agvd/propagation/window_engine.h"
 #include "agvd/update/face_patches.h"
 #include "agvd/update/vertex_readers.h"
@@ -37,7 +36,7 @@ public:
         runs_.runs.resize(sites_.count());
         if (!changes.removed.empty()) renumber_result();
         if (sites_.has_placed() || !placement_.is_empty()) placement_ = {surface_, sites()};
-        const MovingInput input{surface_, corners_, sites_, max_error_, num_threads_};
+        const MovingInput input{surface_, corners_, sites_, placement_, max_error_, num_threads_};
         const std::vector<Index> dirty = find_dirty(sites_, readers_);
         num_propagated_ = static_cast<Index>(std::count_if(
             dirty.begin(), dirty.end(), [&](Index site) { return !sites_.owns_nothing(site); }));
@@ -47,7 +46,7 @@ public:
         std::erase_if(vertices,
                       [&](Index v) { return !settle_vertex(sites_, v, readers_, result_); });
         list_patches(input, runs_, dirty, vertices, patches_);
-        replace_relays(input, runs_, placement_, patches_, store_, result_);
+        replace_relays(input, runs_, patches_, store_, result_);
         tell_totals();
     }
 

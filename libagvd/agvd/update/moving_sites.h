@@ -19,7 +19,7 @@ namespace agvd {
 class MovingSites {
 public:
     //! \param surface, layout  outlive this; SurfaceLayout(surface).
-    //! \param options          engine must be Window; progress is not told.
+    //! \param options          engine must be Window; its progress is not called.
     //! \throw as propagate().
     //! Space: all windows of all sites, 48 bytes each, and up to twice as much for relays.
     MovingSites(const Surface& surface, const SurfaceLayout& layout,

@@ -1,5 +1,5 @@
 //! \file
-//! What one site has propagated, and where it differs from what it propagated before.
+//! What one site has propagated, and how a new run of it differs.
 #pragma once
 
 #include <span>
@@ -54,8 +54,8 @@ struct RunChanges {
 
 //! Replaces a run by the last one of a front, and appends where they differ.
 //!
-//! \param is_other_place  the site has moved: all is told to differ, since its turn among other
-//!        sites may be another, too.
+//! \param is_other_place  the site has moved. All of its run counts as changed, since its place in
+//!        the order of the sites may have changed, too.
 void replace_run(const WindowFront& front, bool is_other_place, SiteRun& run, RunChanges& changes);
 
 //! Replaces a run by none.

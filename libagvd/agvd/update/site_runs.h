@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "agvd/propagation/corners.h"
+#include "agvd/propagation/site_placement.h"
 #include "agvd/propagation/window_front.h"
 #include "agvd/update/numbered_sites.h"
 #include "agvd/update/site_run.h"
@@ -18,6 +19,7 @@ struct MovingInput {
     const Surface& surface;
     const Corners& corners;
     const NumberedSites& sites;
+    const SitePlacement& placement;  //!< Of the sites, by rank.
     double max_error;
     int num_threads;
 };

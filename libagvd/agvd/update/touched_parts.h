@@ -14,8 +14,8 @@ namespace agvd {
 //! relays of its neighbours. What depends on nothing that was touched holds.
 class TouchedParts {
 public:
-    //! \param faces  those whose relays, or the distances of whose corners, are others now, and
-    //!               those to be done anew for other reasons.
+    //! \param faces  those whose relays, or the distances of whose corners, have changed, and
+    //!               others that are to be labelled again.
     TouchedParts(const Surface& surface, std::span<const Index> faces);
 
     //! The corners of those faces.

@@ -1,5 +1,5 @@
 //! \file
-//! Traces and joins anew what a change touches.
+//! Traces and joins the arcs of the faces that a change touches.
 #pragma once
 
 #include "agvd/diagram/relay_groups.h"

@@ -15,7 +15,7 @@ namespace agvd {
 [[nodiscard]] KeptDiagram build_kept_diagram(const StageInput& input, Diagram& diagram);
 
 //! Makes `diagram` that of these sites, byte for byte as build_diagram() would.
-//! \param changed_faces  those whose relays, or the distances of whose corners, are others than in
+//! \param changed_faces  those whose relays, or the distances of whose corners, have changed since
 //!                       the last call.
 //! \param kept           of the last call.
 //! \param diagram        as the last call left it.

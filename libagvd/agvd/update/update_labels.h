@@ -1,5 +1,5 @@
 //! \file
-//! Labels anew what a change touches.
+//! Labels the vertices and edges that a change touches.
 #pragma once
 
 #include "agvd/diagram/label_edges.h"

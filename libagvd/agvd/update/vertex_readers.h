@@ -24,8 +24,8 @@ struct VertexReaders {
 
 //! Takes over what the last run_again() changed.
 //! \param sites  those that ran.
-//! \return the vertices to be settled anew, once each: those that were changed, and those that may
-//!         have to take their bound.
+//! \return the vertices to be settled, once each: those that any of these sites changed, and those
+//!         that may have to take their bound.
 [[nodiscard]] std::vector<Index> take_changes(const SiteRuns& runs, std::span<const Index> sites,
                                               const NumberedSites& numbered,
                                               VertexReaders& readers);
