@@ -1,3 +1,5 @@
+// The arcs of a chunk are copied together into each pool; what they say of each other, counted from
+// the chunk's beginning, becomes places in the pools.
 #include "agvd/diagram/arc_store.h"
 
 #include <cassert>

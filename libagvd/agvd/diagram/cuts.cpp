@@ -1,3 +1,5 @@
+// The sites inside a face become points of a triangulation that begins with its corners; its inner
+// edges are the cuts. A cut is labelled as a mesh edge is, by the relays that can reach it.
 #include "agvd/diagram/cuts.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Numbers the edges, then attaches their ends to the vertices: first at Voronoi vertices, then
+// along the surface's boundary, where an edge between cells meets two edges of the boundary.
 #include "agvd/diagram/draw_complex.h"
 
 #include <cassert>

@@ -1,3 +1,5 @@
+// An edge is a chain of arcs. Its points are the node at the beginning of each arc, the inner
+// points of the arc, and the node at the end of the last one.
 #include "agvd/diagram/draw_points.h"
 
 #include "agvd/diagram/face_relays.h"

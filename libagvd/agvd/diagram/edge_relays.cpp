@@ -1,3 +1,8 @@
+// Candidates for the lower envelope along an edge. A relay's distance f(x) along the edge is
+// convex, with |f'| <= 1. So it lies below the chord between its ends and above its tangents there:
+// a relay whose tangents lie above the chord of the relay that is nearest at an end is dropped.
+//
+// Notation: lo and hi are the tail and head of the edge's edge_half.
 #include "agvd/diagram/edge_relays.h"
 
 #include <algorithm>

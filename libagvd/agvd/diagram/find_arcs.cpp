@@ -1,3 +1,5 @@
+// Tries three ways on each triangle, the quickest first: one straight arc; the face's own relays;
+// the relays that are the nearest on the triangle's edges.
 #include "agvd/diagram/find_arcs.h"
 
 #include <algorithm>

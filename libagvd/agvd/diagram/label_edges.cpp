@@ -1,3 +1,4 @@
+// Edges are labelled in chunks side by side and stored in their order.
 #include "agvd/diagram/label_edges.h"
 
 #include <algorithm>

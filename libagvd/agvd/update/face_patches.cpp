@@ -1,3 +1,5 @@
+// A face keeps the relays of the sites that did not run again. Those of the sites that did are
+// patches, sorted by face with a counting sort.
 #include "agvd/update/face_patches.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// A change takes sites out of the search for bounds, mends the gaps, and puts sites in. Then it
+// finds the sites that lie where another one does, and the bounds that are others now.
 #include "agvd/update/numbered_sites.h"
 
 #include <algorithm>

@@ -1,3 +1,5 @@
+// Compares the new run with the old one vertex by vertex and half-edge by half-edge, and tells the
+// faces in which they differ.
 #include "agvd/update/site_run.h"
 
 #include <algorithm>

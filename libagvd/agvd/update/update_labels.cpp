@@ -1,3 +1,5 @@
+// Stages 1 and 2 of the diagram on what a change touches. The tally is corrected for every label
+// that differs from the one before.
 #include "agvd/update/update_labels.h"
 
 #include <algorithm>
