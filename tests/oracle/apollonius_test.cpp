@@ -67,13 +67,13 @@ std::vector<Breakpoint> label_boundary(const Case& c) {
         for (const PlanarRelay& relay : c.relays) {
             on_side.push_back(on_line(relay, p, (q - p) / length, length));
         }
-        label_envelope(on_side, length, nearest(c.relays, p).site, nearest(c.relays, q).site,
+        label_envelope(on_side, {length, nearest(c.relays, p).site, nearest(c.relays, q).site},
                        scratch, intervals);
         for (std::size_t i = 0; i + 1 < intervals.size(); ++i) {
             const Vec2 at = p + intervals[i].end * (q - p);
             const auto name = static_cast<Index>(breakpoints.size());
-            breakpoints.push_back(
-                {at, nearest(c.relays, at).distance, name, intervals[i + 1].site, name});
+            breakpoints.push_back({at, nearest(c.relays, at).distance, NodeId::of_crossing(name),
+                                   intervals[i + 1].site, IntervalId::after_crossing(name)});
         }
     }
     return breakpoints;

@@ -3,8 +3,8 @@
 
 #include "agvd/core/random.h"
 #include "agvd/diagram/build_diagram.h"
-#include "agvd/diagram/moving_diagram.h"
 #include "agvd/propagation/propagate.h"
+#include "agvd/update/moving_diagram.h"
 #include "bench/p0.h"
 #include "bench/report.h"
 #include "bench/timing.h"

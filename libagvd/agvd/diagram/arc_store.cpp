@@ -1,6 +1,11 @@
+// The arcs of a chunk are copied together into each pool; what they say of each other, counted from
+// the chunk's beginning, becomes places in the pools.
 #include "agvd/diagram/arc_store.h"
 
+#include <cassert>
 #include <utility>
+
+#include "agvd/diagram/face_relays.h"
 
 namespace agvd {
 
@@ -19,16 +24,19 @@ void ArcStore::reserve_for(double times) {
     reserve(parts_);
 }
 
+namespace {
+
+template <typename T>
+std::span<const T> part(const std::vector<T>& elements, Index from, Index to) {
+    return std::span(elements).subspan(from, to - from);
+}
+
+}  // namespace
+
 void ArcStore::add(std::span<const Index> faces, const FaceArcs& chunk, Index first) {
-    const auto mark = [&](Index i) {
-        return i < chunk.faces.size() ? chunk.faces[i] : chunk.mark();
-    };
-    const FaceArcs::Mark begin = mark(first);
-    const FaceArcs::Mark end = mark(first + static_cast<Index>(faces.size()));
+    const FaceArcs::Mark begin = chunk.begin_of(first);
+    const FaceArcs::Mark end = chunk.begin_of(first + static_cast<Index>(faces.size()));
     const LocalDiagram& local = chunk.local;
-    const auto part = [](const auto& elements, Index from, Index to) {
-        return std::span(elements).subspan(from, to - from);
-    };
     new_points_.clear();
     for (Index p = begin.points; p < end.points; ++p) {
         new_points_.push_back({local.points[p], local.point_distance[p]});
@@ -38,38 +46,18 @@ void ArcStore::add(std::span<const Index> faces, const FaceArcs& chunk, Index fi
     all.connections = connections_.add(part(local.connections, begin.connections, end.connections));
     all.parts = parts_.add(part(chunk.parts, begin.parts, end.parts));
     all.arcs = arcs_.add(part(local.arcs, begin.arcs, end.arcs));
-    new_voronoi_vertices_.clear();
-    new_vertex_places_.clear();
-    for (const LocalVoronoiVertex& voronoi_vertex :
-         part(local.voronoi_vertices, begin.voronoi_vertices, end.voronoi_vertices)) {
-        VoronoiVertex& added = new_voronoi_vertices_.emplace_back();
-        for (std::size_t k = 0; k < 3; ++k) {
-            const Index arc = voronoi_vertex.arcs[k] - begin.arcs + all.arcs.begin;
-            added.ends[k] = 2 * arc + (voronoi_vertex.at_tail[k] ? 0 : 1);
-        }
-        added.sites = voronoi_vertex.sites;
-        new_vertex_places_.push_back(
-            {to_surface(*surface_, voronoi_vertex.face, voronoi_vertex.position),
-             voronoi_vertex.distance});
-    }
-    all.voronoi_vertices = voronoi_vertices_.add(new_voronoi_vertices_);
-    (void)vertex_places_.add(new_vertex_places_);
+    all.voronoi_vertices = add_voronoi_vertices(
+        part(local.voronoi_vertices, begin.voronoi_vertices, end.voronoi_vertices), begin.arcs,
+        all.arcs.begin);
+    rename_in_arcs(all, begin);
 
-    const auto rename = [&](Index& node) {
-        if (node >= LocalDiagram::first_voronoi_vertex)
-            node += all.voronoi_vertices.begin - begin.voronoi_vertices;
-    };
-    for (LocalArc& arc : arcs_[all.arcs]) {
-        rename(arc.tail);
-        rename(arc.head);
-        arc.first_point += all.points.begin - begin.points;
-    }
     FaceArcs::Mark from = begin;
     for (Index i = 0; i < faces.size(); ++i) {
-        const FaceArcs::Mark to = mark(first + i + 1);
+        const FaceArcs::Mark to = chunk.begin_of(first + i + 1);
         const auto block = [&](const Block& of_all, Index FaceArcs::Mark::*place) {
             return Block{of_all.begin + from.*place - begin.*place, to.*place - from.*place};
         };
+        assert(slots_[faces[i]] == no_index);
         faces_[take_slot(faces[i])] = {
             block(all.arcs, &FaceArcs::Mark::arcs),
             block(all.voronoi_vertices, &FaceArcs::Mark::voronoi_vertices),
@@ -78,6 +66,41 @@ void ArcStore::add(std::span<const Index> faces, const FaceArcs& chunk, Index fi
             block(all.parts, &FaceArcs::Mark::parts),
             chunk.is_local[first + i] != 0};
         from = to;
+    }
+}
+
+Block ArcStore::add_voronoi_vertices(std::span<const LocalVoronoiVertex> local, Index first_arc,
+                                     Index stored_at) {
+    new_voronoi_vertices_.clear();
+    new_vertex_places_.clear();
+    for (const LocalVoronoiVertex& voronoi_vertex : local) {
+        VoronoiVertex& added = new_voronoi_vertices_.emplace_back();
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index arc = voronoi_vertex.arcs[k] - first_arc + stored_at;
+            added.ends[k] = voronoi_vertex.at_tail[k] ? ArcEnd::tail_of(arc) : ArcEnd::head_of(arc);
+        }
+        added.sites = voronoi_vertex.sites;
+        new_vertex_places_.push_back(
+            {to_surface(*surface_, voronoi_vertex.face, voronoi_vertex.position),
+             voronoi_vertex.distance});
+    }
+    const Block stored = voronoi_vertices_.add(new_voronoi_vertices_);
+    const Block places = vertex_places_.add(new_vertex_places_);
+    assert(places.begin == stored.begin);  // Both pools are used alike.
+    (void)places;
+    return stored;
+}
+
+void ArcStore::rename_in_arcs(const Face& stored, const FaceArcs::Mark& begin) {
+    const auto rename = [&](NodeId& node) {
+        if (!node.is_voronoi_vertex()) return;
+        node = NodeId::of_voronoi_vertex(node.voronoi_vertex() - begin.voronoi_vertices +
+                                         stored.voronoi_vertices.begin);
+    };
+    for (LocalArc& arc : arcs_[stored.arcs]) {
+        rename(arc.tail);
+        rename(arc.head);
+        arc.first_point += stored.points.begin - begin.points;
     }
 }
 
@@ -102,23 +125,6 @@ void ArcStore::remove(Index face) {
     connections_.release(stored.connections);
     parts_.release(stored.parts);
     free_slots_.push_back(slot);
-}
-
-void ArcStore::renumber(const Renumbering& renumbering) {
-    for (LocalArc& arc : arcs_) {
-        renumbering.apply(arc.left);
-        renumbering.apply(arc.right);
-    }
-    for (VoronoiVertex& voronoi_vertex : voronoi_vertices_) {
-        for (Index& site : voronoi_vertex.sites) renumbering.apply(site);
-    }
-    for (Connection& connection : connections_) renumbering.apply(connection.site);
-    for (FaceArcs::CellPart& part : parts_) renumbering.apply(part.site);
-}
-
-bool ArcStore::is_wasteful() const {
-    return arcs_.is_wasteful() || voronoi_vertices_.is_wasteful() || points_.is_wasteful() ||
-           connections_.is_wasteful() || parts_.is_wasteful();
 }
 
 }  // namespace agvd

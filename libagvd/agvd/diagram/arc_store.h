@@ -3,12 +3,15 @@
 #pragma once
 
 #include "agvd/core/block_pool.h"
+#include "agvd/diagram/arc_end.h"
 #include "agvd/diagram/face_arcs.h"
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_point.h"
 
 namespace agvd {
 
-//! As in FaceArcs, but for names: nodes from LocalDiagram::first_voronoi_vertex on and the arcs of
-//! Voronoi vertices are places in the pools, which last as long as the face keeps its arcs.
+//! As in FaceArcs, but for indices: Voronoi vertices, and the arcs around them, are known by their
+//! places in the pools, which last as long as the face keeps its arcs.
 class ArcStore {
 public:
     //! What a face has.
@@ -20,9 +23,9 @@ public:
         Vec2 position;  //!< In the face's own frame.
         double distance;
     };
-    //! A Voronoi vertex as it hangs together. Counter-clockwise around it: ends[i], then sites[i].
+    //! The arcs and cells around a Voronoi vertex, counter-clockwise: ends[i], then sites[i].
     struct VoronoiVertex {
-        std::array<Index, 3> ends;  //!< 2 * arc + (0: its tail, 1: its head).
+        std::array<ArcEnd, 3> ends;
         std::array<Index, 3> sites;
     };
     //! Where a Voronoi vertex lies.
@@ -35,7 +38,7 @@ public:
     explicit ArcStore(const Surface& surface)
         : surface_(&surface), slots_(surface.num_faces(), no_index) {}
 
-    //! Never had any arcs.
+    //! No face ever had arcs.
     [[nodiscard]] bool is_empty() const { return faces_.empty(); }
     //! Makes room for so many times as much.
     void reserve_for(double times);
@@ -44,7 +47,9 @@ public:
     //! Takes them away again, if there are any.
     void remove(Index face);
 
-    void renumber(const Renumbering& renumbering);
+    //! Calls change(site) for every site that is named here.
+    template <typename Change>
+    void for_each_site(const Change& change);
 
     //! Empty for a face without arcs.
     [[nodiscard]] const Face& of_face(Index face) const {
@@ -62,7 +67,7 @@ public:
     [[nodiscard]] const BlockPool<FaceArcs::CellPart>& parts() const { return parts_; }
 
     //! Starts to load what a face has, in three steps: call for the same face with 0, 1 and 2.
-    //! Inlined by force, as all that only prefetches must be.
+    //! Always inline: g++ drops calls of functions that do nothing but prefetch.
     [[gnu::always_inline]] void prefetch(Index face, int step) const {
         if (step == 0) {
             __builtin_prefetch(&slots_[face]);
@@ -77,11 +82,13 @@ public:
         }
     }
 
-    //! More is released than in use: time to begin anew.
-    [[nodiscard]] bool is_wasteful() const;
-
 private:
-    Index take_slot(Index face);
+    // The arcs of a chunk from `first_arc` on are stored from `stored_at` on.
+    [[nodiscard]] Block add_voronoi_vertices(std::span<const LocalVoronoiVertex> local,
+                                             Index first_arc, Index stored_at);
+    // From the names of a chunk, counted from `begin`, to places in the pools.
+    void rename_in_arcs(const Face& stored, const FaceArcs::Mark& begin);
+    [[nodiscard]] Index take_slot(Index face);
 
     const Surface* surface_;
     std::vector<Index> slots_;  // #F: where in faces_; no_index: no arcs.
@@ -99,5 +106,18 @@ private:
     std::vector<VoronoiVertex> new_voronoi_vertices_;
     std::vector<VertexPlace> new_vertex_places_;
 };
+
+template <typename Change>
+void ArcStore::for_each_site(const Change& change) {
+    for (LocalArc& arc : arcs_) {
+        change(arc.left);
+        change(arc.right);
+    }
+    for (VoronoiVertex& voronoi_vertex : voronoi_vertices_) {
+        for (Index& site : voronoi_vertex.sites) change(site);
+    }
+    for (Connection& connection : connections_) change(connection.site);
+    for (FaceArcs::CellPart& part : parts_) change(part.site);
+}
 
 }  // namespace agvd

@@ -2,7 +2,10 @@
 //! Some of the cells of a diagram.
 #pragma once
 
-#include "agvd/diagram/arc_store.h"
+#include <cstdint>
+#include <vector>
+
+#include "agvd/core/types.h"
 
 namespace agvd {
 
@@ -13,7 +16,6 @@ public:
     explicit CellSet(Index num_sites = 0) : has_(num_sites, 0) {}
     //! Of so many sites; there are none of the new ones in it.
     void resize(Index num_sites) { has_.resize(num_sites, 0); }
-    void renumber(const Renumbering& renumbering);
 
     [[nodiscard]] Index num_sites() const { return static_cast<Index>(has_.size()); }
     [[nodiscard]] bool is_empty() const { return count_ == 0; }
@@ -36,11 +38,5 @@ private:
     std::vector<std::uint8_t> has_;
     Index count_ = 0;
 };
-
-//! The faces that any of the cells reaches into, as far as they hang together with one of the
-//! seeds. Ascending. Cost: O(seeds + faces), and a pass over #F bytes.
-[[nodiscard]] std::vector<Index> faces_of_cells(const Surface& surface, const EdgeLabels& labels,
-                                                const ArcStore& arcs, const CellSet& cells,
-                                                std::span<const Index> seeds);
 
 }  // namespace agvd

@@ -39,7 +39,7 @@ void CellTally::count_vertices(std::span<const Index> vertex_site) {
 
 void CellTally::count_row(std::span<const Crossing> row, int sign) {
     if (row.empty()) return;
-    if (surface_->twin[row[0].line] == no_index) return;
+    if (surface_->twin[row[0].line.half_edge()] == no_index) return;
     for (const Crossing& crossing : row) count(crossing.site_after, -sign);
 }
 

@@ -4,28 +4,29 @@
 
 #include "agvd/diagram/cell_set.h"
 #include "agvd/diagram/diagram.h"
+#include "agvd/diagram/edge_labels.h"
+#include "agvd/diagram/face_arcs.h"
 
 namespace agvd {
 
-//! Sums that take parts of the complex in and out again, in any order: areas are counted in units
-//! of about 2^-61 of the surface's. The open cell is a union of open pieces of triangles, open
-//! intervals of inner edges and cuts, and inner points, and for a surface without its boundary
-//! their alternating sum is the Euler characteristic.
+//! Parts of the complex are added and removed in any order. Areas are whole numbers of units of
+//! about 2^-61 of the surface's area, so that sums do not depend on the order. An open cell is a
+//! union of open pieces of triangles, open intervals of inner edges and cuts, and inner points; the
+//! alternating sum of their numbers is its Euler characteristic (without the surface's boundary).
 class CellTally {
 public:
-    //! Nothing counts yet.
+    //! Of no sites.
     //! \param surface  outlives this.
     explicit CellTally(const Surface& surface);
     //! Of so many sites; new ones have nothing.
     void resize(Index num_sites) { cells_.resize(num_sites); }
-    void renumber(const Renumbering& renumbering) { renumbering.apply_to_places(cells_); }
 
-    // What is no_index belongs to no cell.
-    // \param sign  1: comes in; -1: goes out.
+    // A site that is no_index has no cell, and nothing is counted.
+    // \param sign  1: the part is added; -1: it is removed.
 
     //! A vertex, and the first interval of each edge whose edge_half leaves it.
     void count_vertex(Index vertex, Index site, int sign);
-    //! All vertices, which come in. Cost: O(#F), in order.
+    //! Adds all vertices. Cost: O(#F), in order.
     void count_vertices(std::span<const Index> vertex_site);
     //! The other intervals of an edge.
     void count_row(std::span<const Crossing> row, int sign);
@@ -39,19 +40,21 @@ public:
     //! The pieces of a listed face.
     void count_parts(std::span<const FaceArcs::CellPart> parts, int sign);
 
-    //! The cells that have been told of since the last call.
+    //! The cells of which a part was added or removed since the last call.
     [[nodiscard]] CellSet take_changed();
 
     //! Sets cell_area and cell_euler.
     void write(Diagram& diagram) const;
 
-private:
     struct Cell {
-        std::int64_t area = 0;  // In units.
+        std::int64_t area = 0;  //!< In units.
         int euler = 0;
         bool is_changed = false;
     };
+    //! By site. For giving sites other numbers.
+    [[nodiscard]] std::vector<Cell>& cells() { return cells_; }
 
+private:
     void count(Index site, int change) {
         if (site != no_index) change_cell(site, change, 0);
     }

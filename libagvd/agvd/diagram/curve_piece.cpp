@@ -6,7 +6,7 @@
 namespace agvd {
 namespace {
 
-// The first face that holds both, where nothing tells more.
+// The first face that holds both, for a diagram without passages.
 CurvePiece piece_in_common_face(const Surface& surface, const SurfacePoint& from,
                                 const SurfacePoint& to) {
     const Index face = common_faces(surface, from, to).first;

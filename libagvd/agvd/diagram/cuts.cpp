@@ -1,3 +1,5 @@
+// The sites inside a face become points of a triangulation that begins with its corners; its inner
+// edges are the cuts. A cut is labelled as a mesh edge is, by the relays that can reach it.
 #include "agvd/diagram/cuts.h"
 
 #include <algorithm>
@@ -5,13 +7,14 @@
 #include "agvd/core/parallel.h"
 #include "agvd/diagram/face_triangulation.h"
 #include "agvd/diagram/inside_relays.h"
+#include "agvd/diagram/label_line.h"
 #include "agvd/diagram/relay_tree.h"
 
 namespace agvd {
 namespace {
 
-// What the faces of one chunk add to the labels, each face numbered as if it were the only one.
-// Blocks are in these lists.
+// What the faces of one chunk add to the labels. Blocks are in these lists; the points and cuts of
+// each face are counted from 0.
 struct FoundCuts {
     std::vector<InnerPoint> inner_points;
     std::vector<Cut> cuts;
@@ -89,7 +92,7 @@ private:
                 const Index beside = pieces[i].beside[k];
                 triangle.points[k] = points_[from].name;
                 if (beside == no_index) {
-                    triangle.sides[k] = 3 * face_ + from;
+                    triangle.sides[k] = LineId::of_edge(3 * face_ + from);
                 } else if (beside > i) {
                     triangle.sides[k] = add_cut(std::min(from, to), std::max(from, to));
                 } else {
@@ -105,13 +108,13 @@ private:
         out_.faces.push_back(cut_);
     }
 
-    Index add_cut(Index from, Index to) {
-        const Index name = Crossing::first_cut + cut_.cuts.count++;
+    LineId add_cut(Index from, Index to) {
+        const LineId name = LineId::of_cut(cut_.cuts.count++);
         label_cut(name, points_[from], points_[to]);
         return name;
     }
 
-    void label_cut(Index name, const Point& from, const Point& to) {
+    void label_cut(LineId name, const Point& from, const Point& to) {
         const Vec2 chord = to.position - from.position;
         const double length = chord.norm();
         // No point of the cut is farther from a site than the nearer end allows; from the middle a
@@ -122,32 +125,10 @@ private:
         for (const PlanarRelay& relay : near_) {
             on_cut_.push_back(on_line(relay, from.position, chord / length, length));
         }
-        Crossing single{0, 0, from.site, to.site, name};
-        if (from.site != to.site &&
-            find_single_crossing(on_cut_, length, from.site, to.site, single.at, single.distance)) {
-            single.at /= length;
-            append_cut(from, to, {&single, 1});
-            return;
-        }
-        label_envelope(on_cut_, length, from.site, to.site, scratch_, intervals_);
-        crossings_.clear();
-        for (std::size_t i = 0; i + 1 < intervals_.size(); ++i) {
-            const Index before = intervals_[i].site;
-            const Index after = intervals_[i + 1].site;
-            const double at = intervals_[i].end;
-            crossings_.push_back({at,
-                                  std::max(distance_on_line(on_cut_, before, at * length),
-                                           distance_on_line(on_cut_, after, at * length)),
-                                  before, after, name});
-        }
-        append_cut(from, to, crossings_);
-    }
-
-    void append_cut(const Point& from, const Point& to, std::span<const Crossing> crossings) {
         Block row = block_from(out_.crossings);
-        row.count = static_cast<Index>(crossings.size());
+        label_line(on_cut_, name, {length, from.site, to.site}, scratch_, out_.crossings);
+        row.count = static_cast<Index>(out_.crossings.size()) - row.begin;
         out_.cuts.push_back({face_, from.name, to.name, row});
-        out_.crossings.insert(out_.crossings.end(), crossings.begin(), crossings.end());
     }
 
     template <typename T>
@@ -171,9 +152,7 @@ private:
     std::vector<LineRelay> on_cut_;
     std::vector<Point> points_;
     FaceTriangulation triangulation_;
-    std::vector<Crossing> crossings_;
-    std::vector<LabelInterval> intervals_;
-    EnvelopeScratch scratch_;
+    LineScratch scratch_;
 };
 
 // The elements of a block, to be changed.
@@ -182,7 +161,7 @@ std::vector<T> copy_of(const std::vector<T>& elements, const Block& block) {
     return {elements.begin() + block.begin, elements.begin() + block.end()};
 }
 
-// Under the names that they have among all.
+// Adds a face's cuts to the labels, with indices into these.
 CutFace add_cut_face(const FoundCuts& found, const CutFace& cut, Index num_vertices,
                      EdgeLabels& labels) {
     const auto inner_points = copy_of(found.inner_points, cut.inner_points);
@@ -192,8 +171,8 @@ CutFace add_cut_face(const FoundCuts& found, const CutFace& cut, Index num_verti
     const auto point = [&](Index name) {
         return name < num_vertices ? name : name + result.inner_points.begin;
     };
-    const auto side = [&](Index name) {
-        return name < Crossing::first_cut ? name : name + result.cuts.begin;
+    const auto side = [&](LineId line) {
+        return line.is_cut() ? LineId::of_cut(line.cut() + result.cuts.begin) : line;
     };
     for (Cut& c : labels.cuts[result.cuts]) {
         c.from.point = point(c.from.point);
@@ -204,7 +183,7 @@ CutFace add_cut_face(const FoundCuts& found, const CutFace& cut, Index num_verti
     }
     for (CutTriangle& triangle : triangles) {
         for (CutEnd& end : triangle.points) end.point = point(end.point);
-        for (Index& name : triangle.sides) name = side(name);
+        for (LineId& line : triangle.sides) line = side(line);
     }
     result.triangles = labels.cut_triangles.add(triangles);
     labels.point_site.resize(num_vertices + labels.inner_points.size(), no_index);
@@ -214,30 +193,42 @@ CutFace add_cut_face(const FoundCuts& found, const CutFace& cut, Index num_verti
     return result;
 }
 
+void count_cuts(const CutFace& face, int sign, DiagramParts& parts) {
+    const EdgeLabels& labels = parts.labels;
+    for (const InnerPoint& point : labels.inner_points[face.inner_points]) {
+        parts.tally.count_inner_point(point, sign);
+    }
+    for (const Cut& cut : labels.cuts[face.cuts]) {
+        parts.tally.count_cut(labels.crossings[cut.row], labels.point_site[cut.to.point], sign);
+    }
+}
+
 }  // namespace
 
-void cut_faces(const Surface& surface, const Propagation& propagation,
-               const SitePlacement& placement, const RelayGroups& groups,
-               std::span<const Index> mixed, int num_threads, Poller& poller, EdgeLabels& labels) {
-    if (placement.is_empty()) return;
+void cut_faces(const StageInput& input, const RelayGroups& groups, std::span<const Index> mixed,
+               DiagramParts& parts) {
+    if (input.placement.is_empty()) return;
     constexpr Index grain = 512;
+    EdgeLabels& labels = parts.labels;
     const auto count = static_cast<Index>(mixed.size());
     std::vector<FoundCuts> found(num_chunks(count, grain));
     const auto cut_chunk = [&](Index chunk, Index begin, Index end) {
-        FaceCutter cutter(surface, propagation, groups, labels, found[chunk]);
-        Ticker ticker(poller);
+        FaceCutter cutter(input.surface, input.propagation, groups, labels, found[chunk]);
+        Ticker ticker(input.poller);
         for (Index i = begin; i < end; ++i) {
-            const auto placed = placement.in_face(propagation.mixed_faces[mixed[i]]);
+            const auto placed = input.placement.in_face(input.propagation.mixed_faces[mixed[i]]);
             if (!placed.empty()) cutter.cut(mixed[i], placed);
-            ticker.tick(1 + relays_of(propagation, mixed[i]).size() * placed.size());
+            ticker.tick(1 + relays_of(input.propagation, mixed[i]).size() * placed.size());
         }
     };
-    parallel_chunks(count, grain, num_threads, cut_chunk, poller);
+    parallel_chunks(count, grain, input.num_threads, cut_chunk, input.poller);
     const auto num_before = static_cast<std::ptrdiff_t>(labels.cut_faces.size());
     for (const FoundCuts& part : found) {
-        poller.poll();
+        input.poller.poll();
         for (const CutFace& cut : part.faces) {
-            labels.cut_faces.push_back(add_cut_face(part, cut, surface.num_vertices(), labels));
+            labels.cut_faces.push_back(
+                add_cut_face(part, cut, input.surface.num_vertices(), labels));
+            count_cuts(labels.cut_faces.back(), 1, parts);
         }
     }
     std::inplace_merge(labels.cut_faces.begin(), labels.cut_faces.begin() + num_before,
@@ -245,7 +236,10 @@ void cut_faces(const Surface& surface, const Propagation& propagation,
                        [](const CutFace& a, const CutFace& b) { return a.face < b.face; });
 }
 
-void release_cut(const CutFace& cut, Index num_vertices, EdgeLabels& labels) {
+void remove_cut(const CutFace& cut, DiagramParts& parts) {
+    count_cuts(cut, -1, parts);
+    EdgeLabels& labels = parts.labels;
+    const auto num_vertices = static_cast<Index>(labels.vertex_distance.size());
     for (Index i = cut.inner_points.begin; i < cut.inner_points.end(); ++i) {
         labels.inner_points[i].site = no_index;
         labels.point_site[num_vertices + i] = no_index;

@@ -1,13 +1,36 @@
 //! \file
-//! First half of the diagram: the labels on mesh vertices and edges, computed once and shared by
-//! the faces around them, so that neighbouring faces cannot disagree.
+//! The labels on mesh vertices and edges. They are computed once for the faces on both sides, so
+//! that these cannot disagree.
 #pragma once
 
 #include "agvd/core/block_pool.h"
-#include "agvd/diagram/renumbering.h"
+#include "agvd/core/either_index.h"
 #include "agvd/propagation/relays.h"
 
 namespace agvd {
+
+//! A line on which labels change: a mesh edge, named by one of its half-edges, or a cut.
+class LineId {
+public:
+    constexpr LineId() = default;
+    [[nodiscard]] static constexpr LineId of_edge(Index half_edge) {
+        return LineId(EitherIndex::first(half_edge));
+    }
+    [[nodiscard]] static constexpr LineId of_cut(Index cut) {
+        return LineId(EitherIndex::second(cut));
+    }
+
+    [[nodiscard]] constexpr bool is_cut() const { return id_.is_second(); }
+    [[nodiscard]] constexpr Index half_edge() const { return id_.first(); }
+    [[nodiscard]] constexpr Index cut() const { return id_.second(); }
+
+    friend constexpr bool operator==(const LineId&, const LineId&) = default;
+
+private:
+    explicit constexpr LineId(EitherIndex id) : id_(id) {}
+
+    EitherIndex id_;
+};
 
 //! A change of label on a mesh edge or a cut.
 struct Crossing {
@@ -15,9 +38,7 @@ struct Crossing {
     double distance;  //!< From both sites.
     Index site_before;
     Index site_after;
-    Index line;  //!< The edge_half of a mesh edge; first_cut + c: cut c.
-
-    static constexpr Index first_cut = Index{1} << 31;
+    LineId line;  //!< A mesh edge is known by its edge_half.
 
     friend bool operator==(const Crossing&, const Crossing&) = default;
 };
@@ -26,7 +47,7 @@ struct Crossing {
 struct InnerPoint {
     Index face;
     Vec2 position;  //!< In the face's own frame.
-    Index site;     //!< no_index: a released one.
+    Index site;     //!< no_index: the point was removed.
 };
 
 //! An end of a cut: a corner of the face, which may have the same vertex at several, or a point
@@ -47,7 +68,7 @@ struct Cut {
 //! boundary of some triangle.
 struct CutTriangle {
     std::array<CutEnd, 3> points;
-    std::array<Index, 3> sides;  //!< From point k to k + 1: a half-edge, or first_cut + c.
+    std::array<LineId, 3> sides;  //!< From point k to k + 1; a mesh edge by the face's half-edge.
 };
 
 //! What belongs to one face.
@@ -71,17 +92,20 @@ struct EdgeLabels {
     BlockPool<CutTriangle> cut_triangles;
     std::vector<CutFace> cut_faces;  //!< By face.
 
-    void renumber(const Renumbering& renumbering);
-    //! More is released than in use: time to begin anew.
-    [[nodiscard]] bool is_wasteful() const {
-        return crossings.is_wasteful() || inner_points.is_wasteful() || cuts.is_wasteful() ||
-               cut_triangles.is_wasteful();
-    }
-
     [[nodiscard]] std::span<const Crossing> on_edge(Index edge) const {
         return crossings[edge_rows[edge]];
     }
 };
+
+//! The positions in mixed_faces of those of these faces that are mixed.
+[[nodiscard]] inline std::vector<Index> positions_of(const EdgeLabels& labels,
+                                                     std::span<const Index> faces) {
+    std::vector<Index> positions;
+    for (const Index face : faces) {
+        if (labels.mixed_index[face] != no_index) positions.push_back(labels.mixed_index[face]);
+    }
+    return positions;
+}
 
 //! \param corners  of the face, in its own frame.
 [[nodiscard]] inline Vec2 position_of(const EdgeLabels& labels, const std::array<Vec2, 3>& corners,

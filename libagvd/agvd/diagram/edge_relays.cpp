@@ -1,3 +1,8 @@
+// Candidates for the lower envelope along an edge. A relay's distance f(x) along the edge is
+// convex, with |f'| <= 1. So it lies below the chord between its ends and above its tangents there:
+// a relay whose tangents lie above the chord of the relay that is nearest at an end is dropped.
+//
+// Notation: lo and hi are the tail and head of the edge's edge_half.
 #include "agvd/diagram/edge_relays.h"
 
 #include <algorithm>
@@ -10,9 +15,9 @@ namespace {
 // A relay stands for the end of an edge itself if it is no worse there by more than this share of
 // the edge.
 constexpr double same_distance = 1e-4;
-// The ends of an edge are explained by relays if those are no worse there by more than this share
-// of the edge: a bound of errors that pays for a shorter list.
-constexpr double explained = 1e-2;
+// The relays across an edge suffice if they give the distances of its ends up to this share of the
+// edge. Errors below it are accepted for a shorter list of candidates.
+constexpr double enough_at_ends = 1e-2;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double root(double x, double y) { return std::sqrt(x * x + y * y); }
@@ -106,7 +111,7 @@ void EdgeRelays::add_distances(Index edge, Index half_edge, Index i) {
     candidates_.push_back({tail, head, -1, 1, i, relay.site.value(), half_edge});
 }
 
-// Leaves the candidates that could win somewhere.
+// Leaves the candidates that could be the nearest somewhere on the edge.
 void EdgeRelays::scan(Index edge) {
     const Index h = surface_.edge_half[edge];
     const Index twin = surface_.twin[h];
@@ -125,10 +130,10 @@ void EdgeRelays::scan(Index edge) {
         }
     };
     find_nearest();
-    // What reaches the edge through one face is a relay of the other. An engine that leaves some of
-    // those out shows it at the ends.
-    if (twin == no_index || first.lo > at_tail + explained * length ||
-        last.hi > at_head + explained * length) {
+    // A path that reaches the edge through one face passes a relay of the other face. Where an
+    // engine leaves some of these out, the relays found do not give the distances of the ends.
+    if (twin == no_index || first.lo > at_tail + enough_at_ends * length ||
+        last.hi > at_head + enough_at_ends * length) {
         scan_others(edge, h);
         if (twin != no_index) scan_others(edge, twin);
         find_nearest();

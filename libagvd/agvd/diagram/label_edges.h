@@ -1,30 +1,42 @@
 //! \file
-//! Labels the mesh vertices and edges.
+//! Labels the mesh edges.
 #pragma once
 
-#include "agvd/core/poller.h"
-#include "agvd/diagram/cell_tally.h"
-#include "agvd/diagram/edge_labels.h"
+#include "agvd/diagram/diagram_parts.h"
 #include "agvd/diagram/relay_groups.h"
-#include "agvd/diagram/touched_parts.h"
+#include "agvd/diagram/stage_input.h"
 
 namespace agvd {
 
-void list_mixed_faces(const Surface& surface, const Propagation& propagation, EdgeLabels& labels);
+//! Whether an edge may have label changes: all of its faces are mixed. One half-edge says so for
+//! the edge, the one with the lower index.
+[[nodiscard]] bool is_labelled(const Surface& surface, const EdgeLabels& labels, Index half_edge);
 
-//! A vertex all of whose faces are listed takes the nearest site over the relays of those faces,
-//! which may be nearer than the engine's graph knows. Touched vertices only.
-//! \param mixed  positions in mixed_faces, ascending: all touched faces.
-void label_vertices(const Surface& surface, const Propagation& propagation,
-                    const TouchedParts& touched, std::span<const Index> mixed, int num_threads,
-                    Poller& poller, EdgeLabels& labels);
+//! The label changes on some edges, before they are stored.
+struct FoundRows {
+    struct Row {
+        Index edge;
+        Block crossings;  //!< Not empty.
+    };
+    std::vector<Row> rows;  //!< In the order of the half-edges; none for an edge of one label.
+    std::vector<Crossing> crossings;
 
-//! Replaces the rows of touched edges and says which are others now. An edge all of whose faces are
-//! listed has the envelope of the relays of both sides and of its ends.
-//! \param mixed  positions in mixed_faces, ascending: all faces of such edges.
-//! Cost: O(relays) a face, O(relays) and a few square roots a crossing.
-void label_edges(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
-                 std::span<const Index> mixed, int num_threads, Poller& poller,
-                 TouchedParts& touched, EdgeLabels& labels, CellTally& tally);
+    [[nodiscard]] std::span<const Crossing> of(const Row& row) const {
+        return std::span(crossings).subspan(row.crossings.begin, row.crossings.count);
+    }
+};
+
+//! Finds the lower envelope along edges of the relays of both sides and of the edge's ends.
+//! \param groups      of all faces of these edges.
+//! \param half_edges  is_labelled().
+//! \return chunk after chunk of the half-edges.
+//! Parallel. Cost: O(relays) an edge, O(relays) and a few square roots a crossing.
+[[nodiscard]] std::vector<FoundRows> find_rows(const StageInput& input, const RelayGroups& groups,
+                                               std::span<const Index> half_edges,
+                                               const EdgeLabels& labels);
+
+//! Stores the label changes on all edges, none of which has any so far.
+//! \param groups  of all mixed faces.
+void label_edges(const StageInput& input, const RelayGroups& groups, DiagramParts& parts);
 
 }  // namespace agvd

@@ -1,90 +1,104 @@
-// The loops of cells, told from joined arcs.
-#include <unordered_map>
+#include "agvd/diagram/loops.h"
 
-#include "agvd/diagram/join.h"
+#include <cassert>
+#include <unordered_map>
+#include <utility>
 
 namespace agvd {
+namespace {
 
-// Follows the boundary of cells, the cell on the left.
-class ArcJoiner::LoopCounter {
-public:
-    LoopCounter(const Surface& surface, const EdgeLabels& labels, const ArcStore& arcs,
-                const ArcJoiner& joiner)
-        : surface_(surface), labels_(labels), arcs_(arcs), in_(joiner) {}
-
-    void run(const CellSet& cells, std::vector<Index>& count) {
-        follow_boundary(cells, count);
-        std::vector<std::uint8_t> is_seen(2 * in_.edges_.size(), 0);
-        for (const Index edge : in_.order_) {
-            for (Side side = 2 * edge; side < 2 * edge + 2; ++side) {
-                const Index site = side % 2 == 0 ? in_.edges_[edge].left : in_.edges_[edge].right;
-                if (!cells.has(site) || is_seen[side] != 0) continue;
-                ++count[site];
-                for (Side s = side; is_seen[s] == 0; s = next(s)) is_seen[s] = 1;
-            }
-        }
-    }
-
-private:
-    // 2 * edge + (0: walked from its first end to its last, the left cell's; 1: the right cell's).
-    using Side = Index;
-
-    // Finds what follows on each label change on the boundary. A boundary without any is a loop.
-    void follow_boundary(const CellSet& cells, std::vector<Index>& count) {
-        for (const std::vector<Index>& loop : in_.boundary_loops_) {
-            Index first = no_index, last = no_index;
-            for (const Index h : loop) {
-                const Block& row = labels_.edge_rows[surface_.edge[h]];
-                for (Index node = row.begin; node < row.end(); ++node) {
-                    if (first == no_index) {
-                        first = node;
-                    } else {
-                        next_on_boundary_[last] = node;
-                    }
-                    last = node;
-                }
-            }
-            const Index site = labels_.point_site[surface_.tail(loop[0])];
-            if (first != no_index) {
-                next_on_boundary_[last] = first;
-            } else if (cells.has(site)) {
-                ++count[site];
-            }
-        }
-    }
-
-    // Around a Voronoi vertex, a cell arrives along an end and leaves along the one before; at a
-    // label change on the boundary it goes on along the boundary to the next one.
-    [[nodiscard]] Side next(Side side) const {
-        const Index edge = side / 2;
-        if (in_.edges_[edge].is_closed()) return side;
-        const ArcEnd arriving = side % 2 == 0 ? in_.edges_[edge].last : in_.first_ends_[edge];
-        const Index node = node_at(arcs_, arriving);
-        const ArcEnd leaving =
-            node >= LocalDiagram::first_voronoi_vertex
-                ? before_at_vertex(node - LocalDiagram::first_voronoi_vertex, arriving)
-                : in_.crossing_ends_[next_on_boundary_.at(node)][0];
-        const Index next_edge = in_.edge_of_arc_[leaving / 2];
-        return 2 * next_edge + (in_.first_ends_[next_edge] == leaving ? 0 : 1);
-    }
-
-    [[nodiscard]] ArcEnd before_at_vertex(Index voronoi_vertex, ArcEnd end) const {
-        const auto& ends = arcs_.voronoi_vertices()[voronoi_vertex].ends;
-        return end == ends[0] ? ends[2] : end == ends[1] ? ends[0] : ends[1];
-    }
-
-    const Surface& surface_;
-    const EdgeLabels& labels_;
-    const ArcStore& arcs_;
-    const ArcJoiner& in_;
-    std::unordered_map<Index, Index> next_on_boundary_;  // By crossing.
+// An edge as seen from the cell on one side of it, which has the cell on its left.
+struct Side {
+    Index edge;     // Name.
+    bool is_right;  // The right cell's: walked from head to tail.
 };
 
-std::vector<Index> ArcJoiner::count_loops(const Surface& surface, const EdgeLabels& labels,
-                                          const ArcStore& arcs, const CellSet& cells) const {
+// By crossing: the next label change along the surface's boundary.
+using NextOnBoundary = std::unordered_map<Index, Index>;
+
+// A boundary without label changes is a loop of its own.
+NextOnBoundary follow_boundary(const Surface& surface, const DiagramParts& parts,
+                               const CellSet& cells, std::vector<Index>& count) {
+    NextOnBoundary next;
+    for (const std::vector<Index>& loop : parts.boundary_loops) {
+        Index first = no_index, last = no_index;
+        for (const Index h : loop) {
+            const Block& row = parts.labels.edge_rows[surface.edge[h]];
+            for (Index crossing = row.begin; crossing < row.end(); ++crossing) {
+                if (first == no_index) {
+                    first = crossing;
+                } else {
+                    next[last] = crossing;
+                }
+                last = crossing;
+            }
+        }
+        const Index site = parts.labels.point_site[surface.tail(loop[0])];
+        if (first != no_index) {
+            next[last] = first;
+        } else if (cells.has(site)) {
+            ++count[site];
+        }
+    }
+    return next;
+}
+
+ArcEnd end_before(const ArcStore::VoronoiVertex& vertex, ArcEnd end) {
+    return end == vertex.ends[0]   ? vertex.ends[2]
+           : end == vertex.ends[1] ? vertex.ends[0]
+                                   : vertex.ends[1];
+}
+
+// Around a Voronoi vertex, a cell arrives along an end and leaves along the one before; at a label
+// change on the boundary it goes on along the boundary to the next one.
+Side next_side(const DiagramParts& parts, const NextOnBoundary& next_on_boundary,
+               const Side& side) {
+    const JoinedEdges& joined = parts.joined;
+    const JoinedEdges::Edge& edge = joined.edges[side.edge];
+    if (edge.is_closed()) return side;
+    const ArcEnd arriving = side.is_right ? joined.first_ends[side.edge] : edge.last;
+    const NodeId node = node_at(parts.arcs, arriving);
+    const ArcEnd leaving =
+        node.is_voronoi_vertex()
+            ? end_before(parts.arcs.voronoi_vertices()[node.voronoi_vertex()], arriving)
+            : joined.crossing_ends[next_on_boundary.at(node.crossing())][0];
+    const Index next = joined.edge_of_arc[leaving.arc()];
+    assert(joined.first_ends[next] == leaving || joined.edges[next].last == leaving);
+    return {next, joined.first_ends[next] != leaving};
+}
+
+}  // namespace
+
+std::vector<Index> count_loops(const Surface& surface, const DiagramParts& parts,
+                               const CellSet& cells) {
     std::vector<Index> count(cells.num_sites(), 0);
-    LoopCounter(surface, labels, arcs, *this).run(cells, count);
+    const NextOnBoundary next_on_boundary = follow_boundary(surface, parts, cells, count);
+    const JoinedEdges& joined = parts.joined;
+    std::vector<std::array<std::uint8_t, 2>> is_seen(joined.edges.size(), {0, 0});
+    for (const Index name : joined.order) {
+        for (const bool is_right : {false, true}) {
+            const JoinedEdges::Edge& edge = joined.edges[name];
+            const Index site = is_right ? edge.right : edge.left;
+            if (!cells.has(site) || is_seen[name][is_right ? 1 : 0] != 0) continue;
+            ++count[site];
+            Side side{name, is_right};
+            while (std::exchange(is_seen[side.edge][side.is_right ? 1 : 0], 1) == 0) {
+                side = next_side(parts, next_on_boundary, side);
+            }
+        }
+    }
     return count;
+}
+
+std::vector<Index> faces_beside(const DiagramParts& parts, const CellSet& cells) {
+    std::vector<Index> faces;
+    for (const Index name : parts.joined.order) {
+        const JoinedEdges::Edge& edge = parts.joined.edges[name];
+        if (cells.has(edge.left) || cells.has(edge.right)) {
+            faces.push_back(parts.arcs.arcs()[parts.joined.first_ends[name].arc()].face);
+        }
+    }
+    return faces;
 }
 
 }  // namespace agvd

@@ -26,7 +26,7 @@ public:
 private:
     const Surface& surface_;
     const Propagation& propagation_;
-    std::vector<PlanarRelay> planar_;  // Of the face asked last; kept for its memory.
+    std::vector<PlanarRelay> planar_;  // Of the last point's face; kept for its memory.
 };
 
 }  // namespace agvd

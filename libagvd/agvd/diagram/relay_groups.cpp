@@ -1,5 +1,6 @@
 #include "agvd/diagram/relay_groups.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "agvd/core/parallel.h"
@@ -39,6 +40,20 @@ RelayGroups::RelayGroups(const Propagation& propagation, std::span<const Index> 
         }
     };
     parallel_chunks(count, grain, num_threads, group_chunk, poller);
+}
+
+RelayGroups group_relays_around(const StageInput& input, const EdgeLabels& labels,
+                                std::span<const Index> faces) {
+    std::vector<Index> all(faces.begin(), faces.end());
+    for (const Index face : faces) {
+        for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+            const Index twin = input.surface.twin[h];
+            if (twin != no_index) all.push_back(Surface::face(twin));
+        }
+    }
+    std::sort(all.begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
+    return {input.propagation, positions_of(labels, all), input.num_threads, input.poller};
 }
 
 }  // namespace agvd

@@ -1,11 +1,12 @@
 //! \file
-//! The relays of each mixed face by where their image lies.
+//! The relays of each mixed face, grouped by where their image lies.
 #pragma once
 
 #include <memory>
 
-#include "agvd/core/poller.h"
+#include "agvd/diagram/edge_labels.h"
 #include "agvd/diagram/face_relays.h"
+#include "agvd/diagram/stage_input.h"
 
 namespace agvd {
 
@@ -13,12 +14,12 @@ namespace agvd {
 class RelayGroups {
 public:
     //! Parallel; O(relays of those faces). Keeps a reference.
-    //! \param mixed  the mixed indices that will be asked for.
+    //! \param mixed  positions in mixed_faces: the faces whose groups will be read.
     RelayGroups(const Propagation& propagation, std::span<const Index> mixed, int num_threads,
                 Poller& poller);
 
-    //! The relays whose image lies across a half-edge of a mixed face. As all that follow in their
-    //! order.
+    //! The relays whose image lies across a half-edge of a mixed face. This group and the others
+    //! keep the order of the relays.
     [[nodiscard]] std::span<const Index> across(Index mixed_index, Index half_edge) const {
         return group(mixed_index, half_edge % 3);
     }
@@ -50,5 +51,9 @@ private:
     std::unique_ptr<Index[]> relays_;     // Face after face, group after group.
     std::unique_ptr<Index[]> begins_;     // Of the groups of each face, and the end of the last.
 };
+
+//! The relays of these faces and of their neighbours.
+[[nodiscard]] RelayGroups group_relays_around(const StageInput& input, const EdgeLabels& labels,
+                                              std::span<const Index> faces);
 
 }  // namespace agvd

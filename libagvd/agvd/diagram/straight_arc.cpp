@@ -51,7 +51,7 @@ bool is_nearly_straight(const Vec2& chord, const Vec2& middle, const Reach& a, c
 }
 
 bool joins_straight(std::span<const Relay> relays, const std::array<Vec2, 3>& corners,
-                    const Breakpoint& from, const Breakpoint& to, double slack, double tolerance) {
+                    const Breakpoint& from, const Breakpoint& to, const ChordTest& test) {
     const Vec2 middle = (from.position + to.position) / 2;
     struct Frame {
         Vec2 along;
@@ -76,10 +76,10 @@ bool joins_straight(std::span<const Relay> relays, const std::array<Vec2, 3>& co
         if (site == nullptr) continue;
         const std::size_t k = relay.half_edge % 3;
         const Frame& frame = frames[k];
-        site->agrees_at_from = site->agrees_at_from ||
-                               reach_in_frame(relay, frame.from).distance <= from.distance + slack;
-        site->agrees_at_to =
-            site->agrees_at_to || reach_in_frame(relay, frame.to).distance <= to.distance + slack;
+        site->agrees_at_from = site->agrees_at_from || reach_in_frame(relay, frame.from).distance <=
+                                                           from.distance + test.slack;
+        site->agrees_at_to = site->agrees_at_to ||
+                             reach_in_frame(relay, frame.to).distance <= to.distance + test.slack;
         const Reach at_middle = reach_in_frame(relay, frame.middle);
         if (at_middle.distance < site->at_middle.distance) {
             site->at_middle = at_middle;
@@ -94,7 +94,7 @@ bool joins_straight(std::span<const Relay> relays, const std::array<Vec2, 3>& co
             corners[site.frame] + image.x() * along + image.y() * Vec2(-along.y(), along.x());
     }
     return is_nearly_straight(to.position - from.position, middle, known[0].at_middle,
-                              known[1].at_middle, tolerance);
+                              known[1].at_middle, test.tolerance);
 }
 
 }  // namespace agvd

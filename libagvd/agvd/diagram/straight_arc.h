@@ -1,5 +1,5 @@
 //! \file
-//! The plainest face: two label changes and one straight arc between them.
+//! Faces with two label changes and one straight arc between them.
 #pragma once
 
 #include "agvd/diagram/face_relays.h"
@@ -14,14 +14,18 @@ namespace agvd {
 [[nodiscard]] bool is_nearly_straight(const Vec2& chord, const Vec2& middle, const Reach& a,
                                       const Reach& b, double tolerance);
 
+struct ChordTest {
+    double slack;      //!< Mesh units: distances agree up to this.
+    double tolerance;  //!< See is_nearly_straight().
+};
+
 //! Whether a face's own relays say so of the chord between two breakpoints, and agree with the
-//! breakpoints' distances up to `slack`. False: ask TriangleSolver, which does with arcs of any
+//! breakpoints' distances. False: see TriangleSolver, which draws arcs of any
 //! shape.
 //! \param relays    of the face.
 //! \param corners   of the face, in whose frame the breakpoints are.
-//! \param tolerance  see is_nearly_straight().
 [[nodiscard]] bool joins_straight(std::span<const Relay> relays, const std::array<Vec2, 3>& corners,
-                                  const Breakpoint& from, const Breakpoint& to, double slack,
-                                  double tolerance);
+                                  const Breakpoint& from, const Breakpoint& to,
+                                  const ChordTest& test);
 
 }  // namespace agvd

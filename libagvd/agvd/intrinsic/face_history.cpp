@@ -82,7 +82,7 @@ struct FaceHistory::Step {
         if (way == Way::Backward) return point_of(to, op.half_edge[slot]);
         return {FaceId(op.new_face[slot]), to};
     }
-    [[nodiscard]] Index next_link(Index slot) const {
+    [[nodiscard]] Link next_link(Index slot) const {
         return way == Way::Forward ? op.next[slot] : op.previous[slot];
     }
 
@@ -241,126 +241,115 @@ struct FaceHistory::MergeStep {
 };
 
 void FaceHistory::add_flip(Index half_edge, Index twin, const QuadShares& shares) {
-    add({{half_edge, twin},
-         {Surface::face(half_edge), Surface::face(twin)},
-         {no_index, no_index},
-         {no_index, no_index},
-         shares});
+    add({{half_edge, twin}, {Surface::face(half_edge), Surface::face(twin)}, {}, {}, shares});
 }
 
 void FaceHistory::add_split(Index half_edge, Index new_face) {
-    add({{half_edge, no_index},
-         {Surface::face(half_edge), new_face},
-         {no_index, no_index},
-         {no_index, no_index},
-         {0.5, 0.5, 0}});
+    add({{half_edge, no_index}, {Surface::face(half_edge), new_face}, {}, {}, {0.5, 0.5, 0}});
 }
 
 void FaceHistory::start() {
     if (whole_ != nullptr || !last_.empty()) return;
-    first_.assign(num_faces_, no_index);
-    last_.assign(num_faces_, no_index);
+    first_.assign(num_faces_, {});
+    last_.assign(num_faces_, {});
 }
 
-Index FaceHistory::chain(Index face, Index link) {
-    const Index made_by = links().last_[face];
-    if (made_by == no_index) {
+FaceHistory::Link FaceHistory::chain(Index face, Link link) {
+    const Link made_by = links().last_[face];
+    if (!made_by.is_valid()) {
         links().first_[face] = link;
-    } else if (made_by >= first_merge) {
-        merges_[(made_by - first_merge) / 4].next = link;
+    } else if (made_by.is_merge()) {
+        merges_[made_by.merge()].next = link;
     } else {
-        operations_[made_by / 2].next[made_by % 2] = link;
+        operations_[made_by.operation()].next[made_by.slot()] = link;
     }
     return made_by;
 }
 
 void FaceHistory::add(Operation operation) {
     start();
-    const auto number = static_cast<Index>(operations_.size());
+    const std::size_t number = operations_.size();
     for (Index slot = 0; slot < 2; ++slot) {
         if (operation.half_edge[slot] == no_index) continue;
         const Index face = Surface::face(operation.half_edge[slot]);
-        operation.previous[slot] = chain(face, 2 * number + slot);
+        operation.previous[slot] = chain(face, Link::to_operation(number, slot));
     }
     for (Index slot = 0; slot < 2; ++slot) {
         const Index face = operation.new_face[slot];
-        std::vector<Index>& last = links().last_;
-        if (face >= last.size()) last.resize(face + 1, no_index);
-        last[face] = 2 * number + slot;
+        std::vector<Link>& last = links().last_;
+        if (face >= last.size()) last.resize(face + 1);
+        last[face] = Link::to_operation(number, slot);
     }
     operations_.push_back(operation);
 }
 
 void FaceHistory::add_merge(const MergedFace& made) {
     start();
-    Merge merge{made.half_edge, made.face, {no_index, no_index, no_index}, no_index, made.shares};
-    const auto first = static_cast<Index>(first_merge + 4 * merges_.size());
+    Merge merge{made.half_edge, made.face, {}, {}, made.shares};
+    const std::size_t number = merges_.size();
     for (Index slot = 0; slot < 3; ++slot) {
         if (merge.half_edge[slot] == no_index) continue;
-        merge.previous[slot] = chain(Surface::face(merge.half_edge[slot]), first + slot);
+        merge.previous[slot] =
+            chain(Surface::face(merge.half_edge[slot]), Link::to_merge(number, slot));
     }
-    links().last_[made.face] = first;
+    links().last_[made.face] = Link::to_merge(number, 0);
     merges_.push_back(merge);
 }
 
 // Links of the part are counted from its own first operation and merge.
 void FaceHistory::take(const FaceHistory& part) {
-    const auto num_operations = static_cast<Index>(operations_.size());
-    const auto num_merges = static_cast<Index>(merges_.size());
-    const auto moved = [&](Index link) {
-        if (link == no_index) return no_index;
-        return link + (link >= first_merge ? 4 * num_merges : 2 * num_operations);
-    };
+    const std::size_t num_operations = operations_.size();
+    const std::size_t num_merges = merges_.size();
+    const auto moved = [&](Link link) { return link.behind(num_operations, num_merges); };
     operations_.insert(operations_.end(), part.operations_.begin(), part.operations_.end());
     merges_.insert(merges_.end(), part.merges_.begin(), part.merges_.end());
-    for (Index i = num_operations; i < operations_.size(); ++i) {
+    for (std::size_t i = num_operations; i < operations_.size(); ++i) {
         Operation& op = operations_[i];
         for (Index slot = 0; slot < 2; ++slot) {
-            const Index link = 2 * i + slot;
-            if (op.previous[slot] == no_index) first_[Surface::face(op.half_edge[slot])] = link;
-            if (op.next[slot] == no_index) last_[op.new_face[slot]] = link;
+            const Link link = Link::to_operation(i, slot);
+            if (!op.previous[slot].is_valid()) first_[Surface::face(op.half_edge[slot])] = link;
+            if (!op.next[slot].is_valid()) last_[op.new_face[slot]] = link;
             op.previous[slot] = moved(op.previous[slot]);
             op.next[slot] = moved(op.next[slot]);
         }
     }
-    for (Index i = num_merges; i < merges_.size(); ++i) {
+    for (std::size_t i = num_merges; i < merges_.size(); ++i) {
         Merge& merge = merges_[i];
-        const auto first = static_cast<Index>(first_merge + 4 * i);
         for (Index slot = 0; slot < 3; ++slot) {
             if (merge.half_edge[slot] == no_index) continue;
             const Index face = Surface::face(merge.half_edge[slot]);
-            if (merge.previous[slot] == no_index) first_[face] = first + slot;
+            if (!merge.previous[slot].is_valid()) first_[face] = Link::to_merge(i, slot);
             merge.previous[slot] = moved(merge.previous[slot]);
         }
-        if (merge.next == no_index) last_[merge.new_face] = first;
+        if (!merge.next.is_valid()) last_[merge.new_face] = Link::to_merge(i, 0);
         merge.next = moved(merge.next);
     }
 }
 
 void FaceHistory::move_face(Index from, Index to) {
     start();
-    const Index made_by = last_[from];
-    if (made_by == no_index) {  // Its third corner merges with it: nothing moves.
+    const Link made_by = last_[from];
+    if (!made_by.is_valid()) {  // Its third corner merges with it: nothing moves.
         add_merge({to, {3 * from, no_index, no_index}, {0, 0, 1}});
         return;
     }
     last_[to] = made_by;
-    if (made_by >= first_merge) {
-        merges_[(made_by - first_merge) / 4].new_face = to;
+    if (made_by.is_merge()) {
+        merges_[made_by.merge()].new_face = to;
     } else {
-        operations_[made_by / 2].new_face[made_by % 2] = to;
+        operations_[made_by.operation()].new_face[made_by.slot()] = to;
     }
 }
 
-Index FaceHistory::first_link(Way way, Index face) const {
-    const std::vector<Index>& links = way == Way::Forward ? first_ : last_;
-    return face < links.size() ? links[face] : no_index;
+FaceHistory::Link FaceHistory::first_link(Way way, Index face) const {
+    const std::vector<Link>& links = way == Way::Forward ? first_ : last_;
+    return face < links.size() ? links[face] : Link();
 }
 
-Index FaceHistory::carry_through_merge(Way way, Index link, SurfacePoint& point) const {
-    const MergeStep step(merges_[(link - first_merge) / 4]);
+FaceHistory::Link FaceHistory::carry_through_merge(Way way, Link link, SurfacePoint& point) const {
+    const MergeStep step(merges_[link.merge()]);
     if (way == Way::Forward) {
-        point = step.forward(point, (link - first_merge) % 4);
+        point = step.forward(point, link.slot());
         return step.op.next;
     }
     const Index slot = step.slot_of(point.barycentric);
@@ -369,14 +358,14 @@ Index FaceHistory::carry_through_merge(Way way, Index link, SurfacePoint& point)
 }
 
 SurfacePoint FaceHistory::carry(Way way, SurfacePoint point) const {
-    Index link = first_link(way, point.face.value());
-    if (link == no_index) return point;
-    while (link != no_index) {
-        if (link >= first_merge) {
+    Link link = first_link(way, point.face.value());
+    if (!link.is_valid()) return point;
+    while (link.is_valid()) {
+        if (link.is_merge()) {
             link = carry_through_merge(way, link, point);
             continue;
         }
-        const Step step(operations_[link / 2], way, link % 2);
+        const Step step(operations_[link.operation()], way, link.slot());
         const Shares shares = step.shares_of(point);
         const double side = step.side(shares);
         const Index slot = side >= 0 ? 0 : 1;
@@ -390,24 +379,24 @@ void FaceHistory::carry(Way way, const FaceSegment& segment,
                         std::vector<FaceSegment>& parts) const {
     struct Waiting {
         FaceSegment segment;
-        Index link;
+        Link link;
     };
     std::vector<Waiting> waiting{{segment, first_link(way, segment.begin.face.value())}};
-    if (waiting[0].link == no_index) {
+    if (!waiting[0].link.is_valid()) {
         parts.push_back(segment);
         return;
     }
     while (!waiting.empty()) {
         const auto [part, link] = waiting.back();
         waiting.pop_back();
-        if (link == no_index) {
+        if (!link.is_valid()) {
             parts.push_back({normalized(part.begin), normalized(part.end)});
             continue;
         }
-        if (link >= first_merge) {
-            const MergeStep step(merges_[(link - first_merge) / 4]);
+        if (link.is_merge()) {
+            const MergeStep step(merges_[link.merge()]);
             if (way == Way::Forward) {
-                const Index slot = (link - first_merge) % 4;
+                const Index slot = link.slot();
                 waiting.push_back(
                     {{step.forward(part.begin, slot), step.forward(part.end, slot)}, step.op.next});
                 continue;
@@ -418,7 +407,7 @@ void FaceHistory::carry(Way way, const FaceSegment& segment,
             }
             continue;
         }
-        const Step step(operations_[link / 2], way, link % 2);
+        const Step step(operations_[link.operation()], way, link.slot());
         const Shares begin = step.shares_of(part.begin), end = step.shares_of(part.end);
         const double begin_side = step.side(begin), end_side = step.side(end);
         if ((begin_side > 0 && end_side < 0) || (begin_side < 0 && end_side > 0)) {
@@ -438,14 +427,14 @@ void FaceHistory::carry(Way way, const FaceSegment& segment,
 }
 
 bool FaceHistory::is_near(SurfacePoint point, Index most_steps) const {
-    Index link = first_link(Way::Backward, point.face.value());
-    for (Index steps = 0; link != no_index; ++steps) {
+    Link link = first_link(Way::Backward, point.face.value());
+    for (Index steps = 0; link.is_valid(); ++steps) {
         if (steps == most_steps) return false;
-        if (link >= first_merge) {
+        if (link.is_merge()) {
             link = carry_through_merge(Way::Backward, link, point);
             continue;
         }
-        const Step step(operations_[link / 2], Way::Backward, link % 2);
+        const Step step(operations_[link.operation()], Way::Backward, link.slot());
         const Shares shares = step.shares_of(point);
         const Index slot = step.side(shares) >= 0 ? 0 : 1;
         point = step.pass(shares, slot, false);
@@ -459,11 +448,11 @@ bool FaceHistory::is_near(SurfacePoint point, Index most_steps) const {
 struct FaceHistory::Parts {
     struct Waiting {
         FacePolygon part;
-        Index link;
+        Link link;
     };
     std::vector<Waiting> waiting;
 
-    void add(const FacePolygon& part, Index link) {
+    void add(const FacePolygon& part, Link link) {
         if (part.num_corners >= 3) waiting.push_back({part, link});
     }
 
@@ -518,16 +507,16 @@ bool FaceHistory::parts_of(Index face, Index most_steps,
     all.add(FacePolygon(face), first_link(Way::Backward, face));
     for (Index steps = 0; !all.waiting.empty(); ++steps) {
         const auto& [part, link] = all.waiting.back();
-        if (link == no_index) {
+        if (!link.is_valid()) {
             take(part);
             all.waiting.pop_back();
             continue;
         }
         if (steps == most_steps || part.num_corners + 2 > FacePolygon::most_corners) return false;
-        if (link >= first_merge) {
-            all.pass(MergeStep(merges_[(link - first_merge) / 4]));
+        if (link.is_merge()) {
+            all.pass(MergeStep(merges_[link.merge()]));
         } else {
-            all.pass(Step(operations_[link / 2], Way::Backward, link % 2));
+            all.pass(Step(operations_[link.operation()], Way::Backward, link.slot()));
         }
     }
     return true;

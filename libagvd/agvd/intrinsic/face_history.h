@@ -8,6 +8,7 @@
 #include <functional>
 #include <vector>
 
+#include "agvd/core/either_index.h"
 #include "agvd/intrinsic/face_operations.h"
 #include "agvd/intrinsic/vertex_ring.h"
 #include "agvd/mesh/surface_point.h"
@@ -91,7 +92,7 @@ public:
     }
 
     [[nodiscard]] bool is_changed(Index face) const {
-        return face < last_.size() && last_[face] != no_index;
+        return face < last_.size() && last_[face].is_valid();
     }
 
     //! Cost: O(operations on the way), each some 20 ns.
@@ -110,25 +111,51 @@ public:
     [[nodiscard]] bool is_near(SurfacePoint point, Index most_steps) const;
 
 private:
+    // One of the faces of a flip or split, or of a merge: its slot there.
+    class Link {
+    public:
+        constexpr Link() = default;  // None.
+        [[nodiscard]] static Link to_operation(std::size_t operation, Index slot) {
+            return Link(EitherIndex::first(2 * static_cast<Index>(operation) + slot));
+        }
+        [[nodiscard]] static Link to_merge(std::size_t merge, Index slot) {
+            return Link(EitherIndex::second(4 * static_cast<Index>(merge) + slot));
+        }
+
+        [[nodiscard]] bool is_valid() const { return id_.is_valid(); }
+        [[nodiscard]] bool is_merge() const { return id_.is_second(); }
+        [[nodiscard]] Index operation() const { return id_.first() / 2; }
+        [[nodiscard]] Index merge() const { return id_.second() / 4; }
+        [[nodiscard]] Index slot() const { return is_merge() ? id_.second() % 4 : id_.first() % 2; }
+        // Behind so many operations and merges.
+        [[nodiscard]] Link behind(std::size_t operations, std::size_t merges) const {
+            if (!is_valid()) return {};
+            return is_merge() ? to_merge(merge() + merges, slot())
+                              : to_operation(operation() + operations, slot());
+        }
+
+    private:
+        explicit Link(EitherIndex id) : id_(id) {}
+
+        EitherIndex id_;
+    };
     // Slot 0: the face of the half-edge; slot 1: that of the twin (flips only). New faces likewise:
-    // (a, d, c) is slot 0, (d, b, c) slot 1. A link is 2 * operation + slot.
+    // (a, d, c) is slot 0, (d, b, c) slot 1.
     struct Operation {
         std::array<Index, 2> half_edge;
         std::array<Index, 2> new_face;
-        std::array<Index, 2> next{no_index, no_index};      // What changes the new faces.
-        std::array<Index, 2> previous{no_index, no_index};  // What made the old ones.
+        std::array<Link, 2> next{};      // What changes the new faces.
+        std::array<Link, 2> previous{};  // What made the old ones.
         QuadShares shares;
     };
-    // Slots 0 to 2: the faces at sides ab, bc and ca; the new face, (a, b, c), has slot 0. A link
-    // is first_merge + 4 * merge + slot.
+    // Slots 0 to 2: the faces at sides ab, bc and ca; the new face, (a, b, c), has slot 0.
     struct Merge {
         std::array<Index, 3> half_edge;
         Index new_face;
-        std::array<Index, 3> previous{no_index, no_index, no_index};
-        Index next = no_index;
+        std::array<Link, 3> previous{};
+        Link next{};
         std::array<double, 3> shares;
     };
-    static constexpr Index first_merge = Index{1} << 31;
     enum class Way : std::uint8_t { Forward, Backward };
     struct Step;
     struct MergeStep;
@@ -136,10 +163,10 @@ private:
 
     void add(Operation operation);
     // Follows the last link of an old face with another one.
-    Index chain(Index face, Index link);
-    [[nodiscard]] Index first_link(Way way, Index face) const;
+    Link chain(Index face, Link link);
+    [[nodiscard]] Link first_link(Way way, Index face) const;
     // \return the next link.
-    Index carry_through_merge(Way way, Index link, SurfacePoint& point) const;
+    Link carry_through_merge(Way way, Link link, SurfacePoint& point) const;
     [[nodiscard]] SurfacePoint carry(Way way, SurfacePoint point) const;
     void carry(Way way, const FaceSegment& segment, std::vector<FaceSegment>& parts) const;
 
@@ -150,8 +177,8 @@ private:
     Index num_faces_ = 0;  // Of the beginning.
     std::vector<Operation> operations_;
     std::vector<Merge> merges_;
-    std::vector<Index> first_;  // By face of the beginning: the link that changes it first.
-    std::vector<Index> last_;   // By face of the end: the link that made it.
+    std::vector<Link> first_;  // By face of the beginning: the link that changes it first.
+    std::vector<Link> last_;   // By face of the end: the link that made it.
 };
 
 }  // namespace agvd::detail

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "agvd/diagram/single_crossing.h"
 #include "support/dice.h"
 
 using namespace agvd;
@@ -34,7 +35,7 @@ Index nearest_at(const std::vector<LineRelay>& relays, double x) {
 std::vector<LabelInterval> envelope_of(const std::vector<LineRelay>& relays) {
     EnvelopeScratch scratch;
     std::vector<LabelInterval> intervals;
-    label_envelope(relays, length, nearest_at(relays, 0), nearest_at(relays, length), scratch,
+    label_envelope(relays, {length, nearest_at(relays, 0), nearest_at(relays, length)}, scratch,
                    intervals);
     return intervals;
 }
@@ -81,11 +82,10 @@ TEST(Envelope, TwoSitesChangeWhereTheirBisectorCrosses) {
     EXPECT_EQ(intervals[0].site, 0u);
     EXPECT_EQ(intervals[1].site, 1u);
     EXPECT_EQ(intervals[1].end, 1);
-    double at = 0, distance = 0;
-    ASSERT_TRUE(
-        find_single_crossing(relays_of({{0, 1, 0}, {2, 2, 0}}), length, 0, 1, at, distance));
-    EXPECT_NEAR(at, 1.75, 1e-12);
-    EXPECT_NEAR(distance, std::hypot(1.75, 1), 1e-12);
+    const auto crossing = find_single_crossing(relays_of({{0, 1, 0}, {2, 2, 0}}), length, 0, 1);
+    ASSERT_TRUE(crossing);
+    EXPECT_NEAR(crossing->at, 1.75, 1e-12);
+    EXPECT_NEAR(crossing->distance, std::hypot(1.75, 1), 1e-12);
 }
 
 TEST(Envelope, ASiteThatIsNearestNowhereHasNoInterval) {
@@ -103,8 +103,12 @@ TEST(Envelope, ASiteCloseToTheSegmentHasAnIntervalInsideAnothersTwo) {
     EXPECT_EQ(intervals[1].site, 1u);
     EXPECT_EQ(intervals[2].site, 0u);
     EXPECT_NEAR(intervals[0].end + intervals[1].end, 1, 1e-9);
-    double at = 0, distance = 0;
-    EXPECT_FALSE(find_single_crossing(relays, length, 0, 0, at, distance));
+}
+
+TEST(Envelope, AThirdSiteBetweenIsNoSingleCrossing) {
+    const auto relays = relays_of({{0, 1, 0}, {1, 0.2, 0}, {2, 1, 0}});
+    EXPECT_FALSE(find_single_crossing(relays, length, 0, 2));
+    EXPECT_EQ(envelope_of(relays).size(), 3u);
 }
 
 TEST(Envelope, TheLowestSiteTakesATie) {
@@ -117,7 +121,7 @@ TEST(Envelope, GivesTheEndsTheSitesNamed) {
     const auto relays = relays_of({{1, 1, 0}, {1, 3, 0}});
     EnvelopeScratch scratch;
     std::vector<LabelInterval> intervals;
-    label_envelope(relays, length, 1, 0, scratch, intervals);
+    label_envelope(relays, {length, 1, 0}, scratch, intervals);
     ASSERT_EQ(intervals.size(), 2u);
     EXPECT_EQ(intervals[0].site, 1u);
     EXPECT_NEAR(intervals[0].end, 0, 1e-12);

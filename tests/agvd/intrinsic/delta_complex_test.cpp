@@ -6,13 +6,13 @@
 #include <numeric>
 
 #include "agvd/diagram/build_diagram.h"
-#include "agvd/diagram/moving_diagram.h"
 #include "agvd/diagram/point_label.h"
 #include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/mesh/face_area.h"
 #include "agvd/mesh/point_faces.h"
 #include "agvd/mesh/uniform_points.h"
 #include "agvd/propagation/propagate.h"
+#include "agvd/update/moving_diagram.h"
 #include "remesh/clean/clean_input.h"
 #include "remesh/dual/build_dual.h"
 #include "remesh/dual/delaunay.h"

@@ -9,7 +9,7 @@
 
 #include "agvd/core/error.h"
 #include "agvd/mesh/point_faces.h"
-#include "agvd/propagation/moving_sites.h"
+#include "agvd/update/moving_sites.h"
 #include "support/checks.h"
 #include "support/dirty_shapes.h"
 #include "support/points.h"
