@@ -85,7 +85,7 @@ void SteinerFront::run(double retirement_interval, const Progress& progress) {
 Propagation SteinerFront::finish() {
     retirement_.retire_behind(infinity);
     const std::size_t common =
-        vertices_.capacity() * sizeof(SteinerNode) + retirement_.bytes() + queue_.peak_bytes();
+        vertices_.capacity() * sizeof(SteinerNode) + retirement_.bytes() + queue_.bytes();
     Propagation result;
     result.peak_bytes = common + pool_.peak_bytes();
     pool_.clear();

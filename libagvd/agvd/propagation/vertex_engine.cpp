@@ -39,7 +39,7 @@ constexpr int max_shadow_crossings = 2;
 // Width of the queue's buckets in mean edge lengths.
 constexpr double bucket_share = 0.4;
 // Nodes looked up ahead of their turn.
-constexpr std::size_t look_ahead = 8;
+constexpr Index look_ahead = 8;
 
 struct Wedge {
     Vec2 tail, head;  // Of the half-edge about to be crossed.
@@ -61,14 +61,15 @@ public:
           corners_(corners),
           reach_(surface.num_vertices()),
           views_(surface.num_vertices()),
-          queue_(bucket_width(surface, corners)) {}
+          queue_(1 / bucket_width(surface, corners)) {}
 
     Propagation run() {
         for (Index s = 0; s < sites_.size(); ++s) start(s);
         std::size_t served = 0;
-        for (Index v = queue_.pop(); v != no_index; v = queue_.pop()) {
+        while (!queue_.empty()) {
+            const Index v = queue_.pop();
             prefetch();
-            if (!queue_.take(v, reach_[v].distance, reach_[v].queued_in)) continue;
+            if (!queue_.take(reach_[v].queued_in)) continue;
             serve(v);
             if (++served % poll_interval == 0) {
                 const double share = static_cast<double>(served) / surface_.num_vertices();
@@ -90,13 +91,13 @@ private:
 
     // The nodes to come are known, and lie anywhere in memory.
     [[gnu::always_inline]] void prefetch() const {
-        if (const Index v = queue_.peek(look_ahead); v != no_index) {
-            __builtin_prefetch(&reach_[v]);
-            __builtin_prefetch(&views_[v]);
+        if (const Index* const v = queue_.peek(look_ahead)) {
+            __builtin_prefetch(&reach_[*v]);
+            __builtin_prefetch(&views_[*v]);
         }
-        const auto face_of = [&](std::size_t ahead) {
-            const Index v = queue_.peek(ahead);
-            const Index h = v == no_index ? no_index : views_[v].half_edge;
+        const auto face_of = [&](Index ahead) {
+            const Index* const v = queue_.peek(ahead);
+            const Index h = v == nullptr ? no_index : views_[*v].half_edge;
             return h == no_index ? no_index : Surface::face(h);
         };
         if (const Index face = face_of(look_ahead / 2); face != no_index) corners_.prefetch(face);
@@ -426,7 +427,7 @@ private:
     const Corners& corners_;
     std::vector<VertexReach> reach_;  // #V
     std::vector<VertexView> views_;   // #V
-    BucketQueue queue_;
+    BucketQueue<Index> queue_;
 };
 
 }  // namespace

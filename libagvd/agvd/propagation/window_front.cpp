@@ -48,14 +48,15 @@ bool WindowFront::run_in(WindowQueue::Order order, const SurfacePoint& site, Ind
     relative_error_ = 0;
 
     start(site);
-    for (Index item = next_item(); item != no_index; item = next_item()) {
-        if (item % 2 == 1) {
-            const PseudoSource source = pseudo_sources_[item / 2];
-            pseudo_sources_[item / 2].vertex = std::exchange(free_pseudo_source_, item / 2);
+    while (const auto item = next_item()) {
+        const Index record = item->record();
+        if (item->is_pseudo_source()) {
+            const PseudoSource source = pseudo_sources_[record];
+            pseudo_sources_[record].vertex = std::exchange(free_pseudo_source_, record);
             emit(source);
         } else {
-            serve_edge(item / 2);
-            if (edges_[item / 2].num_served > work_cap) return false;
+            serve_edge(record);
+            if (edges_[record].num_served > work_cap) return false;
         }
     }
     return true;
@@ -69,9 +70,9 @@ std::size_t WindowFront::bytes() const {
 // --- Queue -------------------------------------------------------------------------------------
 
 // What an item needs after its corners, and what is seldom in the cache.
-[[gnu::always_inline]] inline void WindowFront::prefetch(Index item) const {
-    if (item % 2 == 1) return;
-    const EdgeRecord& edge = edges_[item / 2];
+[[gnu::always_inline]] inline void WindowFront::prefetch(FrontItem item) const {
+    if (item.is_pseudo_source()) return;
+    const EdgeRecord& edge = edges_[item.record()];
     if (edge.waiting != no_index) store_.prefetch(edge.waiting);
     const Index half_edge = edge.half_edge;
     const Corner& next = corners_[Surface::next(half_edge)];
@@ -82,18 +83,14 @@ std::size_t WindowFront::bytes() const {
     if (previous.twin != no_index) __builtin_prefetch(&edge_slot_[previous.twin]);
 }
 
-Index WindowFront::next_item() {
-    while (true) {
-        const Index item = queue_.pop([&](Index ahead) { prefetch(ahead); });
-        if (item == no_index) return no_index;
+std::optional<FrontItem> WindowFront::next_item() {
+    while (!queue_.empty()) {
+        const FrontItem item = queue_.pop([&](FrontItem ahead) { prefetch(ahead); });
         if (queue_.order() == WindowQueue::Order::Nearest) return item;
         if (num_closed_buckets_ < queue_.current()) close_edges();
-        if (item % 2 == 1) return item;
-        Index& waits_in = edges_[item / 2].bucket;
-        if (waits_in != queue_.current()) continue;  // Served from an earlier bucket.
-        waits_in = no_index;
-        return item;
+        if (item.is_pseudo_source() || queue_.take(edges_[item.record()].bucket)) return item;
     }
+    return std::nullopt;
 }
 
 // --- Vertices ----------------------------------------------------------------------------------
@@ -135,7 +132,7 @@ void WindowFront::reach_vertex(Index record, double distance, float error, Index
         free_pseudo_source_ = std::exchange(pseudo_sources_[place], source).vertex;
     }
     Index bucket = no_index;
-    queue_.push(pseudo_source_item(place), distance, bucket);
+    queue_.push(FrontItem::pseudo_source(place), distance, bucket);
 }
 
 // --- Half-edges --------------------------------------------------------------------------------

@@ -7,6 +7,7 @@
 #include <array>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -155,10 +156,8 @@ private:
 
     [[nodiscard]] bool run_in(WindowQueue::Order order, const SurfacePoint& site, Index work_cap);
     void start(const SurfacePoint& site);
-    [[nodiscard]] Index next_item();
-    void prefetch(Index item) const;
-    [[nodiscard]] static constexpr Index pseudo_source_item(Index place) { return 2 * place + 1; }
-    [[nodiscard]] static constexpr Index edge_item(Index record) { return 2 * record; }
+    [[nodiscard]] std::optional<FrontItem> next_item();
+    void prefetch(FrontItem item) const;
     [[nodiscard]] Index vertex_record(Index vertex);
     void reach_vertex(Index record, double distance, float error, Index half_edge,
                       const Vec2& arrival);

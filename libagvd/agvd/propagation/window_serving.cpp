@@ -43,7 +43,7 @@ inline void WindowFront::wait(const Arrivals& arrivals, Index half_edge, Index t
     const Index record = edge_record(half_edge, tail, head);
     EdgeRecord& edge = edges_[record];
     store_.next(arrivals.run) = std::exchange(edge.waiting, arrivals.run);
-    queue_.push(edge_item(record), arrivals.nearest, edge.bucket);
+    queue_.push(FrontItem::half_edge(record), arrivals.nearest, edge.bucket);
     if (edge.bucket != no_index) edge.last_bucket = std::max(edge.last_bucket, edge.bucket);
 }
 
