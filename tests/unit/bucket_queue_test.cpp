@@ -114,14 +114,12 @@ TEST(BucketRing, ItemsOfABucketLeaveInTheOrderInWhichTheyCame) {
 TEST(BucketRing, MemoryOfEmptyBucketsIsUsedAgain) {
     BucketRing<Index> ring;
     ring.push(0, 0);
-    ring.push(1, 1);
-    ASSERT_EQ(ring.pop(), 0u);
-    const std::size_t before = ring.bytes();
-    for (Index bucket = 2; bucket < 5000; ++bucket) {
+    const std::size_t few_arrays = ring.bytes() + 1000;
+    for (Index bucket = 1; bucket < 5000; ++bucket) {
         ring.push(bucket, bucket);
         ASSERT_EQ(ring.pop(), bucket - 1);
     }
-    EXPECT_LT(ring.bytes(), before + 100);
+    EXPECT_LT(ring.bytes(), few_arrays);
 }
 
 TEST(FrontItem, KnowsItsKindAndRecord) {
