@@ -82,7 +82,7 @@ struct FaceHistory::Step {
         if (way == Way::Backward) return point_of(to, op.half_edge[slot]);
         return {FaceId(op.new_face[slot]), to};
     }
-    [[nodiscard]] Index next_link(Index slot) const {
+    [[nodiscard]] FaceLink next_link(Index slot) const {
         return way == Way::Forward ? op.next[slot] : op.previous[slot];
     }
 
@@ -241,65 +241,58 @@ struct FaceHistory::MergeStep {
 };
 
 void FaceHistory::add_flip(Index half_edge, Index twin, const QuadShares& shares) {
-    add({{half_edge, twin},
-         {Surface::face(half_edge), Surface::face(twin)},
-         {no_index, no_index},
-         {no_index, no_index},
-         shares});
+    add({{half_edge, twin}, {Surface::face(half_edge), Surface::face(twin)}, {}, {}, shares});
 }
 
 void FaceHistory::add_split(Index half_edge, Index new_face) {
-    add({{half_edge, no_index},
-         {Surface::face(half_edge), new_face},
-         {no_index, no_index},
-         {no_index, no_index},
-         {0.5, 0.5, 0}});
+    add({{half_edge, no_index}, {Surface::face(half_edge), new_face}, {}, {}, {0.5, 0.5, 0}});
 }
 
 void FaceHistory::start() {
     if (whole_ != nullptr || !last_.empty()) return;
-    first_.assign(num_faces_, no_index);
-    last_.assign(num_faces_, no_index);
+    first_.assign(num_faces_, FaceLink());
+    last_.assign(num_faces_, FaceLink());
 }
 
-Index FaceHistory::chain(Index face, Index link) {
-    const Index made_by = links().last_[face];
-    if (made_by == no_index) {
+FaceLink FaceHistory::chain(Index face, FaceLink link) {
+    const FaceLink made_by = links().last_[face];
+    if (made_by.is_none()) {
         links().first_[face] = link;
-    } else if (made_by >= first_merge) {
-        merges_[(made_by - first_merge) / 4].next = link;
+    } else if (made_by.is_merge()) {
+        merges_[made_by.place()].next = link;
     } else {
-        operations_[made_by / 2].next[made_by % 2] = link;
+        operations_[made_by.place()].next[made_by.slot()] = link;
     }
     return made_by;
 }
 
 void FaceHistory::add(Operation operation) {
     start();
-    const auto number = static_cast<Index>(operations_.size());
+    const auto place = static_cast<Index>(operations_.size());
     for (Index slot = 0; slot < 2; ++slot) {
         if (operation.half_edge[slot] == no_index) continue;
         const Index face = Surface::face(operation.half_edge[slot]);
-        operation.previous[slot] = chain(face, 2 * number + slot);
+        operation.previous[slot] = chain(face, FaceLink::operation(place, slot));
     }
     for (Index slot = 0; slot < 2; ++slot) {
         const Index face = operation.new_face[slot];
-        std::vector<Index>& last = links().last_;
-        if (face >= last.size()) last.resize(face + 1, no_index);
-        last[face] = 2 * number + slot;
+        std::vector<FaceLink>& last = links().last_;
+        if (face >= last.size()) last.resize(face + 1);
+        last[face] = FaceLink::operation(place, slot);
     }
     operations_.push_back(operation);
 }
 
 void FaceHistory::add_merge(const MergedFace& made) {
     start();
-    Merge merge{made.half_edge, made.face, {no_index, no_index, no_index}, no_index, made.shares};
-    const auto first = static_cast<Index>(first_merge + 4 * merges_.size());
+    Merge merge{made.half_edge, made.face, {}, {}, made.shares};
+    const auto place = static_cast<Index>(merges_.size());
     for (Index slot = 0; slot < 3; ++slot) {
         if (merge.half_edge[slot] == no_index) continue;
-        merge.previous[slot] = chain(Surface::face(merge.half_edge[slot]), first + slot);
+        const Index face = Surface::face(merge.half_edge[slot]);
+        merge.previous[slot] = chain(face, FaceLink::merge(place, slot));
     }
-    links().last_[made.face] = first;
+    links().last_[made.face] = FaceLink::merge(place, 0);
     merges_.push_back(merge);
 }
 
@@ -307,60 +300,60 @@ void FaceHistory::add_merge(const MergedFace& made) {
 void FaceHistory::take(const FaceHistory& part) {
     const auto num_operations = static_cast<Index>(operations_.size());
     const auto num_merges = static_cast<Index>(merges_.size());
-    const auto moved = [&](Index link) {
-        if (link == no_index) return no_index;
-        return link + (link >= first_merge ? 4 * num_merges : 2 * num_operations);
+    const auto moved = [&](FaceLink link) {
+        if (link.is_none()) return link;
+        return link.is_merge() ? FaceLink::merge(num_merges + link.place(), link.slot())
+                               : FaceLink::operation(num_operations + link.place(), link.slot());
     };
     operations_.insert(operations_.end(), part.operations_.begin(), part.operations_.end());
     merges_.insert(merges_.end(), part.merges_.begin(), part.merges_.end());
     for (Index i = num_operations; i < operations_.size(); ++i) {
         Operation& op = operations_[i];
         for (Index slot = 0; slot < 2; ++slot) {
-            const Index link = 2 * i + slot;
-            if (op.previous[slot] == no_index) first_[Surface::face(op.half_edge[slot])] = link;
-            if (op.next[slot] == no_index) last_[op.new_face[slot]] = link;
+            const FaceLink link = FaceLink::operation(i, slot);
+            if (op.previous[slot].is_none()) first_[Surface::face(op.half_edge[slot])] = link;
+            if (op.next[slot].is_none()) last_[op.new_face[slot]] = link;
             op.previous[slot] = moved(op.previous[slot]);
             op.next[slot] = moved(op.next[slot]);
         }
     }
     for (Index i = num_merges; i < merges_.size(); ++i) {
         Merge& merge = merges_[i];
-        const auto first = static_cast<Index>(first_merge + 4 * i);
         for (Index slot = 0; slot < 3; ++slot) {
             if (merge.half_edge[slot] == no_index) continue;
             const Index face = Surface::face(merge.half_edge[slot]);
-            if (merge.previous[slot] == no_index) first_[face] = first + slot;
+            if (merge.previous[slot].is_none()) first_[face] = FaceLink::merge(i, slot);
             merge.previous[slot] = moved(merge.previous[slot]);
         }
-        if (merge.next == no_index) last_[merge.new_face] = first;
+        if (merge.next.is_none()) last_[merge.new_face] = FaceLink::merge(i, 0);
         merge.next = moved(merge.next);
     }
 }
 
 void FaceHistory::move_face(Index from, Index to) {
     start();
-    const Index made_by = last_[from];
-    if (made_by == no_index) {  // Its third corner merges with it: nothing moves.
+    const FaceLink made_by = last_[from];
+    if (made_by.is_none()) {  // Its third corner merges with it: nothing moves.
         add_merge({to, {3 * from, no_index, no_index}, {0, 0, 1}});
         return;
     }
     last_[to] = made_by;
-    if (made_by >= first_merge) {
-        merges_[(made_by - first_merge) / 4].new_face = to;
+    if (made_by.is_merge()) {
+        merges_[made_by.place()].new_face = to;
     } else {
-        operations_[made_by / 2].new_face[made_by % 2] = to;
+        operations_[made_by.place()].new_face[made_by.slot()] = to;
     }
 }
 
-Index FaceHistory::first_link(Way way, Index face) const {
-    const std::vector<Index>& links = way == Way::Forward ? first_ : last_;
-    return face < links.size() ? links[face] : no_index;
+FaceLink FaceHistory::first_link(Way way, Index face) const {
+    const std::vector<FaceLink>& links = way == Way::Forward ? first_ : last_;
+    return face < links.size() ? links[face] : FaceLink();
 }
 
-Index FaceHistory::carry_through_merge(Way way, Index link, SurfacePoint& point) const {
-    const MergeStep step(merges_[(link - first_merge) / 4]);
+FaceLink FaceHistory::carry_through_merge(Way way, FaceLink link, SurfacePoint& point) const {
+    const MergeStep step(merges_[link.place()]);
     if (way == Way::Forward) {
-        point = step.forward(point, (link - first_merge) % 4);
+        point = step.forward(point, link.slot());
         return step.op.next;
     }
     const Index slot = step.slot_of(point.barycentric);
@@ -369,14 +362,14 @@ Index FaceHistory::carry_through_merge(Way way, Index link, SurfacePoint& point)
 }
 
 SurfacePoint FaceHistory::carry(Way way, SurfacePoint point) const {
-    Index link = first_link(way, point.face.value());
-    if (link == no_index) return point;
-    while (link != no_index) {
-        if (link >= first_merge) {
+    FaceLink link = first_link(way, point.face.value());
+    if (link.is_none()) return point;
+    while (!link.is_none()) {
+        if (link.is_merge()) {
             link = carry_through_merge(way, link, point);
             continue;
         }
-        const Step step(operations_[link / 2], way, link % 2);
+        const Step step(operations_[link.place()], way, link.slot());
         const Shares shares = step.shares_of(point);
         const double side = step.side(shares);
         const Index slot = side >= 0 ? 0 : 1;
@@ -390,24 +383,24 @@ void FaceHistory::carry(Way way, const FaceSegment& segment,
                         std::vector<FaceSegment>& parts) const {
     struct Waiting {
         FaceSegment segment;
-        Index link;
+        FaceLink link;
     };
     std::vector<Waiting> waiting{{segment, first_link(way, segment.begin.face.value())}};
-    if (waiting[0].link == no_index) {
+    if (waiting[0].link.is_none()) {
         parts.push_back(segment);
         return;
     }
     while (!waiting.empty()) {
         const auto [part, link] = waiting.back();
         waiting.pop_back();
-        if (link == no_index) {
+        if (link.is_none()) {
             parts.push_back({normalized(part.begin), normalized(part.end)});
             continue;
         }
-        if (link >= first_merge) {
-            const MergeStep step(merges_[(link - first_merge) / 4]);
+        if (link.is_merge()) {
+            const MergeStep step(merges_[link.place()]);
             if (way == Way::Forward) {
-                const Index slot = (link - first_merge) % 4;
+                const Index slot = link.slot();
                 waiting.push_back(
                     {{step.forward(part.begin, slot), step.forward(part.end, slot)}, step.op.next});
                 continue;
@@ -418,7 +411,7 @@ void FaceHistory::carry(Way way, const FaceSegment& segment,
             }
             continue;
         }
-        const Step step(operations_[link / 2], way, link % 2);
+        const Step step(operations_[link.place()], way, link.slot());
         const Shares begin = step.shares_of(part.begin), end = step.shares_of(part.end);
         const double begin_side = step.side(begin), end_side = step.side(end);
         if ((begin_side > 0 && end_side < 0) || (begin_side < 0 && end_side > 0)) {
@@ -438,14 +431,14 @@ void FaceHistory::carry(Way way, const FaceSegment& segment,
 }
 
 bool FaceHistory::is_near(SurfacePoint point, Index most_steps) const {
-    Index link = first_link(Way::Backward, point.face.value());
-    for (Index steps = 0; link != no_index; ++steps) {
+    FaceLink link = first_link(Way::Backward, point.face.value());
+    for (Index steps = 0; !link.is_none(); ++steps) {
         if (steps == most_steps) return false;
-        if (link >= first_merge) {
+        if (link.is_merge()) {
             link = carry_through_merge(Way::Backward, link, point);
             continue;
         }
-        const Step step(operations_[link / 2], Way::Backward, link % 2);
+        const Step step(operations_[link.place()], Way::Backward, link.slot());
         const Shares shares = step.shares_of(point);
         const Index slot = step.side(shares) >= 0 ? 0 : 1;
         point = step.pass(shares, slot, false);
@@ -459,11 +452,11 @@ bool FaceHistory::is_near(SurfacePoint point, Index most_steps) const {
 struct FaceHistory::Parts {
     struct Waiting {
         FacePolygon part;
-        Index link;
+        FaceLink link;
     };
     std::vector<Waiting> waiting;
 
-    void add(const FacePolygon& part, Index link) {
+    void add(const FacePolygon& part, FaceLink link) {
         if (part.num_corners >= 3) waiting.push_back({part, link});
     }
 
@@ -517,16 +510,16 @@ bool FaceHistory::parts_of(Index face, Index most_steps, std::vector<FacePolygon
     all.add(FacePolygon(face), first_link(Way::Backward, face));
     for (Index steps = 0; !all.waiting.empty(); ++steps) {
         const auto& [part, link] = all.waiting.back();
-        if (link == no_index) {
+        if (link.is_none()) {
             parts.push_back(part);
             all.waiting.pop_back();
             continue;
         }
         if (steps == most_steps || part.num_corners + 2 > FacePolygon::most_corners) return false;
-        if (link >= first_merge) {
-            all.pass(MergeStep(merges_[(link - first_merge) / 4]));
+        if (link.is_merge()) {
+            all.pass(MergeStep(merges_[link.place()]));
         } else {
-            all.pass(Step(operations_[link / 2], Way::Backward, link % 2));
+            all.pass(Step(operations_[link.place()], Way::Backward, link.slot()));
         }
     }
     return true;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <vector>
 
 #include "agvd/intrinsic/face_operations.h"
@@ -48,6 +49,40 @@ struct FacePolygon {
     ~FacePolygon() = default;
 };
 
+//! A face before or after an operation, in one word. A flip or split is named by its place among
+//! the flips and splits and by a slot, 0 or 1; a merge by its place among the merges and a slot, 0
+//! to 2. The highest bit tells which. Default: none.
+class FaceLink {
+public:
+    constexpr FaceLink() = default;
+    [[nodiscard]] static constexpr FaceLink operation(Index place, Index slot) {
+        assert(place < first_merge / 2 && slot < 2);
+        return FaceLink(2 * place + slot);
+    }
+    [[nodiscard]] static constexpr FaceLink merge(Index place, Index slot) {
+        assert(place < first_merge / 4 && slot < 3);
+        return FaceLink(first_merge + 4 * place + slot);
+    }
+
+    [[nodiscard]] constexpr bool is_none() const { return word_ == no_index; }
+    [[nodiscard]] constexpr bool is_merge() const { return word_ >= first_merge && !is_none(); }
+    //! Not of none, as the slot.
+    [[nodiscard]] constexpr Index place() const {
+        return word_ >= first_merge ? (word_ - first_merge) / 4 : word_ / 2;
+    }
+    [[nodiscard]] constexpr Index slot() const {
+        return word_ >= first_merge ? (word_ - first_merge) % 4 : word_ % 2;
+    }
+
+private:
+    static constexpr Index first_merge = Index{1} << 31;
+
+    explicit constexpr FaceLink(Index word) : word_(word) {}
+
+    Index word_ = no_index;
+};
+static_assert(sizeof(FaceLink) == sizeof(Index));
+
 //! An operation lays one or two faces out in a plane and cuts them anew. Barycentric coordinates
 //! pass from the old faces to the new ones by the shares of the quad: sums of terms of one sign, or
 //! differences of numbers below 1, so that each operation costs a few roundings of 1. Coordinates
@@ -90,7 +125,7 @@ public:
     }
 
     [[nodiscard]] bool is_changed(Index face) const {
-        return face < last_.size() && last_[face] != no_index;
+        return face < last_.size() && !last_[face].is_none();
     }
 
     //! Cost: O(operations on the way), each some 20 ns.
@@ -110,24 +145,22 @@ public:
 
 private:
     // Slot 0: the face of the half-edge; slot 1: that of the twin (flips only). New faces likewise:
-    // (a, d, c) is slot 0, (d, b, c) slot 1. A link is 2 * operation + slot.
+    // (a, d, c) is slot 0, (d, b, c) slot 1.
     struct Operation {
         std::array<Index, 2> half_edge;
         std::array<Index, 2> new_face;
-        std::array<Index, 2> next{no_index, no_index};      // What changes the new faces.
-        std::array<Index, 2> previous{no_index, no_index};  // What made the old ones.
+        std::array<FaceLink, 2> next;      // What changes the new faces.
+        std::array<FaceLink, 2> previous;  // What made the old ones.
         QuadShares shares;
     };
-    // Slots 0 to 2: the faces at sides ab, bc and ca; the new face, (a, b, c), has slot 0. A link
-    // is first_merge + 4 * merge + slot.
+    // Slots 0 to 2: the faces at sides ab, bc and ca; the new face, (a, b, c), has slot 0.
     struct Merge {
         std::array<Index, 3> half_edge;
         Index new_face;
-        std::array<Index, 3> previous{no_index, no_index, no_index};
-        Index next = no_index;
+        std::array<FaceLink, 3> previous;
+        FaceLink next;
         std::array<double, 3> shares;
     };
-    static constexpr Index first_merge = Index{1} << 31;
     enum class Way : std::uint8_t { Forward, Backward };
     struct Step;
     struct MergeStep;
@@ -135,10 +168,10 @@ private:
 
     void add(Operation operation);
     // Follows the last link of an old face with another one.
-    Index chain(Index face, Index link);
-    [[nodiscard]] Index first_link(Way way, Index face) const;
+    FaceLink chain(Index face, FaceLink link);
+    [[nodiscard]] FaceLink first_link(Way way, Index face) const;
     // \return the next link.
-    Index carry_through_merge(Way way, Index link, SurfacePoint& point) const;
+    FaceLink carry_through_merge(Way way, FaceLink link, SurfacePoint& point) const;
     [[nodiscard]] SurfacePoint carry(Way way, SurfacePoint point) const;
     void carry(Way way, const FaceSegment& segment, std::vector<FaceSegment>& parts) const;
 
@@ -149,8 +182,8 @@ private:
     Index num_faces_ = 0;  // Of the beginning.
     std::vector<Operation> operations_;
     std::vector<Merge> merges_;
-    std::vector<Index> first_;  // By face of the beginning: the link that changes it first.
-    std::vector<Index> last_;   // By face of the end: the link that made it.
+    std::vector<FaceLink> first_;  // By face of the beginning: the link that changes it first.
+    std::vector<FaceLink> last_;   // By face of the end: the link that made it.
 };
 
 }  // namespace agvd::detail

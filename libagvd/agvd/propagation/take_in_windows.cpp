@@ -31,14 +31,6 @@ bool comes_in_order(std::span<Window> envelope, Window& window) {
     return cut_where_they_change(envelope[size - 1], window);
 }
 
-[[maybe_unused]] bool is_envelope(std::span<const Window> windows) {
-    for (std::size_t i = 0; i < windows.size(); ++i) {
-        if (!(windows[i].begin < windows[i].end)) return false;
-        if (i > 0 && windows[i - 1].end > windows[i].begin) return false;
-    }
-    return true;
-}
-
 // Copies all windows, in order of their beginnings, into one run. Where windows begin together, the
 // envelope's come first and then the last that came. The other runs are given back.
 Index gather(FrontState& front, Index waiting, Index envelope) {

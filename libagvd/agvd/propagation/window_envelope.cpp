@@ -1,6 +1,7 @@
 #include "agvd/propagation/window_envelope.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "agvd/propagation/window_duel.h"
@@ -70,7 +71,16 @@ bool gives_way(const Window& last, const Window& next, const Duel& duel) {
 
 }  // namespace
 
+bool is_envelope(std::span<const Window> windows) {
+    for (std::size_t i = 0; i < windows.size(); ++i) {
+        if (!(windows[i].begin < windows[i].end)) return false;
+        if (i > 0 && windows[i - 1].end > windows[i].begin) return false;
+    }
+    return true;
+}
+
 bool cut_where_they_change(Window& last, Window& next) {
+    assert(last.begin < last.end && next.begin < next.end && next.begin < last.end);
     if (is_rounding(next.begin, last.end)) {
         begin_at(next, last.end);
         return true;
@@ -98,6 +108,8 @@ bool cut_where_they_change(Window& last, Window& next) {
 
 void insert_window(const Window& window, std::vector<Window>& scratch,
                    std::vector<Window>& envelope) {
+    assert(window.begin < window.end);
+    assert(is_envelope(envelope));
     auto first = envelope.end();
     while (first != envelope.begin() && (first - 1)->end > window.begin) --first;
     if (first == envelope.end()) {
@@ -136,10 +148,12 @@ void insert_window(const Window& window, std::vector<Window>& scratch,
         decided = high;
     }
     if (decided < window.end) writer.add_new(decided, window.end);
+    assert(is_envelope(envelope));
 }
 
 std::optional<Window> merge_windows(const Window& left, const Window& right, double max_error) {
     if (left.end != right.begin) return std::nullopt;
+    assert(left.begin < left.end && right.begin < right.end && left.y <= 0 && right.y <= 0);
     const double begin = left.begin;
     const double joint = left.end;
     const double end = right.end;

@@ -10,6 +10,9 @@
 
 namespace agvd {
 
+//! Whether windows are disjoint and in order, and none is empty. For assertions.
+[[nodiscard]] bool is_envelope(std::span<const Window> windows);
+
 //! Makes two windows that overlap disjoint, if that takes one cut, as it nearly always does where
 //! windows come in order. The second ends where it begins if nothing is left of it. False if it
 //! takes more; then they stay as they are.

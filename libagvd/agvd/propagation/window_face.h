@@ -66,10 +66,19 @@ struct WindowPart {
     bool is_apex = false;
 };
 
+//! What a child is compared with.
+struct Rivals {
+    double begin_bound, end_bound;  //!< Of the ends of its edge.
+    double length;                  //!< Of the edge.
+    double spare;      //!< How much longer the child's way to its end beside the corner behind it
+                       //!< is than the bound of that corner.
+    double corner_sq;  //!< Squared distance of that end from the corner.
+};
+
 //! Whether a child may matter: it is wide enough, and no path around the ends of its edge or past
 //! the corner behind it is shorter.
-inline bool lives(const Window& child, double begin_bound, double end_bound, double length,
-                  double spare, double to_corner) {
+inline bool lives(const Window& child, const Rivals& rivals) {
+    const auto& [begin_bound, end_bound, length, spare, corner_sq] = rivals;
     const double to_begin = child.at_begin - child.weight;
     const double to_end = child.at_end - child.weight;
     const double at = meeting_point(begin_bound, end_bound, length, child.begin, child.end);
@@ -80,7 +89,7 @@ inline bool lives(const Window& child, double begin_bound, double end_bound, dou
         ((child.begin < child.x) & (child.x < child.end) & (child.y < 0));
     return is_wide & (around >= 0) &
            (around * around >= (at - child.x) * (at - child.x) + child.y * child.y) &
-           ((spare <= 0) | (to_corner >= spare * spare));
+           ((spare <= 0) | (corner_sq >= spare * spare));
 }
 
 //! The part that goes on through the next half-edge. In the frame beyond, the apex is at 0, and a
@@ -113,8 +122,9 @@ inline bool pass_right(const WindowPart& part, const WindowFace& face, Window& c
     const double tail_x = length - face.length * face.right_x;
     const double tail_y = -face.length * sine;
     const double to_tail = (tail_x - end) * (tail_x - end) + tail_y * tail_y;
-    return lives(child, face.apex_bound, face.head_bound, length,
-                 child.at_end - face.tail_bound - path_rounding * (child.at_end + length), to_tail);
+    return lives(
+        child, {face.apex_bound, face.head_bound, length,
+                child.at_end - face.tail_bound - path_rounding * (child.at_end + length), to_tail});
 }
 
 //! The same through the previous half-edge: the tail at 0, the apex at `length`.
@@ -141,9 +151,10 @@ inline bool pass_left(const WindowPart& part, const WindowFace& face, Window& ch
     const double head_x = face.length * face.left_x;
     const double head_y = -face.length * face.left_y;
     const double to_head = (head_x - begin) * (head_x - begin) + head_y * head_y;
-    return lives(child, face.tail_bound, face.apex_bound, length,
-                 child.at_begin - face.head_bound - path_rounding * (child.at_begin + length),
-                 to_head);
+    return lives(
+        child,
+        {face.tail_bound, face.apex_bound, length,
+         child.at_begin - face.head_bound - path_rounding * (child.at_begin + length), to_head});
 }
 
 }  // namespace agvd
