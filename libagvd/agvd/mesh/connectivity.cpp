@@ -107,19 +107,24 @@ private:
         const auto body = [&](Index, Index begin, Index end) {
             Ticker ticker(poller_);
             for (Index v = begin; v < end; ++v) {
-                const std::span<Up> list = list_of(v);
-                const bool is_long = list.size() >= long_list;
-                if (is_long) sort_ticked(list, ticker, has_lower_head);
-                for (std::size_t i = 0; i < list.size(); ++i) {
-                    const std::size_t last = is_long ? std::min(i + 2, list.size()) : list.size();
-                    for (std::size_t j = i + 1; j < last; ++j) {
-                        if (list[i].head == list[j].head) has_equal.store(true, relaxed);
-                    }
-                }
+                if (has_equal_heads(list_of(v), ticker)) has_equal.store(true, relaxed);
             }
         };
         parallel_chunks(num_vertices, grain, num_threads_, body, poller_);
         return !has_equal;
+    }
+
+    // Sorts a long list, which is searched by halves then.
+    static bool has_equal_heads(std::span<Up> list, Ticker& ticker) {
+        const bool is_long = list.size() >= long_list;
+        if (is_long) sort_ticked(list, ticker, has_lower_head);
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            const std::size_t last = is_long ? std::min(i + 2, list.size()) : list.size();
+            for (std::size_t j = i + 1; j < last; ++j) {
+                if (list[i].head == list[j].head) return true;
+            }
+        }
+        return false;
     }
 
     static bool has_lower_head(const Up& a, const Up& b) { return a.head < b.head; }
