@@ -151,9 +151,9 @@ TEST(EdgeTable, RecordsGivenBackAreUsedAgain) {
     edges.give_back(1);
     EXPECT_EQ(edges.find(2), no_index);
     EXPECT_EQ(edges.add({7, 0, 1}), 1u);
-    EXPECT_EQ(edges.by_arrival(), (std::vector<Index>{0, 2, 1}));
-    EXPECT_EQ(edges.records.size(), 3u);
-    EXPECT_EQ(edges.num_arrivals, 4u);
+    EXPECT_EQ(edges.add({8, 0, 1}), 3u);
+    EXPECT_EQ(edges.by_arrival(), (std::vector<Index>{0, 2, 1, 3}));
+    EXPECT_EQ(edges.num_arrivals, 5u);
 }
 
 TEST(PseudoSourceTable, RecordsTakenAreUsedAgain) {
