@@ -7,8 +7,8 @@
 namespace agvd {
 namespace {
 
-// Where the distances of two windows are equal: roots of a quadratic, ascending (the squared
-// equation also holds where the roots' difference has the other sign; callers check).
+// Where the distances of two windows are equal: the roots of a quadratic, ascending. Squaring adds
+// points where the difference of the distances has the other sign: callers check.
 std::optional<std::array<double, 2>> equal_distances(const Window& a, const Window& b) {
     const double delta = b.weight - a.weight;  // |a - x| = |b - x| + delta
     const double c0 = (a.x - b.x) * (a.x + b.x) + (a.y - b.y) * (a.y + b.y) - delta * delta;
@@ -47,7 +47,7 @@ double crossing(const Window& a, const Window& b, Ends interval, Ends gaps) {
             if (low < x && x < high && std::abs(gap(x)) <= scale) return x;
         }
     }
-    // Regula falsi (Illinois): the closed form has lost its digits or an end is nearly a root.
+    // The closed form has lost its digits, or an end is nearly a root: regula falsi (Illinois).
     int side = 0;
     double middle = low;
     for (int i = 0; i < 60 && high - low > 1e-14 * (std::abs(low) + std::abs(high)); ++i) {
@@ -82,7 +82,7 @@ bool may_win_between(const Window& loser, Ends interval, Ends lost, Ends won) {
     const auto [lost_low, lost_high] = lost;
     const auto [won_low, won_high] = won;
     const double width = high - low;
-    // Mostly one tangent does alone, which needs no division.
+    // In most cases one tangent decides alone. That needs no division.
     const double tie = distance_rounding * won_low;
     if ((lost_low + tie - won_high) * (lost_low - loser.weight) + (low - loser.x) * width >= 0 ||
         (lost_high + tie - won_low) * (lost_high - loser.weight) - (high - loser.x) * width >= 0) {
