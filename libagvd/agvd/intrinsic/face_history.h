@@ -1,6 +1,6 @@
 //! \file
-//! What flips and splits have done to faces: takes points and segments through them, both ways.
-//! Private to intrinsic.
+//! A record of flips, splits and merges of faces: it carries points and segments through them,
+//! forward and backward. Private to intrinsic.
 #pragma once
 
 #include <algorithm>
@@ -36,7 +36,7 @@ struct FacePolygon {
             corner[k][k] = 1;
         }
     }
-    //! Copies the corners that are there: few have all.
+    //! Copies the corners in use: few polygons have all.
     FacePolygon(const FacePolygon& other) : face(other.face), num_corners(other.num_corners) {
         std::copy_n(other.corner.begin(), num_corners, corner.begin());
     }
@@ -59,32 +59,32 @@ public:
     FaceHistory() = default;
     explicit FaceHistory(Index num_faces) : num_faces_(num_faces) {}
 
-    //! Of flips and merges of faces that `whole` knows nothing of, until it takes them over.
-    //! Several may be filled side by side, of different faces.
+    //! A part records flips and merges separately, until `whole` takes them over. Threads may fill
+    //! several parts, of different faces.
     struct Part {
         FaceHistory& whole;
     };
     explicit FaceHistory(Part part) : whole_(&part.whole) {}
-    //! Before there are parts.
+    //! To be called before there are parts.
     void start();
     void take(const FaceHistory& part);
 
     //! Faces (a, b, c) and (b, a, d) at a half-edge became (a, d, c) and (d, b, c).
     void add_flip(Index half_edge, Index twin, const QuadShares& shares);
-    //! Face (a, b, c) became (a, m, c), and (m, b, c) the new face, which has the highest number.
+    //! Face (a, b, c) became (a, m, c). The new face is (m, b, c) and has the highest number.
     void add_split(Index half_edge, Index new_face);
     //! Faces became one.
     void add_merge(const MergedFace& made);
-    //! A face of the end gets another number, which is free.
+    //! A face of the end gets another number, which no face has.
     void move_face(Index from, Index to);
-    //! There are no faces at the end with higher numbers.
+    //! Faces of the end with numbers from `count` on were removed.
     void drop_faces_from(Index count) { last_.resize(std::min<std::size_t>(last_.size(), count)); }
 
     void reserve(std::size_t num_flips_and_splits, std::size_t num_merges) {
         operations_.reserve(num_flips_and_splits);
         merges_.reserve(num_merges);
     }
-    //! Gives back what no operation needs; none are to follow.
+    //! Frees spare memory after the last operation.
     void shrink() {
         operations_.shrink_to_fit();
         merges_.shrink_to_fit();
@@ -94,7 +94,7 @@ public:
         return face < last_.size() && !last_[face].is_none();
     }
 
-    //! Cost: O(operations on the way), each some 20 ns.
+    //! Cost: some 20 ns for each operation on the way.
     [[nodiscard]] SurfacePoint forward(SurfacePoint point) const;
     [[nodiscard]] SurfacePoint backward(SurfacePoint point) const;
     //! Appends the parts of a straight segment within one face, in their order.
@@ -106,7 +106,7 @@ public:
     //!        a part with too many corners; then `parts` means nothing.
     [[nodiscard]] bool parts_of(Index face, Index most_steps,
                                 std::vector<FacePolygon>& parts) const;
-    //! Whether a point passes no more operations than that on its way back.
+    //! Whether a point passes at most `most_steps` operations on its way back.
     [[nodiscard]] bool is_near(SurfacePoint point, Index most_steps) const;
 
 private:
@@ -115,8 +115,8 @@ private:
     struct Operation {
         std::array<Index, 2> half_edge;
         std::array<Index, 2> new_face;
-        std::array<FaceLink, 2> next;      // What changes the new faces.
-        std::array<FaceLink, 2> previous;  // What made the old ones.
+        std::array<FaceLink, 2> next;      // The operations that change the new faces.
+        std::array<FaceLink, 2> previous;  // The operations that made the old ones.
         QuadShares shares;
     };
     // Slots 0 to 2: the faces at sides ab, bc and ca; the new face, (a, b, c), has slot 0.
@@ -133,7 +133,7 @@ private:
     struct Parts;
 
     void add(Operation operation);
-    // Follows the last link of an old face with another one.
+    // Appends a link to the chain of an old face.
     FaceLink chain(Index face, FaceLink link);
     [[nodiscard]] FaceLink first_link(Way way, Index face) const;
     // \return the next link.
@@ -141,15 +141,15 @@ private:
     [[nodiscard]] SurfacePoint carry(Way way, SurfacePoint point) const;
     void carry(Way way, const FaceSegment& segment, std::vector<FaceSegment>& parts) const;
 
-    // first_ and last_ of a part are in those of the whole.
+    // A part uses first_ and last_ of the whole.
     [[nodiscard]] FaceHistory& links() { return whole_ != nullptr ? *whole_ : *this; }
 
     FaceHistory* whole_ = nullptr;
     Index num_faces_ = 0;  // Of the beginning.
     std::vector<Operation> operations_;
     std::vector<Merge> merges_;
-    std::vector<FaceLink> first_;  // By face of the beginning: the link that changes it first.
-    std::vector<FaceLink> last_;   // By face of the end: the link that made it.
+    std::vector<FaceLink> first_;  // By face of the beginning: the first operation on it.
+    std::vector<FaceLink> last_;   // By face of the end: the operation that made it.
 };
 
 }  // namespace agvd::detail

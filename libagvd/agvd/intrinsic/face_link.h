@@ -25,7 +25,7 @@ public:
 
     [[nodiscard]] constexpr bool is_none() const { return word_ == no_index; }
     [[nodiscard]] constexpr bool is_merge() const { return word_ >= first_merge && !is_none(); }
-    //! Not of none, as the slot.
+    //! Of the operation. Not if is_none(), as slot().
     [[nodiscard]] constexpr Index place() const {
         return word_ >= first_merge ? (word_ - first_merge) / 4 : word_ / 2;
     }
