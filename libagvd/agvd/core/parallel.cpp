@@ -13,17 +13,17 @@
 namespace agvd {
 namespace {
 
-// How long the calling thread waits between polls once it has no chunk left.
+// The time between polls when the calling thread has no chunk left.
 constexpr std::chrono::milliseconds wait_between_polls{5};
 
-// A loop that several threads take chunks from. A thread that comes once the loop is closed finds
-// the body gone and does nothing.
+// A loop whose chunks are taken by several threads. A thread that comes after the loop was closed
+// finds no body and does nothing.
 class SharedLoop {
 public:
     SharedLoop(Index num, const std::function<void(Index)>& body, Poller& poller)
         : num_chunks_(num), body_(body), poller_(poller) {}
 
-    // On a worker.
+    // Called by workers.
     void help() {
         {
             const std::scoped_lock lock(mutex_);
@@ -36,7 +36,7 @@ public:
         has_left_.notify_one();
     }
 
-    // On the calling thread; returns when nobody is in the body any more.
+    // Called by the calling thread; returns when no thread is in the body any more.
     void run() {
         take_chunks();
         std::unique_lock lock(mutex_);
@@ -50,7 +50,7 @@ public:
         }
     }
 
-    // What a body or the poller threw first.
+    // The first exception of a body or of the poller.
     void rethrow() const {
         if (failure_) std::rethrow_exception(failure_);
     }
@@ -104,12 +104,13 @@ void parallel_chunks(Index count, Index grain, int num_threads,
     };
     if (num_threads == 1 || chunks <= 1) {
         for (Index chunk = 0; chunk < chunks; ++chunk) {
-            if (chunk > 0) poller.poll();  // A loop of one chunk may be one of thousands.
+            // A loop of one chunk does not poll: it may be one of thousands.
+            if (chunk > 0) poller.poll();
             run(chunk);
         }
         return;
     }
-    // Not tbb::parallel_for, in which the calling thread may wait long without a poll.
+    // This is not tbb::parallel_for, in which the calling thread may wait long without a poll.
     tbb::task_arena arena(num_threads == 0 ? tbb::task_arena::automatic : num_threads);
     tbb::task_group helpers;
     SharedLoop loop(chunks, run, poller);
@@ -118,7 +119,7 @@ void parallel_chunks(Index count, Index grain, int num_threads,
         for (Index i = 0; i < num_helpers; ++i) helpers.run([&loop] { loop.help(); });
     });
     loop.run();
-    // Helpers that have not begun find the loop closed, and are run here if nobody else does.
+    // Helpers that have not begun find the loop closed. They run here if no worker runs them.
     arena.execute([&] { helpers.wait(); });
     loop.rethrow();
 }
