@@ -1,5 +1,5 @@
 //! \file
-//! Lists of a few elements each, some of which are replaced now and then.
+//! Memory for many short lists that are replaced from time to time.
 #pragma once
 
 #include <algorithm>
@@ -18,15 +18,16 @@ struct Block {
     [[nodiscard]] Index end() const { return begin + count; }
 };
 
-//! Blocks keep their place until they are released, so that elements have lasting names. What was
-//! released serves again for as many elements.
+//! Blocks of elements. A block does not move until it is released, so that its elements can be
+//! named by place. A released block goes to a free list and is used again for the same number of
+//! elements.
 template <typename T>
 class BlockPool {
 public:
-    //! Released blocks included.
+    //! With released blocks.
     [[nodiscard]] Index size() const { return static_cast<Index>(elements_.size()); }
     [[nodiscard]] std::size_t num_released() const { return num_released_; }
-    //! More is released than in use, and not just a few items.
+    //! Whether more elements are released than in use, and not just a few.
     [[nodiscard]] bool is_wasteful() const {
         constexpr std::size_t least = 1024;
         return num_released_ > least && 2 * num_released_ > elements_.size();
@@ -46,7 +47,7 @@ public:
     [[nodiscard]] auto begin() { return elements_.begin(); }
     [[nodiscard]] auto end() { return elements_.end(); }
 
-    //! \param elements  not of this pool.
+    //! \param elements  must not lie in this pool.
     [[nodiscard]] Block add(std::span<const T> elements) {
         const auto count = static_cast<Index>(elements.size());
         if (count == 0) return {};

@@ -1,5 +1,5 @@
 //! \file
-//! Sorting by a bounded number, then within.
+//! Sorting by a bounded number, and by comparison within equal numbers.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace agvd {
 //! The items in ascending order of bucket_of(item), those of one bucket in the order of `less`.
 //!
 //! \param bucket_of  gives an Index < num_buckets.
-//! \param ticker     polls in between.
+//! \param ticker     ticked while items are sorted.
 //! Cost: linear where buckets hold a few items each, as the edges at the vertices of a mesh do:
 //! there a quarter of the time of std::sort.
 template <typename Item, typename BucketOf, typename Less>
@@ -25,7 +25,8 @@ template <typename Item, typename BucketOf, typename Less>
     ticker.poll();
     std::vector<Item> sorted;
     sorted.reserve(items.size());
-    while (sorted.size() < items.size()) {  // New pages take longer than all else.
+    // The memory grows in steps: the first write to new pages takes longer than all else.
+    while (sorted.size() < items.size()) {
         constexpr std::size_t step = 1 << 18;
         sorted.resize(std::min(items.size(), sorted.size() + step));
         ticker.poll();

@@ -1,6 +1,6 @@
 //! \file
-//! What the libraries throw. Every text says what is wrong, where (file, line or element), and what
-//! to do about it.
+//! The exceptions of the libraries. Every text says what is wrong, where (file, line or element),
+//! and what to do about it.
 #pragma once
 
 #include <stdexcept>
@@ -31,7 +31,7 @@ public:
     using Error::Error;
 };
 
-//! What was asked for cannot be met on this input; nothing was produced.
+//! The request cannot be met on this input; nothing was produced.
 class ConstraintUnmet : public Error {
 public:
     using Error::Error;

@@ -6,12 +6,12 @@
 
 namespace agvd {
 
-//! The half-edge behind this one in its triangle. Arithmetic that compilers do not turn into
-//! branches: one in three of those would be guessed wrongly (2 to 4 % of a propagation).
+//! The next half-edge of the triangle. Compilers do not turn this arithmetic into branches, one in
+//! three of which would be predicted wrongly (2 to 4 % of a propagation).
 [[nodiscard]] constexpr Index next_half_edge(Index half_edge) {
     return half_edge + 1 - 3 * (half_edge % 3 / 2);
 }
-//! The half-edge before this one in its triangle.
+//! The previous half-edge of the triangle.
 [[nodiscard]] constexpr Index previous_half_edge(Index half_edge) {
     return half_edge + 2 - 3 * ((half_edge % 3 + 1) / 2);
 }

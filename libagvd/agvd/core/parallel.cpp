@@ -15,17 +15,17 @@
 namespace agvd {
 namespace {
 
-// How long the calling thread waits between polls once it has no chunk left.
+// The time between polls when the calling thread has no chunk left.
 constexpr std::chrono::milliseconds wait_between_polls{5};
 
-// A loop that several threads take chunks from. A thread that comes once the loop is closed finds
-// the body gone and does nothing.
+// A loop whose chunks are taken by several threads. A thread that comes after the loop was closed
+// finds no body and does nothing.
 class SharedLoop {
 public:
     SharedLoop(Index num, const std::function<void(Index)>& body, Poller& poller)
         : num_chunks_(num), body_(body), poller_(poller) {}
 
-    // On a worker.
+    // Called by workers.
     void help() {
         {
             const std::scoped_lock lock(mutex_);
@@ -38,7 +38,7 @@ public:
         has_left_.notify_one();
     }
 
-    // On the calling thread; returns when nobody is in the body any more.
+    // Called by the calling thread; returns when no thread is in the body any more.
     void run() {
         take_chunks();
         std::unique_lock lock(mutex_);
@@ -52,7 +52,7 @@ public:
         }
     }
 
-    // What a body or the poller threw first.
+    // The first exception of a body or of the poller.
     void rethrow() const {
         if (failure_) std::rethrow_exception(failure_);
     }
@@ -153,7 +153,8 @@ void parallel_chunks(Index count, Index grain, int num_threads,
     };
     if (num_threads == 1 || chunks <= 1) {
         for (Index chunk = 0; chunk < chunks; ++chunk) {
-            if (chunk > 0) poller.poll();  // A loop of one chunk may be one of thousands.
+            // A loop of one chunk does not poll: it may be one of thousands.
+            if (chunk > 0) poller.poll();
             run(chunk);
         }
         return;

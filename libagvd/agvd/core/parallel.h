@@ -1,5 +1,5 @@
 //! \file
-//! The one parallel loop. Chunks have a fixed size, so that whatever is written per chunk does not
+//! The parallel loop of the libraries. Chunks have a fixed size, so that results per chunk do not
 //! depend on the number of threads.
 #pragma once
 
@@ -16,17 +16,17 @@ namespace agvd {
 //! \param num_threads  >= 0; 0: all cores. With 1, chunks run in order on the calling thread.
 //! \param poller       polled between chunks, and by the calling thread while it waits for the
 //!                     others. A long body polls it as well.
-//! The body must not throw but for Cancelled (of the poller) and std::bad_alloc: it is thrown here
-//! once no thread is in the body any more. Record other failures and throw the lowest after the
-//! loop.
+//! The body may throw only Cancelled (of the poller) and std::bad_alloc. The exception is thrown
+//! from here when no thread is in the body any more. Record other failures and throw that of the
+//! lowest index after the loop.
 void parallel_chunks(Index count, Index grain, int num_threads,
                      const std::function<void(Index chunk, Index begin, Index end)>& body,
                      Poller& poller);
-//! The same for short loops that poll nothing.
+//! The same without a poller, for short loops.
 void parallel_chunks(Index count, Index grain, int num_threads,
                      const std::function<void(Index chunk, Index begin, Index end)>& body);
 
-//! Number of chunks that parallel_chunks makes of `count` indices.
+//! The number of chunks of parallel_chunks for `count` indices.
 [[nodiscard]] constexpr Index num_chunks(Index count, Index grain) {
     return count / grain + (count % grain != 0 ? 1 : 0);
 }

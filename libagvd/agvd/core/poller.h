@@ -1,5 +1,5 @@
 //! \file
-//! How a loop, on whatever thread, lets the progress callback of its stage stop it.
+//! Lets the progress callback of a stage stop its loops, on any thread.
 #pragma once
 
 #include <algorithm>
@@ -11,9 +11,9 @@
 
 namespace agvd {
 
-//! What the threads of one stage share. Only the thread that made it calls the callback; the
-//! others see that it said stop. All Cancelled are alike, so that it does not matter which thread
-//! throws first.
+//! Shared by the threads of one stage. Only the thread that made it calls the callback. The other
+//! threads see whether the callback has said stop. It does not matter which thread throws Cancelled
+//! first.
 class Poller {
 public:
     //! Never stops.
@@ -33,13 +33,14 @@ public:
         }
         if (has_stopped()) throw Cancelled();
     }
-    //! As poll(), and what is told from now on. On the thread that made this.
+    //! Sets the fraction that the callback gets from now on, and polls. Only on the thread that
+    //! made this.
     void tell(double fraction) {
         fraction_ = fraction;
         poll();
     }
-    //! For a stage within this one, on any thread: polls this, and tells no fraction of its own.
-    //! This must outlive it. Empty if there is nothing to poll.
+    //! A callback for a stage within this one, on any thread: it polls this poller and ignores the
+    //! fraction. The poller must outlive it. Empty if there is nothing to poll.
     [[nodiscard]] Progress progress() {
         if (progress_ == nullptr) return {};
         return [this](double) {
@@ -57,13 +58,14 @@ private:
     std::atomic<bool> stopped_ = false;
 };
 
-//! Polls once every so much work. One for each loop or thread; it costs a subtraction.
+//! Polls once in `interval` steps of work. There is one for each loop or thread. A tick costs a
+//! subtraction.
 class Ticker {
 public:
     //! Never polls.
     Ticker() = default;
-    //! Of steps of 20 to 100 ns: polls come every .3 to 2 ms. Counted, so that how often a stage
-    //! polls does not depend on the machine.
+    //! Steps take 20 to 100 ns, so polls come every .3 to 2 ms. Steps are counted instead of time
+    //! measured, so that the number of polls does not depend on the machine.
     static constexpr std::size_t interval = 1 << 14;
 
     //! \param poller  outlives this.
@@ -90,8 +92,8 @@ private:
     std::size_t left_ = interval;
 };
 
-//! Calls each(item) for all of a vector or span, with a tick in between now and then: what takes a
-//! few nanoseconds is not slowed down by it.
+//! Calls each(item) for all items of a vector or span, and ticks once for a block of items: a loop
+//! whose steps take a few nanoseconds is not slowed down.
 template <typename Items, typename Each>
 void for_each_ticked(Items&& items, Ticker& ticker, const Each& each) {
     constexpr std::size_t block = 1 << 12;
@@ -102,7 +104,7 @@ void for_each_ticked(Items&& items, Ticker& ticker, const Each& each) {
     }
 }
 
-//! std::sort with a tick for each comparison. What it throws leaves the items in any state.
+//! std::sort with a tick for each comparison. After Cancelled the items are in any state.
 template <typename Items, typename Less>
 void sort_ticked(Items&& items, Ticker& ticker, const Less& less) {
     std::sort(items.begin(), items.end(), [&](const auto& a, const auto& b) {

@@ -1,5 +1,5 @@
 //! \file
-//! Hash of a position, for finding equal ones.
+//! A hash of positions, to find equal ones.
 #pragma once
 
 #include <bit>

@@ -1,5 +1,5 @@
 //! \file
-//! The progress callback every stage polls.
+//! The progress callback that every stage polls.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,8 @@ inline void poll(const Progress& progress, double fraction) {
     if (progress && !progress(fraction)) throw Cancelled();
 }
 
-//! The progress of a part of the work, from one fraction to another. It keeps a reference.
+//! The callback for a part of the work, from one fraction to another. It keeps a reference to the
+//! given one.
 [[nodiscard]] inline Progress within(const Progress& progress, double begin, double end) {
     if (!progress) return {};
     return [&progress, begin, end](double x) { return progress(begin + x * (end - begin)); };

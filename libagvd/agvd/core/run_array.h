@@ -1,5 +1,5 @@
 //! \file
-//! Memory that many short runs fill and clear.
+//! An array that many short runs fill and clear.
 #pragma once
 
 #include <algorithm>
@@ -12,10 +12,10 @@
 
 namespace agvd {
 
-//! A vector of plain data that never gives memory back and leaves what is new unwritten unless
-//! pushed. Its size is one number, which std::vector must work out by a division. It grows by
-//! realloc, which moves pages instead of copying what is in them, and touches none ahead of time:
-//! a page that is new to the process costs as much as 50 windows.
+//! A vector of plain data that keeps its memory and does not initialize new elements. Its size is
+//! stored, while std::vector computes it by a division. It grows by realloc, which moves pages
+//! instead of copying them, and does not touch pages before they are used: the first touch of a
+//! page costs as much as 50 windows.
 template <typename T>
 class RunArray {
     static_assert(std::is_trivially_copyable_v<T>);

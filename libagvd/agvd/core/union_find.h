@@ -1,5 +1,5 @@
 //! \file
-//! Elements that are put together set by set.
+//! Disjoint sets that are united.
 #pragma once
 
 #include <algorithm>
@@ -22,11 +22,13 @@ public:
         while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
         return i;
     }
-    void unite(Index a, Index b) {
-        if (parent_[a] == parent_[b]) return;
+    //! \return false if both are in one set already.
+    bool unite(Index a, Index b) {
+        if (parent_[a] == parent_[b]) return false;
         a = root(a);
         b = root(b);
         parent_[std::max(a, b)] = std::min(a, b);
+        return a != b;
     }
 
 private:

@@ -7,8 +7,7 @@
 
 namespace agvd::detail {
 
-//! Closes gaps: the last faces and edges take the numbers of those that are gone. Charts become
-//! invalid.
+//! Closes gaps: the last faces and edges get the numbers of removed ones. Charts become invalid.
 void compact_faces(Surface& surface, FaceHistory& history);
 
 }  // namespace agvd::detail

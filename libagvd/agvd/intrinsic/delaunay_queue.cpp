@@ -23,14 +23,14 @@ void DelaunayQueue::push(Index edge) {
     std::push_heap(heap_.begin(), heap_.end());
 }
 
-// On a good mesh most of the work is to find that nothing is to be done.
+// On a good mesh most of the work is this test, and few edges fail it.
 void DelaunayQueue::push_all(int num_threads, Poller& poller) {
     constexpr Index grain = 1 << 14;  // Edges.
     const Index num_edges = surface_.num_edges();
     std::vector<std::vector<Waiting>> found(num_chunks(num_edges, grain));
     const auto body = [&](Index chunk, Index begin, Index end) {
         for (Index e = begin; e < end; ++e) {
-            if (surface_.edge_half[e] == no_index) continue;  // Gone.
+            if (surface_.edge_half[e] == no_index) continue;  // The edge was removed.
             if (const auto waiting = test(e)) found[chunk].push_back(*waiting);
         }
     };
@@ -42,17 +42,17 @@ void DelaunayQueue::push_all(int num_threads, Poller& poller) {
 }
 
 bool DelaunayQueue::flip_all(std::size_t most_flips) {
-    constexpr std::size_t flip_work = 16;  // Steps that a flip counts for.
+    constexpr std::size_t flip_work = 16;  // Ticks of a flip.
     while (!heap_.empty()) {
         if (ticker_ != nullptr) ticker_->tick(flip_work);
         const Waiting next = heap_.front();
         std::pop_heap(heap_.begin(), heap_.end());
         heap_.pop_back();
         const Index h = surface_.edge_half[next.edge];
-        if (h == no_index) continue;  // The edge went with a vertex.
+        if (h == no_index) continue;  // The edge was removed with a vertex.
         const Index twin = surface_.twin[h];
         if (twin == no_index || Surface::face(h) == Surface::face(twin)) continue;
-        // Where its faces have changed since, the edge waits once more if it fails still.
+        // If its faces have changed since, the edge is queued again if it still fails.
         if (quad_at(surface_, h).shortening() != next.shortening) continue;
         const Quad quad = quad_at(surface_, charts_, h);
         if (!quad.should_flip() || !quad.is_convex()) continue;

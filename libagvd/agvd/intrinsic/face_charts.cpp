@@ -2,8 +2,8 @@
 
 namespace agvd::detail {
 
-// Of a side, in the chart that a face has at first, whose x axis is side 0. From the angles, since
-// the difference of two long sides would tell little about a short one.
+// The direction of a side in the first chart of a face, whose x axis is side 0. It is computed from
+// the angles, since the difference of two long sides has few digits of a short one.
 Vec2 FaceCharts::direction(Index half_edge) const {
     const Index first = half_edge - half_edge % 3;
     switch (half_edge % 3) {

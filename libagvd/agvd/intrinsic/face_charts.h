@@ -1,6 +1,6 @@
 //! \file
-//! Faces laid out in planes, and how the planes of neighbours are turned against each other.
-//! Private to intrinsic.
+//! Faces laid out in planes, and the rotations between the planes of neighbours. Private to
+//! intrinsic.
 #pragma once
 
 #include <array>
@@ -23,18 +23,18 @@ struct FaceChart {
     std::array<Vec2, 3> turn;
 };
 
-//! Charts of the faces that operations have touched.
+//! Charts of the faces that operations have changed.
 //!
-//! Lengths alone would do in exact arithmetic. In double, a far corner seen from a short side is
-//! off by a rounding times the ratio of the two, and a few flips raise that to a power: on a part
-//! of 14 740 needles lengths were wrong by 1e-3. Charts keep directions besides lengths, so that
-//! errors add up and do not multiply: 1e-13 there.
+//! Lengths alone would suffice in exact arithmetic. In double, a far corner computed from a short
+//! side has an error of a rounding times the ratio of the two, and a few flips raise that to a
+//! power: on a part of 14 740 needles lengths were wrong by 1e-3. Charts store directions besides
+//! lengths, so that errors add up and do not multiply: 1e-13 there.
 class FaceCharts {
 public:
-    //! \param surface  outlives this; a face without a chart is still as this shows it.
+    //! \param surface  outlives this; faces without a chart have not changed in it.
     explicit FaceCharts(const Surface& surface) : surface_(surface), place_(own_place_) {}
-    //! Of faces that have none in `whole`, which must not change until it takes them over. Several
-    //! may be filled side by side, of different faces.
+    //! Charts of faces that have none in `whole`. That must not change until it takes the part
+    //! over. Threads may fill several parts, of different faces.
     struct Part {
         FaceCharts& whole;
     };
@@ -43,31 +43,32 @@ public:
     FaceCharts& operator=(const FaceCharts&) = delete;
     ~FaceCharts() = default;
 
-    //! Before there are parts: threads must not move what they share.
+    //! To be called before there are parts, since threads must not reallocate what they share.
     void make_places() { place_.resize(surface_.num_faces(), no_index); }
-    //! Takes over a part's charts.
+    //! Takes over the charts of a part.
     void take(const FaceCharts& part);
 
     [[nodiscard]] bool has(Index face) const {
         return face < place_.size() && place_[face] != no_index;
     }
     void reserve(std::size_t num_faces) { charts_.reserve(num_faces); }
-    //! The face's chart, which is made if there is none. Others may move in memory.
+    //! The chart of a face, which is made if there is none. Other charts may move in memory.
     FaceChart& of(Index face);
-    //! The chart that of() would hand out, without making one.
+    //! The chart that of() would return, without storing a new one.
     [[nodiscard]] FaceChart peek(Index face) const {
         return has(face) ? charts_[place_[face]] : first_chart(face);
     }
-    //! Gives a new face, which has the highest number, its chart.
+    //! Adds the chart of a new face, which has the highest number.
     void add(Index face, const FaceChart& chart);
-    //! Gives a face another chart.
+    //! Replaces the chart of a face.
     void set(Index face, const FaceChart& chart);
-    //! Makes the face's chart anew where its lengths have changed, and tells those across.
+    //! Makes the chart of a face again after its lengths have changed, and updates the turns of its
+    //! neighbours.
     void renew(Index face);
-    //! Tells the charts across a face's sides of its turns.
+    //! Updates the turns of the neighbours from those of a face.
     //! \param face  has a chart.
     void share_turns(Index face);
-    //! The face is gone: its place is for another.
+    //! Removes the chart of a face that was removed.
     void forget(Index face);
 
 private:
@@ -76,7 +77,7 @@ private:
 
     const Surface& surface_;
     std::vector<Index> own_place_;
-    std::vector<Index>& place_;  // By face; no_index: none. A part's are in those of the whole.
+    std::vector<Index>& place_;  // By face; no_index: none. A part uses the array of the whole.
     std::vector<FaceChart> charts_;
     std::vector<Index> face_of_;  // By place; no_index: free.
     std::vector<Index> free_;     // Places.

@@ -51,8 +51,9 @@ FacePolygon clipped(const FacePolygon& polygon, const Sides& side) {
 
 }  // namespace
 
-// One operation, passed from one of its faces. With d = q.tail a + q.head b + q.apex c every corner
-// of the old and new faces is an affine sum of those of another.
+// The passage of a point through a flip or split, from one of its faces. With d = q.tail a + q.head
+// b + q.apex c every corner of the old and new faces is an affine combination of the corners of
+// another face.
 struct FaceHistory::Step {
     Step(const Operation& operation, Way way_through, Index slot)
         : op(operation), way(way_through), is_twin(slot == 1), q(operation.shares) {}
@@ -66,7 +67,7 @@ struct FaceHistory::Step {
         if (way == Way::Forward) return seen_from(point, op.half_edge[is_twin ? 1 : 0]);
         return point.barycentric;
     }
-    // At least 0 where the point goes to slot 0.
+    // At least 0 if the point goes to slot 0.
     [[nodiscard]] double side(const Shares& s) const {
         if (way == Way::Forward) {
             return is_twin ? s[1] - s[0] * (q.tail / q.head) : s[0] - s[1] * (q.tail / q.head);
@@ -87,8 +88,9 @@ struct FaceHistory::Step {
     }
 
 private:
-    // On the new diagonal, or back on the old one: the same numbers on both sides of it. Of the two
-    // shares that tell the place, the larger divisor's errs less.
+    // A point on the new diagonal, or backward on the old one: its coordinates are the same numbers
+    // on both sides. Two shares give its place; the one with the larger divisor has the smaller
+    // error.
     [[nodiscard]] Shares on_diagonal(const Shares& s, Index slot) const {
         if (way == Way::Backward) {
             const double d = is_twin ? s[0] : s[1];
@@ -133,15 +135,16 @@ private:
     }
 };
 
-// One merge. With m = q[0] a + q[1] b + q[2] c a point of (a, b, c) lies in the face at the side
-// across from the corner whose coordinate is the least in terms of its share: there m has the most.
+// The passage of a point through a merge. Let m = q[0] a + q[1] b + q[2] c. For a point s of (a, b,
+// c), the corner k with the least s[k] / q[k] is opposite to the side at which the point's old face
+// lies.
 struct FaceHistory::MergeStep {
     MergeStep(const Merge& merge) : op(merge), q(merge.shares) {}
 
     const Merge& op;
     const std::array<double, 3>& q;
 
-    // Above 0 where corner i holds more of the point than corner k, in terms of their shares.
+    // Above 0 if s[i] / q[i] exceeds s[k] / q[k].
     [[nodiscard]] double side(const Shares& s, std::size_t i, std::size_t k) const {
         return s[i] * q[k] - s[k] * q[i];
     }
@@ -161,10 +164,11 @@ struct FaceHistory::MergeStep {
         to[apex] = s[2] * q[apex];
         return {FaceId(op.new_face), to};
     }
-    // \param on_spoke  the corner to which the point's way from m leads; 3: none.
+    // \param on_spoke  the corner k if the point lies on the edge from m to corner k; 3: on none.
     [[nodiscard]] SurfacePoint backward(const Shares& s, Index slot, std::size_t on_spoke) const {
         const std::size_t next = (slot + 1) % 3, apex = (slot + 2) % 3;
-        if (on_spoke == slot || on_spoke == next) {  // The same number on both sides of it.
+        // A point on an edge at m gets the same coordinates from both sides of the edge.
+        if (on_spoke == slot || on_spoke == next) {
             const std::size_t i = (on_spoke + 1) % 3, k = (on_spoke + 2) % 3;
             const double at = (s[i] + s[k]) / (q[i] + q[k]);
             const double rest = std::max(1 - at, 0.0);
@@ -296,7 +300,7 @@ void FaceHistory::add_merge(const MergedFace& made) {
     merges_.push_back(merge);
 }
 
-// Links of the part are counted from its own first operation and merge.
+// Places in links of the part are counted from its own first operation and merge.
 void FaceHistory::take(const FaceHistory& part) {
     const std::size_t num_operations = operations_.size();
     const std::size_t num_merges = merges_.size();
@@ -443,8 +447,8 @@ bool FaceHistory::is_near(SurfacePoint point, Index most_steps) const {
     return true;
 }
 
-// Parts of a face of the end that are still to pass operations. Records are large: what stays whole
-// is changed in its place.
+// Parts of a face of the end that have not passed all operations. Records are large, so a part that
+// is not cut is changed in place.
 struct FaceHistory::Parts {
     struct Waiting {
         FacePolygon part;

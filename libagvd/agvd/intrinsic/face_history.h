@@ -1,6 +1,6 @@
 //! \file
-//! What flips and splits have done to faces: takes points and segments through them, both ways.
-//! Private to intrinsic.
+//! A record of flips, splits and merges of faces: it carries points and segments through them,
+//! forward and backward. Private to intrinsic.
 #pragma once
 
 #include <algorithm>
@@ -37,7 +37,7 @@ struct FacePolygon {
             corner[k][k] = 1;
         }
     }
-    //! Copies the corners that are there: few have all.
+    //! Copies the corners in use: few polygons have all.
     FacePolygon(const FacePolygon& other) : face(other.face), num_corners(other.num_corners) {
         std::copy_n(other.corner.begin(), num_corners, corner.begin());
     }
@@ -60,32 +60,32 @@ public:
     FaceHistory() = default;
     explicit FaceHistory(Index num_faces) : num_faces_(num_faces) {}
 
-    //! Of flips and merges of faces that `whole` knows nothing of, until it takes them over.
-    //! Several may be filled side by side, of different faces.
+    //! A part records flips and merges separately, until `whole` takes them over. Threads may fill
+    //! several parts, of different faces.
     struct Part {
         FaceHistory& whole;
     };
     explicit FaceHistory(Part part) : whole_(&part.whole) {}
-    //! Before there are parts.
+    //! To be called before there are parts.
     void start();
     void take(const FaceHistory& part);
 
     //! Faces (a, b, c) and (b, a, d) at a half-edge became (a, d, c) and (d, b, c).
     void add_flip(Index half_edge, Index twin, const QuadShares& shares);
-    //! Face (a, b, c) became (a, m, c), and (m, b, c) the new face, which has the highest number.
+    //! Face (a, b, c) became (a, m, c). The new face is (m, b, c) and has the highest number.
     void add_split(Index half_edge, Index new_face);
     //! Faces became one.
     void add_merge(const MergedFace& made);
-    //! A face of the end gets another number, which is free.
+    //! A face of the end gets another number, which no face has.
     void move_face(Index from, Index to);
-    //! There are no faces at the end with higher numbers.
+    //! Faces of the end with numbers from `count` on were removed.
     void drop_faces_from(Index count) { last_.resize(std::min<std::size_t>(last_.size(), count)); }
 
     void reserve(std::size_t num_flips_and_splits, std::size_t num_merges) {
         operations_.reserve(num_flips_and_splits);
         merges_.reserve(num_merges);
     }
-    //! Gives back what no operation needs; none are to follow.
+    //! Frees spare memory after the last operation.
     void shrink() {
         operations_.shrink_to_fit();
         merges_.shrink_to_fit();
@@ -95,7 +95,7 @@ public:
         return face < last_.size() && last_[face].is_valid();
     }
 
-    //! Cost: O(operations on the way), each some 20 ns.
+    //! Cost: some 20 ns for each operation on the way.
     [[nodiscard]] SurfacePoint forward(SurfacePoint point) const;
     [[nodiscard]] SurfacePoint backward(SurfacePoint point) const;
     //! Appends the parts of a straight segment within one face, in their order.
@@ -170,7 +170,7 @@ private:
     [[nodiscard]] SurfacePoint carry(Way way, SurfacePoint point) const;
     void carry(Way way, const FaceSegment& segment, std::vector<FaceSegment>& parts) const;
 
-    // first_ and last_ of a part are in those of the whole.
+    // A part uses first_ and last_ of the whole.
     [[nodiscard]] FaceHistory& links() { return whole_ != nullptr ? *whole_ : *this; }
 
     FaceHistory* whole_ = nullptr;

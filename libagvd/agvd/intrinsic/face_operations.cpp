@@ -9,14 +9,15 @@
 namespace agvd::detail {
 namespace {
 
-// Of the sine of the sum of the opposite angles, and of lengths: closer than that to a circle, the
-// shorter diagonal is taken.
+// Relative to the sine of the sum of the opposite angles, and to lengths: if four corners are
+// closer to a circle than this, the shorter diagonal is taken.
 constexpr double on_circle = 1e-9;
-// Of the quad's shares: with less the quad has no corner there.
+// A share of the quad: with less the quad has no corner there.
 constexpr double least_share = 1e-13;
 
-// Cuts a face from a point of one of its sides, `at` of the way along, to the apex; the parts of
-// the side stay without twins. Corners of the face may stay without an outgoing half-edge.
+// Cuts a face from a point of one of its sides to the apex. `at`: the share of the side before the
+// point. The parts of the side get no twins. Corners of the face may be left without an outgoing
+// half-edge.
 // \return the half-edges from the tail to the new vertex and from there to the head.
 std::array<Index, 2> cut_face(Surface& surface, FaceCharts& charts, Index half_edge, double at,
                               Index middle, Index near_edge, Index far_edge) {
@@ -107,7 +108,7 @@ QuadShares Quad::shares() const {
 }
 
 bool Quad::is_convex() const {
-    // A diagonal that is a rounding of the sides may have no length at all.
+    // A diagonal that is as short as the rounding of the sides may have length 0.
     if ((apex - across).norm() <= least_length * std::max(apex.norm(), across.norm())) {
         return false;
     }
@@ -129,8 +130,8 @@ void flip(Surface& surface, FaceCharts& charts, Index half_edge, const Quad& qua
                            side_of(surface, Surface::previous(half_edge))};  // c a
     const FaceChart& chart_f = charts.of(f);
     const Vec2 turn = chart_f.turn[half_edge % 3];
-    // Both new faces keep the directions of the first. So do those across, but where they are
-    // these.
+    // The charts of both new faces have the directions of the first face. The turns of faces across
+    // do not change, unless these are the two faces.
     std::array<Vec2, 4> turns;
     for (std::size_t i = 0; i < 4; ++i) {
         const Index h = sides[i].half_edge;
@@ -163,7 +164,7 @@ void flip(Surface& surface, FaceCharts& charts, Index half_edge, const Quad& qua
 EdgeSplit split_edge(Surface& surface, FaceCharts& charts, Index half_edge, double at,
                      Index middle) {
     EdgeSplit result;
-    (void)charts.of(Surface::face(half_edge));  // While the edge has its length.
+    (void)charts.of(Surface::face(half_edge));  // The chart is made while the edge has its length.
     if (surface.twin[half_edge] != no_index) {
         (void)charts.of(Surface::face(surface.twin[half_edge]));
     }
@@ -192,7 +193,7 @@ EdgeSplit split_edge(Surface& surface, FaceCharts& charts, Index half_edge, doub
         changed[3] = result.side[1].new_face;
         const std::array others =
             cut_face(surface, charts, twin, 1 - at, middle, far_edge, near_edge);
-        for (Index& half : halves) {  // The second cut moves them where it meets the same face.
+        for (Index& half : halves) {  // The second cut moves the halves if it meets the same face.
             if (half == Surface::next(twin)) {
                 half = 3 * changed[3] + 1;
             } else if (half == Surface::previous(twin)) {

@@ -1,5 +1,5 @@
 //! \file
-//! Flips and splits of a triangulation by its lengths, in place. Private to intrinsic.
+//! Flips and splits of a triangulation given by lengths, in place. Private to intrinsic.
 #pragma once
 
 #include "agvd/core/poller.h"
@@ -32,34 +32,35 @@ struct Quad {
     //! diagonal is shorter.
     [[nodiscard]] bool should_flip() const;
     [[nodiscard]] QuadShares shares() const;
-    //! Both diagonals lie inside.
+    //! The quad is convex: both diagonals lie inside.
     [[nodiscard]] bool is_convex() const;
 };
 
 //! \param half_edge  has a twin.
 [[nodiscard]] Quad quad_at(const Surface& surface, Index half_edge);
-//! The same from the charts, in that of the half-edge's face: what flips compute with.
+//! The same from the charts, in the chart of the half-edge's face. Flips use this.
 [[nodiscard]] Quad quad_at(const Surface& surface, FaceCharts& charts, Index half_edge);
 
 //! Replaces faces f = (a, b, c) and g = (b, a, d) at an edge by f = (a, d, c) and g = (d, b, c).
 //! The edge keeps its number.
 //! \param half_edge  of face f, from a to b; its twin lies in another face.
-//! \param quad       there, from the charts.
+//! \param quad       the quad at the half-edge, from the charts.
 void flip(Surface& surface, FaceCharts& charts, Index half_edge, const Quad& quad);
 
-//! What splitting an edge has made. An edge on the boundary has one side only.
+//! The result of splitting an edge. An edge on the boundary has one side only.
 struct EdgeSplit {
     struct Side {
-        Index half_edge = no_index;  //!< Of the face that was cut, before it was.
+        Index half_edge = no_index;  //!< The half-edge, before the cut, of the face that was cut.
         Index new_face = no_index;
     };
     Side side[2];
-    Index new_edge = no_index;  //!< The half of the edge at its head; the other keeps its number.
+    //! The half of the edge at its head. The other half keeps the number of the edge.
+    Index new_edge = no_index;
 };
 
 //! Cuts the faces at an edge from a point of it to their apexes: face (a, b, c) becomes (a, m, c),
 //! and (m, b, c) is added. The vertex m must be one of the mesh, without faces.
-//! \param at  where m lies: the share of the way from the tail to the head, in (0, 1).
+//! \param at  the position of m: its share of the way from the tail to the head, in (0, 1).
 [[nodiscard]] EdgeSplit split_edge(Surface& surface, FaceCharts& charts, Index half_edge, double at,
                                    Index middle);
 

@@ -32,8 +32,8 @@ Vec3 area_vector(const Surface& surface, Index face) {
     return (p[b] - p[a]).cross(p[c] - p[a]) / 2;
 }
 
-// Its sides are straight in space, so that they lie on the surface; between them no surface is as
-// small as the triangle but itself.
+// Whether the sides of a face are straight in space. Then they lie on the surface, and the face is
+// flat: no other surface between them is as small.
 bool is_flat(const Surface& surface, Index face) {
     constexpr double rounding = 1e-9;  // Of a side.
     const auto& p = surface.mesh.positions;
@@ -45,7 +45,7 @@ bool is_flat(const Surface& surface, Index face) {
     return true;
 }
 
-// Of one chunk of faces.
+// The pieces of one chunk of faces.
 struct Pieces {
     std::vector<Index> end;  // By changed face.
     std::vector<SurfacePiece> pieces;
@@ -98,7 +98,7 @@ FacePieces::FacePieces(const IntrinsicTriangulation& base, double piece_area, in
     : input_(base.input()) {
     assert(piece_area > 0);
     constexpr Index grain = 1 << 12;        // Faces.
-    constexpr std::size_t piece_work = 16;  // Steps that a piece counts for.
+    constexpr std::size_t piece_work = 16;  // Ticks of a piece.
     Poller poller(progress);
     const Index num_faces = base.surface().num_faces();
     std::vector<Pieces> chunks(num_chunks(num_faces, grain));

@@ -1,5 +1,5 @@
 //! \file
-//! What the faces of an intrinsic triangulation hold of the input, in space.
+//! The parts of the input, in space, in the faces of an intrinsic triangulation.
 #pragma once
 
 #include <vector>
@@ -8,20 +8,21 @@
 
 namespace agvd {
 
-//! A part of the input's surface, taken as flat.
+//! A part of the input's surface, treated as flat.
 struct SurfacePiece {
     Vec3 position;  //!< A point of it.
-    Vec3 vector;    //!< Its normal, as long as its area.
+    Vec3 vector;    //!< Its normal; its length is the area.
 };
 
-//! Faces that are the input's own are one piece each, and so are changed faces whose sides are as
-//! long in space as on the surface: these are flat. Other changed faces are bent in space: its
-//! pieces are points spread evenly over it, each for an equal share of the area, with the normal of
-//! the input there. Immutable; threads may share it.
+//! A face of the input is one piece. So is a changed face whose sides are as long in space as on
+//! the surface, since it is flat. Other changed faces are bent in space: their pieces are the parts
+//! of the input's faces in them, or, where these are too many, evenly spread points with equal
+//! shares of the area and the normals of the input. Immutable; threads may share it.
 class FacePieces {
 public:
     //! \param base        outlives this.
-    //! \param piece_area  of a face of needles one piece for each so much area, up to 16; > 0.
+    //! \param piece_area  the area of a piece where a face holds many needles, > 0; such a face has
+    //! at most 16 pieces.
     //! Cost: a map to the input for each piece of a changed face; 48 bytes.
     //! \param num_threads  >= 0; 0: all cores. The result is the same for any number.
     //! \throw Cancelled  the progress callback returned false.

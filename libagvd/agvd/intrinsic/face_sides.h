@@ -1,6 +1,6 @@
 //! \file
-//! What operations on faces have in common: sides that move to other half-edges, and what hangs on
-//! them. Private to intrinsic.
+//! Helpers of operations on faces: they move sides to other half-edges and update what refers to
+//! sides. Private to intrinsic.
 #pragma once
 
 #include <algorithm>
@@ -12,12 +12,12 @@
 
 namespace agvd::detail {
 
-//! Twice the area of a face that has none, as a share of the square of its longest edge. Such a
-//! face gets this height; that changes its lengths by less than rounding.
+//! Twice the area that a degenerate face gets, as a share of the square of its longest edge. That
+//! changes its lengths by less than rounding.
 inline constexpr double least_doubled_area = 0x1p-50;
 
-//! Length of an edge that an operation makes, as a share of the longest beside it: rounding might
-//! leave it none.
+//! The least length of an edge that an operation makes, as a share of the longest edge beside it:
+//! rounding might make it 0.
 inline constexpr double least_length = 0x1p-50;
 
 [[nodiscard]] inline double cross(const Vec2& a, const Vec2& b) {
@@ -29,14 +29,14 @@ inline constexpr double least_length = 0x1p-50;
                      surface.length_of(3 * face + 2)});
 }
 
-//! The height of a face over an edge. Over one that is a rounding of the longest, rounding may have
-//! made the area larger than any height allows.
+//! The height of a face over an edge. It is at most the longest side: over an edge as short as the
+//! rounding of the longest side, rounding may have made the area too large.
 [[nodiscard]] inline double height_over(double length, double doubled_area, double longest) {
     return std::min(doubled_area / length, longest);
 }
 
-//! Sets the three apexes of a face from its chart. Each in a frame whose axis is as long as the
-//! chart has it, which may differ from the edge's length by rounding.
+//! Sets the three apexes of a face from its chart. The lengths of sides are those of the chart,
+//! which may differ from the edges' lengths by rounding.
 inline void set_apexes(Surface& surface, Index face, const FaceChart& chart) {
     const double longest = longest_side(surface, face);
     const double doubled_area =
@@ -66,7 +66,7 @@ inline void join(Surface& surface, Index half_edge, Index twin, Index edge) {
     surface.edge_half[edge] = std::min(half_edge, twin);
 }
 
-//! Gives sides their new half-edges. A side may be the twin of another one: then both have moved.
+//! Gives sides their new half-edges. If a side is the twin of another one, both have moved.
 template <std::size_t N>
 void move_sides(Surface& surface, const std::array<Side, N>& sides,
                 const std::array<Index, N>& places) {
@@ -82,7 +82,7 @@ void move_sides(Surface& surface, const std::array<Side, N>& sides,
     }
 }
 
-//! Gives vertices an outgoing half-edge that have none; on the boundary the one without twin.
+//! Gives an outgoing half-edge to vertices that have none: on the boundary the one without twin.
 inline void renew_outgoing(Surface& surface, std::span<const Index> faces) {
     for (const Index face : faces) {
         for (Index h = 3 * face; h < 3 * face + 3; ++h) {
@@ -92,8 +92,7 @@ inline void renew_outgoing(Surface& surface, std::span<const Index> faces) {
     }
 }
 
-//! Vertices whose outgoing half-edge lies in one of the faces, which are about to change, have
-//! none.
+//! Removes the outgoing half-edges that lie in faces that are about to change.
 inline void forget_outgoing(Surface& surface, std::span<const Index> faces) {
     for (const Index face : faces) {
         for (Index h = 3 * face; h < 3 * face + 3; ++h) {

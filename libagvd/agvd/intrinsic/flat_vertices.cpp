@@ -14,25 +14,27 @@
 namespace agvd::detail {
 namespace {
 
-// Radians: rounding of the sum of a vertex's angles in the input.
+// Radians: the rounding of the sum of a vertex's angles in the input.
 constexpr double flat_enough = 1e-12;
-// Vertices of a part of the surface, about: what it is made of fits into the caches, charts of
-// faces that are gone serve again, and threads work side by side. A run on 1.4 M faces that loses
-// 643 000 vertices takes 5.1 s of user time and 410 MB, and 5.7 s and 453 MB with one part.
+// The number of vertices of a part of the surface, roughly. Parts let threads work in parallel; the
+// data of a part fits into the caches, and the memory of charts is used again. A run on 1.4 M faces
+// that loses 643 000 vertices takes 5.1 s of user time and 410 MB; with one part it takes 5.7 s and
+// 453 MB.
 constexpr double part_size = 1 << 13;
 constexpr Index most_cells = 64;  // Along each axis.
 
-// What the parts share. Each changes faces whose corners are all its own, so that whatever it reads
-// or writes, across their edges too, no other one writes.
+// The data that parts share. A part changes only faces whose corners all belong to it. So no other
+// part writes what it reads or writes, even across the edges of these faces.
 struct Shared {
     Surface& surface;
     const std::vector<std::uint8_t>& is_kept;
     double min_length;
-    std::vector<Index> part_of;           // By vertex.
-    std::vector<std::uint32_t> round_of;  // By vertex: of the last neighbour that went.
+    std::vector<Index> part_of;  // By vertex.
+    // By vertex: the round in which the last neighbour was removed.
+    std::vector<std::uint32_t> round_of;
 };
 
-// Takes away what lies inside a part; or whatever is left, whose part is then no_index.
+// Removes the vertices inside a part, or those that all parts have left (no_index).
 class Remover {
 public:
     Remover(Shared& shared, FaceCharts& charts, FaceHistory& history, Index part, Ticker ticker)
@@ -42,10 +44,10 @@ public:
           ticker_(ticker),
           ring_(shared.surface, charts) {}
 
-    // Rounds of vertices no two of which are neighbours: one after the other along a line, each
-    // would change the faces of the one before, and points would pass as many operations as there
-    // are vertices.
-    // \return those on the rim of the part.
+    // Works in rounds of vertices no two of which are neighbours. If the vertices of a line were
+    // removed one after the other, each would change the faces of the one before, and points would
+    // pass as many operations as there are vertices.
+    // \return the vertices on the rim of the part.
     std::vector<Index> run(std::vector<Index> waiting) {
         std::vector<Index> on_rim;
         std::size_t most_edges = few_edges;
@@ -81,8 +83,8 @@ public:
     [[nodiscard]] const RemovalCounts& counts() const { return counts_; }
 
 private:
-    static constexpr std::size_t removal_work = 64;  // Steps that a vertex counts for.
-    // Vertices of more edges wait: hubs of needles lose them while others go.
+    static constexpr std::size_t removal_work = 64;  // Ticks of a vertex.
+    // Vertices of more edges wait: hubs of needles lose edges while other vertices are removed.
     static constexpr std::size_t few_edges = 8;
 
     [[nodiscard]] bool is_inside(Index v) const {
@@ -93,7 +95,7 @@ private:
                });
     }
 
-    // The vertex has a short edge, and none that is kept.
+    // Whether the vertex has a short edge, and none that is kept.
     [[nodiscard]] bool is_dense() const {
         bool is_short = false, is_free = true;
         for (const Index h : ring_.half_edges()) {
@@ -123,8 +125,8 @@ private:
     RemovalCounts counts_;
 };
 
-// The corners' product as complex numbers: on the upper half plane again after the lower one it has
-// passed 2 pi.
+// Multiplies the corners as complex numbers: when the product comes back to the upper half plane
+// from the lower one, the angle has passed 2 pi.
 bool is_flat(const Surface& surface, Index vertex) {
     Vec2 product(1, 0);
     Index num_turns = 0;
@@ -137,7 +139,7 @@ bool is_flat(const Surface& surface, Index vertex) {
            num_turns == (product.y() < 0 ? 0 : 1);
 }
 
-// Flat vertices inside with a short edge, ascending.
+// The inner vertices without curvature that have a short edge, ascending.
 std::vector<Index> find_flat(const Shared& shared, int num_threads, Poller& poller) {
     constexpr Index grain = 1 << 14;  // Vertices.
     const Surface& surface = shared.surface;
@@ -161,8 +163,8 @@ std::vector<Index> find_flat(const Shared& shared, int num_threads, Poller& poll
     return flat;
 }
 
-// Parts are cells of a grid around the mesh, so many along its longest side that a round surface
-// fills them as wanted.
+// The parts are cells of a grid around the mesh. The number of cells along the longest side is
+// chosen so that the parts of a round surface have the wanted size.
 std::vector<Index> find_parts(const std::vector<Vec3>& positions, int num_threads, Poller& poller) {
     constexpr Index grain = 1 << 14;  // Vertices.
     std::vector<Vec3> low(num_chunks(static_cast<Index>(positions.size()), grain));
@@ -207,7 +209,7 @@ struct Part {
     std::vector<Index> left;
 };
 
-// Takes over what parts have done, in their order, as soon as those before are done.
+// Takes over the records of parts in order, each as soon as all before are done.
 class PartsInOrder {
 public:
     PartsInOrder(std::size_t num_parts, FaceCharts& charts, FaceHistory& history)
@@ -258,13 +260,14 @@ RemovalCounts remove_flat_vertices(Surface& surface, FaceCharts& charts, FaceHis
         return shared.part_of[a] != shared.part_of[b] ? shared.part_of[a] < shared.part_of[b]
                                                       : a < b;
     });
-    std::vector<Index> begin{0};  // By part that has any: of its vertices.
+    std::vector<Index> begin{0};  // The first vertex of each part that has any.
     for (Index i = 1; i < flat.size(); ++i) {
         if (shared.part_of[flat[i]] != shared.part_of[flat[i - 1]]) begin.push_back(i);
     }
     const auto num_parts = static_cast<Index>(begin.size());
     begin.push_back(static_cast<Index>(flat.size()));
-    history.reserve(3 * flat.size(), 2 * flat.size());  // Grids: their vertices have six edges.
+    // These are the numbers for vertices of grids, which have six edges.
+    history.reserve(3 * flat.size(), 2 * flat.size());
     shared.round_of.assign(surface.num_vertices(), 0);
     PartsInOrder parts(num_parts, charts, history);
     const auto remove_inside = [&](Index number, Index, Index) {

@@ -1,5 +1,5 @@
 //! \file
-//! Takes away vertices that the surface does not need. Private to intrinsic.
+//! Removes vertices without curvature. Private to intrinsic.
 #pragma once
 
 #include "agvd/core/poller.h"
@@ -12,14 +12,15 @@ struct RemovalCounts {
     std::size_t flips = 0;
 };
 
-//! A vertex inside whose angles sum to 2 pi is a point like any other: without it the surface is
-//! the same. Those with an edge shorter than `min_length` go, none with a neighbour at a time,
-//! until no such edge is left where that can be done: edges at a vertex are flipped until three are
-//! left, or four of which two are one straight line, and the faces around it merge.
+//! An inner vertex whose angles sum to 2 pi can be removed without changing the surface. Removes
+//! those with an edge shorter than `min_length`, as far as possible, in rounds without two
+//! neighbours. Edges at the vertex are flipped until three are left, or four of which two are one
+//! straight line. Then the faces around it merge.
 //!
-//! Before all other operations: flips blur angles, and where needles were flipped first, points
-//! passed four times as many operations. Faces and edges that go leave gaps: see compact_faces().
-//! \param history  is told.
+//! To be called before all other operations: flips add errors to angles, and if needles were
+//! flipped first, points would pass four times as many operations. Removed faces and edges leave
+//! gaps: see compact_faces().
+//! \param history  records the operations.
 //! \param is_kept  by edge: 1 for edges that stay; or empty.
 //! Cost: O(#F), and O(log n) for each vertex removed.
 RemovalCounts remove_flat_vertices(Surface& surface, FaceCharts& charts, FaceHistory& history,

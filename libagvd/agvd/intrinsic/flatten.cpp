@@ -11,7 +11,8 @@ namespace {
 
 constexpr double angle_tolerance = 1e-10;
 constexpr int most_steps = 60;
-// Of the admissible factors, what is left out at both ends: faces there are all but flat.
+// The share of the range of factors that is left out at both ends: faces there are nearly
+// degenerate.
 constexpr double margin = 1e-3;
 
 // With edges scaled by s the corner between a and b across from c has the cosine p - q w, w = 1/s².
@@ -33,7 +34,8 @@ Angle angle_at(const std::vector<Corner>& corners, double w) {
     return sum;
 }
 
-// The angle grows with w. Newton's method, kept between the ends by halving.
+// The angle grows with w. Newton's method is used, and bisection where a step would leave the
+// range.
 double solve(const std::vector<Corner>& corners, double target, double low, double high) {
     double w = std::clamp(1.0, low, high);
     for (int step = 0; step < most_steps; ++step) {

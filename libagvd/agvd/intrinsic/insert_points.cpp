@@ -11,17 +11,17 @@
 namespace agvd::detail {
 namespace {
 
-// Of a face: as near as that a point lies on an edge.
+// A share of a face: a point nearer to an edge than this lies on the edge.
 constexpr double snapping = 1e-9;
 
 using Shares = std::array<double, 3>;
 
-// In the plane of barycentric coordinates 1 and 2; above 0: counter-clockwise.
+// The orientation in the plane of barycentric coordinates 1 and 2; above 0: counter-clockwise.
 double orientation(const Shares& a, const Shares& b, const Shares& c) {
     return (b[1] - a[1]) * (c[2] - a[2]) - (b[2] - a[2]) * (c[1] - a[1]);
 }
 
-// A face that is part of an old one, and what is to be inserted there.
+// A face that is part of an old face, and the points to be inserted in it.
 struct Part {
     std::array<Shares, 3> corner;  // Barycentric coordinates of the old face.
     std::vector<Index> waiting;    // Points.
@@ -113,7 +113,7 @@ private:
         }
         for (const Index point : whole.waiting) {
             const Shares& at = points_[point].barycentric;
-            // Behind which spokes, which run from the new vertex to the corners?
+            // Find the edges from the new vertex to the corners between which the point lies.
             std::array<bool, 3> is_left;
             for (std::size_t k = 0; k < 3; ++k) {
                 is_left[k] = orientation(place, corner[k], at) >= 0;

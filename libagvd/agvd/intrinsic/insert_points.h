@@ -1,5 +1,5 @@
 //! \file
-//! Points of a surface made vertices of it. Private to intrinsic.
+//! Inserts points of a surface as vertices. Private to intrinsic.
 #pragma once
 
 #include <span>
@@ -11,11 +11,11 @@
 
 namespace agvd::detail {
 
-//! Inserts points one by one: those in a face cut it into three, those on an edge cut the faces
-//! beside it into two, and at a vertex that no earlier point has claimed nothing is cut. A point
+//! Inserts points one by one. A point in a face cuts the face into three. A point on an edge cuts
+//! the faces beside it into two. At a vertex that has no earlier point nothing is cut. A point
 //! closer to an edge or a vertex than 1e-9 of a face is taken to lie there; if the vertex there is
 //! another point's, it is moved by that much.
-//! \param surface  simplicial; stays so. Its faces lie in the plane as they did at first.
+//! \param surface  simplicial; stays so.
 //! \return by point: its vertex. Cost: O(log n) for each point in practice.
 [[nodiscard]] std::vector<Index> insert_points(Surface& surface, FaceCharts& charts,
                                                std::span<const SurfacePoint> points);

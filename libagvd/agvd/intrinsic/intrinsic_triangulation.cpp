@@ -19,9 +19,9 @@ using detail::FaceCharts;
 using detail::FaceHistory;
 using detail::FaceSegment;
 
-// Flips end after so many for each edge, with an outcome. The worst part met, of needles, took 6.
+// The most flips for each edge. The worst part of needles that was met took 6.
 constexpr std::size_t most_flips = 1000;
-// Steps that a split counts for.
+// Ticks of a split.
 constexpr std::size_t split_work = 16;
 
 void check_options(const Surface& input, const IntrinsicOptions& options) {
@@ -70,7 +70,7 @@ public:
     }
 
 private:
-    // Those that flips have made farther away are found by the next search.
+    // Long edges that flips have made farther away are found by the next search.
     bool find_long_edges() {
         for (Index e = 0; e < surface_.num_edges(); ++e) {
             ticker_.tick();
@@ -88,7 +88,7 @@ private:
         middle.barycentric[h % 3] = middle.barycentric[Surface::next(h) % 3] = 0.5;
         added.push_back(history_.backward(middle));
         const Index vertex = surface_.num_vertices();
-        surface_.mesh.positions.push_back(Vec3::Zero());  // Known at the end.
+        surface_.mesh.positions.push_back(Vec3::Zero());  // Set at the end.
         surface_.outgoing.push_back(no_index);
         surface_.can_be_pseudo_source.push_back(0);
         const EdgeSplit made = detail::split_edge(surface_, charts_, h, 0.5, vertex);
@@ -235,10 +235,11 @@ void IntrinsicTriangulation::to_intrinsic(const SurfacePoint& begin, const Surfa
 
 namespace {
 
-// Longer ways back are left to samples.
+// For faces with more operations, evenly spread points are used.
 constexpr Index most_steps_back = 16, most_part_steps = 64;
 
-// Fans of triangles around the first corner; areas in shares of the face.
+// Area and centroid of a polygon, from the triangles at its first corner; the area as a share of
+// the face.
 InputPart measure(const detail::FacePolygon& polygon) {
     const auto& corner = polygon.corner;
     InputPart part{{FaceId(polygon.face), {0, 0, 0}}, 0};

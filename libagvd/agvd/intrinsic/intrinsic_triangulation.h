@@ -18,11 +18,11 @@ namespace agvd {
 struct IntrinsicOptions {
     //! Longer edges are split at their middles until none is left, > 0.
     double max_length = std::numeric_limits<double>::infinity();
-    //! Vertices inside with a shorter edge go where the surface has no curvature (2 pi within
-    //! 1e-12), >= 0: without them it is the same.
+    //! Inner vertices that have a shorter edge, >= 0, are removed if their angles sum to 2 pi
+    //! within 1e-12: the surface is the same without them.
     double min_length = 0;
-    //! No more edges are split than so many: surfaces thinner than max_length would get vertices
-    //! without end. The longest go first.
+    //! At most so many edges are split, the longest first: surfaces thinner than max_length would
+    //! get any number of vertices.
     Index most_splits = no_index;
     //! #E of the input: 1 for edges that stay, as those of the boundary always do (they may be
     //! split); or empty.
@@ -33,9 +33,9 @@ struct IntrinsicOptions {
 
 struct IntrinsicCounts {
     std::size_t flips = 0;
-    Index splits = 0;      //!< Edges split: vertices added.
-    Index removed = 0;     //!< Vertices without curvature that went; they are left without faces.
-    Index flat_faces = 0;  //!< Faces of the input without area in double, which got the least one.
+    Index splits = 0;         //!< Edges split: vertices added.
+    Index removed = 0;        //!< Vertices without curvature that were removed: they have no faces.
+    Index flat_faces = 0;     //!< Degenerate faces of the input, which got the least area.
     bool is_delaunay = true;  //!< False: flips ended before the condition held everywhere.
 };
 
@@ -47,8 +47,9 @@ struct InputPart {
 
 //! The input's surface and vertices, other edges. An edge of the input with two triangles beside it
 //! that fail the Delaunay condition is replaced by the other diagonal of these, unfolded into one
-//! plane ([bobenko2007], [fisher2007], [sharp2019]): distances on the surface stay what they are,
-//! and needles are gone. What is made of it depends on the surface, not on its triangles.
+//! plane ([bobenko2007], [fisher2007], [sharp2019]): distances on the surface do not change, and
+//! there are no needles. What is computed on it depends on the surface, not on the triangles of the
+//! input.
 //!
 //! The result is a Surface in the plane of each face: its lengths and apexes are true, its corners
 //! lie where the mesh says, but in space its faces do not lie on the surface. It is a
@@ -64,8 +65,8 @@ public:
     //! Cost: a pass over the edges and O(log n) for each flip. The number of flips has no useful
     //! bound in theory; in practice it is some ten for each needle.
     explicit IntrinsicTriangulation(const Surface& input, const IntrinsicOptions& options = {});
-    //! The same for an input that nobody else needs: input() keeps its mesh, `twin` and `outgoing`
-    //! and has the rest from its positions, which is 78 bytes less for each face.
+    //! The same for an input that is not used elsewhere. input() keeps its mesh, `twin` and
+    //! `outgoing`, and computes the rest from its positions: 78 bytes less for each face.
     explicit IntrinsicTriangulation(Surface&& input, const IntrinsicOptions& options = {});
     IntrinsicTriangulation(IntrinsicTriangulation&&) noexcept;
     IntrinsicTriangulation& operator=(IntrinsicTriangulation&&) noexcept;
@@ -76,9 +77,9 @@ public:
     [[nodiscard]] const Surface& surface() const { return surface_; }
     [[nodiscard]] const IntrinsicCounts& counts() const { return counts_; }
 
-    //! The face is not one of the input's.
+    //! Whether a face is not one of the input's.
     [[nodiscard]] bool is_changed(Index face) const;
-    //! Where an added vertex lies on the input.
+    //! The point of the input at which an added vertex lies.
     //! \param vertex  >= input().num_vertices().
     [[nodiscard]] const SurfacePoint& place_of_added(Index vertex) const {
         return added_[vertex - input_->num_vertices()];
@@ -104,10 +105,10 @@ public:
     void to_intrinsic(const SurfacePoint& begin, const SurfacePoint& end,
                       std::vector<SurfacePoint>& parts) const;
 
-    //! The convex parts of the input's faces that make up a face of this: what it is in space.
+    //! The convex parts of the input's faces that make up a face of this.
     //! \param parts  appended to.
-    //! \return false where that would take long, as with hundreds of needles; `parts` is then as it
-    //! was. Cost: some 50 ns for each operation and part, 64 at most.
+    //! \return false if that would take long, as with hundreds of needles; `parts` has not changed
+    //! then. Cost: some 50 ns for each operation and part, 64 at most.
     [[nodiscard]] bool parts_of(Index face, std::vector<InputPart>& parts) const;
 
 private:

@@ -7,7 +7,7 @@
 namespace agvd::detail {
 namespace {
 
-// Goes through the neighbours of a vertex one by one.
+// Visits the neighbours of a vertex one by one.
 class Neighbours {
 public:
     Neighbours(const Surface& surface, Index vertex)
@@ -40,7 +40,7 @@ private:
     bool is_open_end_ = false;
 };
 
-// Equal for equal things; which of them comes first is that with the lowest number.
+// A key that equal edges or faces share. Of equal ones, that with the lowest number comes first.
 template <typename Key>
 void append_repeated(std::vector<std::pair<Key, Index>>& things, std::vector<Index>& repeated) {
     std::sort(things.begin(), things.end());

@@ -14,7 +14,7 @@ namespace {
 using detail::FaceCharts;
 using detail::FaceHistory;
 
-// A component as a surface of its own, and where its vertices lie on the whole one.
+// A component as a surface of its own, and the positions of its vertices on the whole surface.
 struct Part {
     Surface surface;
     std::vector<SurfacePoint> place;  // By vertex.

@@ -1,5 +1,5 @@
 //! \file
-//! A surface thinned to chosen points: the triangulation of these that it carries.
+//! Thins a surface to chosen points: a triangulation with these points as vertices.
 #pragma once
 
 #include <span>
@@ -11,19 +11,20 @@
 namespace agvd {
 
 struct ThinnedMesh {
-    //! Of points and extra vertices: i < #points is points[i], others are extra[i - #points].
+    //! Their vertices are points and extra vertices: i < #points is points[i], others are extra[i -
+    //! #points].
     std::vector<Triangle> triangles;
-    //! On the surface: vertices without which the result would be no simplicial manifold of the
-    //! surface's topology, as far as was found.
+    //! Points of the surface: vertices that were kept, since without them the result would not be a
+    //! simplicial manifold of the surface's topology.
     std::vector<SurfacePoint> extra;
     std::size_t flips = 0;
 };
 
-//! Makes points the vertices of a component and takes all other vertices away, one by one: the
-//! lengths around a vertex are scaled until it is flat, its edges are flipped until it has three
-//! (or, on the boundary, two faces), and it goes ([liu2023]). What is left meets the Delaunay
-//! condition by its own lengths, as far as it stays simplicial. Since every step keeps a simplicial
-//! manifold, the result is one, of the component's topology; what would break that stays.
+//! Makes points the vertices of a component and removes all other vertices, one by one ([liu2023]):
+//! the lengths around a vertex are scaled until it is flat, its edges are flipped until three are
+//! left (on the boundary: two faces), and it is removed. The result meets the Delaunay condition by
+//! its own lengths, as far as it stays simplicial. Every step keeps a simplicial manifold of the
+//! component's topology. A vertex whose removal would break that stays.
 //! A boundary goes through the points that lie on it, at least three vertices.
 //!
 //! \param surface  may be a Delta-complex.

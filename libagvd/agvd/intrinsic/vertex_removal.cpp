@@ -16,11 +16,11 @@
 namespace agvd::detail {
 namespace {
 
-// Radians: a vertex flatter than that is as good as flat.
+// Radians: a vertex flatter than this counts as flat.
 constexpr double flat_enough = 1e-9;
-// Radians: among vertices flatter than that, dense ones go first.
+// Radians: among vertices flatter than this, those in dense regions go first.
 constexpr double small_curvature = 1e-2;
-// Flips end after so many for each edge.
+// The most flips for each edge.
 constexpr std::size_t most_flips = 1000;
 
 enum class Lengths : std::uint8_t { OnSurface, InSpace };
@@ -52,7 +52,7 @@ private:
         Index vertex;
         std::uint32_t stamp;
 
-        // The least on top of a heap.
+        // Reversed, so that the least is on top of a heap.
         [[nodiscard]] bool operator<(const Waiting& other) const {
             return cost != other.cost ? cost > other.cost : vertex > other.vertex;
         }
@@ -93,7 +93,7 @@ private:
         queue_.push({(curvature + small_curvature) * length / num_faces, v, ++stamp_[v]});
     }
 
-    // ring_ is then what has to be judged again.
+    // Afterwards ring_ holds the vertices whose priority may have changed.
     bool remove(Index v) {
         ring_.clear();
         const double angle = cone_angle(surface_, v), wanted = flat_angle(v);
@@ -129,7 +129,7 @@ private:
         });
     }
 
-    // Flips the edge at v whose flip leaves the best triangle behind.
+    // Flips the edge at v whose flip gives the best triangle without v.
     bool flip_away(Index v) {
         Index best = no_index;
         double best_quality = -1;
@@ -149,7 +149,8 @@ private:
         return true;
     }
 
-    // Of the triangle at the head once the edge is flipped: area over the squares of its sides.
+    // The quality of the triangle at the head after the flip: its area over the squares of its
+    // sides.
     [[nodiscard]] double quality_behind(Index h, const Quad& quad) const {
         if (lengths_ == Lengths::InSpace) {
             const Vec3& a = surface_.mesh.positions[surface_.head(h)];
@@ -179,12 +180,12 @@ private:
         for (Index h = 3 * face; h < 3 * face + 3; ++h) flips_.push(surface_.edge[h]);
     }
 
-    // Three faces around an inner vertex are then one; two on the boundary likewise.
+    // Three faces around an inner vertex become one, as do two on the boundary.
     [[nodiscard]] bool may_drop(Index v, bool is_boundary) const {
         const Index first = surface_.outgoing[v];
         const Index outer = surface_.twin[Surface::next(first)];
         if (!is_boundary) {
-            // With a fourth face they may be a tetrahedron, which is all there is.
+            // With a fourth face they may be a tetrahedron: the whole component.
             const Index other =
                 surface_.twin[Surface::next(surface_.twin[Surface::previous(first)])];
             return outer == no_index || other == no_index ||

@@ -1,5 +1,5 @@
 //! \file
-//! Takes vertices of a triangulation away. Private to intrinsic.
+//! Removes vertices of a triangulation. Private to intrinsic.
 #pragma once
 
 #include <vector>
@@ -9,11 +9,11 @@
 
 namespace agvd::detail {
 
-//! Takes away every vertex whose number is no_index, those first that disturb least, and keeps the
-//! rest Delaunay. A vertex stays where the complex would not stay simplicial without it. See
+//! Removes every vertex whose number is no_index, the flattest first, and keeps the rest Delaunay.
+//! A vertex stays where the complex would not stay simplicial without it. See
 //! thin().
 //! \param surface  simplicial; left with gaps.
-//! \return flips made.
+//! \return the number of flips.
 std::size_t remove_vertices(Surface& surface, FaceCharts& charts, const std::vector<Index>& number);
 
 }  // namespace agvd::detail

@@ -10,7 +10,8 @@
 namespace agvd::detail {
 namespace {
 
-// Of the faces' size: how far two edges that are one straight line bend by the rounding of charts.
+// A share of the faces' size: two edges of one straight line bend by at most this, by the rounding
+// of charts.
 constexpr double straight_enough = 1e-14;
 
 }  // namespace
@@ -70,7 +71,7 @@ bool VertexRing::lay() {
     return true;
 }
 
-// All faces that are made have the chart of the first: those beyond a rim may be of the ring.
+// All new faces get the chart of the first face. A face beyond a rim may belong to the ring, too.
 void VertexRing::turn_glued_rims() {
     for (Sector& sector : sectors_) {
         for (std::size_t k = 0; k < half_edge_.size(); ++k) {
@@ -80,7 +81,7 @@ void VertexRing::turn_glued_rims() {
     }
 }
 
-// Turns the ring so that its first and third edge are one line, if two are.
+// Rotates the ring so that its first and third edge are one line, if there are such edges.
 bool VertexRing::straighten() {
     for (std::size_t first = 0; first < 2; ++first) {
         const Vec2 &a = sectors_[first].spoke, &b = sectors_[first + 2].spoke;
@@ -94,8 +95,8 @@ bool VertexRing::straighten() {
     return false;
 }
 
-// Flips the edge at the vertex whose flip leaves the best triangle behind. Face (d, b, c) is left;
-// the spoke to d and the face behind that to b are one sector.
+// Flips the edge at the vertex whose flip gives the best triangle (d, b, c) without the vertex. The
+// two sectors beside the flipped edge become one.
 bool VertexRing::flip_away() {
     const std::size_t count = sectors_.size();
     const auto quad_of = [&](std::size_t i) -> Quad {
@@ -222,7 +223,7 @@ void VertexRing::write_sides(const Made& made) {
     }
 }
 
-// A half-edge that may have been a rim of the ring.
+// The present half-edge for one that may have been a rim of the ring.
 Index VertexRing::twin_now(Index half_edge) const {
     for (std::size_t k = 0; k < half_edge_.size(); ++k) {
         if (Surface::next(half_edge_[k]) == half_edge) return rim_places_[k];

@@ -16,9 +16,10 @@ constexpr Index leaf_size = 2;
 // edges, which carry rounding errors, are inside and ties are found.
 constexpr double padding_share = 1e-15;
 
-// Square of twice a needle's area over the fourth power of its length, at most.
+// A face is a needle if the square of twice its area over the fourth power of its length is at most
+// this.
 constexpr double needle = 1e-8;
-// Barycentric coordinate of what may as well lie on the side.
+// A point with a barycentric coordinate below this may lie on the side.
 constexpr double beside_side = 1e-6;
 
 bool comes_before(const Vec3& a, const Vec3& b) {
@@ -32,7 +33,8 @@ void take_nearer(ClosestPoint& best, const ClosestPoint& other) {
     }
 }
 
-// The ends are taken in an order of their own, so that all faces of an edge compute the same.
+// The ends are taken in an order that does not depend on the face, so that all faces of an edge
+// compute the same.
 ClosestPoint closest_point_on_side(const std::array<Vec3, 3>& corners, FaceId face, std::size_t k,
                                    const Vec3& query) {
     std::size_t from = k, to = (k + 1) % 3;
@@ -64,8 +66,8 @@ ClosestPoint closest_point_on_triangle(const std::array<Vec3, 3>& corners, FaceI
     const double b1 = w.cross(v).dot(normal) * scale;
     const double b2 = u.cross(w).dot(normal) * scale;
     const std::array<double, 3> b{1 - b1 - b2, b1, b2};
-    // In a needle the foot of the perpendicular is inaccurate, and all sides are asked; elsewhere
-    // only those that the foot lies across, or almost.
+    // In a needle the foot of the perpendicular is inaccurate, so all sides are tested. Elsewhere
+    // only the sides are tested that the foot lies beyond, or nearly beyond.
     const double longest_sq = std::max(u.squaredNorm(), v.squaredNorm());
     const bool is_needle = !(normal_sq > needle * longest_sq * longest_sq);
     ClosestPoint best;
@@ -115,7 +117,7 @@ ClosestPointTree::ClosestPointTree(const MeshView& mesh, const Progress& progres
         corners_[slot] = corners_of(faces[slot]);
         face_.emplace_back(faces[slot]);
     }
-    // The children of a node follow it, so that backwards they are ready.
+    // Children follow their node, so in a backward loop they are done before it.
     const Node& root = nodes_.front();
     for (auto node = nodes_.rbegin(); node != nodes_.rend(); ++node) {
         ticker.tick();
@@ -180,7 +182,7 @@ ClosestPoint ClosestPointTree::query(const Vec3& point) const {
     stack[waiting++] = {distance_sq(0), 0};
     while (waiting > 0) {
         const auto [distance, self] = stack[--waiting];
-        if (distance > best.distance_sq) continue;  // Equally near ones may hold a lower face.
+        if (distance > best.distance_sq) continue;  // An equally near box may hold a lower face.
         const Node& node = nodes_[self];
         if (node.right == 0) {
             for (Index slot = node.begin; slot < node.end; ++slot) {

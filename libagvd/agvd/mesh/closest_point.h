@@ -18,11 +18,11 @@ struct ClosestPoint {
 [[nodiscard]] ClosestPoint closest_point_on_triangle(const std::array<Vec3, 3>& corners,
                                                      FaceId face, const Vec3& query);
 
-//! From a point to a segment, of which both ends may be the same.
+//! Squared distance of a point from a segment, whose ends may be the same point.
 [[nodiscard]] double distance_to_segment(const Vec3& point, const Vec3& a, const Vec3& b);
 
-//! Answers many queries on one mesh. Keeps a copy of the corners, no reference to the mesh.
-//! 130 bytes per face.
+//! For many queries on one mesh. It keeps a copy of the corners, and no reference to the mesh. It
+//! takes 130 bytes per face.
 class ClosestPointTree {
 public:
     //! \param mesh  any triangles, degenerate and non-manifold ones too; finite, indices in range.
@@ -31,7 +31,8 @@ public:
     //! \throw Cancelled     the progress callback returned false.
     explicit ClosestPointTree(const MeshView& mesh, const Progress& progress = {});
 
-    //! The nearest point; of equally near ones that in the lowest face. Any thread may ask.
+    //! The nearest point; of equally near points the one in the lowest face. Any thread may call
+    //! this.
     //! Cost: O(log n) near the surface.
     [[nodiscard]] ClosestPoint query(const Vec3& point) const;
 

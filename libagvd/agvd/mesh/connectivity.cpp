@@ -13,10 +13,11 @@ namespace agvd {
 namespace {
 
 constexpr Index grain = 1 << 14;  // Faces, or vertices.
-constexpr Index long_list = 16;   // From there on lists are sorted: hubs of fans have thousands.
+// Lists from this length on are sorted: those of hubs have thousands of elements.
+constexpr Index long_list = 16;
 constexpr auto relaxed = std::memory_order_relaxed;
 
-// How threads take turns at a number; alone it costs nothing.
+// Access to a number that several threads change, or one thread alone, which costs nothing.
 struct Shared {
     static Index add_one(Index& number) { return std::atomic_ref(number).fetch_add(1, relaxed); }
     static Index exchange(Index& number, Index value) {
@@ -35,9 +36,10 @@ struct Alone {
     static void lower(Index& number, Index value) { number = std::min(number, value); }
 };
 
-// Half-edges that run up, from the lower to the higher vertex, wait at their tails; those that run
-// down look for theirs there. Half the memory of sorting both, and no order among them matters, so
-// that threads may fill the lists side by side.
+// Half-edges that run up, from the lower to the higher vertex, are listed at their tails. Each
+// half-edge that runs down searches for its twin in the list of its head. This takes half the
+// memory of sorting all half-edges. The order in a list does not matter, so threads may fill the
+// lists in parallel.
 template <typename Access>
 class Pairing {
 public:
@@ -107,19 +109,24 @@ private:
         const auto body = [&](Index, Index begin, Index end) {
             Ticker ticker(poller_);
             for (Index v = begin; v < end; ++v) {
-                const std::span<Up> list = list_of(v);
-                const bool is_long = list.size() >= long_list;
-                if (is_long) sort_ticked(list, ticker, has_lower_head);
-                for (std::size_t i = 0; i < list.size(); ++i) {
-                    const std::size_t last = is_long ? std::min(i + 2, list.size()) : list.size();
-                    for (std::size_t j = i + 1; j < last; ++j) {
-                        if (list[i].head == list[j].head) has_equal.store(true, relaxed);
-                    }
-                }
+                if (has_equal_heads(list_of(v), ticker)) has_equal.store(true, relaxed);
             }
         };
         parallel_chunks(num_vertices, grain, num_threads_, body, poller_);
         return !has_equal;
+    }
+
+    // Sorts a long list, for binary search.
+    static bool has_equal_heads(std::span<Up> list, Ticker& ticker) {
+        const bool is_long = list.size() >= long_list;
+        if (is_long) sort_ticked(list, ticker, has_lower_head);
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            const std::size_t last = is_long ? std::min(i + 2, list.size()) : list.size();
+            for (std::size_t j = i + 1; j < last; ++j) {
+                if (list[i].head == list[j].head) return true;
+            }
+        }
+        return false;
     }
 
     static bool has_lower_head(const Up& a, const Up& b) { return a.head < b.head; }
@@ -160,8 +167,9 @@ private:
         }
     }
 
-    // The walks around all vertices pass every half-edge only if none leaves out a fan. Two faces
-    // that run the same way along an edge that no third has begin two fans.
+    // Counts the half-edges that walks around all vertices pass. These are all half-edges only if
+    // the faces around each vertex are one fan. Two faces that run the same way along an edge
+    // without a third face belong to two fans.
     [[nodiscard]] bool are_single_fans() {
         const auto num_vertices = static_cast<Index>(result_.outgoing.size());
         std::vector<std::size_t> seen(num_chunks(num_vertices, grain), 0);
@@ -185,7 +193,7 @@ private:
     std::span<const Triangle> triangles_;
     int num_threads_;
     Poller poller_;
-    std::vector<Index> end_;  // #V + 1: of the vertices' lists.
+    std::vector<Index> end_;  // #V + 1: ends of the vertices' lists.
     std::vector<Up> ups_;     // By tail.
     Connectivity result_;
 };

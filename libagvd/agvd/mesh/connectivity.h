@@ -1,5 +1,5 @@
 //! \file
-//! Who is across each side of the faces of an oriented 2-manifold: found once, handed on.
+//! The neighbours of the faces of an oriented 2-manifold.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace agvd {
 
-//! Of a mesh whose half-edge 3 f + k runs from corner k to corner k + 1 of face f.
+//! Twins and one-rings of a mesh. Half-edge 3 f + k runs from corner k to corner k + 1 of face f.
 struct Connectivity {
     std::vector<Index> twin;  //!< #H: the half-edge across; no_index on the boundary.
     //! #V: a half-edge that leaves the vertex; on the boundary the one without twin, from which
@@ -17,7 +17,7 @@ struct Connectivity {
     std::vector<Index> outgoing;
 };
 
-//! Nothing if a face repeats a corner, an edge has more than two faces or two that run the same
+//! No result if a face repeats a corner, an edge has more than two faces or two that run the same
 //! way, or the faces around a vertex are not one fan.
 //!
 //! \param mesh         indices in range; positions are not read.

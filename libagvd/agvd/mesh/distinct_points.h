@@ -1,5 +1,5 @@
 //! \file
-//! Points of a surface that lie on one another.
+//! Finds points of a surface that coincide.
 #pragma once
 
 #include <array>
@@ -14,7 +14,8 @@
 
 namespace agvd {
 
-//! A vertex, an edge or a face, and where on it: equal for equal points, whatever face names them.
+//! A vertex, an edge or a face, and a position on it. It is equal for equal points, whichever of
+//! its faces a point names.
 struct PlaceOnSurface {
     //! Vertices first, then edges by their lower half-edge, then faces.
     std::uint64_t element = std::numeric_limits<std::uint64_t>::max();
@@ -26,8 +27,9 @@ struct PlaceOnSurface {
 
 [[nodiscard]] PlaceOnSurface place_of(const Surface& surface, const SurfacePoint& point);
 
-//! Ascending: the points that do not lie exactly where an earlier one does. As sites the others own
-//! nothing, since ties go to the earlier one. Points of two parts of the surface at one position
+//! The points that do not lie exactly where an earlier one does, ascending. As sites the other
+//! points own nothing, since ties go to the earlier site. Points of two parts of the surface at one
+//! position
 //! in space are different. Cost: O(#points log #points).
 [[nodiscard]] std::vector<Index> distinct_points(const Surface& surface,
                                                  std::span<const SurfacePoint> points);

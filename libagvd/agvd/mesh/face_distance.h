@@ -1,5 +1,5 @@
 //! \file
-//! Distances of points of one face, by its lengths alone.
+//! Distances between points of one face, from its lengths alone.
 #pragma once
 
 #include "agvd/mesh/surface.h"
@@ -7,7 +7,8 @@
 
 namespace agvd {
 
-//! Mesh units; of the straight segment within the face. The face need not lie in space.
+//! The length of the straight segment within the face, in mesh units. The face need not lie in
+//! space.
 //! \param a, b  of one face.
 [[nodiscard]] inline double face_distance(const Surface& surface, const SurfacePoint& a,
                                           const SurfacePoint& b) {

@@ -1,5 +1,5 @@
 //! \file
-//! A triangle mesh as plain arrays: a view, and an owner.
+//! A triangle mesh as plain arrays: as a view, and as an owner.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace agvd {
 
-//! #V x 3 positions and #F x 3 vertex indices that somebody else owns.
+//! #V x 3 positions and #F x 3 vertex indices, not owned.
 struct MeshView {
     std::span<const Vec3> positions;
     std::span<const Triangle> triangles;

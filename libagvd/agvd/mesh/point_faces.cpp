@@ -5,9 +5,9 @@
 namespace agvd {
 namespace {
 
-constexpr double beside_vertex = 1e-12;  // In edge lengths.
-constexpr double beside_edge = 1e-12;    // In heights of the face,
-constexpr double flat = 1e-3;            // and of the share along the edge.
+constexpr double beside_vertex = 1e-12;  // A share of the edge length.
+constexpr double beside_edge = 1e-12;    // A share of the height of the face.
+constexpr double flat = 1e-3;            // A share of the position along the edge.
 
 }  // namespace
 
@@ -20,7 +20,8 @@ std::optional<Index> corner_of(const Surface& surface, const SurfacePoint& point
     const auto& b = point.barycentric;
     for (Index k = 0; k < 3; ++k) {
         const double to_next = b[(k + 1) % 3], to_last = b[(k + 2) % 3];
-        if (to_next + to_last > beside_vertex) continue;  // Told without the edges' lengths.
+        // A quick test without the edges' lengths.
+        if (to_next + to_last > beside_vertex) continue;
         const Index h = 3 * point.face.value() + k;
         if (to_next == 0 && to_last == 0) return h;
         const double next = surface.length_of(h), last = surface.length_of(Surface::previous(h));

@@ -1,5 +1,5 @@
 //! \file
-//! Points on edges and vertices: which faces hold them, and whether they lie on the boundary.
+//! Points on edges and vertices: their faces, and whether they lie on the boundary.
 #pragma once
 
 #include <optional>
@@ -14,22 +14,23 @@ namespace agvd {
 //! Nearer than that, rounding hides from which side the point sees the faces around the vertex.
 [[nodiscard]] std::optional<Index> vertex_of(const Surface& surface, const SurfacePoint& point);
 
-//! The same as the half-edge of the point's face that leaves that vertex: which corner it is, where
-//! the face has the vertex at several.
+//! The same, as the half-edge of the point's face that leaves the vertex. It tells the corner where
+//! the face has the vertex at several corners.
 [[nodiscard]] std::optional<Index> corner_of(const Surface& surface, const SurfacePoint& point);
 
 //! The half-edge of the point's face in whose interior the point lies, if it does: up to 1e-12 of
-//! the face's height. Nearer than that, windows through the edge would hold nothing but rounding.
+//! the face's height. If it were nearer, windows through the edge would consist of rounding.
 [[nodiscard]] std::optional<Index> half_edge_of(const SurfacePoint& point);
 
 //! The same point of an edge's interior, seen from the face across `half_edge` (which must exist).
 [[nodiscard]] SurfacePoint across_edge(const Surface& surface, const SurfacePoint& point,
                                        Index half_edge);
 
-//! Calls visit(SurfacePoint) for all that name this point: one for each corner around a vertex, one
-//! for each side of an edge, itself inside a face. What is not exactly on an edge (coordinate 0)
-//! is inside. A face comes more than once where it has the vertex at several corners, or is glued
-//! to itself along the edge. At a vertex in the order of the one-ring, else itself first.
+//! Calls visit(SurfacePoint) for all names of a point: one for each corner around a vertex, one for
+//! each side of an edge, and the point itself inside a face. A point lies on an edge only if a
+//! coordinate is exactly 0. A face is visited several times if it has the vertex at several
+//! corners, or is glued to itself along the edge. Order: at a vertex that of the one-ring, else the
+//! given point first.
 template <typename Visit>
 void for_each_view(const Surface& surface, const SurfacePoint& point, const Visit& visit) {
     const auto& b = point.barycentric;
@@ -51,11 +52,13 @@ void for_each_view(const Surface& surface, const SurfacePoint& point, const Visi
     if (surface.twin[h] != no_index) visit(across_edge(surface, point, h));
 }
 
-//! The same point as a point of `face`; none if it does not lie in that face. The first of several.
+//! The same point as a point of `face`, the first if there are several; none if it does not lie in
+//! that face.
 [[nodiscard]] std::optional<SurfacePoint> seen_from(const Surface& surface,
                                                     const SurfacePoint& point, Index face);
 
-//! Faces that hold both of two different points, at most two. There are no more unless the surface
+//! The faces that hold both of two different points, at most two. There are no more unless the
+//! surface
 //! is a Delta-complex (see IntrinsicTriangulation). Cost: O(faces around a and b).
 struct CommonFaces {
     Index first = no_index;   //!< no_index: none.
@@ -64,7 +67,7 @@ struct CommonFaces {
 [[nodiscard]] CommonFaces common_faces(const Surface& surface, const SurfacePoint& a,
                                        const SurfacePoint& b);
 
-//! On a boundary edge, or on one of its ends.
+//! Whether a point lies on a boundary edge or on one of its ends.
 [[nodiscard]] bool is_on_boundary(const Surface& surface, const SurfacePoint& point);
 
 //! The vertex as a point of one of its faces. It must have one.

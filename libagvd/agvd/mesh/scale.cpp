@@ -11,14 +11,14 @@ namespace agvd {
 
 namespace {
 
-// Of the coordinates of a mesh, beyond its distance from the origin.
+// Bits of the coordinates that the shape of a mesh needs, beyond its distance from the origin.
 constexpr int least_bits = 10;
 
 struct Box {
     Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
 
     [[nodiscard]] bool is_empty() const { return low.x() > high.x(); }
-    // Halves, as the difference may overflow.
+    // Halves are subtracted, since the difference may overflow.
     [[nodiscard]] double longest_side() const {
         constexpr double most = std::numeric_limits<double>::max();
         return std::min(most, 2 * (high / 2 - low / 2).maxCoeff());

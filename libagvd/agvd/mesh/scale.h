@@ -1,20 +1,20 @@
 //! \file
-//! The size of a mesh, and how it is brought where no power of a length overflows or vanishes.
+//! The size of a mesh, and scaling to a size where no power of a length overflows or vanishes.
 #pragma once
 
 #include "agvd/mesh/mesh_view.h"
 
 namespace agvd {
 
-//! Longest side of the box of the faces' corners, mesh units; 0 without faces. Corners that are not
-//! there or not finite are left out. Cost: O(#F).
+//! Longest side of the box of the faces' corners, mesh units; 0 without faces. Corners that do not
+//! exist or are not finite are left out. Cost: O(#F).
 [[nodiscard]] double extent(const MeshView& mesh);
 
-//! Meshes whose extent lies in [2^-max_scale, 2^max_scale] (about 1e-24 to 1e24) are computed on as
-//! they are: the fourth powers of lengths a billion times shorter are still normal numbers.
+//! Meshes whose extent lies in [2^-max_scale, 2^max_scale] (about 1e-24 to 1e24) are used without
+//! scaling: the fourth powers of lengths a billion times shorter are still normal numbers.
 inline constexpr int max_scale = 80;
 
-//! Whether the extent is that of a mesh that can be computed on, or 0.
+//! Whether an extent is in that range, or 0.
 [[nodiscard]] bool is_in_scale(double extent);
 
 //! \throw InvalidInput  the extent is out of scale. Cost: O(#F).

@@ -83,7 +83,7 @@ std::vector<Index> pair_or_explain(const MeshView& mesh, Ticker& ticker) {
     return twin;
 }
 
-// Tells why find_connectivity found nothing.
+// Throws the reason why find_connectivity had no result.
 [[noreturn]] void explain(const MeshView& mesh, Ticker& ticker) {
     const std::vector<Index> twin = pair_or_explain(mesh, ticker);
     std::vector<Index> degree(mesh.positions.size(), 0), outgoing(mesh.positions.size(), no_index);
@@ -112,7 +112,8 @@ std::vector<Index> pair_or_explain(const MeshView& mesh, Ticker& ticker) {
 // Edges are numbered in the order of their lower half-edge, so that neighbours stay close.
 void number_edges(Surface& surface, int num_threads, Poller& poller) {
     const auto num_half_edges = static_cast<Index>(surface.twin.size());
-    const auto is_first = [&](Index h) { return surface.twin[h] > h; };  // no_index is, too.
+    // True on the boundary, too, since no_index is the greatest.
+    const auto is_first = [&](Index h) { return surface.twin[h] > h; };
     std::vector<Index> begin_of(num_chunks(num_half_edges, grain) + 1, 0);
     const auto count_first = [&](Index chunk, Index begin, Index end) {
         Index count = 0;

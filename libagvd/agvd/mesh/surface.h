@@ -16,8 +16,8 @@ namespace agvd {
 struct Surface {
     TriangleMesh mesh;
     std::vector<Index> twin;  //!< #H: the half-edge across; no_index on the boundary.
-    //! These four may have been given away (IntrinsicTriangulation) and are empty then: length_of
-    //! and apex_of tell the same numbers from the positions.
+    //! IntrinsicTriangulation may take these four away. They are empty then, and length_of and
+    //! apex_of compute the same numbers from the positions.
     std::vector<Index> edge;       //!< #H: its undirected edge.
     std::vector<Index> edge_half;  //!< #E: the edge's half-edge with the lower index.
     std::vector<double> length;    //!< #E, mesh units.
@@ -49,11 +49,11 @@ struct Surface {
     [[nodiscard]] Vec2 apex_of(Index half_edge) const {
         return apex.empty() ? apex_in_space(half_edge) : apex[half_edge];
     }
-    //! Between the positions of the ends; for a face in space, the half-edge's length.
+    //! The distance between the positions of the ends: the half-edge's length for a face in space.
     [[nodiscard]] double length_in_space(Index half_edge) const {
         return (mesh.positions[head(half_edge)] - mesh.positions[tail(half_edge)]).norm();
     }
-    //! Likewise. Not finite where the half-edge has no length.
+    //! The apex from the positions. Not finite if the half-edge has length 0.
     [[nodiscard]] Vec2 apex_in_space(Index half_edge) const;
     [[nodiscard]] bool is_boundary_vertex(Index vertex) const {
         return outgoing[vertex] != no_index && twin[outgoing[vertex]] == no_index;
@@ -80,7 +80,7 @@ inline Vec2 Surface::apex_in_space(Index half_edge) const {
 [[nodiscard]] Surface build_surface(const MeshView& mesh, int num_threads = 0,
                                     const Progress& progress = {});
 
-//! The same where connectivity is known already; nothing is copied.
+//! The same for a mesh whose connectivity is known; nothing is copied.
 //!
 //! \param connectivity  find_connectivity(mesh).
 //! \param num_threads   >= 0; 0: all cores. The result is the same for any number.

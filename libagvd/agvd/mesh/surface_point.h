@@ -1,5 +1,5 @@
 //! \file
-//! A point on the surface: what a site is, and where every result lies on the input.
+//! A point on the surface: a site, or the place of a result on the input.
 #pragma once
 
 #include "agvd/mesh/mesh_view.h"

@@ -7,7 +7,7 @@
 namespace agvd {
 namespace {
 
-// More than all roundings of the exact distance.
+// Arcs are lengthened by this, which exceeds all roundings of an exact distance.
 constexpr float round_up = 1 + 0x1p-20F;
 
 // The straight line from the apex of a half-edge's face to the apex across it; below 0 where it
@@ -22,7 +22,7 @@ double flip_length(const Corners& corners, Index half_edge) {
     return (above - below).norm();
 }
 
-// Counts up and returns what was there; with others at it, too, if `is_shared`.
+// Adds one to a counter and returns the value before. `is_shared`: other threads count, too.
 template <bool is_shared>
 Index take_next(Index& count) {
     if constexpr (is_shared) {
@@ -31,8 +31,8 @@ Index take_next(Index& count) {
     return count++;
 }
 
-// Edge by edge: a third less time on 100k faces than by half-edges, one in two of which is the
-// wrong side.
+// The loop runs over edges. A loop over half-edges, one in two of which is to be skipped, takes
+// half as long again on 100k faces.
 template <bool is_shared>
 void add_arcs(const Surface& surface, const Corners& corners, Index begin, Index end,
               ArcGraph& graph) {

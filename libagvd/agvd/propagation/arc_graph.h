@@ -1,5 +1,5 @@
 //! \file
-//! The graph on which quick upper bounds of distances run.
+//! The graph on which upper bounds of distances are found.
 #pragma once
 
 #include <memory>
@@ -9,9 +9,9 @@
 
 namespace agvd {
 
-//! The edges of a surface, and the straight lines between the apexes of two neighbouring faces
-//! where those cross the shared edge (flips); the arcs of each vertex side by side. In float,
-//! rounded up by more than the rounding of any path along them.
+//! The arcs are the edges of a surface, and the straight lines between the apexes of two
+//! neighbouring faces where these lines cross the shared edge. The arcs of a vertex are stored side
+//! by side. Lengths are floats, rounded up by more than the rounding of any path along them.
 struct ArcGraph {
     struct Arc {
         Index head;
@@ -19,8 +19,8 @@ struct ArcGraph {
     };
     std::vector<Index> offsets;  //!< #V + 1
     std::vector<Index> ends;  //!< #V: the arcs of v are [offsets[v], ends[v]); the rest is empty.
-    //! offsets.back(); those of a vertex in any order. Not a vector: that would write everything
-    //! twice, the first time on one thread.
+    //! offsets.back() arcs; those of a vertex in any order. This is not a vector because a vector
+    //! would write everything twice, the first time on one thread.
     std::unique_ptr<Arc[]> arcs;
 
     //! Cost: O(#H) time and space.

@@ -7,13 +7,13 @@
 namespace agvd {
 namespace {
 
-// By which share the bound from another site may exceed that from the nearest where windows of both
-// may come: as much as bounds exceed distances. With .05 some 30 of 423 sites ran twice, with .08
-// six.
+// Windows of a second site may come to a face if its bound exceeds that of the nearest site by at
+// most this share. That is as much as bounds exceed distances. With .05, 30 of 423 sites ran twice;
+// with .08, six.
 constexpr double slack = 0.08;
 
-// Of the distance from its site: nearer to a border the exact one may lie anywhere. Where that is
-// less than two rings there is nothing to widen.
+// The exact border may lie this far from the border of the bounds, as a share of the distance from
+// the site. Where that is less than two rings of faces, nothing is widened.
 constexpr double shift = 0.2;
 
 // Marks vertices around changes of label, and from them the faces.
@@ -52,8 +52,8 @@ private:
         }
     }
 
-    // Goes on where two rings are too few, in cells of many faces: as far as a path from across the
-    // border may be nearly as short as the bound.
+    // Widens the marks where two rings are too few, in cells of many faces: as far as a path from
+    // the other side of the border may be nearly as short as the bound.
     void widen() {
         const double two_rings = 2 * corners_.mean_length();
         std::vector<float> across(marks_.size(), std::numeric_limits<float>::infinity());
@@ -66,7 +66,8 @@ private:
             front.push_back(vertex);
         };
         const auto for_each_neighbour = [&](Index vertex, const auto& each) {
-            // Not the last neighbour of a boundary vertex, which the rings of others find.
+            // The last neighbour of a boundary vertex is left out: the rings of other vertices find
+            // it.
             for_each_outgoing(surface_, vertex, [&](Index h) {
                 each(corners_.head(h), static_cast<float>(corners_.length(h)));
             });

@@ -10,9 +10,11 @@
 
 namespace agvd {
 
-//! #F: 1 for the faces within two rings of a change of label, and for those where a path from
-//! across the change is nearly as short as the bound. The labels come from bounds: the borders of
-//! exact distances lie farther off on few faces.
+//! Marks the faces where windows of several sites are expected: those within two rings of a change
+//! of label, and those where a path from the other side of the change is nearly as short as the
+//! bound. The labels come from bounds. On few faces the borders of exact distances lie farther off.
+//!
+//! \return #F: 1 for the marked faces.
 //!
 //! \param corners  Corners(surface).
 //! Cost: O(#F).

@@ -1,5 +1,5 @@
 //! \file
-//! The surface laid out for walks from face to face: what a step reads stands together.
+//! The surface stored for walks from face to face: what a step reads is stored side by side.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ struct alignas(32) Corner {
     Index tail;
 };
 
-//! The corners of all half-edges, and the walks on them that Surface has.
+//! The corners of all half-edges, with the functions of Surface that walks need.
 class Corners {
 public:
     //! Cost: O(#H) time and space.
@@ -34,8 +34,8 @@ public:
     [[nodiscard]] Vec2 apex(Index h) const { return corners_[h].turn * corners_[h].length; }
     [[nodiscard]] Index apex_vertex(Index h) const { return corners_[Surface::previous(h)].tail; }
 
-    //! Starts to load a face, which will be read soon. Inlined by force, as all that only
-    //! prefetches must be: g++ drops calls to it, since they change nothing.
+    //! Starts to load a face that will be read soon. Functions that only prefetch must be inlined
+    //! by force: g++ drops calls to them, since they change nothing.
     [[gnu::always_inline]] void prefetch(Index face) const {
         __builtin_prefetch(&corners_[3 * std::size_t{face}]);
         __builtin_prefetch(&corners_[3 * std::size_t{face} + 2]);
@@ -46,7 +46,7 @@ public:
 private:
     std::size_t num_half_edges_;
     double mean_length_ = 0;
-    std::unique_ptr<Corner[]> corners_;  // Not a vector: that would write everything twice.
+    std::unique_ptr<Corner[]> corners_;  // A vector would write everything twice.
 };
 
 }  // namespace agvd

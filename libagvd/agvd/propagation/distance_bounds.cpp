@@ -16,11 +16,11 @@ namespace agvd {
 namespace {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
-// Arcs are rounded up by more than all roundings of the exact distance.
+// First lengths are rounded up by more than all roundings of the exact distance.
 constexpr float round_up = 1 + 0x1p-20F;
 
-// Not below the exact sum of two numbers >= 0: thousands of short arcs must not fall short of a
-// long way by the rounding of each sum.
+// A sum of two numbers >= 0 that is not below the exact sum: the roundings of thousands of sums
+// must not make a path of short arcs too short.
 float sum_rounded_up(float a, float b) {
     const float sum = a + b;
     const float larger = std::max(a, b), smaller = std::min(a, b);
@@ -28,8 +28,8 @@ float sum_rounded_up(float a, float b) {
     return std::bit_cast<float>(std::bit_cast<std::uint32_t>(sum) + (is_short ? 1U : 0U));
 }
 
-// Distance and site in one number, in the order of (distance, site): floats above 0 are ordered
-// like their bits.
+// Distance and site in one number, in the order of (distance, site): floats >= 0 are ordered like
+// their bits.
 using Key = std::uint64_t;
 
 Key to_key(float distance, Index site) {
@@ -38,7 +38,7 @@ Key to_key(float distance, Index site) {
 float distance_of(Key key) { return std::bit_cast<float>(static_cast<std::uint32_t>(key >> 32)); }
 Index site_of(Key key) { return static_cast<Index>(key); }
 
-// Lowers a key that others may lower, too; true if it did.
+// Lowers a key that other threads may lower, too. True if it did.
 bool lower_shared(Key& shared, Key key) {
     constexpr auto relaxed = std::memory_order_relaxed;
     std::atomic_ref best(shared);
@@ -49,7 +49,7 @@ bool lower_shared(Key& shared, Key key) {
     return false;
 }
 
-// The same without the lock, which costs a tenth of a search.
+// The same for one thread. The atomic operations cost a tenth of a search.
 bool lower_alone(Key& best, Key key) {
     if (key >= best) return false;
     best = key;
@@ -57,17 +57,18 @@ bool lower_alone(Key& best, Key key) {
 }
 
 // Where the graph does not fit into caches, slabs of several steps load it less often: 10M faces
-// take .4 to .6 of the time. 100k faces would take 1.2 times it, since sites run into each other's
-// ground.
+// take .4 to .6 of the time. 100k faces would take 1.2 times the time, since sites search vertices
+// that other sites own.
 Index good_num_steps(const ArcGraph& graph) {
-    constexpr std::size_t cached = std::size_t{1} << 24;  // Bytes, or nearly.
+    constexpr std::size_t cached = std::size_t{1} << 24;  // Bytes, roughly.
     return graph.bytes() > cached ? 4 : 1;
 }
 
 }  // namespace
 
-// Label-correcting, in slabs of distance. The vertices of a slab are searched from in chunks, side
-// by side, and each chunk goes in steps of half an edge to the slab's end.
+// A label-correcting search in slabs of distance. The vertices of a slab are divided into chunks,
+// which are searched in parallel. The search of a chunk proceeds in steps of half a mean edge to
+// the end of the slab.
 BoundsSearch::BoundsSearch(const Surface& surface, const ArcGraph& graph, double mean_edge,
                            int num_threads, Index num_steps)
     : surface_(surface),
@@ -186,7 +187,7 @@ std::size_t BoundsSearch::bytes() const {
     return keys_.size() * (3 * sizeof(Index) + sizeof(Key) + sizeof(float));
 }
 
-// Steps from the beginning of the current slab.
+// The number of steps from the beginning of the current slab to a distance.
 Index BoundsSearch::steps_to(float distance) const {
     constexpr float last_step = 1 << 20;
     const auto step = static_cast<Index>(std::min(distance * per_step_, last_step));
@@ -222,7 +223,7 @@ void BoundsSearch::search_slab(std::span<const Index> starts, Chunk& chunk, Tick
             if (i + 4 < step.size()) graph_.prefetch(step[i + 4].vertex);
             const auto [from, vertex] = step[i];
             ticker.tick();
-            if (key_of(vertex) != from) continue;  // Lowered since, by whoever goes on from there.
+            if (key_of(vertex) != from) continue;  // It was lowered since, and waits again.
             for (Index a = graph_.offsets[vertex]; a < graph_.ends[vertex]; ++a) {
                 const auto [head, length] = graph_.arcs[a];
                 // Most arcs end here.

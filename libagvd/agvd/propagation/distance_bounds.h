@@ -1,5 +1,5 @@
 //! \file
-//! Quick upper bounds for the distance from the nearest site, by which windows die.
+//! Upper bounds for the distance from the nearest site: windows end where they exceed them.
 #pragma once
 
 #include <span>
@@ -13,48 +13,48 @@ namespace agvd {
 
 struct DistanceBounds {
     std::vector<float> distance;  //!< #V; infinity where no site reaches.
-    std::vector<Index> site;      //!< #V: whose path it is; no_index where none reaches.
-    std::size_t peak_bytes = 0;   //!< Most bytes held at once, result included.
+    std::vector<Index> site;     //!< #V: the site whose path it is; no_index where no site reaches.
+    std::size_t peak_bytes = 0;  //!< Most bytes held at once, result included.
 };
 
-//! Shortest paths along the arcs of a graph. Rounded up, so that no rounding of an exact distance
-//! lies above. Unique, so that neither the order in which threads relax matters nor that in which
-//! sites come and go.
+//! Shortest paths along the arcs of a graph. Lengths are rounded up, so that no rounded exact
+//! distance exceeds its bound. The result is unique: it depends neither on the order in which
+//! threads lower bounds nor on the order in which sites are added and removed.
 class BoundsSearch {
 public:
     //! \param surface, graph  outlive the search; ArcGraph of the surface.
     //! \param mean_edge       > 0, mesh units; a matter of speed only.
-    //! \param num_steps       as well; 0: as suits the graph.
+    //! \param num_steps       of a slab; a matter of speed only. 0: as suits the graph's size.
     BoundsSearch(const Surface& surface, const ArcGraph& graph, double mean_edge, int num_threads,
                  Index num_steps = 0);
     //! \param layout  outlives the search; SurfaceLayout(surface).
     BoundsSearch(const Surface& surface, const SurfaceLayout& layout, int num_threads);
 
-    //! Adds a site, whose paths the next run() follows.
+    //! Adds a site. The next run() follows its paths.
     void add(const SurfacePoint& point, Index site);
     //! The vertices from which the paths of a site start.
     [[nodiscard]] std::vector<Index> starts_of(const SurfacePoint& point) const;
-    //! Forgets all that comes from some sites; the next run() fills the gaps from outside. Sites
-    //! that start at forgotten vertices may have been hidden there and must be added again, which
-    //! is harmless for any other.
+    //! Removes the bounds of some sites. The next run() fills the gaps from outside. Other sites
+    //! that start at one of these vertices may have had no bound there: they must be added again.
+    //! To add any other site again changes nothing.
     //!
     //! \param is_removed  by site: 1 or 0. Cost: O(#V).
-    //! \return the vertices forgotten.
+    //! \return the vertices that have lost their bound.
     std::vector<Index> remove(std::span<const std::uint8_t> is_removed);
-    //! Cost: about that of one Dijkstra sweep over the edges, where anything is new.
+    //! Cost: about that of one Dijkstra sweep over the edges where something is new.
     //! \throw Cancelled  the search is of no use any more.
     void run(const Progress& progress = {});
 
     //! Infinity where no site reaches.
     [[nodiscard]] float distance(Index vertex) const;
-    //! Whose path it is; no_index where none reaches.
+    //! The site of the bound; no_index where no site reaches.
     [[nodiscard]] Index site(Index vertex) const;
     //! Vertices whose bound may have changed since the last call, in any order.
     [[nodiscard]] std::vector<Index> take_changes();
     [[nodiscard]] std::size_t bytes() const;
 
 private:
-    // What one task works with, and finds.
+    // The memory and the results of one task.
     struct Chunk {
         struct Waiting {
             std::uint64_t key;  // Stale if the vertex has another one.

@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <optional>
-#include <utility>
+#include <span>
 #include <vector>
 
 #include "agvd/core/types.h"
+#include "agvd/propagation/bucket_ring.h"
 
 namespace agvd {
 
@@ -22,32 +23,26 @@ struct FrontEntry {
     }
 };
 
-//! Pops in the order (distance, site, node). Nodes wait unsorted in buckets of equal distance
-//! range; only the bucket being served is a heap, small enough for the first cache levels, and a
-//! node that improves within its bucket is not pushed again. (One heap over the whole front took 70
-//! % of the propagation's time on 70k faces.) The caller skips the stale entries on pop. Nothing
-//! may be pushed below the last pop.
+//! The queue of searches that serve every node once: it pops in the order (distance, site, node).
+//! (BucketQueue is for searches that may serve a node again, and needs no heap.) Nodes wait
+//! unsorted in buckets of equal distance range. Only the open bucket is a heap, small enough for
+//! the first cache levels, and a node that improves within its bucket is not pushed again. (One
+//! heap over the whole front took 70 % of the propagation's time on 70k faces.) The caller skips
+//! the stale entries on pop. Nothing may be pushed below the last pop.
 class FrontQueue {
 public:
     //! \param bucket_width > 0, in mesh units; a matter of speed only, but no distance may exceed
     //!                     2^31 widths.
-    explicit FrontQueue(double bucket_width) : per_width_(1 / bucket_width), ring_(ring_size) {}
+    explicit FrontQueue(double bucket_width) : per_width_(1 / bucket_width) {}
 
     //! \param queued_in  the node's own memory of the bucket it waits in; no_index at first.
     void push(const FrontEntry& entry, Index& queued_in) {
         const auto bucket = static_cast<Index>(entry.distance * per_width_) + 1;
-        if (bucket <= current_) {
+        if (bucket <= buckets_.current()) {
             sift_up(entry);
-            return;
-        }
-        if (queued_in == bucket) return;
-        queued_in = bucket;
-        ++waiting_;
-        if (bucket < window_end_) {
-            wait_in_ring(bucket, entry.node);
-        } else {
-            far_.emplace_back(bucket, entry.node);
-            nearest_far_ = std::min(nearest_far_, bucket);
+        } else if (queued_in != bucket) {
+            queued_in = bucket;
+            buckets_.push(bucket, entry.node);
         }
     }
 
@@ -56,21 +51,12 @@ public:
     template <typename Load>
     [[nodiscard]] bool refill(const Load& load) {
         while (heap_.empty()) {
-            if (waiting_ == 0) return false;
-            ++current_;
-            if (waiting_ == far_.size()) {
-                current_ = nearest_far_;
-                open_window();
-            } else if (current_ == window_end_) {
-                open_window();
+            if (buckets_.empty()) return false;
+            const std::span<const Index> nodes = buckets_.pop_bucket();
+            const Index bucket = buckets_.current();
+            for (const Index node : nodes) {
+                if (const std::optional<FrontEntry> entry = load(node, bucket)) sift_up(*entry);
             }
-            std::vector<Index>& bucket = ring_[current_ % ring_size];
-            waiting_ -= bucket.size();
-            for (const Index node : bucket) {
-                if (const std::optional<FrontEntry> entry = load(node, current_)) sift_up(*entry);
-            }
-            ring_capacity_ -= bucket.capacity();
-            bucket = {};  // Given back: the next node here comes a thousand buckets later.
         }
         return true;
     }
@@ -85,39 +71,12 @@ public:
         return result;
     }
 
-    //! Most bytes held.
-    [[nodiscard]] std::size_t peak_bytes() const {
-        return heap_.capacity() * sizeof(FrontEntry) + ring_.capacity() * sizeof(ring_[0]) +
-               peak_waiting_ * sizeof(Index) + far_.capacity() * sizeof(far_[0]);
+    //! Bytes held. They never become fewer.
+    [[nodiscard]] std::size_t bytes() const {
+        return heap_.capacity() * sizeof(FrontEntry) + buckets_.bytes();
     }
 
 private:
-    static constexpr Index ring_size = 1024;
-
-    void wait_in_ring(Index bucket, Index node) {
-        std::vector<Index>& nodes = ring_[bucket % ring_size];
-        const std::size_t before = nodes.capacity();
-        nodes.push_back(node);
-        ring_capacity_ += nodes.capacity() - before;
-        peak_waiting_ = std::max(peak_waiting_, ring_capacity_);
-    }
-
-    // Moves the ring's window to the ring_size buckets from current_ on.
-    void open_window() {
-        window_end_ = current_ + ring_size;
-        std::vector<std::pair<Index, Index>> beyond;
-        nearest_far_ = no_index;
-        for (const auto& [bucket, node] : far_) {
-            if (bucket < window_end_) {
-                wait_in_ring(bucket, node);
-            } else {
-                beyond.emplace_back(bucket, node);
-                nearest_far_ = std::min(nearest_far_, bucket);
-            }
-        }
-        far_.swap(beyond);
-    }
-
     // 4-ary: four children of 16 bytes share a cache line.
     void sift_up(const FrontEntry& entry) {
         std::size_t i = heap_.size();
@@ -149,15 +108,8 @@ private:
     }
 
     double per_width_;
-    Index current_ = 0;  // The bucket in the heap; buckets count from 1.
-    Index window_end_ = ring_size;
-    std::vector<FrontEntry> heap_;
-    std::vector<std::vector<Index>> ring_;      // Nodes in the buckets of the window.
-    std::vector<std::pair<Index, Index>> far_;  // (bucket, node) beyond.
-    Index nearest_far_ = no_index;
-    std::size_t ring_capacity_ = 0;  // Nodes that the buckets have room for, and its maximum.
-    std::size_t peak_waiting_ = 0;
-    std::size_t waiting_ = 0;  // In ring_ and far_.
+    std::vector<FrontEntry> heap_;  // Of the open bucket.
+    BucketRing<Index> buckets_;     // Numbered from 1.
 };
 
 }  // namespace agvd

@@ -8,8 +8,8 @@
 namespace agvd {
 namespace {
 
-// Calls each(relay) for the relays of a block, and load(face) for those a few places ahead, which
-// are seldom in the cache.
+// Calls each(relay) for the relays of a block. Calls load(face) for the faces of relays a few
+// places ahead, which are seldom in the cache.
 template <typename Load, typename Each>
 void for_each_relay(const std::vector<Relay>& block, const Load& load, const Each& each) {
     constexpr std::size_t ahead = 12;
@@ -19,7 +19,7 @@ void for_each_relay(const std::vector<Relay>& block, const Load& load, const Eac
     }
 }
 
-// Range by range of the logs.
+// All loops run over the ranges of the logs, in parallel.
 class MixedFaceWriter {
 public:
     MixedFaceWriter(const Surface& surface, const SitePlacement& placement, RelayLogs logs,
@@ -57,7 +57,7 @@ public:
     }
 
 private:
-    // Where a range begins in the result: first what it has, in the place of the next one.
+    // Where a range begins in the result. At first each entry holds the counts of the range before.
     struct Begin {
         Index face = 0;  // Among the mixed ones.
         Index relay = 0;
@@ -103,7 +103,7 @@ private:
             if (face.site != FaceRelays::several) continue;
             const Index begin = relays_end;
             relays_end += face.count;
-            face.count = begin;  // From here on: where its next relay goes.
+            face.count = begin;  // From here on the place of its next relay.
             result_.mixed_faces[end] = f;
             result_.relay_ranges[end++] = {begin, relays_end};
         }

@@ -1,5 +1,6 @@
 //! \file
-//! From the windows of all sites to the relays of the faces that may hold more than one label.
+//! Sorts the windows of all sites by face: these are the relays of the faces that may hold more
+//! than one label.
 #pragma once
 
 #include "agvd/core/poller.h"
@@ -8,10 +9,11 @@
 
 namespace agvd {
 
-//! Writes the mixed faces and their relays into `result`, whose vertices are final: the faces with
-//! windows, corners or sites inside of more than one site.
+//! Writes the mixed faces and their relays into `result`, whose vertices are final. A face is mixed
+//! if its windows, its corners and the sites inside it belong to more than one site.
 //!
-//! \param logs  windows of every face that may be mixed; consumed. Relays keep their order.
+//! \param logs  the windows of every face that may be mixed; consumed. Relays of a face keep their
+//! order.
 //! Cost: O(#F + relays).
 void write_mixed_faces(const Surface& surface, const SitePlacement& placement, RelayLogs logs,
                        int num_threads, Poller& poller, Propagation& result);

@@ -1,5 +1,5 @@
 //! \file
-//! Options that an engine cannot serve.
+//! Checks of the options of propagation.
 #pragma once
 
 #include "agvd/mesh/surface.h"

@@ -16,7 +16,7 @@ namespace agvd {
 
 namespace {
 
-// \param bounds  gives the DistanceBounds, which only windows want.
+// \param bounds  a function that gives the DistanceBounds; only the window engine calls it.
 template <typename Bounds>
 Propagation carry(const Surface& surface, std::shared_ptr<const Corners> corners,
                   const Bounds& bounds, std::span<const SurfacePoint> sites,
@@ -35,8 +35,8 @@ DistanceBounds find_bounds(const Surface& surface, const SurfaceLayout& layout,
                            within(options.progress, 0, 0));
 }
 
-// Of the distinct sites. The others own nothing, but their windows would go as far as those of the
-// site they lie on.
+// Propagates the distinct sites only. A site that lies on an earlier one owns nothing, but its
+// windows would run as far as those of the earlier one.
 template <typename Run>
 Propagation propagate_distinct(const Surface& surface, std::span<const SurfacePoint> sites,
                                const PropagationOptions& options, const Run& run) {

@@ -22,13 +22,12 @@ namespace agvd {
 [[nodiscard]] Propagation propagate(const Surface& surface, std::span<const SurfacePoint> sites,
                                     const PropagationOptions& options = {});
 
-//! The same with the layout of the surface at hand, which it would make otherwise. The Steiner
-//! engine has no use for it.
+//! The same for a surface whose layout exists already. The Steiner engine does not use it.
 [[nodiscard]] Propagation propagate(const Surface& surface, const SurfaceLayout& layout,
                                     std::span<const SurfacePoint> sites,
                                     const PropagationOptions& options = {});
-//! The same for a layout that nobody needs any more: its parts, larger than the surface, go as soon
-//! as propagation is done with them.
+//! The same for a layout that is not needed any more. Its parts, which are larger than the surface,
+//! are freed as soon as propagation has used them.
 [[nodiscard]] Propagation propagate(const Surface& surface, SurfaceLayout&& layout,
                                     std::span<const SurfacePoint> sites,
                                     const PropagationOptions& options = {});

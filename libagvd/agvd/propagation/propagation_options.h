@@ -1,5 +1,5 @@
 //! \file
-//! The three engines of propagation and what can be asked of them.
+//! The three engines of propagation and their options.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace agvd {
 
-//! Who carries the distances over the faces. All hand the same Propagation to the diagram.
+//! The algorithm that carries distances over the faces. All return the same Propagation.
 enum class Engine : std::uint8_t {
     Window,   //!< Exact windows, merged as far as max_error allows: our AGVD.
     Steiner,  //!< Steiner points on the edges, [meng2023] Algorithm 1: the paper's AGVD.
@@ -25,8 +25,8 @@ struct PropagationOptions {
     //! Relative distance error, in [0, 1); 0: exact in double. Certified: see
     //! Propagation::certified_error. Unset: the window engine takes default_max_error, the Steiner
     //! engine certifies nothing. If set, the Steiner engine inserts points where they are needed
-    //! until the bound holds at every vertex, up to 1000 on an edge; it cannot be exact and refuses
-    //! 0. The vertex engine knows no bound and refuses one.
+    //! until the bound holds at every vertex, up to 1000 on an edge; it cannot be exact, and 0 is
+    //! an error. For the vertex engine it must be unset.
     std::optional<double> max_error = {};
     //! Steiner engine, m: Steiner points on each edge, in [0, 1000]; the first ones with max_error.
     int steiner_points = 8;

@@ -10,9 +10,10 @@
 
 namespace agvd {
 
-//! An additively weighted point seen from inside a face (paper Sec. 4.2): a point p of the face has
-//! distance weight + |image - p| from `site` through it. Given in the frame of `half_edge` of that
-//! face. With y < 0 the image lies across that edge: only chords through [begin, end] of the edge
+//! An additively weighted point seen from inside a face ([meng2023] Sec. 4.2): a point p of the
+//! face has distance weight + |image - p| from `site` through the relay. The image (x, y) is given
+//! in the frame of `half_edge` of that face. With y < 0 the image lies across that edge: only
+//! chords through [begin, end] of the edge
 //! are straight, others bend at the nearer end of the interval. With y >= 0 the image lies in the
 //! (convex) face itself and sees all of it.
 struct Relay {
@@ -31,11 +32,11 @@ struct RelayRange {
     friend bool operator==(const RelayRange&, const RelayRange&) = default;
 };
 
-//! Distances that differ by less, relative to their size, are tied: a few hundred roundings of a
-//! path's sum.
+//! Distances that differ by less than this share are tied: it is a few hundred roundings of a
+//! path's length.
 inline constexpr double tie_tolerance = 1e-13;
 
-//! Nearer, or tied with a lower site.
+//! Whether a site is nearer than another one, or tied with it and of a lower number.
 [[nodiscard]] inline bool is_nearer(double distance, Index site, double other_distance,
                                     Index other_site) {
     const double slack = tie_tolerance * distance;
@@ -43,21 +44,22 @@ inline constexpr double tie_tolerance = 1e-13;
     return distance <= other_distance + slack && site < other_site;
 }
 
-//! Distances are of real paths: never below the exact geodesic distance beyond rounding.
+//! Distances are lengths of real paths: but for rounding, they are never below the exact geodesic
+//! distance.
 struct Propagation {
     std::vector<SiteId> vertex_site;      //!< #V; invalid where no site reaches.
     std::vector<double> vertex_distance;  //!< #V; infinity where no site reaches.
 
-    //! Ascending: vertices that no window reached, though a site does. They have the length of a
-    //! path along edges and across pairs of faces, a rounding too long. Windows with errors leave
-    //! such gaps, and exact ones where lengths differ too much for their rounding.
+    //! Ascending: vertices that a site reaches, but no window. Their distance is the length of a
+    //! path along edges and across pairs of faces, rounded up. Windows with errors leave such gaps;
+    //! exact windows do where lengths of edges differ by more than rounding allows.
     std::vector<Index> vertices_off_windows;
 
     //! Faces that may hold more than one label, ascending. Contract: an edge between a listed and
     //! an unlisted face, and a whole unlisted face, lie in the cell of their vertices' one site.
     std::vector<Index> mixed_faces;
     std::vector<RelayRange> relay_ranges;  //!< #mixed: where the relays of each mixed face stand.
-    //! Face after face; from MovingSites in any order of faces, with others' relays in between.
+    //! Ordered by face. MovingSites stores them in any order of faces, with gaps.
     std::vector<Relay> relays;
 
     //! Certified: no distance, at a vertex or through the relays, exceeds the exact one by more

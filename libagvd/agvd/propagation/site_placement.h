@@ -1,5 +1,5 @@
 //! \file
-//! Sites seen from the mesh: on which vertex, edge or face each lies, and which sites a face holds.
+//! Which sites a face holds.
 #pragma once
 
 #include <span>
@@ -15,8 +15,8 @@ struct PlacedSite {
     SurfacePoint point;
 };
 
-//! The placed sites of each face that has any; an edge site is listed once for each side of
-//! its edge, one that lies where an earlier one does in none.
+//! The placed sites of each face. A site on an edge is listed once for each side of the edge. A
+//! site that lies where an earlier one does is not listed.
 class SitePlacement {
 public:
     SitePlacement() = default;
@@ -29,15 +29,15 @@ public:
         if (!holds_site_[face]) return {};
         return find_in_face(face);
     }
-    //! The site as seen from `face`, which must hold it: twice if it lies on an edge along which
-    //! the face is glued to itself.
+    //! The site as seen from `face`, which must hold it. There are two entries if the site lies on
+    //! an edge along which the face is glued to itself.
     [[nodiscard]] std::span<const PlacedSite> seen_from(Index face, Index site) const;
 
 private:
     [[nodiscard]] std::span<const PlacedSite> find_in_face(Index face) const;
 
     std::vector<PlacedSite> placed_;  // By (face, site).
-    std::vector<bool> holds_site_;    // #F: most faces hold none, and every face is asked.
+    std::vector<bool> holds_site_;    // #F: a quick test, since most faces hold no site.
 };
 
 }  // namespace agvd

@@ -1,5 +1,5 @@
 //! \file
-//! What a Steiner point serves across its edge: the window filter after the simplified windows of
+//! The targets that a Steiner point serves across its edge: a filter like the simplified windows of
 //! [meng2021].
 #pragma once
 
@@ -10,14 +10,16 @@
 
 namespace agvd {
 
-//! Targets [begin, end) on the far side of a face, numbered counter-clockwise: 1 .. m on the next
-//! half-edge, m + 1 the apex, from m + 2 on those on the previous one.
+//! Targets [begin, end) on the far side of a face, numbered counter-clockwise: 1 to m are the
+//! points on the next half-edge, m + 1 is the apex, and from m + 2 on the points on the previous
+//! half-edge follow.
 struct TargetRange {
     Index begin;
     Index end;
 };
 
-//! A face seen from one of its half-edges, in its frame; m + 1 intervals on each side across.
+//! A face in the frame of one of its half-edges. The m points on each of the two other sides divide
+//! it into m + 1 intervals.
 struct FarSide {
     double length;  //!< Of the half-edge.
     Vec2 apex;
@@ -35,8 +37,8 @@ struct FarSide {
         return next_intervals * (length - origin.x()) / (run - apex.x() + length);
     }
 
-    //! The strip of straight lines from the window of `parent` (below the base) to that of `here`
-    //! (on it), both one spacing wide to either side.
+    //! The targets in the strip of straight lines from the window of `parent`, below the base, to
+    //! the window of `here`, on the base. Both windows extend by one spacing to either side.
     //! \param spacing         of the points on the base.
     //! \param parent_spacing  from the parent to its neighbour on its own edge, up to sign.
     [[nodiscard]] TargetRange visible_targets(const Vec2& here, double spacing, const Vec2& parent,

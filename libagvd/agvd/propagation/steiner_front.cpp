@@ -2,10 +2,10 @@
 //
 // Symbols: m = counts_[edge], Q = queue_, lambda n = retirement_interval; d(a), d(b), |e| as named.
 //
-// A Steiner point stands for a window around it, seen from its parent, so it serves only the
-// targets across its edge inside the fan through both windows; vertices serve their whole one-ring.
-// So every target is reached, by a path of the graph, and d(x) <= (d(a) + d(b) + |e|) / 2 holds on
-// every edge.
+// A Steiner point represents a window around it, seen from its parent. So it serves only the
+// targets across its edge inside the fan through both windows. Vertices serve their whole one-ring.
+// So a path of the graph reaches every target, and d(x) <= (d(a) + d(b) + |e|) / 2 holds on every
+// edge.
 
 #include "agvd/propagation/steiner_front.h"
 
@@ -17,8 +17,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t poll_interval = 1 << 16;
 
-// A share of the mean spacing of the nodes, so that most improvements stay within a bucket; and no
-// path is longer than all edges together.
+// The width is a share of the mean spacing of the nodes, so that most improvements stay within a
+// bucket. No path is longer than all edges together, which bounds the number of buckets.
 double bucket_width(const Surface& surface, const SteinerCounts& counts) {
     constexpr double share = 0.15;
     double sum = 0;
@@ -85,7 +85,7 @@ void SteinerFront::run(double retirement_interval, const Progress& progress) {
 Propagation SteinerFront::finish() {
     retirement_.retire_behind(infinity);
     const std::size_t common =
-        vertices_.capacity() * sizeof(SteinerNode) + retirement_.bytes() + queue_.peak_bytes();
+        vertices_.capacity() * sizeof(SteinerNode) + retirement_.bytes() + queue_.bytes();
     Propagation result;
     result.peak_bytes = common + pool_.peak_bytes();
     pool_.clear();
@@ -143,8 +143,8 @@ void SteinerFront::relax_vertex(Index from, double distance, Index site, Index s
     relax(vertices_[v], v, distance, site, from, slot);
 }
 
-// Serves the points [begin, end) of half-edge `from` (1 .. m counted from its tail), whose
-// positions run on the line tail + t * along, from `source` in the same frame.
+// Serves the points [begin, end) of half-edge `from`, which are numbered 1 to m from its tail. They
+// lie on the line tail + t * along, in the frame of `source`.
 void SteinerFront::relax_points(Index from, Index begin, Index end, const Vec2& tail,
                                 const Vec2& along, const Vec2& source, double base, Index site,
                                 Index slot) {
@@ -167,13 +167,13 @@ void SteinerFront::relax_points(Index from, Index begin, Index end, const Vec2& 
     }
 }
 
-// All points of a half-edge.
+// Serves all points of a half-edge.
 void SteinerFront::relax_side(Index from, const Vec2& tail, const Vec2& along, const Vec2& source,
                               double base, Index site, Index slot) {
     relax_points(from, 1, counts_[surface_.edge[from]] + 1, tail, along, source, base, site, slot);
 }
 
-// The whole boundary of a face from a point inside it or on it.
+// Serves the whole boundary of a face from a point inside it or on it.
 void SteinerFront::serve_face(Index face, Index site, const SurfacePoint& point) {
     for (Index k = 0; k < 3; ++k) {
         const Index h = 3 * face + k;
@@ -235,7 +235,7 @@ void SteinerFront::serve_onward(Index edge, Index point) {
 
     const Vec2 p = slot_position(node, Vec2(length, 0) - here);
     const Vec2 parent(length - p.x(), -p.y());
-    if (!(parent.y() < 0)) return;  // Came along its own edge: the parent serves both sides.
+    if (!(parent.y() < 0)) return;  // The path came along the edge: the parent serves both sides.
     const Vec2& apex = surface_.apex[out];
     const Index next = Surface::next(out);
     const Index previous = Surface::previous(out);
@@ -255,7 +255,8 @@ void SteinerFront::serve_onward(Index edge, Index point) {
                  here, node.distance, node.site, FaceRing::slot(1, j));
 }
 
-// Where the path's previous node lies, in the frame of node.from, in which the node is `here`.
+// The position of the path's previous node in the frame of node.from. `here`: the position of the
+// node in that frame.
 Vec2 SteinerFront::slot_position(const SteinerNode& node, const Vec2& here) const {
     if (node.parent_slot == FaceRing::site_slot) {
         const auto places = placement_.seen_from(Surface::face(node.from), node.site);
@@ -269,8 +270,8 @@ Vec2 SteinerFront::slot_position(const SteinerNode& node, const Vec2& here) cons
     return FaceRing::position(surface_, counts_, node.from, node.parent_slot);
 }
 
-// From there to its neighbour on its own edge, up to sign; no window around a vertex or a site. The
-// parent does not lie on the node's edge.
+// The vector from the parent to its neighbour on the parent's edge, up to sign; 0 for a vertex or a
+// site, which has no window. The parent must not lie on the node's edge.
 Vec2 SteinerFront::parent_spacing(const SteinerNode& node) const {
     if (node.parent_slot == FaceRing::site_slot || FaceRing::number_of(node.parent_slot) == 0) {
         return {0, 0};

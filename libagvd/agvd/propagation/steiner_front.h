@@ -14,12 +14,13 @@
 
 namespace agvd {
 
-//! One propagation over given Steiner points: run(), then finish(). A node knows the face its path
-//! came through and the previous node on that face's boundary (its parent); between the two calls
-//! the nodes of faces that have not retired can be read.
+//! One propagation over given Steiner points: run(), then finish(). A node stores the face that its
+//! path came through and its parent, the previous node on the boundary of that face. Between the
+//! two calls the nodes of faces that have not retired can be read.
 class SteinerFront {
 public:
-    //! \param counts  outlives the front, as the others do; NodeNumbers suffice for it.
+    //! \param counts  outlives the front, as the other arguments do; NodeNumbers must suffice for
+    //! it.
     SteinerFront(const Surface& surface, std::span<const SurfacePoint> sites,
                  const SteinerCounts& counts);
 
@@ -28,12 +29,12 @@ public:
     //!                             nodes.
     //! \throw Cancelled
     void run(double retirement_interval, const Progress& progress);
-    //! Retires what is left. No point can be read afterwards.
+    //! Retires the faces that are left. Afterwards no point can be read.
     [[nodiscard]] Propagation finish();
 
     [[nodiscard]] const std::vector<SteinerNode>& vertices() const { return vertices_; }
-    //! Node j of a half-edge: 0 its tail, otherwise a point, counted from there. The half-edge has
-    //! a face, on either side, that has not retired.
+    //! Node j of a half-edge: 0 is its tail, the others are its points, counted from the tail. A
+    //! face on one side of the half-edge has not retired.
     [[nodiscard]] const SteinerNode& node(Index half_edge, Index j) const;
 
 private:

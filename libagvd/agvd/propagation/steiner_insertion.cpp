@@ -42,8 +42,8 @@ void SteinerInsertion::mark_between(std::span<const double> distance, Index vert
 }
 
 // A point x of the path has d(x) + |x - vertex| <= d(vertex), and a corner of its face is nearer to
-// x than reach times the longest side. Faces need not lie in space, but vertices do, no farther
-// apart than over the surface.
+// x than `reach` times the longest side. Distances in space are used: those of vertices do not
+// exceed distances over the surface, even if faces do not lie in space.
 bool SteinerInsertion::may_be_crossed(Index face, std::span<const double> distance,
                                       Index vertex) const {
     constexpr double reach = 0.58;  // 1 / sqrt(3), rounded up: an equilateral triangle's middle.

@@ -8,7 +8,7 @@
 
 namespace agvd {
 
-//! A number of points for each edge, which grows on the edges marked.
+//! The number of points on each edge. It grows on marked edges.
 class SteinerInsertion {
 public:
     //! \param points  on every edge at first.
@@ -17,17 +17,17 @@ public:
     //! #E
     [[nodiscard]] const std::vector<std::uint16_t>& points() const { return points_; }
 
-    //! Marks the edges of the faces that the path to a vertex crosses, and of the vertices it
-    //! passes.
-    //! \param front  has run and kept all nodes.
+    //! Marks the edges of the faces that the path to a vertex crosses, and the edges at the
+    //! vertices that it passes.
+    //! \param front  a front that has run and kept all nodes.
     void mark_path(const SteinerFront& front, Index vertex);
 
     //! Marks the edges of all faces that a shortest path from a site to a vertex can cross.
     //! \param distance  #V: from the nearest site.
     void mark_between(std::span<const double> distance, Index vertex);
 
-    //! Halves the spacing on the marked edges, as far as there is room, and takes the marks away;
-    //! false if there was no room.
+    //! Halves the spacing on the marked edges, as far as there is room, and removes the marks.
+    //! False if there was no room.
     [[nodiscard]] bool insert();
 
     [[nodiscard]] std::size_t bytes() const {
@@ -44,7 +44,7 @@ private:
     const Surface& surface_;
     std::vector<std::uint16_t> points_;  // #E
     std::vector<bool> is_marked_;        // #E
-    std::vector<Index> visited_for_;     // #F: the last vertex whose paths were looked for here.
+    std::vector<Index> visited_for_;     // #F: the last vertex whose paths were sought in the face.
 };
 
 }  // namespace agvd

@@ -1,5 +1,5 @@
 //! \file
-//! The nodes of the Steiner graph: vertices, and on each edge its number of evenly spaced points.
+//! The nodes of the Steiner graph: the vertices, and evenly spaced points on each edge.
 #pragma once
 
 #include <algorithm>
@@ -13,16 +13,16 @@
 
 namespace agvd {
 
-//! The state of one node; the fields are read together, so they share one 24-byte record.
+//! The state of one node: a record of 24 bytes, since its fields are read together.
 struct SteinerNode {
     double distance = std::numeric_limits<double>::infinity();
     Index site = no_index;
     //! The half-edge, in the face that the path came through, on which the node lies (a vertex: at
     //! whose tail it lies); no_index for a vertex that is a site.
     Index from = no_index;
-    //! Where the path's previous node lies on the boundary of that face: see FaceRing.
+    //! The place of the path's previous node on the boundary of that face: see FaceRing.
     std::uint16_t parent_slot = 0;
-    Index queued_in = no_index;  //!< The queue's memory; settled once served.
+    Index queued_in = no_index;  //!< Used by the queue; `settled` once the node is served.
 
     static constexpr Index settled = no_index - 1;
     [[nodiscard]] bool is_settled() const { return queued_in == settled; }
@@ -31,7 +31,7 @@ static_assert(sizeof(SteinerNode) == 24);
 
 inline constexpr int max_steiner_points = 1000;  //!< On an edge.
 
-//! How many Steiner points each edge has: one number for all, or one for each.
+//! The number of Steiner points of each edge: one number for all edges, or one for each.
 class SteinerCounts {
 public:
     explicit SteinerCounts(Index uniform)
@@ -61,8 +61,8 @@ private:
     Index most_;
 };
 
-//! Nodes are numbered vertices first, then edges in steps of 2^shift >= most, so that a node's edge
-//! is a shift and not a division.
+//! Numbers of nodes: vertices first, then the points of each edge in steps of 2^shift, at least the
+//! most points of an edge. So the edge of a node is found by a shift, not by a division.
 class NodeNumbers {
 public:
     NodeNumbers(const Surface& surface, Index most_points)

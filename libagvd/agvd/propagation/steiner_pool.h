@@ -1,6 +1,6 @@
 //! \file
-//! Where the Steiner points live: in blocks of one edge each, taken from a pool when the front
-//! arrives and given back when both faces are done.
+//! The memory of Steiner points: a block for each edge, which is taken when the front arrives and
+//! given back when both faces are done.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@
 
 namespace agvd {
 
-//! Blocks of nodes, one per live edge.
+//! Blocks of nodes, one for each live edge.
 class SteinerPool {
 public:
     SteinerPool(Index num_edges, const SteinerCounts& counts)
@@ -21,8 +21,8 @@ public:
 
     [[nodiscard]] bool is_retired(Index edge) const { return first_[edge] == retired; }
 
-    //! The nodes of a live edge that has any, in the direction of its edge_half; created on first
-    //! use.
+    //! The nodes of a live edge, in the direction of its edge_half. They are made on first use. The
+    //! edge must have points.
     [[nodiscard]] SteinerNode* nodes(Index edge) {
         if (first_[edge] == never_used) first_[edge] = take_block(counts_[edge]);
         return node_at(first_[edge]);
@@ -36,7 +36,7 @@ public:
         first_[edge] = retired;
     }
 
-    //! Gives everything back: every edge is retired.
+    //! Gives all memory back: every edge is retired.
     void clear() {
         std::fill(first_.begin(), first_.end(), retired);
         chunks_.clear();
@@ -66,7 +66,7 @@ private:
             return first;
         }
         const Index chunk_size = Index{1} << chunk_shift_;
-        if (next_ + size > end_of_chunk_) {  // What is left of the chunk is less than a block.
+        if (next_ + size > end_of_chunk_) {  // The rest of the chunk is smaller than a block.
             next_ = end_of_chunk_;
             end_of_chunk_ += chunk_size;
             chunks_.push_back(std::make_unique<SteinerNode[]>(chunk_size));

@@ -16,7 +16,7 @@ constexpr double rounding = 1e-12;
 
 constexpr int max_rounds = 20;
 
-// Relative errors of the vertices in a round, and in the one before.
+// Relative errors of the vertices in a round and in the round before.
 class VertexErrors {
 public:
     explicit VertexErrors(Index num_vertices) : error_(num_vertices, infinity), before_(error_) {}
@@ -34,7 +34,7 @@ public:
 
     [[nodiscard]] double operator[](Index v) const { return error_[v]; }
     [[nodiscard]] Index worst() const { return worst_; }
-    // More points along its path were of little use.
+    // More points along the path have reduced the error only a little.
     [[nodiscard]] bool is_stuck(Index v) const {
         constexpr double share = 0.9;
         return error_[v] > share * before_[v];
@@ -47,7 +47,7 @@ private:
     Index worst_ = 0;
 };
 
-// Errors fall with the square of the spacing at most, but for luck with where points lie.
+// Errors fall with the square of the spacing at most, unless points happen to lie well.
 bool is_in_reach(double error, double max_error, Index most_points) {
     constexpr double luck = 10;
     const double finer = (most_points + 1.0) / (max_steiner_points + 1.0);

@@ -42,7 +42,7 @@ void SteinerRelays::collect(Index face, std::vector<Relay>& out) {
     }
     for (Index h = 3 * face; h < 3 * face + 3; ++h) {
         const SteinerNode& corner = vertices_[surface_.tail(h)];
-        if (corner.from != h) {  // Else its parent in this face stands for it.
+        if (corner.from != h) {  // Else its parent in this face replaces it.
             add_relay(h, {0, 0}, corner.distance, corner.site, out);
         }
         const Index twin = surface_.twin[h];
@@ -50,7 +50,7 @@ void SteinerRelays::collect(Index face, std::vector<Relay>& out) {
     }
 }
 
-// Images, in the frame of h, of the parents in the neighbour from which nodes on h were
+// Adds the images, in the frame of h, of the parents in the neighbour from which nodes on h were
 // reached.
 void SteinerRelays::collect_across(Index h, Index twin, std::vector<Relay>& out) {
     const double length = surface_.length_of(h);
@@ -58,7 +58,8 @@ void SteinerRelays::collect_across(Index h, Index twin, std::vector<Relay>& out)
     const Index neighbour = Surface::face(twin);
     for (const PlacedSite& placed : placement_.in_face(neighbour)) {
         const Vec2 image = mirrored(position_in_frame(surface_, placed.point, twin));
-        if (image.y() < 0) add_relay(h, image, 0, placed.site, out);  // Edge sites: in_face(face).
+        // Sites on the edge are in in_face(face), too.
+        if (image.y() < 0) add_relay(h, image, 0, placed.site, out);
     }
     const Index edge = surface_.edge[h];
     const Index m = counts_[edge];

@@ -1,6 +1,5 @@
 //! \file
-//! From settled Steiner points to relays: the hand-over from the paper's propagation to the
-//! diagram.
+//! Makes relays from settled Steiner points.
 #pragma once
 
 #include <span>
@@ -12,7 +11,7 @@
 
 namespace agvd {
 
-//! Reads the nodes around a face that no longer change.
+//! Reads nodes that no longer change, around one face at a time.
 //!
 //! Inside a face, a node whose parent lies on the same face is dominated by that parent (triangle
 //! inequality), and one that came through a neighbour is dominated by its parent's image, unfolded
@@ -29,8 +28,8 @@ public:
           vertices_(vertices),
           pool_(pool) {}
 
-    //! Not redundant (Sec. 4.3): more than one site on the face's boundary; or a site inside, or
-    //! inside a neighbour, may have a cell that slips between the nodes.
+    //! Whether a face is not redundant (Sec. 4.3): its boundary has nodes of several sites, or a
+    //! site in the face or in a neighbour may have a cell that lies between the nodes.
     [[nodiscard]] bool is_mixed(Index face);
 
     //! Appends the relays of a face.

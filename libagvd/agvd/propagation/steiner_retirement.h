@@ -1,6 +1,6 @@
 //! \file
-//! Faces behind the front hand over their relays and give their Steiner points back
-//! ([meng2023] Sec. 5.2).
+//! Retirement of faces behind the front: their relays are made, and their Steiner points are given
+//! back ([meng2023] Sec. 5.2).
 #pragma once
 
 #include <vector>
@@ -9,7 +9,8 @@
 
 namespace agvd {
 
-//! Follows the front. The vertices and the pool are the propagation's own.
+//! Retires faces while the front proceeds. It works on the vertices and the pool of the
+//! propagation.
 class SteinerRetirement {
 public:
     SteinerRetirement(const Surface& surface, const SitePlacement& placement,
@@ -21,7 +22,7 @@ public:
           collector_(surface, placement, counts, vertices, pool),
           state_(surface.num_faces(), State::Untouched) {}
 
-    //! The front has come to a face.
+    //! To be called when the front has come to a face.
     void open(Index face) {
         if (state_[face] != State::Untouched) return;
         state_[face] = State::Open;
@@ -54,8 +55,8 @@ private:
     SteinerRelays collector_;
     std::vector<State> state_;  // #F
     std::vector<Index> open_;
-    std::vector<Index> mixed_faces_;    // In the order of retirement,
-    std::vector<Index> relay_offsets_;  // and where the relays of each begin.
+    std::vector<Index> mixed_faces_;    // In the order of retirement.
+    std::vector<Index> relay_offsets_;  // Where the relays of each mixed face begin.
     std::vector<Relay> relays_;
 };
 

@@ -1,5 +1,5 @@
 //! \file
-//! What propagation needs of a surface besides it: made once, used with any sites.
+//! What propagation computes from the surface alone: made once, used with any sites.
 #pragma once
 
 #include <memory>
@@ -12,8 +12,8 @@ namespace agvd {
 struct ArcGraph;
 class Corners;
 
-//! For callers that propagate on one surface again and again. About 160 bytes per face, beyond the
-//! surface. Immutable, so that threads may share it.
+//! For callers that propagate on one surface several times. It takes about 160 bytes per face,
+//! beyond the surface. It is immutable, so that threads may share it.
 class SurfaceLayout {
 public:
     //! \param num_threads  >= 0; 0: all cores.
@@ -26,7 +26,7 @@ public:
     ~SurfaceLayout();
 
     [[nodiscard]] const Corners& corners() const { return *corners_; }
-    //! For whoever outlives this.
+    //! Shared ownership, for users that outlive the layout.
     [[nodiscard]] std::shared_ptr<const Corners> shared_corners() const { return corners_; }
     [[nodiscard]] const ArcGraph& arcs() const { return *arcs_; }
     [[nodiscard]] std::size_t bytes() const;

@@ -20,26 +20,26 @@
 namespace agvd {
 namespace {
 
-// A chord that passes outside a wedge by no more than this angle counts as inside: it bends by no
-// more, and is short by the square of it.
+// A chord that passes outside a wedge by at most this angle counts as inside. The path bends by at
+// most the angle, and its length is too short by the square of it.
 constexpr double angle_tolerance = 1e-7;
-// The parts of a wedge at a vertex that are narrower than this angle are let go: they would hardly
+// The parts of a wedge at a vertex that are narrower than this angle are dropped: they would hardly
 // meet another vertex.
 constexpr double least_width = 2e-2;
-// A wedge goes on past a vertex nearer to something else while it leads, up to this share of its
-// distance, at an end of the edge it crosses.
+// A wedge passes a vertex that has a nearer source if the wedge is the nearest, up to this share of
+// its distance, at an end of the edge that it crosses.
 constexpr double lead_tolerance = 1e-6;
-// Faces that a wedge crosses in search of a vertex. More is more accurate where sites are far apart
-// (30, with narrower wedges: a tenth of the error on 70k faces with 100 sites, for three times the
-// time).
+// The number of faces that a wedge crosses in search of a vertex. More faces give more accurate
+// distances where sites are far apart: with 30 and narrower wedges, a tenth of the error on 70k
+// faces with 100 sites, in three times the time.
 constexpr int max_crossings = 8;
-// The same for the shadow behind a saddle vertex, mostly too narrow to meet any but the next
-// vertex.
+// The same for the shadow behind a saddle vertex. In most cases it is too narrow to meet another
+// vertex than the next one.
 constexpr int max_shadow_crossings = 2;
 // Width of the queue's buckets in mean edge lengths.
 constexpr double bucket_share = 0.4;
-// Nodes looked up ahead of their turn.
-constexpr std::size_t look_ahead = 8;
+// How many nodes ahead are loaded.
+constexpr Index look_ahead = 8;
 
 struct Wedge {
     Vec2 tail, head;  // Of the half-edge about to be crossed.
@@ -61,14 +61,15 @@ public:
           corners_(corners),
           reach_(surface.num_vertices()),
           views_(surface.num_vertices()),
-          queue_(bucket_width(surface, corners)) {}
+          queue_(1 / bucket_width(surface, corners)) {}
 
     Propagation run() {
         for (Index s = 0; s < sites_.size(); ++s) start(s);
         std::size_t served = 0;
-        for (Index v = queue_.pop(); v != no_index; v = queue_.pop()) {
+        while (!queue_.empty()) {
+            const Index v = queue_.pop();
             prefetch();
-            if (!queue_.take(v, reach_[v].distance, reach_[v].queued_in)) continue;
+            if (!queue_.take(reach_[v].queued_in)) continue;
             serve(v);
             if (++served % poll_interval == 0) {
                 const double share = static_cast<double>(served) / surface_.num_vertices();
@@ -88,15 +89,15 @@ private:
                          std::numeric_limits<double>::min()});
     }
 
-    // The nodes to come are known, and lie anywhere in memory.
+    // Loads the next nodes, which may lie anywhere in memory.
     [[gnu::always_inline]] void prefetch() const {
-        if (const Index v = queue_.peek(look_ahead); v != no_index) {
-            __builtin_prefetch(&reach_[v]);
-            __builtin_prefetch(&views_[v]);
+        if (const Index* const v = queue_.peek(look_ahead)) {
+            __builtin_prefetch(&reach_[*v]);
+            __builtin_prefetch(&views_[*v]);
         }
-        const auto face_of = [&](std::size_t ahead) {
-            const Index v = queue_.peek(ahead);
-            const Index h = v == no_index ? no_index : views_[v].half_edge;
+        const auto face_of = [&](Index ahead) {
+            const Index* const v = queue_.peek(ahead);
+            const Index h = v == nullptr ? no_index : views_[*v].half_edge;
             return h == no_index ? no_index : Surface::face(h);
         };
         if (const Index face = face_of(look_ahead / 2); face != no_index) corners_.prefetch(face);
@@ -142,12 +143,14 @@ private:
         return w.tail + turned(w.head - w.tail, corners_[w.half_edge].turn);
     }
 
-    // The wedge of a vertex that has just been overtaken, if it waited there: it must not be lost.
+    // Whether the wedge of a vertex that has just got another view still waited there. Such a wedge
+    // must be traced on.
     [[nodiscard]] static bool has_waited(const VertexReach& before, const VertexView& loser) {
         return before.queued_in != no_index && loser.kind == ViewKind::Window;
     }
 
-    // Lays out faces until the wedge meets a vertex that it improves; the loser of the two goes on.
+    // Lays out faces until the wedge meets a vertex that it improves. If the wedge of that vertex
+    // still waited, it is traced on.
     void trace(Wedge w, int crossings) {
         for (; crossings > 0 && w.half_edge != no_index; --crossings) {
             const Index h = w.half_edge;
@@ -175,7 +178,7 @@ private:
         }
     }
 
-    // Improves a vertex otherwise than by a wedge.
+    // Improves a vertex by a view that is not a wedge.
     void overtake(Index v, double distance, Index site, const VertexView& view) {
         const VertexReach before = reach_[v];
         if (!improve(v, distance, site)) return;
@@ -186,8 +189,8 @@ private:
         if (pass(w, max_crossings)) trace(w, max_crossings - 1);
     }
 
-    // Beyond the apex of its face, which is nearer to something else, a wedge keeps the sides on
-    // which it leads. One of them is traced here if there are two; false if there is none.
+    // The apex of the face has a nearer source. Beyond it the wedge keeps the sides on which it is
+    // the nearest. If these are two, the right one is traced here. False if there is none.
     [[nodiscard]] bool pass(Wedge& w, int crossings) {
         const Vec2 apex = apex_of(w);
         const auto leads_at = [&](const Vec2& end, Index vertex) {
@@ -204,8 +207,7 @@ private:
         return keep_left(w, apex);
     }
 
-    // The part left of the apex, about to leave the face; false if it is too
-    // narrow.
+    // Keeps the part left of the apex, about to leave the face. False if it is too narrow.
     [[nodiscard]] bool keep_left(Wedge& w, const Vec2& apex) const {
         const Vec2 chord = apex - w.image;
         if (!(cross_product(chord, w.left) > least_width * w.left.dot(chord))) return false;
@@ -224,8 +226,8 @@ private:
         return true;
     }
 
-    // All that a point of the face of h sees through an edge from `tail` to `head` seen from
-    // outside, whose half-edge there is `out`; in the frame of h.
+    // Traces all that a point of the face of h sees through an edge. `out`: the half-edge of that
+    // edge in the face beyond, from `tail` to `head`. Coordinates are in the frame of h.
     void look_through(Index out, const Vec2& tail, const Vec2& head, const Vec2& point,
                       double weight, Index site) {
         trace({tail, head, point, tail - point, head - point, weight, site, out}, max_crossings);
@@ -303,8 +305,8 @@ private:
         }
     }
 
-    // What the tail of h sees beside its head, through the edges opposite to it in the two faces at
-    // h. The neighbour at the other end of such an edge may have looked through it already.
+    // Traces what the tail of h sees beside the head, through the edges opposite to it in the two
+    // faces at h. The neighbour at the other end of such an edge may have traced that already.
     void look_past_head(Index h, const VertexReach& at_head) {
         const auto has_looked = [&](Index spoke) {
             const Index v = corners_.head(spoke);
@@ -326,18 +328,19 @@ private:
         overtake(v, distance, site, {{0, 0}, 0, {}, {}, h, kind});
     }
 
-    // The neighbours, along the edges; and the shadow of a saddle vertex.
+    // Serves the neighbours along the edges, and the shadow of a saddle vertex.
     //
     // \param first  a half-edge from the vertex.
-    // \param back   where the path to the vertex comes from, in the frame of `first`, in its face.
+    // \param back   towards where the path to the vertex comes from, in the frame of `first`.
     void serve_ring(const VertexReach& reach, Index first, const Vec2& back) {
         if (first == no_index) return;
         const Vec2 begin(corners_.length(first), 0);
-        Vec2 spoke = begin;  // h, laid out around the vertex at the origin.
+        Vec2 spoke = begin;  // The half-edge h, laid out around the vertex at the origin.
         double side = cross_product(back, spoke);
         int half_turns = 0;
-        Vec2 right_of_ahead(0, 0), left_of_ahead(0, 0);  // The spokes around the way straight on.
-        Index ahead = no_index;                          // The half-edge on its right.
+        // The edges on both sides of the way straight on, and the half-edge on its right.
+        Vec2 right_of_ahead(0, 0), left_of_ahead(0, 0);
+        Index ahead = no_index;
         Index h = first;
         do {
             const Corner& corner = corners_[h];
@@ -362,12 +365,12 @@ private:
             }
         } while (h != first);
         if (half_turns != 1) return;
-        // Straight on lies half a turn from `back`, counted from either side; between the two lies
-        // what the angle of the cone exceeds 2 pi by. If a neighbour lies there, it will look past
-        // itself from this vertex.
+        // The way straight on lies half a turn from `back`, counted from either side. At a saddle
+        // vertex these are two ways, with the excess of the angle over 2 pi between them. If a
+        // neighbour lies between them, look_past_head() will serve what lies behind the neighbour.
         const Vec2 excess(begin.dot(spoke), cross_product(begin, spoke));
         if (!(excess.x() > 0 && excess.y() > angle_tolerance * excess.x())) return;
-        const Vec2 right = -back.normalized();  // Not products of lengths: a view keeps floats.
+        const Vec2 right = -back.normalized();  // Unit vectors, since a view stores floats.
         const Vec2 left = turned(right, excess.normalized());
         if (cross_product(left, left_of_ahead) <= 0) return;
         trace({left_of_ahead, right_of_ahead, Vec2(0, 0), left, right, reach.distance, reach.site,
@@ -375,7 +378,7 @@ private:
               max_shadow_crossings);
     }
 
-    // The part of a boundary vertex's ring that lies clockwise of half-edge h.
+    // Serves the part of a boundary vertex's ring that lies clockwise of half-edge h.
     void serve_clockwise(Index h, const VertexReach& reach) {
         while (corners_.twin(h) != no_index) {
             h = Surface::next(corners_.twin(h));
@@ -417,7 +420,7 @@ private:
         return result;
     }
 
-    static constexpr std::size_t relays_per_face = 3;  // On average, seldom exceeded.
+    static constexpr std::size_t relays_per_face = 3;  // An average that is seldom exceeded.
 
     const Surface& surface_;
     std::span<const SurfacePoint> sites_;
@@ -426,7 +429,7 @@ private:
     const Corners& corners_;
     std::vector<VertexReach> reach_;  // #V
     std::vector<VertexView> views_;   // #V
-    BucketQueue queue_;
+    BucketQueue<Index> queue_;
 };
 
 }  // namespace

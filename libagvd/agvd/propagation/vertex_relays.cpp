@@ -47,7 +47,7 @@ void VertexRelays::collect(Index face, std::vector<Relay>& out) const {
             const VertexReach& reach = reach_[corners_.tail(h)];
             add_point(h, {0, 0}, reach.distance, reach.site, out);
         }
-        // The neighbour's far corner, where an end of h was reached from there.
+        // The neighbour's far corner is a relay if an end of h was reached from it.
         const Index other = source[(k + 1) % 3];
         const Index twin = corners_.twin(h);
         if (twin == no_index || (source[k] == no_index && other == no_index)) continue;
@@ -59,7 +59,7 @@ void VertexRelays::collect(Index face, std::vector<Relay>& out) const {
     }
 }
 
-// The sites in a face and in its neighbours.
+// Adds the sites in a face and in its neighbours.
 void VertexRelays::collect_sites(Index face, std::vector<Relay>& out) const {
     for (const PlacedSite& placed : placement_.in_face(face)) {
         const Vec2 p = position_in_frame(surface_, placed.point, 3 * face);
@@ -70,13 +70,13 @@ void VertexRelays::collect_sites(Index face, std::vector<Relay>& out) const {
         if (twin == no_index) continue;
         for (const PlacedSite& placed : placement_.in_face(Surface::face(twin))) {
             const Vec2 p = position_in_frame(surface_, placed.point, twin);
-            if (!(p.y() > 0)) continue;  // On the edge: a site of this face too.
+            if (!(p.y() > 0)) continue;  // It lies on the edge, and so in this face, too.
             add_point(h, {corners_.length(h) - p.x(), -p.y()}, 0, placed.site, out);
         }
     }
 }
 
-// A point that sees the whole face, or all of it that lies behind h.
+// Adds a point that sees the whole face, or all of it that lies behind h.
 void VertexRelays::add_point(Index h, const Vec2& p, double weight, Index site,
                              std::vector<Relay>& out) const {
     out.push_back({p.x(), p.y(), weight, 0, corners_.length(h), SiteId(site), h});
@@ -89,8 +89,9 @@ Index VertexRelays::source_of(const VertexView& view) const {
     return no_index;
 }
 
-// Whether another relay of the face stands for the corner at the tail of h; adds that which the
-// corner sees through an edge. By half-edges: the face may have the vertex at another corner, too.
+// Whether another relay of the face replaces the corner at the tail of h. Adds the image that the
+// corner sees through an edge. Corners are compared by half-edges, since the face may have the
+// vertex at another corner, too.
 bool VertexRelays::is_served(Index h, std::vector<Relay>& out) const {
     const Index vertex = corners_.tail(h);
     const VertexView& view = views_[vertex];
@@ -112,9 +113,10 @@ bool VertexRelays::is_served(Index h, std::vector<Relay>& out) const {
         }
         return false;
     }
-    // In the neighbours: opposite to the corner, and from it to their far corner.
+    // Edges of the neighbours: the one opposite to the corner, and the one from it to the far
+    // corner.
     const bool is_beside[2] = {across[0] != no_index, across[1] != no_index};
-    if (view.kind == ViewKind::Face) {  // The site is a relay of its face and of the next ones.
+    if (view.kind == ViewKind::Face) {  // The site is a relay of its face and of the neighbours.
         return view.half_edge == Surface::next(h) ||
                (is_beside[0] && view.half_edge == Surface::previous(across[0])) ||
                (is_beside[1] && view.half_edge == Surface::next(across[1]));
@@ -125,7 +127,7 @@ bool VertexRelays::is_served(Index h, std::vector<Relay>& out) const {
            (is_beside[1] && along == surface_.edge[Surface::previous(across[1])]);
 }
 
-// The view of one end of half-edge h, in the face across h: what of it passes h.
+// Adds what passes h of the view of one end of h, which lies in the face across h.
 bool VertexRelays::add_across(Index h, const VertexView& view, Index site,
                               std::vector<Relay>& out) const {
     const Vec2 apex = corners_.apex(view.half_edge);
@@ -146,7 +148,7 @@ bool VertexRelays::add_across(Index h, const VertexView& view, Index site,
     return true;
 }
 
-// An image below half-edge h that sees what lies between two directions.
+// Adds an image below half-edge h that sees what lies between two directions.
 void VertexRelays::add_image(Index h, const Vec2& image, double weight, Index site,
                              const Vec2& left, const Vec2& right, std::vector<Relay>& out) const {
     const double length = corners_.length(h);

@@ -1,5 +1,5 @@
 //! \file
-//! From the views of the vertices to relays: the hand-over from the vertex engine to the diagram.
+//! Makes relays from the views of the vertices.
 #pragma once
 
 #include <span>
@@ -14,10 +14,10 @@ namespace agvd {
 
 //! Reads vertices that no longer change.
 //!
-//! A face gets the images that its corners see through one of its edges, with the interval through
-//! which they are known to be seen; those of sites in a neighbour, and of a neighbour's far corner
-//! from which the shared edge was reached; and its corners themselves, where none of these stands
-//! for them.
+//! The relays of a face are: the images that its corners see through one of its edges, with the
+//! interval through which they are known to be seen; the sites in a neighbour; a neighbour's far
+//! corner from which the shared edge was reached; and its own corners, unless one of these relays
+//! replaces them.
 class VertexRelays {
 public:
     VertexRelays(const Surface& surface, std::span<const SurfacePoint> sites,
@@ -30,14 +30,14 @@ public:
           reach_(reach),
           views_(views) {}
 
-    //! Faces with corners of different sites; and those that hold, or whose neighbour holds, a site
-    //! other than that of their corners. Ascending.
+    //! The faces with corners of different sites, and the faces that hold, or whose neighbour
+    //! holds, a site other than that of their corners. Ascending.
     [[nodiscard]] std::vector<Index> mixed_faces() const;
 
     //! Appends the relays of a face.
     void collect(Index face, std::vector<Relay>& out) const;
 
-    //! A face to be collected soon.
+    //! Starts to load a face that will be collected soon.
     [[gnu::always_inline]] void prefetch(Index face) const {
         for (Index h = 3 * face; h < 3 * face + 3; ++h) {
             __builtin_prefetch(&views_[surface_.tail(h)]);

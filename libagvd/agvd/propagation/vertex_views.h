@@ -1,5 +1,5 @@
 //! \file
-//! What the vertex engine knows at a vertex: the way it was reached.
+//! How a vertex was reached, in the vertex engine.
 #pragma once
 
 #include <array>
@@ -9,7 +9,8 @@
 
 namespace agvd {
 
-//! Read and written for every neighbour of every vertex, so apart from the view.
+//! Distance and site of a vertex. They are stored apart from the view, since they are read and
+//! written for every neighbour of every vertex.
 struct VertexReach {
     double distance = std::numeric_limits<double>::infinity();
     Index site = no_index;
@@ -28,8 +29,8 @@ enum class ViewKind : std::uint32_t {
 struct VertexView {
     Vec2 image{0, 0};   //!< In the frame of half_edge; Face and Window only.
     double weight = 0;  //!< Distance from the site to the image; Face and Window only.
-    //! Outermost directions from the image in which nothing is in the way; Window only. In float:
-    //! a chord that misses a vertex by this rounding is short by the square of it.
+    //! Outermost directions from the image between which paths are straight; Window only. Floats
+    //! suffice: a chord that misses a vertex by their rounding is too short by the square of it.
     std::array<float, 2> left{}, right{};
     Index half_edge = no_index;
     ViewKind kind = ViewKind::Site;

@@ -1,5 +1,5 @@
 //! \file
-//! Windows: what one straight beam of shortest paths knows where it crosses an edge.
+//! Windows: a beam of straight shortest paths where it crosses an edge.
 #pragma once
 
 #include <algorithm>
@@ -11,24 +11,25 @@
 
 namespace agvd {
 
-//! Straight paths from the (pseudo-)source at `image` through [begin, end] of a half-edge into its
-//! face, in the frame of that half-edge, y < 0 ([mitchell1987]). The distance of a point p beyond
-//! is weight + |image - p| from below: a real path of at most `error` more leads there.
+//! The straight paths from a site or pseudo-source through [begin, end] of a half-edge into its
+//! face ([mitchell1987]). The image (x, y) of the source lies in the frame of the half-edge, y < 0.
+//! The distance of a point p of the face through the window is at least weight + |image - p|, and a
+//! real path exceeds that by at most `error`.
 struct Window {
     double x, y;
     double weight;
     double begin, end;
-    double at_begin, at_end;  //!< Distances of the interval's ends.
+    double at_begin, at_end;  //!< Distances at the ends of the interval.
     float error;
-    bool is_served;  //!< Its children have been sent on.
+    bool is_served;  //!< The half-edges beyond the face have got their parts.
 
-    //! Distance of a point of the edge; the ends cost nothing.
+    //! Distance of a point of the edge. At the ends no root is taken.
     [[nodiscard]] double distance(double at) const {
         if (at == begin) return at_begin;
         if (at == end) return at_end;
         return weight + std::sqrt((at - x) * (at - x) + y * y);
     }
-    //! The part of it over [from, to], which must lie inside [begin, end].
+    //! The part over [from, to], which must lie inside [begin, end].
     [[nodiscard]] Window part(double from, double to) const {
         Window result = *this;
         result.at_begin = distance(from);
@@ -44,6 +45,6 @@ struct Window {
     }
 };
 static_assert(sizeof(Window) == 64);
-static_assert(std::is_trivial_v<Window>);  // New memory is not written before it is used.
+static_assert(std::is_trivial_v<Window>);  // New memory is not initialized.
 
 }  // namespace agvd

@@ -1,13 +1,14 @@
 #include "agvd/propagation/window_duel.h"
 
 #include <algorithm>
+#include <cassert>
 #include <optional>
 
 namespace agvd {
 namespace {
 
-// Where the distances of two windows are equal: roots of a quadratic, ascending (the squared
-// equation also holds where the roots' difference has the other sign; callers check).
+// Where the distances of two windows are equal: the roots of a quadratic, ascending. Squaring adds
+// points where the difference of the distances has the other sign: callers check.
 std::optional<std::array<double, 2>> equal_distances(const Window& a, const Window& b) {
     const double delta = b.weight - a.weight;  // |a - x| = |b - x| + delta
     const double c0 = (a.x - b.x) * (a.x + b.x) + (a.y - b.y) * (a.y + b.y) - delta * delta;
@@ -29,9 +30,16 @@ std::optional<std::array<double, 2>> equal_distances(const Window& a, const Wind
     return std::array{std::min(q / p2, other), std::max(q / p2, other)};
 }
 
-// The one change of sign of a - b in [low, high].
-double crossing(const Window& a, const Window& b, double low, double high, double at_low,
-                double at_high) {
+// Two numbers for the ends of an interval.
+struct Ends {
+    double low, high;
+};
+
+// The one change of sign of a - b in an interval, at whose ends the differences are `gaps`.
+double crossing(const Window& a, const Window& b, Ends interval, Ends gaps) {
+    auto [low, high] = interval;
+    auto [at_low, at_high] = gaps;
+    assert(low < high && (at_low < 0) != (at_high < 0));
     const double scale = distance_rounding * 16 * a.distance(low);
     const auto gap = [&](double x) { return a.distance(x) - b.distance(x); };
     if (const auto roots = equal_distances(a, b)) {
@@ -39,7 +47,7 @@ double crossing(const Window& a, const Window& b, double low, double high, doubl
             if (low < x && x < high && std::abs(gap(x)) <= scale) return x;
         }
     }
-    // Regula falsi (Illinois): the closed form has lost its digits or an end is nearly a root.
+    // The closed form has lost its digits, or an end is nearly a root: regula falsi (Illinois).
     int side = 0;
     double middle = low;
     for (int i = 0; i < 60 && high - low > 1e-14 * (std::abs(low) + std::abs(high)); ++i) {
@@ -67,12 +75,14 @@ double slope(const Window& w, double at, double distance) {
     return run > 0 ? (at - w.x) / run : 0;
 }
 
-// Can `loser`, behind at both ends, win in between? Not if its tangents stay above the other's
-// chord, since distances are convex.
-bool may_win_between(const Window& loser, double low, double high, double lost_low,
-                     double lost_high, double won_low, double won_high) {
+// Can a window that loses at both ends of an interval win in between? Not if its tangents stay
+// above the other's chord, since distances are convex. `lost` and `won`: the distances at the ends.
+bool may_win_between(const Window& loser, Ends interval, Ends lost, Ends won) {
+    const auto [low, high] = interval;
+    const auto [lost_low, lost_high] = lost;
+    const auto [won_low, won_high] = won;
     const double width = high - low;
-    // Mostly one tangent does alone, which needs no division.
+    // In most cases one tangent decides alone. That needs no division.
     const double tie = distance_rounding * won_low;
     if ((lost_low + tie - won_high) * (lost_low - loser.weight) + (low - loser.x) * width >= 0 ||
         (lost_high + tie - won_low) * (lost_high - loser.weight) - (high - loser.x) * width >= 0) {
@@ -91,6 +101,8 @@ bool may_win_between(const Window& loser, double low, double high, double lost_l
 }  // namespace
 
 Duel fight(const Window& a, const Window& b, double low, double high) {
+    assert(low < high);
+    assert(std::max(a.begin, b.begin) <= low && high <= std::min(a.end, b.end));
     const double a_low = a.distance(low), a_high = a.distance(high);
     const double b_low = b.distance(low), b_high = b.distance(high);
     const double tie =
@@ -106,12 +118,13 @@ Duel fight(const Window& a, const Window& b, double low, double high) {
             return duel;
         }
         duel.num_cuts = 1;
-        duel.cuts[0] = crossing(a, b, low, high, a_low - b_low, a_high - b_high);
+        duel.cuts[0] = crossing(a, b, {low, high}, {a_low - b_low, a_high - b_high});
         return duel;
     }
     if (a.weight == b.weight) return duel;
-    const bool may_change = wins_low ? may_win_between(b, low, high, b_low, b_high, a_low, a_high)
-                                     : may_win_between(a, low, high, a_low, a_high, b_low, b_high);
+    const Ends interval{low, high}, of_a{a_low, a_high}, of_b{b_low, b_high};
+    const bool may_change = wins_low ? may_win_between(b, interval, of_b, of_a)
+                                     : may_win_between(a, interval, of_a, of_b);
     if (!may_change) return duel;
     const auto roots = equal_distances(a, b);
     if (!roots || !(low < (*roots)[0]) || !((*roots)[0] < (*roots)[1]) || !((*roots)[1] < high)) {

@@ -1,5 +1,5 @@
 //! \file
-//! Two windows over the same interval of an edge: who is nearer where.
+//! Compares two windows over the same interval of an edge.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@ namespace agvd {
 //! Distances that differ by less, relative to their size, are rounding.
 inline constexpr double distance_rounding = 1e-14;
 
-//! Who wins where on an interval: at first `first_wins`, then turn about at each cut.
+//! Which of two windows is nearer, along an interval. The winner changes at each cut.
 struct Duel {
     bool first_wins;
     bool is_tie = false;  //!< At both ends.
@@ -19,8 +19,7 @@ struct Duel {
     std::array<double, 2> cuts{};
 };
 
-//! \param low, high  an interval that both cover. Where they tie, b holds the ground, unless only a
-//!        is served.
+//! \param low, high  an interval that both cover. Where they tie, b wins, unless only a is served.
 [[nodiscard]] Duel fight(const Window& a, const Window& b, double low, double high);
 
 }  // namespace agvd

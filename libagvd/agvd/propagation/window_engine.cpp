@@ -17,12 +17,13 @@
 namespace agvd {
 namespace {
 
-// The results of a batch are taken in, and progress is told, before the next one starts.
+// Sites run in batches. The results of a batch are taken in, and progress is told, before the next
+// batch starts.
 constexpr Index most_batches = 8;
 constexpr Index least_batch = 64;
 constexpr Index tasks_of_a_batch = 32;
 
-// What the sites of one task hand over.
+// The results of the sites of one task.
 struct TaskResult {
     struct Reached {
         double distance;
@@ -30,15 +31,15 @@ struct TaskResult {
         Index site;
     };
     std::vector<Reached> vertices;
-    std::vector<Relay> strays;  // In faces that the bounds give to another site.
-    RelayLogs relays;           // In faces near borders.
+    std::vector<Relay> strays;  // Relays in faces that the bounds give to another site.
+    RelayLogs relays;           // Relays in faces near borders.
     std::size_t num_windows = 0;
     double error = 0;
 
     void add_strays(std::span<const Window> windows, Index site, Index half_edge) {
         for (const Window& w : windows) strays.push_back(to_relay(w, site, half_edge));
     }
-    // But for the relays, which are always handed over.
+    // Keeps the relays, which hand_over() empties.
     void clear() {
         vertices.clear();
         strays.clear();
@@ -50,13 +51,14 @@ struct TaskResult {
     }
 };
 
-// What one task at a time works with; as large as the mesh's index arrays.
+// The memory of a task. Tasks use it one after the other, since it is as large as the index arrays
+// of the mesh.
 struct Worker {
     WindowFront front;
-    TaskResult result;  // Grows here; what is handed over has no spare room.
+    TaskResult result;  // It grows here, and is copied without spare room.
 };
 
-// Workers that no task holds.
+// The workers that no task holds.
 class WorkerPool {
 public:
     WorkerPool(const Surface& surface, const Corners& corners, double max_error, Poller& poller)
@@ -175,7 +177,7 @@ private:
         }
     }
 
-    // Without spare room.
+    // A copy without spare room.
     [[nodiscard]] static TaskResult hand_over(TaskResult& grown) {
         RelayLogs relays = grown.relays.hand_over();
         TaskResult result = grown;
@@ -183,7 +185,7 @@ private:
         return result;
     }
 
-    // Runs sites in tasks of equal size, and keeps the relays of each. Collects the windows of the
+    // Runs sites in tasks of equal size, and keeps their relays. `collect` gets the windows of the
     // faces with keeps(site, face).
     template <typename Keeps, typename Collect>
     std::vector<TaskResult> run_tasks(std::span<const Index> order, WorkerPool& workers,
@@ -235,12 +237,12 @@ private:
         });
     }
 
-    // Of a face away from borders.
+    // The site of a face away from borders.
     [[nodiscard]] Index label_of(Index face) const {
         return labels_[surface_.mesh.triangles[face][0]];
     }
 
-    // In the fixed order of the tasks: ties depend on nothing else.
+    // Tasks are taken in a fixed order, on which ties depend.
     void take_vertices(const TaskResult& task) {
         for (const auto& [distance, vertex, site] : task.vertices) {
             double& best = result_.vertex_distance[vertex];
@@ -251,8 +253,8 @@ private:
         }
     }
 
-    // Of the vertices that no window reached: bounds are lengths of real paths, too, and not so
-    // long as those that windows would have brought within their error.
+    // Vertices that no window reached get their bounds. Bounds are lengths of real paths, too. No
+    // window came because it would have been longer.
     void take_bounds() {
         for (Index v = 0; v < bounds_.size(); ++v) {
             if (result_.vertex_site[v].is_valid() || labels_[v] == no_index) continue;
@@ -262,15 +264,15 @@ private:
         }
     }
 
-    // Faces away from the borders of the bounds that are not their site's alone: what has strayed
-    // there is at hand, and their own sites run once more.
+    // Some faces away from the borders of the bounds belong to several sites. The relays that other
+    // sites have there are kept as strays; the sites that own the faces run once more.
     void propagate_again(WorkerPool& workers) {
         std::vector<bool> is_late(surface_.num_faces(), false);
         poller_.poll();
         for (const Relay& stray : strays_) is_late[Surface::face(stray.half_edge)] = true;
         std::vector<Index> again;
         for (Index face = 0; face < surface_.num_faces(); ++face) {
-            if (borders_[face] != 0) continue;  // Nothing strays there.
+            if (borders_[face] != 0) continue;  // There are no strays here.
             if (!has_one_site(face)) is_late[face] = true;
             if (is_late[face] && label_of(face) != no_index) again.push_back(label_of(face));
         }
@@ -316,8 +318,8 @@ private:
     SitePlacement placement_;
     std::vector<std::uint8_t> borders_;  // #F: 1 where all windows are kept.
     std::vector<float> bounds_;          // #V, of the nearest site.
-    std::vector<Index> labels_;          // #V: whose the bounds are.
-    std::vector<Relay> strays_;  // As in TaskResult; then all that late faces have; then none.
+    std::vector<Index> labels_;          // #V: the sites of the bounds.
+    std::vector<Relay> strays_;  // As in TaskResult; then all relays of late faces; then none.
     RelayLogs logs_;
     Propagation result_;
 };
@@ -336,7 +338,7 @@ Propagation propagate_windows(const Surface& surface, std::span<const SurfacePoi
     poll(options.progress, 0);
     const Progress begin = within(options.progress, 0, 0);
     auto corners = std::make_shared<const Corners>(surface, options.num_threads, begin);
-    const auto find_bounds = [&] {  // The arcs go before the windows come.
+    const auto find_bounds = [&] {  // Frees the arcs before windows are made.
         const ArcGraph arcs(surface, *corners, options.num_threads, begin);
         return distance_bounds(surface, arcs, corners->mean_length(), sites, options.num_threads,
                                begin);

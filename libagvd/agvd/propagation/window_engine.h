@@ -11,12 +11,12 @@
 
 namespace agvd {
 
-//! Windows served through one half-edge, from one site, before its site is propagated again in the
-//! order of distance. Real meshes stay below 700.
+//! If more windows of one site are served through one half-edge, the site is propagated again in
+//! the order of distance. Real meshes stay below 700.
 inline constexpr Index default_work_cap = 1 << 11;
 
-//! In which order sites run, and their relays stand in a face: that of their faces, neighbours on
-//! most meshes, so that caches stay warm.
+//! The order in which sites run, and in which their relays are stored for a face: by the faces of
+//! the sites. Consecutive faces are neighbours on most meshes, so that caches hold what is needed.
 [[nodiscard]] inline bool runs_before(FaceId face, Index site, FaceId other_face, Index other) {
     return face < other_face || (face == other_face && site < other);
 }
@@ -25,9 +25,10 @@ inline constexpr Index default_work_cap = 1 << 11;
 //!
 //! \param corners  Corners(surface); given back before the relays are sorted by face.
 //! \param bounds   distance_bounds of the sites.
-//! Sites are propagated one by one, each as far as the bounds allow, and side by side: what a site
-//! gives depends on nothing but itself and the bounds. Windows are kept as relays near the borders
-//! that the bounds show; where that misses a border the sites concerned run once more.
+//! Every site is propagated on its own, as far as the bounds allow. Threads run different sites.
+//! The result of a site depends on nothing but the site and the bounds. Near the borders of the
+//! bounds windows are kept as relays. Where a border lies elsewhere, the sites concerned run once
+//! more.
 //! Cost: about O(n sqrt(n / t)) time for exact distances, O(n) for error-bounded ones, O(n) space.
 [[nodiscard]] Propagation propagate_windows(const Surface& surface,
                                             std::shared_ptr<const Corners> corners,
@@ -35,7 +36,7 @@ inline constexpr Index default_work_cap = 1 << 11;
                                             std::span<const SurfacePoint> sites,
                                             const PropagationOptions& options,
                                             Index work_cap = default_work_cap);
-//! The same; it makes the corners and the bounds.
+//! The same, but the corners and the bounds are made here.
 [[nodiscard]] Propagation propagate_windows(const Surface& surface,
                                             std::span<const SurfacePoint> sites,
                                             const PropagationOptions& options);

@@ -1,6 +1,7 @@
 #include "agvd/propagation/window_envelope.h"
 
 #include <algorithm>
+#include <cassert>
 #include <utility>
 
 #include "agvd/propagation/window_duel.h"
@@ -8,10 +9,10 @@
 namespace agvd {
 namespace {
 
-// An interval that is none.
+// True for an interval that is as short as its rounding.
 bool is_rounding(double from, double to) { return !(to - from > 1e-15 * to); }
 
-// Writes the envelope from left to right.
+// Writes an envelope from left to right: pieces of one new window and of old ones.
 class Writer {
 public:
     Writer(const Window& window, std::vector<Window>& out) : window_(window), out_(out) {}
@@ -40,14 +41,14 @@ public:
 private:
     const Window& window_;
     std::vector<Window>& out_;
-    // Where the new window's last piece ends, if it was written last.
+    // The end of the last piece, if that is of the new window.
     double new_end_ = std::numeric_limits<double>::quiet_NaN();
 };
 
-// Nothing is left of a window.
+// Makes a window empty.
 void drop(Window& window) { window.begin = window.end; }
 
-// False if nothing would be left.
+// Cuts a window off. False if nothing would be left.
 bool end_at(Window& window, double end) {
     if (is_rounding(window.begin, end)) return false;
     window.at_end = window.distance(end);
@@ -60,8 +61,9 @@ void begin_at(Window& window, double begin) {
     window.begin = is_rounding(begin, window.end) ? window.end : begin;
 }
 
-// Beams on both sides of a ray that touches a vertex tie along it. Where that of the vertex holds
-// the ray, wider by its grazing, the two overlap on every edge from there on.
+// Whether `last` is the beam of a vertex and `next` a beam that passes the vertex. The two tie
+// along the ray that touches the vertex. The beam of the vertex is wider by `grazing`; if it kept
+// the ray, the two would overlap on every edge from there on.
 bool gives_way(const Window& last, const Window& next, const Duel& duel) {
     constexpr double narrow = 1e-8;
     return duel.is_tie && duel.num_cuts == 0 && !last.is_served && next.weight < last.weight &&
@@ -70,7 +72,16 @@ bool gives_way(const Window& last, const Window& next, const Duel& duel) {
 
 }  // namespace
 
+bool is_envelope(std::span<const Window> windows) {
+    for (std::size_t i = 0; i < windows.size(); ++i) {
+        if (!(windows[i].begin < windows[i].end)) return false;
+        if (i > 0 && windows[i - 1].end > windows[i].begin) return false;
+    }
+    return true;
+}
+
 bool cut_where_they_change(Window& last, Window& next) {
+    assert(last.begin < last.end && next.begin < next.end && next.begin < last.end);
     if (is_rounding(next.begin, last.end)) {
         begin_at(next, last.end);
         return true;
@@ -79,7 +90,7 @@ bool cut_where_they_change(Window& last, Window& next) {
     const double high = std::min(last.end, next.end);
     const Duel duel = fight(next, last, next.begin, high);
     if (duel.num_cuts > 1) return false;
-    if (high < last.end) {  // The last one lies on both sides.
+    if (high < last.end) {  // The last window extends on both sides of the next one.
         if (duel.first_wins || duel.num_cuts == 1) return false;
         drop(next);
         return true;
@@ -98,6 +109,8 @@ bool cut_where_they_change(Window& last, Window& next) {
 
 void insert_window(const Window& window, std::vector<Window>& scratch,
                    std::vector<Window>& envelope) {
+    assert(window.begin < window.end);
+    assert(is_envelope(envelope));
     auto first = envelope.end();
     while (first != envelope.begin() && (first - 1)->end > window.begin) --first;
     if (first == envelope.end()) {
@@ -136,10 +149,12 @@ void insert_window(const Window& window, std::vector<Window>& scratch,
         decided = high;
     }
     if (decided < window.end) writer.add_new(decided, window.end);
+    assert(is_envelope(envelope));
 }
 
 std::optional<Window> merge_windows(const Window& left, const Window& right, double max_error) {
     if (left.end != right.begin) return std::nullopt;
+    assert(left.begin < left.end && right.begin < right.end && left.y <= 0 && right.y <= 0);
     const double begin = left.begin;
     const double joint = left.end;
     const double end = right.end;
@@ -156,7 +171,7 @@ std::optional<Window> merge_windows(const Window& left, const Window& right, dou
     merged.begin = merged.end = std::numeric_limits<double>::quiet_NaN();
     const double run_begin = merged.distance(begin);
     const double run_end = merged.distance(end);
-    // An image much farther than the source would cost the distances their digits.
+    // If the image were much farther than the source, distances would lose digits.
     constexpr double farthest = 1e4;
     if (!(run_begin < farthest * left.at_begin && run_end < farthest * right.at_end)) {
         return std::nullopt;

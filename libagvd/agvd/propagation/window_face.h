@@ -1,5 +1,5 @@
 //! \file
-//! One face that windows cross: what of them leaves it on the other side.
+//! A face that windows cross: the parts of windows that leave it on the other side.
 #pragma once
 
 #include <algorithm>
@@ -11,19 +11,22 @@
 
 namespace agvd {
 
-//! Sine of the angle of a beam: a narrower one carries nothing but rounding. What it would have
-//! reached is reached along the beams beside it, longer by the square of this.
+//! Sine of the angle of a beam. A narrower beam is dropped: its width is nothing but rounding. What
+//! it would have reached is reached along the beams beside it, by paths longer by the square of
+//! this.
 inline constexpr double negligible_beam = 1e-13;
 
-//! Of a distance and an edge: what two ways to compute it may differ by after thousands of faces,
-//! and beside a vertex. A path along edges must not kill the straight one that it is.
+//! A share of a distance and an edge: two ways to compute a distance may differ by this much after
+//! thousands of faces, and beside a vertex. A bound along edges must not remove the window of the
+//! same path.
 inline constexpr double path_rounding = 1e-12;
 
-//! Of the edge: what a frame's coordinates may be off by after some turns.
+//! A share of the edge: the error of coordinates after some changes of frame.
 inline constexpr double frame_rounding = 1e-14;
 
-//! Where the paths along the edge from both its ends meet, inside an interval: if a window is
-//! beaten there it is beaten everywhere, by the tail before and by the head behind.
+//! Where the paths along the edge from its two ends meet, clamped to an interval. A window that is
+//! beaten there is beaten on all of the interval: by the path from the tail before that point, by
+//! the path from the head behind it.
 inline double meeting_point(double tail_bound, double head_bound, double length, double begin,
                             double end) {
     return std::min(std::max(begin, (head_bound + length - tail_bound) / 2), end);
@@ -31,8 +34,8 @@ inline double meeting_point(double tail_bound, double head_bound, double length,
 
 //! The face above a half-edge: tail at (0, 0), head at (length, 0). Windows leave it through the
 //! next half-edge (right) and the previous one (left); the frames of their twins start at the apex
-//! and at the tail. Plain numbers, since compilers tear vectors apart and stall where they join
-//! them again.
+//! and at the tail. Numbers instead of vectors, since compilers split vectors and join them again,
+//! which stalls.
 struct WindowFace {
     WindowFace(const Corners& corners, Index base_half_edge)
         : half_edge(base_half_edge),
@@ -59,17 +62,26 @@ struct WindowFace {
     Index apex_record = no_index;
 };
 
-//! The part of a window up to or from a limit, which may be the ray to the apex.
+//! The part of a window on one side of a limit. The limit may be the ray to the apex.
 struct WindowPart {
     const Window* window = nullptr;
     double limit = 0;
     bool is_apex = false;
 };
 
-//! Whether a child may matter: it is wide enough, and no path around the ends of its edge or past
-//! the corner behind it is shorter.
-inline bool lives(const Window& child, double begin_bound, double end_bound, double length,
-                  double spare, double to_corner) {
+//! The paths that a child is compared with.
+struct Rivals {
+    double begin_bound, end_bound;  //!< Of the ends of its edge.
+    double length;                  //!< Of the edge.
+    double spare;      //!< How much longer the child's way to its end beside the corner behind it
+                       //!< is than the bound of that corner.
+    double corner_sq;  //!< Squared distance of that end from the corner.
+};
+
+//! Whether a child is kept: it is wide enough, and no path around the ends of its edge or past the
+//! corner behind it is shorter.
+inline bool lives(const Window& child, const Rivals& rivals) {
+    const auto& [begin_bound, end_bound, length, spare, corner_sq] = rivals;
     const double to_begin = child.at_begin - child.weight;
     const double to_end = child.at_end - child.weight;
     const double at = meeting_point(begin_bound, end_bound, length, child.begin, child.end);
@@ -80,12 +92,14 @@ inline bool lives(const Window& child, double begin_bound, double end_bound, dou
         ((child.begin < child.x) & (child.x < child.end) & (child.y < 0));
     return is_wide & (around >= 0) &
            (around * around >= (at - child.x) * (at - child.x) + child.y * child.y) &
-           ((spare <= 0) | (to_corner >= spare * spare));
+           ((spare <= 0) | (corner_sq >= spare * spare));
 }
 
-//! The part that goes on through the next half-edge. In the frame beyond, the apex is at 0, and a
-//! point of the base at a distance s before the head is at (length, 0) - s (right_x, sine). False
-//! if it dies; found without branches, since that cannot be predicted.
+//! Writes the part that goes on through the next half-edge. In the frame beyond it the apex is at
+//! 0, and a point of the base at a distance s before the head is at (length, 0) - s (right_x,
+//! sine).
+//!
+//! \return false if the child is dropped. There are no branches, since they could not be predicted.
 inline bool pass_right(const WindowPart& part, const WindowFace& face, Window& child) {
     const Window& w = *part.window;
     const double length = face.next.length;
@@ -113,8 +127,9 @@ inline bool pass_right(const WindowPart& part, const WindowFace& face, Window& c
     const double tail_x = length - face.length * face.right_x;
     const double tail_y = -face.length * sine;
     const double to_tail = (tail_x - end) * (tail_x - end) + tail_y * tail_y;
-    return lives(child, face.apex_bound, face.head_bound, length,
-                 child.at_end - face.tail_bound - path_rounding * (child.at_end + length), to_tail);
+    return lives(
+        child, {face.apex_bound, face.head_bound, length,
+                child.at_end - face.tail_bound - path_rounding * (child.at_end + length), to_tail});
 }
 
 //! The same through the previous half-edge: the tail at 0, the apex at `length`.
@@ -141,9 +156,10 @@ inline bool pass_left(const WindowPart& part, const WindowFace& face, Window& ch
     const double head_x = face.length * face.left_x;
     const double head_y = -face.length * face.left_y;
     const double to_head = (head_x - begin) * (head_x - begin) + head_y * head_y;
-    return lives(child, face.tail_bound, face.apex_bound, length,
-                 child.at_begin - face.head_bound - path_rounding * (child.at_begin + length),
-                 to_head);
+    return lives(
+        child,
+        {face.tail_bound, face.apex_bound, length,
+         child.at_begin - face.head_bound - path_rounding * (child.at_begin + length), to_head});
 }
 
 }  // namespace agvd

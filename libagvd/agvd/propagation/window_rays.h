@@ -1,16 +1,17 @@
 //! \file
-//! Small geometry that windows share.
+//! Geometry and tolerances that the passes on windows share.
 #pragma once
 
 #include "agvd/core/types.h"
 
 namespace agvd {
 
-//! A ray this close to a window's end (relative to the edge, or to the image where that is nearer)
-//! is not bent.
+//! A ray that passes the end of a window by at most this, relative to the length of the edge or to
+//! the distance of the image if that is less, counts as straight.
 inline constexpr double grazing = 1e-10;
 
-//! Of the edge: nearer to a vertex than this, rounding may hide which faces a site sees past it. Of
+//! A share of the edge: if a site is nearer to a vertex than this, rounding may hide which faces it
+//! sees past the vertex. Of
 //! 470 000 sites, most of them on edges, those up to 7e-6 away missed a vertex behind now and then.
 inline constexpr double beside_vertex = 1e-4;
 

@@ -7,8 +7,8 @@
 namespace agvd {
 namespace {
 
-// A tail that is a site, or nearly, or a pseudo-source, or that no window reached, is itself the
-// image of what comes by it.
+// Whether the tail of a half-edge is the image of a relay: a site lies on it or beside it, paths
+// may bend at it, or no window reached it.
 bool is_source(const Surface& surface, const Propagation& result, Index half_edge) {
     const Index v = surface.tail(half_edge);
     const std::vector<Index>& unseen = result.vertices_off_windows;

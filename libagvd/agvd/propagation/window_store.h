@@ -1,5 +1,5 @@
 //! \file
-//! The memory of windows: short runs that come and go with the wavefront.
+//! The memory of windows: short arrays that are taken and given back.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +14,9 @@
 
 namespace agvd {
 
-//! Runs of windows, which have names. A run has room for the next power of two and stays where it
-//! is; one that was given back serves the next of that size, while it is still in the cache.
+//! Runs of windows, known by number. A run has room for the next power of two and does not move. A
+//! run that was given back goes to a free list of its size. It is used again while it is still in
+//! the cache.
 class WindowStore {
 public:
     //! Gives all runs back; keeps the memory.
@@ -26,7 +27,7 @@ public:
         room_ = {};
     }
     //! \param count  > 0.
-    //! \return the name of a run, whose windows are to be written.
+    //! \return the number of a run, whose windows are to be written.
     [[nodiscard]] Index take(Index count) {
         const int size_class = std::bit_width(count - 1);
         Index& free_run = free_runs_[static_cast<std::size_t>(size_class)];
@@ -63,7 +64,7 @@ public:
         const Window* const first = runs_[run].first;
         for (Index i = 0; i < 4; ++i) __builtin_prefetch(first + i);
     }
-    //! Of a run that is in use: free for lists of its owner.
+    //! A link of a run in use, for lists of its owner.
     [[nodiscard]] Index& next(Index run) { return runs_[run].next; }
 
     [[nodiscard]] std::size_t bytes() const {
@@ -84,7 +85,8 @@ private:
         std::size_t size;
     };
 
-    // Blocks grow with what is in use, so that few sites and many waste little.
+    // Blocks grow with what is in use, so that little is wasted both by short runs and by long
+    // ones.
     [[gnu::noinline]] void open_block(std::size_t size) {
         constexpr std::size_t least = 64, most = 4096;
         while (next_block_ < blocks_.size() && blocks_[next_block_].size < size) ++next_block_;
@@ -101,7 +103,7 @@ private:
     std::array<Index, 33> free_runs_{};  // By size class: list of runs.
     std::vector<Block> blocks_;
     std::size_t next_block_ = 0;
-    std::span<Window> room_;  // Of the block in use.
+    std::span<Window> room_;  // The free part of the block in use.
 };
 
 }  // namespace agvd

@@ -51,7 +51,7 @@ void RelayStore::list_mixed_faces(std::span<const Index> faces, Propagation& res
     std::swap(result.relay_ranges, ranges_);
 }
 
-// With some to spare, since relays become more and less.
+// Adds spare room, since the number of relays changes from update to update.
 void RelayStore::reserve(std::vector<Relay>& relays) const {
     relays.reserve(most_relays() + most_relays() / 8);
 }

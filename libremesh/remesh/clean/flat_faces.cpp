@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "remesh/clean/soup.h"
+#include "remesh/topology/are_joined.h"
 
 namespace remesh::detail {
 namespace {
@@ -36,22 +37,6 @@ Index longest_side(const Soup& soup, Index face) {
         }
     }
     return longest;
-}
-
-// Does the fan at the tail of `start` contain `vertex`?
-bool fan_contains(const Soup& soup, const std::vector<Index>& twin, Index start, Index vertex) {
-    const auto contains = [&](Index h) { return soup.head(h) == vertex || soup.apex(h) == vertex; };
-    Index h = start;
-    do {
-        if (contains(h)) return true;
-        h = twin[Surface::previous(h)];
-    } while (h != no_index && h != start);
-    if (h == start) return false;
-    for (h = twin[start]; h != no_index; h = twin[h]) {
-        h = Surface::next(h);
-        if (contains(h)) return true;
-    }
-    return false;
 }
 
 // Faces (a, b, c) and (b, a, d) of the edge a-b at h and its twin become (a, d, c) and (d, b, c).
@@ -104,7 +89,7 @@ private:
         if (o == no_index) return false;  // A flat face on the boundary is dropped without a trace.
         const Index other = o / 3;
         const Index a = soup_.tail(h), b = soup_.head(h), c = soup_.apex(h), d = soup_.apex(o);
-        if (c == d || fan_contains(soup_, twin_, Surface::previous(h), d)) return false;
+        if (c == d || are_joined(soup_.triangles, twin_, Surface::previous(h), d)) return false;
         const std::array<bool, 2> flat{is_flat(soup_.positions, {a, d, c}),
                                        is_flat(soup_.positions, {d, b, c})};
         const int before = is_flat_[other] ? 2 : 1;

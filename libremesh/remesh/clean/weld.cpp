@@ -1,9 +1,9 @@
 // Vertices at one position that should be one: cracks and zero-length edges.
 #include <algorithm>
-#include <numeric>
 
 #include "agvd/core/edge_key.h"
 #include "agvd/core/position_hash.h"
+#include "agvd/core/union_find.h"
 #include "remesh/clean/soup.h"
 
 namespace remesh::detail {
@@ -33,37 +33,17 @@ std::vector<Index> first_at_position(std::span<const Vec3> positions,
     return first;
 }
 
-// Sets of vertices that become one; the lowest of a set stays.
-class Merger {
-public:
-    explicit Merger(std::size_t num_vertices) : parent_(num_vertices) {
-        std::iota(parent_.begin(), parent_.end(), Index{0});
+// Replaces the vertices of each set by one, and counts those that go.
+// \param num_merged  how many unions there were.
+bool apply(agvd::UnionFind& sets, Index num_merged, Soup& soup) {
+    if (num_merged == 0) return false;
+    for (agvd::Triangle& t : soup.triangles) {
+        soup.ticker.tick();
+        for (Index& v : t) v = sets.root(v);
     }
-    Index root(Index v) {
-        while (parent_[v] != v) v = parent_[v] = parent_[parent_[v]];
-        return v;
-    }
-    void unite(Index a, Index b) {
-        a = root(a);
-        b = root(b);
-        if (a == b) return;
-        parent_[std::max(a, b)] = std::min(a, b);
-        ++merged_;
-    }
-    bool apply(Soup& soup) {
-        if (merged_ == 0) return false;
-        for (agvd::Triangle& t : soup.triangles) {
-            soup.ticker.tick();
-            for (Index& v : t) v = root(v);
-        }
-        soup.counts.welded_vertices += merged_;
-        return true;
-    }
-
-private:
-    std::vector<Index> parent_;
-    Index merged_ = 0;
-};
+    soup.counts.welded_vertices += num_merged;
+    return true;
+}
 
 }  // namespace
 
@@ -94,7 +74,8 @@ bool weld_cracks(Soup& soup, std::span<const EdgeSide> sides) {
     }
     open = sort_edge_sides(open, static_cast<Index>(soup.positions.size()), soup.ticker);
 
-    Merger merger(soup.positions.size());
+    agvd::UnionFind sets(soup.positions.size());
+    Index num_merged = 0;
     for_each_edge(open, [&](std::span<const EdgeSide> edge) {
         soup.ticker.tick(edge.size());
         if (edge[0].low() == edge[0].high()) return;
@@ -103,21 +84,24 @@ bool weld_cracks(Soup& soup, std::span<const EdgeSide> sides) {
             return place[tail] == where ? tail : soup.head(side.half_edge);
         };
         for (const EdgeSide& side : edge.subspan(1)) {
-            merger.unite(end_at(edge[0], side.low()), end_at(side, side.low()));
-            merger.unite(end_at(edge[0], side.high()), end_at(side, side.high()));
+            for (const Index where : {side.low(), side.high()}) {
+                num_merged += sets.unite(end_at(edge[0], where), end_at(side, where)) ? 1 : 0;
+            }
         }
     });
-    return merger.apply(soup);
+    return apply(sets, num_merged, soup);
 }
 
 bool collapse_zero_edges(Soup& soup) {
-    Merger merger(soup.positions.size());
+    agvd::UnionFind sets(soup.positions.size());
+    Index num_merged = 0;
     for (Index h = 0; h < soup.num_half_edges(); ++h) {
         soup.ticker.tick();
         const Index a = soup.tail(h), b = soup.head(h);
-        if (a != b && soup.positions[a] == soup.positions[b]) merger.unite(a, b);
+        if (a == b || soup.positions[a] != soup.positions[b]) continue;
+        num_merged += sets.unite(a, b) ? 1 : 0;
     }
-    return merger.apply(soup);
+    return apply(sets, num_merged, soup);
 }
 
 }  // namespace remesh::detail

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "agvd/core/edge_key.h"
+#include "remesh/topology/are_joined.h"
 
 namespace remesh::detail {
 namespace {
@@ -57,28 +58,14 @@ private:
 
     [[nodiscard]] bool can_flip(Index h, Index twin) const {
         const Index a = mesh_.tail(h), b = mesh_.head(h), c = apex(h), d = apex(twin);
-        if (c == d || are_joined(SiteMesh::previous(h), d)) return false;
+        if (c == d || are_joined(mesh_.triangles, mesh_.twin, SiteMesh::previous(h), d))
+            return false;
         const Vec3 before = (at(b) - at(a)).cross(at(c) - at(a)).normalized() +
                             (at(a) - at(b)).cross(at(d) - at(b)).normalized();
         const Vec3 left = (at(d) - at(c)).cross(at(b) - at(c));
         const Vec3 right = (at(c) - at(d)).cross(at(a) - at(d));
         const double least = least_normal_cosine * before.norm();
         return before.dot(left) > least * left.norm() && before.dot(right) > least * right.norm();
-    }
-
-    // Whether an edge joins the tail of half-edge h to a site.
-    [[nodiscard]] bool are_joined(Index h, Index site) const {
-        Index at = h;
-        do {
-            if (mesh_.head(at) == site || apex(at) == site) return true;
-            at = mesh_.twin[SiteMesh::previous(at)];
-        } while (at != no_index && at != h);
-        if (at == h) return false;
-        for (at = mesh_.twin[h]; at != no_index; at = mesh_.twin[at]) {
-            at = SiteMesh::next(at);
-            if (mesh_.head(at) == site) return true;
-        }
-        return false;
     }
 
     // Triangles (a, b, c) and (b, a, d) become (c, d, b) and (d, c, a), in place.
