@@ -182,8 +182,9 @@ CleanResult clean_input(const agvd::MeshView& mesh, int num_threads,
     agvd::Poller poller(progress);
     agvd::Ticker ticker(poller);
     check_elements(mesh, ticker);
-    agvd::check_scale(mesh);
-    agvd::check_digits(mesh);
+    const agvd::MeshBox box = agvd::box_of(mesh, num_threads);
+    agvd::check_scale(box);
+    agvd::check_digits(box);
     if (std::optional<CleanResult> clean = take_clean(mesh, num_threads, progress)) {
         return *std::move(clean);
     }
