@@ -33,6 +33,17 @@ TEST(Scale, ExtentIsThatOfTheFaces) {
     EXPECT_EQ(box_of(mesh.view()).longest_side(), std::numeric_limits<double>::max());
 }
 
+TEST(Scale, BoxIsTheSameForAnyNumberOfThreads) {
+    const TriangleMesh mesh = shapes::torus(120, 120);  // Several chunks.
+    MeshBox expected;
+    for (const Vec3& p : mesh.positions) expected.add(p);
+    for (const int num_threads : {1, 2, 8}) {
+        EXPECT_EQ(box_of(mesh.view(), num_threads).low, expected.low);
+        EXPECT_EQ(box_of(mesh.view(), num_threads).high, expected.high);
+    }
+    EXPECT_TRUE(box_of({}).is_empty());
+}
+
 TEST(Scale, RangeEndsAtTwoToTheEighty) {
     EXPECT_TRUE(is_in_scale(0));
     EXPECT_TRUE(is_in_scale(0x1p80));

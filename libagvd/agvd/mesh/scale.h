@@ -27,8 +27,8 @@ struct MeshBox {
 //! Cost: O(#F).
 [[nodiscard]] MeshBox box_of(const MeshView& mesh, int num_threads = 1);
 
-//! Meshes whose longest side lies in [2^-max_scale, 2^max_scale] (about 1e-24 to 1e24) are computed on as
-//! they are: the fourth powers of lengths a billion times shorter are still normal numbers.
+//! Meshes whose longest side lies in [2^-max_scale, 2^max_scale] (about 1e-24 to 1e24) are computed
+//! on as they are: the fourth powers of lengths a billion times shorter are still normal numbers.
 inline constexpr int max_scale = 80;
 
 //! Whether that is the longest side of a mesh that can be computed on, or 0.

@@ -234,9 +234,7 @@ Surface build_surface(TriangleMesh mesh, Connectivity connectivity, int num_thre
 
 std::vector<std::vector<Index>> boundary_loops(const Surface& surface) {
     std::vector<std::vector<Index>> loops;
-    const auto next_open = [&](auto from) {
-        return std::find(from, surface.twin.end(), no_index);
-    };
+    const auto next_open = [&](auto from) { return std::find(from, surface.twin.end(), no_index); };
     auto open = next_open(surface.twin.begin());
     if (open == surface.twin.end()) return loops;
     std::vector<bool> seen(surface.twin.size(), false);

@@ -174,8 +174,7 @@ private:
 // Triangulations of patches, taken one by one.
 class Patches {
 public:
-    explicit Patches(const PreparedSurface& surface)
-        : surface_(surface) {
+    explicit Patches(const PreparedSurface& surface) : surface_(surface) {
         agvd::Poller never;
         component_ = detail::label_components(surface.input().twin, 1, never);
         faces_.resize(component_.count);
