@@ -75,9 +75,11 @@ FaceLabels label_components(std::span<const Index> twin, int num_threads, agvd::
         }
     }
     FaceLabels labels{std::vector<Index>(num_faces), 0};
+    poller.poll();
     for (Index f = 0; f < num_faces; ++f) {
         if (sets.is_root(f)) labels.of_face[f] = labels.count++;
     }
+    poller.poll();
     const auto label = [&](Index, Index begin, Index end) {
         for (Index f = begin; f < end; ++f) {
             if (!sets.is_root(f)) labels.of_face[f] = labels.of_face[sets.root(f)];
@@ -110,6 +112,7 @@ std::vector<Component> find_components(const Surface& surface, int num_threads,
     const std::vector<Index>& label = labels.of_face;
     std::vector<Component> components(labels.count);
     std::vector<double> area(surface.num_faces());
+    poller.poll();
     const std::function<int&(Index)> euler_of_component = [&](Index i) -> int& {
         return components[i].euler;
     };

@@ -169,6 +169,7 @@ Topology analyze_topology(const agvd::MeshView& mesh, const agvd::Connectivity& 
     };
     const auto num_faces = static_cast<Index>(label.size());
     std::vector<double> area(num_faces);
+    poller.poll();
     const auto count_faces = [&](Index, Index begin, Index end) {
         detail::ComponentTally euler(euler_of);
         for (Index f = begin; f < end; ++f) {
@@ -194,6 +195,7 @@ Topology analyze_topology(const agvd::MeshView& mesh, const agvd::Connectivity& 
         c.area += area[f];
     }
     std::vector<bool> is_seen(twin.size(), false);
+    poller.poll();
     const auto next_open = [&](auto from) { return std::find(from, twin.end(), no_index); };
     for (auto open = next_open(twin.begin()); open != twin.end(); open = next_open(open + 1)) {
         const auto start = static_cast<Index>(open - twin.begin());
