@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
+#include "agvd/core/parallel.h"
 #include "agvd/intrinsic/face_sides.h"
 
 namespace agvd::detail {
@@ -58,19 +60,22 @@ std::array<Index, 2> cut_face(Surface& surface, FaceCharts& charts, Index half_e
 
 }  // namespace
 
-Index raise_flat_faces(Surface& surface, Ticker& ticker) {
-    Index raised = 0;
-    for (Index f = 0; f < surface.num_faces(); ++f) {
-        ticker.tick();
-        const double longest = longest_side(surface, f);
-        const double least = least_doubled_area * longest * longest;
-        if (surface.length_of(3 * f) * surface.apex[3 * f].y() >= least) continue;
-        ++raised;
-        for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-            surface.apex[h].y() = height_over(surface.length_of(h), least, longest);
+Index raise_flat_faces(Surface& surface, int num_threads, Poller& poller) {
+    constexpr Index grain = 1 << 14;  // Faces.
+    std::vector<Index> raised(num_chunks(surface.num_faces(), grain), 0);
+    const auto raise = [&](Index chunk, Index begin, Index end) {
+        for (Index f = begin; f < end; ++f) {
+            const double longest = longest_side(surface, f);
+            const double least = least_doubled_area * longest * longest;
+            if (surface.length_of(3 * f) * surface.apex[3 * f].y() >= least) continue;
+            ++raised[chunk];
+            for (Index h = 3 * f; h < 3 * f + 3; ++h) {
+                surface.apex[h].y() = height_over(surface.length_of(h), least, longest);
+            }
         }
-    }
-    return raised;
+    };
+    parallel_chunks(surface.num_faces(), grain, num_threads, raise, poller);
+    return std::accumulate(raised.begin(), raised.end(), Index{0});
 }
 
 Quad quad_at(const Surface& surface, Index half_edge) {

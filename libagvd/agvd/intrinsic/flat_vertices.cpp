@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <utility>
 
+#include "agvd/core/bucket_sort.h"
 #include "agvd/core/parallel.h"
 #include "agvd/intrinsic/face_sides.h"
 #include "agvd/intrinsic/vertex_ring.h"
@@ -255,11 +257,9 @@ RemovalCounts remove_flat_vertices(Surface& surface, FaceCharts& charts, FaceHis
     std::vector<Index> flat = find_flat(shared, num_threads, poller);
     if (flat.empty()) return {};
     shared.part_of = find_parts(surface.mesh.positions, num_threads, poller);
-    Ticker ticker(poller);
-    sort_ticked(flat, ticker, [&](Index a, Index b) {
-        return shared.part_of[a] != shared.part_of[b] ? shared.part_of[a] < shared.part_of[b]
-                                                      : a < b;
-    });
+    flat = sort_in_buckets(
+        flat, most_cells * most_cells * most_cells, [&](Index v) { return shared.part_of[v]; },
+        std::less<>(), Ticker(poller));
     std::vector<Index> begin{0};  // The first vertex of each part that has any.
     for (Index i = 1; i < flat.size(); ++i) {
         if (shared.part_of[flat[i]] != shared.part_of[flat[i - 1]]) begin.push_back(i);

@@ -106,8 +106,8 @@ ThinnedMesh thin(const Surface& surface, std::span<const Index> faces,
                  std::span<const SurfacePoint> points) {
     Part part = part_of(surface, faces);
     Surface& s = part.surface;
-    Ticker ticker;
-    (void)detail::raise_flat_faces(s, ticker);
+    Poller never;
+    (void)detail::raise_flat_faces(s, 1, never);
     FaceCharts charts(s);
     const FaceHistory history = make_simplicial(part, charts, faces);
     std::vector<SurfacePoint> local(points.begin(), points.end());

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 #include "agvd/core/error.h"
+#include "agvd/core/parallel.h"
 
 namespace agvd {
 
@@ -14,43 +14,45 @@ namespace {
 // Bits of the coordinates that the shape of a mesh needs, beyond its distance from the origin.
 constexpr int least_bits = 10;
 
-struct Box {
-    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-
-    [[nodiscard]] bool is_empty() const { return low.x() > high.x(); }
-    // Halves are subtracted, since the difference may overflow.
-    [[nodiscard]] double longest_side() const {
-        constexpr double most = std::numeric_limits<double>::max();
-        return std::min(most, 2 * (high / 2 - low / 2).maxCoeff());
-    }
-};
-
-Box box_of(const MeshView& mesh) {
-    Box box;
-    for (const Triangle& t : mesh.triangles) {
-        for (const Index v : t) {
-            if (v >= mesh.positions.size() || !mesh.positions[v].allFinite()) continue;
-            box.low = box.low.cwiseMin(mesh.positions[v]);
-            box.high = box.high.cwiseMax(mesh.positions[v]);
-        }
-    }
-    return box;
-}
+constexpr Index grain = 1 << 14;  // Faces.
 
 }  // namespace
 
-double extent(const MeshView& mesh) {
-    const Box box = box_of(mesh);
-    return box.is_empty() ? 0 : box.longest_side();
+// Halves, as the difference may overflow.
+double MeshBox::longest_side() const {
+    constexpr double most = std::numeric_limits<double>::max();
+    return is_empty() ? 0 : std::min(most, 2 * (high / 2 - low / 2).maxCoeff());
 }
 
-bool is_in_scale(double extent) {
-    return extent == 0 ||
-           (extent >= std::ldexp(1.0, -max_scale) && extent <= std::ldexp(1.0, max_scale));
+MeshBox box_of(const MeshView& mesh, int num_threads) {
+    const auto num_faces = static_cast<Index>(mesh.triangles.size());
+    std::vector<MeshBox> boxes(num_chunks(num_faces, grain));
+    const auto measure = [&](Index chunk, Index begin, Index end) {
+        MeshBox box;
+        for (const Triangle& t : mesh.triangles.subspan(begin, end - begin)) {
+            for (const Index v : t) {
+                if (v >= mesh.positions.size() || !mesh.positions[v].allFinite()) continue;
+                box.add(mesh.positions[v]);
+            }
+        }
+        boxes[chunk] = box;
+    };
+    parallel_chunks(num_faces, grain, num_threads, measure);
+    MeshBox whole;
+    for (const MeshBox& box : boxes) {
+        whole.low = whole.low.cwiseMin(box.low);
+        whole.high = whole.high.cwiseMax(box.high);
+    }
+    return whole;
 }
 
-void check_scale(const MeshView& mesh) {
-    const double side = extent(mesh);
+bool is_in_scale(double longest_side) {
+    return longest_side == 0 || (longest_side >= std::ldexp(1.0, -max_scale) &&
+                                 longest_side <= std::ldexp(1.0, max_scale));
+}
+
+void check_scale(const MeshBox& box) {
+    const double side = box.longest_side();
     if (is_in_scale(side)) return;
     std::ostringstream text;
     text << "the mesh is " << side << " long; scale it to a length between "
@@ -58,9 +60,8 @@ void check_scale(const MeshView& mesh) {
     throw InvalidInput(text.str());
 }
 
-void check_digits(const MeshView& mesh) {
-    const Box box = box_of(mesh);
-    if (box.is_empty() || box.longest_side() == 0) return;
+void check_digits(const MeshBox& box) {
+    if (box.longest_side() == 0) return;
     const double farthest = std::max(box.high.maxCoeff(), -box.low.minCoeff());
     constexpr int most_lost = std::numeric_limits<double>::digits - least_bits;
     if (box.longest_side() >= std::ldexp(farthest, -most_lost)) return;

@@ -2,27 +2,44 @@
 //! The size of a mesh, and scaling to a size where no power of a length overflows or vanishes.
 #pragma once
 
+#include <limits>
+
 #include "agvd/mesh/mesh_view.h"
 
 namespace agvd {
 
-//! Longest side of the box of the faces' corners, mesh units; 0 without faces. Corners that do not
-//! exist or are not finite are left out. Cost: O(#F).
-[[nodiscard]] double extent(const MeshView& mesh);
+//! Of a mesh, along the axes. Without points: low is above high.
+struct MeshBox {
+    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
 
-//! Meshes whose extent lies in [2^-max_scale, 2^max_scale] (about 1e-24 to 1e24) are used without
-//! scaling: the fourth powers of lengths a billion times shorter are still normal numbers.
+    [[nodiscard]] bool is_empty() const { return low.x() > high.x(); }
+    //! Mesh units; at most the largest double. 0 if empty.
+    [[nodiscard]] double longest_side() const;
+    void add(const Vec3& point) {
+        low = low.cwiseMin(point);
+        high = high.cwiseMax(point);
+    }
+};
+
+//! Of the faces' corners. Those that are not there or not finite are left out.
+//!
+//! \param num_threads  >= 0; 0: all cores. The result is the same for any number.
+//! Cost: O(#F).
+[[nodiscard]] MeshBox box_of(const MeshView& mesh, int num_threads = 1);
+
+//! Meshes whose longest side lies in [2^-max_scale, 2^max_scale] (about 1e-24 to 1e24) are computed
+//! on as they are: the fourth powers of lengths a billion times shorter are still normal numbers.
 inline constexpr int max_scale = 80;
 
-//! Whether an extent is in that range, or 0.
-[[nodiscard]] bool is_in_scale(double extent);
+//! Whether that is the longest side of a mesh that can be computed on, or 0.
+[[nodiscard]] bool is_in_scale(double longest_side);
 
-//! \throw InvalidInput  the extent is out of scale. Cost: O(#F).
-void check_scale(const MeshView& mesh);
+//! \throw InvalidInput  the box's longest side is out of scale.
+void check_scale(const MeshBox& box);
 
 //! \throw InvalidInput  the mesh lies so far from the origin that its coordinates have less than 10
-//!        of their 53 bits left for its shape. Cost: O(#F).
-void check_digits(const MeshView& mesh);
+//!        of their 53 bits left for its shape.
+void check_digits(const MeshBox& box);
 
 //! The mesh times 2^exponent. Exact, unless a coordinate becomes subnormal. Cost: O(n).
 [[nodiscard]] TriangleMesh scaled(const MeshView& mesh, int exponent);

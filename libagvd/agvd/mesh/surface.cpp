@@ -212,7 +212,7 @@ Surface build_surface(const MeshView& mesh, int num_threads, const Progress& pro
     Poller poller(progress);
     Ticker ticker(poller);
     check_elements(mesh, ticker);
-    check_scale(mesh);
+    check_scale(box_of(mesh, num_threads));
     std::optional<Connectivity> connectivity = find_connectivity(mesh, num_threads, progress);
     if (!connectivity) explain(mesh, ticker);
     return build_surface({{mesh.positions.begin(), mesh.positions.end()},
@@ -235,9 +235,13 @@ Surface build_surface(TriangleMesh mesh, Connectivity connectivity, int num_thre
 
 std::vector<std::vector<Index>> boundary_loops(const Surface& surface) {
     std::vector<std::vector<Index>> loops;
+    const auto next_open = [&](auto from) { return std::find(from, surface.twin.end(), no_index); };
+    auto open = next_open(surface.twin.begin());
+    if (open == surface.twin.end()) return loops;
     std::vector<bool> seen(surface.twin.size(), false);
-    for (Index start = 0; start < surface.twin.size(); ++start) {
-        if (surface.twin[start] != no_index || seen[start]) continue;
+    for (; open != surface.twin.end(); open = next_open(open + 1)) {
+        const auto start = static_cast<Index>(open - surface.twin.begin());
+        if (seen[start]) continue;
         std::vector<Index>& loop = loops.emplace_back();
         Index h = start;
         do {

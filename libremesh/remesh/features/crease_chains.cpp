@@ -1,6 +1,7 @@
 #include "remesh/features/crease_chains.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "agvd/mesh/one_ring.h"
 
@@ -40,6 +41,15 @@ Index follow(const CreaseSet& set, Index edge, Index vertex, std::vector<Index>&
 
 }  // namespace
 
+Index CreaseSet::next(Index edge) const {
+    const std::size_t num_left = is_in_.size() - edge;
+    if (num_left == 0) return edge;
+    const void* found = std::memchr(is_in_.data() + edge, 1, num_left);
+    return found == nullptr
+               ? static_cast<Index>(is_in_.size())
+               : static_cast<Index>(static_cast<const std::uint8_t*>(found) - is_in_.data());
+}
+
 CreaseChain chain_of(const CreaseSet& set, Index edge) {
     const Surface& surface = set.surface();
     const Index h = surface.edge_half[edge];
@@ -57,9 +67,9 @@ std::vector<CreaseChain> chains_of(const CreaseSet& set, agvd::Poller& poller) {
     agvd::Ticker ticker(poller);
     std::vector<std::uint8_t> is_done(set.surface().num_edges());
     std::vector<CreaseChain> chains;
-    for (Index e = 0; e < set.surface().num_edges(); ++e) {
+    for (Index e = set.next(0); e < set.surface().num_edges(); e = set.next(e + 1)) {
         ticker.tick();
-        if (!set.has(e) || is_done[e]) continue;
+        if (is_done[e]) continue;
         chains.push_back(chain_of(set, e));
         for (const Index other : chains.back().edges) is_done[other] = 1;
     }

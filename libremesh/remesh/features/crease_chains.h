@@ -26,6 +26,8 @@ public:
     void add(agvd::Index edge) { change(edge, true); }
     void remove(agvd::Index edge) { change(edge, false); }
     [[nodiscard]] bool has(agvd::Index edge) const { return is_in_[edge] != 0; }
+    //! The first edge of the set from `edge` on; the number of edges if there is none.
+    [[nodiscard]] agvd::Index next(agvd::Index edge) const;
     [[nodiscard]] agvd::Index degree(agvd::Index vertex) const { return degree_[vertex]; }
     //! A chain ends here, in nothing.
     [[nodiscard]] bool is_open_end(agvd::Index vertex) const {

@@ -30,6 +30,11 @@ struct Patches {
         while (parent[f] != f) f = parent[f] = parent[parent[f]];
         return f;
     }
+    // The same for threads side by side: paths stay as they are.
+    [[nodiscard]] Index root_of(Index f) const {
+        while (parent[f] != f) f = parent[f];
+        return f;
+    }
     [[nodiscard]] bool is_thin(Index root, double thin) const {
         return area[root].norm() < thin * longest[root];
     }
@@ -62,6 +67,23 @@ Patches single_faces(const Surface& surface, int num_threads, agvd::Poller& poll
     return patches;
 }
 
+// Ascending.
+std::vector<Index> find_thin_faces(const Surface& surface, const Patches& patches, double thin,
+                                   int num_threads, agvd::Poller& poller) {
+    std::vector<std::vector<Index>> found(agvd::num_chunks(surface.num_faces(), grain));
+    const auto find = [&](Index chunk, Index begin, Index end) {
+        for (Index f = begin; f < end; ++f) {
+            if (patches.is_thin(f, thin)) found[chunk].push_back(f);
+        }
+    };
+    agvd::parallel_chunks(surface.num_faces(), grain, num_threads, find, poller);
+    std::vector<Index> faces;
+    for (const std::vector<Index>& some : found) {
+        faces.insert(faces.end(), some.begin(), some.end());
+    }
+    return faces;
+}
+
 // A side of a thin face, and how well the face across goes with it. Long sides come first, since
 // only across these a needle gains height; before all those to faces of its direction, since a
 // needle in a plane belongs to this plane. Its own direction may be rounding: it says no more than
@@ -72,12 +94,11 @@ struct Seam {
 };
 
 std::vector<Seam> seams_of_thin_faces(const Surface& surface, const Patches& patches, double thin,
-                                      agvd::Poller& poller) {
+                                      int num_threads, agvd::Poller& poller) {
     agvd::Ticker ticker(poller);
     std::vector<Seam> seams;
-    for (Index f = 0; f < surface.num_faces(); ++f) {
+    for (const Index f : find_thin_faces(surface, patches, thin, num_threads, poller)) {
         ticker.tick();
-        if (!patches.is_thin(f, thin)) continue;
         for (Index h = 3 * f; h < 3 * f + 3; ++h) {
             const Index twin = surface.twin[h];
             if (twin == no_index) continue;
@@ -94,9 +115,10 @@ std::vector<Seam> seams_of_thin_faces(const Surface& surface, const Patches& pat
     return seams;
 }
 
-void join_thin_faces(const Surface& surface, double thin, Patches& patches, agvd::Poller& poller) {
+void join_thin_faces(const Surface& surface, double thin, int num_threads, Patches& patches,
+                     agvd::Poller& poller) {
     agvd::Ticker ticker(poller);
-    for (const Seam& seam : seams_of_thin_faces(surface, patches, thin, poller)) {
+    for (const Seam& seam : seams_of_thin_faces(surface, patches, thin, num_threads, poller)) {
         ticker.tick();
         const Index h = surface.edge_half[seam.edge];
         const Index a = patches.root(Surface::face(h));
@@ -110,8 +132,7 @@ void join_thin_faces(const Surface& surface, double thin, Patches& patches, agvd
 std::vector<double> edge_angles(const Surface& surface, double thin, int num_threads,
                                 agvd::Poller& poller) {
     Patches patches = single_faces(surface, num_threads, poller);
-    join_thin_faces(surface, thin, patches, poller);
-    for (Index f = 0; f < surface.num_faces(); ++f) patches.parent[f] = patches.root(f);
+    join_thin_faces(surface, thin, num_threads, patches, poller);
     std::vector<double> angles(surface.num_edges());
     agvd::parallel_chunks(
         surface.num_edges(), grain, num_threads,
@@ -119,8 +140,8 @@ std::vector<double> edge_angles(const Surface& surface, double thin, int num_thr
             for (Index e = begin; e < end; ++e) {
                 const Index h = surface.edge_half[e];
                 if (surface.twin[h] == no_index) continue;
-                const Index a = patches.parent[Surface::face(h)];
-                const Index b = patches.parent[Surface::face(surface.twin[h])];
+                const Index a = patches.root_of(Surface::face(h));
+                const Index b = patches.root_of(Surface::face(surface.twin[h]));
                 if (a != b) angles[e] = angle_between(patches.area[a], patches.area[b]);
             }
         },

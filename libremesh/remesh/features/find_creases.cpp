@@ -110,9 +110,9 @@ void apply_scale(detail::CreaseSet& set, const std::vector<double>& angles, doub
     std::vector<double> weights = detail::turn_beside(set, angles, reach * spacing, poller);
     const Noise noise = find_noise(set, angles, weights, 2 * spacing, poller);
     agvd::Ticker ticker(poller);
-    for (Index e = 0; e < weights.size(); ++e) {
+    for (Index e = set.next(0); e < weights.size(); e = set.next(e + 1)) {
         ticker.tick();
-        if (set.has(e)) weights[e] = worth(angles[e], weights[e], weak);
+        weights[e] = worth(angles[e], weights[e], weak);
     }
     const detail::CarryRules carry{.least_angle = weak, .most_gap = most_gap * spacing};
     detail::close_gaps(set, angles, carry, poller);

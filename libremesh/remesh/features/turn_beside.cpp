@@ -25,8 +25,7 @@ public:
         turn_.resize(count);
         left_.resize(count);
         source_.assign(count, no_index);
-        for (Index e = 0; e < surface_.num_edges(); ++e) {
-            if (!set.has(e)) continue;
+        for (Index e = set.next(0); e < surface_.num_edges(); e = set.next(e + 1)) {
             const Index h = surface_.edge_half[e];
             crease_length_[surface_.tail(h)] += surface_.length[e] / 2;
             crease_length_[surface_.head(h)] += surface_.length[e] / 2;
@@ -55,8 +54,7 @@ public:
 
     [[nodiscard]] std::vector<double> of_edges() const {
         std::vector<double> turns(surface_.num_edges());
-        for (Index e = 0; e < surface_.num_edges(); ++e) {
-            if (!set_.has(e)) continue;
+        for (Index e = set_.next(0); e < surface_.num_edges(); e = set_.next(e + 1)) {
             const Index h = surface_.edge_half[e];
             for (const Index v : {surface_.tail(h), surface_.head(h)}) {
                 turns[e] += std::sqrt(turn_[v] / crease_length_[v]) / 2;

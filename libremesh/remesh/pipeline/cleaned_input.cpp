@@ -12,10 +12,10 @@ bool refers_to_input(const RemeshOptions& options) {
     return options.sites || !options.feature_edges.empty() || !options.face_labels.empty();
 }
 
-Topology topology_of(const CleanResult& clean, const agvd::Progress& progress) {
+Topology topology_of(const CleanResult& clean, int num_threads, const agvd::Progress& progress) {
     return clean.connectivity.twin.empty()
                ? analyze_topology(clean.mesh.view(), progress)
-               : analyze_topology(clean.mesh.view(), clean.connectivity, progress);
+               : analyze_topology(clean.mesh.view(), clean.connectivity, num_threads, progress);
 }
 
 }  // namespace
@@ -29,11 +29,12 @@ CleanedInput clean_stage(const InputMesh& input, const StageContext& context) {
     result.cleaned = clean.counts;
     const agvd::Progress half = agvd::within(progress, 0.5, 0.5);
     CleanedInput cleaned{.given = input.view};
-    cleaned.topology = topology_of(clean, half);
+    cleaned.topology = topology_of(clean, options.num_threads, half);
     if (options.drop_components > 0) {
         result.components_dropped =
             drop_components(clean, cleaned.topology, options.drop_components);
-        if (result.components_dropped > 0) cleaned.topology = topology_of(clean, half);
+        if (result.components_dropped > 0)
+            cleaned.topology = topology_of(clean, options.num_threads, half);
     }
     const bool is_unchanged = !clean.connectivity.twin.empty();
     if (!is_unchanged || refers_to_input(options)) {

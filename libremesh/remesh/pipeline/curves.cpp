@@ -149,7 +149,8 @@ std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const 
     if (plan->network.network.curves.empty()) return nullptr;
     // Indices do not tell of a cut along one edge alone: both sides have the same ends.
     const Surface& cut = plan->network.cut.surface;
-    plan->patches = analyze_topology(cut.mesh.view(), {cut.twin, cut.outgoing}, done);
+    plan->patches =
+        analyze_topology(cut.mesh.view(), {cut.twin, cut.outgoing}, options.num_threads, done);
     return plan;
 }
 

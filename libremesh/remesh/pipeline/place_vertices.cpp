@@ -59,7 +59,8 @@ PlacedMesh place_vertices(const Domain& domain, const CurveSites& curves, const 
                      agvd::within(progress, 0, 0), domain.plan ? rounding * domain.spacing : 0);
     }
     if (is_relaxed(options)) {
-        improve_shape(domain.prepared, nearest, placed, agvd::within(progress, 0.5, 0.5));
+        improve_shape(domain.prepared, nearest, placed, options.num_threads,
+                      agvd::within(progress, 0.5, 0.5));
     }
     agvd::poll(progress, 1);
     return placed;

@@ -54,7 +54,7 @@ void scale_back(RemeshResult& result, int exponent) {
 
 RemeshResult run(const detail::InputMesh& input, const RemeshOptions& options) {
     check_options(options, input.view.triangles.size());
-    const double size = agvd::extent(input.view);
+    const double size = agvd::box_of(input.view, options.num_threads).longest_side();
     if (agvd::is_in_scale(size)) return detail::run_stages(input, options);
     const int exponent = std::ilogb(size);
     agvd::TriangleMesh normal = agvd::scaled(input.view, -exponent);

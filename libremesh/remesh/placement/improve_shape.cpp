@@ -4,11 +4,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "agvd/core/poller.h"
+#include "agvd/core/parallel.h"
 #include "agvd/mesh/point_faces.h"
 #include "remesh/placement/shape_quality.h"
 #include "remesh/placement/vertex_triangles.h"
 #include "remesh/relax/cell_planes.h"
+#include "remesh/relax/face_parts.h"
 #include "remesh/relax/walk.h"
 
 namespace remesh {
@@ -43,9 +44,9 @@ constexpr double least_gain = 1e-4;
 class Improvement {
 public:
     Improvement(const PreparedSurface& surface, std::span<const Index> nearest_vertex,
-                agvd::Ticker ticker, PlacedMesh& mesh)
+                int num_threads, agvd::Poller& poller, PlacedMesh& mesh)
         : surface_(surface.input()),
-          ticker_(ticker),
+          ticker_(poller),
           mesh_(mesh),
           around_(mesh.triangles, mesh.points.size()),
           at_(mesh.points.size()),
@@ -53,18 +54,7 @@ public:
           planes_(mesh.points.size()) {
         for (Index v = 0; v < at_.size(); ++v) locate(v);
         find_slim();
-        const agvd::Surface& base = surface.base.surface();
-        for (Index f = 0; f < base.num_faces(); ++f) {
-            ticker_.tick();
-            surface.pieces.for_each(f, [&](const agvd::SurfacePiece& piece) {
-                const double area = piece.vector.norm() / 3;
-                for (const Index corner : base.mesh.triangles[f]) {
-                    const Index v = nearest_vertex[corner];
-                    if (v == agvd::no_index || !(area > 0)) continue;
-                    planes_[v].add(piece.vector / 3, area, piece.position);
-                }
-            });
-        }
+        add_planes(surface, nearest_vertex, num_threads, poller);
     }
 
     void run() {
@@ -73,6 +63,28 @@ public:
     }
 
 private:
+    void add_planes(const PreparedSurface& surface, std::span<const Index> nearest_vertex,
+                    int num_threads, agvd::Poller& poller) {
+        const agvd::Surface& base = surface.base.surface();
+        const detail::FaceParts parts(base, nearest_vertex, num_threads, poller);
+        const auto add_part = [&](Index part, Index, Index) {
+            agvd::Ticker ticker(poller);
+            parts.for_each_face(part, [&](Index f) {
+                ticker.tick();
+                surface.pieces.for_each(f, [&](const agvd::SurfacePiece& piece) {
+                    const double area = piece.vector.norm() / 3;
+                    if (!(area > 0)) return;
+                    for (const Index corner : base.mesh.triangles[f]) {
+                        const Index v = nearest_vertex[corner];
+                        if (!parts.has(part, v)) continue;
+                        planes_[v].add(piece.vector / 3, area, piece.position);
+                    }
+                });
+            });
+        };
+        agvd::parallel_chunks(parts.count(), 1, num_threads, add_part, poller);
+    }
+
     void work_below(double least_quality, double cost) {
         plane_cost_ = cost;
         is_worth_it_.assign(at_.size(), 1);
@@ -218,9 +230,9 @@ private:
 }  // namespace
 
 void improve_shape(const PreparedSurface& surface, std::span<const Index> nearest_vertex,
-                   PlacedMesh& mesh, const agvd::Progress& progress) {
+                   PlacedMesh& mesh, int num_threads, const agvd::Progress& progress) {
     agvd::Poller poller(progress);
-    Improvement(surface, nearest_vertex, agvd::Ticker(poller), mesh).run();
+    Improvement(surface, nearest_vertex, num_threads, poller, mesh).run();
 }
 
 }  // namespace remesh

@@ -125,12 +125,12 @@ private:
 class EvenOut {
 public:
     EvenOut(const agvd::IntrinsicTriangulation& base, std::vector<SurfacePoint>& sites,
-            std::span<const std::uint8_t> is_fixed, const agvd::Progress& progress)
+            std::span<const std::uint8_t> is_fixed, int num_threads, const agvd::Progress& progress)
         : base_(base),
           surface_(base.surface()),
           sites_(sites),
           on_base_(base.to_intrinsic(sites)),
-          components_(find_components(surface_, progress)) {
+          components_(find_components(surface_, num_threads, progress)) {
         may_move_.reserve(sites.size());
         for (Index i = 0; i < sites.size(); ++i) {
             const bool stays = (!is_fixed.empty() && is_fixed[i] != 0) ||
@@ -275,7 +275,7 @@ private:
 Index even_out(const PreparedSurface& surface, std::vector<SurfacePoint>& sites,
                std::span<const std::uint8_t> is_fixed, int num_threads,
                const agvd::Progress& progress) {
-    return EvenOut(surface.base, sites, is_fixed, progress)
+    return EvenOut(surface.base, sites, is_fixed, num_threads, progress)
         .run(surface.layout, num_threads, progress);
 }
 

@@ -80,6 +80,8 @@ Levels::Levels(const PreparedSurface& prepared, const RelaxOptions& options, int
     : prepared_(prepared),
       surface_(prepared.base.surface()),
       options_(options),
+      has_boundary_(std::find(surface_.twin.begin(), surface_.twin.end(), agvd::no_index) !=
+                    surface_.twin.end()),
       steps_planned_(options.steps * num_levels) {
     if (options.progress) progress_ = [this](double) { return options_.progress(fraction()); };
 }
@@ -125,7 +127,7 @@ void Levels::look(Relaxation& relaxation, const agvd::DistanceBounds& labels,
                   std::span<const Index> corners) const {
     const auto num_sites = static_cast<Index>(relaxation.sites().size());
     if (!gives_cells(num_sites)) return;
-    if (options_.boundary == Boundary::Keep) {
+    if (has_boundary_ && options_.boundary == Boundary::Keep) {
         relaxation.move_to_boundary(boundary_places(prepared_.base, labels, num_sites, corners));
     }
     relaxation.set_density(

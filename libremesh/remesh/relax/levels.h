@@ -64,6 +64,7 @@ private:
     const agvd::Surface& surface_;  // Of its base.
     const RelaxOptions& options_;
     agvd::Progress progress_;
+    bool has_boundary_;
     int steps_planned_;
     int steps_done_ = 0;
     std::size_t num_mended_ = 0;  // Levels up to the last one that has paid for a propagation.

@@ -174,8 +174,9 @@ private:
 // Triangulations of patches, taken one by one.
 class Patches {
 public:
-    explicit Patches(const PreparedSurface& surface)
-        : surface_(surface), component_(detail::label_components(surface.input().twin)) {
+    explicit Patches(const PreparedSurface& surface) : surface_(surface) {
+        agvd::Poller never;
+        component_ = detail::label_components(surface.input().twin, 1, never);
         faces_.resize(component_.count);
         const std::vector<Index> parts = parts_of_base(surface.base, component_.of_face);
         for (Index f = 0; f < parts.size(); ++f) faces_[parts[f]].push_back(f);

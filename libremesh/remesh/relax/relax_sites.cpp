@@ -46,10 +46,10 @@ void check_options(const RelaxOptions& options, std::size_t num_sites) {
 
 // How many sites to begin with so that they and the middles between them are `count`; nothing if
 // these would be too few.
-std::optional<Index> coarse_count(const Surface& surface, Index count,
+std::optional<Index> coarse_count(const Surface& surface, Index count, int num_threads,
                                   const agvd::Progress& progress) {
     agvd::Poller poller(progress);
-    const Index num_components = detail::label_components(surface.twin, agvd::Ticker(poller)).count;
+    const Index num_components = detail::label_components(surface.twin, num_threads, poller).count;
     const double euler = detail::euler_of(surface);
     // V + E, with E = 3 V - 3 chi; edges on the boundary are a little fewer.
     const double coarse = coarse_margin * (count + 3 * euler) / 4 + 1;
@@ -86,8 +86,9 @@ RelaxResult sample_relaxed_sites(const PreparedSurface& surface, const SamplingO
     const auto one_after_the_other = [&] {
         return relax_sites(surface, sample_sites(input, sampling), options);
     };
-    const std::optional<Index> coarse = coarse_count(surface.base.surface(), sampling.num_samples,
-                                                     agvd::within(options.progress, 0, 0));
+    const std::optional<Index> coarse =
+        coarse_count(surface.base.surface(), sampling.num_samples, options.num_threads,
+                     agvd::within(options.progress, 0, 0));
     if (!coarse || options.steps == 0) return one_after_the_other();
     SamplingOptions first = sampling;
     first.num_samples = *coarse;

@@ -5,6 +5,7 @@
 #include "agvd/core/edge_key.h"
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/point_faces.h"
+#include "remesh/relax/face_parts.h"
 
 namespace remesh::detail {
 namespace {
@@ -34,21 +35,17 @@ SurfacePoint point_on(Index h, double along, double inside) {
     return point;
 }
 
-// Adds what the sites of one part hold, face by face: sites count off by part.
-void add_part(const PreparedSurface& prepared, const agvd::DistanceBounds& labels, Index part,
-              Index num_parts, agvd::Ticker ticker, CellMeasures& result,
+// Adds what the sites of one part hold, face by face.
+void add_part(const PreparedSurface& prepared, const agvd::DistanceBounds& labels,
+              const FaceParts& parts, Index part, agvd::Ticker ticker, CellMeasures& result,
               std::vector<agvd::Vec3>& shadow) {
     const Surface& surface = prepared.base.surface();
-    const auto is_of_part = [&](Index site) {
-        return site != no_index && (site & (num_parts - 1)) == part;
-    };
-    for (Index f = 0; f < surface.num_faces(); ++f) {
+    parts.for_each_face(part, [&](Index f) {
         ticker.tick();
         const agvd::Triangle& t = surface.mesh.triangles[f];
         const std::array<Index, 3> site{labels.site[t[0]], labels.site[t[1]], labels.site[t[2]]};
-        if (std::none_of(site.begin(), site.end(), is_of_part)) continue;
         const auto add = [&](Index s, double share) {
-            if (!is_of_part(s)) return;
+            if (!parts.has(part, s)) return;
             prepared.pieces.for_each(f, [&](const agvd::SurfacePiece& piece) {
                 const double area = piece.vector.norm();
                 result.area[s] += share * area;
@@ -59,14 +56,14 @@ void add_part(const PreparedSurface& prepared, const agvd::DistanceBounds& label
         };
         if (site[0] == site[1] && site[1] == site[2]) {
             add(site[0], 1);
-            continue;
+            return;
         }
         // The corner across from two of one label is cut off; three labels share alike.
         std::size_t k = 0;
         while (k < 3 && site[(k + 1) % 3] != site[(k + 2) % 3]) ++k;
         if (k == 3) {
             for (const Index s : site) add(s, 1.0 / 3);
-            continue;
+            return;
         }
         const std::size_t next = (k + 1) % 3, previous = (k + 2) % 3;
         const auto h = 3 * f + static_cast<Index>(k);
@@ -75,7 +72,7 @@ void add_part(const PreparedSurface& prepared, const agvd::DistanceBounds& label
             meeting_place(labels, t[k], t[previous], surface.length_of(Surface::previous(h)));
         add(site[k], cut);
         add(site[next], 1 - cut);
-    }
+    });
 }
 
 }  // namespace
@@ -93,13 +90,11 @@ CellMeasures measure_cells(const PreparedSurface& surface, const agvd::DistanceB
     CellMeasures result{std::vector<double>(num_sites, 0), std::vector<double>(num_sites, 0),
                         std::vector<CellPlanes>(num_sites)};
     std::vector<agvd::Vec3> shadow(num_sites, agvd::Vec3::Zero());  // The largest is so long.
-    // Each part passes all faces, so that sums run in one order: one of two takes two thirds of the
-    // time of all.
-    const Index num_parts = num_threads == 1 ? 1 : 2;
+    const FaceParts parts(surface.base.surface(), labels.site, num_threads, poller);
     const auto body = [&](Index part, Index, Index) {
-        add_part(surface, labels, part, num_parts, agvd::Ticker(poller), result, shadow);
+        add_part(surface, labels, parts, part, agvd::Ticker(poller), result, shadow);
     };
-    agvd::parallel_chunks(num_parts, 1, num_threads, body, poller);
+    agvd::parallel_chunks(parts.count(), 1, num_threads, body, poller);
     for (Index i = 0; i < num_sites; ++i) {
         if (result.area[i] > 0) {
             result.bending[i] = std::max(0.0, 1 - shadow[i].norm() / result.area[i]);

@@ -22,9 +22,11 @@ struct Patch {
     double area = 0, boundary_length = 0;
 };
 
-std::vector<Patch> find_patches(const Surface& surface, const agvd::Progress& progress) {
+std::vector<Patch> find_patches(const Surface& surface, int num_threads,
+                                const agvd::Progress& progress) {
     std::vector<Patch> patches;
-    for (const detail::Component& component : detail::find_components(surface, progress)) {
+    for (const detail::Component& component :
+         detail::find_components(surface, num_threads, progress)) {
         patches.push_back({component.area(), detail::boundary_length(surface, component)});
     }
     return patches;
@@ -153,7 +155,8 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
         plan.cut =
             cut_surface(surface, edges_to_cut(plan.junctions, is_crease), num_threads, progress);
         Division division =
-            divide(surface, plan.network, find_patches(plan.cut.surface, progress), num_vertices);
+            divide(surface, plan.network, find_patches(plan.cut.surface, num_threads, progress),
+                   num_vertices);
         plan.spacing = division.spacing;
         plan.along = std::move(division.along);
         plan.intervals = intervals_between(plan.network, plan.along);

@@ -127,7 +127,8 @@ std::vector<agvd::SurfacePoint> sample_sites(const agvd::Surface& surface,
     }
     agvd::poll(options.progress, 0);
     const agvd::Progress begin = agvd::within(options.progress, 0, 0);
-    const std::vector<Component> components = detail::find_components(surface, begin);
+    const std::vector<Component> components =
+        detail::find_components(surface, options.num_threads, begin);
     const bool keeps_boundary = options.init != Init::Random && options.boundary == Boundary::Keep;
     const auto loops = find_loops(surface, components);
     std::vector<double> boundary_length(components.size(), 0);
@@ -171,7 +172,8 @@ std::vector<agvd::SurfacePoint> sample_inner_sites(const agvd::Surface& surface,
                                                    Index count, double spacing,
                                                    const SamplingOptions& options) {
     const agvd::Progress begin = agvd::within(options.progress, 0, 0);
-    const std::vector<Component> components = detail::find_components(surface, begin);
+    const std::vector<Component> components =
+        detail::find_components(surface, options.num_threads, begin);
     std::vector<Index> component_of(surface.num_faces());
     std::vector<double> lacking;
     for (Index i = 0; i < components.size(); ++i) {

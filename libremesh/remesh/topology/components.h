@@ -2,6 +2,8 @@
 //! The connected components of a surface, with what sampling needs to know of each.
 #pragma once
 
+#include <atomic>
+#include <functional>
 #include <span>
 
 #include "agvd/core/poller.h"
@@ -25,9 +27,43 @@ struct FaceLabels {
     agvd::Index count = 0;             //!< Of components.
 };
 
-//! \param twin  as agvd::Surface has it. Cost: O(#F).
-[[nodiscard]] FaceLabels label_components(std::span<const agvd::Index> twin,
-                                          agvd::Ticker ticker = {});
+//! \param twin         as agvd::Surface has it.
+//! \param num_threads  >= 0; 0: all cores. The result is the same for any number.
+//! Cost: O(#F); what joins chunks of faces is done on one thread, little where neighbours have near
+//! numbers.
+[[nodiscard]] FaceLabels label_components(std::span<const agvd::Index> twin, int num_threads,
+                                          agvd::Poller& poller);
+
+//! Adds to integers of components, for several threads at once. A run of one component is added in
+//! one go: most surfaces have one only.
+class ComponentTally {
+public:
+    //! \param number_of  gives the component's number, an int&; outlives this.
+    explicit ComponentTally(const std::function<int&(agvd::Index)>& number_of)
+        : number_of_(number_of) {}
+    ComponentTally(const ComponentTally&) = delete;
+    ComponentTally& operator=(const ComponentTally&) = delete;
+    ~ComponentTally() { flush(); }
+
+    void add(agvd::Index component, int value) {
+        if (component != component_) {
+            flush();
+            component_ = component;
+        }
+        sum_ += value;
+    }
+
+private:
+    void flush() {
+        if (sum_ == 0) return;
+        std::atomic_ref(number_of_(component_)).fetch_add(sum_, std::memory_order_relaxed);
+        sum_ = 0;
+    }
+
+    const std::function<int&(agvd::Index)>& number_of_;
+    agvd::Index component_ = agvd::no_index;
+    int sum_ = 0;
+};
 
 //! Of a component: of its edges without a face on the other side. Cost: O(faces).
 [[nodiscard]] double boundary_length(const agvd::Surface& surface, const Component& component);
@@ -37,7 +73,10 @@ struct FaceLabels {
 
 //! By lowest face. Linear time, as connectivity is given (analyze_topology sorts it out of
 //! indices).
+//!
+//! \param num_threads  >= 0; 0: all cores. The result is the same for any number.
 [[nodiscard]] std::vector<Component> find_components(const agvd::Surface& surface,
+                                                     int num_threads = 0,
                                                      const agvd::Progress& progress = {});
 
 }  // namespace remesh::detail

@@ -7,6 +7,7 @@
 
 #include "agvd/core/bucket_sort.h"
 #include "agvd/core/half_edge.h"
+#include "agvd/core/parallel.h"
 #include "agvd/core/union_find.h"
 #include "remesh/topology/components.h"
 #include "remesh/topology/edge_sides.h"
@@ -154,33 +155,54 @@ Topology analyze_topology(const agvd::MeshView& mesh, const agvd::Progress& prog
 }
 
 Topology analyze_topology(const agvd::MeshView& mesh, const agvd::Connectivity& connectivity,
-                          const agvd::Progress& progress) {
+                          int num_threads, const agvd::Progress& progress) {
+    constexpr Index grain = 1 << 14;  // Faces or vertices.
     agvd::Poller poller(progress);
     agvd::Ticker ticker(poller);
     const auto& [twin, outgoing] = connectivity;
-    detail::FaceLabels labels = detail::label_components(twin, ticker);
+    detail::FaceLabels labels = detail::label_components(twin, num_threads, poller);
     Topology result{true, true, std::vector<ComponentTopology>(labels.count),
                     std::move(labels.of_face)};
-    const auto component_of = [&](Index half_edge) -> ComponentTopology& {
-        return result.components[result.face_component[half_edge / 3]];
+    const std::vector<Index>& label = result.face_component;
+    const std::function<int&(Index)> euler_of = [&](Index component) -> int& {
+        return result.components[component].euler;
     };
-    for (Index f = 0; f < result.face_component.size(); ++f) {
+    const auto num_faces = static_cast<Index>(label.size());
+    std::vector<double> area(num_faces);
+    poller.poll();
+    const auto count_faces = [&](Index, Index begin, Index end) {
+        detail::ComponentTally euler(euler_of);
+        for (Index f = begin; f < end; ++f) {
+            area[f] = face_area(mesh, f);
+            int num_edges = 0;  // An edge counts at its lower half-edge; no_index is higher.
+            for (Index h = 3 * f; h < 3 * f + 3; ++h) num_edges += twin[h] > h ? 1 : 0;
+            euler.add(label[f], 1 - num_edges);
+        }
+    };
+    agvd::parallel_chunks(num_faces, grain, num_threads, count_faces, poller);
+    const auto count_vertices = [&](Index, Index begin, Index end) {
+        detail::ComponentTally euler(euler_of);
+        for (Index v = begin; v < end; ++v) {
+            if (outgoing[v] != no_index) euler.add(label[outgoing[v] / 3], 1);
+        }
+    };
+    agvd::parallel_chunks(static_cast<Index>(outgoing.size()), grain, num_threads, count_vertices,
+                          poller);
+    for (Index f = 0; f < num_faces; ++f) {  // Sums run in the order of the faces.
         ticker.tick();
-        ComponentTopology& c = component_of(3 * f);
+        ComponentTopology& c = result.components[label[f]];
         ++c.faces;
-        ++c.euler;
-        c.area += face_area(mesh, f);
-        for (Index h = 3 * f; h < 3 * f + 3; ++h) c.euler -= twin[h] > h ? 1 : 0;  // Edges.
+        c.area += area[f];
     }
-    agvd::for_each_ticked(outgoing, ticker, [&](Index h) {
-        if (h != no_index) ++component_of(h).euler;
-    });
     std::vector<bool> is_seen(twin.size(), false);
-    for (Index start = 0; start < twin.size(); ++start) {
-        ticker.tick();
-        if (twin[start] != no_index || is_seen[start]) continue;
-        ++component_of(start).boundary_loops;
+    poller.poll();
+    const auto next_open = [&](auto from) { return std::find(from, twin.end(), no_index); };
+    for (auto open = next_open(twin.begin()); open != twin.end(); open = next_open(open + 1)) {
+        const auto start = static_cast<Index>(open - twin.begin());
+        if (is_seen[start]) continue;
+        ++result.components[label[start / 3]].boundary_loops;
         for (Index h = start; !is_seen[h];) {
+            ticker.tick();
             is_seen[h] = true;
             h = outgoing[mesh.triangles[h / 3][agvd::next_half_edge(h) % 3]];
         }

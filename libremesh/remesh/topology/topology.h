@@ -38,10 +38,11 @@ struct Topology {
 //!
 //! \param connectivity  agvd::find_connectivity(mesh), of which no two faces may have the same
 //!                      corners, as in what clean_input returns.
+//! \param num_threads   >= 0; 0: all cores. The result is the same for any number.
 //! \throw agvd::Cancelled  the progress callback returned false.
 //! Cost: O(n).
 [[nodiscard]] Topology analyze_topology(const agvd::MeshView& mesh,
-                                        const agvd::Connectivity& connectivity,
+                                        const agvd::Connectivity& connectivity, int num_threads = 0,
                                         const agvd::Progress& progress = {});
 
 //! Same number of components of each (genus, boundary loops) type.

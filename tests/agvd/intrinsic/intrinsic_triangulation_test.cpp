@@ -124,8 +124,8 @@ TEST(FaceOperations, RandomFlipsAndSplitsKeepEverythingConsistent) {
     Index num_flips = 0, num_self_glued = 0, num_loops = 0;
     for_each_mesh([&](const TriangleMesh&, Surface surface, std::uint64_t seed) {
         const double area = area_of(surface);
-        Ticker ticker;
-        (void)detail::raise_flat_faces(surface, ticker);
+        Poller poller;
+        (void)detail::raise_flat_faces(surface, 1, poller);
         detail::FaceCharts charts(surface);
         Dice dice(seed);
         for (int step = 0; step < 60; ++step) {

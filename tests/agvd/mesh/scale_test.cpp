@@ -25,12 +25,23 @@ TEST(Scale, ExtentIsThatOfTheFaces) {
     TriangleMesh mesh = cube_of(3);
     mesh.positions.emplace_back(100, 0, 0);  // In no face.
     mesh.positions[mesh.triangles[0][0]].x() = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_EQ(extent(mesh.view()), 3);
-    EXPECT_EQ(extent({}), 0);
-    EXPECT_EQ(extent(cube_of(1e308).view()), 1e308);
+    EXPECT_EQ(box_of(mesh.view()).longest_side(), 3);
+    EXPECT_EQ(box_of({}).longest_side(), 0);
+    EXPECT_EQ(box_of(cube_of(1e308).view()).longest_side(), 1e308);
     mesh = cube_of(1);
     for (Vec3& p : mesh.positions) p = (p - Vec3(0.5, 0.5, 0.5)) * 2 * 1.7e308;
-    EXPECT_EQ(extent(mesh.view()), std::numeric_limits<double>::max());
+    EXPECT_EQ(box_of(mesh.view()).longest_side(), std::numeric_limits<double>::max());
+}
+
+TEST(Scale, BoxIsTheSameForAnyNumberOfThreads) {
+    const TriangleMesh mesh = shapes::torus(120, 120);  // Several chunks.
+    MeshBox expected;
+    for (const Vec3& p : mesh.positions) expected.add(p);
+    for (const int num_threads : {1, 2, 8}) {
+        EXPECT_EQ(box_of(mesh.view(), num_threads).low, expected.low);
+        EXPECT_EQ(box_of(mesh.view(), num_threads).high, expected.high);
+    }
+    EXPECT_TRUE(box_of({}).is_empty());
 }
 
 TEST(Scale, RangeEndsAtTwoToTheEighty) {
@@ -55,8 +66,8 @@ TEST(Scale, ScaledAndBackIsTheSame) {
 TEST(Scale, DigitsRunOutFarFromTheOrigin) {
     TriangleMesh mesh = shapes::cube();
     for (Vec3& p : mesh.positions) p.z() -= 0x1p43 * 1.1;
-    EXPECT_THROW(check_digits(mesh.view()), InvalidInput);
+    EXPECT_THROW(check_digits(box_of(mesh.view())), InvalidInput);
     mesh = shapes::cube();
     for (Vec3& p : mesh.positions) p.z() -= 0x1p42;
-    EXPECT_NO_THROW(check_digits(mesh.view()));
+    EXPECT_NO_THROW(check_digits(box_of(mesh.view())));
 }

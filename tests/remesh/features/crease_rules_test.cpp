@@ -76,6 +76,18 @@ private:
 
 }  // namespace
 
+TEST(CreaseSet, NextPassesAllEdgesOfTheSet) {
+    const Surface surface = build_surface(shapes::grid(20).view());
+    CreaseSet set(surface);
+    EXPECT_EQ(set.next(0), surface.num_edges());
+    const std::vector<Index> edges{0, 7, 8, 400, surface.num_edges() - 1};
+    for (const Index e : edges) set.add(e);
+    std::vector<Index> found;
+    for (Index e = set.next(0); e < surface.num_edges(); e = set.next(e + 1)) found.push_back(e);
+    EXPECT_EQ(found, edges);
+    EXPECT_EQ(set.next(surface.num_edges()), surface.num_edges());
+}
+
 TEST(CloseGaps, WeakEdgesCloseAGapUpToItsLimit) {
     for (const double most_gap : {0.25, 0.15}) {
         Drawing drawing;

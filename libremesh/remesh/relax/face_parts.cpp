@@ -1,0 +1,67 @@
+#include "remesh/relax/face_parts.h"
+
+#include <array>
+
+#include "agvd/core/parallel.h"
+
+namespace remesh::detail {
+namespace {
+
+using agvd::Index;
+using agvd::no_index;
+
+// For several threads. With more, faces of two or three labels are in more parts.
+constexpr Index most_parts = 8;
+constexpr Index grain = 1 << 14;  // Faces.
+
+using PerPart = std::array<Index, most_parts>;
+
+// Calls each(part) once for each part that a face has a corner of.
+template <typename Each>
+void for_each_part(const agvd::Triangle& face, std::span<const Index> label, const Each& each) {
+    unsigned parts = 0;
+    for (const Index v : face) {
+        if (label[v] != no_index) parts |= 1u << (label[v] & (most_parts - 1));
+    }
+    for (Index part = 0; parts != 0; ++part, parts >>= 1) {
+        if ((parts & 1) != 0) each(part);
+    }
+}
+
+}  // namespace
+
+FaceParts::FaceParts(const agvd::Surface& surface, std::span<const Index> label, int num_threads,
+                     agvd::Poller& poller)
+    : count_(num_threads == 1 ? 1 : most_parts), num_faces_(surface.num_faces()) {
+    if (count_ == 1) return;
+    const std::vector<agvd::Triangle>& triangles = surface.mesh.triangles;
+    std::vector<PerPart> next(agvd::num_chunks(num_faces_, grain), PerPart{});
+    const auto count = [&](Index chunk, Index begin, Index end) {
+        PerPart number{};
+        for (Index f = begin; f < end; ++f) {
+            for_each_part(triangles[f], label, [&](Index part) { ++number[part]; });
+        }
+        next[chunk] = number;
+    };
+    agvd::parallel_chunks(num_faces_, grain, num_threads, count, poller);
+    Index sum = 0;
+    for (Index part = 0; part < most_parts; ++part) {
+        begin_.push_back(sum);
+        for (PerPart& chunk : next) {
+            const Index number = chunk[part];
+            chunk[part] = sum;
+            sum += number;
+        }
+    }
+    begin_.push_back(sum);
+    faces_.resize(sum);
+    const auto fill = [&](Index chunk, Index begin, Index end) {
+        PerPart at = next[chunk];
+        for (Index f = begin; f < end; ++f) {
+            for_each_part(triangles[f], label, [&](Index part) { faces_[at[part]++] = f; });
+        }
+    };
+    agvd::parallel_chunks(num_faces_, grain, num_threads, fill, poller);
+}
+
+}  // namespace remesh::detail
