@@ -96,7 +96,7 @@ CellMeasures measure_cells(const PreparedSurface& surface, const agvd::DistanceB
     agvd::Poller poller(progress);
     CellMeasures result{std::vector<double>(num_sites, 0), std::vector<double>(num_sites, 0),
                         std::vector<CellPlanes>(num_sites)};
-    std::vector<agvd::Vec3> shadow(num_sites, agvd::Vec3::Zero());  // Length: a projected area.
+    std::vector<agvd::Vec3> shadow(num_sites, agvd::Vec3::Zero());  // Norm: largest projection.
     // Each part visits all faces, so sums have a fixed order. One of two parts takes two thirds of
     // the time of the whole.
     const Index num_parts = num_threads == 1 ? 1 : 2;
