@@ -1,6 +1,6 @@
 // A strip is a list of crossed half-edges. StripBuilder appends to it by turning around the current
-// point, which is a vertex or lies on an edge, from face to face. A view of a point is its place in
-// one of the faces that have it.
+// point, from face to face, if that is a vertex or lies on an edge. A view of a point is its place
+// in one of the faces that have it.
 #include "remesh/dual/face_strip.h"
 
 #include <algorithm>

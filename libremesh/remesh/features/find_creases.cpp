@@ -71,8 +71,9 @@ struct Noise {
     double edge_length = 0;  // Mean.
 };
 
-// An edge is noisy if the surface beside it turns as the edge itself. If noise is so strong that
-// most edges are above the angle, no others are left beside them; then most chains are short.
+// An edge is noisy if the surface beside it turns as much as the edge itself. If noise is so strong
+// that most edges are above the angle, no other edges are left beside them; then most chains are
+// short.
 Noise find_noise(const detail::CreaseSet& set, const std::vector<double>& angles,
                  const std::vector<double>& beside, double shortest, agvd::Poller& poller) {
     const std::vector<double>& length = set.surface().length;

@@ -8,7 +8,7 @@
 
 namespace remesh {
 
-//! Moves and new sites after which fewer cells meet the boundary from inside.
+//! Moves and new sites. After these fewer cells of inner sites meet the boundary.
 struct BoundaryFixes {
     std::vector<std::pair<agvd::Index, agvd::SurfacePoint>> moved;  //!< Site and place, ascending.
     std::vector<agvd::SurfacePoint> added;

@@ -44,8 +44,8 @@ void check_options(const RelaxOptions& options, std::size_t num_sites) {
     }
 }
 
-// The number of coarse sites that makes `count` together with the middles between them; nothing if
-// it is too small.
+// The number of coarse sites that gives `count` sites together with the middles between them;
+// nothing if it is too small.
 std::optional<Index> coarse_count(const Surface& surface, Index count,
                                   const agvd::Progress& progress) {
     agvd::Poller poller(progress);

@@ -22,7 +22,7 @@ constexpr double interior_margin = 1e-6;
 constexpr double least_cosine = 0.05;
 // A walk that meets the boundary goes this share of its last section.
 constexpr double stop_share = 0.9;
-// Most crossings of a walk. No step of relaxation crosses more faces, except slivers around one
+// Most crossings of a walk. Steps of relaxation stay below this, except at slivers around one
 // vertex.
 constexpr int most_crossings = 2000;
 
