@@ -24,8 +24,7 @@ constexpr double least_normal_cosine = -0.5;
 // alpha = 8, beta = 0.65, gamma = 1.5.
 struct Weight {
     double reach;  // 2 r_max: the spacing of points in the densest packing.
-    double
-        floor;  // 2 r_min: nearer points get no more weight, so that dense clumps do not dominate.
+    double floor;  // 2 r_min: nearer points weigh no more, so that clumps do not dominate.
 
     Weight(double spacing, double keep, double total)
         : reach(spacing), floor(reach * (1 - std::pow(keep / total, 1.5)) * 0.65) {}
