@@ -16,7 +16,7 @@ struct RelaxOptions {
     double tolerance = 1e-4;
     std::vector<std::uint8_t> is_fixed = {};  //!< #sites: 1 for sites that stay; or empty.
     Boundary boundary = Boundary::Keep;       //!< Keep: inner sites whose cells meet it move to it.
-    std::vector<agvd::Index> corners = {};    //!< Keep: the nearest sites move to these vertices.
+    std::vector<agvd::Index> corners = {};    //!< Boundary vertices: with Keep, sites move there.
     int num_threads = 0;  //!< >= 0; 0: all cores. The same bytes for any number.
     agvd::Progress progress = {};
 };
