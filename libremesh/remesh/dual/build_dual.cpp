@@ -1,3 +1,6 @@
+// The ends of degenerate Voronoi edges are contracted to one point. The cells around each point
+// form a polygon, which is cut into triangles by removing ears whose diagonal is not an edge of the
+// dual yet.
 #include "remesh/dual/build_dual.h"
 
 #include <algorithm>
@@ -47,7 +50,7 @@ public:
     }
 
 private:
-    // Contracted edges must not close a circle, or the polygon would have a hole.
+    // Contracted edges must not close a cycle, otherwise the polygon would have a hole.
     void keep_forest() {
         std::vector<Index> parent(diagram_.vertices.size());
         for (Index v = 0; v < parent.size(); ++v) parent[v] = v;
@@ -81,7 +84,7 @@ private:
         return end + 1 == diagram_.vertex_offsets[v + 1] ? diagram_.vertex_offsets[v] : end + 1;
     }
 
-    // The cells around v and whatever is contracted with it, counter-clockwise.
+    // Collects the cells around v and all vertices contracted with it, counter-clockwise.
     void collect_polygon(Index v, std::vector<bool>& is_done) {
         is_done[v] = true;
         Index end = diagram_.vertex_offsets[v];
@@ -110,7 +113,7 @@ private:
         while (polygon_.size() > 3) {
             std::size_t ear = 0;
             while (ear < polygon_.size() && !is_free_ear(ear)) ++ear;
-            if (ear == polygon_.size()) ear = 0;  // Every diagonal is taken; the caller will see.
+            if (ear == polygon_.size()) ear = 0;  // All taken: the caller's check finds it.
             const Index a = at(ear + polygon_.size() - 1);
             const Index b = at(ear);
             const Index c = at(ear + 1);

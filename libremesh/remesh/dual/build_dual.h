@@ -8,8 +8,8 @@ namespace remesh {
 
 //! Triangles of site indices, oriented like the surface. A Voronoi vertex of degree k > 3 (or
 //! several joined by degenerate Voronoi edges) gives a k-gon, triangulated with diagonals that
-//! repeat no edge where that is possible. Sites without a cell, and cells without a Voronoi vertex,
-//! occur in no triangle. The caller checks the topology (analyze_topology).
+//! repeat no edge if possible. Sites without a cell, and cells without a Voronoi vertex, occur in
+//! no triangle. The caller checks the topology (analyze_topology).
 //!
 //! \throw agvd::Cancelled  the progress callback returned false.
 //! Cost: O(size of the complex) and a sort.

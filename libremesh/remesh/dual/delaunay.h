@@ -8,11 +8,11 @@
 
 namespace remesh {
 
-//! By which lengths the Delaunay condition is judged.
+//! The lengths by which the Delaunay condition is tested.
 enum class Delaunay : std::uint8_t {
-    Intrinsic,  //!< Geodesic ones: of locally shortest paths over the surface.
-    Extrinsic,  //!< Straight ones in space, between the vertices.
-    Off,        //!< Not at all.
+    Intrinsic,  //!< Geodesic: of locally shortest paths on the surface.
+    Extrinsic,  //!< Straight in space, between the vertices.
+    Off,        //!< No test and no flips.
 };
 
 //! Lower-case name, for command lines and reports.
@@ -24,36 +24,36 @@ struct DelaunayOptions {
     agvd::Progress progress = {};
 };
 
-//! What was found and done; all 0 with Delaunay::Off.
+//! Counts of edges, flips and triangles; all 0 with Delaunay::Off.
 struct DelaunayCounts {
     agvd::Index inner_edges = 0;
     agvd::Index failing_before = 0;  //!< Inner edges whose opposite angles sum to more than pi (by
     agvd::Index failing_after = 0;   //!< more than 1e-6), before and after the flips.
     agvd::Index flips = 0;
-    //! Intrinsic: edges whose path is not proved locally shortest (see GeodesicPath), of all.
+    //! Intrinsic, of all edges: those whose path is not proved locally shortest (see GeodesicPath).
     agvd::Index not_locally_shortest = 0;
-    //! Intrinsic: triangles with a side longer than the other two.
+    //! Intrinsic: triangles with a side longer than the other two together.
     agvd::Index broken_triangles = 0;
     bool is_finished = true;  //!< False: stopped after 10 flips for each edge.
 };
 
 struct DelaunayResult {
     std::vector<agvd::Triangle> triangles;
-    //! By triangle, of the sides from corner k to corner k + 1; none with Delaunay::Off.
+    //! By triangle, of the sides from corner k to corner k + 1; empty with Delaunay::Off.
     std::vector<std::array<double, 3>> side_lengths;
     DelaunayCounts counts;
 };
 
-//! Judges the edges of a triangle mesh over a surface and flips those that fail the Delaunay
-//! condition where that harms nothing: the mesh stays a simplicial complex with the same boundary,
-//! no vertex gets fewer than three edges (two on the boundary), nothing folds over in space.
+//! Tests the edges of a triangle mesh on a surface and flips those that fail the Delaunay
+//! condition, if the flip is safe: the mesh stays a simplicial complex with the same boundary, no
+//! vertex gets fewer than three edges (two on the boundary), and nothing folds over in space.
 //!
-//! \param points     where the vertices lie.
-//! \param positions  the same in space: no two farther apart than over the surface.
-//! \param site       by vertex: its site in the diagram, where it lies too; no_index: it is none.
-//! \param triangles  vertex indices; edges need not be dual to Voronoi edges, and
-//!                   those with other than two sides in opposite directions are left alone. The
-//!                   vertices of a triangle lie on one component.
+//! \param points     places of the vertices on the surface.
+//! \param positions  the same in space; no two are farther apart than on the surface.
+//! \param site       by vertex: its site in the diagram, at the same place; no_index: no site.
+//! \param triangles  vertex indices. Edges need not be dual to Voronoi edges. Edges without exactly
+//!                   two sides in opposite directions are left unchanged. The vertices of a
+//!                   triangle lie on one component.
 //! \throw agvd::Cancelled  the progress callback returned false.
 //! Cost: O(size of the complex + faces that the edges cross).
 [[nodiscard]] DelaunayResult make_delaunay(const agvd::Surface& surface,

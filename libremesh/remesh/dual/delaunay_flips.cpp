@@ -1,3 +1,6 @@
+// A queue holds the edges whose opposite angles sum to more than pi. An edge is flipped if the new
+// edge meets the condition and nothing folds in space; the four edges around it are then tested
+// again. Notation: edge (a, b) lies in triangles (a, b, c) and (b, a, d).
 #include "remesh/dual/delaunay_flips.h"
 
 #include <algorithm>
@@ -16,14 +19,14 @@ using agvd::Vec3;
 
 namespace {
 
-// Radians. Right angles on both sides of a diagonal are Delaunay.
+// Radians. Two right angles opposite an edge are Delaunay.
 constexpr double delaunay_tolerance = 1e-6;
-// Cosine between the normals of two triangles that any flip may leave.
+// A flip may always leave this cosine between the normals of two triangles.
 constexpr double gentle_fold = 0.5;
 constexpr std::size_t max_flips_per_edge = 10;
 
-// The angle opposite side a as (cos, sin) times a positive number; 0 or pi where rounding leaves
-// no triangle. The area after [kahan2014].
+// The angle opposite side a as (cos, sin) times a positive number; 0 or pi if rounding leaves no
+// triangle. The area follows [kahan2014].
 Vec2 corner_opposite(double a, double b, double c) {
     const double x = std::max({a, b, c}), z = std::min({a, b, c});
     const double y = std::max(std::min(a, b), std::min(std::max(a, b), c));
@@ -32,7 +35,7 @@ Vec2 corner_opposite(double a, double b, double c) {
 }
 
 bool is_above_pi(const Vec2& a, const Vec2& b) {
-    // The sine of the sum tells most apart without angles.
+    // The sine of the sum decides most cases without angles.
     if (a.x() * b.y() + a.y() * b.x() > 0) return false;
     return std::atan2(a.y(), a.x()) + std::atan2(b.y(), b.x()) >
            std::numbers::pi + delaunay_tolerance;
@@ -138,7 +141,7 @@ private:
         return (positions_[b] - positions_[a]).cross(positions_[c] - positions_[a]).normalized();
     }
 
-    // The flip would make an edge here sharper than is gentle and than any was before.
+    // Whether the flip would make an edge here sharper than gentle_fold and than all were before.
     [[nodiscard]] bool folds(const Quad& quad) const {
         const auto [a, b, c, d] = std::array{quad.a, quad.b, quad.c, quad.d};
         const Vec3 old_first = normal(a, b, c), old_second = normal(b, a, d);

@@ -1,5 +1,5 @@
 //! \file
-//! Flips edges until the Delaunay condition holds. Private to the dual.
+//! Flips edges towards the Delaunay condition. Private to the dual.
 #pragma once
 
 #include <functional>
@@ -9,8 +9,8 @@
 
 namespace remesh {
 
-//! How long the edge between the two corners opposite an edge would be; asked once before each
-//! flip, and `accept` after it was done.
+//! `measure` gives the length of the edge between the two corners opposite an edge, before a flip
+//! is decided; `accept` is called after the flip.
 struct Diagonals {
     std::function<double(agvd::Index edge)> measure;
     std::function<void(agvd::Index edge)> accept;
@@ -23,12 +23,12 @@ struct FlipCounts {
     bool is_finished = true;  //!< False: stopped after 10 flips for each edge.
 };
 
-//! Flips what fails the Delaunay condition and can be flipped: the mesh stays a simplicial complex
-//! of the same boundary; the new edge meets the condition and the sides keep the triangle
-//! inequality; and in space no edge around gets sharper than 60 degrees (or than the sharpest one
-//! there had been).
+//! Flips edges that fail the Delaunay condition if the following holds. The mesh stays a simplicial
+//! complex with the same boundary. The new edge meets the condition, and the sides keep the
+//! triangle inequality. In space no edge around becomes sharper than 60 degrees, or than the
+//! sharpest one there before.
 //!
-//! \param length     by edge; follows the flips.
+//! \param length     by edge; updated by flips.
 //! \param positions  by vertex.
 FlipCounts flip_to_delaunay(FlippableMesh& mesh, std::vector<double>& length,
                             std::span<const agvd::Vec3> positions, const Diagonals& diagonals,

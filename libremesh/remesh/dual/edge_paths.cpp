@@ -1,3 +1,6 @@
+// First, edges with a Voronoi edge get a path through its point nearest to the sites, a gate. Then
+// other edges get theirs from two edges of a triangle, in rounds, or by a search. Each path is a
+// strip of faces that is straightened at once.
 #include "remesh/dual/edge_paths.h"
 
 #include <algorithm>
@@ -19,14 +22,14 @@ using agvd::SurfacePoint;
 namespace {
 
 constexpr Index grain = 128;
-// Of the longest side; lengths are sums of a few square roots.
+// Relative to the longest side, as lengths are sums of a few square roots.
 constexpr double length_tolerance = 1e-12;
-// Over the triangles, while sides get shorter.
+// Most passes over the triangles while sides become shorter.
 constexpr int max_passes = 100;
 
-// Where two cells touch nearest to their sites.
+// The point where two cells meet nearest to their sites.
 struct Gate {
-    std::uint64_t ends;  // Vertices on both sides.
+    std::uint64_t ends;  // Vertices of the two cells.
     double distance;
     Index point;
 
@@ -35,7 +38,7 @@ struct Gate {
     }
 };
 
-// Sorted; the first one for two vertices is the nearest.
+// Sorted by vertices; of two vertices the first gate is the nearest.
 std::vector<Gate> find_gates(const DualVertices& vertices) {
     const Diagram& diagram = vertices.diagram;
     std::vector<Index> vertex(diagram.num_sites, no_index);  // By site.
@@ -59,7 +62,8 @@ std::vector<Gate> find_gates(const DualVertices& vertices) {
     return gates;
 }
 
-// A triangle next to the edge whose other two edges have paths: the half-edge in it, or no_index.
+// The half-edge of an edge in a triangle whose other two edges have paths; no_index if there is
+// none.
 Index find_way_round(const FlippableMesh& mesh, const std::vector<EdgePath>& paths, Index edge) {
     for (const Index h : mesh.sides(edge)) {
         if (h == no_index) continue;
@@ -74,13 +78,13 @@ FaceStrip strip_from(const Surface& surface, const EdgePath& path, Index vertex)
     return path.from == vertex ? path.strip : reversed(surface, path.strip);
 }
 
-// Straightened, from the vertex where the strip starts.
+// The path straightened from a strip that starts at vertex `from`.
 EdgePath path_in(FaceStrip strip, Index from, PathStraightener& straightener) {
     const GeodesicPath path = straightener.straighten(strip);
     return {from, std::move(strip), path.length, path.is_locally_shortest};
 }
 
-// Straightened from the way along two edges, from one vertex over another.
+// The path straightened from those of two edges, from one vertex over another.
 EdgePath path_along(const Surface& surface, const EdgePath& first, const EdgePath& second,
                     Index from, Index over, PathStraightener& straightener) {
     FaceStrip strip =
@@ -88,7 +92,7 @@ EdgePath path_along(const Surface& surface, const EdgePath& first, const EdgePat
     return path_in(std::move(strip), from, straightener);
 }
 
-// Straightened from the way along the other two edges of the half-edge's triangle.
+// The path straightened from those of the other two edges in the half-edge's triangle.
 EdgePath path_round(const Surface& surface, const FlippableMesh& mesh,
                     const std::vector<EdgePath>& paths, Index half_edge,
                     PathStraightener& straightener) {
@@ -104,7 +108,7 @@ std::array<Index, 2> ends_of(const FlippableMesh& mesh, Index edge) {
     return {mesh.tail(h), mesh.tail(FlippableMesh::next(h))};
 }
 
-// Leaves out edges without a Voronoi edge.
+// Finds the paths of edges with a Voronoi edge.
 void find_paths_through_gates(const Surface& surface, const DualVertices& vertices,
                               const FlippableMesh& mesh, int num_threads, agvd::Poller& poller,
                               std::vector<EdgePath>& paths) {
@@ -127,8 +131,8 @@ void find_paths_through_gates(const Surface& surface, const DualVertices& vertic
     agvd::parallel_chunks(mesh.num_edges(), grain, num_threads, find, poller);
 }
 
-// Rounds, each from the paths of those before: the way round a triangle, or a search for all that
-// are left when that finds no more.
+// Finds the other paths in rounds, each from the paths of earlier rounds along two edges of a
+// triangle. When a round finds none, a search finds those that are left.
 void find_missing_paths(const Surface& surface, const DualVertices& vertices,
                         const FlippableMesh& mesh, int num_threads, agvd::Poller& poller,
                         std::vector<EdgePath>& paths) {

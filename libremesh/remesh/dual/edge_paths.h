@@ -8,7 +8,7 @@
 
 namespace remesh {
 
-//! The path that an edge stands for.
+//! The path of an edge on the surface.
 struct EdgePath {
     agvd::Index from = agvd::no_index;  //!< The vertex at its source; no_index: no path yet.
     FaceStrip strip{};
@@ -16,10 +16,9 @@ struct EdgePath {
     bool is_locally_shortest = false;
 };
 
-//! For each edge of `mesh` a locally shortest path: straightened from
-//! the one through the nearest point of the Voronoi edge between both sites; for edges without
-//! one (diagonals, edges that someone flipped or collapsed into place) from the paths along the
-//! other two edges of a triangle.
+//! Finds a locally shortest path for each edge of `mesh`. It is straightened from the path through
+//! the nearest point of the Voronoi edge between both sites. Edges without a Voronoi edge
+//! (diagonals, results of flips and collapses) use the paths of the other two edges of a triangle.
 //!
 //! \param num_threads  >= 0; 0: all cores. Same result for any number.
 //! Cost: O(size of the complex + faces crossed).
@@ -28,17 +27,18 @@ struct EdgePath {
                                                     const FlippableMesh& mesh, int num_threads,
                                                     agvd::Poller& poller);
 
-//! The path straightened from the way along two sides of the quad around an inner edge, from the
-//! corner opposite its first side to the other one; the shorter way of the two.
+//! The path between the corners opposite an inner edge, from that of its first side to the other.
+//! It is straightened from the shorter of the two ways along sides of the quad around the edge.
 [[nodiscard]] EdgePath path_across(const agvd::Surface& surface, const FlippableMesh& mesh,
                                    const std::vector<EdgePath>& paths, agvd::Index edge,
                                    PathStraightener& straightener);
 
-//! No side of a triangle is longer than the other two, up to rounding.
+//! Whether no side is longer than the other two together, up to rounding.
 [[nodiscard]] bool is_triangle(double a, double b, double c);
 
-//! Replaces sides that are longer than the way along the other two of their triangle by the path
-//! straightened from that way, in passes over the triangles until all are sound (or 100).
+//! Replaces a side that is longer than the other two of its triangle together by the path
+//! straightened from these. Repeats passes over the triangles until there is no such side, at most
+//! 100.
 void mend_triangles(const agvd::Surface& surface, const FlippableMesh& mesh, agvd::Ticker ticker,
                     std::vector<EdgePath>& paths);
 

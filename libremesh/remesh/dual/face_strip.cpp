@@ -1,3 +1,6 @@
+// A strip is a list of crossed half-edges. StripBuilder appends to it by turning around the current
+// point, from face to face, if that is a vertex or lies on an edge. A view of a point is its place
+// in one of the faces that have it.
 #include "remesh/dual/face_strip.h"
 
 #include <algorithm>
@@ -17,7 +20,7 @@ using agvd::SurfacePoint;
 
 namespace {
 
-// Where the face has the point, the nearest to another point of the face; none: nowhere.
+// The view of a point in the face of `from` that is nearest to `from`; nothing if there is none.
 std::optional<SurfacePoint> nearest_view(const Surface& surface, const SurfacePoint& point,
                                          const SurfacePoint& from) {
     std::optional<SurfacePoint> nearest;
@@ -37,7 +40,7 @@ bool has_corner(const Surface& surface, Index face, Index vertex) {
     return t[0] == vertex || t[1] == vertex || t[2] == vertex;
 }
 
-// The edge of its face with these ends has the point on it.
+// Whether the point lies on this half-edge of its face.
 bool is_on(const SurfacePoint& point, Index half_edge) {
     return point.barycentric[(half_edge + 2) % 3] == 0;
 }
@@ -123,7 +126,7 @@ FaceStrip StripBuilder::finish(const SurfacePoint& target) {
     return std::move(strip_);
 }
 
-// To the very corner, or side, where the other strip starts.
+// Turns to the corner or side where the other strip starts, and appends that strip.
 FaceStrip StripBuilder::finish(const FaceStrip& onwards) {
     const SurfacePoint& start = onwards.source;
     const Index corner = corner_of(surface_, start).value_or(no_index);
@@ -138,7 +141,7 @@ FaceStrip StripBuilder::finish(const FaceStrip& onwards) {
     return std::move(strip_);
 }
 
-// Turns around the point the shorter way.
+// Turns around the current point, by the shorter way, to a view that is the goal.
 template <typename IsGoal>
 void StripBuilder::turn_to(const IsGoal& is_goal) {
     if (is_goal(here_)) return;
@@ -157,9 +160,9 @@ void StripBuilder::turn_to(const IsGoal& is_goal) {
         view.barycentric[leaving % 3] = 1;
         return view;
     };
-    // One step each way in turn, so that the way found is the shorter one.
+    // Alternates between both directions, so the way found is the shorter one.
     const Index start = *corner;
-    Index left = start, right = start;  // They leave the vertex; no_index: at the boundary.
+    Index left = start, right = start;  // Leaving the vertex; no_index: at the boundary.
     for (Index steps = 1;; ++steps) {
         if (left != no_index) left = surface_.twin[Surface::previous(left)];
         if (right != no_index) right = surface_.twin[right];

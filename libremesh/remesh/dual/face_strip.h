@@ -1,5 +1,6 @@
 //! \file
-//! Faces in a row, from one surface point to another: which way round a path goes.
+//! A sequence of faces from one surface point to another. It fixes on which side a path passes
+//! vertices.
 #pragma once
 
 #include "agvd/mesh/surface.h"
@@ -7,26 +8,27 @@
 
 namespace remesh {
 
-//! Half-edge i is crossed out of its face, into the face of the next. All paths through one strip
-//! pass every vertex on the same side; a face may come twice.
+//! A path leaves its face across half-edge i into the face of half-edge i + 1. All paths through
+//! one strip pass every vertex on the same side; a face may occur twice.
 struct FaceStrip {
     agvd::SurfacePoint source;           //!< Seen from the face of the first half-edge.
     agvd::SurfacePoint target;           //!< Seen from the face across the last one; without any,
                                          //!< from the face of the source.
-    std::vector<agvd::Index> crossed{};  //!< None on the boundary.
+    std::vector<agvd::Index> crossed{};  //!< None is on the boundary.
 };
 
-//! Crosses one more half-edge, or takes the last crossing back.
+//! Appends a crossing of a half-edge, or undoes the last one if it is the reverse.
 void cross(const agvd::Surface& surface, agvd::Index half_edge, std::vector<agvd::Index>& crossed);
 
 //! The same strip from its target to its source.
 [[nodiscard]] FaceStrip reversed(const agvd::Surface& surface, const FaceStrip& strip);
 
-//! From the source of `first` to the target of `second`, which starts where `first` ends.
+//! The strip from the source of `first` to the target of `second`, which starts where `first` ends.
 [[nodiscard]] FaceStrip joined(const agvd::Surface& surface, const FaceStrip& first,
                                const FaceStrip& second);
 
-//! A point that lies on a vertex or an edge up to rounding (see agvd::vertex_of), exactly there.
+//! Puts a point that lies on a vertex or an edge up to rounding (see agvd::vertex_of) exactly
+//! there.
 [[nodiscard]] agvd::SurfacePoint snapped(const agvd::Surface& surface,
                                          const agvd::SurfacePoint& point);
 
@@ -37,21 +39,21 @@ void trim(const agvd::Surface& surface, FaceStrip& strip);
 [[nodiscard]] bool holds(const agvd::Surface& surface, agvd::Index face,
                          const agvd::SurfacePoint& point);
 
-//! Builds a strip along points of which each shares a face with the next. Where that face has the
-//! next one at several places, it goes to the nearest.
+//! Builds a strip along points, each of which shares a face with the next. If that face has the
+//! next point at several places, the strip goes to the nearest.
 class StripBuilder {
 public:
     StripBuilder(const agvd::Surface& surface, const agvd::SurfacePoint& source);
-    //! Goes on where `strip` ends.
+    //! Continues from the end of `strip`.
     StripBuilder(const agvd::Surface& surface, FaceStrip strip);
 
-    //! Goes on to `vertex`, which shares a face with where the strip has come to.
+    //! Continues to `vertex`, which shares a face with the current point.
     void to_vertex(agvd::Index vertex);
-    //! Goes into `face`, which holds what the strip has come to; at one corner of several.
+    //! Continues into `face`, which holds the current point; at one of its corners if at several.
     void to_face(agvd::Index face);
-    //! Ends at `target`, which shares a face with where the strip has come to.
+    //! Ends at `target`, which shares a face with the current point.
     [[nodiscard]] FaceStrip finish(const agvd::SurfacePoint& target);
-    //! The same; the strip `onwards` starts where this one has come to.
+    //! Appends the strip `onwards`, which starts at the current point.
     [[nodiscard]] FaceStrip finish(const FaceStrip& onwards);
 
 private:
@@ -60,7 +62,7 @@ private:
 
     const agvd::Surface& surface_;
     FaceStrip strip_;
-    agvd::SurfacePoint here_;  // The last point, seen from the face that the strip has come to.
+    agvd::SurfacePoint here_;  // The current point, in the strip's last face.
 };
 
 }  // namespace remesh

@@ -64,7 +64,7 @@ void FlippableMesh::flip(Index edge) {
     const std::array<Index, 4> now = {3 * first, 3 * first + 1, 3 * second, 3 * second + 1};
     std::array<Index, 4> rim{};  // c to a, a to d, d to b, b to c.
     for (std::size_t i = 0; i < 4; ++i) rim[i] = edge_[old[i]];
-    std::array<std::size_t, 4> slot{};  // Found before any is overwritten.
+    std::array<std::size_t, 4> slot{};  // Found before any side is overwritten.
     for (std::size_t i = 0; i < 4; ++i) slot[i] = sides_[rim[i]][0] == old[i] ? 0 : 1;
     triangles_[first] = {c, a, d};
     triangles_[second] = {d, b, c};

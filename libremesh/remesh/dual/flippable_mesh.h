@@ -15,13 +15,13 @@ namespace remesh {
 //! two ends, ascending, and keep their number in a flip.
 class FlippableMesh {
 public:
-    //! Any triangles; edges that have not two sides in opposite directions never flip.
+    //! Accepts any triangles. Edges without exactly two sides in opposite directions never flip.
     explicit FlippableMesh(std::span<const agvd::Triangle> triangles, agvd::Ticker ticker = {});
 
     [[nodiscard]] const std::vector<agvd::Triangle>& triangles() const { return triangles_; }
     [[nodiscard]] agvd::Index num_edges() const { return static_cast<agvd::Index>(sides_.size()); }
     [[nodiscard]] agvd::Index edge(agvd::Index half_edge) const { return edge_[half_edge]; }
-    //! The half-edge of an inner edge that runs from its lower end at the start, and the other; the
+    //! The two half-edges of an inner edge; at the start the first one leaves its lower end. The
     //! second is no_index for edges that never flip.
     [[nodiscard]] const std::array<agvd::Index, 2>& sides(agvd::Index edge) const {
         return sides_[edge];
@@ -39,10 +39,10 @@ public:
         return agvd::previous_half_edge(half_edge);
     }
 
-    //! The mesh stays a simplicial complex: the new edge is new, and no vertex is left with fewer
-    //! than three edges (two on the boundary).
+    //! Whether the mesh stays a simplicial complex: the new edge does not exist yet, and no vertex
+    //! is left with fewer than three edges (two on the boundary).
     [[nodiscard]] bool can_flip(agvd::Index edge) const;
-    //! The edge is then that between the corners that were opposite to it.
+    //! Flips an edge: it then joins the corners that were opposite to it.
     void flip(agvd::Index edge);
 
 private:
@@ -51,9 +51,9 @@ private:
     std::vector<agvd::Triangle> triangles_;
     std::vector<agvd::Index> edge_;                  // #H
     std::vector<std::array<agvd::Index, 2>> sides_;  // #E
-    std::vector<agvd::Index> valence_;               // By vertex: edges.
+    std::vector<agvd::Index> valence_;               // By vertex: number of edges.
     std::vector<bool> is_boundary_;                  // By vertex.
-    // Ends of the edges at the start, ascending; what flips took away, and what they added.
+    // Ends of the initial edges, ascending; those that flips removed, and those that they added.
     std::vector<std::uint64_t> first_ends_;
     std::unordered_set<std::uint64_t> removed_, added_;
 };

@@ -1,3 +1,6 @@
+// A path from a site into a face of its cell follows vertices: descend() goes down the distances of
+// the diagram; search() is an A* search along edges for cells where that fails. StripBuilder makes
+// a strip of the vertices.
 #include "remesh/dual/site_paths.h"
 
 #include <algorithm>
@@ -15,12 +18,12 @@ using agvd::Vec3;
 
 namespace {
 
-// What a vertex outside of the site's cell makes a step longer in a search: the way round a handle
-// is not to be shorter than the one through the cell.
+// Factor on a search step to a vertex outside the site's cell, so that the way around a handle is
+// not shorter than the one through the cell.
 constexpr double outside_penalty = 4;
 
-// Calls visit(half-edge, vertex) for each neighbour of `vertex`; the half-edge belongs to a face
-// between both, in turn to each face around.
+// Calls visit(half-edge, vertex) for each neighbour of `vertex` until it returns false. The
+// half-edge joins both and belongs in turn to each face around.
 template <typename Visit>
 void for_each_neighbour(const Surface& surface, Index vertex, const Visit& visit) {
     Index h = surface.outgoing[vertex];
@@ -54,8 +57,8 @@ FaceStrip SitePaths::between(Index from, Index to) {
     return builder.finish(vertices_.points[to]);
 }
 
-// Vertices from a corner of the face to one that shares a face with the site; none where the face
-// holds the site.
+// Sets `way` to vertices from a corner of the face to one that shares a face with the site; to none
+// if the face holds the site.
 void SitePaths::find_way(Index face, Index goal, Way& way) const {
     way.clear();
     if (holds_goal(face, goal)) return;
@@ -68,7 +71,7 @@ void SitePaths::find_way(Index face, Index goal, Way& way) const {
     if (way.empty()) search(face, goal, way);
 }
 
-// A corner of both the face and the site's; no_index: none.
+// A corner of both the face and the site's face; no_index if there is none.
 Index SitePaths::common_corner(Index face, Index goal) const {
     const agvd::Triangle& corners = surface_.mesh.triangles[vertices_.points[goal].face.value()];
     for (const Index v : surface_.mesh.triangles[face]) {
@@ -77,8 +80,8 @@ Index SitePaths::common_corner(Index face, Index goal) const {
     return no_index;
 }
 
-// Each time to the neighbour of the same cell over which the site is nearest; none if that ends
-// too early.
+// Goes each time to the neighbour in the cell over which the site is nearest. Leaves `way` empty if
+// that ends before the site is reached.
 void SitePaths::descend(Index face, Index goal, Way& way) const {
     const std::vector<double>& distance = vertices_.diagram.nearest_distance;
     double nearest = std::numeric_limits<double>::infinity();
@@ -113,7 +116,7 @@ void SitePaths::descend(Index face, Index goal, Way& way) const {
     }
 }
 
-// A* over the way. Ties go to the lower vertex.
+// A* search along edges. Ties go to the lower vertex.
 void SitePaths::search(Index face, Index goal, Way& way) const {
     struct Reached {
         double length;

@@ -1,5 +1,5 @@
 //! \file
-//! Any path between neighbouring vertices of the dual, for a start. Private to the dual.
+//! Initial paths between neighbouring vertices of the dual. Private to the dual.
 #pragma once
 
 #include <span>
@@ -13,24 +13,24 @@ namespace remesh {
 //! Vertices of a mesh over the diagram.
 struct DualVertices {
     std::span<const agvd::SurfacePoint> points;
-    std::span<const agvd::Index> site;  //!< Of each; no_index: it is none.
+    std::span<const agvd::Index> site;  //!< By vertex; no_index: it is no site.
     const agvd::Diagram& diagram;
     std::span<const agvd::Vec3> positions;  //!< In space.
 };
 
-//! Finds ways from sites into faces of their cells: down the distances from vertex to vertex, and
-//! where that leads nowhere by a search along the edges. Keeps its memory; one for each thread.
+//! Finds paths from sites into faces of their cells: from vertex to vertex by falling distances,
+//! and if that fails by a search along the edges. Keeps its memory; use one for each thread.
 class SitePaths {
 public:
     //! \param ticker  of the thread.
     SitePaths(const agvd::Surface& surface, const DualVertices& vertices, agvd::Ticker ticker = {})
         : surface_(surface), vertices_(vertices), ticker_(ticker) {}
 
-    //! From one vertex to another through `face`, by vertices of their cells where that is
-    //! possible. Cost: O(mesh vertices on the way), or a search as far as both.
+    //! From one vertex to another through `face`, by vertices of their cells if possible.
+    //! Cost: O(mesh vertices on the way), or a search as far as both.
     [[nodiscard]] FaceStrip through(agvd::Index from, agvd::Index face, agvd::Index to);
 
-    //! From one vertex to another; by a search. They must lie on one component.
+    //! From one vertex to another on the same component, by a search.
     [[nodiscard]] FaceStrip between(agvd::Index from, agvd::Index to);
 
 private:
@@ -39,7 +39,7 @@ private:
     [[nodiscard]] bool holds_goal(agvd::Index face, agvd::Index goal) const {
         return holds(surface_, face, vertices_.points[goal]);
     }
-    // In the cell of the goal's site.
+    // Whether a mesh vertex is in the cell of the goal's site.
     [[nodiscard]] bool is_inside(agvd::Index mesh_vertex, agvd::Index goal) const {
         return vertices_.diagram.nearest_site[mesh_vertex].value() == vertices_.site[goal];
     }

@@ -1,3 +1,6 @@
+// Each round unfolds the strip into a plane and finds the shortest path inside it by a funnel
+// ([lee1984]). At bends with an angle below pi on the other side, the strip is rerouted around that
+// side ([xin2007]). Rounds end when there is no such bend or the path gets no shorter.
 #include "remesh/dual/straighten.h"
 
 #include <algorithm>
@@ -17,15 +20,15 @@ using agvd::Vec2;
 
 namespace {
 
-// Radians. What a path saves by passing a vertex on a side that is narrower than pi by less is
-// beyond double: the square of it.
+// Radians. If the angle on one side of a vertex is below pi by less than this, passing the vertex
+// there saves less than rounding: the square of this.
 constexpr double angle_tolerance = 1e-7;
-// A bound for the worst, besides one for each crossing of the start; half as many as crossings were
-// the most met on meshes.
+// Most rounds, besides one for each crossing at the start. On meshes no path took more than half as
+// many rounds as crossings.
 constexpr std::size_t more_rounds = 500;
-// Rounds in a row that may fail to shorten the path, where rounding hides what they save.
+// Most rounds in a row that do not shorten the path, as rounding may hide what they save.
 constexpr int max_stalled_rounds = 5;
-// Of a path's length, relative.
+// Relative error of a path's length.
 constexpr double rounding = 1e-12;
 
 double cross_product(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -33,8 +36,8 @@ double cross_product(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y(
 // Above 0: c lies on the left of the line from a to b.
 double side_of(const Vec2& a, const Vec2& b, const Vec2& c) { return cross_product(b - a, c - a); }
 
-// Sine of the angle below which a vertex is taken to lie on a straight line: rounding must not
-// hide that a path goes through it.
+// Sine of the angle below which a vertex counts as lying on a straight line: rounding must not hide
+// that a path goes through it.
 constexpr double collinear = 1e-12;
 
 // Clearly on the left of the line from a to b, seen from a.
@@ -44,17 +47,17 @@ bool is_left_of(const Vec2& a, const Vec2& b, const Vec2& c) {
            side * side > collinear * collinear * (b - a).squaredNorm() * (c - a).squaredNorm();
 }
 
-// A sum of angles below pi, as far as pi.
+// A sum of angles, each below pi, that is followed up to pi.
 class AngleSum {
 public:
-    //! \param corner  (cos, sin) times any length; sin < 0 is taken for rounding.
+    //! \param corner  (cos, sin) times any length; sin < 0 counts as rounding.
     void add(const Vec2& corner) {
         if (is_over_) return;
         const double length = corner.norm();
         if (!(length > 0)) return;
         const double cosine = corner.x() / length, sine = std::max(corner.y(), 0.0) / length;
         const Vec2 sum(cosine_ * cosine - sine_ * sine, cosine_ * sine + sine_ * cosine);
-        // From the upper half plane an angle below pi leads below it only past pi.
+        // If the sum was below pi, adding an angle below pi gives a negative sine only above pi.
         is_over_ = sum.y() < 0 || (sum.x() < 0 && sum.y() < angle_tolerance);
         cosine_ = sum.x();
         sine_ = sum.y();
@@ -128,7 +131,7 @@ GeodesicPath PathStraightener::shortest_in(FaceStrip strip) {
     return path;
 }
 
-// The length of the shortest path inside the strip; path_ has its bends.
+// The length of the shortest path inside the strip; sets path_ to its nodes.
 double PathStraightener::find_shortest(const FaceStrip& strip) {
     path_.clear();
     if (strip.crossed.empty()) {
@@ -150,7 +153,7 @@ double PathStraightener::find_shortest(const FaceStrip& strip) {
     return collect_path();
 }
 
-// Lays the faces out in one plane, each beside the one before.
+// Unfolds the faces into one plane, one after the other.
 void PathStraightener::unfold(const FaceStrip& strip) {
     const std::vector<Index>& crossed = strip.crossed;
     const auto num_crossed = static_cast<Index>(crossed.size());
@@ -190,8 +193,9 @@ Vec2 PathStraightener::apex_of(Index half_edge, const Vec2& tail, const Vec2& he
     return tail + apex.x() * along + apex.y() * Vec2(-along.y(), along.x());
 }
 
-// Chains from the apex to both ends bend outwards; what the new end sees past them falls off. A
-// vertex on the straight line counts as a bend: its other side may still be narrower than pi.
+// The chains from the apex to both ends bend outwards; nodes past which the new end sees are
+// removed. A vertex on the straight line counts as a bend, as its other side may be narrower than
+// pi.
 void PathStraightener::add_to_funnel(Index node) {
     const Vec2& place = nodes_[node].place;
     const auto at = [&](Index i) -> const Vec2& { return nodes_[funnel_[i]].place; };
@@ -235,8 +239,8 @@ double PathStraightener::collect_path() {
     return length;
 }
 
-// Passes all vertices that have less than pi on the other side there: each saves something next
-// to its vertex already, so that they do not get into each other's way.
+// Reroutes the strip around all bends with less than pi on the other side. Each detour shortens the
+// path close to its vertex, so detours do not interfere.
 bool PathStraightener::reroute(const std::vector<Index>& crossed) {
     crossed_.clear();
     Index next = 0;
@@ -247,7 +251,7 @@ bool PathStraightener::reroute(const std::vector<Index>& crossed) {
         is_changed = true;
         const Index first = nodes_[path_[i]].first;
         while (next < first) cross(surface_, crossed[next++], crossed_);
-        // An edge from bend to bend is crossed by both.
+        // Both detours cross an edge between two bends.
         while (next > first) cross(surface_, surface_.twin[crossed[--next]], crossed_);
         for (const Index h : detour_) cross(surface_, h, crossed_);
         next = detour.last + 1;
@@ -263,12 +267,13 @@ PathStraightener::Detour PathStraightener::find_detour(const std::vector<Index>&
     detour_.clear();
     const Index in = crossed[node.first];
     const Index out = surface_.twin[crossed[node.last]];
-    // All the way round is never shorter: back to the same corner, not only to the face.
+    // A strip that turns all the way around the vertex, back to the same corner and not only to the
+    // same face, is never shortest: the turn is cut out.
     const Index around = node.is_left ? Surface::next(in) : Surface::previous(in);
     for (Index k = node.first; k <= node.last; ++k) {
         if (surface_.twin[crossed[k]] == around) return {true, k};
     }
-    // Angles at the vertex, on the other side: clockwise for a vertex on the left.
+    // Angles at the vertex on the other side: clockwise for a vertex on the left.
     AngleSum angle;
     const auto add = [&](const Vec2& from, const Vec2& to) {
         const Vec2 a = from - node.place, b = to - node.place;

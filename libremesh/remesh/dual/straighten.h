@@ -1,5 +1,5 @@
 //! \file
-//! Locally shortest paths over the surface, from any path.
+//! Straightens paths on the surface to locally shortest ones.
 #pragma once
 
 #include "agvd/core/poller.h"
@@ -9,32 +9,32 @@ namespace remesh {
 
 //! A path on the surface.
 struct GeodesicPath {
-    double length = 0;  //!< Mesh units; of this very path up to rounding.
-    //! On both sides of every vertex that the path touches between its ends lies an angle of at
-    //! least pi (less 1e-7), or the boundary; elsewhere it is straight. False: the rounds were not
-    //! enough, or rounding hides whether a vertex is better passed on its other side.
+    double length = 0;  //!< Mesh units; of this path up to rounding.
+    //! At every vertex that the path touches between its ends, both sides have an angle of at least
+    //! pi (less 1e-7) or the boundary; elsewhere the path is straight. False: there were too few
+    //! rounds, or rounding hides whether a vertex is better passed on its other side.
     bool is_locally_shortest = false;
-    //! The source, then where the path crosses edges or touches vertices, then the target; each
-    //! shares a face with the next. Only of straightest_path().
+    //! The source, the points where the path crosses edges or touches vertices, and the target;
+    //! each shares a face with the next. Set by shortest_in() and straightest_path() only.
     std::vector<agvd::SurfacePoint> points{};
 };
 
-//! Straightens paths one after the other. Keeps its memory; one for each thread.
+//! Straightens paths one after the other. Keeps its memory; use one for each thread.
 //!
-//! The shortest path inside the strip comes from a funnel ([lee1984]). Where it bends at a vertex
-//! that has less than pi on the other side, the strip goes round that side instead, which is
-//! shorter, until there is no such vertex ([xin2007]).
+//! A funnel gives the shortest path inside the strip ([lee1984]). If it bends at a vertex with an
+//! angle below pi on the other side, the strip is rerouted around that side, which is shorter. This
+//! is repeated until there is no such vertex ([xin2007]).
 class PathStraightener {
 public:
-    //! \param ticker  of the thread; where it throws Cancelled, the strip is of no use any more.
+    //! \param ticker  of the thread; if it throws Cancelled, the strip is unspecified then.
     explicit PathStraightener(const agvd::Surface& surface, agvd::Ticker ticker = {})
         : surface_(surface), ticker_(ticker) {}
 
-    //! Replaces the strip by one of a locally shortest path, never a longer one.
+    //! Replaces the strip by that of a locally shortest path, which is never longer.
     //!
     //! \return without points.
-    //! Cost: O(#crossed + degrees of the vertices passed) a round; one to three rounds for ten
-    //! crossings are usual, at most 500 and one for each crossing are made.
+    //! Cost: O(#crossed + degrees of the vertices passed) a round. One to three rounds for ten
+    //! crossings are usual; at most 500 and one for each crossing are made.
     GeodesicPath straighten(FaceStrip& strip);
 
     //! The shortest path inside the strip as it is, with its points.
@@ -80,7 +80,7 @@ private:
     FaceStrip best_;                    // Of the shortest path so far.
 };
 
-//! The straightened path through the strip's way round the surface, with its points.
+//! The path straightened from a strip, with its points.
 //!
 //! Cost: see PathStraightener.
 [[nodiscard]] GeodesicPath straightest_path(const agvd::Surface& surface, FaceStrip strip);

@@ -1,3 +1,6 @@
+// Gaps are closed by Dijkstra's algorithm along weak edges, from each open end to the first vertex
+// of the set or the boundary that lies ahead of it. The shortest gaps are closed first. The open
+// ends that are left then follow weak edges that turn little.
 #include "remesh/features/carry_creases.h"
 
 #include <algorithm>
@@ -16,7 +19,7 @@ using agvd::no_index;
 using agvd::Surface;
 using agvd::Vec3;
 
-// Of a gap's ends: no nearer along a closed chain than this many times the gap's length.
+// Along a chain, the two ends of a gap are at least this many gap lengths apart.
 constexpr double least_detour = 3;
 constexpr double most_turn_cos = std::numbers::sqrt2 / 2;
 
@@ -30,11 +33,11 @@ void for_each_edge_at(const Surface& surface, Index vertex, const Each& each) {
     });
 }
 
-// An end in nothing, with the chain behind it.
+// An open end and the chain that ends there.
 struct OpenEnd {
     Index vertex = no_index;
     const CreaseChain* chain = nullptr;
-    Vec3 ahead;  // Unit vector: where the chain's last edge points.
+    Vec3 ahead;  // Unit vector: direction of the chain's last edge.
 };
 
 std::vector<OpenEnd> open_ends(const CreaseSet& set, const std::vector<CreaseChain>& chains) {
@@ -66,7 +69,7 @@ public:
               agvd::Poller& poller)
         : set_(set), surface_(set.surface()), angles_(angles), rules_(rules), ticker_(poller) {}
 
-    // From an end to the nearest vertex of the set that is not behind it.
+    // The shortest path from an open end to a vertex of the set or the boundary ahead of it.
     std::optional<Path> run(const OpenEnd& end) {
         const double most = std::min(rules_.most_gap, end.chain->length);
         reached_.clear();
@@ -104,7 +107,7 @@ private:
     [[nodiscard]] bool is_ahead(const OpenEnd& end, Index v, double length) const {
         const auto& p = surface_.mesh.positions;
         if ((p[v] - p[end.vertex]).dot(end.ahead) <= 0) return false;
-        double along = 0;  // The same chain: as the crow flies is too near, unless far along it.
+        double along = 0;  // A vertex of the same chain must be far along the chain.
         const bool is_from_front = end.chain->ends[0] == end.vertex;
         const std::size_t count = end.chain->edges.size();
         for (std::size_t i = 0; i < count; ++i) {
@@ -136,7 +139,7 @@ private:
         queue_;
 };
 
-// The weak edge that goes on most sharply without turning much; no_index: none.
+// The sharpest weak edge that turns by at most 45 degrees; no_index if there is none.
 Index next_weak_edge(const CreaseSet& set, const std::vector<double>& angles, double least_angle,
                      Index vertex, const Vec3& ahead) {
     const auto& p = set.surface().mesh.positions;

@@ -9,10 +9,10 @@ using agvd::Index;
 using agvd::no_index;
 using agvd::Triangle;
 
-// Sites between two that are to be joined.
+// Most edges between two sites that are to be joined.
 constexpr std::size_t longest_way = 8;
 
-// The site after another one on the rim; no_index if that is not one.
+// The site after another one on the rim; no_index unless there is exactly one.
 Index next_on(const std::vector<DirectedEdge>& rim, Index site) {
     const auto found = std::lower_bound(rim.begin(), rim.end(), DirectedEdge(site, 0));
     if (found == rim.end() || found->first != site) return no_index;
@@ -24,7 +24,8 @@ bool has(const std::vector<DirectedEdge>& edges, const DirectedEdge& edge) {
     return std::binary_search(edges.begin(), edges.end(), edge);
 }
 
-// From a site along edges up to one that is an end; empty if that is too far, or there is none.
+// The sites from one along edges to the first that is an end; empty if it is too far or there is
+// none.
 template <typename IsEnd>
 std::vector<Index> way_on(const std::vector<DirectedEdge>& edges, Index from, const IsEnd& is_end) {
     std::vector<Index> way{from};
@@ -35,7 +36,7 @@ std::vector<Index> way_on(const std::vector<DirectedEdge>& edges, Index from, co
     return way;
 }
 
-// Ascending.
+// The corners of all triangles, ascending.
 std::vector<Index> corners_of(std::span<const Triangle> triangles) {
     std::vector<Index> corners;
     for (const Triangle& t : triangles) corners.insert(corners.end(), t.begin(), t.end());

@@ -12,7 +12,7 @@ using agvd::Index;
 using agvd::no_index;
 using agvd::Surface;
 
-// The other edge of the set at an inner vertex.
+// The second edge of the set at an inner vertex.
 Index other_edge(const CreaseSet& set, Index vertex, Index edge) {
     Index other = no_index;
     agvd::for_each_outgoing(set.surface(), vertex, [&](Index h) {
@@ -27,7 +27,8 @@ Index other_vertex(const Surface& surface, Index edge, Index vertex) {
     return surface.tail(h) == vertex ? surface.head(h) : surface.tail(h);
 }
 
-// From `edge`, which is not added, through `vertex` to the end. Returns the vertex there.
+// Appends the edges after `edge`, through `vertex` to the end of the chain. Returns the vertex
+// there.
 Index follow(const CreaseSet& set, Index edge, Index vertex, std::vector<Index>& edges) {
     const Index first = edge;
     while (set.is_inner(vertex)) {

@@ -1,5 +1,5 @@
 //! \file
-//! A set of edges as chains between its nodes.
+//! A set of crease edges and the chains that it consists of.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace remesh::detail {
 
-//! Edges in a row. Inner vertices have two edges of the set and are not on the boundary.
+//! Consecutive edges. Inner vertices have two edges of the set and are not on the boundary.
 struct CreaseChain {
     std::vector<agvd::Index> edges;
     agvd::Index ends[2] = {agvd::no_index, agvd::no_index};  //!< Vertices; the same if closed.
@@ -29,11 +29,11 @@ public:
     //! The first edge of the set from `edge` on; the number of edges if there is none.
     [[nodiscard]] agvd::Index next(agvd::Index edge) const;
     [[nodiscard]] agvd::Index degree(agvd::Index vertex) const { return degree_[vertex]; }
-    //! A chain ends here, in nothing.
+    //! A chain ends here, away from other chains and from the boundary.
     [[nodiscard]] bool is_open_end(agvd::Index vertex) const {
         return degree_[vertex] == 1 && !surface_->is_boundary_vertex(vertex);
     }
-    //! A chain goes on here.
+    //! A chain passes through here.
     [[nodiscard]] bool is_inner(agvd::Index vertex) const {
         return degree_[vertex] == 2 && !surface_->is_boundary_vertex(vertex);
     }
@@ -58,7 +58,7 @@ private:
 //! The chain that holds the edge.
 [[nodiscard]] CreaseChain chain_of(const CreaseSet& set, agvd::Index edge);
 
-//! All chains, by their lowest edge. Cost: O(#E).
+//! All chains, ascending by their lowest edge. Cost: O(#E).
 [[nodiscard]] std::vector<CreaseChain> chains_of(const CreaseSet& set, agvd::Poller& poller);
 
 }  // namespace remesh::detail

@@ -1,3 +1,6 @@
+// Corners, points and tangents of curves. A place on a curve is a length along it in mesh units;
+// Curve::up_to gives the edge at a place. A vertex is a corner if both the polyline and longer
+// chords turn sharply there, so that noise makes no corners.
 #include "remesh/features/curve_network.h"
 
 #include <algorithm>
@@ -14,7 +17,7 @@ using agvd::SurfacePoint;
 using agvd::Vec3;
 
 constexpr double least_turn = std::numbers::pi / 4;
-// In spacings: how far a corner's chords reach, and how near no second corner lies.
+// In spacings: length of a corner's chords, and least distance between corners.
 constexpr double corner_reach = 0.5;
 
 double turn(const Vec3& before, const Vec3& here, const Vec3& after) {
@@ -22,7 +25,7 @@ double turn(const Vec3& before, const Vec3& here, const Vec3& after) {
     return std::atan2(in.cross(out).norm(), in.dot(out));
 }
 
-// The edge that holds a place of the curve, and the share of it before the place.
+// The edge at a place of the curve, and the share of the edge before that place.
 std::pair<std::size_t, double> find_place(const Curve& curve, double along) {
     const double length = curve.length();
     along = curve.is_closed() ? along - std::floor(along / length) * length
@@ -33,7 +36,7 @@ std::pair<std::size_t, double> find_place(const Curve& curve, double along) {
     return {i, std::clamp((along - up_to[i]) / (up_to[i + 1] - up_to[i]), 0.0, 1.0)};
 }
 
-// A curve's course in space.
+// A curve as a polyline in space.
 class Course {
 public:
     Course(const Surface& surface, const Curve& curve) : curve_(curve) {
@@ -42,7 +45,7 @@ public:
         }
     }
 
-    // The lesser of the turn at an inner vertex and that of the chords.
+    // The smaller of two turns at an inner vertex: of its edges, and of its chords.
     [[nodiscard]] double sharpness(std::size_t i, double reach) const {
         const std::size_t num_edges = curve_.num_edges();
         const std::size_t before = i == 0 ? num_edges - 1 : i - 1;
@@ -60,7 +63,7 @@ private:
     }
 
     const Curve& curve_;
-    std::vector<Vec3> at_;  // By vertex.
+    std::vector<Vec3> at_;  // By vertex of the curve.
 };
 
 }  // namespace

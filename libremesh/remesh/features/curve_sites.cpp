@@ -1,3 +1,6 @@
+// Sites lie at even distances on each curve, in a measure that counts spacings: a length counts
+// more where the curve turns much. Notation: `along` is a place in mesh units, `count` the same
+// place in spacings (spacings_along).
 #include "remesh/features/curve_sites.h"
 
 #include <algorithm>
@@ -13,12 +16,12 @@ namespace {
 using agvd::Index;
 using agvd::no_index;
 
-// Sites come closer where a curve turns by more over a spacing, in radians, but no closer than by
-// this factor.
+// Sites are closer where a curve turns by more than most_turn (radians) over a spacing, but at most
+// by the factor most_rate.
 constexpr double most_turn = std::numbers::pi / 6;
 constexpr double most_rate = 2;
 
-// By how much a curve turns over a length around a place: twice the angle between chords.
+// The turn of a curve over a length around a place: twice the angle between chords.
 double turn_over(const agvd::Surface& surface, const Curve& curve, double along, double length) {
     const auto at = [&](double place) {
         const double inside = curve.is_closed() ? place : std::clamp(place, 0.0, curve.length());
@@ -30,7 +33,7 @@ double turn_over(const agvd::Surface& surface, const Curve& curve, double along,
     return 2 * std::atan2(in.cross(out).norm(), in.dot(out)) * length / (2 * reach);
 }
 
-// The place with so many spacings before it.
+// The place with `count` spacings before it.
 double place_at(const Curve& curve, const std::vector<double>& spacings, double count) {
     const auto after = std::upper_bound(spacings.begin() + 1, spacings.end() - 1, count);
     const auto i = static_cast<std::size_t>(after - spacings.begin()) - 1;
@@ -38,12 +41,12 @@ double place_at(const Curve& curve, const std::vector<double>& spacings, double 
     return curve.up_to[i] + share * (curve.up_to[i + 1] - curve.up_to[i]);
 }
 
-// Closed curves begin off the vertices.
+// The first site of a closed curve lies off its vertices.
 double start_of(const Curve& curve, const std::vector<double>& spacings) {
     return curve.is_closed() ? spacings[1] / 2 : 0;
 }
 
-// The node at a vertex of the surface before the cut; no_index: there is none.
+// The node at a vertex of the surface before the cut; no_index if there is none.
 Index node_at(const CurveNetwork& network, Index vertex) {
     const auto node = std::lower_bound(network.nodes.begin(), network.nodes.end(), vertex);
     if (node != network.nodes.end() && *node == vertex) {
@@ -54,7 +57,7 @@ Index node_at(const CurveNetwork& network, Index vertex) {
     return copy != network.copies.end() && copy->first == vertex ? copy->second : no_index;
 }
 
-// The nodes' copies: vertices of the cut surface by node.
+// By node: its copies, which are vertices of the cut surface.
 std::vector<std::vector<Index>> copies_of_nodes(const CurveNetwork& network,
                                                 const CutSurface& cut) {
     std::vector<std::vector<Index>> copies(network.nodes.size());
@@ -67,12 +70,12 @@ std::vector<std::vector<Index>> copies_of_nodes(const CurveNetwork& network,
     return copies;
 }
 
-// The sites of a network, added group by group.
+// Adds the sites of a network group by group.
 class SitePlacer {
 public:
     explicit SitePlacer(CurveSites& sites) : sites_(sites) { sites_.first_copy.push_back(0); }
 
-    // \param sheet  equal for copies that are one vertex of the result even where sheets are apart.
+    // \param sheet  equal for copies that become one vertex even where sheets stay apart.
     void add_copy(const agvd::SurfacePoint& place, Index sheet) {
         sheets_.push_back(sheet);
         sites_.sites.push_back(place);
@@ -93,7 +96,7 @@ public:
 
 private:
     CurveSites& sites_;
-    std::vector<Index> sheets_;  // Of the group.
+    std::vector<Index> sheets_;  // Of the current group.
 };
 
 }  // namespace
@@ -111,8 +114,8 @@ std::vector<double> spacings_along(const agvd::Surface& surface, const Curve& cu
 }
 
 std::vector<Index> fewest_intervals(const CurveNetwork& network) {
-    std::map<std::pair<Index, Index>, int> num_between;  // Curves by their ends.
-    std::vector<int> num_ends(network.nodes.size(), 0);  // Of curves, by node.
+    std::map<std::pair<Index, Index>, int> num_between;  // Number of curves, by their ends.
+    std::vector<int> num_ends(network.nodes.size(), 0);  // Number of ends of curves, by node.
     for (const Curve& curve : network.curves) {
         ++num_between[std::minmax(curve.begin, curve.end)];
         if (curve.is_closed()) continue;

@@ -26,7 +26,7 @@ CutSurface cut_surface(const Surface& surface, std::span<const std::uint8_t> is_
     }
     for (Index v = 0; v < surface.num_vertices(); ++v) {
         original[v] = v;
-        std::vector<Index> firsts;  // Half-edges with which wedges begin.
+        std::vector<Index> firsts;  // The first half-edge of each wedge.
         agvd::for_each_outgoing(surface, v, [&](Index h) {
             if (!is_open(surface, is_cut, h)) firsts.push_back(h);
         });

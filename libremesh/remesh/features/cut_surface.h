@@ -10,17 +10,17 @@
 namespace remesh {
 
 struct CutSurface {
-    //! Faces and half-edges have their numbers of before, so that points keep their names; vertices
-    //! on curves have a copy for each wedge between these, the first one under the old number.
+    //! Faces and half-edges keep their numbers, so surface points stay valid. A vertex on curves
+    //! has a copy for each wedge between them; the first copy keeps the old number.
     agvd::Surface surface;
     std::vector<agvd::Index> original;  //!< #V: the vertex that each is a copy of.
-    agvd::Index num_original = 0;       //!< Vertices of the surface before: their own copies.
+    agvd::Index num_original = 0;       //!< Vertices before the cut, their own originals.
 };
 
-//! The edges become boundary edges on both sides.
+//! Cuts a surface along edges, which become boundary edges on both sides.
 //!
 //! \param is_cut  #E: 1 for edges to cut; boundary edges may be among them.
-//! \param num_threads  >= 0; 0: all cores. The same for any number.
+//! \param num_threads  >= 0; 0: all cores. The result is the same for any number.
 //! \throw Cancelled  the progress callback returned false.
 //! Cost: O(n).
 [[nodiscard]] CutSurface cut_surface(const agvd::Surface& surface,

@@ -1,3 +1,6 @@
+// Joins thin faces with neighbours into patches that are not thin: a union-find over the sides of
+// thin faces, in order of merit. The angle at an edge is that between the vector areas of the two
+// patches. `thin` is a height in mesh units.
 #include "remesh/features/edge_angles.h"
 
 #include <algorithm>
@@ -20,11 +23,11 @@ double angle_between(const Vec3& a, const Vec3& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-// Faces put together. A patch is known by its root.
+// Faces joined into patches. A patch is named by its root.
 struct Patches {
     std::vector<Index> parent;    // #F.
-    std::vector<Vec3> area;       // #F: twice the vector area; of a root, of its patch.
-    std::vector<double> longest;  // #F: side; of a root, of its patch.
+    std::vector<Vec3> area;       // #F: twice the vector area; at a root, of its patch.
+    std::vector<double> longest;  // #F: longest side; at a root, of its patch.
 
     [[nodiscard]] Index root(Index f) {
         while (parent[f] != f) f = parent[f] = parent[parent[f]];
@@ -84,10 +87,10 @@ std::vector<Index> find_thin_faces(const Surface& surface, const Patches& patche
     return faces;
 }
 
-// A side of a thin face, and how well the face across goes with it. Long sides come first, since
-// only across these a needle gains height; before all those to faces of its direction, since a
-// needle in a plane belongs to this plane. Its own direction may be rounding: it says no more than
-// to make a long side count for a tenth.
+// A side of a thin face, and the merit of joining the face across it. Long sides come first: only
+// across them a needle gains height. Sides to faces of the same direction come before others: a
+// needle in a plane belongs to that plane. The needle's own direction may be rounding, so a long
+// side to a face of another direction still counts for a tenth.
 struct Seam {
     double merit;
     Index edge;
@@ -103,7 +106,7 @@ std::vector<Seam> seams_of_thin_faces(const Surface& surface, const Patches& pat
             const Index twin = surface.twin[h];
             if (twin == no_index) continue;
             const Index across = Surface::face(twin);
-            if (across < f && patches.is_thin(across, thin)) continue;  // It has told of it.
+            if (across < f && patches.is_thin(across, thin)) continue;  // Added from there.
             const double turn = angle_between(patches.area[f], patches.area[across]);
             const double likeness = 0.1 + std::pow((1 + std::cos(turn)) / 2, 8);
             seams.push_back({surface.length_of(h) * likeness, surface.edge[h]});

@@ -1,5 +1,5 @@
 //! \file
-//! Dihedral angles that needles do not falsify.
+//! Dihedral angles that are robust against needles.
 #pragma once
 
 #include <vector>
@@ -11,10 +11,10 @@ namespace remesh::detail {
 
 //! The angle between the normals on both sides of each edge, radians in [0, pi]; 0 on the boundary.
 //!
-//! A face lower than `thin` has no direction of its own: rounding of its corners turns it anyhow.
-//! It is put together with the neighbour that suits it best until their sum is not thin, and all
-//! edges between them get the sum's normal: the vector area of a patch is that of its outline, so
-//! that the noise of faces inside cancels. Edges inside a patch get 0.
+//! A face lower than `thin` has no reliable normal, as rounding of its corners turns it. It is
+//! joined with the neighbour that fits it best until the patch is not thin. All edges of the patch
+//! get the normal of its vector area. That is the vector area of the patch's outline, so the noise
+//! of the faces inside cancels. Edges inside a patch get 0.
 //!
 //! \param thin  mesh units, >= 0: least height over the longest side.
 //! \return #E.

@@ -1,3 +1,7 @@
+// Edges above the angle are candidates; edge_angles() keeps needles from raising false ones. Each
+// candidate is weighed by its sharpness and by how much the surface beside it turns (turn_beside).
+// The share of noisy candidates sets how strict pruning is: little on parts, much on scans. The
+// steps are listed in the header. All lengths are in spacings unless stated.
 #include "remesh/features/find_creases.h"
 
 #include <algorithm>
@@ -17,24 +21,24 @@ using agvd::Index;
 
 constexpr double degree = std::numbers::pi / 180;
 
-// Faces lower than this have no direction of their own; in spacings, as all lengths here. Rounding
-// to float moves corners by some 3e-6 spacings of 2000 sites. With 3e-3 two spots of a part with
-// fillets came to depend on its triangles.
+// Faces lower than this have no reliable normal. Rounding to float moves vertices by some 3e-6
+// spacings at 2000 sites. With 3e-3 the creases at two places of a part with fillets depended on
+// its triangles.
 constexpr double thin = 1e-3;
-// How far beside a crease the surface is looked at.
+// How far beside a crease the surface is examined.
 constexpr double reach = 0.5;
-// Beside turn_beside() above this share of an edge's angle, it is noise. The median over all edges
+// An edge is noise if turn_beside() is above this share of its angle. The median over all edges
 // above 40 degrees, 2000 sites, is 0 to .13 on seven parts and .69 to 1.5 on eight scans.
 constexpr double noise_contrast = 0.5;
-// In mean edges of the noise: no scale is finer.
+// The finest scale, in mean lengths of the noisy edges.
 constexpr double noise_edges = 4;
-// Of the angle of a crease: what counts as nothing, and where no crease goes on.
+// Share of the crease angle. Below it an edge is worth nothing, and no crease continues along it.
 constexpr double weak_share = 0.625;
 constexpr double most_gap = 1;
 constexpr double least_spur = 1;
 constexpr double least_island = 3;
 
-// What networks must be where there is no noise, and where it prevails.
+// The least values of a network that stays, without noise and with prevailing noise.
 struct NetworkRule {
     double least_merit;
     double short_chain;
@@ -53,8 +57,8 @@ void check(const CreaseOptions& options) {
     }
 }
 
-// What an edge is worth: 0 if weak, 1 at a right angle; less where the surface beside it turns as
-// much as at the edge itself.
+// The worth of an edge: 0 if weak, 1 at a right angle; less where the surface beside it turns as
+// much as the edge itself.
 double worth(double angle, double beside, double weak) {
     const double full = std::max(std::numbers::pi / 2, weak / weak_share);
     const double sharpness = std::clamp((angle - weak) / (full - weak), 0., 1.);
@@ -67,8 +71,9 @@ struct Noise {
     double edge_length = 0;  // Mean.
 };
 
-// Where the surface beside an edge turns as at the edge itself. Where noise is so strong that most
-// edges are above the angle, nothing is left beside them; then most chains are short.
+// An edge is noisy if the surface beside it turns as much as the edge itself. If noise is so strong
+// that most edges are above the angle, no other edges are left beside them; then most chains are
+// short.
 Noise find_noise(const detail::CreaseSet& set, const std::vector<double>& angles,
                  const std::vector<double>& beside, double shortest, agvd::Poller& poller) {
     const std::vector<double>& length = set.surface().length;
@@ -84,12 +89,12 @@ Noise find_noise(const detail::CreaseSet& set, const std::vector<double>& angles
         }
     }
     if (all == 0) return {};
-    // On parts up to a third is in short chains, with few sites.
+    // With few sites, up to a third is in short chains even on parts.
     return {std::max(noise / all, 2 * in_short_chains / all - 1),
             num_noisy > 0 ? noise / num_noisy : 0};
 }
 
-// At this spacing.
+// The rules at a spacing.
 detail::PruningRules pruning_rules(double spacing, const Noise& noise) {
     const double strictness = std::min(1., 2 * noise.share);
     const double scale = std::max(spacing, strictness * noise_edges * noise.edge_length);
@@ -103,7 +108,7 @@ detail::PruningRules pruning_rules(double spacing, const Noise& noise) {
             .least_worth = between(&NetworkRule::least_worth)};
 }
 
-// What is left of the edges above the angle, and what they carry.
+// Prunes the edges above the angle and adds the weak edges that continue them.
 void apply_scale(detail::CreaseSet& set, const std::vector<double>& angles, double angle,
                  double spacing, agvd::Poller& poller) {
     const double weak = weak_share * angle;

@@ -1,5 +1,5 @@
 //! \file
-//! The sharp creases of a surface at the scale of the sites that are to carry them.
+//! The sharp creases of a surface at the scale of the sites.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@ namespace remesh {
 
 struct CreaseOptions {
     double angle = 40;   //!< Degrees, in (0, 180): least dihedral angle of a crease.
-    double spacing = 0;  //!< Mesh units, > 0: of the sites.
-    //! What is too short or too weak for the spacing is left out, noise as well, and gaps are
-    //! closed. False: all edges above the angle, but for false angles at needles.
+    double spacing = 0;  //!< Mesh units, > 0: mean distance of neighbouring sites.
+    //! Leaves out noise and what is too short or too weak for the spacing, and closes gaps. False:
+    //! all edges above the angle, except for false angles at needles.
     bool is_automatic = true;
     int num_threads = 0;  //!< >= 0; 0: all cores. Any number gives the same result.
     agvd::Progress progress = {};
@@ -22,19 +22,20 @@ struct CreaseOptions {
 
 //! Finds the edges of creases.
 //!
-//! 1. Edges above the angle are candidates. A face too thin to have a direction takes that of its
+//! 1. Edges above the angle are candidates. A face too thin for a reliable normal takes that of its
 //!    neighbours.
-//! 2. An edge is worth more the sharper it is, and less where the surface beside it turns as
-//!    sharply. How much of the candidates' length is so tells parts from scans.
+//! 2. An edge is worth more the sharper it is, and less if the surface beside it turns as sharply.
+//!    The share of such edges in the candidates' length tells parts from scans.
 //! 3. Gaps of up to a spacing are closed along edges of at least 5/8 of the angle.
-//! 4. Chains that end in nothing go if their length times worth is below a spacing, or three where
-//!    both ends do; then networks that are worth too little: on scans much more is too little.
-//! 5. Ends that are left go on along edges of at least 5/8 of the angle.
+//! 4. A chain with an open end is removed if its length times worth is below a spacing, or below
+//!    three if both ends are open. Then networks that are worth too little are removed; scans need
+//!    a much higher worth.
+//! 5. The open ends that are left continue along edges of at least 5/8 of the angle.
 //!
-//! What counts are lengths, never numbers of edges, so that all triangulations of a surface give
-//! the same creases.
+//! All criteria are lengths, not numbers of edges, so all triangulations of a surface give the same
+//! creases.
 //!
-//! \return #E of the surface: 1 for the edges of creases. Boundary edges are never.
+//! \return #E: 1 for the edges of creases; 0 for boundary edges.
 //! \throw agvd::InvalidOption  an option out of range.
 //! \throw agvd::Cancelled      the progress callback returned false.
 //! Cost: O(#F + k log k), k = edges above the angle and faces that are too thin.

@@ -1,5 +1,6 @@
-// Curves are followed side by side: a side goes on behind a vertex along the next edge of the
-// network in the same fan of faces.
+// Follows all sides of a curve from edge to edge. At a vertex a side continues along the next edge
+// of the network in the same fan of faces. A first pass finds curves without corners; a second one
+// ends them at the corners found on these.
 #include <algorithm>
 #include <numeric>
 
@@ -13,7 +14,7 @@ using agvd::Index;
 using agvd::no_index;
 using agvd::Surface;
 
-// Copies of an edge or a vertex at a junction go by the name of the first one.
+// Copies of an edge or a vertex at a junction are named by the first copy.
 class NetworkFinder {
 public:
     NetworkFinder(const Surface& surface, std::span<const std::uint8_t> is_crease,
@@ -39,7 +40,7 @@ public:
         }
     }
 
-    // \param is_node  #V: 1 where curves end, besides where they must.
+    // \param is_node  #V: 1 for vertices that become nodes in any case.
     CurveNetwork run(std::span<const std::uint8_t> is_node) {
         CurveNetwork network;
         network.junctions = junctions_.in_result;
@@ -68,7 +69,7 @@ public:
 
     [[nodiscard]] Index first_copy(Index vertex) const { return first_copy_[vertex]; }
 
-    // Once around a closed curve, and its sides have changed places.
+    // Whether the sides of a closed curve change places once around it.
     [[nodiscard]] bool is_twisted(const Curve& curve) const {
         return curve.is_closed() &&
                std::any_of(curve.sides.begin(), curve.sides.end(), [&](const CurveSide& side) {
@@ -87,7 +88,7 @@ private:
         return first_copy_[surface_.head(surface_.edge_half[e])];
     }
 
-    // The copies of an edge, itself among them.
+    // All copies of an edge, itself included.
     [[nodiscard]] std::span<const Index> copies_of(const Index& edge) const {
         const Index first = first_edge_[edge];
         const auto found = std::lower_bound(
@@ -99,7 +100,7 @@ private:
     [[nodiscard]] bool is_junction(Index edge) const { return copies_of(edge).size() > 1; }
 
     [[nodiscard]] std::vector<std::pair<Index, Index>> list_other_copies() const {
-        std::vector<std::pair<Index, Index>> result;  // First, other.
+        std::vector<std::pair<Index, Index>> result;  // (first copy, other copy)
         for (const std::vector<Index>& copies : junctions_.vertices) {
             for (const Index v : copies) {
                 if (v != copies.front()) result.emplace_back(copies.front(), v);
@@ -109,8 +110,8 @@ private:
         return result;
     }
 
-    // The network's edges around a vertex and its copies, by their first copies; one may come
-    // twice.
+    // Calls each(first copy of an edge) for the network's edges at a vertex and its copies; an edge
+    // may come twice.
     template <typename Each>
     void for_each_edge(Index vertex, const Each& each) const {
         const auto at_copy = [&](Index v) {
@@ -129,7 +130,7 @@ private:
         }
     }
 
-    // The half-edge with which a side goes on behind one of its half-edges.
+    // The half-edge of a side after one of its half-edges.
     [[nodiscard]] Index after(Index half_edge, bool runs_along) const {
         const auto turn = [&](Index h) {
             return runs_along ? Surface::next(h) : Surface::previous(h);
@@ -139,7 +140,7 @@ private:
         return h;
     }
 
-    // An edge's sides as a curve begins with it at a vertex.
+    // The sides of a curve that begins with an edge at a vertex.
     [[nodiscard]] std::vector<CurveSide> sides_at(Index edge, Index from) const {
         std::vector<CurveSide> sides;
         Index sheet = 0;
@@ -156,8 +157,8 @@ private:
         return sides;
     }
 
-    // Vertices between two edges of the network whose sides do not go on as they came: each in
-    // the other edge, two of one sheet in one sheet.
+    // Vertices between two edges of the network where the sides of the one do not all continue in
+    // the other, or two sides of one sheet do not continue in one sheet.
     [[nodiscard]] std::vector<bool> find_seams() const {
         std::vector<bool> is_seam(surface_.num_vertices(), false);
         for (const std::vector<Index>& copies : junctions_.edges) {
@@ -186,7 +187,7 @@ private:
         return tail(e) == v ? head(e) : tail(e);
     }
 
-    // From a vertex to the next node, or once around.
+    // Follows a curve from a vertex to the next node, or once around.
     Curve follow(Index edge, Index from, std::vector<std::uint8_t>& is_done) const {
         Curve curve;
         curve.begin = node_[from];
@@ -217,7 +218,7 @@ private:
     std::vector<Index> first_edge_;         // #E
     std::vector<std::uint8_t> is_outside_;  // #E: 0 for the network's edges.
     std::vector<Index> degree_;             // #V: edges of the network, at first copies.
-    const std::vector<std::pair<Index, Index>> other_copies_;  // (first copy, another one)
+    const std::vector<std::pair<Index, Index>> other_copies_;  // (first copy, other copy)
     std::vector<Index> node_;                                  // #V
 };
 

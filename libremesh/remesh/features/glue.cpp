@@ -1,3 +1,5 @@
+// Vertices of a group become one. Edges of patches that would coincide after that are flipped
+// before, in rounds, as a flip can cause another repetition.
 #include "remesh/features/glue.h"
 
 #include <algorithm>
@@ -12,14 +14,14 @@ using agvd::Index;
 using agvd::no_index;
 using agvd::Triangle;
 
-// Rounds of flips.
+// Most rounds of flips.
 constexpr int most_rounds = 10;
 
 using Ends = std::pair<Index, Index>;
 
 struct HalfEdge {
-    Ends ends;        // Glued, ascending.
-    Ends own;         // Of the patch: tail and head.
+    Ends ends;        // Glued vertices, ascending.
+    Ends own;         // Vertices of the patch: tail, head.
     Index half_edge;  // 3 t + k
 };
 
@@ -39,7 +41,8 @@ std::vector<HalfEdge> sorted_half_edges(std::span<const Triangle> triangles,
     return all;
 }
 
-// Flips inner edges of patches that the glued mesh would have twice; false if nothing was flipped.
+// Flips inner edges of patches that would occur twice in the glued mesh. Returns false if nothing
+// was flipped.
 bool flip_repeated(std::vector<Triangle>& triangles, std::span<const Index> vertex) {
     const std::vector<HalfEdge> all = sorted_half_edges(triangles, vertex);
     std::set<Ends> added;
@@ -77,7 +80,7 @@ bool flip_repeated(std::vector<Triangle>& triangles, std::span<const Index> vert
     return has_flipped;
 }
 
-// The same sets, numbered as they come.
+// Sets, numbered in order of their first elements.
 struct Numbering {
     std::vector<Index> number;  // Of each element: its set.
     std::vector<Index> first;   // Of each set: its first element.

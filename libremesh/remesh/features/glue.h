@@ -1,5 +1,5 @@
 //! \file
-//! Patches of a mesh that is cut along curves become one again.
+//! Joins the patches of a mesh that was cut along curves.
 #pragma once
 
 #include <span>
@@ -10,19 +10,20 @@
 namespace remesh {
 
 struct GluedMesh {
-    std::vector<agvd::Triangle> triangles;    //!< In the order given; of the glued vertices.
-    std::vector<agvd::Index> vertex;          //!< Of each vertex given: the glued one.
-    std::vector<agvd::Index> representative;  //!< Of each glued vertex: the first one given.
-    //! Of each glued vertex: the first one given of its group. Equal where sheets meet in vertices
-    //! of their own.
+    std::vector<agvd::Triangle> triangles;    //!< In the given order; corners are glued vertices.
+    std::vector<agvd::Index> vertex;          //!< Of each given vertex: the glued one.
+    std::vector<agvd::Index> representative;  //!< Of each glued vertex: the first given one.
+    //! Of each glued vertex: the first given vertex of its group. Equal for vertices of different
+    //! sheets at one place.
     std::vector<agvd::Index> first_of_group;
 };
 
-//! Makes one vertex of those of a group. An edge that two patches have besides each other's
-//! curves would be one of four triangles: it is flipped in one of them, if a flip is to be had.
+//! Makes the vertices of a group one. If an inner edge of a patch joins the same groups as an edge
+//! of another patch, the glued edge would have more than two faces; such an inner edge is flipped
+//! if possible.
 //!
-//! \param group   #V: equal for copies at one place: of no two groups is there more than one edge.
-//! \param vertex  #V: equal for those of a group that become one; the default is all of them.
+//! \param group   #V: equal for copies at one place. Two groups are to have at most one edge.
+//! \param vertex  #V: equal for the copies of a group that become one vertex; empty: all of them.
 //! Cost: O(n log n).
 [[nodiscard]] GluedMesh glue(std::span<const agvd::Triangle> triangles,
                              std::span<const agvd::Index> group,

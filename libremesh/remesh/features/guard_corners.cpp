@@ -1,3 +1,6 @@
+// Looks at the first intervals of all curves at each node. Intervals that are much longer than the
+// shortest one there are divided at places in geometric progression, unless they bound a narrow
+// strip.
 #include "remesh/features/guard_corners.h"
 
 #include <algorithm>
@@ -14,11 +17,11 @@ using agvd::Vec3;
 
 constexpr double most_growth = 8;
 
-// A curve's first interval, seen from one of its ends.
+// A curve's first interval at one of its ends.
 struct CurveEnd {
     Index curve = no_index;
-    Index node = no_index, next = no_index;  // Where it begins and ends; next: no_index off nodes.
-    bool is_begin = true;                    // Of the curve.
+    Index node = no_index, next = no_index;  // Nodes at its ends; next: no_index if not a node.
+    bool is_begin = true;                    // The interval is at Curve::begin.
     double length = 0;
     Vec3 at, next_at;
 };
@@ -27,8 +30,8 @@ bool is_much_longer(const CurveEnd& end, const CurveEnd& other) {
     return end.length > most_growth * other.length;
 }
 
-// Lengths of the intervals that a way is divided into so that each is as many times as long as the
-// one before, beginning after one of length `before`. \return where they end, without the last.
+// Places that divide a way in geometric progression, with a ratio of at most most_growth. The first
+// is `before` times the ratio; the last, which is not returned, is `way`.
 std::vector<double> growing_places(double before, double way) {
     const double num_steps = std::ceil(std::log(way / before) / std::log(most_growth));
     const double growth = std::pow(way / before, 1 / num_steps);
@@ -91,7 +94,7 @@ private:
         return end;
     }
 
-    // Whether intervals from both ends of a short one run on side by side.
+    // Whether long intervals from both ends of the shortest one run side by side.
     [[nodiscard]] bool ends_strip(const std::vector<CurveEnd>& ends,
                                   const CurveEnd& shortest) const {
         return std::any_of(ends.begin(), ends.end(), [&](const CurveEnd& end) {

@@ -1,3 +1,6 @@
+// Edges of a surface with the same origins at both ends were one edge before cleaning. Their ends
+// are joined by a union-find: these are the copies of a vertex at a junction. All other copies met
+// in a point only.
 #include "remesh/features/junctions.h"
 
 #include <algorithm>
@@ -43,7 +46,7 @@ std::vector<NamedEdge> edges_at_copies(const Surface& surface, std::span<const I
     return edges;
 }
 
-// The sets of vertices that the ends of such edges make one.
+// The sets of vertices that are one end of the same junction edges.
 std::vector<std::vector<Index>> join_ends(const Surface& surface, std::span<const Index> origin,
                                           const std::vector<std::vector<Index>>& edges) {
     agvd::UnionFind joined(surface.num_vertices());
@@ -102,7 +105,7 @@ void drop_short_junctions(const Surface& surface, double least_length, JunctionS
     for (const std::vector<Index>& copies : junctions.edges) {
         joined.unite(ends(copies)[0], ends(copies)[1]);
     }
-    std::vector<double> length(surface.num_vertices(), 0);  // Of what hangs together, at its root.
+    std::vector<double> length(surface.num_vertices(), 0);  // Of a connected junction, at its root.
     for (const std::vector<Index>& copies : junctions.edges) {
         length[joined.root(ends(copies)[0])] += surface.length[copies.front()];
     }

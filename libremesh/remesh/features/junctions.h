@@ -1,5 +1,5 @@
 //! \file
-//! Where sheets met in the mesh that a surface was cleaned from.
+//! Junctions: where sheets met in the input before cleaning cut them apart.
 #pragma once
 
 #include <span>
@@ -9,38 +9,39 @@
 
 namespace remesh {
 
-//! What becomes of edges that more than two faces share in the input.
+//! What the result does with edges that have more than two faces in the input.
 enum class Junctions {
     Apart,  //!< Each sheet has vertices of its own there, at the same points.
-    Keep    //!< The sheets are welded again: the result is no more manifold there than the input.
+    Keep    //!< The sheets are welded again: the result is non-manifold there, like the input.
 };
 
 //! Lower-case name of a choice: "apart" or "keep".
 [[nodiscard]] const char* junctions_name(Junctions junctions);
 
-//! Elements of a surface that were one before cleaning cut the sheets apart.
+//! Copies: elements of a surface that were one before cleaning cut the sheets apart.
 struct JunctionSet {
     std::vector<std::vector<agvd::Index>> edges;  //!< Two or more each, ascending.
-    //! The same of the ends of such edges. Vertices that met in nothing but a point are not in it.
+    //! The same for the ends of such edges. Vertices where sheets met in a single point are left
+    //! out.
     std::vector<std::vector<agvd::Index>> vertices;
     Junctions in_result = Junctions::Apart;
 
     [[nodiscard]] bool empty() const { return edges.empty(); }
 };
 
-//! Edges whose ends have the same origins were one edge: places do not count.
+//! Finds junctions: edges whose ends have the same origins were one edge. Positions do not count.
 //!
-//! \param vertex_origin  #V: see CleanResult; empty: each is its own.
-//! Cost: O(#V + #E + k log k), k = edges at vertices of which there are copies.
+//! \param vertex_origin  #V: see CleanResult; empty: each vertex is its own.
+//! Cost: O(#V + #E + k log k), k = edges at vertices that have copies.
 [[nodiscard]] JunctionSet find_junctions(const agvd::Surface& surface,
                                          std::span<const agvd::Index> vertex_origin);
 
-//! Takes out what hangs together and is shorter, mesh units. Cost: O(#V + k), k = edges of
-//! junctions.
+//! Removes connected junctions shorter than least_length (mesh units). Cost: O(#V + k), k = edges
+//! of junctions.
 void drop_short_junctions(const agvd::Surface& surface, double least_length,
                           JunctionSet& junctions);
 
-//! #V: the first of the vertices that are one at a junction; of the others the vertex itself.
+//! #V: the first copy of a vertex at a junction; any other vertex itself.
 [[nodiscard]] std::vector<agvd::Index> first_copies(const JunctionSet& junctions,
                                                     agvd::Index num_vertices);
 

@@ -1,3 +1,6 @@
+// A chain's merit is the sum of length times weight over its edges. Chains with open ends are
+// removed in order of merit, from a queue; chains that meet at a node with no third one left are
+// joined. Then whole networks are judged.
 #include "remesh/features/prune_creases.h"
 
 #include <algorithm>
@@ -9,8 +12,8 @@ namespace {
 using agvd::Index;
 using agvd::no_index;
 
-// Chains as a graph. Chains that become one when a third leaves their node are appended to one
-// another, the shorter list to the longer.
+// The chains as a graph. Two chains are joined when a third one is removed at their node: the
+// shorter list is appended to the longer.
 class ChainGraph {
 public:
     ChainGraph(CreaseSet& set, const std::vector<double>& weights, const PruningRules& rules,
@@ -28,7 +31,7 @@ public:
         }
     }
 
-    // The least worthy goes first: what is left may then be one chain with what it branched from.
+    // Removes the chain of least merit first: the chains that it branched from may then be one.
     void remove_weak_ends() {
         for (Index c = 0; c < chains_.size(); ++c) enqueue(c);
         while (!queue_.empty()) {
@@ -94,7 +97,7 @@ private:
         }
     }
 
-    // Two chains, or the two ends of one, that nothing else meets at this vertex any more.
+    // Joins two chains, or the two ends of one, at a vertex where no other chain is left.
     void join(Index vertex, Index a, Index b) {
         if (a == b) {
             chains_[a].ends[0] = chains_[a].ends[1] = vertex;
@@ -119,7 +122,7 @@ private:
     std::vector<CreaseChain> chains_;
     std::vector<double> merit_;                 // #chains.
     std::vector<std::uint8_t> is_gone_;         // #chains.
-    std::vector<std::vector<Index>> incident_;  // #V: a closed chain twice.
+    std::vector<std::vector<Index>> incident_;  // #V: chains that end there, a closed one twice.
     std::priority_queue<std::pair<double, Index>, std::vector<std::pair<double, Index>>,
                         std::greater<>>
         queue_;

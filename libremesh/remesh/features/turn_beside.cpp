@@ -14,7 +14,7 @@ using agvd::Index;
 using agvd::no_index;
 using agvd::Surface;
 
-// Each vertex of the set gathers the turn around it, up to where another one is nearer.
+// Each vertex of the set gathers the turn around it, as far as it is the nearest such vertex.
 class Gathering {
 public:
     Gathering(const CreaseSet& set, const std::vector<double>& angles, double reach,
@@ -46,7 +46,7 @@ public:
             agvd::for_each_outgoing(surface_, v, [&, v = v, left = left](Index h) {
                 ticker_.tick();
                 pass(v, left, h, surface_.head(h));
-                const Index last = Surface::previous(h);  // Nobody leaves along it on the boundary.
+                const Index last = Surface::previous(h);  // No half-edge leaves along it.
                 if (surface_.twin[last] == no_index) pass(v, left, last, surface_.tail(last));
             });
         }
@@ -64,12 +64,13 @@ public:
     }
 
 private:
-    // Along half-edge h from v, which is settled with so much reach left, to its other end.
+    // Passes along half-edge h from v, which is settled with `left` of its reach remaining, to
+    // `other`.
     void pass(Index v, double left, Index h, Index other) {
         const Index e = surface_.edge[h];
         if (set_.has(e)) return;
         const double length = surface_.length[e];
-        // An edge between two settled vertices is gathered from both, each up to its middle.
+        // An edge between two settled vertices is gathered from both, each up to where they meet.
         const bool is_met = source_[other] != no_index && left_[other] >= left;
         const double part = is_met ? (length + left - left_[other]) / 2 : length;
         turn_[source_[v]] += angles_[e] * angles_[e] * std::clamp(std::min(part, left), 0., length);
@@ -86,8 +87,8 @@ private:
     agvd::Ticker ticker_;
     std::vector<double> crease_length_;  // #V: half the length of the edges of the set there.
     std::vector<double> turn_;           // #V: gathered; radians times length.
-    std::vector<double> left_;           // #V: of the reach, beyond the vertex.
-    std::vector<Index> source_;          // #V: the vertex of the set it belongs to.
+    std::vector<double> left_;           // #V: reach that remains at the vertex.
+    std::vector<Index> source_;          // #V: the vertex of the set that it belongs to.
     std::priority_queue<std::pair<double, Index>> queue_;
 };
 

@@ -8,11 +8,12 @@
 
 namespace remesh::detail {
 
-//! For each edge of the set how much the surface beside it turns, radians; 0 for other edges. It is
-//! the root of the sum of angle squared times length over all edges outside the set within `reach`,
-//! on both sides, per length of the set's edge. So many small turns, of round faces and fillets,
-//! count for little, noise for about as much as the noisy edge itself, and edges in flat faces for
-//! nothing. Where the set's edges are longer than `reach`, as far as these, up to four times it.
+//! For each edge of the set: how much the surface beside it turns, radians; 0 for other edges. It
+//! is the root of the sum of angle squared times length over all edges outside the set within
+//! `reach`, on both sides, per length of the set's edge. So the many small turns of round faces and
+//! fillets count little, noise counts about as much as the noisy edge itself, and edges between
+//! coplanar faces do not count. The reach is the length of the set's edges if that is longer, but
+//! at most four times `reach`.
 //!
 //! \param angles  #E, radians.
 //! \return #E.

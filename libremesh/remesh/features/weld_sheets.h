@@ -1,5 +1,5 @@
 //! \file
-//! The sheets of a mesh as one that is not manifold where they meet.
+//! Welds the sheets of a mesh, which is not manifold where they meet.
 #pragma once
 
 #include <span>
@@ -12,13 +12,13 @@ namespace remesh {
 [[nodiscard]] std::vector<agvd::Triangle> rename_vertices(std::span<const agvd::Triangle> triangles,
                                                           std::span<const agvd::Index> first);
 
-//! Makes one vertex of all those of a group: of them the first one stays.
+//! Merges the vertices of each group into the first one.
 //!
 //! \param group  #V.
-//! \return the vertices that stay, ascending: the new ones in their order. Cost: O(n).
+//! \return the vertices that stay, ascending; these are the new vertices in order. Cost: O(n).
 std::vector<agvd::Index> weld_sheets(std::span<const agvd::Index> group, agvd::TriangleMesh& mesh);
 
-//! Edges of more than two faces. Cost: O(n).
+//! The number of edges with more than two faces. Cost: O(n).
 [[nodiscard]] agvd::Index num_branched_edges(std::span<const agvd::Triangle> triangles);
 
 }  // namespace remesh

@@ -44,7 +44,7 @@ BoundaryFixes find_boundary_fixes(const Surface& surface, const Diagram& diagram
                                   std::span<const SurfacePoint> sites,
                                   std::span<const Index> corners) {
     BoundaryFixes fixes;
-    std::vector<Index> arc(sites.size(), no_index);  // The longest one of each inner site.
+    std::vector<Index> arc(sites.size(), no_index);  // #sites: the longest of an inner site.
     std::vector<double> arc_length(sites.size(), 0);
     for (Index e = 0; e < diagram.edges.size(); ++e) {
         const agvd::VoronoiEdge& edge = diagram.edges[e];
@@ -62,7 +62,7 @@ BoundaryFixes find_boundary_fixes(const Surface& surface, const Diagram& diagram
     }
     std::vector<bool> is_corner(surface.num_vertices(), false);
     for (const Index v : corners) is_corner[v] = true;
-    std::vector<bool> is_taken(sites.size(), false);  // By a corner.
+    std::vector<bool> is_taken(sites.size(), false);  // #sites: at a corner.
     for (Index s = 0; s < sites.size(); ++s) {
         const auto v = agvd::vertex_of(surface, sites[s]);
         is_taken[s] = v && is_corner[*v];

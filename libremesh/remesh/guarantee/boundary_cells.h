@@ -1,5 +1,5 @@
 //! \file
-//! Which sites have to move onto the boundary so that the dual keeps it.
+//! Moves sites onto the boundary so that the dual keeps it.
 #pragma once
 
 #include <span>
@@ -8,18 +8,18 @@
 
 namespace remesh {
 
-//! Moves and new sites after which fewer cells meet the boundary from inside.
+//! Moves and new sites. After these fewer cells of inner sites meet the boundary.
 struct BoundaryFixes {
     std::vector<std::pair<agvd::Index, agvd::SurfacePoint>> moved;  //!< Site and place, ascending.
     std::vector<agvd::SurfacePoint> added;
 };
 
-//! The boundary's vertices in the dual are the sites of the cells that meet it. So that they lie on
-//! it, a site inside whose cell meets the boundary moves to the middle of its longest arc there. So
-//! that corners stay, the site nearest to a corner moves to it, or, if it is at another corner, a
-//! new site is placed there. Nothing to do: both are empty.
+//! The boundary vertices of the dual are the sites whose cells meet the boundary. They must lie on
+//! it: an inner site whose cell meets the boundary moves to the middle of its longest arc there.
+//! Corners must stay: the site nearest to a corner moves to it; if that site is at another corner,
+//! a new site is placed at this one. Both lists are empty if nothing is to be done.
 //!
-//! Each move makes a boundary site of an inner one or fills a corner, and neither is undone.
+//! Each move turns an inner site into a boundary site or fills a corner, and neither is undone.
 //! \param corners  boundary vertices.
 //! Cost: O(size of the complex + #sites).
 [[nodiscard]] BoundaryFixes find_boundary_fixes(const agvd::Surface& surface,

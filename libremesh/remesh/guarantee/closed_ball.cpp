@@ -1,3 +1,6 @@
+// Tests the closed-ball property of the diagram ([edelsbrunner1997]) in four passes: cells (discs),
+// cells at the boundary, pairs of cells, triples of cells. Each violation names the points at which
+// new sites help: where cells reach farthest, or in the middle of an arc that must not be.
 #include "remesh/guarantee/closed_ball.h"
 
 #include <algorithm>
@@ -50,7 +53,7 @@ private:
         return best;
     }
 
-    // The polyline point nearest to half of the arc's points: away from both its ends.
+    // The middle one of the edge's points, which is away from both ends.
     [[nodiscard]] const SurfacePoint& middle_point(Index edge) const {
         const Index begin = diagram_.edge_points[edge];
         return diagram_.points[begin + (diagram_.edge_points[edge + 1] - begin) / 2];
@@ -88,8 +91,8 @@ private:
         return point;
     }
 
-    // A cell that is no disc wraps around something: its own front met itself farthest away, so the
-    // farthest point of its loops lies there.
+    // A cell that is not a disc surrounds a hole, a handle or other cells. Its front meets itself
+    // where it is farthest from the site: at the farthest point of its loops.
     [[nodiscard]] SurfacePoint farthest_on_loops(Index site) const {
         Index best = no_index;
         const Index begin = cells_.loop_edges[cells_.cell_loops[site]];
@@ -111,7 +114,8 @@ private:
             if (edge.right.is_valid()) {
                 if (edge.tail != no_index && is_on_boundary(edge.tail) &&
                     is_on_boundary(edge.head)) {
-                    // A new site between the two would meet both sides too, and so would the next.
+                    // The sites go to the ends: a new site between them would meet both sides too,
+                    // and so would the next.
                     report(edge.left, edge.right, SiteReason::BoundaryAtBothEnds,
                            {diagram_.vertices[edge.tail], diagram_.vertices[edge.head]});
                     found_.back().is_at_boundary = true;
@@ -131,7 +135,7 @@ private:
         return false;
     }
 
-    // Of several arcs between two cells the longest stays.
+    // Reports all arcs between two cells but the longest.
     void check_pairs() {
         struct Shared {
             SiteId a, b;

@@ -7,19 +7,19 @@
 
 namespace remesh {
 
-//! One way in which cells break the property, and points where more sites help.
+//! One violation of the property, and points at which more sites help.
 struct ClosedBallViolation {
-    agvd::SiteId site;   //!< The cell named.
-    agvd::SiteId other;  //!< The second cell, if two are concerned.
+    agvd::SiteId site;   //!< The cell.
+    agvd::SiteId other;  //!< The second cell, if there are two.
     SiteReason reason = SiteReason::NoDisc;
     std::vector<agvd::SurfacePoint> remedies;  //!< Where to add sites.
-    bool is_at_boundary = false;  //!< A cell that meets the boundary twice, as in narrow strips.
+    bool is_at_boundary = false;  //!< A cell meets the boundary twice, as in narrow strips.
 };
 
-//! All violations: every cell is a disc with one loop; two cells meet in nothing or one arc, and no
-//! two Voronoi vertices have the same three cells; a cell meets the boundary in nothing or one arc,
-//! and no single arc cuts the surface apart ([edelsbrunner1997]). Degenerate Voronoi edges count as
-//! points.
+//! Finds all violations of these conditions ([edelsbrunner1997]). Each cell is a disc with one
+//! loop. Two cells meet in nothing or in one arc. No two Voronoi vertices have the same three
+//! cells. A cell meets the boundary in nothing or in one arc. No single arc cuts the surface apart.
+//! Degenerate Voronoi edges count as points.
 //! \throw agvd::Cancelled  the progress callback returned false.
 //! Cost: O(#V + size of the complex) and a sort.
 [[nodiscard]] std::vector<ClosedBallViolation> find_closed_ball_violations(

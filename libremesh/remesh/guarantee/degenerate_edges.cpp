@@ -8,8 +8,8 @@ using agvd::Index;
 
 namespace {
 
-// Relative to the distance from the sites: branch points are Newton solutions good to about 1e-12,
-// and less well conditioned where bisectors meet at a small angle.
+// Relative to the distance from the sites. Voronoi vertices are Newton solutions with errors of
+// about 1e-12, or more where bisectors meet at a small angle.
 constexpr double relative_length = 1e-8;
 
 bool is_inner_vertex(const agvd::Diagram& diagram, Index vertex) {

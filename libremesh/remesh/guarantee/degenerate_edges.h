@@ -1,5 +1,5 @@
 //! \file
-//! Voronoi edges of no length: where more than three cells meet in one point.
+//! Voronoi edges without length: where more than three cells meet in one point.
 #pragma once
 
 #include "agvd/core/poller.h"
@@ -7,8 +7,8 @@
 
 namespace remesh {
 
-//! #edges: true for an edge between two inner Voronoi vertices at one place (up to rounding). The
-//! dual is free to choose another diagonal there.
+//! #edges: true for an edge between two inner Voronoi vertices that coincide up to rounding. There
+//! the dual may use either diagonal.
 [[nodiscard]] std::vector<bool> find_degenerate_edges(const agvd::Surface& surface,
                                                       const agvd::Diagram& diagram,
                                                       agvd::Ticker ticker = {});

@@ -6,14 +6,14 @@
 
 namespace remesh {
 
-//! What is wrong with a cell, or with the mesh, that one more site mends.
+//! What is wrong with a cell or with the mesh, and is repaired by one more site.
 enum class SiteReason : std::uint8_t {
     BoundaryCorner,      //!< A corner of the boundary has no site.
     WholeComponent,      //!< The cell covers a whole component.
     NoDisc,              //!< The cell is not a disc.
-    ClosedCurve,         //!< It meets another one along a closed curve.
-    SeveralArcs,         //!< It meets another one in more than one arc.
-    BoundaryAtBothEnds,  //!< Its arc with another one cuts the surface apart.
+    ClosedCurve,         //!< It meets another cell along a closed curve.
+    SeveralArcs,         //!< It meets another cell in more than one arc.
+    BoundaryAtBothEnds,  //!< Its arc with another cell cuts the surface apart.
     BoundaryTwice,       //!< It meets the boundary in more than one arc.
     SameThirdCell,       //!< Two Voronoi vertices have the same three cells.
     NoSite,              //!< A component has no site.

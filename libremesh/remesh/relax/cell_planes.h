@@ -1,6 +1,6 @@
 //! \file
-//! How far a point lies from the planes of the surface in a cell: where the cell is flat, moves
-//! along it cost nothing; where it is creased, the crease is nearest to all of them.
+//! The squared distance of a point from the planes of the faces in a cell. In a planar cell, moves
+//! in the plane cost nothing; in a creased cell, the crease is nearest to all planes.
 #pragma once
 
 #include "agvd/core/types.h"
@@ -26,9 +26,9 @@ struct CellPlanes {
     [[nodiscard]] double at(const agvd::Vec3& x) const {
         return x.dot(spread * x) - 2 * x.dot(lift) + constant;
     }
-    //! Half the slope of the integral.
+    //! Half the gradient of the integral.
     [[nodiscard]] agvd::Vec3 half_slope(const agvd::Vec3& x) const { return spread * x - lift; }
-    //! By how much the integral grows from x to x + step.
+    //! The growth of the integral from x to x + step.
     [[nodiscard]] double growth(const agvd::Vec3& x, const agvd::Vec3& step) const {
         return step.dot(spread * step + 2 * half_slope(x));
     }

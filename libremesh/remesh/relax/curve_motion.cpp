@@ -9,14 +9,15 @@ using agvd::Index;
 using agvd::no_index;
 using agvd::Vec3;
 
-// Longest move, as a share of the way to the neighbour: two that approach do not meet.
+// Longest move, as a share of the distance to the neighbour: two approaching sites do not meet.
 constexpr double longest_move = 0.3;
-// Two neighbours come no nearer than this share of their mean distance on the curve.
+// Least distance of neighbours, as a share of their mean distance on the curve.
 constexpr double least_interval = 0.5;
-// Intervals of a curve differ by less where it has no bends.
+// Largest ratio of a curve's intervals that counts as even.
 constexpr double even_ratio = 1.01;
 
-// Sites that stand closer in bends stay there: on the whole they would be evened out.
+// Whether the sites of a curve are evenly spaced. Only such sites move: others are closer in bends,
+// and moves would undo that.
 bool is_even(const CurveSites& sites, const Curve& curve, Index c) {
     const Index first = sites.first_of_curve[c], last = sites.first_of_curve[c + 1];
     if (first == last) return true;

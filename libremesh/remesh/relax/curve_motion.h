@@ -1,5 +1,5 @@
 //! \file
-//! Sites of curves slide along these, all copies of one together.
+//! Moves sites along their curves, all copies of a site together.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@ namespace remesh::detail {
 
 class CurveMotion {
 public:
-    //! \param surface  that of the network, whole or cut; outlives this, as the network does.
+    //! \param surface  of the network, whole or cut; outlives this, as does the network.
     CurveMotion(const agvd::Surface& surface, const CurveNetwork& network, CurveSites sites);
 
     [[nodiscard]] const CurveSites& sites() const { return sites_; }
@@ -19,17 +19,17 @@ public:
         return static_cast<agvd::Index>(sites_.sites.size());
     }
 
-    //! Takes the slope of the energy along the curves from the cells of all copies.
+    //! Computes the slope of the energy along the curves from the cells of all copies.
     //!
-    //! \param cells  #sites, of which the copies come first.
-    //! \return the slope times the last move, summed.
+    //! \param cells  #sites; the copies come first.
+    //! \return the sum of slope times last move.
     double measure(std::span<const CvtEnergy::Cell> cells);
-    //! Moves all groups that are no nodes, by `stretch` times Newton's step and `keep` times the
-    //! last move, not past their neighbours.
+    //! Moves all groups but nodes by `stretch` times Newton's step plus `keep` times the last move,
+    //! but not past their neighbours.
     void step(double stretch, double keep);
-    //! Takes back the last move of the group that has this copy.
+    //! Undoes the last move of the group that has this copy.
     void take_back(agvd::Index copy);
-    //! From the first copy to the last one of the group that has this one, exclusively.
+    //! The copies in the group of this one: [first, last).
     [[nodiscard]] std::pair<agvd::Index, agvd::Index> copies_with(agvd::Index copy) const {
         return {sites_.first_copy[group_[copy]], sites_.first_copy[group_[copy] + 1]};
     }
@@ -39,7 +39,7 @@ private:
     const CurveNetwork& network_;
     CurveSites sites_;
     std::vector<agvd::Index> group_;  // By copy.
-    std::vector<agvd::Index> curve_;  // By group; no_index: it stays.
+    std::vector<agvd::Index> curve_;  // By group; no_index: it does not move.
     std::vector<double> half_slope_, stiffness_, move_, along_before_;  // By group.
 };
 

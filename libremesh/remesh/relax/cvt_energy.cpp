@@ -1,3 +1,7 @@
+// Each triangle is divided at its circumcentre into six right triangles, two for each edge, one in
+// the cell of either end. Energy, mass and gradient are sums over these. Notation: `up` is the unit
+// normal of a triangle, `cotangent` that of the angle opposite an edge, mass the area times
+// density.
 #include "remesh/relax/cvt_energy.h"
 
 #include <algorithm>
@@ -10,17 +14,17 @@ using agvd::Vec3;
 
 namespace {
 
-// Flat triangles have no part in the energy, which would have no bounds. Inside others make up for
-// what a circumcentre far outside does to it; at the rim none does, so that an angle of 11 or 169
-// degrees is enough there.
+// Cotangents beyond which a triangle is nearly degenerate. It is left out of the energy, which
+// would be unbounded. Inside the mesh, neighbours compensate for a circumcentre far outside; at the
+// rim there are none, so an angle of 11 or 169 degrees is enough there.
 constexpr double flat_cotangent = 50;
 constexpr double flat_cotangent_at_rim = 5;
 
-// Half of the part of an edge in a triangle: the right triangle between an end of the edge, its
-// middle and the circumcentre.
+// The right triangle between an end of an edge, its midpoint and the circumcentre: half of the part
+// that the edge has of a triangle.
 struct RightTriangle {
     double area = 0, mass = 0;
-    double spread = 0;  // Mean squared distance from the site; of sums without meaning.
+    double spread = 0;  // Mean squared distance from the site; not for sums.
     Vec3 slope = Vec3::Zero();
 
     void add(const RightTriangle& more) {
@@ -30,9 +34,9 @@ struct RightTriangle {
     }
 };
 
-// \param edge       from the site that has it; the triangle lies on its left.
-// \param up  its normal.
-// \param cotangent  of the angle opposite.
+// \param edge       from the site whose cell has the part; the triangle lies on its left.
+// \param up         unit normal of the triangle.
+// \param cotangent  of the angle opposite the edge.
 RightTriangle right_triangle(const Vec3& edge, const Vec3& up, double cotangent, double density) {
     RightTriangle result;
     const double squared_length = edge.squaredNorm();
@@ -44,8 +48,8 @@ RightTriangle right_triangle(const Vec3& edge, const Vec3& up, double cotangent,
     return result;
 }
 
-// A triangle with an obtuse angle across from its rim edge (tail, head). The apex and its mirror
-// image beyond the rim are neighbours then, and the rim is where their cells meet.
+// A triangle with an obtuse angle opposite its rim edge (tail, head). The apex and its mirror image
+// across the rim count as neighbours, whose cells meet at the rim.
 class ClippedTriangle {
 public:
     ClippedTriangle(const Vec3& tail, const Vec3& head, const Vec3& apex, const Vec3& up,
@@ -62,12 +66,12 @@ public:
         add_apex(down, after / height, -up, density);
     }
 
-    std::array<RightTriangle, 3> part;  // Of tail, head and apex: sums.
+    std::array<RightTriangle, 3> part;  // Sums for tail, head and apex.
     double energy = 0, weighted = 0;
     double steepest = 0;
 
 private:
-    // The edge between an end of the rim and the apex.
+    // Adds the edge between an end of the rim and the apex.
     void add(std::size_t end, const Vec3& at, const Vec3& apex, double cotangent, const Vec3& up,
              double density) {
         const Vec3 side = end == 0 ? up : Vec3(-up);
@@ -75,7 +79,8 @@ private:
         take(2, right_triangle(at - apex, side, cotangent, density));
         steepest = std::max(steepest, cotangent);
     }
-    // Its half of the edge to the mirror image, seen from an end of the rim under twice the angle.
+    // Adds the apex's half of the edge to its mirror image. The angle opposite that edge, at an end
+    // of the rim, is twice the given one.
     void add_apex(const Vec3& down, double cotangent_of_half, const Vec3& up, double density) {
         const double cotangent = (cotangent_of_half - 1 / cotangent_of_half) / 2;
         take(2, right_triangle(down, -up, cotangent, density));
@@ -107,8 +112,8 @@ void measure_energy(const SiteMesh& mesh, std::span<const Vec3> positions,
         if (!(doubled_area > 0)) continue;
         const Vec3 up = normal / doubled_area;
         const double density = (weight[t[0]] + weight[t[1]] + weight[t[2]]) / 3;
-        // The circumcentre lies above the middle of each edge by half of it times the cotangent:
-        // two right triangles, one in the cell of either end.
+        // The circumcentre lies above the midpoint of each edge by half the edge times the
+        // cotangent: two right triangles, one in the cell of either end.
         std::array<RightTriangle, 3> part;
         double energy = 0, weighted = 0;
         double flat = flat_cotangent, steepest = 0;

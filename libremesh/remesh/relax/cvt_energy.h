@@ -1,5 +1,5 @@
 //! \file
-//! The energy of a centroidal Voronoi tessellation, and its slope.
+//! The energy of a centroidal Voronoi tessellation, and its gradient.
 #pragma once
 
 #include <span>
@@ -8,34 +8,35 @@
 
 namespace remesh::detail {
 
-//! Of the Voronoi diagram of the sites on their triangulation, taken as a surface of its own.
+//! The energy of the Voronoi diagram of the sites on their triangulation, which is taken as a
+//! surface of its own.
 struct CvtEnergy {
     struct Cell {
-        agvd::Vec3 slope;   //!< Of `weighted`; tangential: at right angles to `normal`.
-        agvd::Vec3 normal;  //!< Of the triangles around, of length 1.
+        agvd::Vec3 slope;   //!< Gradient of `weighted`; tangential, perpendicular to `normal`.
+        agvd::Vec3 normal;  //!< Unit normal of the triangles around, by area.
         double mass;        //!< Weighted area.
         double area;
     };
-    //! Sum over the cells of the integral of |x - site|^2; without flat triangles.
+    //! Sum over the cells of the integral of |x - site|^2; without nearly degenerate triangles.
     double energy = 0;
-    double weighted = 0;            //!< The same by density.
+    double weighted = 0;            //!< The same, weighted by density.
     std::vector<Cell> cells;        //!< #sites
     std::vector<double> cotangent;  //!< #H: of the angle opposite.
 };
 
-//! Fills `result`, whose memory is used again.
+//! Fills `result` and reuses its memory.
 //!
-//! \param mesh    Delaunay or nearly so: where a circumcentre lies outside of its triangle, areas
-//!                are negative and neighbours make up for them.
+//! \param mesh    Delaunay or nearly so: a circumcentre outside its triangle gives negative areas,
+//!                for which neighbours compensate.
 //! \param weight  #sites: density, > 0; linear in between.
-//! \param clips_at_rim  cells end at the rim of the triangulation. Otherwise that of a site near it
-//!                reaches beyond, which draws the site out.
+//! \param clips_at_rim  cells end at the rim of the triangulation. Otherwise the cell of a site
+//!                      near the rim reaches beyond it, which draws the site outwards.
 //! Cost: O(n).
 void measure_energy(const SiteMesh& mesh, std::span<const agvd::Vec3> positions,
                     std::span<const double> weight, bool clips_at_rim, agvd::Ticker& ticker,
                     CvtEnergy& result);
 
-//! Fills `turned` with the triangles that face against the surface or have no area, ascending.
+//! Fills `turned` with the triangles that face against the surface or are degenerate, ascending.
 //!
 //! \param facing  #sites: normals of the surface.
 //! Cost: O(n).

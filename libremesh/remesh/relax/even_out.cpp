@@ -1,3 +1,7 @@
+// Passes from coarse to fine: components first, then regions of ever fewer sites. A pass compares
+// the number of sites in each region with its share by a chi-square test. If the sites are less
+// even than random points, random sites of crowded regions move to random points of others. Regions
+// are the cells of vertices that are far apart.
 #include "remesh/relax/even_out.h"
 
 #include <algorithm>
@@ -24,15 +28,17 @@ using agvd::Surface;
 using agvd::SurfacePoint;
 using agvd::Vec3;
 
-// Sites that belong on a region: what is uneven within the last takes relaxation a few steps.
+// Sites for each region, pass by pass. Relaxation needs a few steps only for what is uneven within
+// the smallest regions.
 constexpr std::array sites_per_region{400.0, 100.0, 25.0, 6.0};
-// Regions are made of faces: those of fewer vertices would be no measure.
+// Least number of vertices for each region: smaller regions, which consist of faces, are too
+// coarse.
 constexpr Index vertices_per_region = 8;
-// Standard deviations of chance that are let pass: of all regions together, and of one.
+// Standard deviations of random points that are tolerated: for all regions together, and for one.
 constexpr double most_deviation = 4, most_deviation_of_one = 5;
-// Sites nearer than this are taken for one: in mean distances.
+// Sites nearer than this count as being at one place; in mean distances.
 constexpr double same_place = 1e-3;
-// Any will do.
+// Any value works.
 constexpr std::uint64_t seed = 0x5eed;
 
 // Parts of the surface, each a set of faces.
@@ -41,9 +47,9 @@ struct Regions {
     std::vector<double> area;        // Per region.
     std::vector<Index> begin;        // #regions + 1, into `faces` and `area_up_to`.
     std::vector<Index> faces;        // By region.
-    std::vector<double> area_up_to;  // Of the region, with that face.
+    std::vector<double> area_up_to;  // Area of the region up to this face.
 
-    // \param of_face  without gaps in the numbers.
+    // \param region_of_face  #F: numbers without gaps.
     Regions(const Surface& surface, std::vector<Index> region_of_face, Index count)
         : of_face(std::move(region_of_face)), area(count, 0), begin(count + 1, 0) {
         for (const Index r : of_face) ++begin[r + 1];
@@ -75,10 +81,10 @@ struct Regions {
     }
 };
 
-// Steps of a search for the ground of one more region.
+// Progress ticks for the search that follows each region.
 constexpr std::size_t search_work = 256;
 
-// Regions around vertices that are far apart, more and more of them.
+// Makes regions around vertices that are far apart; a later call adds to those of earlier ones.
 class RegionMaker {
 public:
     RegionMaker(const Surface& surface, const agvd::SurfaceLayout& layout, int num_threads,
@@ -88,7 +94,7 @@ public:
           search_(surface, layout, num_threads),
           farthest_(surface, search_) {}
 
-    // At least `count`, and one for each component.
+    // At least `count` regions, and one for each component.
     Regions make(Index count) {
         agvd::Poller poller(progress_);
         agvd::Ticker ticker(poller);
@@ -102,7 +108,7 @@ public:
             search_.add(agvd::point_at(surface_, v), num_centers_++);
             search_.run(progress_);
         }
-        // By the first corner; regions without a face get no number.
+        // A face belongs to the region of its first corner; regions without a face get no number.
         std::vector<Index> number(num_centers_, no_index);
         std::vector<Index> region(surface_.num_faces());
         Index num_regions = 0;
@@ -172,7 +178,7 @@ public:
     }
 
 private:
-    // Sites on one spot: but for one, they wait for a region.
+    // Of several sites at one place, all but one wait for a region.
     void find_surplus() {
         const double cell = same_place * std::sqrt(area_ / static_cast<double>(sites_.size()));
         std::unordered_set<Vec3, agvd::PositionHash> taken;
@@ -187,7 +193,7 @@ private:
         for (const Index i : surplus_) is_moved_[i] = 1;
     }
 
-    // Of the sites that each component has, by area.
+    // The share of each region in the sites of its component, by area.
     [[nodiscard]] std::vector<double> shares_of(const Regions& regions) const {
         std::vector<double> count(components_.size(), 0);
         for (const SurfacePoint& s : on_base_) ++count[component_of_face_[s.face.value()]];
@@ -199,7 +205,7 @@ private:
         return shares;
     }
 
-    // Gives every region its share, if the sites are spread less evenly than by chance.
+    // Gives every region its share if the sites are spread less evenly than random points.
     void balance(const Regions& regions, std::span<const double> shares, std::uint64_t stream) {
         const auto num_sites = static_cast<Index>(sites_.size());
         std::vector<std::vector<Index>> residents(regions.size());  // Ascending.
@@ -220,7 +226,7 @@ private:
             if (have > quota[r]) release(residents[r], have - quota[r], stream);
         }
         if (num_missing == 0) return;
-        // Fewer than are missing where some that are too many may not move.
+        // These are fewer than are missing if surplus sites may not move.
         const std::vector<Index> gets = apportion(missing, static_cast<Index>(surplus_.size()));
         Index next = 0;
         for (Index r = 0; r < regions.size(); ++r) {
@@ -244,7 +250,7 @@ private:
         return chi_square <= count + most_deviation * std::sqrt(2 * count);
     }
 
-    // Takes away random ones of those that may move.
+    // Releases random residents that may move.
     void release(const std::vector<Index>& residents, Index count, std::uint64_t stream) {
         std::vector<std::pair<std::uint64_t, Index>> order;
         for (const Index i : residents) {
@@ -261,7 +267,7 @@ private:
     const agvd::IntrinsicTriangulation& base_;
     const Surface& surface_;             // Of the base.
     std::vector<SurfacePoint>& sites_;   // On the input.
-    std::vector<SurfacePoint> on_base_;  // The same.
+    std::vector<SurfacePoint> on_base_;  // The same, on the base.
     std::vector<Component> components_;
     std::vector<Index> component_of_face_;  // #F
     double area_ = 0;

@@ -1,5 +1,5 @@
 //! \file
-//! Repairs starts that are far from even.
+//! Redistributes sites that are far from even.
 #pragma once
 
 #include <span>
@@ -9,20 +9,20 @@
 
 namespace remesh::detail {
 
-//! Moves sites from where there are too many to where there are too few, so that relaxation need
-//! not carry them there: a Lloyd step evens out neighbours, and what is uneven over w cells takes
-//! some w^2 steps. The surface is divided into regions of about one size, large ones first; where
-//! the sites are spread over these less evenly than random points would be, random ones of the
-//! crowded regions go to random places of the others. Sites that lie on another one, which no
-//! relaxation can part, go first. Starts as even as random ones stay as they are.
+//! Moves sites from crowded regions to sparse ones, which would take relaxation long: a Lloyd step
+//! evens out neighbours only, and unevenness over w cells takes some w^2 steps. The surface is
+//! divided into regions of similar size, large ones first. If the sites are spread over these less
+//! evenly than random points, random sites of crowded regions move to random places of the others.
+//! Sites at the place of another one, which relaxation cannot separate, move first. Starts as even
+//! as random ones do not change.
 //!
-//! Sites on the boundary stay. Components keep their numbers unless these are further from their
-//! share than chance would bring them.
-//! \param surface   regions are made of its base's faces.
+//! Sites on the boundary stay. A component keeps its number of sites unless that is further from
+//! its share than chance explains.
+//! \param surface   regions consist of its base's faces.
 //! \param sites     on surface.input().
 //! \param is_fixed  #sites: 1 for sites that stay; or empty.
 //! \return  the number of sites moved.
-//! \throw agvd::Cancelled  the progress callback returned false; `sites` is of no use then.
+//! \throw agvd::Cancelled  the progress callback returned false; `sites` is unspecified then.
 //! Cost: O(n log n), a few sweeps over the edges.
 agvd::Index even_out(const PreparedSurface& surface, std::vector<agvd::SurfacePoint>& sites,
                      std::span<const std::uint8_t> is_fixed, int num_threads,

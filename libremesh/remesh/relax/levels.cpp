@@ -1,3 +1,6 @@
+// A level takes steps on the triangulation of the sites. After every ten it labels the vertices of
+// the base again: labels give the density of the cells and sites that belong on the boundary, and
+// replace the triangulation if it has flaws.
 #include "remesh/relax/levels.h"
 
 #include <algorithm>
@@ -16,18 +19,18 @@ using agvd::Index;
 using agvd::Surface;
 using agvd::SurfacePoint;
 
-// Steps from one measuring of the cells to the next.
+// Steps between two measurements of the cells.
 constexpr int steps_per_sweep = 10;
-// Labels tell who neighbours whom where there are so many vertices for each site.
+// With this many vertices for each site, labels tell which sites are neighbours.
 constexpr std::size_t vertices_per_site = 8;
-// What is measured of cells means something where there are so many.
+// With this many vertices for each site, measurements of cells are meaningful.
 constexpr std::size_t vertices_per_cell = 2;
-// Flaws of a triangulation, as a share of the sites, that are worth a propagation.
+// Flaws of a triangulation, as a share of the sites, above which a propagation pays.
 constexpr double most_flaws = 2e-3;
-// Where more than this share of the triangles face against the surface, or of the sites are in no
-// triangle, relaxation would do harm.
+// Relaxation would do harm if more than this share of the triangles face against the surface, or of
+// the sites are in no triangle.
 constexpr double hopeless_share = 0.1;
-// Distance error of a propagation that only has to tell who neighbours whom.
+// Distance error of a propagation that only has to tell which sites are neighbours.
 constexpr double neighbour_error = 1e-2;
 
 }  // namespace
@@ -134,7 +137,7 @@ void Levels::look(Relaxation& relaxation, const agvd::DistanceBounds& labels,
         measure_cells(prepared_, labels, num_sites, options_.num_threads, progress_));
 }
 
-// Looks at the surface again.
+// Labels and measures the surface again.
 void Levels::sweep(Relaxation& relaxation, std::span<const Index> corners,
                    std::span<const ChainEdge> chain) {
     const auto num_sites = static_cast<Index>(relaxation.sites().size());
@@ -142,8 +145,8 @@ void Levels::sweep(Relaxation& relaxation, std::span<const Index> corners,
     const agvd::DistanceBounds labels = label(relaxation.sites());
     const Index flaws = relaxation.num_flaws();
     const bool is_cheap = gives_neighbours(surface_, num_sites);
-    // Not between curves, which hold the triangulation together: fandisk takes 1.3 times the time
-    // for .001 of mean Q.
+    // Not with curves, which hold the triangulation together: fandisk takes 1.3 times the time for
+    // .001 of mean Q.
     const bool is_worth_it =
         chain.empty() && num_mended_ < result_.levels.size() && flaws > most_flaws * num_sites;
     if (flaws > 0 && (is_cheap || is_worth_it)) {

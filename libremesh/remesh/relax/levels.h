@@ -1,5 +1,6 @@
 //! \file
-//! Runs of relaxation: steps on one level of sites, with looks at the surface between them.
+//! Levels of relaxation: steps on one number of sites, with measurements of the surface between
+//! them.
 #pragma once
 
 #include <span>
@@ -12,20 +13,21 @@
 
 namespace remesh::detail {
 
-//! Whether labels of the vertices tell who neighbours whom.
+//! Whether labels of the vertices tell which sites are neighbours.
 [[nodiscard]] bool gives_neighbours(const agvd::Surface& surface, std::size_t num_sites);
 
-//! The sites' triangulation by labels; exactly where faces are too large for those.
+//! The triangulation of the sites: by labels, or from the diagram if faces are too large for
+//! labels.
 //!
 //! \param labels  of the base's vertices.
-//! \param chain  edges that are to be on its rim.
+//! \param chain   edges that its rim is to have.
 [[nodiscard]] std::vector<agvd::Triangle> triangulate_sites(
     const PreparedSurface& prepared, const agvd::DistanceBounds& labels,
     std::span<const agvd::SurfacePoint> sites, std::span<const ChainEdge> chain, int num_threads,
     const agvd::Progress& progress);
 
-//! Triangles as large as the features of the surface, or sites in none: what is even on them is not
-//! on the surface.
+//! Whether triangles are as large as the features of the surface, or too many sites are in none.
+//! Sites that are even on such a triangulation are not even on the surface.
 [[nodiscard]] bool is_hopeless(const Relaxation& relaxation);
 
 //! The levels of one relaxation, coarse to fine.
@@ -36,20 +38,20 @@ public:
     Levels(const Levels&) = delete;
     Levels& operator=(const Levels&) = delete;
 
-    //! For all that a step is made of: tells how many steps are done.
+    //! For all operations of a step: reports the share of steps done.
     [[nodiscard]] const agvd::Progress& progress() const { return progress_; }
 
-    //! Steps until nothing is gained or all are done.
+    //! Takes steps until they gain too little or all are done.
     //!
-    //! \param labels   of the sites; null: the relaxation knows its weights.
-    //! \param corners  boundary vertices that sites go to: of the spacing that these sites have.
+    //! \param labels   of the sites; null: the relaxation has its weights already.
+    //! \param corners  boundary vertices to which sites move; found at the spacing of these sites.
     //! \param chain    edges of curves that the relaxation holds.
     void run(Relaxation& relaxation, const agvd::DistanceBounds* labels,
              std::span<const agvd::Index> corners, std::span<const ChainEdge> chain = {});
 
     [[nodiscard]] agvd::DistanceBounds label(std::span<const agvd::SurfacePoint> sites) const;
 
-    //! The last call.
+    //! Must be the last call.
     [[nodiscard]] RelaxResult finish(std::vector<agvd::SurfacePoint> sites);
 
 private:
@@ -67,7 +69,7 @@ private:
     bool has_boundary_;
     int steps_planned_;
     int steps_done_ = 0;
-    std::size_t num_mended_ = 0;  // Levels up to the last one that has paid for a propagation.
+    std::size_t num_mended_ = 0;  // Levels up to the last one that used a propagation.
     RelaxResult result_;
 };
 

@@ -10,19 +10,19 @@
 namespace remesh {
 namespace {
 
-// Longest edge in spacings: relaxation finds neighbours by the labels of vertices, and Steiner
-// points of longer edges resolve no cell. Mean Q at N = 2000, with 1 / .85 / .7 / .55: fertility
-// .921 / .930 / .932 / .934, part 58011 .878 / .887 / .890 / .900, fandisk .913 / .914 / .914 /
-// .921; with .7 fandisk takes 1.25 times the instructions of .85.
+// Longest edge in spacings. Relaxation finds neighbours by the labels of vertices, and Steiner
+// points of longer edges do not resolve cells. Mean Q at N = 2000, with 1 / .85 / .7 / .55:
+// fertility .921 / .930 / .932 / .934, part 58011 .878 / .887 / .890 / .900, fandisk .913 / .914 /
+// .914 / .921; with .7 fandisk takes 1.25 times the instructions of .85.
 constexpr double longest_edge = 0.85;
-// Vertices without curvature that are closer go: needles of aspect 1e-3 around the unit cube take
-// .4 of the time and half of the memory, with bases of 14 600 faces for 33 000. Half the size of
-// regular grids' edges that resolve cells, which so stay as they are.
+// In spacings: vertices without curvature that are closer are removed. A unit cube under needles of
+// aspect 1e-3 takes .4 of the time and half of the memory, with bases of 14 600 faces for 33 000.
+// This is half the edge length of regular grids that resolve cells, so those do not change.
 constexpr double shortest_edge = 0.15;
-// Edges split, for each site and each vertex. Regular refinement takes 4 a site; surfaces thinner
-// than the spacing would get vertices by their length.
+// Most splits, for each site and each vertex. Regular refinement takes 4 for each site. Without a
+// limit, surfaces thinner than the spacing would get vertices in proportion to their length.
 constexpr double splits_per_site = 16, splits_per_vertex = 1;
-// Of a cell: what one piece of a face of needles stands for.
+// Share of a cell that one piece stands for, in a face of the base that holds needles.
 constexpr double piece_share = 1.0 / 16;
 
 agvd::Index most_splits(const agvd::Surface& input, double spacing) {

@@ -1,5 +1,5 @@
 //! \file
-//! A surface with all that is made of it once, for sites of a given spacing.
+//! A surface with the data derived from it once, for sites of a given spacing.
 #pragma once
 
 #include "agvd/intrinsic/face_pieces.h"
@@ -7,7 +7,7 @@
 
 namespace remesh {
 
-//! Labels, propagation and diagram run on `base`; what happens in space on its input.
+//! Labels, propagation and diagram use `base`; operations in space use its input.
 struct PreparedSurface {
     //! \param input    outlives this.
     //! \param spacing  mean distance of the sites, > 0: the base's edges are not much longer, and
@@ -17,23 +17,23 @@ struct PreparedSurface {
     //! Cost: that of the base, and O(#F) for the rest. Some 280 bytes for each face of the base.
     PreparedSurface(const agvd::Surface& input, double spacing, int num_threads = 0,
                     const agvd::Progress& progress = {});
-    //! The same for an input that nobody else needs (see IntrinsicTriangulation).
+    //! The same, but takes the input over (see IntrinsicTriangulation).
     PreparedSurface(agvd::Surface&& input, double spacing, int num_threads = 0,
                     const agvd::Progress& progress = {});
 
     agvd::IntrinsicTriangulation base;
     agvd::FacePieces pieces;     //!< Of the base's faces.
-    agvd::SurfaceLayout layout;  //!< Of base.surface(). May be moved from when sites are at rest.
+    agvd::SurfaceLayout layout;  //!< Of base.surface(). May be moved from when sites are final.
 
     [[nodiscard]] const agvd::Surface& input() const { return base.input(); }
 };
 
-//! Root of the area for each site.
+//! The square root of the area for each site, mesh units.
 [[nodiscard]] double mean_spacing(const agvd::Surface& surface, std::size_t num_sites);
 
-//! Carries numbers of the input's components over to the base's faces.
+//! Transfers numbers of the input's components to the base's faces.
 //!
-//! \param of_face  #F of the input: equal on all faces that hang together.
+//! \param of_face  #F of the input: equal on all faces of a component.
 //! \return #F of the base.
 //! \throw agvd::Cancelled  the progress callback returned false.
 //! Cost: O(#F).

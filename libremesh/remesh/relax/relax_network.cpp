@@ -1,3 +1,8 @@
+// The sites of curves move along the curves, inner ones inside patches, on a surface that is cut
+// along the network. A coarse level has half the intervals of each curve and about a quarter of the
+// inner sites. Its triangulation is divided at the middles of its edges; on curves these are the
+// sites of the fine level. The rim of each patch must consist of the intervals of its curves, or
+// the patch is triangulated in another way.
 #include "remesh/relax/relax_network.h"
 
 #include <algorithm>
@@ -22,12 +27,12 @@ using agvd::SurfacePoint;
 using agvd::Triangle;
 using detail::Relaxation;
 
-// A coarse start needs this many inner sites.
+// Least number of inner sites of a coarse start.
 constexpr double least_coarse_sites = 32;
-// Inner sites keep so many spacings off the curves.
+// Least distance of inner sites from curves, in spacings.
 constexpr double least_distance = 0.4;
 
-// Half of each curve's intervals, as far as it stays what a triangulation needs.
+// Half of each curve's intervals, but no fewer than a triangulation needs.
 std::vector<Index> coarse_intervals(const NetworkPlan& plan) {
     const std::vector<Index> fewest = fewest_intervals(plan.network);
     std::vector<Index> result;
@@ -38,13 +43,13 @@ std::vector<Index> coarse_intervals(const NetworkPlan& plan) {
     return result;
 }
 
-// The sites of a coarse level among those of the fine one.
+// Maps the sites of a coarse level to those of the fine one.
 class Refinement {
 public:
     Refinement(const NetworkPlan& plan, const CurveSites& coarse, const CurveSites& fine)
         : plan_(plan), coarse_(coarse), fine_(fine) {}
 
-    // A site's number in the fine level.
+    // The number of a coarse site in the fine level.
     [[nodiscard]] Index number(Index site) const {
         if (site >= coarse_.sites.size()) {
             return site + static_cast<Index>(fine_.sites.size() - coarse_.sites.size());
@@ -55,7 +60,7 @@ public:
         return fine_.first_copy[fine_group(group)] + site - coarse_.first_copy[group];
     }
 
-    // The fine site in the middle of an interval; agvd::no_index: there is none.
+    // The fine site in the middle of an interval; agvd::no_index if there is none.
     [[nodiscard]] Index middle(const ChainEdge& edge) const {
         const Index begin = fine_place(edge.curve, edge.interval);
         if (fine_place(edge.curve, edge.interval + 1) - begin < 2) return agvd::no_index;
@@ -63,7 +68,7 @@ public:
     }
 
 private:
-    // Where the k-th vertex of the coarse curve is among those of the fine one.
+    // The index of the k-th vertex of the coarse curve among the vertices of the fine one.
     [[nodiscard]] Index fine_place(Index curve, Index k) const {
         const std::uint64_t fine = plan_.intervals[curve];
         return static_cast<Index>(k * fine / num_intervals(coarse_, curve));
@@ -91,8 +96,8 @@ private:
     const CurveSites& fine_;
 };
 
-// The middles of a coarse level's triangulation as the fine level has them: those on curves are
-// sites of it, and in strips narrower than the spacing there are none but these.
+// Finds the middles of a coarse level's triangulation for the fine level. On curves they are sites
+// of the fine level. Strips narrower than the spacing get no other middles.
 class MiddleFinder {
 public:
     MiddleFinder(const NetworkPlan& plan, std::span<const ChainEdge> chain,
@@ -130,14 +135,14 @@ private:
         return position(surface().mesh.view(), sites_[site]);
     }
 
-    // Of edges that labels know nothing of.
+    // The middle of an edge for which labels give none.
     [[nodiscard]] detail::Middle middle_of(const Pair& pair) const {
         const agvd::Vec3 way = at(pair.second) - at(pair.first);
         return {pair.first, pair.second, way.norm(),
                 detail::walk_straight(surface(), sites_[pair.first], way / 2)};
     }
 
-    // A middle of the edge (a, b) would be too near to a curve on the side of c.
+    // Drops the middle of edge (a, b) if it is too near to a curve on the side of c.
     void drop_if_narrow(Index a, Index b, Index c) {
         const Pair pair = std::minmax({a, b});
         const auto found = by_pair_.find(pair);
@@ -152,7 +157,8 @@ private:
         }
     }
 
-    // An interval without a fine site in its middle stays whole.
+    // Makes the fine site in the middle of an interval its middle. An interval without one is not
+    // divided.
     void take_site(const ChainEdge& edge, const Refinement& refinement) {
         const auto found = by_pair_.find(std::minmax({edge.from, edge.to}));
         if (found == by_pair_.end()) return;
@@ -171,7 +177,7 @@ private:
     std::map<Pair, detail::Middle> by_pair_;
 };
 
-// Triangulations of patches, taken one by one.
+// Replaces the triangulation of single patches.
 class Patches {
 public:
     explicit Patches(const PreparedSurface& surface) : surface_(surface) {
@@ -184,7 +190,7 @@ public:
 
     // Replaces the triangles of patches whose rim is not their chain.
     //
-    // \param instead  of a patch: other triangles; may have the wrong rim, too.
+    // \param instead  gives other triangles for a patch, which may have a wrong rim too.
     template <typename Instead>
     void mend(std::span<const ChainEdge> chain, std::span<const SurfacePoint> sites,
               std::vector<Triangle>& triangles, const Instead& instead) const {
@@ -199,7 +205,7 @@ public:
         }
     }
 
-    // By patch.
+    // The triangles by patch.
     [[nodiscard]] std::vector<std::vector<Triangle>> sort(
         std::span<const Triangle> triangles, std::span<const SurfacePoint> sites) const {
         std::vector<std::vector<Triangle>> result(faces_.size());
@@ -207,7 +213,7 @@ public:
         return result;
     }
 
-    // The patch thinned to its sites; nothing if that leaves other vertices.
+    // The patch thinned to its sites; empty if that leaves other vertices.
     [[nodiscard]] std::vector<Triangle> thin(Index patch,
                                              std::span<const SurfacePoint> sites) const {
         std::vector<SurfacePoint> points;
@@ -298,7 +304,7 @@ private:
         return relaxation;
     }
 
-    // A relaxed coarse level, divided; nothing if it would have too few sites.
+    // Relaxes a coarse level and divides it; null if it would have too few sites.
     std::unique_ptr<Relaxation> start_coarse() {
         const std::vector<Index> intervals = coarse_intervals(plan_);
         const CurveSites coarse =
@@ -326,8 +332,7 @@ private:
         patches_.mend(chain, first.sites(), dual.triangles,
                       [&](Index patch) { return relaxed[patch]; });
         MiddleFinder(plan_, chain, first.sites()).run(refinement, dual);
-        // The sites in the order of the fine level, where those of new curve sites have no
-        // triangle.
+        // The sites in the order of the fine level. New curve sites have no triangle yet.
         std::vector<SurfacePoint> sites = fine_.sites;
         std::vector<double> weights(fine_.sites.size(), 1);
         for (Index i = 0; i < first.sites().size(); ++i) {

@@ -9,26 +9,26 @@ namespace remesh {
 
 struct NetworkSites {
     CurveSites curves;                      //!< Of the curves, with their copies.
-    std::vector<agvd::SurfacePoint> sites;  //!< The copies, then the inner ones.
-    std::vector<RelaxLevel> levels;         //!< Coarse to fine; empty: they were not relaxed.
+    std::vector<agvd::SurfacePoint> sites;  //!< The copies on curves, then the inner sites.
+    std::vector<RelaxLevel> levels;         //!< Coarse to fine; empty: not relaxed.
 };
 
-//! As many sites as asked for, those of curves counted as often as vertices come of them, and
-//! relaxes them, coarse to fine: those of curves slide along these.
+//! Samples and relaxes sites, coarse to fine; sites of curves slide along these. The result has
+//! sampling.num_samples vertices: a site of a curve counts as often as it becomes a vertex.
 //!
 //! \param surface   of plan.cut.surface.
-//! \param plan  its network needs no more than sampling.num_samples vertices.
-//! \param options   boundary and corners do not count.
+//! \param plan      its network needs at most sampling.num_samples vertices.
+//! \param options   boundary and corners are ignored.
 //! \throw as sample_relaxed_sites.
 [[nodiscard]] NetworkSites sample_network_sites(const PreparedSurface& surface,
                                                 const NetworkPlan& plan,
                                                 const SamplingOptions& sampling,
                                                 const RelaxOptions& options);
 
-//! The same from sites that are there, all at once.
+//! The same from given sites, on one level.
 //!
-//! \param curves  sites of plan.network. \param inner  the others: inside faces, or on edges and
-//!                vertices off the curves.
+//! \param curves  sites of plan.network.
+//! \param inner   the other sites: inside faces, or on edges and vertices off the curves.
 [[nodiscard]] NetworkSites relax_network_sites(const PreparedSurface& surface,
                                                const NetworkPlan& plan, CurveSites curves,
                                                std::span<const agvd::SurfacePoint> inner,

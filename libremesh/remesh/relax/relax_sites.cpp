@@ -23,9 +23,9 @@ using detail::is_hopeless;
 using detail::Levels;
 using detail::Relaxation;
 
-// A coarse start needs this many sites of each component: with fewer, middles are no triangulation.
+// Least number of coarse sites for each component: with fewer, the middles give no triangulation.
 constexpr std::size_t least_coarse_sites = 32;
-// More coarse sites than a quarter, as some pairs may lack a middle.
+// Slightly more coarse sites than a quarter, as some pairs may lack a middle.
 constexpr double coarse_margin = 1.002;
 
 void check_options(const RelaxOptions& options, std::size_t num_sites) {
@@ -44,14 +44,14 @@ void check_options(const RelaxOptions& options, std::size_t num_sites) {
     }
 }
 
-// How many sites to begin with so that they and the middles between them are `count`; nothing if
-// these would be too few.
+// The number of coarse sites that gives `count` sites together with the middles between them;
+// nothing if it is too small.
 std::optional<Index> coarse_count(const Surface& surface, Index count, int num_threads,
                                   const agvd::Progress& progress) {
     agvd::Poller poller(progress);
     const Index num_components = detail::label_components(surface.twin, num_threads, poller).count;
     const double euler = detail::euler_of(surface);
-    // V + E, with E = 3 V - 3 chi; edges on the boundary are a little fewer.
+    // The sum is V + E, with E = 3 V - 3 chi; with a boundary E is slightly smaller.
     const double coarse = coarse_margin * (count + 3 * euler) / 4 + 1;
     if (coarse < static_cast<double>(least_coarse_sites * num_components)) return std::nullopt;
     const auto result = static_cast<Index>(coarse);

@@ -11,13 +11,11 @@
 namespace remesh {
 
 //! Lloyd's method with momentum: sites move towards the centroids of their cells, along the
-//! surface. Sites on the boundary (barycentric coordinates of exactly 0) stay on it, and those at
-//! one of its vertices where they are. Starts may be as uneven as they like, all sites at one spot
-//! included: where they are less evenly spread than random points, at any scale, they are moved
-//! over first.
+//! surface. Sites on the boundary (barycentric coordinates of exactly 0) stay on it; sites at
+//! boundary vertices do not move. The start may be as uneven as all sites at one place: sites that
+//! are spread less evenly than random points, at any scale, are redistributed first.
 //!
-//! Where sites are too few for their triangulation to resemble the surface, they stay where they
-//! are.
+//! Sites that are too few for their triangulation to resemble the surface are not relaxed.
 //! \param surface  prepared for the spacing of the sites.
 //! \param sites    on surface.input(), as are those of the result.
 //! \throw agvd::InvalidOption  an option is out of range.
@@ -29,11 +27,11 @@ namespace remesh {
                                       const RelaxOptions& options = {});
 
 //! sample_sites and relax_sites in one, coarse to fine: a quarter of the sites is sampled and
-//! relaxed, the others come in the middles between neighbours, and all are relaxed. Most sites have
-//! six neighbours then. Where there are too few sites for that, or too few vertices, it is no more
-//! than one after the other.
+//! relaxed, the others are added in the middles between neighbours, and all are relaxed. Then most
+//! sites have six neighbours. If there are too few sites or vertices for that, the two functions
+//! are called in turn.
 //!
-//! \throw as these two.
+//! \throw as these two functions.
 [[nodiscard]] RelaxResult sample_relaxed_sites(const PreparedSurface& surface,
                                                const SamplingOptions& sampling,
                                                const RelaxOptions& options = {});

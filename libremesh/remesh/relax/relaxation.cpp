@@ -1,3 +1,7 @@
+// A step moves each site by Newton's method for its own cell: against the gradient of the energy
+// (cvt_energy.h) plus the weighted squared distance from the planes of the cell (cell_planes.h),
+// divided by the stiffness of both. Part of the last move is added unless that leads uphill. Moves
+// that turn triangles over are undone; then edges are flipped towards Delaunay.
 #include "remesh/relax/relaxation.h"
 
 #include <algorithm>
@@ -17,32 +21,33 @@ using agvd::SurfacePoint;
 using agvd::Vec3;
 using Mat3 = Eigen::Matrix3d;
 
-// A move is this many times Lloyd's, which goes to the centroid, and this share of the last one.
+// A move is this many times Lloyd's, which goes to the centroid, plus this share of the last move.
 constexpr double stretch = 1.5;
 constexpr double momentum = 0.75;
 // Longest move, in square roots of the cell's area.
 constexpr double longest_move = 0.4;
-// Rounds of taking back moves.
+// Most rounds of undoing moves.
 constexpr int most_rounds = 3;
-// Rounds of flips at the start.
+// Most rounds of flips at the start.
 constexpr int most_flip_rounds = 10;
 // Sites of a parallel chunk.
 constexpr Index grain = 256;
-// Cells that hold k times as much of the surface as of the triangulation should be smaller by k in
-// area; cells are as the root of the density. Half a power more makes up for the few steps.
+// A cell that holds k times as much of the surface as of the triangulation should have 1 / k of the
+// area. The area goes as 1 / sqrt(density), so the density should grow by k^2. Half a power more
+// compensates for the small number of steps.
 constexpr double area_power = 2.5;
 constexpr double most_area_ratio = 4;
-// Distances are least where cells are as the cubic root of the radius of curvature: that is density
-// as curvature^(4/3), and curvature^2 is as bending. Half of that leaves better shapes. Below
-// `even_bending` all cells are alike.
+// The distance from the surface is least if the size of cells goes as the cubic root of the radius
+// of curvature: the density as curvature^(4/3), where curvature^2 goes as bending. Half of that
+// leaves better shapes. Below `even_bending` all cells are alike.
 constexpr double bending_power = 2.0 / 3;
 constexpr double even_bending = 0.05;
-// Squared distances from the planes of the cell, against those from its points: draws sites to
-// creases.
+// Weight of the squared distances from the planes of a cell, relative to those from its points.
+// They draw sites to creases.
 constexpr double plane_weight = 2;
 constexpr double most_weight = 64;
-// Triangles of three sites on the boundary that are flatter than this (4 sqrt(3) S / sum of the
-// squared sides) have no part of the surface.
+// A triangle of three boundary sites below this quality (4 sqrt(3) S / sum of the squared sides, S:
+// area) covers no part of the surface.
 constexpr double flat_quality = 0.1;
 
 }  // namespace
@@ -67,7 +72,7 @@ Relaxation::Relaxation(const agvd::Surface& surface, std::vector<SurfacePoint> s
     for (Index i = 0; i < sites_.size(); ++i) {
         locate(i);
         ticker_.tick();
-        // A corner of the boundary, or a place that is as good as any on its loop.
+        // The vertex is a corner of the boundary, or as good a place as any on its loop.
         if (boundary_[i] != no_index && agvd::vertex_of(surface_, sites_[i])) is_fixed_[i] = 1;
     }
     take_triangles(std::move(triangles));
@@ -111,7 +116,7 @@ void Relaxation::mend(const std::vector<agvd::Triangle>& triangles) {
 }
 
 void Relaxation::move_to_boundary(std::span<const std::optional<SurfacePoint>> places) {
-    std::vector<std::uint8_t> is_at_rim = is_stuck_;  // Or one triangle away from it.
+    std::vector<std::uint8_t> is_at_rim = is_stuck_;  // Or one triangle away from the rim.
     for (Index h = 0; h < mesh_.twin.size(); ++h) {
         if (mesh_.twin[h] == no_index) is_at_rim[mesh_.tail(SiteMesh::previous(h))] = 1;
     }
@@ -146,8 +151,8 @@ bool Relaxation::is_flat_at_boundary(const agvd::Triangle& t) const {
 }
 
 void Relaxation::set_density(const CellMeasures& cells) {
-    // Of a site and its neighbours together: cells are rough where faces are large, and sizes must
-    // not change abruptly.
+    // Sums over a site and its neighbours: measurements of cells are rough where faces are large,
+    // and sizes must not change abruptly.
     struct Sums {
         double on_surface, on_triangles, bending, count;
     };
@@ -157,7 +162,7 @@ void Relaxation::set_density(const CellMeasures& cells) {
     }
     for (const agvd::Triangle& t : mesh_.triangles) {
         for (std::size_t k = 0; k < 3; ++k) {
-            for (const Index other : {t[(k + 1) % 3], t[(k + 2) % 3]}) {  // Each comes twice.
+            for (const Index other : {t[(k + 1) % 3], t[(k + 2) % 3]}) {  // Twice each.
                 sums[t[k]].on_surface += cells.area[other] / 2;
                 sums[t[k]].on_triangles += now_.cells[other].area / 2;
                 sums[t[k]].bending += cells.bending[other] / 2;
@@ -186,7 +191,7 @@ void Relaxation::step() {
     poller_.poll();
     take_back();
     measure_energy(mesh_, at_, weight_, curves_.has_value(), ticker_, now_);
-    // What flips change is measured by the next step: they are few.
+    // The flips are few; the next step measures what they change.
     flip_towards_delaunay(mesh_, at_, now_.cotangent, ticker_);
 }
 
@@ -245,7 +250,7 @@ void Relaxation::choose_move(Index i, double keep) {
     move_[i] = length > most ? Vec3(most / length * move) : move;
 }
 
-// Sites stand in no order on the surface: what a walk reads is not in the cache.
+// Sites are not ordered on the surface, so what a walk reads is not in the cache.
 [[gnu::always_inline]] inline void Relaxation::prefetch(Index i) const {
     const std::size_t f = sites_[i].face.value();
     __builtin_prefetch(&surface_.mesh.triangles[f]);
@@ -276,7 +281,7 @@ void Relaxation::walk_curves() {
     }
 }
 
-// Takes back the moves by which triangles have turned over.
+// Undoes the moves that turned triangles over.
 void Relaxation::take_back() {
     find_turned(mesh_, at_, facing_, turned_);
     for (int round = 0; round < most_rounds; ++round) {
@@ -286,7 +291,7 @@ void Relaxation::take_back() {
             const Vec3 normal =
                 (at_before_[t[1]] - at_before_[t[0]]).cross(at_before_[t[2]] - at_before_[t[0]]);
             const Vec3 facing = facing_before_[t[0]] + facing_before_[t[1]] + facing_before_[t[2]];
-            if (!(normal.dot(facing) > 0)) continue;  // It was so before.
+            if (!(normal.dot(facing) > 0)) continue;  // Turned before the step.
             for (const Index i : t) {
                 if (take_back(i)) is_done = false;
             }
@@ -296,7 +301,8 @@ void Relaxation::take_back() {
     }
 }
 
-// False if the site has not moved. All copies of a curve's site go back together.
+// Undoes the move of a site, and of all copies of a curve's site together. Returns false if it has
+// not moved.
 bool Relaxation::take_back(Index i) {
     if (at_[i] == at_before_[i]) return false;
     std::pair<Index, Index> together{i, i + 1};

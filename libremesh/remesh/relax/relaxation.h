@@ -14,47 +14,47 @@ namespace remesh::detail {
 
 //! Lloyd's method with momentum, on the triangulation of the sites instead of their geodesic
 //! Voronoi diagram: a step costs a few hundredths of a propagation. Cells are those of the
-//! triangulation, which flips keep Delaunay; sites walk on the surface itself.
+//! triangulation, which flips keep Delaunay. Sites walk on the surface itself.
 //!
-//! A triangulation knows nothing of what its triangles cut short, such as the tip of an ear, and
-//! sites would leave it. So where cells hold more of the surface than of the triangulation, and
-//! where they are bent, they weigh more.
+//! A triangulation misses what its triangles cut off, such as the tip of an ear, and sites would
+//! leave such places. So cells weigh more if they hold more of the surface than of the
+//! triangulation, or if they are bent.
 class Relaxation {
 public:
-    //! Sites on the boundary stay on it, those at its vertices where they are. Sites in no triangle
-    //! stay, and inner ones around which triangles do not close.
+    //! Sites on the boundary stay on it. Sites at boundary vertices do not move, nor do sites in no
+    //! triangle, nor inner sites around which triangles do not close.
     //!
     //! \param is_fixed  #sites: 1 for sites that stay; or empty.
     //! \param weights   #sites: the density at the start; or empty.
-    //! \param progress  outlives this; polled by all that takes long, which then throws Cancelled
-    //!                  and leaves this of no use.
+    //! \param progress  outlives this; polled by all long operations. If one of these throws
+    //!                  Cancelled, this object is unspecified then.
     Relaxation(const agvd::Surface& surface, std::vector<agvd::SurfacePoint> sites,
                std::vector<agvd::Triangle> triangles, std::vector<std::uint8_t> is_fixed,
                std::vector<double> weights, int num_threads, const agvd::Progress& progress);
 
-    //! Sites of curves, which come first, slide along these from now on, those at nodes stay.
+    //! From now on sites of curves, which come first, slide along these; those at nodes stay.
     //!
     //! \param network  outlives this.
     //! \param curves  its sites: the first ones of all.
     void hold(const CurveNetwork& network, CurveSites curves);
 
-    //! By what the cells hold of the surface.
+    //! Sets the density by what the cells hold of the surface.
     void set_density(const CellMeasures& cells);
 
-    //! Triangles that face against the surface.
+    //! The number of triangles that face against the surface.
     [[nodiscard]] agvd::Index num_turned() const {
         return static_cast<agvd::Index>(turned_.size());
     }
-    //! These, and sites around which triangles do not close.
+    //! The number of these and of sites around which triangles do not close.
     [[nodiscard]] agvd::Index num_flaws() const { return num_stuck_ + num_turned(); }
-    //! Takes new triangles if they close around more sites and face with the surface more often.
+    //! Replaces the triangles if the new ones have fewer flaws.
     void mend(const std::vector<agvd::Triangle>& triangles);
 
-    //! Sites at the rim of the triangulation go to their places on the boundary, those that are on
-    //! the boundary only to a vertex. There sites stay from then on. Triangles along the boundary
-    //! that have become flat are dropped.
+    //! Moves sites at the rim of the triangulation to their places on the boundary. Sites already
+    //! on the boundary move only if their place is a vertex. Sites at a vertex stay there from then
+    //! on. Drops triangles along the boundary that have become degenerate.
     //!
-    //! \param places  #sites; nothing for sites that have none.
+    //! \param places  #sites; empty for sites without one.
     void move_to_boundary(std::span<const std::optional<agvd::SurfacePoint>> places);
 
     //! Cost: O(#sites) and the faces crossed.
@@ -62,7 +62,7 @@ public:
 
     [[nodiscard]] const CvtEnergy& energy() const { return now_; }
 
-    //! What steps lower: the energy by density, and the squared distances from the cells' planes.
+    //! What steps reduce: the weighted energy, and the squared distances from the cells' planes.
     [[nodiscard]] double objective() const;
 
     [[nodiscard]] const std::vector<agvd::SurfacePoint>& sites() const { return sites_; }
@@ -91,7 +91,7 @@ private:
     SiteMesh mesh_;
     std::vector<agvd::SurfacePoint> sites_;
     std::vector<agvd::Vec3> at_, facing_;           // #sites: positions, normals of their faces.
-    std::vector<agvd::SurfacePoint> sites_before_;  // The last step began there.
+    std::vector<agvd::SurfacePoint> sites_before_;  // Before the last step.
     std::vector<agvd::Vec3> at_before_, facing_before_;  // Likewise.
     std::vector<agvd::Vec3> move_;                       // #sites: the last move.
     std::vector<agvd::Vec3> half_slope_;                 // #sites

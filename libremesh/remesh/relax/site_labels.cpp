@@ -1,3 +1,6 @@
+// Labels are a site and an upper bound of its distance for each vertex of the base. Two labels meet
+// on an edge where both distances are equal; faces with two labels are cut at such points.
+// Notation: u, v are the ends of an edge, h a half-edge.
 #include "remesh/relax/site_labels.h"
 
 #include <algorithm>
@@ -15,19 +18,19 @@ using agvd::no_index;
 using agvd::Surface;
 using agvd::SurfacePoint;
 
-// How far middles keep from the ends of their edge, and from the edge: shares of it.
+// Least distance of middles from the ends of their edge, and from the edge, as shares of it.
 constexpr double end_margin = 1e-3;
 constexpr double side_margin = 1e-6;
-// How far places on the boundary keep from its vertices: a share of the edge.
+// Distance of places on the boundary from a vertex, as a share of the edge.
 constexpr double off_vertex = 0.25;
 
-// Where on the way from u to v the labels meet, in [0, 1].
+// Where the labels meet on the way from u to v, in [0, 1].
 double meeting_place(const agvd::DistanceBounds& labels, Index u, Index v, double length) {
     const double ahead = static_cast<double>(labels.distance[v]) - labels.distance[u];
     return std::clamp((length + ahead) / (2 * length), 0.0, 1.0);
 }
 
-// A point of half-edge h, or just inside of it.
+// A point on half-edge h, or just inside its face.
 SurfacePoint point_on(Index h, double along, double inside) {
     SurfacePoint point{agvd::FaceId(Surface::face(h)), {inside, inside, inside}};
     point.barycentric[h % 3] = (1 - along) * (1 - inside);
@@ -58,7 +61,8 @@ void add_part(const PreparedSurface& prepared, const agvd::DistanceBounds& label
             add(site[0], 1);
             return;
         }
-        // The corner across from two of one label is cut off; three labels share alike.
+        // If two corners have one label, the third corner is cut off; three labels get equal
+        // shares.
         std::size_t k = 0;
         while (k < 3 && site[(k + 1) % 3] != site[(k + 2) % 3]) ++k;
         if (k == 3) {
@@ -89,7 +93,7 @@ CellMeasures measure_cells(const PreparedSurface& surface, const agvd::DistanceB
     agvd::Poller poller(progress);
     CellMeasures result{std::vector<double>(num_sites, 0), std::vector<double>(num_sites, 0),
                         std::vector<CellPlanes>(num_sites)};
-    std::vector<agvd::Vec3> shadow(num_sites, agvd::Vec3::Zero());  // The largest is so long.
+    std::vector<agvd::Vec3> shadow(num_sites, agvd::Vec3::Zero());  // Norm: largest projection.
     const FaceParts parts(surface.base.surface(), labels.site, num_threads, poller);
     const auto body = [&](Index part, Index, Index) {
         add_part(surface, labels, parts, part, agvd::Ticker(poller), result, shadow);
@@ -119,7 +123,7 @@ SiteDual label_dual(const agvd::IntrinsicTriangulation& base, const agvd::Distan
     SiteDual result{label_triangles(surface, labels), {}};
     struct Crossing {
         std::uint64_t pair;
-        bool is_late;  // What lies where the middle must lie comes first.
+        bool is_late;  // False where the middle should lie; such edges come first.
         double length;
         Index half_edge;
     };

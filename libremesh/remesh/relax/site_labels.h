@@ -1,6 +1,6 @@
 //! \file
-//! Quick labels of the vertices, and what relaxation reads off them: who neighbours whom, and how
-//! much of the surface belongs to each site.
+//! Quick labels of the vertices, and what relaxation derives from them: which sites are neighbours,
+//! and how much of the surface belongs to each site.
 #pragma once
 
 #include <optional>
@@ -13,9 +13,10 @@
 
 namespace remesh::detail {
 
-//! Distances along edges and across them: a few per cent too long, for two sweeps over the edges.
+//! Labels by distances along edges and straight across them: a few per cent too long, at the cost
+//! of two sweeps over the edges.
 //!
-//! \return  of the vertices of surface.base.
+//! \return  the labels of the vertices of surface.base.
 [[nodiscard]] agvd::DistanceBounds label_vertices(const PreparedSurface& surface,
                                                   std::span<const agvd::SurfacePoint> sites,
                                                   int num_threads,
@@ -24,13 +25,14 @@ namespace remesh::detail {
 //! What cells hold of the surface.
 struct CellMeasures {
     std::vector<double> area;  //!< #sites, square mesh units.
-    //! #sites, in [0, 1]: the share of the area that a shadow in the best direction lacks. 0 for
-    //! what is flat, half for a hemisphere.
+    //! #sites, in [0, 1]: the share of the area that the largest projection onto a plane lacks. 0
+    //! for a planar cell, half for a hemisphere.
     std::vector<double> bending;
     std::vector<CellPlanes> planes;  //!< #sites
 };
 
-//! Faces of two labels are cut where these meet. The same for any number of threads.
+//! Measures the cells given by labels. Faces with two labels are cut where these meet. The same for
+//! any number of threads.
 //! Cost: O(#F and pieces).
 [[nodiscard]] CellMeasures measure_cells(const PreparedSurface& surface,
                                          const agvd::DistanceBounds& labels, agvd::Index num_sites,
@@ -40,14 +42,14 @@ struct CellMeasures {
 struct Middle {
     agvd::Index low = 0, high = 0;  //!< The sites.
     double length = 0;              //!< Of a path between them.
-    agvd::SurfacePoint point;       //!< Of the input: on the boundary if they meet there.
-    //! A site that is there already; agvd::no_index: none, and point counts.
+    agvd::SurfacePoint point;       //!< On the input; on its boundary if they meet there.
+    //! A site that is there already; agvd::no_index: none, `point` is used.
     agvd::Index site = agvd::no_index;
 };
 
-//! The sites as the vertices of a triangulation: a triangle for each face whose corners have three
-//! labels. It is the surface, the vertices of each label drawn together to one, and has its
-//! topology where each label is a disc. Sites that label no vertex are in no triangle.
+//! A triangulation of the sites: a triangle for each face whose corners have three labels. It is
+//! the surface with all vertices of a label merged into one, and has its topology if each label
+//! covers a disc. Sites that label no vertex are in no triangle.
 [[nodiscard]] std::vector<agvd::Triangle> label_triangles(const agvd::Surface& surface,
                                                           const agvd::DistanceBounds& labels);
 
@@ -57,16 +59,18 @@ struct SiteDual {
     std::vector<Middle> middles;  //!< By (low, high): one for each pair that meets.
 };
 
-//! \param keeps_inside  no middle lies on the boundary.
+//! The triangulation by labels, with the middles of its edges.
+//!
+//! \param keeps_inside  true: no middle lies on the boundary.
 //! Cost: sorting the edges whose ends have two labels.
 [[nodiscard]] SiteDual label_dual(const agvd::IntrinsicTriangulation& base,
                                   const agvd::DistanceBounds& labels, bool keeps_inside = false);
 
-//! For each site the corner that it labels, or else the place on the boundary that is nearest by
-//! its labels, off the vertices, so that the site can move along. Nothing for sites that label no
-//! vertex there.
+//! For each site the corner that it labels; otherwise the place on the boundary that is nearest by
+//! its labels, off the vertices, so that the site can move along. Empty for sites that label no
+//! boundary vertex.
 //!
-//! \param corners  boundary vertices. Of several that a site labels the first one counts.
+//! \param corners  boundary vertices. If a site labels several, the first one counts.
 //! Cost: O(#V + #sites).
 [[nodiscard]] std::vector<std::optional<agvd::SurfacePoint>> boundary_places(
     const agvd::IntrinsicTriangulation& base, const agvd::DistanceBounds& labels,

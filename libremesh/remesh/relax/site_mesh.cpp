@@ -1,3 +1,6 @@
+// Flips are one pass over the edges: those with a negative sum of cotangents, as measured before,
+// are tested again and flipped unless that folds the mesh or repeats an edge. In comments a, b are
+// the ends of an edge and c, d the corners opposite.
 #include "remesh/relax/site_mesh.h"
 
 #include <algorithm>
@@ -15,8 +18,8 @@ using agvd::no_index;
 using agvd::Triangle;
 using agvd::Vec3;
 
-// Sum of two cotangents below which an edge is flipped: off 0, so that no two diagonals of a square
-// take turns.
+// Sum of two cotangents below which an edge is flipped: below 0, so that the diagonals of a square
+// do not alternate.
 constexpr double flip_tolerance = -1e-9;
 // Least cosine between the normals of the triangles before and after a flip.
 constexpr double least_normal_cosine = 0.2;

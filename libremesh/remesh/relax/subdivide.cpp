@@ -1,3 +1,5 @@
+// Adds the middles of the longest pairs of neighbours as sites, and divides each triangle at its
+// middles. If the middles are too few, the largest triangles get a site in their centre.
 #include "remesh/relax/subdivide.h"
 
 #include <algorithm>
@@ -30,7 +32,7 @@ public:
     }
 
 private:
-    // The middles of the longest pairs.
+    // Adds the middles of the `count` longest pairs.
     void add_middles(std::size_t count) {
         std::vector<Index> order;
         for (Index i = 0; i < dual_.middles.size(); ++i) {
@@ -62,7 +64,7 @@ private:
         return new_site_[static_cast<std::size_t>(found - dual_.middles.begin())];
     }
 
-    // In four, three or two.
+    // Divides a triangle into four, three or two.
     void divide(const agvd::Triangle& t) {
         std::array<Index, 3> middle{};
         std::size_t num_missing = 0, missing = 0;
@@ -80,7 +82,7 @@ private:
             out.push_back(middle);
             return;
         }
-        // What is left is a polygon, cut into a fan around one of its middles.
+        // Otherwise the triangle is a polygon, cut into a fan around one of its middles.
         std::vector<Index> polygon;
         for (std::size_t i = 1; i <= 3; ++i) {
             const std::size_t k = (missing + i) % 3;
@@ -98,7 +100,7 @@ private:
         }
     }
 
-    // One site each in the middles of the largest triangles; false if there are too few.
+    // Adds one site in the centre of each of the largest triangles; false if these are too few.
     bool add_centres(Index count) {
         auto& triangles = result_.triangles;
         if (count > triangles.size()) return false;
@@ -128,7 +130,7 @@ private:
     const agvd::Surface& surface_;
     const SiteDual& dual_;
     TriangulatedSites result_;
-    std::vector<Index> new_site_;  // By middle; no_index: left out.
+    std::vector<Index> new_site_;  // By middle; no_index: not added.
 };
 
 }  // namespace

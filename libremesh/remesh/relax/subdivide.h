@@ -1,5 +1,5 @@
 //! \file
-//! From few sites to many, by new ones between them.
+//! Adds sites between the sites of a triangulation.
 #pragma once
 
 #include <optional>
@@ -15,11 +15,11 @@ struct TriangulatedSites {
     std::vector<double> weights;  //!< #sites
 };
 
-//! The sites and new ones in the middles between neighbours, so that most have six neighbours; the
-//! closest pairs go without where that would be too many, and where it would be too few the
-//! largest triangles get one more. Nothing if there is no room for `count` sites even so.
+//! Adds sites in the middles between neighbours, so that most sites have six neighbours. If these
+//! are too many, the closest pairs get none; if they are too few, the largest triangles get one
+//! site each. Nothing if that is not enough for `count` sites.
 //!
-//! \param weights  #sites; new ones get the mean of the sites that they are between.
+//! \param weights  #sites; new ones get the mean of the sites around them.
 //! Cost: O(n log n).
 [[nodiscard]] std::optional<TriangulatedSites> subdivide(
     const agvd::Surface& surface, const std::vector<agvd::SurfacePoint>& sites,

@@ -1,3 +1,5 @@
+// A walk unfolds face after face along a straight line. Notation: the frame of a half-edge has its
+// tail as origin and its direction as x axis; the face lies above.
 #include "remesh/relax/walk.h"
 
 #include <algorithm>
@@ -13,20 +15,22 @@ using agvd::SurfacePoint;
 using agvd::Vec2;
 using agvd::Vec3;
 
-// Least barycentric coordinate of an end: off the edges by more than the rounding of any position.
+// Least barycentric coordinate of an end: keeps it off the edges by more than the rounding of any
+// position.
 constexpr double interior_margin = 1e-6;
-// A step as steep as this on its face (cosine of the angle between them) has no direction there.
+// A step has no direction on a face if the cosine of the angle between them is below this.
 constexpr double least_cosine = 0.05;
-// A walk that is stopped by the boundary keeps this share of its last stretch.
+// A walk that meets the boundary goes this share of its last section.
 constexpr double stop_share = 0.9;
-// No step that relaxation makes crosses that many faces unless they are slivers around one vertex.
+// Most crossings of a walk. Steps of relaxation stay below this, except at slivers around one
+// vertex.
 constexpr int most_crossings = 2000;
 
 double cross(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
-// From the axes in which `axis` (of length 1) is the first one.
+// Vector `a` in the frame whose first axis is `axis`, of length 1.
 Vec2 turned_back(const Vec2& a, const Vec2& axis) { return {axis.dot(a), cross(axis, a)}; }
 
-// A ray in the frame of a half-edge of the face that it is in.
+// A ray in the frame of a half-edge of its face.
 struct Ray {
     Index half_edge;
     Vec2 at;
@@ -60,13 +64,14 @@ SurfacePoint point_at(const Surface& surface, const Ray& ray) {
     return {agvd::FaceId(Surface::face(ray.half_edge)), b};
 }
 
-// Turns the frame to the half-edge through which the ray leaves its face.
+// Changes to the frame of the half-edge through which the ray leaves its face.
 //
 // \param is_inside  the ray may leave through any half-edge; otherwise not through its own, by
-//                   which it came.
+//                   which it entered.
 void find_exit(const Surface& surface, Ray& ray, bool is_inside) {
     if (is_inside) {
-        // The corners that lie to the left of the ray follow each other; it leaves where they end.
+        // The corners on the left of the ray are consecutive; the ray leaves after the last of
+        // them.
         for (int k = 0; k < 2; ++k) {
             const Vec2 head(surface.length_of(ray.half_edge), 0);
             if (cross(ray.direction, -ray.at) <= 0 && cross(ray.direction, head - ray.at) > 0) {

@@ -9,23 +9,23 @@
 
 namespace remesh::detail {
 
-//! The end of the straightest geodesic ([polthier1998]) from a point in the direction of `step`, as
-//! long as `step`: never through a wall, since it runs from face to face. It stops short of the
-//! boundary. The end lies strictly inside a face unless the point stays where it is, which it
-//! does where `step` is nearly normal to its face.
+//! The end of the straightest geodesic ([polthier1998]) from a point in the direction of `step`,
+//! with the length of `step`. It runs from face to face, so it never passes through a wall, and it
+//! stops short of the boundary. The end lies strictly inside a face, unless the point does not move
+//! because `step` is nearly normal to its face.
 //!
-//! \param step  mesh units; its part in the plane of the face gives the direction.
+//! \param step  mesh units; its component in the plane of the face gives the direction.
 //! Cost: O(faces crossed).
 [[nodiscard]] agvd::SurfacePoint walk_straight(const agvd::Surface& surface,
                                                const agvd::SurfacePoint& from,
                                                const agvd::Vec3& step);
 
-//! The boundary half-edge that a point lies on, if it does; at a vertex the one that leaves it.
+//! The boundary half-edge that a point lies on, if any; at a vertex the one that leaves it.
 [[nodiscard]] std::optional<agvd::Index> boundary_half_edge(const agvd::Surface& surface,
                                                             const agvd::SurfacePoint& point);
 
-//! The end of a walk along the boundary, strictly inside an edge of it: as long as the part of
-//! `step` along the half-edge, in its direction or against it.
+//! The end of a walk along the boundary, strictly inside a boundary edge. Its length is that of the
+//! component of `step` along the half-edge, in its direction or against it.
 //!
 //! \param from  a point of boundary half-edge h.
 //! Cost: O(edges passed).

@@ -23,12 +23,12 @@ std::vector<Index> find_corners(const Surface& surface, const std::vector<Index>
 std::vector<SurfacePoint> sample_loop(const Surface& surface, const std::vector<Index>& loop,
                                       const std::vector<Index>& corners, double spacing) {
     const Curve curve = curve_of_loop(surface, loop);
-    std::vector<double> ends;  // Where the pieces of the loop begin.
+    std::vector<double> ends;  // Places on the loop where its pieces begin.
     for (std::size_t i = 0; i < loop.size() && ends.size() < corners.size(); ++i) {
         if (surface.tail(loop[i]) == corners[ends.size()]) ends.push_back(curve.up_to[i]);
     }
     if (ends.empty()) ends.push_back(0);
-    // Fewest intervals of a piece, so that the loop gets three sites.
+    // Least number of intervals of a piece, so that the loop gets three sites.
     const double fewest = std::ceil(3.0 / static_cast<double>(ends.size()));
     std::vector<SurfacePoint> sites;
     for (std::size_t i = 0; i < ends.size(); ++i) {

@@ -1,5 +1,5 @@
 //! \file
-//! The boundary's corners, and sites along it.
+//! Corners of the boundary, and sites along it.
 #pragma once
 
 #include "agvd/mesh/surface.h"
@@ -7,15 +7,15 @@
 
 namespace remesh {
 
-//! corners_of_curve for a loop of agvd::boundary_loops.
+//! Applies corners_of_curve to a loop of agvd::boundary_loops.
 //! \param spacing  > 0, mesh units.
 //! \return vertices, in the loop's order.
 [[nodiscard]] std::vector<agvd::Index> find_corners(const agvd::Surface& surface,
                                                     const std::vector<agvd::Index>& loop,
                                                     double spacing);
 
-//! Sites on a loop: at its corners, and at equal distances of about a spacing along each curve
-//! between them, but at least three.
+//! Sites on a loop, at least three: at its corners, and at equal distances of about a spacing along
+//! each curve between them.
 //! \param corners  vertices of the loop, in its order.
 [[nodiscard]] std::vector<agvd::SurfacePoint> sample_loop(const agvd::Surface& surface,
                                                           const std::vector<agvd::Index>& loop,

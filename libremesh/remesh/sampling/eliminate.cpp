@@ -1,5 +1,6 @@
-// [yuksel2015] Sample elimination for generating Poisson disk sample sets: its r_max, r_min, alpha,
-// beta and gamma have their names here.
+// Weighted sample elimination ([yuksel2015]): a heap holds the points by the weights of their
+// neighbours, and the most crowded point is removed. Neighbours come from a uniform grid. The
+// paper's r_max, r_min, alpha, beta and gamma have their names here.
 #include "remesh/sampling/eliminate.h"
 
 #include <algorithm>
@@ -16,14 +17,14 @@ namespace {
 using agvd::Index;
 using agvd::Vec3;
 
-// Faces whose normals are further apart than 120 degrees do not crowd each other: the walls of a
-// thin plate stay independent, while points on both sides of a right-angled edge still keep apart.
+// Points on faces whose normals differ by more than 120 degrees do not crowd each other: the walls
+// of a thin plate stay independent, while points on both sides of a right-angled edge keep apart.
 constexpr double least_normal_cosine = -0.5;
 
 // alpha = 8, beta = 0.65, gamma = 1.5.
 struct Weight {
-    double reach;  // 2 r_max: the spacing of the points packed as densely as can be.
-    double floor;  // 2 r_min: closer than this is not worse; keeps dense clumps from dominating.
+    double reach;  // 2 r_max: the spacing of points in the densest packing.
+    double floor;  // 2 r_min: nearer points weigh no more, so that clumps do not dominate.
 
     Weight(double spacing, double keep, double total)
         : reach(spacing), floor(reach * (1 - std::pow(keep / total, 1.5)) * 0.65) {}
@@ -35,9 +36,9 @@ struct Weight {
     }
 };
 
-// The points in the order of a uniform grid's cells, so that neighbours are near in memory too.
+// The points in the order of a uniform grid's cells, so that neighbours are near in memory.
 struct Grid {
-    std::vector<Index> order;            // Sorted place -> point.
+    std::vector<Index> order;            // Place in this order -> point.
     std::vector<std::uint64_t> cell;     // Per place, ascending; x runs fastest.
     std::vector<Vec3> position, normal;  // Per place.
 };
@@ -52,7 +53,7 @@ Grid build_grid(const agvd::Surface& surface, std::span<const ScatteredPoint> po
         low = low.cwiseMin(p.position);
         high = high.cwiseMax(p.position);
     }
-    // Cells are at least the reach wide; wider where the axes would run out of bits.
+    // Cells are at least as wide as the reach, and wider if an axis would run out of bits.
     cell_size = std::max(cell_size, (high - low).maxCoeff() / static_cast<double>(row / 2));
     std::vector<std::pair<std::uint64_t, Index>> keys(points.size());
     for (Index i = 0; i < keys.size(); ++i) {
@@ -75,13 +76,13 @@ Grid build_grid(const agvd::Surface& surface, std::span<const ScatteredPoint> po
     return grid;
 }
 
-// Offsets and data: place i crowds, and is crowded by, data[begin[i]] ... data[begin[i + 1] - 1].
+// Offsets and data: the neighbours of place i are data[begin[i]] ... data[begin[i + 1] - 1].
 struct Neighbours {
     std::vector<std::size_t> begin;
     std::vector<Index> data;
 };
 
-// The places in the 3 x 3 x 3 cells around a cell: nine runs, as x runs fastest.
+// The places in the 3 x 3 x 3 cells around a cell: nine ranges, as x runs fastest.
 std::array<std::pair<Index, Index>, 9> runs_around(const Grid& grid, std::uint64_t cell) {
     std::array<std::pair<Index, Index>, 9> runs;
     auto run = runs.begin();
@@ -134,10 +135,10 @@ Neighbours find_neighbours(const Grid& grid, double reach, int num_threads, agvd
     return result;
 }
 
-// Binary heap of places, the most crowded on top, in which any place can sink.
+// A binary heap of places, the most crowded on top. Any place can sink.
 class CrowdedFirst {
 public:
-    // Places of points from `first_fixed` on are not in it.
+    // The heap does not hold the points from `first_fixed` on.
     CrowdedFirst(std::vector<double> crowding, const std::vector<Index>& order, Index first_fixed)
         : crowding_(std::move(crowding)), order_(order), slot_(order.size(), agvd::no_index) {
         for (Index place = 0; place < order.size(); ++place) {
@@ -186,7 +187,7 @@ private:
 
     std::vector<double> crowding_;  // Per place: sum of the weights of its neighbours.
     const std::vector<Index>& order_;
-    std::vector<Index> heap_, slot_;  // Places by rank; rank of each place, no_index if gone.
+    std::vector<Index> heap_, slot_;  // Places by rank; rank of each place, no_index if removed.
 };
 
 }  // namespace

@@ -8,11 +8,12 @@
 
 namespace remesh::detail {
 
-//! Takes away, one by one, the point that its neighbours crowd most (of equals, the later one)
-//! until `keep` are left besides the last `num_fixed`, which crowd others and stay.
+//! Removes one by one the most crowded point: the one with the largest sum of its neighbours'
+//! weights (the last of equals). It stops when `keep` points are left besides the last `num_fixed`,
+//! which have weight for others and stay.
 //!
-//! \param spacing  distance of the kept points, packed as densely as can be.
-//! \return  the kept ones in their old order, without the fixed ones.
+//! \param spacing  distance of the kept points in the densest packing.
+//! \return  the kept points in their old order, without the fixed ones.
 //! Cost: O(M log M) for M = points.size() spread over the area.
 [[nodiscard]] std::vector<agvd::SurfacePoint> eliminate(const agvd::Surface& surface,
                                                         std::span<const ScatteredPoint> points,

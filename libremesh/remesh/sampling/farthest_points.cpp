@@ -1,3 +1,6 @@
+// Each component becomes a surface of its own, with long edges split. Upper bounds of the distance
+// from the points are kept at its vertices (agvd::BoundsSearch). Each step takes the farthest
+// vertex, draws a random point next to it and updates the bounds ([eldar1997], [moenning2003]).
 #include "remesh/sampling/farthest_points.h"
 
 #include <algorithm>
@@ -19,15 +22,15 @@ using agvd::Surface;
 using agvd::SurfacePoint;
 using agvd::Vec3;
 
-// Longest edge, in spacings: distances between points are read off vertices. With .4 the points are
-// less even than chance would have them where faces differ in size.
+// Longest edge, in spacings: distances are known at vertices only. With .4 the points are less even
+// than random ones where faces differ in size.
 constexpr double longest_edge = 0.25;
-// Edges split for each point at most, and one for each face: thin surfaces would get them by their
-// length.
+// Most splits for each point; one for each face is added. Without a limit thin surfaces would get
+// splits in proportion to their length.
 constexpr Index splits_per_point = 128;
-// How far a point lies from its vertex, in heights of the face: least and most.
+// Least and most distance of a point from its vertex, in heights of the face.
 constexpr double least_offset = 0.02, most_offset = 0.1;
-// Steps of a search for the ground of one more point.
+// Progress ticks for the search that follows each point.
 constexpr std::size_t search_work = 256;
 // Least barycentric coordinate of a point in its face.
 constexpr double interior_margin = 1e-6;
@@ -58,7 +61,7 @@ Surface component_surface(const Surface& whole, const Component& component, int 
     return agvd::build_surface(mesh.view(), num_threads, progress);
 }
 
-// A component on its own.
+// A component as a surface of its own.
 struct Ground {
     Ground(const Surface& whole, const Component& component, double max_length,
            agvd::Index most_splits, int num_threads, const agvd::Progress& progress)
@@ -70,7 +73,7 @@ struct Ground {
                        .progress = progress}) {}
     Ground(const Ground&) = delete;
 
-    std::span<const Index> faces;  // Ascending: those of the whole surface, by face of `input`.
+    std::span<const Index> faces;  // Ascending: faces of the whole surface, by face of `input`.
     Surface input;
     agvd::IntrinsicTriangulation base;
 
@@ -89,7 +92,7 @@ public:
           seed_(seed),
           stream_(stream) {}
 
-    // A point of the whole surface that is given.
+    // Adds a given point of the whole surface.
     void add(const SurfacePoint& point) { take(to_ground(point), point); }
 
     std::vector<SurfacePoint> run(Index count) {
@@ -103,7 +106,7 @@ public:
             const Index v = farthest.pop();
             const SurfacePoint near = draw(v, i);
             const SurfacePoint point = to_whole(near);
-            if (!take(near, point)) continue;  // So near a point that there is no room for another.
+            if (!take(near, point)) continue;  // No room beside another point.
             search_.run(progress_);
             ticker.tick(search_work);
             result.push_back(point);
@@ -113,14 +116,14 @@ public:
     }
 
 private:
-    // False if there is a point at that position.
+    // Returns false if there is a point at that position.
     bool take(const SurfacePoint& on_ground, const SurfacePoint& point) {
         if (!taken_.insert(agvd::position(whole_.mesh.view(), point)).second) return false;
         search_.add(on_ground, num_taken_++);
         return true;
     }
 
-    // A random point next to a vertex, in the face around it that reaches farthest.
+    // A random point next to a vertex, in the face around it whose other corners are farthest.
     [[nodiscard]] SurfacePoint draw(Index vertex, std::uint64_t number) const {
         const Surface& surface = ground_.surface();
         const auto reach = [&](Index h) {

@@ -1,5 +1,5 @@
 //! \file
-//! Farthest points, one after the other ([eldar1997], on surfaces [moenning2003]).
+//! Farthest point sampling ([eldar1997], on surfaces [moenning2003]).
 #pragma once
 
 #include <span>
@@ -9,19 +9,19 @@
 
 namespace remesh::detail {
 
-//! `count` points, each where the component is farthest from the points before it and from `fixed`;
-//! without any of these, a random one comes first. So the first k of them are what asking for k
-//! gives, as far as the vertices below stay the same. Strictly inside faces.
+//! Places `count` points strictly inside faces, each where the component is farthest from the
+//! earlier points and from `fixed`. If there are no fixed points, the first one is random. The
+//! first k points are those of a call for k points, as long as both use the same vertices (below).
 //!
-//! Distances run along the edges of the component and straight across them, a few per cent too
-//! long; long edges are split for it until there are several vertices for each point. A point lies
-//! next to the farthest of these vertices, not on it, so that few points tie.
+//! Distances follow edges and straight lines across them, and are a few per cent too long. Long
+//! edges are split first, so that there are several vertices for each point. A point lies next to
+//! the farthest vertex, not on it, so that ties are rare.
 //! \param fixed    points of the component.
-//! \param spacing  > 0, mesh units: expected distance of neighbours in the end.
-//! \return  no two at one position; fewer than `count` only where the component is so small for its
-//!          coordinates that double tells no more apart. The same for the same seed and stream,
-//!          whatever num_threads.
-//! Cost: O(n log n) for the first half of the points, as much again each time they double.
+//! \param spacing  > 0, mesh units: expected distance of neighbours at the end.
+//! \return  points at different positions; fewer than `count` only if the component is so small for
+//! its coordinates that double holds no more. The same for the same seed and stream, whatever
+//! num_threads.
+//! Cost: O(n log n) for the first half of the points, and the same again for each doubling.
 [[nodiscard]] std::vector<agvd::SurfacePoint> farthest_points(
     const agvd::Surface& surface, const Component& component,
     std::span<const agvd::SurfacePoint> fixed, agvd::Index count, double spacing,

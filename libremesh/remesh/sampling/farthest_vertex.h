@@ -10,7 +10,8 @@
 
 namespace remesh::detail {
 
-//! Distances only fall, so a queue of old ones holds no vertex too far back.
+//! A queue of vertices by distance, farthest first. Distances only decrease, so an outdated entry
+//! is never too late in the queue; pop() queues it again.
 class FarthestVertex {
 public:
     //! \param search  of the surface; outlives this. Sites may be added and run at any time.
@@ -27,8 +28,8 @@ public:
 
     [[nodiscard]] bool is_empty() const { return queue_.empty(); }
 
-    //! The farthest vertex of those left (at infinity where no site reaches; of equals the highest
-    //! index), which is left no more.
+    //! Removes and returns the farthest vertex in the queue: the highest index of equals. Vertices
+    //! that no site reaches are at infinity.
     //! \pre not empty.
     //! Cost: O(log #V) for each vertex that has come nearer since.
     [[nodiscard]] agvd::Index pop() {

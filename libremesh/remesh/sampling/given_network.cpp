@@ -1,3 +1,6 @@
+// Finds the network, puts each site near one of its edges onto that edge, and tests for each curve
+// whether its sites carry it. Dropping a crease changes the network, so this is repeated until
+// nothing is dropped. A place is a length along a curve, in mesh units.
 #include "remesh/sampling/given_network.h"
 
 #include <algorithm>
@@ -17,12 +20,12 @@ using agvd::Vec3;
 
 constexpr double longest_gap = 4;  // In spacings.
 
-// Where a site is on the edges of a network.
+// The place of a site on the edges of a network.
 struct EdgePlace {
-    Index edge = no_index;       // no_index: on none.
+    Index edge = no_index;       // no_index: on no edge.
     double share = 0;            // Of the edge, from the tail of its half-edge.
     Index vertex = no_index;     // The nearer end of the edge.
-    double vertex_distance = 0;  // From there to the site.
+    double vertex_distance = 0;  // From that vertex to the site.
 };
 
 EdgePlace find_edge_place(const Surface& surface, const std::vector<std::uint8_t>& is_network,
@@ -52,7 +55,7 @@ EdgePlace find_edge_place(const Surface& surface, const std::vector<std::uint8_t
     return place;
 }
 
-// The sites of a network, as far as they lie on its curves.
+// Finds the sites on the curves of a network and drops creases that they do not carry.
 class Carrier {
 public:
     Carrier(const Surface& surface, std::vector<std::uint8_t> is_crease,
@@ -63,7 +66,7 @@ public:
           spacing_(options.spacing),
           tolerance_(options.tolerance * options.spacing) {}
 
-    // Drops creases until all are carried. \return how many.
+    // Drops creases until all that are left are carried. \return the number dropped.
     Index drop_uncarried() {
         for (Index num_dropped = 0;;) {
             find();
@@ -101,7 +104,7 @@ public:
         return result;
     }
 
-    // Those at nodes, then curve by curve.
+    // The sites at nodes, then those of each curve.
     [[nodiscard]] std::vector<Index> network_sites() const {
         std::vector<Index> result = at_node_;
         for (const std::vector<Stop>& stops : stops_) {
@@ -124,7 +127,7 @@ private:
         std::size_t edge = 0;
     };
 
-    // The network, and the sites on it.
+    // Finds the network and the sites on it.
     void find() {
         network_ = find_network(surface_, is_crease_, spacing_);
         find_places();
@@ -140,7 +143,7 @@ private:
             const double from_end = std::min(place, curve.length() - place);
             const bool is_at_node = !curve.is_closed() && from_end < site_rounding * spacing_;
             if (!is_at_node) stops_[c].emplace_back(place, s);
-            // The node has a site.
+            // A site at the place of a node is left out, as the node has a site already.
             is_on_network_[s] =
                 !is_at_node || places_[s].vertex_distance < site_rounding * spacing_ ? 1 : 0;
         }
@@ -153,7 +156,8 @@ private:
         }
     }
 
-    // Anew for each network: a corner is on several edges, and goes by the first that is there.
+    // Repeated for each network: a site at a vertex lies on several edges, and is put onto the
+    // first of these that belongs to the network.
     void find_places() {
         std::vector<std::uint8_t> is_network = is_crease_;
         for (Index e = 0; e < surface_.num_edges(); ++e) {
@@ -176,7 +180,7 @@ private:
         return on_curve;
     }
 
-    // Each node takes the nearest site, if that is near enough.
+    // Each node takes its nearest site within the tolerance.
     void take_nodes() {
         at_node_.assign(network_.nodes.size(), no_index);
         for (Index s = 0; s < sites_.size(); ++s) {
@@ -195,8 +199,8 @@ private:
         }
     }
 
-    // A vertex is at the same place whichever of its edges tells it, but for a closed curve's
-    // first.
+    // The place of a site on its curve. At a vertex it is the same for both edges there; at the
+    // first vertex of a closed curve it is 0.
     [[nodiscard]] double along(const Curve& curve, std::size_t i, const EdgePlace& place) const {
         const Index before = curve.vertex(surface_, i);
         double share = place.share;

@@ -1,5 +1,5 @@
 //! \file
-//! How few vertices a surface can have.
+//! The least number of vertices of a surface.
 #pragma once
 
 #include "agvd/core/types.h"
@@ -7,8 +7,9 @@
 namespace remesh {
 
 //! No simplicial surface of this genus and number of boundary loops has fewer vertices: 4 for the
-//! sphere, 7 for the torus, 3 for the disc, 6 for the open tube. Reached by every closed surface
-//! ([jungerman1980]); a bound by counting edges for those with boundary.
+//! sphere, 7 for the torus, 3 for the disc, 6 for the open tube. Every closed surface can be built
+//! with this number ([jungerman1980]). For surfaces with boundary it is a lower bound from counting
+//! edges.
 //!
 //! \param genus, boundary_loops  >= 0, of one connected component.
 [[nodiscard]] agvd::Index minimum_samples(int genus, int boundary_loops);

@@ -1,3 +1,7 @@
+// The spacing is found by bisection: the smaller it is, the more sites curves and patches need.
+// Curves count the sites that are placed on them, patches those of a mesh of equilateral triangles
+// (inner_sites). If the curves alone need too many sites, a tenth of the creases is dropped at a
+// time.
 #include "remesh/sampling/network_plan.h"
 
 #include <algorithm>
@@ -15,7 +19,7 @@ using agvd::Index;
 using agvd::Surface;
 
 constexpr int num_halvings = 24;
-// Share of the creases that goes at once where sites are too few.
+// Share of the creases that is dropped at a time if sites are too few.
 constexpr double drop_at_once = 0.1;
 
 struct Patch {
@@ -56,7 +60,7 @@ struct Division {
     std::vector<std::vector<double>> along;  // By curve.
 };
 
-// The least spacing that needs no more sites than there are.
+// The least spacing that needs at most num_sites sites.
 Division divide(const Surface& surface, const CurveNetwork& network,
                 const std::vector<Patch>& patches, double num_sites) {
     double area = 0, length = 0;
@@ -77,7 +81,7 @@ Division divide(const Surface& surface, const CurveNetwork& network,
     return {high, places_at(surface, network, high, has_guards)};
 }
 
-// Creases at junctions are part of these.
+// Unmarks creases on junctions, which are curves already.
 void leave_out(const JunctionSet& junctions, std::vector<std::uint8_t>& is_crease) {
     for (const std::vector<Index>& copies : junctions.edges) {
         for (const Index e : copies) is_crease[e] = 0;

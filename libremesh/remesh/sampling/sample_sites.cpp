@@ -1,3 +1,6 @@
+// Shares the sites among components by area and boundary length (shares.h). For each component
+// places sites on the boundary loops, then inner sites by one of three methods: scatter.h,
+// eliminate.h or farthest_points.h.
 #include "remesh/sampling/sample_sites.h"
 
 #include <algorithm>
@@ -18,13 +21,13 @@ namespace {
 using agvd::Index;
 using detail::Component;
 
-// Candidates of which elimination leaves one; more gives little ([yuksel2015] Sec. 3).
+// Candidates per site for elimination; more gain little ([yuksel2015] Sec. 3).
 constexpr Index candidates_per_site = 5;
-// Few sites need a better choice than that, as their places are what keeps a small part's topology.
+// Few sites need a better choice, as their places must keep the topology of a small part.
 constexpr Index least_candidates = 60;
 constexpr Index most_samples = agvd::no_index / candidates_per_site;
 
-// \throw agvd::ConstraintUnmet  there are too few for the topology.
+// \throw agvd::ConstraintUnmet  num_samples is too small for the topology.
 void check_count(const std::vector<Component>& components, Index num_samples) {
     const std::uint64_t needed = detail::needed_samples(components);
     if (num_samples >= needed) return;
@@ -50,7 +53,8 @@ std::vector<std::vector<std::vector<Index>>> find_loops(const agvd::Surface& sur
     return loops;
 }
 
-// Sites on the loops of one component; at most `most` of them, with a wider spacing if need be.
+// At most `most` sites on the loops of a component, with a wider spacing if necessary; none if even
+// three on each loop are too many.
 std::vector<agvd::SurfacePoint> sample_boundary(const agvd::Surface& surface,
                                                 const std::vector<std::vector<Index>>& loops,
                                                 double spacing, Index most) {

@@ -1,5 +1,5 @@
 //! \file
-//! First sites on the surface.
+//! Initial sites on the surface.
 #pragma once
 
 #include <span>
@@ -13,35 +13,35 @@ namespace remesh {
 enum class Init {
     Random,     //!< Area-uniform, independent (the paper's choice).
     BlueNoise,  //!< Area-uniform with large mutual distances, by sample elimination.
-    Farthest,   //!< Each as far from those before it as can be: no gap, and never very close.
+    Farthest,   //!< Each as far as possible from those before it: no large gaps, no close pairs.
 };
 
 //! As on the command line: "blue-noise".
 [[nodiscard]] const char* init_name(Init init);
 
 enum class Boundary {
-    Keep,  //!< Sites that the boundary belongs to lie on it.
-    Free,  //!< Sites are placed as if there were none.
+    Keep,  //!< Sites whose cells meet the boundary lie on it.
+    Free,  //!< Sites are placed as if there were no boundary.
 };
 
 struct SamplingOptions {
     agvd::Index num_samples = 2000;  //!< >= 1.
     Init init = Init::BlueNoise;
-    Boundary boundary = Boundary::Keep;  //!< Random sites know no boundary.
+    Boundary boundary = Boundary::Keep;  //!< Ignored by Init::Random.
     std::uint64_t seed = 1;              //!< Same seed, same bytes, any num_threads.
     int num_threads = 0;                 //!< >= 0; 0: all cores.
     agvd::Progress progress = {};
 };
 
-//! Exactly num_samples points, no two at one position, component by component (by lowest face).
-//! Every connected component first gets what its topology needs (minimum_samples), the rest goes by
-//! area (and by length of boundary, where sites lie on it). Points lie strictly inside faces, but
-//! for those of Boundary::Keep, which come first: corners (find_corners), and points at equal
-//! distances between them. Blue noise is taken from five times as many area-uniform points by
-//! weighted sample elimination ([yuksel2015]); points on opposite walls of a thin part do not repel
-//! each other. Farthest points are told by distances along the surface, along edges and across them
-//! ([eldar1997], [moenning2003]): those on the boundary, or else a random one, come first. They
-//! leave the smallest gaps of the three.
+//! Places exactly num_samples points, no two at one position, component by component (by lowest
+//! face). Every connected component first gets what its topology needs (minimum_samples); the rest
+//! is shared by area, and by length of boundary if sites lie on it. Points lie strictly inside
+//! faces, except those of Boundary::Keep, which come first: corners (find_corners), and points at
+//! equal distances between them. Blue noise is chosen from five times as many area-uniform points
+//! by weighted sample elimination ([yuksel2015]); points on opposite walls of a thin part do not
+//! repel each other. Farthest points use distances on the surface, along edges and across them
+//! ([eldar1997], [moenning2003]). They begin from the points on the boundary, or from a random one
+//! if there are none, and leave the smallest gaps of the three.
 //!
 //! \throw agvd::InvalidOption    num_samples < 1 or > 8e8, or num_threads < 0.
 //! \throw agvd::InvalidInput     the surface has no face.
@@ -50,16 +50,16 @@ struct SamplingOptions {
 //!        coordinates, to hold its share of different points.
 //! \throw agvd::Cancelled        the progress callback returned false.
 //! Cost: O(#F + N log N); farthest points O((#F + N) log(#F + N) log N), a few seconds for 20 000
-//! on 100 000 faces.
+//! points on 100 000 faces.
 [[nodiscard]] std::vector<agvd::SurfacePoint> sample_sites(const agvd::Surface& surface,
                                                            const SamplingOptions& options = {});
 
-//! Sites strictly inside the faces of a surface whose boundary has its sites already.
+//! Places sites strictly inside the faces of a surface whose boundary has its sites already.
 //!
-//! \param rim      sites on the boundary: inner ones keep off them.
-//! \param count    of inner sites; they are shared out by what components lack at this spacing.
+//! \param rim      sites on the boundary, from which inner ones keep a distance.
+//! \param count    of inner sites; shared by how many each component lacks at this spacing.
 //! \param spacing  > 0, mesh units: of all sites.
-//! \param options  num_samples and boundary do not count.
+//! \param options  num_samples and boundary are ignored.
 //! \throw as sample_sites.
 [[nodiscard]] std::vector<agvd::SurfacePoint> sample_inner_sites(
     const agvd::Surface& surface, std::span<const agvd::SurfacePoint> rim, agvd::Index count,

@@ -13,8 +13,8 @@ namespace {
 
 using agvd::Index;
 
-// Least barycentric coordinate: keeps points off edges by more than rounding of any position, and
-// biases the density by no more than it.
+// Least barycentric coordinate: keeps points off edges by more than the rounding of any position,
+// and biases the density by no more than this share.
 constexpr double interior_margin = 1e-6;
 
 agvd::SurfacePoint draw(const Component& component, double pick, double u, double v) {
@@ -39,7 +39,7 @@ std::vector<ScatteredPoint> scatter(const agvd::Surface& surface, const Componen
     points.reserve(count);
     std::unordered_set<agvd::Vec3, agvd::PositionHash> taken;
     taken.reserve(count);
-    const std::uint64_t most_draws = 4 * std::uint64_t{count} + 64;  // One each is the rule.
+    const std::uint64_t most_draws = 4 * std::uint64_t{count} + 64;  // Usually one each.
     for (std::uint64_t i = 0; points.size() < count && i < most_draws; ++i) {
         ticker.tick(4);
         const auto unit = [&](std::uint64_t k) {

@@ -12,8 +12,8 @@ struct ScatteredPoint {
     agvd::Vec3 position;
 };
 
-//! `count` points, no two at one position; the same for the same seed and stream. Fewer only where
-//! the component is so small for its coordinates that double cannot tell that many apart.
+//! Draws `count` points, no two at one position; the same for the same seed and stream. There are
+//! fewer only if the component is so small for its coordinates that double holds no more.
 [[nodiscard]] std::vector<ScatteredPoint> scatter(const agvd::Surface& surface,
                                                   const Component& component, agvd::Index count,
                                                   std::uint64_t seed, std::uint64_t stream,

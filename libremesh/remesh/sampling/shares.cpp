@@ -11,7 +11,8 @@ namespace remesh::detail {
 
 using agvd::Index;
 
-// 2 N less the boundary's L / h is the number of triangles, sqrt(3) / 4 h^2 the area of each.
+// A mesh with N vertices, boundary length L and spacing h has 2 N - L / h triangles, each of area
+// sqrt(3) / 4 h^2.
 double spacing_of(double num_vertices, double area, double boundary_length) {
     const double half = boundary_length / (4 * num_vertices);
     return half + std::sqrt(half * half + 2 * area / (std::numbers::sqrt3 * num_vertices));
@@ -26,7 +27,7 @@ std::vector<Index> apportion(std::span<const double> weights, Index total) {
     std::vector<Index> result;
     result.reserve(weights.size());
     Index given = 0;
-    std::vector<std::pair<double, Index>> remainder;  // (negative, place)
+    std::vector<std::pair<double, Index>> remainder;  // (minus remainder, index)
     for (const double weight : weights) {
         const double share = total * (1 - 1e-12) * (weight / sum);  // Sum <= total.
         const auto whole = static_cast<Index>(share);

@@ -1,5 +1,5 @@
 //! \file
-//! How many sites belong on each part of a surface.
+//! The number of sites for each part of a surface.
 #pragma once
 
 #include <span>
@@ -9,11 +9,12 @@
 
 namespace remesh::detail {
 
-//! Distance of neighbours in a mesh of equilateral triangles with this number of vertices, those on
-//! the boundary included.
+//! The distance of neighbours in a mesh of equilateral triangles with this number of vertices,
+//! which include those on the boundary.
 [[nodiscard]] double spacing_of(double num_vertices, double area, double boundary_length);
 
-//! Vertices of such a mesh that are not on the boundary; negative where it is narrower than that.
+//! The number of inner vertices of such a mesh; negative if the surface is too narrow for the
+//! spacing.
 [[nodiscard]] double inner_sites(double area, double boundary_length, double spacing);
 
 //! Whole numbers with the sum `total`, in proportion to the weights (>= 0): the largest remainders
@@ -21,13 +22,13 @@ namespace remesh::detail {
 [[nodiscard]] std::vector<agvd::Index> apportion(std::span<const double> weights,
                                                  agvd::Index total);
 
-//! What the topology of each component needs (minimum_samples), summed up.
+//! The sum of minimum_samples over the components.
 [[nodiscard]] std::uint64_t needed_samples(const std::vector<Component>& components);
 
-//! What each component's topology needs, and the rest by the vertices that a mesh of equilateral
-//! triangles would have there.
+//! The sites of each component: what its topology needs, and a share of the rest in proportion to
+//! the vertices that a mesh of equilateral triangles would have there.
 //!
-//! \param boundary_length  of each component, as far as sites lie on it.
+//! \param boundary_length  #components, mesh units: of the boundary on which sites lie.
 //! \pre num_samples is at least needed_samples.
 [[nodiscard]] std::vector<agvd::Index> share_out(const std::vector<Component>& components,
                                                  std::span<const double> boundary_length,

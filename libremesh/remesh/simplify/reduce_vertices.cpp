@@ -1,3 +1,7 @@
+// Collapses the shortest edges first, from a queue that holds the cheapest allowed collapse of each
+// vertex. Every collapse meets the link condition ([dey1999]), which keeps the topology. Four
+// passes over all edges ask less and less of the shape, and each begins only if the one before has
+// not reached the target.
 #include "remesh/simplify/reduce_vertices.h"
 
 #include <algorithm>
@@ -16,10 +20,10 @@ using agvd::no_index;
 using agvd::Triangle;
 using agvd::Vec3;
 
-// What a collapse must keep, from the first pass over all edges to the last.
+// What a collapse must keep; each pass asks for less.
 struct Demands {
-    double least_turn;     // Cosine between a face's normal before and after.
-    double least_quality;  // 2 / sqrt(3) times the height over the longest side.
+    double least_turn;     // Cosine of the angle between a face's normals before and after.
+    double least_quality;  // 2 / sqrt(3) times the height over the longest side, as in quality().
     std::size_t most_faces;
     bool releases_kept;
 };
@@ -31,9 +35,9 @@ constexpr std::array<Demands, 4> passes = {{{0.5, 0.3, 9, false},
 struct Collapse {
     double cost;
     Index gone, into;
-    std::uint32_t stamp;  // Of `gone` when it was judged.
+    std::uint32_t stamp;  // Of `gone` when it was queued.
 
-    // The cheapest is on top of a heap.
+    // Puts the cheapest on top of a heap.
     [[nodiscard]] bool operator<(const Collapse& other) const {
         return cost != other.cost ? cost > other.cost : gone > other.gone;
     }
@@ -113,13 +117,13 @@ private:
                                                       [&](Index f) { return has_corner(f, w); }));
     }
 
-    // Puts the shortest collapse of v that will do into the queue.
+    // Queues the shortest collapse of v that is allowed.
     void judge(Index v) {
         ++stamp_[v];
         if (faces_of_[v].empty()) return;
         if (!keep_.empty() && keep_[v] != 0 && !demands_.releases_kept) return;
         collect_ring(v);
-        // Whether an edge may go takes a look at all pairs of faces of its ends.
+        // The test of an edge looks at all pairs of faces of its two ends.
         ticker_.tick(4 + ring_.size() * ring_.size() / 4);
         ends_.clear();
         for (const Index w : ring_) {
@@ -133,7 +137,7 @@ private:
         }
     }
 
-    // ring_ is that of `gone`.
+    // Expects the one-ring of `gone` in ring_.
     [[nodiscard]] bool keeps_topology(Index gone, Index into) const {
         std::array<Index, 2> apex{no_index, no_index};
         std::size_t num_apexes = 0;
@@ -144,7 +148,7 @@ private:
             }
         }
         if (is_on_boundary_[gone] != 0 && num_apexes == 2) return false;
-        // A lone triangle: the apex has no other face.
+        // A single triangle: the apex has no other face.
         if (num_apexes == 1 && faces_of_[apex[0]].size() == 1) return false;
         std::size_t num_common = 0;
         for (const Index w : ring_) {
@@ -177,7 +181,7 @@ private:
         return true;
     }
 
-    // Of twice the triangle's area.
+    // Its length is twice the triangle's area.
     [[nodiscard]] Vec3 normal(const Triangle& t) const {
         return (positions_[t[1]] - positions_[t[0]]).cross(positions_[t[2]] - positions_[t[0]]);
     }
@@ -213,7 +217,7 @@ private:
     std::span<const Vec3> positions_;
     std::vector<Triangle>& triangles_;
     std::span<const std::uint8_t> keep_;
-    std::vector<std::vector<Index>> faces_of_;  // By vertex; none: it is gone.
+    std::vector<std::vector<Index>> faces_of_;  // #V; empty: the vertex is gone.
     std::vector<std::uint8_t> is_on_boundary_;
     std::vector<std::uint32_t> stamp_;
     std::vector<std::uint8_t> is_gone_;  // By face.
@@ -221,7 +225,7 @@ private:
     Demands demands_ = passes[0];
     std::priority_queue<Collapse> queue_;
     std::vector<Index> gone_;
-    std::vector<Index> ring_;                     // Scratch: neighbours, ascending.
+    std::vector<Index> ring_;                     // Scratch: one-ring, ascending.
     std::vector<std::pair<double, Index>> ends_;  // Scratch: neighbours by squared distance.
 };
 
