@@ -1,4 +1,4 @@
-// Vertices at one position that should be one: cracks and zero-length edges.
+// Merges vertices at one position: along cracks, and at the ends of zero-length edges.
 #include <algorithm>
 #include <numeric>
 
@@ -33,7 +33,7 @@ std::vector<Index> first_at_position(std::span<const Vec3> positions,
     return first;
 }
 
-// Sets of vertices that become one; the lowest of a set stays.
+// Union-find over vertices to be merged; the lowest of a set stays.
 class Merger {
 public:
     explicit Merger(std::size_t num_vertices) : parent_(num_vertices) {

@@ -46,8 +46,7 @@ struct RemeshOptions {
     //! Keep: boundary vertices lie on the input's boundary. Free: they lie near it; if creases are
     //! kept, only `fit` moves vertices off the boundary.
     Boundary boundary = Boundary::Keep;
-    double drop_components =
-        0;  //!< In [0, 1]: components below this share of the area are dropped.
+    double drop_components = 0;  //!< In [0, 1]: smaller components (share of the area) are dropped.
     Init init = Init::BlueNoise;
     //! Creases become chains of edges, and their corners become vertices. Given sites on a crease
     //! become its vertices; creases with too few of them are dropped: see plan_given_network.

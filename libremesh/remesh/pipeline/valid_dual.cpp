@@ -32,9 +32,10 @@ using agvd::Vec3;
 
 // A component is given up after so many rounds in a row without a new minimum of its faults.
 constexpr int max_stalled_rounds = 3;
-// A component in whose first diagram more cells meet the boundary twice is given up at once: it has
-// strips far narrower than the spacing. Twelve rounds leave some such cells, at ten times the cost
-// of thinning (lips of .26 and .52 spacings: 154 and 146 cells; of .79: 28, and 5 rounds mend all).
+// A component is given up at once if more cells than this meet the boundary twice in its first
+// diagram: it has strips far narrower than the spacing. Twelve rounds leave some such cells, at ten
+// times the cost of thinning (lips of .26 and .52 spacings: 154 and 146 cells; of .79: 28, and 5
+// rounds mend all).
 constexpr std::size_t most_in_strips = 64;
 // Components with faults are given up once there are max_growth times the first sites and
 // always_allowed more, which the topology may need where sites are few.
