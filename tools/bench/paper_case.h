@@ -23,8 +23,8 @@ struct PaperOptions {
 };
 
 //! A row for each method, all on one thread. Times are in P0 of the same run: the quickest of the
-//! repetitions over the quickest sweep beside any of them, both in processor time. Memory is what
-//! `new` hands out beyond the mesh, at most at once. Errors are those of compare_diagrams and
+//! repetitions over the quickest sweep beside any of them, both in processor time. Memory is the
+//! peak of what `new` allocates beyond the mesh. Errors are those of compare_diagrams and
 //! exact_bisector_errors.
 //!
 //! Keys: mesh, faces, sites, method, p0_ms, propagate_p0, diagram_p0, dual_p0, total_p0, total_ms,
