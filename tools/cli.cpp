@@ -1,3 +1,4 @@
+// Turns exceptions and signals into exit codes, checks output paths, and draws the progress bar.
 #include "cli.h"
 
 #include <signal.h>

@@ -79,7 +79,7 @@ auto naming_file(const std::filesystem::path& path, const Work& work) {
 void print(std::string_view text);
 
 //! Writes a text to `path`, all or nothing, or to stdout if the path is "-".
-//! \throw agvd::Cancelled  if interrupted(): an old file is as it was.
+//! \throw agvd::Cancelled  if interrupted(): an old file is unchanged.
 void write_text(const std::filesystem::path& path, std::string_view text);
 
 //! How much memory a job may use.

@@ -1,3 +1,5 @@
+// Windows and vertices wait in one queue, nearest first. A window is given in the frame of the
+// half-edge through which it enters a face.
 #include "support/arbiter.h"
 
 #include <cmath>

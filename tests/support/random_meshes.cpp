@@ -1,3 +1,4 @@
+// Each family of meshes is one function of random numbers.
 #include "support/random_meshes.h"
 
 #include <algorithm>

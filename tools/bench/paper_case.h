@@ -18,7 +18,7 @@ struct PaperCase {
 struct PaperOptions {
     int repetitions = 3;                   //!< >= 1; the quickest counts.
     bool with_errors = true;               //!< Against the exact diagram.
-    agvd::Index bisector_points = 50'000;  //!< At most so many are measured of each diagram.
+    agvd::Index bisector_points = 50'000;  //!< Most points measured of each diagram.
     bool with_dual = false;  //!< The dual is built, too, and counts as part of the whole.
 };
 

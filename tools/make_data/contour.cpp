@@ -1,3 +1,5 @@
+// The surface part of [labelle2007]: finds the lattice cells that the surface crosses, pulls close
+// lattice points onto the surface, cuts the tetrahedra, and smooths the mesh.
 #include "make_data/contour.h"
 
 #include <algorithm>

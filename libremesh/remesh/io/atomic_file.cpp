@@ -1,3 +1,5 @@
+// Writes each file to a temporary one in the target's folder, and renames the temporary files once
+// all are complete.
 #include "remesh/io/atomic_file.h"
 
 #include <fcntl.h>

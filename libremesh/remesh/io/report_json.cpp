@@ -1,3 +1,5 @@
+// Builds JSON objects from results, with functions for their parts. Keys stay in the order in
+// which they are set.
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>

@@ -1,3 +1,4 @@
+// Loads a whole file into memory. The line of an error is found only when the error is thrown.
 #include "remesh/io/source_file.h"
 
 #include <fcntl.h>

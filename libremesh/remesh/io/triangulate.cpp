@@ -1,3 +1,6 @@
+// A quad is cut along the shorter of its inner diagonals. Larger polygons are projected into a
+// plane and lose one ear after the other (Meisters 1975); a kd-tree finds the reflex corners
+// inside an ear.
 #include "remesh/io/triangulate.h"
 
 #include <cmath>

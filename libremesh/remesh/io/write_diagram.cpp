@@ -1,3 +1,4 @@
+// Formats a diagram as VTK PolyData, OBJ lines or PLY.
 #include "remesh/io/write_diagram.h"
 
 #include <string>

@@ -1,5 +1,5 @@
 //! \file
-//! The curves that the result reproduces besides the boundary: creases and junctions.
+//! The curves that the result reproduces in addition to the boundary: creases and junctions.
 #pragma once
 
 #include <memory>

@@ -1,3 +1,6 @@
+// Groups the sides of faces by edge to check that a mesh is manifold and oriented, and counts
+// vertices, edges, faces and boundary loops of each component. With known connectivity the checks
+// are not needed.
 #include "remesh/topology/topology.h"
 
 #include <algorithm>
