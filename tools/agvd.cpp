@@ -1,4 +1,5 @@
-// Geodesic Voronoi diagrams as files: `agvd diagram`, and how far they are apart: `agvd compare`.
+// `agvd diagram` writes geodesic Voronoi diagrams to files, `agvd compare` measures their
+// difference.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
@@ -20,19 +21,19 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Bases of small inputs may have as many vertices as this one.
+// The base of a small input may have this many vertices.
 constexpr agvd::Index few_vertices = 10'000;
 
-// Longest edge of the base, a quarter of the sites' spacing: points on longer ones lie too far
-// apart for the Steiner engine, and long arcs in one face are drawn less well. Not so fine that the
-// base has many more vertices than the input, or than few_vertices.
+// Longest edge of the base, a quarter of the sites' spacing: points on longer edges lie too far
+// apart for the Steiner engine, and long arcs in one face are drawn less accurately. It is longer
+// if the base would have many more vertices than the input, or than few_vertices.
 double longest_edge(const agvd::Surface& surface, std::size_t num_sites) {
     const agvd::Index num_vertices = std::max(surface.num_vertices(), few_vertices);
     return std::max(remesh::mean_spacing(surface, num_sites) / 4,
                     2 * remesh::mean_spacing(surface, num_vertices));
 }
 
-// Thin surfaces would get vertices by their length.
+// Limits the splits on thin surfaces, which otherwise grow with their length.
 agvd::Index most_splits(const agvd::Surface& surface) {
     return 4 * std::max(surface.num_vertices(), few_vertices);
 }
@@ -42,7 +43,7 @@ struct BuiltDiagram {
     double certified_error = 0;
 };
 
-// \param options  for the propagation; its threads are those of all steps.
+// \param options  for the propagation; all steps use its num_threads.
 BuiltDiagram build(const agvd::Surface& surface, const std::vector<agvd::SurfacePoint>& sites,
                    agvd::PropagationOptions options, cli::Console& console) {
     const agvd::IntrinsicTriangulation base(surface,

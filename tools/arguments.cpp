@@ -16,14 +16,14 @@ std::string max_error_help() {
     return text.str();
 }
 
-// An empty text: it will do.
+// Checks the option; an empty text: valid.
 std::string check_max_error(const std::string& text) {
     double error = 0;
     if (CLI::detail::lexical_cast(text, error) && error >= 0 && error < 1) return {};
     return "the error " + text + " is no number from 0 (exact) to below 1";
 }
 
-// An empty text: it will do.
+// Checks the option; an empty text: valid.
 std::string check_memory_limit(const std::string& text) {
     if (parse_bytes(text)) return {};
     return "the memory limit " + text +

@@ -1,5 +1,5 @@
 //! \file
-//! The command line that `remesh` and `agvd diagram` have in common: mesh, sites, propagation.
+//! Command-line options shared by `remesh` and `agvd diagram`: mesh, sites, propagation.
 #pragma once
 
 #include <filesystem>
@@ -13,13 +13,13 @@
 
 namespace cli {
 
-//! What the options say; everything has its documented range once run() calls the job.
+//! Values of the options; all are in their documented range once run() calls the job.
 struct DiagramArguments {
     std::filesystem::path input;
     std::filesystem::path sites;  //!< Empty: sample.
     remesh::SamplingOptions sampling;
     agvd::PropagationOptions propagation;
-    std::size_t memory_limit = 0;  //!< Bytes; 0: unknown what the machine has.
+    std::size_t memory_limit = 0;  //!< Bytes; 0: the machine's memory is unknown.
     bool force = false;
     bool is_lenient = false;
     CommonOptions common;

@@ -1,3 +1,4 @@
+// Turns exceptions and signals into exit codes, checks output paths, and draws the progress bar.
 #include "cli.h"
 
 #include <signal.h>
@@ -26,7 +27,7 @@ const char* const exit_code_help =
 
 namespace {
 
-// A signal handler can reach nothing but a global; lock-free, so that it may write it.
+// A signal handler can only access a global; lock-free, so that it may write it.
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
 std::atomic<int> caught_signal{0};
 static_assert(std::atomic<int>::is_always_lock_free);
@@ -38,16 +39,16 @@ extern "C" void on_signal(int number) {
 }
 
 void catch_signals() {
-    // A closed pipe and a file that may grow no more are errors of the write instead.
+    // A closed pipe and a file at its size limit are reported as errors of the write instead.
     ::signal(SIGPIPE, SIG_IGN);
     ::signal(SIGXFSZ, SIG_IGN);
     for (const int number : {SIGINT, SIGTERM}) {
-        // What the caller ignores (a shell does so for background jobs) stays ignored.
+        // Signals that the caller ignores (as a shell does for background jobs) stay ignored.
         struct sigaction action {};
         ::sigaction(number, nullptr, &action);
         if (action.sa_handler == SIG_IGN) continue;
         action.sa_handler = on_signal;
-        action.sa_flags = 0;  // A pipe that keeps us waiting lets go.
+        action.sa_flags = 0;  // A blocked read from a pipe returns.
         ::sigaction(number, &action, nullptr);
     }
 }
@@ -211,7 +212,7 @@ OutOfMemory Console::out_of_memory() const {
     return OutOfMemory(is_over_limit_ ? text + ", or allow more" : text);
 }
 
-// The stage's name stays as it was where the limit was reached.
+// Keeps the name of the stage in which the limit was reached.
 void Console::look(std::string_view stage, double fraction) {
     static constexpr std::size_t width = 30;
     if (is_over_limit_) return;

@@ -1,5 +1,6 @@
 //! \file
-//! What all programs share: exit codes, log and progress bar, interruption, checks of output paths.
+//! Code that all programs share: exit codes, log and progress bar, interruption, checks of output
+//! paths.
 #pragma once
 
 #include <chrono>
@@ -78,7 +79,7 @@ auto naming_file(const std::filesystem::path& path, const Work& work) {
 void print(std::string_view text);
 
 //! Writes a text to `path`, all or nothing, or to stdout if the path is "-".
-//! \throw agvd::Cancelled  if interrupted(): an old file is as it was.
+//! \throw agvd::Cancelled  if interrupted(): an old file is unchanged.
 void write_text(const std::filesystem::path& path, std::string_view text);
 
 //! How much memory a job may use.
@@ -87,8 +88,8 @@ struct MemoryLimit {
     agvd::Engine engine = agvd::Engine::Window;  //!< For the remedy.
 };
 
-//! What a program tells on stderr: texts a line each, and a progress bar on a terminal only. It
-//! also ends the job where it is interrupted or needs too much memory.
+//! Writes messages to stderr, one on each line, and a progress bar on a terminal. Also ends the job
+//! if it is interrupted or needs too much memory.
 class Console {
 public:
     explicit Console(const CommonOptions& options, const MemoryLimit& limit = {})
@@ -101,8 +102,8 @@ public:
     void info(std::string_view text);    //!< Unless --quiet.
     void warn(std::string_view text);    //!< Always.
 
-    //! A progress callback: draws the bar, and returns false once interrupted() or above the
-    //! memory limit. Cheap: it looks at memory and terminal every few milliseconds only.
+    //! A progress callback: draws the bar, and returns false once interrupted() or above the memory
+    //! limit. Cheap: it checks memory and terminal only every few milliseconds.
     [[nodiscard]] bool progress(std::string_view stage, double fraction);
     //! The same for one stage; this must outlive it.
     [[nodiscard]] agvd::Progress progress_of(const char* stage);
@@ -110,8 +111,8 @@ public:
     //! Calls the job, whose callbacks are those above.
     //! \throw OutOfMemory  in place of the agvd::Cancelled or std::bad_alloc that this causes.
     void run(const std::function<void()>& job);
-    //! Call before a stage that takes so much at once.
-    //! \throw OutOfMemory  that would be above the limit.
+    //! Call before a stage that allocates this many bytes at once.
+    //! \throw OutOfMemory  the limit would be exceeded.
     void require_memory(const char* stage, std::size_t bytes);
 
 private:
@@ -121,7 +122,7 @@ private:
 
     const CommonOptions& options_;
     MemoryLimit limit_;
-    std::string stage_;  // As last told.
+    std::string stage_;  // The last one reported.
     std::chrono::steady_clock::time_point next_look_;
     bool is_over_limit_ = false;
     std::string bar_;  // As on the screen now; empty: none.

@@ -1,9 +1,10 @@
-// Large arrays in large pages, for the programs: a library leaves it to its user how memory is had.
+// Puts large arrays into large pages, for the programs only: the user of a library chooses how
+// memory is allocated.
 //
-// A mesh of a million faces is a few hundred megabytes that are read all over. In pages of 4 kB the
-// first touch of each is a fault, and most reads elsewhere miss the processor's table of pages.
-// Measured on 1.4 M faces, N = 2000, one thread: 8.7 s of user and 2.2 s of system time became 7.0
-// and 1.3; no more memory.
+// A mesh of a million faces takes a few hundred megabytes, which are read in no order. With pages
+// of 4 kB the first access to each is a page fault, and most other reads miss the processor's page
+// table cache. Measured on 1.4 M faces, N = 2000, one thread: 8.7 s of user and 2.2 s of system
+// time became 7.0 and 1.3; no more memory.
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -15,10 +16,10 @@
 namespace {
 
 constexpr std::size_t page_size = std::size_t{1} << 21;
-// Below, what is lost to rounding would count.
+// For smaller arrays the loss by rounding would matter.
 constexpr std::size_t least_size = 2 * page_size;
 
-// End of that part of the heap for which large pages were asked.
+// End of the part of the heap for which large pages were requested.
 std::atomic<std::uintptr_t> heap_end = 0;
 
 // The heap, where all smaller arrays are, grows a large page or more at a time (M_TOP_PAD): 1.4 M
@@ -44,7 +45,7 @@ void* allocate(std::size_t size, std::size_t alignment) {
             memory = nullptr;
         }
         if (memory != nullptr) {
-            // A wish: where the system has no large pages, nothing changes.
+            // Only a request: without large pages in the system nothing changes.
             if (is_large) {
                 ::madvise(memory, size / page_size * page_size, MADV_HUGEPAGE);
             } else {

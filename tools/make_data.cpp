@@ -1,4 +1,4 @@
-// make_data: writes every mesh of data/, so that nothing there is of unknown origin.
+// make_data: writes every mesh of data/, so that the origin of each is known.
 
 #include <CLI/CLI.hpp>
 #include <filesystem>

@@ -15,7 +15,7 @@ namespace {
 constexpr std::pair<char, double> units[] = {
     {'T', 0x1p40}, {'G', 0x1p30}, {'M', 0x1p20}, {'K', 0x1p10}};
 
-// What the suffix stands for; nothing if there is no such suffix.
+// The factor of a suffix; unset for an unknown one.
 std::optional<double> unit_of(std::string_view suffix) {
     if (suffix.empty()) return 1;
     if (suffix == "%") return static_cast<double>(machine_memory()) / 100;
@@ -34,7 +34,8 @@ std::size_t machine_memory() {
     const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
     std::size_t bytes = pages > 0 ? static_cast<std::size_t>(pages) * page : 0;
     std::size_t allowed = 0;
-    if (std::ifstream("/sys/fs/cgroup/memory.max") >> allowed) {  // Else "max", or no such file.
+    // Otherwise "max", or no such file.
+    if (std::ifstream("/sys/fs/cgroup/memory.max") >> allowed) {
         bytes = bytes == 0 ? allowed : std::min(bytes, allowed);
     }
     return bytes;

@@ -1,5 +1,5 @@
 //! \file
-//! How much memory a program may use, and what it says when that is not enough.
+//! How much memory a program may use, and the message if that is not enough.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace cli {
 
-//! The limit was reached, or the system gave no more: what was being done, and a remedy.
+//! The limit was reached, or the system has no more memory. The text names the stage and a remedy.
 class OutOfMemory : public std::runtime_error {
 public:
     using std::runtime_error::runtime_error;
@@ -26,13 +26,13 @@ public:
 [[nodiscard]] std::size_t resident_memory();
 
 //! A number of bytes above 0: "1000000", with K, M, G or T for powers of 1024 ("500M", "1.5G"), or
-//! a percentage of machine_memory(), above 0 and at most 100 ("60%"). Nothing: it is none of these.
+//! a percentage of machine_memory(), above 0 and at most 100 ("60%"). Unset: it is none of these.
 [[nodiscard]] std::optional<std::size_t> parse_bytes(std::string_view text);
 
 //! As parse_bytes takes it, with three digits.
 [[nodiscard]] std::string format_bytes(std::size_t bytes);
 
-//! What to try where a stage needs too much.
+//! What to try if a stage needs too much memory.
 //! \param stage  its name in logs.
 [[nodiscard]] std::string memory_remedy(std::string_view stage, agvd::Engine engine);
 

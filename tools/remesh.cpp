@@ -1,4 +1,4 @@
-// The main program: a mesh in, the dual of its geodesic Voronoi diagram out.
+// The main program: reads a mesh and writes the dual of its geodesic Voronoi diagram.
 #include <malloc.h>
 
 #include <CLI/CLI.hpp>
@@ -50,7 +50,7 @@ std::map<std::string, remesh::Delaunay> delaunay_by_name() {
 }
 
 // auto, off, or degrees above 0 and below 180.
-// \return what is wrong with others; else empty.
+// \return what is wrong with other values; otherwise empty.
 std::string take_features(const std::string& text, Arguments& arguments) {
     if (text == "auto" || text == "off") {
         arguments.features = text == "auto" ? remesh::Features::Auto : remesh::Features::Off;
@@ -170,7 +170,7 @@ void judge(const remesh::RemeshResult& result, bool strict, cli::Console& consol
     console.warn(text);
 }
 
-// Sheets that were to be welded and could not be.
+// Warns of sheets that should be welded but could not be.
 void warn_of_junctions(const remesh::JunctionCounts& counts, remesh::Junctions wanted,
                        cli::Console& console) {
     if (counts.apart_edges == 0 || wanted == remesh::Junctions::Apart) return;
@@ -197,7 +197,7 @@ void check_outputs(const Arguments& arguments) {
 void run_job(const Arguments& arguments, cli::Console& console) {
     check_outputs(arguments);
     remesh::MeshFile input = cli::read_input(arguments, console);
-    std::vector<agvd::Index>().swap(input.face_polygon);  // Nobody reads it.
+    std::vector<agvd::Index>().swap(input.face_polygon);  // Not used any more.
     console.info(cli::describe(arguments.input, input.mesh.view()));
     remesh::RemeshOptions options{
         .num_samples = arguments.sampling.num_samples,
@@ -217,7 +217,7 @@ void run_job(const Arguments& arguments, cli::Console& console) {
         .num_threads = arguments.common.threads,
         .progress = [&, last = remesh::Stage::Clean](remesh::Stage stage, double fraction) mutable {
             const bool goes_on = console.progress(remesh::stage_name(stage), fraction);
-            // What a stage has freed among what it leaves would stay.
+            // Otherwise memory that a stage has freed between its results would stay in use.
             if (std::exchange(last, stage) != stage) ::malloc_trim(0);
             return goes_on;
         }};
@@ -253,11 +253,11 @@ void run_job(const Arguments& arguments, cli::Console& console) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    // NOLINTBEGIN(concurrency-mt-unsafe): no other thread runs yet.
-    // Each large array goes back to the system at once. By default ever larger ones stay, in holes
-    // that the next does not fit into: a tenth more memory at 1.4 M faces.
+    // NOLINTBEGIN(concurrency-mt-unsafe): no other thread runs yet. Each large array is returned to
+    // the system at once. By default larger and larger ones are kept, in gaps too small for the
+    // next: a tenth more memory at 1.4 M faces.
     ::mallopt(M_MMAP_THRESHOLD, 1 << 22);
-    // The heap grows by large pages (large_pages.cpp), and what is free at its end stays until the
+    // The heap grows by large pages (large_pages.cpp); free memory at its end is kept until the
     // stage is over.
     ::mallopt(M_TOP_PAD, 1 << 25);
     ::mallopt(M_TRIM_THRESHOLD, 1 << 26);

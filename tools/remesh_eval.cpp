@@ -1,4 +1,4 @@
-// Judges a remeshed surface against the original.
+// Compares a remeshed surface with the original.
 #include <CLI/CLI.hpp>
 
 #include "cli.h"

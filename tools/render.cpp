@@ -100,7 +100,7 @@ private:
     double distance_ = 1, scale_ = 1;
 };
 
-// A warm lamp above on the left, a cool one on the right, and light from the sky.
+// A warm light from above on the left, a cool one from the right, and ambient light from above.
 Color shade(const Vec3& normal, const Color& surface) {
     const Vec3 key = Vec3(-0.45, 0.7, 0.75).normalized();
     const Vec3 fill = Vec3(0.9, 0.1, 0.35).normalized();
@@ -148,7 +148,7 @@ void draw(const Options& options) {
         const bool is_front = screen_normal.z() < 0;  // y points down
         Vec3 normal = view.turn((b - a).cross(c - a)).normalized();
         if (!is_front) normal = -normal;
-        // Lines fade where triangles are but a few pixels large, and would cover all.
+        // Lines fade where triangles are only a few pixels large: otherwise lines would cover them.
         const double pixels = std::sqrt(std::abs(screen_normal.z()));
         const double opacity = options.is_wire ? 0.75 * std::clamp(pixels / 10, 0.1, 1.0) : 0.0;
         const Color& front = options.network.empty() ? front_color : plain_color;

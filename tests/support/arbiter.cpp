@@ -1,3 +1,5 @@
+// Windows and vertices wait in one queue, nearest first. A window is given in the frame of the
+// half-edge through which it enters a face.
 #include "support/arbiter.h"
 
 #include <cmath>
@@ -22,7 +24,7 @@ constexpr Real pi = std::numbers::pi_v<Real>;
 
 Real cross(const Point& a, const Point& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-// In the frame of a half-edge, into whose face it looks: the image lies below, at y < 0.
+// In the frame of a half-edge, into whose face it propagates: the image lies below, at y < 0.
 struct Window {
     Index half_edge;
     Point image;
@@ -30,7 +32,7 @@ struct Window {
     Real weight;      // From the site to the image.
     SiteId site;
 
-    // Straight through the interval, else around its nearer end.
+    // Straight through the interval, otherwise around its nearer end.
     [[nodiscard]] Real distance_to(const Point& p) const {
         const Point left(begin, 0), right(end, 0);
         const Point chord = p - image;
@@ -47,7 +49,7 @@ struct Window {
     }
 };
 
-// A window, or a vertex whose turn it is to send windows out (of `window` only the site counts).
+// A window, or a vertex that sends out windows (of `window` only the site counts).
 struct Event {
     Real key;
     Window window;
@@ -130,8 +132,8 @@ private:
         }
         start_in_face(site, label);
         for (Index h = first; h < first + 3; ++h) {
-            // So near a vertex, rounding hides the faces past it: the vertex sends out for the
-            // site.
+            // This near to a vertex, rounding hides the faces beyond it: the vertex sends out
+            // windows instead of the site.
             constexpr Real beside_vertex = 1e-12L;
             const Index v = surface_.tail(h);
             if (place(site, h).norm() <= beside_vertex * length_[h] && vertex_site_[v] == label) {
@@ -160,7 +162,8 @@ private:
         }
     }
 
-    // Windows over all edges around, paths to all that lies before these.
+    // Sends windows over all edges around a vertex, and paths to the vertices and targets of its
+    // faces.
     void send_out(Index vertex, SiteId label) {
         const Real distance = vertex_distance_[vertex];
         Index h = surface_.outgoing[vertex];

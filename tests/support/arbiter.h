@@ -1,5 +1,5 @@
 //! \file
-//! Exact geodesic distances once more, independent of CGAL and of the engines: who is right where
+//! Exact geodesic distances, independent of CGAL and of the engines, to decide which is right if
 //! they differ.
 #pragma once
 
@@ -19,7 +19,7 @@ struct Distances {
 
 //! Windows in long double, nearest first, dropped only where a vertex of their own edge is at least
 //! as good for all of them (the safest test of [xin2009]); no trimming, no merging, no float. Every
-//! length is that of a path on the surface: a point that rounding puts beside a window is reached
+//! length is that of a path on the surface: a point that rounding puts outside a window is reached
 //! by a path that bends at the window's end.
 //!
 //! \param longest  the search ends there: greater distances are upper bounds, or infinite.

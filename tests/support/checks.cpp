@@ -93,7 +93,7 @@ struct Segment {
     std::array<double, 2> from, to;
 };
 
-// The very point, seen from this or another face.
+// The same point, given in this or another face.
 bool is_view(const Surface& surface, const SurfacePoint& view, const SurfacePoint& point) {
     bool is_one = false;
     for_each_view(surface, point,

@@ -14,7 +14,7 @@ namespace checks {
 //! Polylines run from face to face, and inside a face no two of their segments cross.
 void expect_valid_complex(const agvd::Surface& surface, const agvd::Diagram& diagram);
 
-//! All; of a propagation all but the work done and the memory held.
+//! All fields are equal; of a propagation all except the work done and the memory used.
 void expect_same(const agvd::Surface& a, const agvd::Surface& b);
 void expect_same(const agvd::Propagation& a, const agvd::Propagation& b);
 void expect_same(const agvd::Diagram& a, const agvd::Diagram& b);

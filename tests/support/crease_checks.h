@@ -1,5 +1,5 @@
 //! \file
-//! How well a mesh carries the creases, corners and faces of the surface it stands for.
+//! How well a mesh reproduces the creases, corners and faces of its surface.
 #pragma once
 
 #include <span>
@@ -19,7 +19,7 @@ using Segment = std::pair<agvd::Vec3, agvd::Vec3>;
 [[nodiscard]] std::vector<agvd::Vec3> junctions(const agvd::TriangleMesh& mesh, double degrees);
 
 //! Share of the length of creases above 40 degrees of `input` that lies within `tolerance` of a
-//! crease above 25 degrees of `output`, told at eight points of each edge. 1 if there are none.
+//! crease above 25 degrees of `output`, measured at eight points of each edge. 1 if there are none.
 [[nodiscard]] double coverage(const agvd::TriangleMesh& input, const agvd::TriangleMesh& output,
                               double tolerance);
 
@@ -28,7 +28,7 @@ using Segment = std::pair<agvd::Vec3, agvd::Vec3>;
                                             const agvd::TriangleMesh& mesh);
 
 //! The farthest that a vertex, edge midpoint or centroid of `mesh` lies from `surface`: 0 if every
-//! triangle lies in one of its flat faces.
+//! triangle lies in one of its planar faces.
 [[nodiscard]] double farthest_from_surface(const agvd::TriangleMesh& mesh,
                                            const agvd::TriangleMesh& surface);
 

@@ -29,7 +29,7 @@ Vec3 normal_of(const TriangleMesh& mesh, const Triangle& t) {
     return (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]);
 }
 
-// One into three, at a point beside a side.
+// Splits a face into three, at a point near a side.
 void split_face(Pieces& pieces, Index face, double beside, Dice& dice) {
     const Triangle t = pieces.mesh.triangles[face];
     const Index k = dice.count(0, 2);
@@ -46,7 +46,7 @@ void split_face(Pieces& pieces, Index face, double beside, Dice& dice) {
     }
 }
 
-// Where both new faces look the same way as the old ones and the new edge is new.
+// Flips edges if both new faces are oriented like the old ones and the new edge does not exist yet.
 void flip_some(Pieces& pieces, Index count, Dice& dice) {
     auto& faces = pieces.mesh.triangles;
     const auto num_faces = static_cast<Index>(faces.size());

@@ -1,5 +1,5 @@
 //! \file
-//! Random choices in a row.
+//! A sequence of random choices.
 #pragma once
 
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "agvd/core/random.h"
 #include "agvd/core/types.h"
 
-//! The same rolls for the same seed and order of asking.
+//! The same numbers for the same seed and order of calls.
 class Dice {
 public:
     explicit Dice(std::uint64_t seed) : seed_(seed) {}

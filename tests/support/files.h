@@ -1,5 +1,5 @@
 //! \file
-//! Files for tests: a folder of their own, and the real meshes where there are any.
+//! Files for tests: a folder of their own, and the real meshes if present.
 #pragma once
 
 #include <unistd.h>
@@ -13,7 +13,7 @@
 
 namespace files {
 
-//! A new folder that goes with the object, whatever was put into it.
+//! A new folder that is removed with the object, including its content.
 class TemporaryFolder {
 public:
     TemporaryFolder() {

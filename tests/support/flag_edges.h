@@ -1,5 +1,5 @@
 //! \file
-//! Edges of a surface, chosen by where they lie.
+//! Edges of a surface, chosen by their position.
 #pragma once
 
 #include <cstdint>

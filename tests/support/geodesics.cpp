@@ -25,7 +25,7 @@ Vec3 place(const Surface& surface, const SurfacePoint& point) {
     return position(surface.mesh.view(), point);
 }
 
-// Those that hold both points, by exact coordinates; no_index: none, or no second one.
+// Faces that contain both points, by exact coordinates; no_index: none, or no second one.
 struct SharedFaces {
     Index first = no_index, second = no_index;
 };

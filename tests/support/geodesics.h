@@ -1,5 +1,5 @@
 //! \file
-//! Paths over surfaces, and what makes one locally shortest.
+//! Paths over surfaces, and a test whether one is locally shortest.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@
 
 namespace geodesics {
 
-//! A way from one point to another over faces chosen at random; they must lie on one component.
+//! A path from one point to another over faces chosen at random; both must lie on one component.
 [[nodiscard]] remesh::FaceStrip random_strip(const agvd::Surface& surface,
                                              const agvd::SurfacePoint& from,
                                              const agvd::SurfacePoint& to, std::uint64_t seed);
@@ -18,7 +18,7 @@ namespace geodesics {
                             std::span<const agvd::SurfacePoint> points);
 
 //! How far below pi the narrowest side of a path is at the points between its ends; a side with a
-//! boundary counts as wide. 0 if none is below. Points that all but coincide count as one.
+//! boundary counts as wide. 0 if none is below. Points that nearly coincide count as one.
 [[nodiscard]] double largest_bend(const agvd::Surface& surface,
                                   std::span<const agvd::SurfacePoint> points);
 

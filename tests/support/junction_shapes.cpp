@@ -20,7 +20,7 @@ void add_sheet(Patchwork& mesh, Index n, Index m, const Vec3& corner, const Vec3
     mesh.add(n, m, [&](double u, double v) -> Vec3 { return corner + u * along + v * up; });
 }
 
-// Without the wall at its least x if told.
+// Without the wall at its least x unless is_whole.
 void add_cube(Patchwork& mesh, Index n, const Vec3& at, bool is_whole = true) {
     const Vec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
     mesh.add_square(n, at, y, x);

@@ -30,7 +30,8 @@ struct JunctionShape {
 [[nodiscard]] JunctionShape cubes_with_a_wall();
 //! A square pipe, open at both ends, stands on a plate.
 [[nodiscard]] JunctionShape pipe_on_plate();
-//! A wall stands amid a plate and grows wider upward: at its ends nothing turns by 45 degrees.
+//! A wall in the middle of a plate that grows wider upward: no junction turns by 45 degrees at its
+//! ends.
 [[nodiscard]] JunctionShape fan_on_plate();
 //! Three planes at right angles: six junctions meet in a point.
 [[nodiscard]] JunctionShape three_planes();

@@ -1,4 +1,4 @@
-// A mesh on its own surface, as mending and its steps take it.
+// A mesh on its own surface, as input for mend_shape and EditedMesh.
 #pragma once
 
 #include <vector>

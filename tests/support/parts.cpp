@@ -197,7 +197,7 @@ TriangleMesh with_needles(const TriangleMesh& mesh, double aspect, double share,
             polygon.push_back(t[k]);
             if (middle[{a, b}] != agvd::no_index) polygon.push_back(middle[{a, b}]);
         }
-        // A point close above the middle of a side; all else is joined to it.
+        // A point close above the middle of a side; all other points are joined to it.
         if (polygon.size() == 3 && dice.number(0, 1) >= share) {
             faces.push_back(t);
             continue;

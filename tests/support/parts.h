@@ -1,5 +1,5 @@
 //! \file
-//! Parts by formula: flat and round faces that meet in sharp creases.
+//! Parts by formula: planar and round faces that meet in sharp creases.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 //! \file
-//! Meshes out of patches.
+//! Builds meshes from patches.
 #pragma once
 
 #include <cmath>

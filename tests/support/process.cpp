@@ -15,7 +15,7 @@ namespace process {
 namespace {
 
 // Starts the program with stdout in a file and stderr in the pipe; signals as in a terminal, even
-// if we were started with them ignored.
+// if this process was started with them ignored.
 pid_t start(const std::vector<std::string>& command, const std::filesystem::path& out,
             const std::array<int, 2>& pipe) {
     posix_spawn_file_actions_t actions;

@@ -1,3 +1,4 @@
+// Each family of meshes is one function of random numbers.
 #include "support/random_meshes.h"
 
 #include <algorithm>
@@ -85,8 +86,8 @@ TriangleMesh saddle(Dice& dice) {
     return mesh;
 }
 
-// A fan of triangles around a vertex of any cone angle, up and down in turn where it is more than
-// a turn; then subdivided: the cone stays, all new vertices are flat.
+// A fan of triangles around a vertex of any cone angle, alternately up and down if this is above 2
+// pi; then subdivided: the cone stays, all new vertices have no curvature.
 TriangleMesh cone_fan(Dice& dice, Index rim, double depth) {
     TriangleMesh mesh;
     mesh.positions.emplace_back(0, 0, 0);

@@ -1,5 +1,5 @@
 //! \file
-//! Small meshes that geodesics find hard, each family random in its measures.
+//! Small meshes that are hard for geodesics, each family with random measures.
 #pragma once
 
 #include <span>
@@ -12,7 +12,7 @@ namespace random_meshes {
 [[nodiscard]] std::span<const char* const> families();
 
 //! An oriented manifold (or several) of about 4 to 400 faces that build_surface takes; half of them
-//! turned, moved and scaled at random, so that what is flat or regular is so up to rounding only.
+//! turned, moved and scaled at random, so that planar or regular parts are so only up to rounding.
 [[nodiscard]] agvd::TriangleMesh make(std::string_view family, std::uint64_t seed);
 
 }  // namespace random_meshes

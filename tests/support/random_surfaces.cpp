@@ -159,7 +159,7 @@ TriangleMesh knot(Dice& dice) {
                       dice.magnitude(0.02, 0.25));
 }
 
-// Faces far from each other and from the boundary go: a loop each.
+// Removes faces far from each other and from the boundary: each gives a loop.
 void open_loops(Dice& dice, TriangleMesh& mesh, Index count) {
     std::map<std::pair<Index, Index>, int> sides;
     for (const Triangle& t : mesh.triangles) {

@@ -1,5 +1,5 @@
 //! \file
-//! Surfaces that are hard to keep the topology of, random in their measures.
+//! Surfaces whose topology is hard to keep, with random measures.
 #pragma once
 
 #include <span>

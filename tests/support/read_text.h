@@ -9,7 +9,7 @@
 
 namespace texts {
 
-//! What read_mesh makes of a file `name` with these bytes; in memory, as disks are slow.
+//! The result of read_mesh for a file `name` with these bytes; in memory, as disks are slow.
 [[nodiscard]] inline remesh::MeshFile read_bytes(const std::string& name,
                                                  const std::string& bytes) {
     return remesh::require_format(name).read({.path = name, .bytes = bytes});

@@ -1,5 +1,5 @@
 //! \file
-//! A folder of its own for each test, with helpers to put files there.
+//! A separate folder for each test, with helpers to put files there.
 #pragma once
 
 #include <gtest/gtest.h>

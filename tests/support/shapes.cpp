@@ -175,7 +175,7 @@ TriangleMesh join(const TriangleMesh& a, const TriangleMesh& b) {
 
 namespace {
 
-// Cuts the faces at an edge from m to their apexes, unless that gives an edge twice.
+// Splits the faces at an edge from m to their apexes, unless an edge would exist twice.
 void cut_edge(TriangleMesh& mesh, Index u, Index v, const Vec3& m) {
     std::vector<std::pair<Index, std::size_t>> sides;  // Faces, and which of their sides it is.
     for (Index f = 0; f < mesh.triangles.size(); ++f) {

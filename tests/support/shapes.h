@@ -25,10 +25,10 @@ namespace shapes {
 [[nodiscard]] agvd::TriangleMesh subdivide(const agvd::TriangleMesh& mesh);
 //! Every vertex moved by at most `amount`, reproducibly.
 [[nodiscard]] agvd::TriangleMesh jitter(agvd::TriangleMesh mesh, double amount, std::uint64_t seed);
-//! Random faces cut into three at a point inside, random edges in two: vertices that the surface
-//! does not need, but for those on the boundary. Faces become needles.
+//! Random faces cut into three at a point inside, random edges in two: all new vertices but those
+//! on the boundary have no curvature. Faces become needles.
 void add_flat_vertices(agvd::TriangleMesh& mesh, agvd::Index count, std::uint64_t seed);
-//! Above 0 for a closed mesh whose faces look outwards.
+//! Above 0 for a closed mesh with outward normals.
 [[nodiscard]] double signed_volume(const agvd::TriangleMesh& mesh);
 //! Two meshes side by side in one.
 [[nodiscard]] agvd::TriangleMesh join(const agvd::TriangleMesh& a, const agvd::TriangleMesh& b);

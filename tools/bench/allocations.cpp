@@ -8,7 +8,7 @@
 
 namespace {
 
-// What operator new counts can be kept nowhere else.
+// The counts of operator new can only be kept in globals.
 // NOLINTBEGIN(cppcoreguidelines-avoid-non-const-global-variables)
 std::atomic<std::size_t> current{0};
 std::atomic<std::size_t> peak{0};

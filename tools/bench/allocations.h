@@ -7,8 +7,8 @@
 
 namespace bench {
 
-//! Most bytes that `new` had handed out at once since this was made, beyond those of then. Counts
-//! all threads; one at a time.
+//! The peak of bytes allocated by `new` since construction, beyond those allocated then. Counts all
+//! threads. Only one object may exist at a time.
 class PeakBytes {
 public:
     PeakBytes();

@@ -1,4 +1,4 @@
-// Steiner points inserted where they are needed for an error bound, beside as many on each edge.
+// Compares Steiner points inserted where an error bound needs them with equally many on each edge.
 
 #include "agvd/core/error.h"
 #include "agvd/propagation/propagate.h"

@@ -1,5 +1,5 @@
-// The evaluation of [meng2023] Sec. 6 and 7: tables and figures, all engines and the exact diagram
-// side by side in one run.
+// The evaluation of [meng2023] Sec. 6 and 7: tables and figures, with all engines and the exact
+// diagram in one execution.
 
 #include <algorithm>
 
@@ -57,7 +57,7 @@ public:
                                  is_quick_look() ? few : min_faces, jitter);
     }
 
-    // Random vertices, as many as there can be in a quick look.
+    // Random vertices, fewer in a quick run.
     [[nodiscard]] std::vector<SurfacePoint> sites(const Surface& surface, Index count) const {
         const Index most = is_quick_look() ? surface.num_vertices() / 4 : count;
         return bench::random_sites(surface, std::min(count, most), bench::Place::Vertices, 1);

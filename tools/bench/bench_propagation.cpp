@@ -1,5 +1,5 @@
-// Time, memory and error of the propagation engines side by side, and of the diagram if asked for,
-// in one run with the sweep that they are measured by.
+// Time, memory and error of the propagation engines, and of the diagram if asked for, in one
+// execution with the sweep that is the unit of time.
 
 #include <optional>
 #include <utility>
@@ -73,10 +73,10 @@ std::vector<bench::Column> columns_for(const Arguments& arguments) {
     return columns;
 }
 
-// Seconds of the repetitions. The quickest of them counts, as with the sweep: what else runs on the
-// machine only ever adds. On one that is never quiet this is unfair to long jobs, of which none
-// finds a gap as long as itself; so there is also the middle one of the ratios of each repetition
-// and the sweeps right before and after it.
+// Seconds of the repetitions. The quickest of them counts, as with the sweep: other programs on the
+// machine only add time. On a machine that is always busy this disadvantages long jobs, which never
+// run undisturbed; so there is also the median of the ratios of each repetition to the sweeps right
+// before and after it.
 struct Timings {
     std::vector<double> cpu, wall, over_sweeps;
 
@@ -96,7 +96,7 @@ struct Timings {
     }
 };
 
-// One way of doing it, run again and again.
+// One method, run several times.
 struct Contestant {
     const bench::Method& method;
     int threads;
@@ -184,7 +184,8 @@ Json row_of(const Case& c, const Contestant& contestant, double p0,
     return row;
 }
 
-// All contestants in turn, with the sweep between them, so that all meet the same disturbances.
+// Runs all contestants in turn, with the sweep between them, so that all have the same
+// disturbances.
 std::vector<Json> measure(const Case& c, const std::vector<bench::Method>& methods,
                           const Arguments& arguments) {
     bench::P0 sweep(c.input, c.sites);

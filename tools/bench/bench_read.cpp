@@ -1,6 +1,6 @@
-// Our readers against OpenMesh's: bench-read FILE... prints, for each file, what either makes of it
-// and how long it takes, in turn. OpenMesh reads into an importer that keeps plain arrays in
-// double, which is the least work that it can be given, and the most trustworthy way to use it.
+// Compares our readers with OpenMesh's: bench-read FILE... prints, for each file, the result and
+// the time of both, measured in turn. OpenMesh reads into an importer that keeps plain arrays in
+// double, which is the least work for it and the most reliable way to use it.
 
 #include <OpenMesh/Core/IO/IOManager.hh>
 #include <OpenMesh/Core/IO/importer/BaseImporter.hh>
@@ -15,7 +15,7 @@ namespace {
 
 using namespace OpenMesh;  // NOLINT: the overrides below are all in its words.
 
-// Keeps positions and triangles; takes part in nothing else that a file may hold.
+// Keeps positions and triangles; ignores everything else in a file.
 class ArrayImporter : public IO::BaseImporter {
 public:
     agvd::TriangleMesh mesh;

@@ -1,4 +1,4 @@
-// Quality against time: what the number of relaxation steps costs, and what it gives.
+// Quality against time for several numbers of relaxation steps.
 
 #include <algorithm>
 

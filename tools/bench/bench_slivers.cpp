@@ -1,4 +1,4 @@
-// The whole job on one surface under good and bad triangles.
+// Times the whole pipeline on one surface with good and bad triangles.
 
 #include <numbers>
 

@@ -1,5 +1,5 @@
-// What relaxation makes of uneven starts: the energy that it ends with, over that of the default
-// start with as many steps.
+// Relaxation of uneven starts: the final energy, divided by that of the default start after the
+// same number of steps.
 
 #include <algorithm>
 #include <cmath>

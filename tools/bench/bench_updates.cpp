@@ -1,5 +1,5 @@
-// What it costs to move a few sites, beside doing all afresh: the propagation alone, and with the
-// diagram.
+// The cost of moving a few sites, compared with computing everything anew: for the propagation
+// alone, and with the diagram.
 
 #include "agvd/core/random.h"
 #include "agvd/diagram/build_diagram.h"
@@ -71,7 +71,7 @@ nlohmann::ordered_json measure(const std::string& mesh, const Surface& surface,
     std::uint64_t seed = arguments.common.seed;
     for (int i = 0; i < arguments.repetitions; ++i) {
         cli::stop_if_interrupted();
-        // Sites are moved again and again in use: each kind a few times in a row.
+        // In use sites are moved many times: each kind is run a few times in a row.
         constexpr int in_a_row = 4;
         std::vector<SiteChanges> changes;
         for (int k = 0; k < in_a_row; ++k) {

@@ -129,7 +129,7 @@ TriangleMesh randomly_flipped(TriangleMesh mesh) {
         const Index g = half_edge.at({b, a});
         const Index d = tail(previous_half_edge(g));
         const Vec3 whole = normal(a, b, c).normalized();
-        constexpr double least = 1e-9;  // Of the unit square: neither flat nor bent.
+        constexpr double least = 1e-9;  // Of the unit square: neither degenerate nor bent.
         if (normal(b, a, d).normalized().dot(whole) < 1 - least) continue;
         if (normal(a, d, c).dot(whole) < least || normal(d, b, c).dot(whole) < least) continue;
         if (half_edge.contains({c, d}) || half_edge.contains({d, c})) continue;

@@ -1,5 +1,5 @@
 //! \file
-//! CGAL's exact distances as one more competitor, where the build has CGAL.
+//! CGAL's exact distances as one more method, if the build has CGAL.
 #pragma once
 
 #include <span>
@@ -15,8 +15,8 @@ struct ExactRun {
     Seconds taken;                        //!< On one core.
 };
 
-//! exact_nearest_sites of all vertices: one search from all sites, which alone is not to be
-//! trusted, and one from each site as far as it may be nearest.
+//! exact_nearest_sites of all vertices: one search from all sites, which alone is not reliable, and
+//! one from each site as far as it may be nearest.
 //! \throw agvd::InvalidOption  built without CGAL.
 [[nodiscard]] ExactRun run_exact(const agvd::Surface& surface,
                                  std::span<const agvd::SurfacePoint> sites);

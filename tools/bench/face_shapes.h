@@ -1,5 +1,5 @@
 //! \file
-//! The paper's measures of how good the faces of a mesh are.
+//! The paper's measures of face quality.
 #pragma once
 
 #include "agvd/mesh/surface.h"

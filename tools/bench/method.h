@@ -1,5 +1,5 @@
 //! \file
-//! The ways of propagating that are set side by side.
+//! The methods of propagation that are compared.
 #pragma once
 
 #include <string>
@@ -14,7 +14,7 @@ struct Method {
     agvd::PropagationOptions options;
 };
 
-//! What to vary; each engine varies by what it knows.
+//! The options to vary; each engine uses those that it has.
 struct MethodLists {
     std::vector<agvd::Engine> engines;
     std::vector<double> max_errors;   //!< Window engine.

@@ -11,7 +11,8 @@ namespace {
 using agvd::Index;
 using agvd::no_index;
 
-// Min-heap of vertices by their distance; knows where each vertex stands, to move it up.
+// Min-heap of vertices by their distance, with the place of each vertex, so that it can be moved
+// up.
 class VertexHeap {
 public:
     VertexHeap(const std::vector<double>& key, Index num_vertices)
@@ -137,7 +138,7 @@ void sweep(const EdgeGraph& graph, std::span<const Index> sources, Sweep& result
 P0::P0(const agvd::Surface& surface, std::span<const agvd::SurfacePoint> sites)
     : graph_(edge_graph(surface)) {
     for (const agvd::SurfacePoint& site : sites) sources_.push_back(nearest_corner(surface, site));
-    sweep(graph_, sources_, sweep_);  // The first one also waits for its memory.
+    sweep(graph_, sources_, sweep_);  // The first sweep also allocates memory, so it is not timed.
 }
 
 SweepSeconds P0::seconds() {

@@ -1,5 +1,5 @@
 //! \file
-//! P0: one multi-source Dijkstra sweep over the mesh edges, the floor every cost is divided by.
+//! P0: one multi-source Dijkstra sweep over the mesh edges, the unit of all costs.
 #pragma once
 
 #include <span>
@@ -34,7 +34,7 @@ struct SweepSeconds {
     double quickest, median;
 };
 
-//! The sweep from the same sites again and again, to time other work by it.
+//! Repeats the sweep from the same sites, to time other work relative to it.
 class P0 {
 public:
     //! A site starts at its nearest corner.

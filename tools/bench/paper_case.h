@@ -18,13 +18,13 @@ struct PaperCase {
 struct PaperOptions {
     int repetitions = 3;                   //!< >= 1; the quickest counts.
     bool with_errors = true;               //!< Against the exact diagram.
-    agvd::Index bisector_points = 50'000;  //!< At most so many are measured of each diagram.
+    agvd::Index bisector_points = 50'000;  //!< Most points measured of each diagram.
     bool with_dual = false;  //!< The dual is built, too, and counts as part of the whole.
 };
 
 //! A row for each method, all on one thread. Times are in P0 of the same run: the quickest of the
-//! repetitions over the quickest sweep beside any of them, both in processor time. Memory is what
-//! `new` hands out beyond the mesh, at most at once. Errors are those of compare_diagrams and
+//! repetitions over the quickest sweep beside any of them, both in processor time. Memory is the
+//! peak of what `new` allocates beyond the mesh. Errors are those of compare_diagrams and
 //! exact_bisector_errors.
 //!
 //! Keys: mesh, faces, sites, method, p0_ms, propagate_p0, diagram_p0, dual_p0, total_p0, total_ms,

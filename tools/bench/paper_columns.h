@@ -1,5 +1,5 @@
 //! \file
-//! The columns of the paper's evaluation, and its rows with the methods side by side.
+//! The columns of the paper's evaluation, and tables with all methods of a case in one row.
 #pragma once
 
 #include <span>

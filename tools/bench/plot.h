@@ -21,7 +21,7 @@ struct Plot {
     bool is_log_x = false;  //!< Then all x are > 0; likewise for y.
     bool is_log_y = false;
     std::vector<Series> series = {};
-    bool is_y_from_zero = true;  //!< Without is_log_y: else from the lowest value.
+    bool is_y_from_zero = true;  //!< Without is_log_y; false: from the lowest value.
 };
 
 //! The plots side by side; a series of one point is drawn as a level line. Points that are not

@@ -1,5 +1,5 @@
 //! \file
-//! What the benchmarks share: their common options, and results as a table and as JSON.
+//! Shared by the benchmarks: common options, and results as a table and as JSON.
 #pragma once
 
 #include <CLI/CLI.hpp>

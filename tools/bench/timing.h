@@ -1,5 +1,5 @@
 //! \file
-//! How long a job takes, and what several runs of it have in common.
+//! Times of a job, and statistics over several repetitions.
 #pragma once
 
 #include <functional>

@@ -12,8 +12,8 @@
 namespace bench {
 
 //! Every face split in four until there are at least `min_faces`. The new vertices lie on the old
-//! edges, off their middles by up to `jitter` of the length (below 1/2): the same surface, but no
-//! regular grid, and the worse faces the larger it is.
+//! edges, off their middles by up to `jitter` of the length (below 1/2): the same surface, but not
+//! a regular grid; a larger jitter gives worse faces.
 [[nodiscard]] agvd::Surface subdivided(agvd::Surface surface, agvd::Index min_faces,
                                        double jitter = 0.1);
 

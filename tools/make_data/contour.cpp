@@ -1,3 +1,5 @@
+// The surface part of [labelle2007]: finds the lattice cells that the surface crosses, pulls close
+// lattice points onto the surface, cuts the tetrahedra, and smooths the mesh.
 #include "make_data/contour.h"
 
 #include <algorithm>
@@ -22,7 +24,7 @@ using Cell = Eigen::Vector3i;
 constexpr std::array<std::array<int, 4>, 6> tetrahedra{
     {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}}};
 
-// Those of a tetrahedron's corners that keep its orientation.
+// Permutations of a tetrahedron's corners that keep its orientation.
 constexpr std::array<std::array<std::size_t, 4>, 12> even_permutations{{{0, 1, 2, 3},
                                                                         {0, 2, 3, 1},
                                                                         {0, 3, 1, 2},
@@ -183,8 +185,8 @@ private:
         if (is_new) mesh_.positions.push_back(cut_point(a, b));
         return it->second;
     }
-    // Arrays are filled in order, where arguments are evaluated in any: vertices keep their
-    // numbers.
+    // Takes an array: elements in braces are evaluated in order, arguments in any order. So the
+    // vertices' numbers are always the same.
     void add(const agvd::Triangle& t) {
         if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) mesh_.triangles.push_back(t);
     }

@@ -18,7 +18,7 @@ namespace make_data {
 [[nodiscard]] agvd::TriangleMesh plate();
 //! Four closed components whose sizes span 1 : 1000.
 [[nodiscard]] agvd::TriangleMesh parts();
-//! A closed surface full of slivers, without a face of no area.
+//! A closed surface with many slivers, but no degenerate face.
 [[nodiscard]] agvd::TriangleMesh slivers();
 
 struct DataFile {

@@ -65,7 +65,7 @@ double distance(const Ball& a, const Ball& b, const Vec3& p) {
     return (p - closest.head<3>()).norm() - closest.w();
 }
 
-// The distance to a limb if that is below `limit`; strides over what is too far to matter.
+// The distance to a limb if that is below `limit`; skips balls that are too far away to matter.
 double distance(const Limb& limb, const Vec3& p, double limit) {
     double best = limit;
     for (std::size_t i = 0; i + 1 < limb.balls.size();) {

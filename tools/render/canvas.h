@@ -17,14 +17,14 @@ class Canvas {
 public:
     Canvas(int width, int height);
 
-    //! Fills what is in front of everything drawn before; edges get a thin dark line of this
-    //! opacity.
+    //! Fills pixels that are in front of everything drawn before; edges get a thin dark line of
+    //! this opacity.
     void draw_triangle(const std::array<agvd::Vec3, 3>& corners, const Color& color,
                        float edge_opacity);
     //! Draws a line of `width` pixels, hidden where the surface is more than `bias` in front.
     void draw_line(const agvd::Vec3& a, const agvd::Vec3& b, const Color& color, double width,
                    double bias);
-    //! Darkens what lies in hollows not wider than `radius` pixels; call after the triangles.
+    //! Darkens hollows up to `radius` pixels wide; call after the triangles.
     void shade_hollows(double radius);
     //! \throw agvd::IoError  the file cannot be written.
     void write_png(const std::filesystem::path& path) const;

@@ -12,7 +12,7 @@ namespace render {
 struct NetworkLines {
     struct Line {
         std::vector<agvd::Vec3> points;
-        Color color;  //!< Of neighbours different ones, as a rule.
+        Color color;  //!< Neighbours usually have different ones.
     };
     std::vector<Line> lines;
     std::vector<agvd::Vec3> nodes;

@@ -14,7 +14,7 @@ namespace {
 using agvd::Index;
 using agvd::SurfacePoint;
 
-// A face beside an edge, and the edge's middle as a point of it.
+// A face of an edge, and the edge's middle as a point of this face.
 struct Beside {
     double area = -1;
     SurfacePoint middle;

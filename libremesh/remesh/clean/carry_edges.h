@@ -1,5 +1,5 @@
 //! \file
-//! Edges of a mesh as the caller has it, on the same mesh cleaned.
+//! Carries edges of the caller's mesh to the cleaned mesh.
 #pragma once
 
 #include <array>
@@ -13,15 +13,15 @@ namespace remesh {
 //! \param edges    pairs of vertices of `mesh`.
 //! \param clean    of clean_input(mesh).
 //! \param surface  of clean.mesh.
-//! \return #E of the surface: 1 for those that the given edges are now; those whose faces cleaning
-//!         has split elsewhere are none.
-//! \throw agvd::InvalidInput  a pair is no edge of the mesh; the text names it.
+//! \return #E of the surface: 1 for edges that given ones have become. A given edge whose faces
+//!         were split elsewhere by cleaning becomes none.
+//! \throw agvd::InvalidInput  a pair is not an edge of the mesh; the text names it.
 //! Cost: O(#F log #edges).
 [[nodiscard]] std::vector<std::uint8_t> carry_edges(
     std::span<const std::array<agvd::Index, 2>> edges, const agvd::MeshView& mesh,
     const CleanedView& clean, const agvd::Surface& surface);
 
-//! Edges between faces of different labels.
+//! Finds edges between faces of different labels.
 //!
 //! \param face_labels  of the faces of the mesh that clean_input() got.
 //! \param face_origin  #F of the surface: see CleanResult.

@@ -1,3 +1,5 @@
+// Carries points between a mesh and its cleaned version: bit for bit where the face kept its
+// corners, otherwise to the closest point, on pieces of the same face first.
 #include "remesh/clean/carry_sites.h"
 
 #include <algorithm>
@@ -19,9 +21,9 @@ using agvd::MeshView;
 using agvd::SurfacePoint;
 using agvd::Vec3;
 
-// Of the box diagonal of the cleaned mesh. Farther from it than this, a site lies where cleaning
-// left no surface; positions are good to 1e-16 of the largest coordinate, so meshes far from the
-// origin pass too.
+// As a share of the box diagonal of the cleaned mesh. A site farther from the mesh lies where
+// cleaning left no surface. Positions are accurate to 1e-16 of the largest coordinate, so that
+// meshes far from the origin pass too.
 constexpr double place_tolerance = 1e-9;
 
 std::array<Vec3, 3> corners_of(const MeshView& mesh, Index face) {
@@ -29,7 +31,7 @@ std::array<Vec3, 3> corners_of(const MeshView& mesh, Index face) {
     return {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
 }
 
-// Sums that are 1 to rounding stay as they are, bit for bit.
+// Divides coordinates by their sum. If this is 1 up to rounding, they stay, bit for bit.
 SurfacePoint normalized(SurfacePoint point) {
     constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
     const double sum = point.barycentric[0] + point.barycentric[1] + point.barycentric[2];
@@ -39,8 +41,8 @@ SurfacePoint normalized(SurfacePoint point) {
     return point;
 }
 
-// The point with its coordinates given to the corners of `to` at the same positions, if the two
-// faces have the same three: cleaning may renumber and reorder them, and may split the face.
+// The same point of `to`, if both faces have the same three corner positions. Cleaning may renumber
+// and reorder corners, and may split the face.
 std::optional<SurfacePoint> carry_exactly(const SurfacePoint& point,
                                           const std::array<Vec3, 3>& from,
                                           const std::array<Vec3, 3>& to, Index to_face) {
@@ -56,7 +58,7 @@ std::optional<SurfacePoint> carry_exactly(const SurfacePoint& point,
     return carried;
 }
 
-// Of place_tolerance.
+// The square of place_tolerance in mesh units.
 double squared_reach(const MeshView& mesh) {
     Vec3 low = mesh.positions[0], high = low;
     for (const Vec3& position : mesh.positions) {
@@ -79,8 +81,8 @@ public:
         reach_sq_ = squared_reach(clean_);
     }
 
-    // None where cleaning left no surface. Pieces of the site's own face go first: another part of
-    // the mesh may lie at the same place.
+    // None if cleaning left no surface there. Tries pieces of the site's own face first: another
+    // part of the mesh may lie at the same place.
     [[nodiscard]] std::optional<SurfacePoint> place(const SurfacePoint& site) {
         const Index origin = site.face.value();
         const std::array<Vec3, 3> corners = corners_of(mesh_, origin);
@@ -119,7 +121,7 @@ void check_site(const SurfacePoint& site, std::size_t number, Index num_faces) {
                                  std::to_string(num_faces));
     }
     const auto& [a, b, c] = site.barycentric;
-    // Decimals in a file and sums in double are this good.
+    // The accuracy of decimals in a file and of sums in double.
     constexpr double tolerance = 1e-6;
     if (!(a >= 0 && b >= 0 && c >= 0 && std::abs(a + b + c - 1) <= tolerance)) {
         throw agvd::InvalidInput(name + " on face " + std::to_string(site.face.value()) +

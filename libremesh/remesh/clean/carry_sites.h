@@ -1,5 +1,5 @@
 //! \file
-//! Sites on a mesh as the caller has it, and on the same mesh cleaned.
+//! Carries sites between the caller's mesh and the cleaned mesh.
 #pragma once
 
 #include "agvd/mesh/surface_point.h"
@@ -8,9 +8,9 @@
 namespace remesh {
 
 //! The same points on `clean.mesh`; `clean` must come from clean_input(mesh). A face that has kept
-//! its corners keeps the coordinates bit for bit, so that sites on vertices and edges stay there;
-//! a site on a face that was split or dropped goes to the closest point. Sums of coordinates that
-//! are 1 only to the decimals of a file become 1 to rounding.
+//! its corners keeps the coordinates bit for bit, so that sites on vertices and edges stay there; a
+//! site on a face that was split or dropped goes to the closest point. Coordinates whose sum is 1
+//! only to the decimals of a file are divided by it.
 //! \throw agvd::InvalidInput  a site's face does not exist, its coordinates are not barycentric, or
 //!        its face was dropped and no other surface is there (within 1e-9 of the box diagonal); the
 //!        text names the site.
@@ -19,9 +19,9 @@ namespace remesh {
     const std::vector<agvd::SurfacePoint>& sites, const agvd::MeshView& mesh,
     const CleanedView& clean);
 
-//! The way back: points of `clean.mesh` on the mesh that it came from; for part of a face, the
-//! closest point of the whole. Without clean.face_origin the mesh was clean: only the sums of
-//! coordinates become 1. Cost: O(#sites).
+//! The reverse: points of `clean.mesh` on the mesh that it came from. A point of a part of a face
+//! goes to the closest point of the whole face. Without clean.face_origin the mesh was clean:
+//! coordinates are only divided by their sum. Cost: O(#sites).
 [[nodiscard]] std::vector<agvd::SurfacePoint> to_original(
     const std::vector<agvd::SurfacePoint>& sites, const agvd::MeshView& mesh,
     const CleanedView& clean);

@@ -14,7 +14,7 @@ struct CleanCounts {
     agvd::Index duplicate_faces = 0;    //!< Dropped: same three corners as an earlier face.
     agvd::Index flipped_faces = 0;      //!< Turned over for a consistent orientation.
     agvd::Index split_edges = 0;        //!< Edges of more than two faces, cut apart.
-    agvd::Index split_vertices = 0;     //!< Copies made where faces around a vertex are no fan.
+    agvd::Index split_vertices = 0;     //!< Copies made where faces at a vertex are not one fan.
     agvd::Index isolated_vertices = 0;  //!< Dropped: in no face, or only in dropped ones.
 
     [[nodiscard]] bool operator==(const CleanCounts&) const = default;

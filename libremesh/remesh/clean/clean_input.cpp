@@ -1,3 +1,5 @@
+// Runs the passes of soup.h in their order, after a quick check whether the input needs none.
+// Sorted edge sides are made again only after passes that changed a triangle.
 #include "remesh/clean/clean_input.h"
 
 #include <algorithm>
@@ -71,7 +73,7 @@ bool has_area(std::span<const agvd::Vec3> positions, const Triangle& t) {
     return area > 0 && std::isfinite(area);
 }
 
-// The input as it is, if nothing is to be done: linear passes only.
+// The input unchanged, if it has no defect. Makes linear passes only.
 std::optional<CleanResult> take_clean(const agvd::MeshView& mesh, int num_threads,
                                       const agvd::Progress& progress) {
     agvd::Poller poller(progress);
@@ -104,7 +106,7 @@ std::optional<CleanResult> take_clean(const agvd::MeshView& mesh, int num_thread
         is_boundary[v] = twin[outgoing[v]] == no_index;
     }
     if (share_positions(mesh.positions, is_boundary, ticker))
-        return std::nullopt;  // A crack, perhaps.
+        return std::nullopt;  // Possibly a crack.
     Soup soup = as_soup(mesh, ticker);
     return CleanResult{{std::move(soup.positions), std::move(soup.triangles)},
                        std::move(soup.vertex_origin),
@@ -113,7 +115,7 @@ std::optional<CleanResult> take_clean(const agvd::MeshView& mesh, int num_thread
                        *std::move(found)};
 }
 
-// Erases the marked faces and returns how many they were.
+// Erases the marked faces and returns their number.
 Index drop_faces(Soup& soup, const std::vector<bool>& is_dead) {
     const auto dropped = static_cast<Index>(std::count(is_dead.begin(), is_dead.end(), true));
     std::vector<Index> no_twins;
@@ -140,7 +142,7 @@ bool drop_repeated_corners(Soup& soup) {
     return dropped > 0;
 }
 
-// Duplicates are neighbours in every one of their edges, and have the same third corner there.
+// Duplicate faces share each of their edges and have the same third corner there.
 bool drop_duplicates(Soup& soup, std::span<const EdgeSide> sides) {
     std::vector<bool> is_dead(soup.triangles.size(), false);
     std::vector<std::pair<Index, Index>> sheets;  // (third corner, face)

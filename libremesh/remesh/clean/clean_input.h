@@ -1,5 +1,5 @@
 //! \file
-//! Turns any triangle soup into oriented 2-manifold pieces, and tells what it did.
+//! Turns any triangle soup into oriented 2-manifold pieces and counts the repairs.
 #pragma once
 
 #include <span>
@@ -19,15 +19,15 @@ struct CleanResult {
     //! another order).
     std::vector<agvd::Index> face_origin;
     CleanCounts counts;
-    //! agvd::find_connectivity(mesh) where nothing had to be repaired; else empty.
+    //! agvd::find_connectivity(mesh) if nothing had to be repaired; otherwise empty.
     agvd::Connectivity connectivity;
 };
 
-//! A cleaned mesh and where its elements came from, as functions that carry points and edges over
-//! read it. Refers to the arrays of a CleanResult, or to what they have become.
+//! A cleaned mesh and the origins of its faces, for functions that carry points and edges over.
+//! Refers to arrays that the caller owns, such as those of a CleanResult.
 struct CleanedView {
     agvd::MeshView mesh;
-    std::span<const agvd::Index> face_origin;  //!< See CleanResult; empty: mesh is as it was given.
+    std::span<const agvd::Index> face_origin;  //!< See CleanResult; empty: nothing was changed.
 
     CleanedView(const CleanResult& clean)
         : mesh(clean.mesh.view()), face_origin(clean.face_origin) {}
@@ -40,15 +40,15 @@ struct CleanedView {
 //!    that touch at a point, and closed parts that touch anywhere, stay apart. Zero-length edges
 //!    collapse.
 //! 2. Faces with a repeated corner and duplicate faces (the first stays) are dropped.
-//! 3. Faces that hang together through edges of two faces are oriented alike. What was consistent
-//!    is not turned; else the side of a clear majority (3/4) wins, then for closed pieces the
-//!    outside, for open ones the larger part.
-//! 4. At an edge of more than two faces those pairs stay together that make the flattest sheet (a
-//!    convex one among equals); the others are cut off.
+//! 3. Faces connected through edges of two faces are oriented alike. Consistent pieces are not
+//!    turned. Otherwise a clear majority (3/4) wins; without one, closed pieces are turned outward,
+//!    and open ones follow the larger part.
+//! 4. At an edge of more than two faces the pairs that make the flattest sheets (among equals,
+//!    convex ones) stay together; the others are cut off.
 //! 5. A face without area in double (its corners on one line) is absorbed: its longest edge is
 //!    flipped, so that the neighbour is split at the third corner. Where no neighbour can take it,
 //!    it is dropped.
-//! 6. Vertices whose faces are more than one fan are copied for each fan; isolated ones dropped.
+//! 6. Vertices with more than one fan of faces are copied for each fan; isolated ones are dropped.
 //!
 //! An input without these defects comes back unchanged, bit for bit and in the same order. Kept
 //! vertices and faces keep their order; copies of vertices come last.

@@ -1,5 +1,5 @@
 //! \file
-//! Leaves small pieces of the input out, if asked to.
+//! Drops small components of the input.
 #pragma once
 
 #include "remesh/clean/clean_input.h"

@@ -1,6 +1,6 @@
-// Faces whose area is zero in double: their corners lie on one line. Such a face fills a slit
-// between its longest edge, which the neighbour has whole, and its two other edges. Flipping the
-// longest edge splits the neighbour at the third corner instead, so no hole is left.
+// Removes degenerate faces: their area is zero in double, as their corners lie on one line. Such a
+// face fills the slit between its longest edge and its two other edges. Flipping the longest edge
+// splits the neighbour across it at the third corner instead, so that no hole is left.
 #include <algorithm>
 #include <deque>
 #include <limits>
@@ -17,7 +17,8 @@ using agvd::Surface;
 using agvd::Triangle;
 using agvd::Vec3;
 
-// Flips per flat face before the rest is dropped. One is the rule; a chain takes a few.
+// Most flips per degenerate face before the rest is dropped. Usually one is enough; a chain takes a
+// few.
 constexpr std::size_t most_flips = 32;
 
 bool is_flat(const std::vector<Vec3>& positions, const Triangle& t) {
@@ -81,12 +82,13 @@ public:
     }
 
 private:
-    // A flip must leave fewer flat faces, or as many with a shorter edge: so it comes to an end.
+    // A flip must leave fewer degenerate faces, or as many with a shorter edge, so that flips end.
     bool try_flip(Index face) {
         soup_.ticker.tick();
         const Index h = longest_side(soup_, face);
         const Index o = twin_[h];
-        if (o == no_index) return false;  // A flat face on the boundary is dropped without a trace.
+        // Such a face on the boundary is dropped: it leaves no hole.
+        if (o == no_index) return false;
         const Index other = o / 3;
         const Index a = soup_.tail(h), b = soup_.head(h), c = soup_.apex(h), d = soup_.apex(o);
         if (c == d || are_joined(soup_.triangles, twin_, Surface::previous(h), d)) return false;
@@ -103,7 +105,7 @@ private:
         is_flat_[face] = flat[0];
         is_flat_[other] = flat[1];
         if (after < before) soup_.counts.absorbed_faces += static_cast<Index>(before - after);
-        for (const Index changed : {face, other}) {  // Whoever waited for these may go on now.
+        for (const Index changed : {face, other}) {  // Their neighbours may be flipped now.
             if (is_flat_[changed]) waiting_.push_back(changed);
             for (Index side = 3 * changed; side < 3 * changed + 3; ++side) {
                 const Index next_to = twin_[side] == no_index ? no_index : twin_[side] / 3;

@@ -1,4 +1,4 @@
-// One orientation for each patch, a patch being faces that hang together through edges of exactly
+// Gives each patch one orientation. A patch is a set of faces connected through edges of exactly
 // two faces.
 #include <string>
 
@@ -12,17 +12,18 @@ using agvd::Index;
 using agvd::no_index;
 using agvd::Vec3;
 
-// If this share of a closed patch agrees, they are believed; else the patch is turned outward. The
-// first keeps the inner wall of a hollow body, the second serves files with no orientation at all.
+// If this share of a closed patch agrees, its orientation is kept; otherwise the patch is turned
+// outward. The first keeps the inner wall of a hollow body, the second serves files without any
+// orientation.
 constexpr double clear_majority = 0.75;
 
 struct Patch {
-    std::vector<Index> faces;  // In the order of reaching them.
-    Index turned = 0;          // How many have another side up than the first face.
+    std::vector<Index> faces;  // In the order in which they were reached.
+    Index turned = 0;          // Number of faces oriented against the first one.
     bool is_closed = true;
 };
 
-// Spreads from `seed`; `is_turned` is relative to it.
+// Collects the patch of `seed`; `is_turned` is relative to it.
 Patch spread(const Soup& soup, const std::vector<Index>& across, Index seed,
              std::vector<bool>& is_seen, std::vector<bool>& is_turned, agvd::Ticker& ticker) {
     Patch patch;
@@ -68,7 +69,7 @@ double enclosed_volume(const Soup& soup, const Patch& patch, const std::vector<b
     return volume;
 }
 
-// Does the side of the first face give way to the other one?
+// Whether the first face, and those oriented like it, are to be turned.
 bool first_side_yields(const Soup& soup, const Patch& patch, const std::vector<bool>& is_turned) {
     const auto total = static_cast<double>(patch.faces.size());
     const bool is_minority = 2 * static_cast<double>(patch.turned) > total;

@@ -1,4 +1,5 @@
-// Which faces belong together at edges and vertices that are not manifold.
+// Decides which faces belong together at non-manifold edges and vertices: the flattest pairs.
+// Vertices are then copied until vertex indices alone give these pairs.
 #include <algorithm>
 #include <tuple>
 
@@ -11,11 +12,13 @@ using agvd::Index;
 using agvd::no_index;
 using agvd::Vec3;
 
-// Edges of more faces than this are cut apart, as the pairs to be tried grow with the square.
+// All faces at an edge of more faces than this are cut apart: the number of pairs grows with the
+// square.
 constexpr std::size_t most_sheets = 64;
 
-// Between equally flat pairs the one that bounds a convex wedge wins: two boxes that touch along an
-// edge stay two boxes. Far above rounding, far below what flatness should decide.
+// Between equally flat pairs the one that bounds a convex wedge wins, so that two boxes that touch
+// along an edge stay two boxes. Far above rounding, far below differences that flatness should
+// decide.
 constexpr double convex_bonus = 1e-3;
 
 void join(std::vector<Index>& twin, Index a, Index b) {
@@ -89,7 +92,7 @@ void separate_fans(Soup& soup, const std::vector<Index>& twin) {
     }
 }
 
-// Is `edge` what its twins say, seen by vertex indices alone?
+// Whether vertex indices alone give the twins at `edge`.
 bool is_told_by_indices(const Soup& soup, std::span<const EdgeSide> edge) {
     if (edge.size() == 1) return true;
     return edge.size() == 2 && soup.runs_up(edge[0].half_edge) != soup.runs_up(edge[1].half_edge);
@@ -109,13 +112,13 @@ std::vector<Index> pair_sheets(Soup& soup, std::span<const EdgeSide> sides) {
     return twin;
 }
 
-// A sheet that meets itself along an edge while its faces hang together around both ends keeps one
-// vertex at each end, and the edge stays double. Cutting the edge open lets the indices re-pair the
-// faces the other way; a face that is still in the way is set free, and then shares no edge at all.
+// A sheet may meet itself along an edge while its faces are connected around both ends. Then it
+// keeps one vertex at each end, and the edge stays double. The first round cuts such edges open, so
+// that indices may pair their faces the other way. Later rounds cut all edges of faces that are
+// still in conflict: these share no edge any more.
 void split_vertices(Soup& soup, std::vector<Index>& twin) {
     separate_fans(soup, twin);
-    const CleanCounts& counts =
-        soup.counts;  // Without these, every edge was single from the start.
+    const CleanCounts& counts = soup.counts;  // Without these no edge is double.
     if (counts.split_edges + counts.absorbed_faces + counts.degenerate_faces == 0) return;
     for (bool is_first_round = true;; is_first_round = false) {
         bool is_clear = true;

@@ -29,18 +29,18 @@ struct Soup {
     [[nodiscard]] agvd::Index tail(agvd::Index h) const { return triangles[h / 3][h % 3]; }
     [[nodiscard]] agvd::Index head(agvd::Index h) const { return tail(agvd::Surface::next(h)); }
     [[nodiscard]] agvd::Index apex(agvd::Index h) const { return tail(agvd::Surface::previous(h)); }
-    //! From the lower to the higher vertex: two faces of an edge agree when their directions
-    //! differ.
+    //! Whether it runs from the lower to the higher vertex. Two faces of an edge are oriented alike
+    //! if their half-edges differ in this.
     [[nodiscard]] bool runs_up(agvd::Index h) const { return tail(h) < head(h); }
 };
 
-//! Removes the marked faces; `twin` (may be empty) follows.
+//! Removes the marked faces and updates `twin` (may be empty).
 void erase_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<agvd::Index>& twin);
 
 // The passes, in the order in which they run. Those that return bool tell whether they changed a
-// triangle, so that sorted sides must be made anew.
+// triangle, so that sides must be sorted again.
 
-//! Whether two of the vertices that are wanted have the same position.
+//! Whether two of the wanted vertices have the same position.
 [[nodiscard]] bool share_positions(std::span<const agvd::Vec3> positions,
                                    const std::vector<bool>& is_wanted, agvd::Ticker& ticker);
 //! Boundary edges between the same two positions become one edge.
@@ -53,14 +53,14 @@ bool drop_duplicates(Soup& soup, std::span<const EdgeSide> sides);
 bool orient_faces(Soup& soup, std::span<const EdgeSide> sides);
 //! The twins. At an edge of more than two faces the flattest pairs stay together, the rest is cut.
 [[nodiscard]] std::vector<agvd::Index> pair_sheets(Soup& soup, std::span<const EdgeSide> sides);
-//! Twice the least area that agvd::build_surface finds at the three corners of a face: it rejects
-//! those of 0 and what is not finite.
+//! Twice the least of the areas computed from the three corners of a face. agvd::build_surface
+//! rejects faces for which it is 0 or not finite.
 [[nodiscard]] double smallest_doubled_area(std::span<const agvd::Vec3> positions,
                                            const agvd::Triangle& face);
 //! Faces without area are absorbed by their neighbours, or dropped.
 //! \throw agvd::InvalidInput  a face is so large that its area overflows.
 void remove_flat_faces(Soup& soup, std::vector<agvd::Index>& twin);
-//! Every fan of faces gets a vertex of its own, until indices alone tell the twins.
+//! Gives every fan of faces a vertex of its own, until vertex indices alone give the twins.
 void split_vertices(Soup& soup, std::vector<agvd::Index>& twin);
 void drop_isolated_vertices(Soup& soup);
 

@@ -1,4 +1,4 @@
-// Vertices at one position that should be one: cracks and zero-length edges.
+// Merges vertices at one position: along cracks, and at the ends of zero-length edges.
 #include <algorithm>
 
 #include "agvd/core/edge_key.h"

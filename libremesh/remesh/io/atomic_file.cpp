@@ -1,3 +1,5 @@
+// Writes each file to a temporary one in the target's folder, and renames the temporary files once
+// all are complete.
 #include "remesh/io/atomic_file.h"
 
 #include <fcntl.h>
@@ -26,7 +28,7 @@ namespace fs = std::filesystem;
 constexpr const char* check_folder =
     "check that its folder exists and is writable, or write elsewhere";
 
-// Where a chain of symbolic links ends, whether or not anything is there.
+// The end of a chain of symbolic links, whether or not it exists.
 fs::path follow_links(const fs::path& path) {
     fs::path target = path;
     std::error_code none;
@@ -84,7 +86,7 @@ public:
         write_all(fd_, bytes, target_, progress);
     }
 
-    // Some file systems tell only then that they are full.
+    // Some file systems report only on closing that they are full.
     void close() {
         if (fd_ < 0) return;
         const int fd = std::exchange(fd_, -1);
@@ -108,7 +110,7 @@ private:
     int fd_ = -1;
 };
 
-// True for what must not be replaced by a file of the same name: a device, a pipe.
+// True for a device or a pipe, which must not be replaced by a file of the same name.
 bool is_special(const fs::path& target) {
     std::error_code none;
     const fs::file_status status = fs::status(target, none);
@@ -141,7 +143,7 @@ void write_file_atomically(const fs::path& path, std::string_view bytes,
 }
 
 void write_files_atomically(std::span<const FileContent> files, const agvd::Progress& progress) {
-    std::deque<TemporaryFile> temporaries;  // They stay where they are.
+    std::deque<TemporaryFile> temporaries;  // A deque: the objects must not move.
     for (const FileContent& file : files) {
         const fs::path target = follow_links(file.path);
         if (is_special(target)) continue;

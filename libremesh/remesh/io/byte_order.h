@@ -1,5 +1,5 @@
 //! \file
-//! Numbers in the bytes of binary files. Private to the readers and writers.
+//! Reads and writes numbers in binary files. Private to the readers and writers.
 #pragma once
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 //! \file
-//! Which of the marked corners of a polygon lie in a box. Private to the readers.
+//! Finds the marked corners of a polygon in a box. Private to the readers.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace remesh {
 
-//! A kd-tree of fixed points, of which some are marked; each node knows how many.
+//! A kd-tree of fixed points, some of which are marked; each node stores their number.
 class CornerTree {
 public:
     //! None is marked. Cost: O(n log n).

@@ -1,5 +1,5 @@
 //! \file
-//! The four formats: what the dispatch of reading and writing shares. Private.
+//! The four formats, for the dispatch of reading and writing. Private.
 #pragma once
 
 #include <filesystem>
@@ -41,7 +41,7 @@ struct MeshFormat {
 [[nodiscard]] const MeshFormat* find_format(const std::filesystem::path& path);
 
 //! As find_format.
-//! \throw agvd::IoError  unknown; lists the extensions there are.
+//! \throw agvd::IoError  unknown; the text lists the known extensions.
 [[nodiscard]] const MeshFormat& require_format(const std::filesystem::path& path);
 
 }  // namespace remesh

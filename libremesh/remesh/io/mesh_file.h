@@ -17,11 +17,11 @@ struct MeshFile {
     agvd::Index welded_vertices = 0;   //!< STL only: corners merged at equal positions.
     //! #F: the polygon (face of the file, from 0) each triangle came from.
     std::vector<agvd::Index> face_polygon;
-    std::vector<std::string> warnings;  //!< What of the file was passed over, with its name.
+    std::vector<std::string> warnings;  //!< What was skipped, with the file's name.
 };
 
 struct ReadOptions {
-    //! Whole elements behind those that the header announces are a warning, not an error.
+    //! Whole elements beyond those that the header announces are a warning, not an error.
     bool is_lenient = false;
     agvd::Progress progress = {};
 };

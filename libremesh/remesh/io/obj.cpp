@@ -1,6 +1,6 @@
-// Wavefront OBJ: vertices (v) and faces (f); every other statement is passed over. Texture
-// coordinates and normals of a corner are read past: vertices are never split along their seams
-// (format: Wavefront, Advanced Visualizer Manual, appendix B1).
+// Wavefront OBJ: vertices (v) and faces (f); every other statement is skipped, and so are texture
+// coordinates and normals of a corner: vertices are never split along their seams (format:
+// Wavefront, Advanced Visualizer Manual, appendix B1).
 
 #include "remesh/io/formats.h"
 #include "remesh/io/polygon_soup.h"

@@ -1,9 +1,9 @@
-// OFF, and COFF, NOFF, STOFF, whose colours, normals and texture coordinates are passed over
-// (format: Geomview manual, "OFF Files").
+// OFF, and COFF, NOFF, STOFF, whose colours, normals and texture coordinates are skipped (format:
+// Geomview manual, "OFF Files").
 //
-// Line by line, one element on each, as every writer does it: what follows a vertex's coordinates
-// or a face's corners on its line is optional. A file laid out otherwise runs out of lines, and
-// says so.
+// Reads one element from each line, as every writer does it; the rest of a line after a vertex's
+// coordinates or a face's corners is optional. A file with another layout runs out of lines, which
+// is an error.
 
 #include "remesh/io/formats.h"
 #include "remesh/io/polygon_soup.h"
@@ -74,7 +74,7 @@ MeshFile read_off(SourceFile file) {
         soup.end_polygon();
         scan.skip_line();
     }
-    (void)scan.find_word();  // Comments are no rest.
+    (void)scan.find_word();  // Skips comments: they do not count as a rest.
     const std::string rest = file.judge_rest(scan.offset(), "faces", num_faces);
     MeshFile result = std::move(soup).finish();
     add_warning(rest, result);

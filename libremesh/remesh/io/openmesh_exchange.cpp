@@ -8,9 +8,9 @@ namespace {
 using Mesh = OpenMesh::TriMesh;
 using Corners = std::array<OpenMesh::VertexHandle, 3>;
 
-// Whether the two half-edges, which are there and have no face, can become neighbours at the vertex
-// between them. If another patch of faces hangs there, OpenMesh moves it into another gap of the
-// vertex, which must exist.
+// Whether the two half-edges, which exist and have no face, can become neighbours at the vertex
+// between them. If another fan of faces lies between them, OpenMesh moves it into another gap of
+// the vertex, which must exist.
 bool can_be_joined(const Mesh& mesh, OpenMesh::HalfedgeHandle in, OpenMesh::HalfedgeHandle out) {
     if (mesh.next_halfedge_handle(in) == out) return true;
     OpenMesh::HalfedgeHandle gap = mesh.opposite_halfedge_handle(out);
@@ -20,7 +20,7 @@ bool can_be_joined(const Mesh& mesh, OpenMesh::HalfedgeHandle in, OpenMesh::Half
     return gap != in;
 }
 
-// The conditions of OpenMesh's add_face, asked beforehand, as it prints when it refuses.
+// The conditions of OpenMesh's add_face, tested beforehand, as it prints a message when it refuses.
 bool can_be_added(const Mesh& mesh, const Corners& corner) {
     if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) return false;
     std::array<OpenMesh::HalfedgeHandle, 3> side;

@@ -1,6 +1,6 @@
 //! \file
-//! Meshes from and to OpenMesh, for programs that use it. Needs the target remesh::openmesh; no
-//! other header brings OpenMesh in.
+//! Converts meshes from and to OpenMesh, for programs that use it. Needs the target
+//! remesh::openmesh; no other header includes OpenMesh.
 #pragma once
 
 #include <OpenMesh/Core/Mesh/DefaultTriMesh.hh>
@@ -18,7 +18,7 @@ namespace remesh {
 template <typename Mesh>
 concept OpenMeshTriangles = std::remove_cvref_t<Mesh>::is_trimesh();
 
-//! A mesh that came from OpenMesh, and where each of its elements was there.
+//! A mesh that came from OpenMesh, and the origin of each of its elements.
 struct FromOpenMesh {
     agvd::TriangleMesh mesh;
     std::vector<OpenMesh::VertexHandle> vertices;  //!< #V: the OpenMesh vertex of each.
@@ -70,9 +70,9 @@ struct ToOpenMesh {
     std::vector<agvd::FaceId> missing_faces;
 };
 
-//! Copies all vertices, and the faces that fit, in order. Nothing is torn: a face that OpenMesh
-//! would refuse, or attach to doubled vertices as its file readers do, is left out and reported.
-//! What remesh::remesh returns fits whole.
+//! Copies all vertices, and the faces that fit, in order. A face that OpenMesh would refuse, or
+//! attach to copied vertices as its file readers do, is left out and reported. All faces of a
+//! result of remesh::remesh fit, unless its sheets are welded.
 //! \throw agvd::InvalidInput  an index is out of range; the text names the face.
 //! Cost: O(n) for bounded valence.
 [[nodiscard]] ToOpenMesh to_openmesh(const agvd::MeshView& mesh);

@@ -1,6 +1,6 @@
 // PLY, ascii and both binaries: the coordinates of element "vertex", the corners of element "face";
-// every other property and element is passed over (format: Greg Turk, "The PLY Polygon File
-// Format", 1994).
+// every other property and element is skipped (format: Greg Turk, "The PLY Polygon File Format",
+// 1994).
 
 #include <algorithm>
 #include <array>

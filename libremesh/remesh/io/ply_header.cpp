@@ -1,3 +1,4 @@
+// Reads the header line by line and finds the first byte of the data.
 #include "remesh/io/ply_header.h"
 
 #include <algorithm>

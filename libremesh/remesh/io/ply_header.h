@@ -20,7 +20,7 @@ struct PlyProperty {
 
 struct PlyElement {
     std::string name;
-    std::uint64_t count = 0;  //!< As announced; not to be trusted before the bytes are there.
+    std::uint64_t count = 0;  //!< As announced; not reliable before the bytes are read.
     std::vector<PlyProperty> properties;
 
     //! The property of that name, or nullptr.

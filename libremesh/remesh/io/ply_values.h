@@ -12,7 +12,7 @@ namespace remesh {
     return element.name + " " + std::to_string(index) + " of " + std::to_string(element.count);
 }
 
-//! The values of an ascii file, one after the other. Offers the same as BinaryValues, so that
+//! The values of an ascii file, one after the other. Has the interface of BinaryValues, so that
 //! readers of elements are written once: begin an element, its values, end.
 class AsciiValues {
 public:

@@ -1,5 +1,5 @@
 //! \file
-//! What the readers fill: vertices and polygons, as the file has them. Private.
+//! Vertices and polygons as in the file, filled by the readers. Private.
 #pragma once
 
 #include <cstdint>
@@ -17,12 +17,12 @@ public:
         : ticker(file.ticker), file_(file), first_index_(first_index) {}
 
     std::vector<agvd::Vec3> positions;
-    agvd::Ticker ticker;  //!< For whoever adds positions; polygons tick it by themselves.
+    agvd::Ticker ticker;  //!< For code that adds positions; polygons tick it by themselves.
 
-    //! Makes room for what the file announces, as far as its size makes that believable.
+    //! Reserves memory for the announced counts, limited by what the file's size allows.
     void reserve(std::uint64_t vertices, std::uint64_t polygons);
 
-    //! Adds a corner, counted from 0, to the polygon in work.
+    //! Adds a corner, counted from 0, to the current polygon.
     //! \param offset  its place in the file.
     //! \throw agvd::InvalidInput  it is negative or beyond any index.
     void add_corner(std::int64_t vertex, std::size_t offset);

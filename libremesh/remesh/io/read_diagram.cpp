@@ -1,3 +1,5 @@
+// Reads the elements of write_diagram's PLY one after the other; each is checked against the
+// counts of the elements that it refers to.
 #include "remesh/io/read_diagram.h"
 
 #include <cmath>
@@ -22,7 +24,7 @@ public:
         for (const PlyElement& element : header.elements) {
             count_.try_emplace(element.name, element.count);
         }
-        count_["face"] = out.mesh.triangles.size();  // All other polygons are gone.
+        count_["face"] = out.mesh.triangles.size();  // Other polygons were dropped.
     }
 
     void read(const PlyHeader& header) {

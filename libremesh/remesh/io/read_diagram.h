@@ -14,8 +14,8 @@ struct DiagramFile {
     agvd::Diagram diagram;
 };
 
-//! Gives back what write_diagram got, bit for bit. Every index is in range; that the curves make a
-//! complex is not checked.
+//! Returns the data given to write_diagram, bit for bit. Every index is in range; whether the
+//! curves form a complex is not checked.
 //!
 //! \throw agvd::IoError       the file is missing, truncated or malformed, no PLY, or a PLY without
 //!                            a diagram; the text names the file, the place and the remedy.

@@ -14,8 +14,8 @@ namespace remesh {
 //! A text file with two vertices per line, counted from 0 as in the arrays of read_mesh's result;
 //! what follows # is a comment.
 //!
-//! \throw agvd::IoError  the file cannot be read, a line is not that, or there is none; the text
-//!        names the file, the line and the remedy.
+//! \throw agvd::IoError  the file cannot be read, a line has another form, or there is no edge; the
+//!        text names the file, the line and the remedy.
 //! Cost: O(file size).
 [[nodiscard]] std::vector<std::array<agvd::Index, 2>> read_edges(
     const std::filesystem::path& path, const agvd::Progress& progress = {});

@@ -13,9 +13,9 @@ namespace remesh {
 //! STOFF), stl (ascii, binary; welded at equal positions). Coordinates are kept in double. A quad
 //! is cut along the shorter of its inner diagonals, a larger polygon by clipping ears.
 //!
-//! \throw agvd::IoError       the file is missing, empty, unreadable, truncated, goes on behind
-//!        what its header announces (but for a few stray bytes, which are a warning) or malformed,
-//!        or the extension is unknown; the text names the file, the line (or byte) and the remedy.
+//! \throw agvd::IoError       the file is missing, empty, unreadable, truncated, malformed or
+//!        longer than its header announces (a few stray bytes are only a warning), or the extension
+//!        is unknown; the text names the file, the line (or byte) and the remedy.
 //! \throw agvd::InvalidInput  the file reads well but is no usable mesh: no face (a point cloud),
 //!        an index out of range, a coordinate that is not finite; the text names file and element.
 //! Cost: O(file size), and O(k^2) for each polygon of k corners. Memory follows the size of the

@@ -26,7 +26,7 @@ struct EvaluationInfo {
     std::string result_path = {};    //!< Likewise.
 };
 
-//! A diagram set against another one or the exact one.
+//! A diagram compared with another one or the exact one.
 struct Comparison {
     agvd::Index sites = 0;
     agvd::DiagramDifference difference = {};
@@ -59,7 +59,8 @@ struct ComparisonInfo {
 //! \param certified_error  as in agvd::Propagation.
 [[nodiscard]] std::string to_text(agvd::Engine engine, double certified_error);
 
-//! One line, e.g. "repaired: 3 welded vertices, 1 duplicate face"; or that nothing was to repair.
+//! One line, e.g. "repaired: 3 welded vertices, 1 duplicate face", or a statement that no repair
+//! was needed.
 [[nodiscard]] std::string to_text(const CleanCounts& counts);
 
 }  // namespace remesh

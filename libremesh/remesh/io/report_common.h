@@ -1,5 +1,5 @@
 //! \file
-//! What the reports as JSON and as text have in common.
+//! Parts shared by the reports as JSON and as text.
 #pragma once
 
 #include <array>

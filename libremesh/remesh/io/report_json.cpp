@@ -1,3 +1,5 @@
+// Builds JSON objects from results, with functions for their parts. Keys stay in the order in
+// which they are set.
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -90,7 +92,7 @@ Json to_json(const std::optional<SurfaceDistance>& measured) {
     return object;
 }
 
-// What the original does not have is null.
+// Features that the original does not have are null.
 Json to_json(const std::optional<FeatureCoverage>& measured) {
     const FeatureCoverage features = measured.value_or(FeatureCoverage{});
     const auto percent = [&](double share, bool is_there) {

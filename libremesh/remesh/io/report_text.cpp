@@ -1,3 +1,4 @@
+// Formats results as text, with functions for the parts of a report.
 #include <algorithm>
 #include <cmath>
 #include <iomanip>

@@ -1,3 +1,4 @@
+// Loads a whole file into memory. The line of an error is found only when the error is thrown.
 #include "remesh/io/source_file.h"
 
 #include <fcntl.h>
@@ -27,7 +28,7 @@ struct Descriptor {
     }
 };
 
-// Until there is something to read, or the end; a file is always ready.
+// Waits until there is something to read, or the end; a file is always ready.
 void wait_for_bytes(int fd, agvd::Poller& poller) {
     constexpr int between_polls = 20;  // Milliseconds.
     struct pollfd waiting {
@@ -93,8 +94,8 @@ SourceFile load_file(const std::filesystem::path& path, agvd::Poller& poller) {
     if (::fstat(in.fd, &status) != 0) fail_to_read(path, errno);
     if (S_ISDIR(status.st_mode)) fail_to_read(path, EISDIR);
 
-    // One byte more than the size, so that the end shows without a second growth; what cannot
-    // tell its size (a pipe) grows as it comes.
+    // One byte more than the size, so that the end is seen without a second growth. The size of a
+    // pipe is unknown: its buffer grows.
     file.bytes.resize(static_cast<std::size_t>(std::max<off_t>(status.st_size, 1 << 16)) + 1);
     std::size_t length = 0;
     while (true) {

@@ -18,14 +18,15 @@ struct SourceFile {
     bool is_lenient = false;   //!< See ReadOptions.
     agvd::Ticker ticker = {};  //!< Of the call that reads it; readers tick copies.
 
-    //! "mesh.off: line 12: ", counted here and not while reading, which costs good files nothing.
+    //! "mesh.off: line 12: ". Lines are counted here and not while reading, so that valid files
+    //! cost nothing.
     [[nodiscard]] std::string place(std::size_t offset) const;
     //! Throws agvd::IoError: the bytes are no file of this format.
     [[noreturn]] void fail_malformed(std::size_t offset, const std::string& text) const;
-    //! What is left behind the last element that the header announces: whole elements throw
+    //! Checks the bytes after the last element that the header announces: whole elements throw
     //! agvd::IoError unless is_lenient.
-    //! \return a warning of them, or of a few stray bytes; empty: there is nothing but blanks in a
-    //!        text.
+    //! \return a warning of them, or of a few stray bytes; empty if there are none (in a text: only
+    //!        blanks).
     //! \param num_more  whole elements for which there is room; in a text lines are counted
     //! instead.
     [[nodiscard]] std::string judge_rest(std::size_t offset, const char* kind,
@@ -36,7 +37,7 @@ struct SourceFile {
 };
 
 //! \throw agvd::IoError  cannot be read, or is empty; names the system's reason.
-//! \throw agvd::Cancelled  the poller said so, also while a pipe keeps it waiting.
+//! \throw agvd::Cancelled  the poller asked for it, also while waiting for a pipe.
 [[nodiscard]] SourceFile load_file(const std::filesystem::path& path, agvd::Poller& poller);
 
 //! The text in quotes, cut to a readable length, with unprintable bytes shown as '?'.

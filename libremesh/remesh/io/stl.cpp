@@ -1,5 +1,5 @@
-// STL, ascii and binary. It has no vertices of its own: corners at exactly equal places become one.
-// Normals and attributes are passed over (format: 3D Systems, StereoLithography Interface
+// STL, ascii and binary. The format has no shared vertices: corners at exactly equal positions
+// become one. Normals and attributes are skipped (format: 3D Systems, StereoLithography Interface
 // Specification, 1989).
 
 #include "agvd/core/error.h"
@@ -22,8 +22,8 @@ bool equals_keyword(std::string_view word, std::string_view keyword) {
                       [](char a, char b) { return a == b || (a | 0x20) == b; });
 }
 
-// Many binary files begin with "solid", so the size decides; where it does not fit, the file is
-// damaged, and a zero byte tells which of the two it was meant to be.
+// Many binary files begin with "solid", so the size decides. If it does not fit, the file is
+// damaged, and a zero byte marks it as binary.
 bool is_binary(const std::string& bytes) {
     if (bytes.size() >= header_size &&
         bytes.size() - header_size == record_size * load<std::uint32_t>(&bytes[80])) {

@@ -21,7 +21,7 @@ public:
         bool continues = false;  //!< A backslash at the end of a line joins it with the next one.
     };
 
-    //! The file must outlive the scanner. A byte order mark is passed over.
+    //! The file must outlive the scanner. A byte order mark is skipped.
     TextScanner(const SourceFile& file, std::size_t begin, Rules rules)
         : file_(file),
           begin_(file.bytes.data()),

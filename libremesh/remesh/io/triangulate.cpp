@@ -1,3 +1,6 @@
+// A quad is cut along the shorter of its inner diagonals. Larger polygons are projected into a
+// plane and lose one ear after the other (Meisters 1975); a kd-tree finds the reflex corners
+// inside an ear.
 #include "remesh/io/triangulate.h"
 
 #include <cmath>
@@ -44,7 +47,7 @@ void append_quad(std::span<const Index> q, std::span<const Vec3> positions,
     }
 }
 
-// The polygon seen along its normal's largest component, counter-clockwise; no digit is lost.
+// The polygon projected along its normal's largest component, counter-clockwise; no digit is lost.
 std::vector<Vec2> project(std::span<const Index> polygon, std::span<const Vec3> positions) {
     const Vec3 normal = normal_of(polygon, positions);
     Eigen::Index axis = 0;
@@ -63,7 +66,7 @@ double area(const Vec2& a, const Vec2& b, const Vec2& c) {
     return ab.x() * ac.y() - ab.y() * ac.x();
 }
 
-// What is left of a polygon: a cycle of corners in a linked list.
+// The rest of a polygon during ear clipping: a cycle of corners in a linked list.
 struct Ring {
     std::vector<Vec2> point;
     std::vector<std::size_t> previous, next;
@@ -82,9 +85,9 @@ struct Ring {
         return area(point[previous[i]], point[i], point[next[i]]);
     }
 
-    // The triangle at corner i turns left and holds no other corner. Corners at the same place as
-    // one of its own do not count: holes joined by a bridge repeat them. Only reflex corners need a
-    // look, as the first corner to enter the triangle would be one.
+    // The triangle at corner i turns left and holds no other corner. Corners at the position of one
+    // of its own do not count: holes joined by a bridge repeat them. Only reflex corners need a
+    // test, as the first corner to enter the triangle would be one.
     [[nodiscard]] bool is_ear(std::size_t i) const {
         if (!(turn(i) > 0)) return false;
         const Vec2 &a = point[previous[i]], &b = point[i], &c = point[next[i]];
@@ -131,8 +134,8 @@ void append_triangles(std::span<const Index> polygon, std::span<const Vec3> posi
         clip(corner);
         --left;
         failed = 0;
-        // Every other corner first: that halves the polygon round by round, where clipping at one
-        // place would fan out slivers from it.
+        // Clips every other corner first, which halves the polygon in each round; clipping at one
+        // place would make a fan of slivers.
         corner = ring.next[corner];
     }
     for (; left > 2; --left) clip(corner = ring.next[corner]);

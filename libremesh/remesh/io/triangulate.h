@@ -12,7 +12,7 @@ namespace remesh {
 //!
 //! A quad is cut along the shorter of the diagonals that lie inside; a larger polygon by clipping
 //! ears (Meisters 1975) in the projection along its normal. A polygon that has no ear left (it
-//! crosses itself, or has no area) is finished as a fan: there is no right answer.
+//! crosses itself, or has no area) is finished as a fan: no triangulation is correct.
 //!
 //! \param polygon    at least three indices into positions, which may repeat.
 //! Cost: O(k log k) for k corners, typically; O(1) for k <= 4.

@@ -1,3 +1,4 @@
+// Formats a diagram as VTK PolyData, OBJ lines or PLY.
 #include "remesh/io/write_diagram.h"
 
 #include <string>
@@ -16,7 +17,7 @@ using agvd::Index;
 using agvd::SiteId;
 using agvd::Surface;
 
-// In files, where an id can be missing, -1 says so.
+// In files -1 stands for a missing id.
 std::int32_t site_number(SiteId site) {
     return site.is_valid() ? static_cast<std::int32_t>(site.value()) : -1;
 }

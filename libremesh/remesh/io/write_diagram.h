@@ -9,7 +9,7 @@
 
 namespace remesh {
 
-//! Writes what the extension (any case) stands for, beside the target and renamed:
+//! Writes the format of the extension (any case), to a temporary file that is renamed:
 //! - vtp: VTK XML PolyData. Each Voronoi edge and each boundary arc of a cell is a polyline (a
 //!   closed curve repeats its first point); cell data `site_left`, `site_right` (-1: outside the
 //!   surface, which only a boundary arc has), point data `distance` from the two sites, in mesh
@@ -23,7 +23,7 @@ namespace remesh {
 //! \param sites  those that the diagram was built from.
 //! \throw agvd::IoError  the extension is unknown or the file cannot be written; says which and
 //!        why.
-//! \throw agvd::Cancelled  the progress callback returned false; an old file is as it was.
+//! \throw agvd::Cancelled  the progress callback returned false; an old file is unchanged.
 void write_diagram(const std::filesystem::path& path, const agvd::Surface& surface,
                    std::span<const agvd::SurfacePoint> sites, const agvd::Diagram& diagram,
                    const agvd::Progress& progress = {});

@@ -9,8 +9,8 @@
 
 namespace remesh {
 
-//! Writes beside the target and renames, so that a failed or interrupted run leaves an old file
-//! untouched (see write_file_atomically). Binary little-endian PLY with double coordinates, OBJ and
+//! Writes a temporary file and renames it, so that a failed or interrupted run does not change an
+//! old file (see write_file_atomically). Binary little-endian PLY with double coordinates, OBJ and
 //! OFF with the shortest decimals that read back as the same double, binary STL (float by the
 //! format's nature).
 //!
@@ -19,7 +19,7 @@ namespace remesh {
 //! \throw agvd::InvalidInput  read_mesh could not read it back: an index is out of range, a
 //!        coordinate is not finite (STL: beyond float).
 //! Cost: O(n) time; holds the whole file in memory.
-//! \throw agvd::Cancelled     the progress callback returned false; an old file is as it was.
+//! \throw agvd::Cancelled     the progress callback returned false; an old file is unchanged.
 void write_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
                 const agvd::Progress& progress = {});
 

@@ -1,3 +1,7 @@
+// Builds cells, dual, the exact vertex count, Delaunay flips and positions in rounds. If the mesh
+// of a round self-intersects more often than the input, sites are added there and another round
+// follows. The mesh with the fewest intersecting pairs of faces wins. Thinned components are
+// mended last.
 #include "remesh/pipeline/build_mesh.h"
 
 #include <algorithm>
@@ -19,9 +23,9 @@ using agvd::Vec3;
 
 // Sites of one round: the placed ones, and those that repair has added.
 struct RoundSites {
-    std::vector<SurfacePoint> on_surface;  // The cleaned one.
-    std::vector<SurfacePoint> on_base;     // The same sites.
-    std::vector<bool> is_wanted;           // Stays where vertices are taken away; may be shorter.
+    std::vector<SurfacePoint> on_surface;  // On the cleaned surface.
+    std::vector<SurfacePoint> on_base;     // The same sites on the base.
+    std::vector<bool> is_wanted;           // By site: its vertex is removed last; may be shorter.
 };
 
 enum class Fault { None, WrongCurves, TooManyVertices };
@@ -108,7 +112,7 @@ private:
         return dual;
     }
 
-    // Narrow parts between curves are thinned at once: sites added there would be of no use.
+    // Narrow patches between curves are thinned at once: adding sites does not help there.
     [[nodiscard]] RemeshOptions cell_options() const {
         RemeshOptions options = context_.options;
         if (!domain_.plan) return options;
@@ -117,7 +121,7 @@ private:
         return options;
     }
 
-    // Repair has moved and added sites on the base.
+    // Carries the sites that repair moved or added on the base back to the surface.
     void carry_sites_back() {
         std::vector<SurfacePoint>& sites = sites_.on_surface;
         sites.resize(first_on_base_.size());
@@ -153,8 +157,7 @@ private:
         return positions;
     }
 
-    // With VertexCount::Add only a thinned component has vertices to take away: it has more than
-    // it was to have sites.
+    // With VertexCount::Add only thinned components have surplus vertices: more than sites.
     Index reduce(ValidDual& dual) const {
         const bool adds = context_.options.vertex_count == VertexCount::Add;
         if (adds && context_.result.components_from_faces == 0) return 0;
@@ -215,8 +218,8 @@ private:
         return std::move(candidate.dual);
     }
 
-    // The caller's order of the sites, then vertices that repair has added; else those of curves
-    // come first.
+    // Sorts the vertices in the caller's order of the sites, vertices that repair added last.
+    // Before, the vertices of curves come first.
     void order_as_given(const ValidDual& dual, const GluedMesh& glued) {
         const std::vector<Index>& number = domain_.plan->given->number;
         std::vector<std::pair<Index, Index>> order;  // (number of the site, vertex)
@@ -244,8 +247,8 @@ private:
         thinned_ = find_thinned_parts(domain_, dual, std::move(placed), is_thinned_, is_corner_);
     }
 
-    // New sites where the cells of the faces' corners reach farthest; these cells' sites then
-    // stay. False if there is no such place.
+    // Adds a site at the farthest Voronoi vertex of the cell of each corner of these faces, and
+    // marks the sites of the cells as wanted. False if there is no such place.
     bool add_sites_at(const std::vector<std::pair<Index, Index>>& crossings,
                       const ValidDual& dual) {
         const std::vector<Index> farthest = farthest_corners(dual.diagram);
@@ -293,7 +296,7 @@ private:
     std::vector<bool> is_thinned_;  // By component.
     std::optional<Index> target_;   // Vertices of the dual.
     BuiltMesh best_;
-    std::optional<ThinnedParts> thinned_;  // Of the best one.
+    std::optional<ThinnedParts> thinned_;  // Of best_.
 };
 
 }  // namespace

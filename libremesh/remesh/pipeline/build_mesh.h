@@ -6,13 +6,13 @@
 
 namespace remesh::detail {
 
-//! Thrown where the topology of the input lets no further vertex go.
+//! Thrown if no further vertex can be removed without changing the topology.
 struct TooFewSamples {
     agvd::Index asked;
     agvd::Index reached;  //!< Vertices that are left.
 };
 
-//! Thrown where the curves of the network could not all be reproduced.
+//! Thrown if not all curves of the network could be reproduced.
 struct NetworkFailed {};
 
 struct BuiltMesh {
@@ -23,11 +23,11 @@ struct BuiltMesh {
     std::optional<agvd::Index> self_intersections;  //!< Pairs of faces; unset without CGAL.
 };
 
-//! Builds the mesh of the sites. Where it self-intersects more often than the input, it is built
-//! again with more sites there, and the best one counts. Thinned components are mended last.
+//! Builds the mesh of the sites. While it self-intersects more often than the input, builds it
+//! again with more sites there, and returns the best mesh. Mends thinned components last.
 //!
-//! \param domain      its layout is used up.
-//! \param most_mends  rounds of new sites where the mesh self-intersects.
+//! \param domain      its layout is consumed.
+//! \param most_mends  most rounds that add sites at self-intersections.
 //! \throw TooFewSamples, or NetworkFailed if there is a plan.
 //! Cost: a propagation and a diagram for each round of build_valid_dual.
 [[nodiscard]] BuiltMesh build_mesh(Domain& domain, PlacedSites sites, int most_mends,

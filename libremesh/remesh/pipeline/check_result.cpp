@@ -9,7 +9,8 @@ namespace {
 
 using agvd::Index;
 
-// More than two faces meet nowhere but along the junctions.
+// Welds the sheets. Checks that as many edges have more than two faces as the chain has along
+// junctions.
 void weld_junctions(const CurveNetwork& network, std::span<const ChainEdge> chain, BuiltMesh& built,
                     RemeshResult& result) {
     built.sites = take(built.sites, weld_sheets(built.first_of_group, built.mesh));

@@ -1,17 +1,16 @@
 //! \file
-//! Last stage: does the mesh keep what was promised?
+//! Last stage: checks what remesh() promises of the mesh.
 #pragma once
 
 #include "remesh/pipeline/build_mesh.h"
 
 namespace remesh::detail {
 
-//! Compares the topology of the mesh with the input's, although all stages before imply that they
-//! are the same, and the vertex count with the one asked for. With Junctions::Keep the sheets are
-//! welded in between.
+//! Checks that the mesh has the topology of the input, which the earlier stages imply, and the
+//! vertex count that was asked for. In between, Junctions::Keep welds the sheets.
 //!
-//! \throw NetworkFailed     with a plan: something differs.
-//! \throw std::logic_error  without a plan the topology differs, which is a bug.
+//! \throw NetworkFailed     there is a plan, and something differs.
+//! \throw std::logic_error  there is no plan, and the topology differs: a bug.
 //! Cost: O(n log n).
 void check_result(const CleanedInput& cleaned, const Domain& domain,
                   std::span<const ChainEdge> chain, BuiltMesh& built, const StageContext& context);

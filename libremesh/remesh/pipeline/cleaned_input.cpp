@@ -7,7 +7,7 @@
 namespace remesh::detail {
 namespace {
 
-// Sites, edges and labels are given in terms of the caller's mesh; later stages carry them over.
+// Sites, edges and labels refer to the caller's mesh; later stages carry them to the cleaned one.
 bool refers_to_input(const RemeshOptions& options) {
     return options.sites || !options.feature_edges.empty() || !options.face_labels.empty();
 }

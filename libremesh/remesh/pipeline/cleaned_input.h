@@ -1,5 +1,5 @@
 //! \file
-//! First stage: the caller's mesh becomes a surface.
+//! First stage: turns the caller's mesh into a surface.
 #pragma once
 
 #include "remesh/clean/clean_input.h"
@@ -10,21 +10,21 @@ namespace remesh::detail {
 //! The caller's mesh.
 struct InputMesh {
     agvd::MeshView view;
-    agvd::TriangleMesh* owned = nullptr;  //!< What `view` shows, if it may be emptied; else null.
+    //! The mesh of `view` if it may be emptied; otherwise null.
+    agvd::TriangleMesh* owned = nullptr;
 };
 
 //! The input after cleaning.
 struct CleanedInput {
-    agvd::MeshView given;        //!< The caller's mesh; empty if that was given away.
-    agvd::Surface surface = {};  //!< Of the cleaned mesh.
+    agvd::MeshView given;                         //!< The caller's mesh; empty if it was released.
+    agvd::Surface surface = {};                   //!< Of the cleaned mesh.
     std::vector<agvd::Index> vertex_origin = {};  //!< See CleanResult; empty: nothing was changed.
     std::vector<agvd::Index> face_origin = {};    //!< Likewise.
     Topology topology = {};                       //!< Of the surface.
 };
 
-//! Cleans the mesh and leaves out small components if the options ask for it. A mesh that may be
-//! given away is emptied as soon as nothing refers to it any more, so that large meshes are in
-//! memory once.
+//! Cleans the mesh, and drops small components if the options ask for it. Empties an owned mesh as
+//! soon as nothing refers to it, so that a large mesh is in memory only once.
 //!
 //! \throw as clean_input, drop_components and agvd::build_surface.
 //! Cost: that of clean_input.

@@ -8,14 +8,14 @@ namespace {
 
 using agvd::Index;
 
-// Rounds of putting vertices back onto the surface.
+// Most rounds that move vertices back onto the surface.
 constexpr int max_unfits = 4;
 
 CrossingFaces find_in(const agvd::MeshView& mesh, const RemeshOptions& options) {
     return find_self_intersections(mesh, options.num_threads, progress_of(Stage::Check, options));
 }
 
-// Copies of a vertex stay together.
+// Moves a vertex and all its copies back onto the surface.
 void unfit(Index v, const CurveSites& curves, PlacedDual& placed) {
     placed.mesh.offsets[v].setZero();
     if (!placed.patches) return;

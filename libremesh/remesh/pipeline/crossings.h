@@ -1,12 +1,12 @@
 //! \file
-//! Where the result self-intersects.
+//! Self-intersections of the result.
 #pragma once
 
 #include "remesh/pipeline/whole_mesh.h"
 
 namespace remesh::detail {
 
-//! Pairs of faces that intersect; nothing without CGAL.
+//! Pairs of faces that intersect; unset without CGAL.
 using CrossingFaces = std::optional<std::vector<std::pair<agvd::Index, agvd::Index>>>;
 
 //! Finds self-intersections, and counts those of the input as soon as a result has any.
@@ -28,8 +28,8 @@ private:
     bool has_counted_input_ = false;
 };
 
-//! Puts vertices back onto the surface where triangles intersect, a few rounds.
-//! \return what still intersects.
+//! Moves vertices of intersecting triangles back onto the surface, in a few rounds.
+//! \return the pairs that still intersect.
 CrossingFaces unfit_crossings(CrossingFinder& finder, const CurveSites& curves, PlacedDual& placed,
                               RemeshResult& result);
 

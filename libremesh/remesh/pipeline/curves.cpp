@@ -1,3 +1,5 @@
+// Finds creases and junctions, and plans the network of curves at the spacing of the sites. If the
+// caller gives sites, these decide which creases the network keeps.
 #include "remesh/pipeline/curves.h"
 
 #include <algorithm>
@@ -16,14 +18,14 @@ using agvd::Index;
 using agvd::Surface;
 using agvd::SurfacePoint;
 
-// Creases are looked for at the spacing of so many sites where there are fewer: small parts are to
-// keep theirs, and what the sites are too few for is told.
+// Creases are sought at the spacing of at least this many sites, so that small parts keep theirs.
+// The report tells for which creases the sites are too few.
 constexpr std::size_t least_scale = 300;
-// In spacings. Shorter ones are specks on a scan: cells would have to wind around them, and five of
-// them on nefertiti cost .013 of the mean quality.
+// In spacings. Shorter junctions are specks on a scan: cells would have to bend around them. Five
+// of them on nefertiti cost .013 of the mean quality.
 constexpr double least_junction = 2;
-// In spacings: given sites this near to a curve go onto it where they are relaxed. Vertices of an
-// earlier result, which were fitted, stand up to .05 off.
+// In spacings: given sites this near to a curve are put onto it if sites are relaxed. Fitted
+// vertices of an earlier result lie up to .05 off.
 constexpr double on_curve = 0.1;
 
 bool wants_creases(const RemeshOptions& options) {
@@ -147,7 +149,8 @@ std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const 
     }
     count_plan(plan->network, result);
     if (plan->network.network.curves.empty()) return nullptr;
-    // Indices do not tell of a cut along one edge alone: both sides have the same ends.
+    // Pass the twins: vertex indices do not show a cut along a single edge, whose two sides have
+    // the same ends.
     const Surface& cut = plan->network.cut.surface;
     plan->patches =
         analyze_topology(cut.mesh.view(), {cut.twin, cut.outgoing}, options.num_threads, done);

@@ -1,5 +1,5 @@
 //! \file
-//! The curves that the result reproduces besides the boundary: creases and junctions.
+//! The curves that the result reproduces in addition to the boundary: creases and junctions.
 #pragma once
 
 #include <memory>
@@ -17,34 +17,35 @@ struct FoundCurves {
     [[nodiscard]] bool empty() const { return is_crease.empty() && junctions.empty(); }
 };
 
-//! Which of them one attempt is to reproduce.
+//! Which of these curves one attempt reproduces.
 struct KeptCurves {
     bool has_junctions = true;
-    double drop_share = 0;  //!< In [0, 1], of the creases: see plan_network.
+    double drop_share = 0;  //!< Share of the creases, in [0, 1]: see plan_network.
 };
 
 //! The caller's own sites, sorted into those on curves and the others.
 struct GivenSites {
     CurveSites on_curves;
     std::vector<agvd::SurfacePoint> inner;  //!< On the cleaned surface.
-    std::vector<agvd::Index> number;  //!< Of the sites' copies, then of inner ones: the caller's.
+    //! The caller's number of each copy, then of each inner site.
+    std::vector<agvd::Index> number;
 };
 
 //! A network of curves and the surface cut along it.
 struct CurvePlan {
     NetworkPlan network;              //!< Has curves.
     Topology patches;                 //!< Of network.cut.surface.
-    std::optional<GivenSites> given;  //!< With the caller's sites only.
+    std::optional<GivenSites> given;  //!< Only with the caller's sites.
 
     [[nodiscard]] bool has_junctions() const { return !network.junctions.empty(); }
 };
 
-//! \param spacing  mesh units: of the sites.
-//! Cost: O(#E) for each length at which creases are looked for.
+//! \param spacing  of the sites, mesh units.
+//! Cost: O(#E) for each length at which creases are sought.
 [[nodiscard]] FoundCurves find_curves(const CleanedInput& cleaned, double spacing,
                                       const StageContext& context);
 
-//! \return null: no curve is to be reproduced but the boundary. Cost: see plan_network and
+//! \return null if the boundary is the only curve to reproduce. Cost: see plan_network and
 //! plan_given_network.
 [[nodiscard]] std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned,
                                                            const FoundCurves& found,

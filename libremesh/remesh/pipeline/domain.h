@@ -1,5 +1,5 @@
 //! \file
-//! What sites live on.
+//! The surface on which sites lie.
 #pragma once
 
 #include "remesh/pipeline/curves.h"
@@ -7,7 +7,7 @@
 
 namespace remesh::detail {
 
-//! The cleaned surface, cut along its curves, with what propagation runs on.
+//! The cleaned surface, cut along its curves, and the base on which propagation runs.
 struct Domain {
     std::unique_ptr<const CurvePlan> plan;    //!< Null: the surface is not cut.
     PreparedSurface prepared;                 //!< Of the surface, cut if there is a plan.
@@ -16,7 +16,7 @@ struct Domain {
     std::vector<agvd::Index> component = {};  //!< #F of the base: index into parts->components.
     double spacing = 0;                       //!< Mesh units: mean distance of the sites.
 
-    //! What propagation runs on.
+    //! The surface on which propagation runs.
     [[nodiscard]] const agvd::Surface& base() const { return prepared.base.surface(); }
     [[nodiscard]] bool has_junctions() const { return plan && plan->has_junctions(); }
 };
@@ -27,7 +27,7 @@ struct Domain {
 [[nodiscard]] Domain prepare_domain(CleanedInput& cleaned, std::unique_ptr<const CurvePlan> plan,
                                     double spacing, const StageContext& context);
 
-//! Ends a domain: `cleaned` has its surface again. Cost: O(#F) if it had moved.
+//! Ends a domain and gives `cleaned` its surface back. Cost: O(#F) if it had moved.
 void give_back(Domain domain, CleanedInput& cleaned, const StageContext& context);
 
 }  // namespace remesh::detail

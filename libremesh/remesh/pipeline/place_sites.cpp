@@ -1,3 +1,5 @@
+// Sites come from sampling or from the caller. On an uncut surface relaxation moves them anywhere
+// on the surface; with a plan, the sites of curves stay on their curves.
 #include "remesh/pipeline/place_sites.h"
 
 #include <algorithm>
@@ -15,7 +17,7 @@ namespace {
 using agvd::Index;
 using agvd::SurfacePoint;
 
-// Vertices of the boundary of an uncut surface.
+// Sharp corners of the boundary of an uncut surface.
 std::vector<Index> boundary_corners(const Domain& domain) {
     std::vector<Index> corners;
     for (const std::vector<Index>& loop : agvd::boundary_loops(*domain.whole)) {
@@ -26,7 +28,7 @@ std::vector<Index> boundary_corners(const Domain& domain) {
     return corners;
 }
 
-// Relaxation samples by itself then.
+// If so, sample_relaxed_sites samples too.
 bool is_coarse_to_fine(const RemeshOptions& options) {
     return !options.sites && options.init == Init::BlueNoise && options.relax_steps > 0;
 }
@@ -40,7 +42,8 @@ SamplingOptions sampling_of(const RemeshOptions& options, Index num_samples) {
             .progress = progress_of(Stage::Sample, options)};
 }
 
-// Sampling makes no fewer; vertices are taken away later, as far as the topology lets them go.
+// The fewest sites that sampling places. Surplus vertices are removed later, as far as the topology
+// allows.
 Index least_samples(const Topology& topology) {
     Index needed = 0;
     for (const ComponentTopology& c : topology.components) {
@@ -90,7 +93,7 @@ PlacedSites place_uncut(const CleanedInput& cleaned, const Domain& domain,
     return placed;
 }
 
-// Sites on curves slide along these.
+// Sites on curves slide along their curves.
 PlacedSites place_on_network(const Domain& domain, const StageContext& context) {
     const auto& [options, result] = context;
     const StageClock clock(Stage::Relax, result);

@@ -7,13 +7,14 @@
 namespace remesh::detail {
 
 struct PlacedSites {
-    //! On the cleaned surface, those of curves first: one copy for each side of the cut.
+    //! On the cleaned surface. Sites of curves come first, with a copy for each side of the cut.
     std::vector<agvd::SurfacePoint> sites;
-    CurveSites curves = {};                 //!< The first ones of the sites; empty without a plan.
+    CurveSites curves = {};                 //!< The first of `sites`; empty without a plan.
     std::vector<ChainEdge> chain = {};      //!< Edges along the curves that the dual must have.
     std::vector<agvd::Index> corners = {};  //!< Boundary vertices that need a site, ascending.
 
-    //! Sites of curves that become no vertex of their own: copies but for the first.
+    //! Copies of sites of curves, the first of each site excluded: they become no vertex of their
+    //! own.
     [[nodiscard]] agvd::Index num_other_copies(const Domain& domain) const;
 };
 

@@ -13,7 +13,7 @@ using agvd::Index;
 using agvd::no_index;
 using agvd::Vec3;
 
-// Of the spacing: lengths not above this are rounding.
+// As a share of the spacing: lengths up to this are rounding.
 constexpr double rounding = 1e-10;
 
 // #V of the base: the vertex of the dual in whose cell each lies; no_index: none.

@@ -41,7 +41,7 @@ void check_options(const RemeshOptions& options, std::size_t num_faces) {
     }
 }
 
-// Lengths of what was made from a mesh times 2^-exponent.
+// Scales the lengths of a result back: it was computed from the mesh times 2^-exponent.
 void scale_back(RemeshResult& result, int exponent) {
     result.mesh = agvd::scaled(result.mesh.view(), exponent);
     for (double* length : {&result.features.length, &result.features.dropped_length}) {

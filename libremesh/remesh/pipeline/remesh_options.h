@@ -1,5 +1,5 @@
 //! \file
-//! What remesh() can be asked for.
+//! The options of remesh().
 #pragma once
 
 #include <array>
@@ -33,48 +33,49 @@ enum class Features {
 //! Lower-case name of a choice: "auto", "angle" or "off".
 [[nodiscard]] const char* features_name(Features features);
 
-//! What becomes of the count where the topology asks for more sites.
+//! The number of vertices if the topology needs more sites.
 enum class VertexCount {
-    Exact,  //!< As many vertices as sites were asked for: others go where that harms nothing.
-    Add,    //!< The sites that repair adds stay.
+    Exact,  //!< As many vertices as sites were asked for: others are removed.
+    Add,    //!< Sites that repair adds become vertices as well.
 };
 
 //! All lengths in mesh units. `{}` gives a good result.
 struct RemeshOptions {
     agvd::Index num_samples = 2000;  //!< Sites to place, >= 1: one output vertex each.
     VertexCount vertex_count = VertexCount::Exact;
-    //! Keep: boundary vertices lie on the input's boundary. Free: near it; beside creases, which
-    //! stay where they are, only as far as the result lies nearer to it so.
+    //! Keep: boundary vertices lie on the input's boundary. Free: they lie near it; if creases are
+    //! kept, only `fit` moves vertices off the boundary.
     Boundary boundary = Boundary::Keep;
-    double drop_components = 0;  //!< In [0, 1]: components with a smaller share of the area go.
+    double drop_components = 0;  //!< In [0, 1]: smaller components (share of the area) are dropped.
     Init init = Init::BlueNoise;
-    //! Creases become chains of edges, and their corners vertices. Of given sites those on creases
-    //! become their vertices, and creases that have too few are dropped: see plan_given_network.
+    //! Creases become chains of edges, and their corners become vertices. Given sites on a crease
+    //! become its vertices; creases with too few of them are dropped: see plan_given_network.
     Features features = Features::Auto;
     double feature_angle = CreaseOptions{}.angle;  //!< Degrees, in (0, 180): see CreaseOptions.
-    //! Edges that are creases whatever their angle, as pairs of the caller's vertices; with
-    //! Features::Off no others are.
+    //! Edges that are creases whatever their angle, as pairs of the caller's vertices. With
+    //! Features::Off only these and the borders of face_labels are creases.
     std::vector<std::array<agvd::Index, 2>> feature_edges = {};
-    //! A label for each face of the caller's, or nothing: edges between different ones are creases
-    //! as feature_edges are.
+    //! A label for each of the caller's faces, or empty. Edges between different labels are creases
+    //! like feature_edges.
     std::vector<agvd::Index> face_labels = {};
-    //! Whether the sheets of the input's non-manifold edges are welded in the result. Their points
-    //! are the same in any case, but not with given sites, nor with Boundary::Free.
+    //! Whether the sheets of the input's non-manifold edges are welded in the result. Either way
+    //! the sheets have equal points there, except with given sites or Boundary::Free.
     Junctions junctions = Junctions::Apart;
     std::uint64_t seed = 1;  //!< Same seed, same bytes, any num_threads.
-    //! Sites to use instead of sampling, on the caller's mesh; num_samples, init and seed are then
-    //! ignored. Faces are the caller's.
+    //! Sites on the caller's mesh, instead of sampling; num_samples, init and seed are ignored.
+    //! Faces are the caller's.
     std::optional<std::vector<agvd::SurfacePoint>> sites = {};
     //! Steps of relaxation, >= 0 (0: the sites stay where they were sampled, as in the paper). With
-    //! blue noise they run coarse to fine, so many on each of two levels.
+    //! blue noise relaxation runs coarse to fine, with this many steps on each of two levels.
     int relax_steps = RelaxOptions{}.steps;
     bool keep_sites = false;  //!< Given sites are not relaxed.
-    //! Vertices may leave the surface so that the triangles lie nearer to it. Unset: if sites are
-    //! relaxed.
+    //! Whether vertices may leave the surface so that the triangles lie nearer to it. Unset: only
+    //! if sites are relaxed.
     std::optional<bool> fit = {};
-    //! How distances are found that cells come from. num_threads and progress are those below.
+    //! How distances are computed. Its num_threads and progress are ignored: those below count.
     agvd::PropagationOptions propagation = {};
-    int repair_rounds = 12;  //!< Rounds of adding sites, >= 0; then components are thinned.
+    //! Most rounds that add sites, >= 0; components that still fail are thinned.
+    int repair_rounds = 12;
     //! Which edges to flip: those that fail by geodesic or by straight lengths, or none.
     Delaunay delaunay = DelaunayOptions{}.mode;
     int num_threads = 0;  //!< >= 0; 0: all cores.

@@ -1,3 +1,5 @@
+// Runs the stages: cleaning once, then attempts with fewer and fewer curves until one gives a mesh
+// without self-intersections that the input does not have. The best attempt counts.
 #include "remesh/pipeline/run.h"
 
 #include <algorithm>
@@ -12,7 +14,7 @@ namespace {
 
 using agvd::Index;
 
-// Rounds of new sites where the result self-intersects.
+// Most rounds that add sites at self-intersections.
 constexpr int max_mends = 4;
 
 double spacing_of(const CleanedInput& cleaned, const RemeshOptions& options) {
@@ -21,7 +23,7 @@ double spacing_of(const CleanedInput& cleaned, const RemeshOptions& options) {
 }
 
 // All stages after cleaning, in their order: cleaned surface, curves, domain, sites, mesh.
-// \throw TooFewSamples, NetworkFailed  `cleaned` is as it was.
+// \throw TooFewSamples, NetworkFailed `cleaned` is unchanged.
 void run_attempt(CleanedInput& cleaned, const FoundCurves& found, const KeptCurves& kept,
                  int most_mends, const StageContext& context) {
     const double spacing = spacing_of(cleaned, context.options);
@@ -48,8 +50,8 @@ Index num_new_crossings(const RemeshResult& result) {
     return pairs - std::min(pairs, result.input_self_intersections);
 }
 
-// Attempts with fewer creases where no mesh with all of them was found, or only one that
-// self-intersects; without any at last. Only where there is none either, without junctions.
+// Tries all creases, then fewer and fewer, at last none, until a mesh has no new
+// self-intersections. If none of these gives a mesh, tries the same without junctions.
 RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cleaning,
                              const RemeshOptions& options) {
     RemeshResult first = after_cleaning;
@@ -81,7 +83,7 @@ RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cl
     return *std::move(best);
 }
 
-// A number of samples that works, for the text of an error: one that was tried.
+// For the text of an error: a number of samples that was tried and works.
 std::string describe_enough(CleanedInput& cleaned, const RemeshResult& after_cleaning,
                             const RemeshOptions& options, Index reached) {
     constexpr int max_tries = 6;

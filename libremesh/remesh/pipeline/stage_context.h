@@ -1,5 +1,5 @@
 //! \file
-//! What every stage gets besides its data, and where the time of a run goes. Private to the
+//! What every stage gets in addition to its data, and the clock of the stages. Private to the
 //! pipeline.
 #pragma once
 
@@ -13,10 +13,10 @@ namespace remesh::detail {
 //! Refers to values that the caller of the stage owns.
 struct StageContext {
     const RemeshOptions& options;  //!< Checked.
-    RemeshResult& result;  //!< The stage adds its counts and times; nothing reads them back.
+    RemeshResult& result;          //!< The stage adds its counts and times.
 };
 
-//! Adds the time until it ends to a stage of the result.
+//! Adds the time from construction to destruction to a stage of the result.
 class StageClock {
 public:
     StageClock(Stage stage, RemeshResult& result)
@@ -36,12 +36,12 @@ private:
     std::chrono::steady_clock::time_point start_;
 };
 
-//! Whether sites move, and vertices after them.
+//! Whether relaxation moves the sites; only then are vertices placed by default.
 [[nodiscard]] inline bool is_relaxed(const RemeshOptions& options) {
     return options.relax_steps > 0 && !(options.sites && options.keep_sites);
 }
 
-//! The caller's callback as one of a single stage; empty if there is none.
+//! The caller's callback, bound to one stage; empty if there is none.
 [[nodiscard]] inline agvd::Progress progress_of(Stage stage, const RemeshOptions& options) {
     if (!options.progress) return {};
     return [&options, stage](double fraction) { return options.progress(stage, fraction); };

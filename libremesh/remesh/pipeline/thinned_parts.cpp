@@ -10,10 +10,10 @@ namespace {
 
 using agvd::Index;
 
-// Rounds of mending; in the second fewer vertices may move.
+// Most rounds of mending; in the second fewer vertices may move.
 constexpr int max_rounds = 2;
 
-// \param numbers  of the mended mesh's vertices before mending.
+// \param numbers  #V of the mended mesh: the numbers before mending.
 void fix_corners(const std::vector<std::pair<Index, Index>>& faces, const PlacedMesh& mended,
                  const std::vector<Index>& numbers, std::vector<Mobility>& mobility) {
     for (const auto& [f, g] : faces) {

@@ -1,5 +1,5 @@
 //! \file
-//! Components whose cells gave no manifold, and better triangles for them.
+//! Better triangles for thinned components.
 #pragma once
 
 #include "remesh/pipeline/crossings.h"
@@ -7,7 +7,7 @@
 
 namespace remesh::detail {
 
-//! What mending has to know of a mesh some components of which were thinned.
+//! A mesh with thinned components, as mending needs it.
 struct ThinnedParts {
     PlacedMesh mesh;                 //!< The whole mesh.
     std::vector<Mobility> mobility;  //!< #V: vertices of other components are fixed.
@@ -25,11 +25,11 @@ struct MendedMesh {
     std::optional<agvd::Index> self_intersections;  //!< Pairs of faces; unset without CGAL.
 };
 
-//! Mends the triangles of thinned components (mend_shape). Where better ones would intersect,
-//! their corners stay and it is tried again.
+//! Mends the triangles of thinned components (mend_shape). If mended triangles intersect, fixes
+//! their corners and tries again.
 //!
 //! \param most_crossings  self-intersecting pairs that the mesh may have; unset: not known.
-//! \return nothing where no mended mesh is better.
+//! \return nothing if no mended mesh is better.
 //! Cost: that of mend_shape, twice at most.
 [[nodiscard]] std::optional<MendedMesh> mend_thinned(const Domain& domain, ThinnedParts parts,
                                                      std::optional<agvd::Index> most_crossings,

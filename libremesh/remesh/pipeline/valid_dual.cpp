@@ -1,3 +1,6 @@
+// Each round propagates, builds the diagram, finds cells that break the closed-ball property
+// ([edelsbrunner1997]) or miss the boundary, and moves or adds sites there. A component whose
+// faults do not decrease is given up and thinned to its first sites ([liu2023]).
 #include "remesh/pipeline/valid_dual.h"
 
 #include <algorithm>
@@ -27,14 +30,15 @@ using agvd::SurfacePoint;
 using agvd::Triangle;
 using agvd::Vec3;
 
-// Rounds without fewer violations than ever before: adding sites does not help here.
+// A component is given up after so many rounds in a row without a new minimum of its faults.
 constexpr int max_stalled_rounds = 3;
-// So many cells that meet the boundary twice, by the first diagram: strips far narrower than the
-// spacing. Twelve rounds leave some there, at ten times the cost of thinning (lips of .26 and .52
-// spacings: 154 and 146; of .79: 28, and 5 rounds mend all).
+// A component is given up at once if more cells than this meet the boundary twice in its first
+// diagram: it has strips far narrower than the spacing. Twelve rounds leave some such cells, at ten
+// times the cost of thinning (lips of .26 and .52 spacings: 154 and 146 cells; of .79: 28, and 5
+// rounds mend all).
 constexpr std::size_t most_in_strips = 64;
-// Sites may grow to this many times the first ones, and what topology may need of a few, before a
-// component is thinned to its sites.
+// Components with faults are given up once there are max_growth times the first sites and
+// always_allowed more, which the topology may need where sites are few.
 constexpr std::size_t max_growth = 2;
 constexpr std::size_t always_allowed = 300;
 
@@ -65,7 +69,7 @@ public:
     }
 
 private:
-    // Of a component.
+    // The state of one component.
     struct Progress {
         std::size_t faults = 0;
         std::size_t in_strips = 0;
@@ -95,7 +99,8 @@ private:
         }
     }
 
-    // Components fail whose faults too many rounds have not lowered, and at the end all with any.
+    // Marks components as failed whose faults have not decreased for too many rounds, and after the
+    // last round all components with faults.
     void count_faults(const BoundaryFixes& fixes,
                       const std::vector<ClosedBallViolation>& violations) {
         for (Progress& p : progress_) p.faults = p.in_strips = 0;
@@ -123,7 +128,7 @@ private:
         }
     }
 
-    // What is thinned needs no mending.
+    // Removes the fixes and violations of failed components: these are thinned.
     void leave_failed_components(BoundaryFixes& fixes,
                                  std::vector<ClosedBallViolation>& violations) const {
         const auto has_failed = [&](const SurfacePoint& place) {
@@ -145,7 +150,7 @@ private:
     }
 
     void build_diagram() {
-        dual_.diagram = {};  // Before there is another.
+        dual_.diagram = {};  // Frees it before the next one is built.
         agvd::Propagation propagation;
         {
             const StageClock clock(Stage::Propagate, result_);
@@ -182,8 +187,8 @@ private:
         return missing;
     }
 
-    // Sampled sites that own nothing, as far as the count needs them, go where large cells reach
-    // farthest. Given ones are dropped by the dual.
+    // Moves sampled sites that own nothing, as many as the count needs, to the farthest Voronoi
+    // vertices of the largest cells. The dual drops given sites that own nothing.
     void move_empty_sites(BoundaryFixes& fixes) const {
         if (options_.sites) return;
         const std::vector<double>& area = dual_.diagram.cell_area;
@@ -200,7 +205,8 @@ private:
         }
     }
 
-    // Moves, and new sites for each violation whose cells no other change of this round concerns.
+    // Moves sites, and adds the sites of each violation whose cells no other change of this round
+    // concerns.
     void apply(const BoundaryFixes& fixes, const std::vector<ClosedBallViolation>& violations) {
         std::vector<bool> is_concerned(sites_.size(), false);
         for (const auto& [site, place] : fixes.moved) {
@@ -235,8 +241,8 @@ private:
         ++result_.added_because[reason];
     }
 
-    // In components where nothing has helped, sites go back to where they were, those added are
-    // dropped, and the boundary's corners get theirs. False if that changes nothing.
+    // In components that were given up: moves sites back, drops added sites, and gives the corners
+    // of the boundary a site. False if that changes nothing.
     bool reset_given_up() {
         const auto gave_up = [&](const SurfacePoint& site) {
             return progress_[component_of(site)].gave_up;
@@ -334,7 +340,8 @@ private:
         }
     }
 
-    // The closed-ball property implies it, but for polygons of the dual that leave no diagonal.
+    // The closed-ball property implies this, except for polygons of the dual without a valid
+    // diagonal.
     [[nodiscard]] bool has_right_topology(std::span<const Triangle> triangles,
                                           const ComponentTopology& wanted) const {
         std::vector<Index> used;
@@ -356,7 +363,7 @@ private:
                topology.components[0].same_type(wanted);
     }
 
-    // The component itself, thinned to its sites, and to what it needs besides.
+    // Appends the component, thinned to its sites and the extra vertices that must stay.
     void append_thinned(Index component) {
         std::vector<Index> faces;
         for (Index f = 0; f < surface_.num_faces(); ++f) {
@@ -384,12 +391,12 @@ private:
     std::vector<SurfacePoint>& sites_;
     const RemeshOptions& options_;
     RemeshResult& result_;
-    const std::vector<SurfacePoint> given_;  // Sites at first.
+    const std::vector<SurfacePoint> given_;  // The sites before repair.
     const std::size_t most_sites_;
-    std::vector<SiteReason> reasons_;  // Of the sites added since.
+    std::vector<SiteReason> reasons_;  // Of the added sites.
     std::vector<Progress> progress_;   // By component.
     std::vector<bool>& has_failed_;    // By component.
-    std::size_t first_new_ = 0;        // Of this round.
+    std::size_t first_new_ = 0;        // The first site added in this round.
     ValidDual dual_;
 };
 

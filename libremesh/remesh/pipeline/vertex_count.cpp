@@ -10,7 +10,7 @@ namespace {
 using agvd::Index;
 using agvd::no_index;
 
-// The vertices left get the next numbers.
+// Removes these vertices and renumbers the others in their order.
 void compact(std::span<const Index> gone, ValidDual& dual) {
     std::vector<Index> number(dual.mesh.points.size(), 0);
     for (const Index v : gone) number[v] = no_index;

@@ -1,5 +1,5 @@
 //! \file
-//! As many vertices as were asked for.
+//! The number of vertices of the dual, and how it is reached.
 #pragma once
 
 #include "remesh/pipeline/place_sites.h"
@@ -7,17 +7,18 @@
 
 namespace remesh::detail {
 
-//! How many vertices the dual is to have, copies on curves included: as many as were asked for, or
-//! as there are given sites that own a part of the surface. Counts the other given sites.
-//! \param diagram  the first one.
+//! The number of vertices that the dual is to have, copies on curves included: as many as were
+//! asked for, or one for each given site that owns a part of the surface. Counts the other given
+//! sites.
+//! \param diagram  of the first round.
 [[nodiscard]] agvd::Index target_count(const Domain& domain, const PlacedSites& placed,
                                        const agvd::Diagram& diagram, const StageContext& context);
 
-//! Takes vertices away until `target` are left or the topology lets none go.
+//! Removes vertices until `target` are left or the topology allows no further removal.
 //!
 //! \param positions  #V of the dual.
-//! \param keep       #V of the dual: 1 for vertices that go last.
-//! \return how many went. Cost: that of reduce_vertices.
+//! \param keep       #V of the dual: 1 for vertices that are removed last.
+//! \return how many were removed. Cost: that of reduce_vertices.
 agvd::Index reduce_to(agvd::Index target, std::span<const agvd::Vec3> positions,
                       std::span<const std::uint8_t> keep, ValidDual& dual,
                       const StageContext& context);

@@ -9,7 +9,7 @@ namespace {
 
 using agvd::Index;
 
-// The numbers of the copies on the curves, and later ones for the other vertices of the dual.
+// The numbers of the copies on curves; the other vertices of the dual get numbers from `next` on.
 std::vector<Index> numbers_of(const ValidDual& dual, std::span<const Index> of_copies, Index next) {
     std::vector<Index> numbers;
     numbers.reserve(dual.site.size());

@@ -9,16 +9,16 @@
 
 namespace remesh::detail {
 
-//! How the patches of a dual hang together.
+//! How the patches of a dual are joined.
 struct JoinedPatches {
     std::vector<agvd::Index> group;  //!< #V of the dual: equal for the copies of one vertex.
     GluedMesh glued;
 };
 
-//! The vertices of a dual in space.
+//! A dual with positions in space.
 struct PlacedDual {
-    PlacedMesh mesh;                       //!< On curves with a copy for each patch.
-    std::optional<JoinedPatches> patches;  //!< With a plan.
+    PlacedMesh mesh;                       //!< Vertices on curves have a copy for each patch.
+    std::optional<JoinedPatches> patches;  //!< Only with a plan.
 };
 
 //! Whether each curve is the same chain of edges in all patches on its sides. Cost: O(n log n).
@@ -36,16 +36,16 @@ template <typename T>
     return result;
 }
 
-//! Where the vertices are.
+//! The positions of the vertices.
 //! \param whole  the cleaned surface.
 [[nodiscard]] std::vector<agvd::Vec3> positions_of(const agvd::Surface& whole,
                                                    const PlacedMesh& mesh);
 
-//! The result: copies of a vertex are one, sheets meet in the same points.
+//! The result: copies of a vertex are joined, and sheets have equal points where they meet.
 [[nodiscard]] agvd::TriangleMesh whole_mesh(const agvd::Surface& whole, const PlacedDual& placed);
 
-//! The same, for finding self-intersections: sheets have the same vertices where they meet. Some
-//! vertices may be in no triangle.
+//! The same to search for self-intersections: sheets share vertices where they meet. Some vertices
+//! may be in no triangle.
 [[nodiscard]] agvd::TriangleMesh welded_mesh(const Domain& domain, const PlacedDual& placed);
 
 }  // namespace remesh::detail

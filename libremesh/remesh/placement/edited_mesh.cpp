@@ -1,3 +1,7 @@
+// Each edit first checks that the topology stays (for a collapse by the link condition,
+// [dey1999]), that normals and dihedral angles change little, and that hard edges stay near the
+// boundary of the surface. Faces, places and fans go to a journal before they change, so that
+// edits can be undone in reverse order.
 #include "remesh/placement/edited_mesh.h"
 
 #include <algorithm>
@@ -15,16 +19,16 @@ using agvd::Vec3;
 
 namespace {
 
-// Cosine of what a normal may turn by, and of the fold that any step may leave.
+// Cosine of the largest turn of a normal, and of the angle up to which every edge may be sharp.
 constexpr double gentle_turn = 0.5;
-// Of an edge: a vertex between its ends lies no farther from the middle, or it is elsewhere on the
+// Share of the edge's length: a new vertex farther from the middle lies on another part of the
 // surface.
 constexpr double largest_miss = 0.35;
-// What the boundary that a hard edge stands for may lie off it, if it did not before: of its
-// length, and of the mean length of all edges. With the first alone edges reach around the tips of
-// slots.
+// Largest distance between a hard edge and the boundary that it stands for, unless it was larger
+// before: as a share of the edge's length, and of the mean edge length. With the first alone edges
+// reach around the tips of slots.
 constexpr double largest_bend = 0.25, most_bend = 0.15;
-// Edges of the boundary beside one hard edge that are looked at.
+// Most boundary edges of the surface that are compared with one hard edge.
 constexpr int most_passed = 10000;
 
 bool is_gentle(const Vec3& before, const Vec3& after) {
@@ -130,7 +134,7 @@ bool EditedMesh::are_joined(Index a, Index b) const {
     return std::any_of(fans_[a].begin(), fans_[a].end(), [&](Index f) { return has_corner(f, b); });
 }
 
-// Whether a flip would make an edge sharper than is gentle and than any here was before.
+// Whether a flip would make an edge sharper than gentle_turn and than all edges of the quad were.
 bool EditedMesh::folds(const std::array<Index, 4>& quad, Half first, Half second) const {
     const auto [a, b, c, d] = quad;
     const auto unit = [&](const Triangle& t) -> Vec3 { return normal_of(t).normalized(); };
@@ -181,7 +185,7 @@ bool EditedMesh::flip(Index face, Index k) {
     return true;
 }
 
-// A point of the surface near the middle; false where the surface between leads elsewhere.
+// Finds a point of the surface near the middle. False if walks from both ends miss it.
 bool EditedMesh::place_between(Index a, Index b, bool is_hard, Place& place) const {
     place.mobility = is_hard ? Mobility::Boundary : Mobility::Free;
     place.offset = (places_[a].offset + places_[b].offset) / 2;
@@ -261,7 +265,7 @@ std::array<Index, 2> EditedMesh::hard_neighbours(Index v) const {
     return found;
 }
 
-// How far the surface's boundary between two vertices lies off the edge.
+// The largest distance of the surface's boundary between two vertices from the edge.
 double EditedMesh::bend(Index from, Index to) const {
     const std::optional<Index> first = boundary_half_edge(surface_, places_[from].point),
                                last = boundary_half_edge(surface_, places_[to].point);
@@ -297,7 +301,7 @@ bool EditedMesh::may_collapse(Index gone, Index into) const {
     std::array<Index, 2> apex{no_index, no_index};
     std::size_t num_apexes = 0;
     bool is_along = false;
-    Index hard_neighbour = no_index;  // The other one.
+    Index hard_neighbour = no_index;  // The one that is not `into`.
     std::vector<Index> ring;
     for (const Index f : fans_[gone]) {
         const Triangle& t = faces_[f].corner;
@@ -354,7 +358,7 @@ bool EditedMesh::may_collapse(Index gone, Index into) const {
 bool EditedMesh::collapse(Index gone, Index into) {
     if (!may_collapse(gone, into)) return false;
     const std::vector<Index> fan = fans_[gone];
-    // Two sides of a face that goes become one edge: hard if that at `into` is.
+    // Two sides of a removed face become one edge: hard if the side at `into` is.
     std::vector<DirectedEdge> hard;
     for (const Index f : fan) {
         if (!has_corner(f, into)) continue;
@@ -384,7 +388,7 @@ bool EditedMesh::collapse(Index gone, Index into) {
         }
     }
     for (const auto& [from, to] : hard) {
-        // The face across has it in the same direction: the one that went lay between.
+        // The face beyond the removed one now has this edge, in the same direction.
         const std::optional<Half> side = half_edge(from, to);
         if (!side) continue;
         const Face& face = faces_[side->face];

@@ -1,5 +1,5 @@
 //! \file
-//! A mesh on a surface whose edges are flipped, split and collapsed, and steps taken back.
+//! A mesh on a surface, edited by flips, splits, collapses and moves that can be undone.
 #pragma once
 
 #include <array>
@@ -16,9 +16,9 @@ namespace remesh::detail {
 //! Where a vertex may go: along the surface, along its boundary, or nowhere.
 enum class Mobility : std::uint8_t { Free, Boundary, Fixed };
 
-//! Every step leaves a manifold of the same topology, hard edges stay chains of hard edges, and no
-//! normal turns by more than 60 degrees, nor does an edge become sharper than that and than those
-//! around were. Steps that would do otherwise change nothing.
+//! Every edit keeps the topology, and chains of hard edges stay chains of hard edges. No normal
+//! turns by more than 60 degrees, and no edge becomes sharper than both 60 degrees and the edges
+//! around it were. Edits that would break these rules change nothing.
 class EditedMesh {
 public:
     struct Face {
@@ -26,18 +26,18 @@ public:
         //! Bit k: the edge from corner k to the next one is hard.
         std::uint8_t hard = 0;
         bool is_there = false;
-        double quality = 0;  //!< shape_quality(); less by 1 where it faces against the surface.
+        double quality = 0;  //!< shape_quality(); 1 less if the face points against the surface.
     };
-    //! Where steps can be taken back to.
+    //! A state to which edits can be undone.
     struct Mark {
-        std::size_t faces = 0, places = 0, fans = 0;  // Of the journals.
+        std::size_t faces = 0, places = 0, fans = 0;  // Sizes of the journals.
         agvd::Index num_faces = 0, num_vertices = 0;
     };
 
     //! \param surface   outlives this.
     //! \param mobility  #V. Vertices on hard edges are not Free.
-    //! \param hard      edges that are no longer flipped, in one direction or both; those with one
-    //!                  face alone must be among them.
+    //! \param hard      edges that are never flipped, in one direction or both; must include all
+    //!                  edges of a single face.
     EditedMesh(const agvd::Surface& surface, const PlacedMesh& mesh,
                std::span<const Mobility> mobility, std::span<const DirectedEdge> hard);
 
@@ -46,33 +46,34 @@ public:
         return static_cast<agvd::Index>(places_.size());
     }
     [[nodiscard]] const Face& face(agvd::Index f) const { return faces_[f]; }
-    //! In no order; none: the vertex is gone.
+    //! In no order; empty: the vertex was removed.
     [[nodiscard]] std::span<const agvd::Index> faces_at(agvd::Index v) const { return fans_[v]; }
     [[nodiscard]] const agvd::Vec3& at(agvd::Index v) const { return places_[v].at; }
     [[nodiscard]] Mobility mobility(agvd::Index v) const { return places_[v].mobility; }
     [[nodiscard]] double worst_at(agvd::Index v) const;
-    //! Before and after a vertex along its hard edges; no_index where there is none.
+    //! The neighbours before and after a vertex along its hard edges; no_index: none.
     [[nodiscard]] std::array<agvd::Index, 2> hard_neighbours(agvd::Index v) const;
 
-    //! The edge from corner k of the face to the next.
+    //! Flips the edge from corner k of the face to the next.
     bool flip(agvd::Index face, agvd::Index k);
     //! \return the new vertex, near the middle of that edge; no_index if it cannot be split.
     agvd::Index split(agvd::Index face, agvd::Index k);
-    //! The edge between two vertices: `gone` goes, `into` stays where it is.
+    //! Collapses the edge between two vertices: removes `gone`; `into` stays in place.
     bool collapse(agvd::Index gone, agvd::Index into);
-    //! Takes a step along the surface if the worst face around gets better by more than `gain`.
+    //! Moves a vertex along the surface if the worst face around it gets better by more than
+    //! `gain`.
     bool move(agvd::Index v, const agvd::Vec3& step, double gain);
 
     [[nodiscard]] Mark mark() const;
     void take_back(const Mark& mark);
-    //! Faces that were changed since, each once.
-    //! \param[out] now     those that are there.
-    //! \param[out] before  quality of those that were there, as it was.
+    //! Faces changed since the mark, each once.
+    //! \param[out] now     the changed faces that exist now.
+    //! \param[out] before  the old qualities of those that existed at the mark.
     void changed_since(const Mark& mark, std::vector<agvd::Index>& now,
                        std::vector<double>& before) const;
 
-    //! Without what is gone.
-    //! \param[out] numbers  those of the vertices here.
+    //! The mesh without removed faces and vertices.
+    //! \param[out] numbers  by vertex of the result: its number here.
     [[nodiscard]] PlacedMesh result(std::vector<agvd::Index>& numbers) const;
 
 private:
@@ -106,7 +107,7 @@ private:
     [[nodiscard]] bool keeps_bend(agvd::Index from, agvd::Index to, double most_before) const;
 
     const agvd::Surface& surface_;
-    double mean_length_ = 0;  // Of the edges at first.
+    double mean_length_ = 0;  // Of the initial edges.
     std::vector<Face> faces_;
     std::vector<Place> places_;                   // By vertex.
     std::vector<std::vector<agvd::Index>> fans_;  // By vertex: its faces.

@@ -8,12 +8,13 @@ namespace {
 using agvd::Index;
 using agvd::Vec3;
 
-// Sweeps of Gauss and Seidel: each leaves a quarter of the error at most.
+// Gauss-Seidel sweeps: each leaves a quarter of the error at most.
 constexpr int num_sweeps = 30;
-// Longest way, as a share of that to the neighbour.
+// Longest offset, as a share of the distance along the curve to the nearer neighbour.
 constexpr double longest_way = 0.25;
 
-// Where a chain's vertices are on their curve: with both ends, or once around and the first again.
+// A chain's vertices on their curve: with both ends, or, if it is closed, with the first one
+// repeated at the end.
 struct Chain {
     std::vector<double> along;
     std::vector<Vec3> at;
@@ -32,8 +33,9 @@ Chain chain_of(const agvd::Surface& surface, const Curve& curve, const CurveSite
     return chain;
 }
 
-// What the curve between two vertices of the chain says of each: the integral of its way from the
-// chain, weighted by how near the vertex is. Zero where the curve is straight.
+// What the curve between two vertices of the chain adds to the right side of each: the integral of
+// the vector from the chain to the curve, weighted by the vertex's linear hat function. Zero if the
+// curve is straight.
 std::array<Vec3, 2> pulls(const agvd::Surface& surface, const Curve& curve, const Chain& chain,
                           std::size_t i) {
     const double begin = chain.along[i], end = chain.along[i + 1];
@@ -70,7 +72,7 @@ std::array<Vec3, 2> pulls(const agvd::Surface& surface, const Curve& curve, cons
 void fit(const agvd::Surface& surface, const Curve& curve, const Chain& chain,
          std::span<Vec3> offsets) {
     const std::size_t num_intervals = chain.along.size() - 1;
-    const std::size_t shift = curve.is_closed() ? 0 : 1;  // Of vertices to be moved.
+    const std::size_t shift = curve.is_closed() ? 0 : 1;  // The first vertex that moves.
     std::vector<Vec3> right(chain.along.size(), Vec3::Zero());
     for (std::size_t i = 0; i < num_intervals; ++i) {
         const std::array<Vec3, 2> pull = pulls(surface, curve, chain, i);

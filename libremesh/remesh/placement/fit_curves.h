@@ -1,5 +1,5 @@
 //! \file
-//! Puts the vertices of curves where the chain between them lies nearest to the curve.
+//! Moves the vertices of curves so that the chain between them lies nearest to the curve.
 #pragma once
 
 #include "remesh/features/curve_sites.h"
@@ -7,12 +7,11 @@
 
 namespace remesh {
 
-//! Least squares along each crease: of the distance between the points of the curve and those of
-//! the chain that lie as far along. Nodes stay, and junctions and kept boundaries, whose vertices
-//! are to lie on them.
+//! Least squares along each crease of the distances between points of the curve and of the chain at
+//! the same arc length. Nodes stay, and so do the vertices of junctions and kept boundaries.
 //!
 //! \param surface  that of the network, whole or cut.
-//! \return #groups: from the site to where its vertex fits best.
+//! \return #groups: from each site to the best position of its vertex.
 //! Cost: O(vertices of the curves + groups).
 [[nodiscard]] std::vector<agvd::Vec3> fit_curves(const agvd::Surface& surface,
                                                  const CurveNetwork& network,

@@ -1,3 +1,11 @@
+// Each round solves linear least squares for the moves x of the vertices, with nearest points and
+// normals kept. The terms are the distances of samples of the surface from the planes of their
+// triangles, A (h - sum_k b_k n.x_k)^2; the distances of vertices and of middles of triangles from
+// the surface; and the cost of moves along the mesh, which is lowest where triangles are
+// equilateral.
+//
+// A: area that a sample stands for. n: normal of its triangle. h: distance from the triangle's
+// plane along n (Gap::from_plane). b_k: barycentric coordinates of the triangle's nearest point.
 #include "remesh/placement/fit_vertices.h"
 
 #include <algorithm>
@@ -22,34 +30,36 @@ using Mat3 = Eigen::Matrix3d;
 using Field = std::vector<Vec3>;
 
 constexpr int num_rounds = 3;
-// What a move along the mesh costs, against the same move at right angles to all triangles.
+// Weight of a move along the mesh, relative to the same move at right angles to all triangles.
 constexpr double along_cost = 0.12;
-// The same of any other move: keeps vertices of which the surface says nothing.
+// The same of a move along the normal: keeps vertices without samples in place.
 constexpr double across_cost = 1e-3;
-// Longest move of a round, and longest pull of the shapes, in square roots of the cell's area.
+// Longest move of a round, and longest pull towards equilateral triangles, in square roots of the
+// cell's area.
 constexpr double longest_move = 0.15;
 constexpr double longest_pull = 0.2;
-// What the distances of vertices and middles of triangles from the surface weigh, against those of
-// the surface from the mesh: they keep vertices from where planes meet far off the surface.
+// Weights of the distances of vertices and middles of triangles from the surface, relative to those
+// of the surface from the mesh. They keep vertices away from points far off the surface where
+// planes meet.
 constexpr double vertex_weight = 0.25;
 constexpr double middle_weight = 0.25;
-// Where the way to the nearest point of the mesh is longer than that to the plane by this factor,
-// the mesh ends before the surface does.
+// If the nearest point of the triangles is farther than the plane by this factor, the mesh ends
+// before the surface does.
 constexpr double overhang = 1.05;
 // Least cosine between the normals of a triangle before and after a round.
 constexpr double least_normal_cosine = 0.3;
 constexpr int most_guard_rounds = 10;
-// The surface's vertices will do where there are so many for each of the mesh.
+// With so many vertices of the surface for each vertex of the mesh, no other samples are taken.
 constexpr std::size_t enough_vertices = 12;
-// Least barycentric coordinate of what lies over the middle of a triangle.
+// Least barycentric coordinate of points over the middle of a triangle.
 constexpr double inner_share = 0.05;
-// Conjugate gradients end there: residuals fall by that share.
+// Conjugate gradients end when the residual has fallen to this share.
 constexpr double residual_share = 1e-3;
 constexpr int most_iterations = 40;
-constexpr std::size_t samples_per_block = std::size_t{1} << 15;  // 2 MB: they stay in a cache.
+constexpr std::size_t samples_per_block = std::size_t{1} << 15;  // 2 MB: fits into a cache.
 constexpr Index grain = 256;                                     // Samples or triangles.
 
-// A point of the surface and what it stands for.
+// A point of the surface and the area that it stands for.
 struct Sample {
     Vec3 position;
     double area;
@@ -57,15 +67,15 @@ struct Sample {
     Index triangle = no_index;
 };
 
-// Of a point of the surface from its triangle.
+// The distance of a point of the surface from its triangle.
 struct Gap {
     std::array<double, 3> barycentric{};  // Of the triangle's nearest point.
     double from_plane = 0;
-    double from_end = 0;            // Where the triangle ends before the surface does; else 0.
-    Vec3 direction = Vec3::Zero();  // From that end, of length 1.
+    double from_end = 0;            // If the triangle ends before the surface does; otherwise 0.
+    Vec3 direction = Vec3::Zero();  // From that end to the point, of length 1.
 };
 
-// Least squares over the points that are nearest to one triangle: of their barycentric coordinates.
+// Sums of least squares over the samples nearest to one triangle.
 struct TriangleSums {
     std::array<double, 3> squares{};   // b_k b_k
     std::array<double, 3> products{};  // b_k b_(k + 1)
@@ -128,7 +138,8 @@ private:
             ticker_.tick();
             const Triangle& t = base.mesh.triangles[f];
             const double whole = agvd::face_area(base, f);
-            // With the centroid three quarters: exact for what is quadratic on the face.
+            // Points inside faces stand for three quarters of the area: exact for quadratic
+            // functions.
             for (const Index v : t) area[v] += is_dense ? whole / 3 : whole / 12;
             if (is_dense || nearest_vertex[t[0]] == no_index) continue;
             surface.pieces.for_each(f, [&](const agvd::SurfacePiece& piece) {
@@ -160,8 +171,8 @@ private:
         for (Vec3& normal : facing_) normal.normalize();
     }
 
-    // On the triangle around the sample's vertex that lies nearest. What lies over the middle of
-    // its triangle stays with it: rounds only move a little.
+    // The nearest point on the triangles around the sample's vertex. A sample over the middle of
+    // its triangle keeps it: moves in a round are small.
     [[nodiscard]] agvd::ClosestPoint find_nearest(Sample& sample) const {
         agvd::ClosestPoint nearest;
         nearest.distance_sq = std::numeric_limits<double>::infinity();
@@ -185,7 +196,7 @@ private:
                                                position);
     }
 
-    // Where the vertex would make its triangle equilateral.
+    // The position of the vertex that makes its triangle equilateral.
     [[nodiscard]] Vec3 even_apex(Index triangle, Index v) const {
         const Triangle& t = mesh_.triangles[triangle];
         const std::size_t k = t[0] == v ? 0 : t[1] == v ? 1 : 2;
@@ -194,7 +205,8 @@ private:
         return (a + b) / 2 + std::sqrt(0.75) * normal_[triangle].cross(b - a);
     }
 
-    // Moves along the mesh go to where triangles are equilateral, in the mean.
+    // Adds the cost of moves along the mesh: lowest at the mean of the positions that make the
+    // triangles equilateral.
     void hold_shapes() {
         diagonal_.resize(at_.size());
         right_.resize(at_.size());
@@ -213,8 +225,8 @@ private:
         }
     }
 
-    // Sums run in the order of the samples, so that they do not depend on the threads; what they
-    // are made of is found block by block, side by side.
+    // Measures gaps in parallel, block by block, and sums them in the order of the samples, so that
+    // sums do not depend on the threads.
     void add_distances_of_surface() {
         sums_.assign(mesh_.triangles.size(), {});
         std::vector<Gap> gaps(std::min(samples_.size(), samples_per_block));
@@ -265,7 +277,7 @@ private:
             sums.gaps[k] += sample.area * b[k] * gap.from_plane;
         }
     }
-    // Corners are drawn there each by itself: an upper bound of the squares of all together.
+    // Draws each corner towards the sample by itself: an upper bound of the square of their sum.
     void add_overhang(const Sample& sample, const std::array<double, 3>& b, const Vec3& direction,
                       double distance) {
         for (std::size_t k = 0; k < 3; ++k) {
@@ -313,7 +325,7 @@ private:
         };
         agvd::parallel_chunks(count, grain, num_threads_, body, poller_);
     }
-    // From a point of the mesh; zero if nothing is known.
+    // From a point of the mesh to the surface in these cells; zero if they have no vertex.
     [[nodiscard]] Vec3 way_to_surface(const Vec3& point, std::span<const Index> cells) const {
         const agvd::ClosestPoint nearest = ground_.query(point, cells);
         if (!std::isfinite(nearest.distance_sq)) return Vec3::Zero();
@@ -348,7 +360,7 @@ private:
         }
     }
 
-    // Conjugate gradients, with the vertices' own blocks as preconditioner.
+    // Conjugate gradients with the diagonal blocks as preconditioner.
     [[nodiscard]] Field solve() {
         std::vector<Mat3> inverse(at_.size());
         for (std::size_t v = 0; v < at_.size(); ++v) {
@@ -383,7 +395,7 @@ private:
         return x;
     }
 
-    // As far as no triangle turns over.
+    // Applies the moves, except those of triangles that would turn over.
     void move(const Field& moves) {
         const Field before = at_;
         for (std::size_t v = 0; v < at_.size(); ++v) {
@@ -426,7 +438,7 @@ private:
     std::vector<TriangleSums> sums_;   // #triangles
     std::vector<MiddleSum> middle_;    // #triangles
     std::vector<Vec3> ways_;           // #V or #triangles: to the surface.
-    std::vector<Mat3> diagonal_;       // #V: the equations' blocks.
+    std::vector<Mat3> diagonal_;       // #V: the diagonal blocks of the equations.
     Field right_;                      // #V: their right sides.
 };
 

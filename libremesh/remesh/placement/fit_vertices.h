@@ -1,5 +1,5 @@
 //! \file
-//! Vertices off the surface, for a mesh that lies nearer to it.
+//! Moves vertices off the surface so that the mesh lies nearer to it.
 #pragma once
 
 #include <span>
@@ -10,19 +10,19 @@
 
 namespace remesh {
 
-//! Moves vertices so that the triangles, not their corners, lie as near to the surface as they can:
-//! least squares of the distances of the surface's vertices (where there are few, of points inside
-//! faces too) from the planes of their triangles, and of vertices and middles of triangles from the
-//! surface. Planes say nothing of moves along them: there a vertex is drawn to where its triangles
-//! are equilateral, but slides to the edge where planes meet at an angle. Vertices on the boundary
-//! stay, and no triangle turns over.
+//! Moves vertices so that the triangles, not their corners, lie as near to the surface as possible.
+//! Least squares of the distances of the surface's vertices (if they are few, also of points inside
+//! faces) from the planes of their triangles, and of vertices and middles of triangles from the
+//! surface. Planes do not restrict moves along them: there a vertex is drawn to where its triangles
+//! are equilateral. Where planes meet at an angle the vertex slides to their edge. Vertices on the
+//! boundary stay, and no triangle turns over.
 //!
-//! \param nearest_vertex  per vertex of surface.base: that of the mesh in whose cell it lies;
+//! \param nearest_vertex  per vertex of surface.base: the vertex of the mesh in whose cell it lies;
 //!                        agvd::no_index: none.
 //! \param num_threads     >= 0; 0: all cores. The result is the same for any number.
-//! \param least_way       >= 0, mesh units: no longer ways between mesh and surface are rounding,
-//!                        whose direction says nothing. Above 0 what is flat stays flat.
-//! \throw agvd::Cancelled  the progress callback returned false; `mesh` is of no use then.
+//! \param least_way       >= 0, mesh units: distances up to this between mesh and surface are
+//!                        rounding, without a direction. Above 0 planar parts stay planar.
+//! \throw agvd::Cancelled  the progress callback returned false; `mesh` is unspecified then.
 //! Cost: O(#base + #mesh), about 2 us for each vertex of the base.
 void fit_vertices(const PreparedSurface& surface, std::span<const agvd::Index> nearest_vertex,
                   PlacedMesh& mesh, int num_threads = 0, const agvd::Progress& progress = {},

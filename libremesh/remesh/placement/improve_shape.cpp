@@ -1,3 +1,6 @@
+// Vertices of bad triangles try steps along the surface in a few directions and lengths, the worst
+// triangles first. A step is kept if the worst triangle around the vertex gains more quality than
+// it costs to leave the planes of the cell ([garland1997]).
 #include "remesh/placement/improve_shape.h"
 
 #include <algorithm>
@@ -20,25 +23,26 @@ using agvd::SurfacePoint;
 using agvd::Triangle;
 using agvd::Vec3;
 
-// Triangles below detail::low_quality are worked on, and once more below that, wherever their
-// corners have to go.
+// Triangles below detail::low_quality are improved first; then those below this, without
+// plane_cost.
 constexpr double poor_quality = 0.62;
-// Quality that a move must gain which leaves the planes of the cell by the mean length of the edges
-// around the vertex; by less, in proportion to the square.
+// Quality that a move must gain if it leaves the planes of the cell by the mean length of the edges
+// around the vertex; at other distances in proportion to the square.
 constexpr double plane_cost = 30;
 constexpr int most_rounds = 8;
-// Steps tried, in mean lengths of the edges around the vertex, so often as they help.
+// Lengths of steps, in mean lengths of the edges around the vertex; each is repeated while it
+// helps.
 constexpr std::array step_lengths{0.2, 0.07, 0.02};
 constexpr int most_tries = 4;
 constexpr int num_directions = 8;
-// A side that stays and is shorter than this share of the mean edge length makes its triangle slim
-// wherever the third corner is. Neighbours over three spacings would crowd around it: so the
-// triangle counts as good from this share of the quality on. Bunny with five given edges of .2
-// spacings: mean quality .908 to .923 (without them .927), RMS distance .069 to .061 % (.060),
-// smallest angle 28 to 9 degrees.
+// A fixed side shorter than short_side times the mean edge length makes its triangle slim wherever
+// the third corner is. Vertices within three spacings would crowd around it, so the quality of its
+// triangle is divided by slim_quality. Bunny with five given edges of .2 spacings: mean quality
+// .908 to .923 (without them .927), RMS distance .069 to .061 % (.060), smallest angle 28 to 9
+// degrees.
 constexpr double short_side = 0.25;
 constexpr double slim_quality = 0.3;
-// Less is not worth a move.
+// Least gain in quality of a move.
 constexpr double least_gain = 1e-4;
 
 class Improvement {
@@ -111,7 +115,7 @@ private:
         }
     }
 
-    // Triangles on a short side between two vertices that stay.
+    // Marks triangles on a short side between two fixed vertices.
     void find_slim() {
         std::vector<std::uint8_t> stays;
         for (const SurfacePoint& point : mesh_.points) {
@@ -133,7 +137,7 @@ private:
         }
     }
 
-    // As it counts.
+    // Quality of a triangle, raised if it is slim.
     [[nodiscard]] double quality_of(Index i) const {
         const auto& [a, b, c] = mesh_.triangles[i];
         const double q = detail::shape_quality(at_[a], at_[b], at_[c]);
@@ -147,7 +151,7 @@ private:
         at_[v] = mesh_.position(surface_.mesh.view(), v);
     }
 
-    // The lowest quality around a vertex; less by 1 where a triangle faces against the surface.
+    // The lowest quality around a vertex; 1 less for triangles that point against the surface.
     [[nodiscard]] double worst_around(Index v) {
         ticker_.tick(around_.of(v).size());
         double worst = 1;
@@ -162,7 +166,7 @@ private:
 
     // Takes a step if it helps.
     //
-    // \param length  of the edges around the vertex.
+    // \param length  mean length of the edges around the vertex.
     bool try_step(Index v, const Vec3& step, double length, double& worst) {
         const SurfacePoint before = mesh_.points[v];
         const Vec3 at_before = at_[v];
@@ -224,7 +228,8 @@ private:
     std::vector<detail::CellPlanes> planes_;  // #V
     std::vector<std::uint8_t> is_slim_;       // By triangle: see short_side.
     double plane_cost_ = 0;
-    std::vector<std::uint8_t> is_worth_it_;  // #V: 0 where the last try stood still, as all around.
+    // #V: 0 if the last try changed nothing, nor moved a neighbour since.
+    std::vector<std::uint8_t> is_worth_it_;
 };
 
 }  // namespace

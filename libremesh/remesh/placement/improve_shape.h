@@ -1,5 +1,5 @@
 //! \file
-//! Better worst triangles.
+//! Improves the worst triangles by moving vertices along the surface.
 #pragma once
 
 #include <span>
@@ -10,15 +10,15 @@
 
 namespace remesh {
 
-//! Moves the corners of triangles of low quality or with a small angle along the surface (their
-//! offsets stay), a little at a time, as long as the worst triangle around the vertex gets better
-//! by more than it costs to leave the planes of the surface nearby: so vertices at a crease stay at
-//! it. All other vertices and those on the boundary stay. No triangle turns over.
+//! Moves the corners of triangles of low quality or with a small angle along the surface in small
+//! steps; their offsets stay. A step is taken if the worst triangle around the vertex gains more
+//! than it costs to leave the planes of the surface nearby, so that vertices at a crease stay
+//! there. All other vertices and those on the boundary stay. No triangle turns over.
 //!
-//! \param nearest_vertex  per vertex of surface.base: that of the mesh in whose cell it lies;
+//! \param nearest_vertex  per vertex of surface.base: the vertex of the mesh in whose cell it lies;
 //!                        agvd::no_index: none.
 //! \param num_threads     >= 0; 0: all cores. The result is the same for any number.
-//! \throw agvd::Cancelled  the progress callback returned false; `mesh` is of no use then.
+//! \throw agvd::Cancelled  the progress callback returned false; `mesh` is unspecified then.
 //! Cost: O(#surface + #triangles), and about 20 us for each vertex at such a triangle.
 void improve_shape(const PreparedSurface& surface, std::span<const agvd::Index> nearest_vertex,
                    PlacedMesh& mesh, int num_threads = 0, const agvd::Progress& progress = {});

@@ -1,3 +1,6 @@
+// Mends bad triangles, the worst first: by a flip or slides, otherwise by the best collapse or
+// split. Collapses leave spare vertices, splits need some. At the end the count is balanced: spare
+// vertices split long edges, missing ones are collapsed where triangles are good.
 #include "remesh/placement/mend_shape.h"
 
 #include <algorithm>
@@ -18,17 +21,17 @@ using agvd::Vec3;
 using detail::EditedMesh;
 using detail::Mobility;
 
-// Triangles below are worked on: 25.2 degrees.
+// Triangles of lower quality are mended; a smallest angle of 21.3 degrees counts as this.
 constexpr double wanted_quality = 0.425;
-// What triangles must have where vertices are taken from, or are to go.
+// Least quality of triangles, before and after, where a vertex is removed to balance the count.
 constexpr double good_elsewhere = 0.6;
-// Less is not worth a step, or a trial of several.
+// Least gain of a step, and of a trial of several steps.
 constexpr double least_gain = 1e-3, least_trial_gain = 0.02;
-// One of so many vertices may be put elsewhere: a surface all thinner than the spacing has no place
-// to take them from.
+// At most one of so many vertices may be missing: a surface that is thinner than the spacing
+// everywhere has no place to take them from.
 constexpr agvd::Index most_moved = 8;
-// For each bad triangle at first, more or less: where all are bad, work would have no end. Lips
-// take half of it.
+// Budgets for each initially bad triangle: where all are bad, work would not end. Lips use half of
+// them.
 constexpr std::size_t edits_for_each = 3, slides_for_each = 200;
 constexpr int most_rounds = 6, most_sweeps = 3;
 // As in improve_shape.
@@ -43,8 +46,9 @@ public:
           ticker_(ticker),
           least_spare_(-static_cast<int>(mesh.num_vertices() / most_moved)) {}
 
-    // Vertices that splits have added are taken away at the end, when it is clear how many they
-    // are: fewer than one for each split. Where that fails, one by one.
+    // First balances the count at the end, when the number of missing vertices is known: it is
+    // below the number of splits. If that fails, starts again and removes a vertex after each
+    // split.
     bool run() {
         const EditedMesh::Mark start = mesh_.mark();
         const std::size_t num_bad = bad_faces().size();
@@ -84,7 +88,8 @@ private:
         return is_changed;
     }
 
-    // Takes away vertices at triangles as they are wanted, no better, where they remain that.
+    // Removes boundary vertices whose worst triangle lies between wanted_quality and elsewhere_, if
+    // all triangles keep wanted_quality.
     void prune() {
         for (Index v = 0; v < mesh_.num_vertices() && num_spare_ < 0; ++v) {
             if (mesh_.mobility(v) != Mobility::Boundary || mesh_.faces_at(v).empty()) continue;
@@ -136,7 +141,7 @@ private:
         return try_edits(f) || is_better;
     }
 
-    // A step that makes the worst triangle it touches better.
+    // Takes a step that makes the worst triangle it touches better.
     bool improve(Index f) {
         ticker_.tick(200);
         for (Index k = 0; k < 3; ++k) {
@@ -156,10 +161,10 @@ private:
         return false;
     }
 
-    // Of the triangles touched since, as far as they lack of the wanted quality.
+    // The gain of the triangles touched since, each counted up to wanted_quality.
     struct Gain {
         double worst = 0, sum = 0;
-        bool is_all = false;  // None lacks any more.
+        bool is_all = false;  // All have wanted_quality.
     };
 
     [[nodiscard]] Gain gain_since(const EditedMesh::Mark& mark) {
@@ -179,9 +184,10 @@ private:
         return gain;
     }
 
-    // What a trial is worth; not above 0: nothing. What leaves a spare vertex comes first where it
-    // mends all; else splits, whose sum counts, since a chain of equals has no other way. The sum
-    // is no measure of a collapse, which takes faces away.
+    // The worth of a trial; 0: none. Collapses that mend all triangles come first, since they leave
+    // a spare vertex; then splits. Splits count by their sum, since in a chain of equal triangles
+    // no worst one improves alone. Other collapses count by the worst triangle: they remove faces,
+    // which distorts the sum.
     [[nodiscard]] static double worth_of(const Gain& gain, bool is_split) {
         if (gain.worst < 0 || gain.sum < least_trial_gain) return 0;
         if (is_split) return 1 + gain.sum;
@@ -189,7 +195,7 @@ private:
         return gain.worst < least_trial_gain ? 0 : gain.worst;
     }
 
-    // Of the triangles touched since.
+    // The lowest quality of the triangles touched since.
     [[nodiscard]] double worst_since(const EditedMesh::Mark& mark) {
         mesh_.changed_since(mark, changed_, before_);
         double worst = 1;
@@ -257,7 +263,7 @@ private:
         return is_better;
     }
 
-    // Steps at bad triangles among those touched, as long as they help.
+    // Improves the bad triangles among those touched, as long as that helps.
     void relax(const EditedMesh::Mark& mark) {
         for (int sweep = 0; sweep < most_sweeps; ++sweep) {
             mesh_.changed_since(mark, changed_, before_);
@@ -291,7 +297,7 @@ private:
         return trials;
     }
 
-    // The first collapse or split that mends all it touches, or the best.
+    // Applies the first collapse or split that mends all it touches, otherwise the best one.
     bool try_edits(Index f) {
         if (edits_left_ == 0) return false;
         --edits_left_;
@@ -335,7 +341,7 @@ private:
         return true;
     }
 
-    // Takes a vertex away where triangles stay good.
+    // Removes a vertex where triangles stay good.
     bool give_spare() {
         if (!has_collapses_) list_collapses();
         while (!collapses_.empty()) {
@@ -364,7 +370,8 @@ private:
         }
     };
 
-    // By the quality that triangles would have with the edge's middle in place of its ends.
+    // Lists collapses by the quality that triangles have with the edge's middle in place of its
+    // ends.
     void list_collapses() {
         has_collapses_ = true;
         for (Index f = 0; f < mesh_.num_faces(); ++f) {
@@ -373,7 +380,7 @@ private:
             const Triangle& t = mesh_.face(f).corner;
             for (Index k = 0; k < 3; ++k) {
                 const Index a = t[k], b = t[(k + 1) % 3];
-                if (a > b) continue;  // Twice else.
+                if (a > b) continue;  // Each edge once.
                 if (mesh_.mobility(a) != Mobility::Free || mesh_.mobility(b) != Mobility::Free) {
                     continue;
                 }
@@ -405,7 +412,7 @@ private:
         return worst;
     }
 
-    // Puts a spare vertex where edges are long.
+    // Splits the longest edge that can be split well.
     bool take_spare() {
         std::vector<std::pair<double, std::pair<Index, Index>>> longest;
         for (Index f = 0; f < mesh_.num_faces(); ++f) {
@@ -435,10 +442,10 @@ private:
     agvd::Ticker ticker_;
     const int least_spare_;
     bool pays_at_once_ = false;
-    int num_spare_ = 0;  // Vertices taken away and not yet put elsewhere; below 0: to be taken.
+    int num_spare_ = 0;  // Vertices removed and not yet added elsewhere; below 0: to be removed.
     bool has_collapses_ = false;
     std::vector<Candidate> collapses_;  // The best one last.
-    double elsewhere_ = 0;              // What triangles keep where vertices are taken.
+    double elsewhere_ = 0;              // Least quality where vertices are removed.
     std::size_t edits_left_ = 0, slides_left_ = 0;
     std::vector<Index> changed_;  // Scratch.
     std::vector<double> before_;  // Scratch.

@@ -1,5 +1,5 @@
 //! \file
-//! Better triangles where moving vertices is not enough.
+//! Improves triangles where moving vertices is not enough.
 #pragma once
 
 #include <span>
@@ -13,16 +13,16 @@
 
 namespace remesh {
 
-//! Works on the worst triangles first: flips an edge, slides vertices over the surface and along
-//! its boundary, splits an edge and collapses another one elsewhere, or the other way round,
-//! wherever the worst triangle touched gets better. The number of vertices stays, and so do
-//! topology and hard edges; the order of vertices does not.
+//! Works on the worst triangles first. Flips an edge, slides vertices over the surface and along
+//! its boundary, or splits an edge and collapses another one elsewhere, or the reverse, if the
+//! worst triangle touched gets better. Keeps the number of vertices, the topology and the hard
+//! edges, but not the order of vertices.
 //!
 //! \param surface   where the points of the mesh lie.
 //! \param mobility  #V: Fixed ones stay; those on hard edges are not Free.
-//! \param hard      edges that are not flipped; those with one face alone must be among them.
-//! \throw agvd::Cancelled  the progress callback returned false; `mesh` is as it was.
-//! \return the number that each vertex had, of new ones not below #V; nothing if all is as before.
+//! \param hard      edges that are not flipped; must include all edges of a single face.
+//! \throw agvd::Cancelled  the progress callback returned false; `mesh` is unchanged.
+//! \return for each vertex its old number, #V or more for new ones; empty if nothing changed.
 //! Cost: O(#triangles log #triangles), and about a millisecond for each bad one.
 std::vector<agvd::Index> mend_shape(const agvd::Surface& surface,
                                     std::span<const detail::Mobility> mobility,

@@ -14,7 +14,7 @@ using agvd::Vec3;
 
 namespace {
 
-// Faces passed on the way to a nearer point.
+// Most faces passed on the way to a nearer point.
 constexpr int most_steps = 1000;
 
 }  // namespace
@@ -69,7 +69,8 @@ agvd::ClosestPoint NearestInCells::closest(Index face, const Vec3& point) const 
     return agvd::closest_point_on_triangle({p[a], p[b], p[c]}, agvd::FaceId(face), point);
 }
 
-// The faces around a vertex may be needles, and the nearest point lie on others beyond.
+// Walks from face to face while these are nearer. The faces around the vertex may be needles, with
+// the nearest point on a face beyond them.
 void NearestInCells::descend(const Vec3& point, Index vertex, agvd::ClosestPoint& nearest) const {
     const Surface& base = base_.surface();
     const Vec3& start = base.mesh.positions[vertex];

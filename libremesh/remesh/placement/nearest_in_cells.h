@@ -1,5 +1,5 @@
 //! \file
-//! Points of a surface that are nearest to points of a mesh of its cells.
+//! Nearest points of a surface to points of the dual of its cells.
 #pragma once
 
 #include <span>
@@ -10,9 +10,9 @@
 
 namespace remesh::detail {
 
-//! Looks at the faces around the nearest vertex in a few cells only, and goes on from face to face
-//! while that leads nearer, no farther than the base's edges there are long: quick, and never to
-//! the far side of a wall.
+//! Searches the faces around the nearest vertex in a few cells only, then walks from face to face
+//! while the distance falls, no farther than the base's edges there are long. This is quick and
+//! never leads to the far side of a wall.
 class NearestInCells {
 public:
     //! \param base            outlives this.

@@ -10,7 +10,7 @@ namespace remesh {
 
 struct PlacedMesh {
     std::vector<agvd::SurfacePoint> points;  //!< #V: where each vertex belongs.
-    std::vector<agvd::Vec3> offsets;         //!< #V: from there to where it is.
+    std::vector<agvd::Vec3> offsets;         //!< #V: from there to its position.
     std::vector<agvd::Triangle> triangles;
 
     [[nodiscard]] agvd::Vec3 position(const agvd::MeshView& surface, agvd::Index v) const {

@@ -1,5 +1,5 @@
 //! \file
-//! One number for how bad a triangle is.
+//! The quality of a triangle as one number.
 #pragma once
 
 #include <algorithm>
@@ -9,13 +9,13 @@
 
 namespace remesh::detail {
 
-//! Triangles below are worked on.
+//! Triangles of lower quality are improved.
 inline constexpr double low_quality = 0.63;
-//! What the sine of the smallest angle counts for: 32.5 degrees are as bad as `low_quality`.
+//! Factor of the sine of the smallest angle: 32.5 degrees count as `low_quality`.
 inline constexpr double sine_weight = low_quality / 0.5373;
 
-//! 6 / sqrt(3) * S / (p h) ([frey1999]): S area, p half the perimeter, h the longest edge; less
-//! where an angle is small. 0 to 1.
+//! 6 / sqrt(3) * S / (p h) ([frey1999]): S area, p half the perimeter, h the longest edge; lower if
+//! an angle is small. 0 to 1.
 [[nodiscard]] inline double shape_quality(const agvd::Vec3& a, const agvd::Vec3& b,
                                           const agvd::Vec3& c) {
     const double ab = (b - a).norm(), bc = (c - b).norm(), ca = (a - c).norm();

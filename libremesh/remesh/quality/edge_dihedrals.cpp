@@ -1,3 +1,6 @@
+// The dihedral angle of an edge comes from the normals of its two faces as seen from the edge. A
+// thin face has no reliable normal: it takes the one of the face across its longest other side,
+// over a few such steps.
 #include "remesh/quality/edge_dihedrals.h"
 
 #include <algorithm>
@@ -51,8 +54,8 @@ public:
 
     [[nodiscard]] const std::vector<EdgeSide>& sides() const { return sides_; }
 
-    // Of the surface beside this side, on the left of its edge from the lower vertex to the higher;
-    // zero if there is none.
+    // Normal of the surface at this side, on the left of its edge from the lower vertex to the
+    // higher; zero if there is none.
     [[nodiscard]] Vec3 normal(const EdgeSide& side) const {
         Index h = side.half_edge;
         bool is_up = side.forward;
@@ -61,14 +64,15 @@ public:
             if (exit == no_index) break;
             const EdgeSide& here = side_of(exit);
             const EdgeSide& across = other_side(here);
-            if (across.forward == here.forward) is_up = !is_up;  // Turned over.
+            // The face across is oriented the other way.
+            if (across.forward == here.forward) is_up = !is_up;
             h = across.half_edge;
         }
         return is_up ? normals_[h / 3] : Vec3(-normals_[h / 3]);
     }
 
 private:
-    // Another half-edge of the face, with one face across.
+    // The longest other half-edge of the face that has exactly one face across.
     [[nodiscard]] Index longest_other_side(Index h) const {
         Index best = no_index;
         for (Index k = 3 * (h / 3); k < 3 * (h / 3) + 3; ++k) {
@@ -88,7 +92,7 @@ private:
         while (sides_[i].half_edge != h) ++i;
         return sides_[i];
     }
-    // Of two.
+    // Of an edge with two sides: the other one.
     [[nodiscard]] const EdgeSide& other_side(const EdgeSide& side) const {
         const Index first = first_side_[side.half_edge];
         return sides_[first].half_edge == side.half_edge ? sides_[first + 1] : sides_[first];
@@ -146,7 +150,7 @@ std::vector<EdgeDihedral> edge_dihedrals(const agvd::MeshView& mesh, double thin
         const auto num_faces = static_cast<Index>(edge.size());
         double angle = std::numbers::pi;
         if (num_faces == 2) {
-            // Seen from the edge the other face lies on the other side.
+            // Seen from the edge, the other face lies on the other side, so its normal is turned.
             const Vec3 a = normals.normal(edge[0]), b = -normals.normal(edge[1]);
             angle = std::atan2(a.cross(b).norm(), a.dot(b));
         }

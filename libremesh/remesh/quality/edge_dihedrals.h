@@ -11,8 +11,8 @@ namespace remesh::detail {
 
 struct EdgeDihedral {
     agvd::Index ends[2];
-    //! Between the normals of the two faces, both as seen from one side of the surface whatever
-    //! their orientation, radians; pi for any other number of faces.
+    //! Between the normals of the two faces, both seen from the same side of the surface for any
+    //! orientation, radians; pi for any other number of faces.
     double angle;
     agvd::Index num_faces;
 };
@@ -21,8 +21,8 @@ struct EdgeDihedral {
 //! another face are dropped.
 [[nodiscard]] agvd::TriangleMesh without_copies(const agvd::MeshView& mesh, agvd::Ticker& ticker);
 
-//! \param thin  mesh units: a face that is lower takes the normal of the face across its longest
-//!              other side, over up to six of them.
+//! \param thin  mesh units: a lower face takes the normal of the face across its longest other
+//!              side, over up to six such faces.
 //! Cost: O(n log n).
 [[nodiscard]] std::vector<EdgeDihedral> edge_dihedrals(const agvd::MeshView& mesh, double thin,
                                                        agvd::Ticker& ticker);

@@ -17,7 +17,8 @@ CleanResult clean_original(const agvd::MeshView& original, int num_threads,
     }
 }
 
-// The result is not repaired: its defects are what is to be told. It must only be measurable.
+// The result is not repaired, since its defects are measured. This checks only that it can be
+// measured.
 void check_result(const agvd::MeshView& mesh) {
     const auto fail = [](const std::string& text) { throw agvd::InvalidInput("result: " + text); };
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {

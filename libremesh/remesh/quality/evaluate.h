@@ -1,5 +1,5 @@
 //! \file
-//! Judges a remeshed surface against the original.
+//! Compares a remeshed surface with the original.
 #pragma once
 
 #include <optional>
@@ -22,7 +22,7 @@ struct MeshFigures {
     agvd::Index faces = 0;
     Topology topology;
     TriangleQuality triangles;
-    //! See find_self_intersections; nothing in a build without CGAL.
+    //! See find_self_intersections; unset in a build without CGAL.
     std::optional<std::vector<std::pair<agvd::Index, agvd::Index>>> self_intersections;
 };
 
@@ -31,8 +31,8 @@ struct Evaluation {
     CleanCounts cleaned;         //!< What that repair did.
     MeshFigures result;          //!< As given.
     bool topology_kept = false;  //!< The result is an oriented manifold with same_topology().
-    std::optional<SurfaceDistance> distance;  //!< Nothing in a build without CGAL.
-    //! Nothing if the original has neither sharp edges nor corners.
+    std::optional<SurfaceDistance> distance;  //!< Unset in a build without CGAL.
+    //! Unset if the original has neither sharp edges nor corners.
     std::optional<FeatureCoverage> features;
 };
 

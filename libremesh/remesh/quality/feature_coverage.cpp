@@ -1,3 +1,6 @@
+// Compares sharp edges by points: points at equal distances along the sharp edges of one mesh
+// count as covered if they lie near the blunt edges of the other. Corners count as kept if a
+// vertex of the result is near.
 #include "remesh/quality/feature_coverage.h"
 
 #include <algorithm>
@@ -22,7 +25,7 @@ constexpr double blunt = 25 * degree;
 constexpr double corner_turn = 45 * degree;
 constexpr double acute = 30 * degree;
 
-// In diagonals.
+// In diagonals of the original.
 constexpr double near = 1e-3, very_near = 2e-4, near_corner = 5e-4;
 constexpr double thin_original = 1e-6, thin_result = 1e-9;
 
@@ -151,7 +154,7 @@ Index count_kept(const std::vector<Vec3>& corners, const TriangleMesh& result, d
         std::count_if(found.begin(), found.end(), [](double d) { return std::isfinite(d); }));
 }
 
-// Of triangles without a vertex near any of the points.
+// The smallest angle of triangles without a vertex near any of the points.
 double min_angle_off(const std::vector<Vec3>& points, const TriangleMesh& mesh, double reach,
                      agvd::Ticker& ticker) {
     detail::PointDistances distances(mesh.positions, reach, ticker);

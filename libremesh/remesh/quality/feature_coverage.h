@@ -9,8 +9,8 @@
 
 namespace remesh {
 
-//! Sharp is an edge whose two faces meet at more than 40 degrees, or that has more than two faces;
-//! blunt one of more than 25, so that an edge that the other mesh has a little rounder is not
+//! An edge is sharp if its two faces meet at more than 40 degrees or if it has more than two faces;
+//! it is blunt above 25 degrees, so that an edge that is a little rounder in the other mesh is not
 //! missed. Points with equal coordinates count as one.
 //!
 //! A face of the original lower than 1e-6 diagonals (of the result 1e-9) has no direction: its
@@ -32,13 +32,14 @@ struct FeatureCoverage {
     //! Corners where two of these edges meet at less than 30 degrees: a triangle between them
     //! cannot have a larger angle there.
     agvd::Index acute_corners = 0;
-    //! Smallest angle of the result's triangles, radians, but for those with a vertex within .05 %
+    //! Smallest angle of the result's triangles, radians, except those with a vertex within .05 %
     //! of the diagonal of an acute corner; pi if there is no other.
     double min_angle_elsewhere = 0;
     double diagonal = 0;  //!< Of the box around the original's faces, mesh units.
 };
 
-//! Shares are of 20 000 points at equal distances along the edges.
+//! Measures how well a result keeps the sharp edges and corners of the original. Shares refer to 20
+//! 000 points at equal distances along the edges.
 //!
 //! \param original, result  any triangles, manifold or not; indices in range, positions finite.
 //! \return nothing if the original has neither sharp edges nor corners.

@@ -14,18 +14,18 @@ namespace {
 using agvd::Index;
 using agvd::Vec3;
 
-// In reaches: side of a cell, and how far apart are the spots of a segment where it is looked
-// around.
+// In reaches: side of a cell, and distance between the points of a segment at which cells are
+// searched.
 constexpr double cell_side = 2;
 constexpr double spot_distance = 0.5;
-// So far from a point lies the nearest spot of a segment within reach: the point belongs to all
-// cells that are as near.
+// In reaches: largest distance between a point and the nearest such point of a segment within
+// reach. A point is entered in all cells within this distance.
 constexpr double margin = 1 + spot_distance / 2;
 
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 constexpr std::uint64_t no_key = ~std::uint64_t{0};
 
-// Beyond 2^20 cells from the origin cells share a key, which costs time only.
+// Beyond 2^20 cells from the origin cells share a key, which only costs time.
 std::int64_t cell_of(double coordinate, double reach) {
     constexpr double most = 1 << 20;
     return std::llround(std::clamp(std::floor(coordinate / (cell_side * reach)), -most, most));
@@ -98,7 +98,7 @@ void PointDistances::pass(const Vec3& a, const Vec3& b, agvd::Ticker& ticker) {
     }
 }
 
-// Takes the cell of one spot of the segment, unless it was the last.
+// Searches the cell of one point of the segment, unless it was the last one.
 void PointDistances::look_around(const Vec3& at, const Vec3& a, const Vec3& b,
                                  std::uint64_t& last_key) {
     const std::uint64_t key =

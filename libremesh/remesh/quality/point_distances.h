@@ -12,15 +12,15 @@
 
 namespace remesh::detail {
 
-//! Points in a grid of cells; segments pass by one after the other and are not kept.
+//! Stores points in a grid of cells; segments are passed one after the other and not stored.
 class PointDistances {
 public:
-    //! \param reach  mesh units, > 0: what is farther away is not looked for.
+    //! \param reach  mesh units, > 0: larger distances are not searched for.
     //! Cost: O(n log n).
     PointDistances(std::vector<agvd::Vec3> points, double reach, agvd::Ticker& ticker);
 
-    //! A segment, or a point where both ends are the same. What is longer than the box of the
-    //! points costs no more than what crosses it. Cost: O(1 + length / reach).
+    //! Takes a segment, or a point if both ends are equal. Only the part inside the box of the
+    //! points costs time. Cost: O(1 + length / reach).
     void pass(const agvd::Vec3& a, const agvd::Vec3& b, agvd::Ticker& ticker);
 
     //! #points: from the nearest segment that has passed; infinity beyond `reach`.
@@ -36,7 +36,7 @@ private:
     std::vector<agvd::Vec3> points_;
     std::vector<double> distances_;
     double reach_;
-    agvd::Vec3 low_, high_;  // Of the points' box, by reach larger.
+    agvd::Vec3 low_, high_;  // The points' box, enlarged by reach.
     std::vector<std::pair<std::uint64_t, agvd::Index>> entries_;  // (cell, point near it), sorted.
     std::unordered_map<std::uint64_t, Cell> cells_;
 };

@@ -10,8 +10,8 @@
 #include "agvd/core/bucket_sort.h"
 #include "agvd/core/parallel.h"
 
-// Works on faces that share indices instead of a half-edge structure, so that it can judge meshes
-// that are not manifold.
+// Finds pairs of faces with intersecting boxes, then tests each pair exactly with CGAL. Uses vertex
+// indices instead of a half-edge structure, so that it works on non-manifold meshes.
 namespace remesh {
 namespace {
 
@@ -23,8 +23,8 @@ using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, Index>;
 
 // Pairs of boxes tested per chunk.
 constexpr Index grain = 4096;
-// Pairs of boxes that are held at once. Meshes have some 10 a face; a polygon of 20 000 corners cut
-// into needles has hundreds of millions.
+// Most pairs of boxes in memory at once. Meshes have some 10 for each face; a polygon of 20 000
+// corners cut into needles has hundreds of millions.
 constexpr std::size_t most_candidates = std::size_t{1} << 25;
 
 class Soup {
@@ -47,18 +47,19 @@ public:
         return result;
     }
 
-    // Do the two faces meet in more than the corners that they share?
+    // Whether the two faces meet in more than the corners that they share.
     [[nodiscard]] bool intersect(Pair faces) const {
         Triangle a = faces_[faces.first], b = faces_[faces.second];
         switch (move_shared_first(a, b)) {
             case 0:
                 return CGAL::do_intersect(triangle(a), triangle(b));
             case 1:
-                // Beyond the shared corner there is only one of the opposite sides to meet.
+                // If they meet beyond the shared corner, one of the opposite sides does.
                 return CGAL::do_intersect(triangle(a), side(b)) ||
                        CGAL::do_intersect(triangle(b), side(a));
             case 2:
-                // Only when folded flat: same plane, and both on one side of the shared edge.
+                // Only if folded onto each other: in one plane, and on the same side of the shared
+                // edge.
                 return CGAL::coplanar(point(a[0]), point(a[1]), point(a[2]), point(b[2])) &&
                        CGAL::coplanar_orientation(point(a[0]), point(a[1]), point(a[2]),
                                                   point(b[2])) == CGAL::POSITIVE;
@@ -129,7 +130,7 @@ std::optional<std::vector<Pair>> find_self_intersections(const agvd::MeshView& m
             intersecting(soup, std::exchange(candidates, {}), num_faces, num_threads, poller);
         all.insert(all.end(), found.begin(), found.end());
     };
-    // Every face meets its neighbours, so that pairs, and polls with them, keep coming.
+    // Every face meets its neighbours, so that there are always pairs, and polls with them.
     agvd::Ticker ticker(poller);
     CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
         ticker.tick(2);

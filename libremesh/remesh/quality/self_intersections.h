@@ -13,13 +13,13 @@ namespace remesh {
 
 //! Pairs of faces (lower, higher), sorted, that meet in more than the vertices or the edge they
 //! share by index: they cross, touch, fold onto each other along their edge, or have the same
-//! corners. Decided exactly on the coordinates. Faces without area are passed over. Any mesh,
-//! manifold or not.
+//! corners. Decided exactly on the coordinates. Faces without area are skipped. Any mesh, manifold
+//! or not.
 //!
 //! \param num_threads  >= 0; 0: all cores. Any number gives the same pairs.
 //! \throw agvd::Cancelled  the progress callback returned false.
-//! \return nothing in a build without CGAL, whose box intersection and exact predicates do the
-//! work. Cost: O(n log^3 n) and about 1 us for each pair of neighbouring faces.
+//! \return unset in a build without CGAL, whose box intersection and exact predicates are used.
+//! Cost: O(n log^3 n) and about 1 us for each pair of neighbouring faces.
 [[nodiscard]] std::optional<std::vector<std::pair<agvd::Index, agvd::Index>>>
 find_self_intersections(const agvd::MeshView& mesh, int num_threads = 0,
                         const agvd::Progress& progress = {});

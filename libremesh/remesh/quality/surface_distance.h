@@ -11,9 +11,8 @@
 namespace remesh {
 
 struct DistanceOptions {
-    agvd::Index samples =
-        200'000;          //!< On each of the two surfaces, >= 1; the vertices come on top.
-    int num_threads = 0;  //!< >= 0; 0: all cores. Any number gives the same bytes.
+    agvd::Index samples = 200'000;  //!< On each of the two surfaces, >= 1; vertices are added.
+    int num_threads = 0;            //!< >= 0; 0: all cores. Any number gives the same bytes.
     agvd::Progress progress = {};
 };
 
@@ -48,9 +47,9 @@ struct SurfaceDistance {
 };
 
 //! Compares two surfaces by stratified area-uniform samples and by their vertices. Faces without
-//! area are passed over.
+//! area are skipped.
 //!
-//! \return nothing in a build without CGAL, whose AABB tree finds the closest points.
+//! \return unset in a build without CGAL, whose AABB tree finds the closest points.
 //! \throw agvd::InvalidOption  samples < 1 or num_threads < 0.
 //! \throw agvd::InvalidInput   no face of a mesh has area.
 //! \throw agvd::Cancelled      the progress callback returned false.

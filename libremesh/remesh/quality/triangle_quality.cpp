@@ -1,3 +1,5 @@
+// One pass over the faces for shapes and angles, one over the edges for the Delaunay condition and
+// lengths, one for valences.
 #include "remesh/quality/triangle_quality.h"
 
 #include <algorithm>

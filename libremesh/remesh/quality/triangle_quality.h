@@ -10,7 +10,7 @@ namespace remesh {
 //! Angles in radians, shares in [0, 1]. A face without area has quality 0; its angles are 0 or pi.
 struct TriangleQuality {
     //! Of Q = 6 / sqrt(3) * S / (p h): S area, p half the perimeter, h the longest edge. 1 for an
-    //! equilateral triangle, 0 for a flat one ([frey1999]).
+    //! equilateral triangle, 0 for a degenerate one ([frey1999]).
     double mean_quality = 0;
     double min_quality = 0;
     double mean_min_angle = 0;  //!< Mean of the faces' smallest angles.
@@ -25,8 +25,8 @@ struct TriangleQuality {
     agvd::Index faces_without_area = 0;
 };
 
-//! Measures any mesh, manifold or not; of an edge with one face or with more than two the Delaunay
-//! condition is not asked, and vertices in no face count nowhere.
+//! Measures any mesh, manifold or not. Edges with one face or more than two are not tested for the
+//! Delaunay condition, and vertices in no face do not count.
 //!
 //! \param mesh  #V x 3 finite positions, #F x 3 indices in range; without faces all is 0.
 //! Cost: O(n log n).

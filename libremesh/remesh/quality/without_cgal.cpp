@@ -1,4 +1,4 @@
-// The answers of a build without CGAL to what only CGAL can measure.
+// Measures that need CGAL, for a build without it: they return nothing.
 #include "remesh/quality/self_intersections.h"
 #include "remesh/quality/surface_distance.h"
 

@@ -1,5 +1,5 @@
 //! \file
-//! The connected components of a surface, with what sampling needs to know of each.
+//! The connected components of a surface, with the data that sampling needs of each.
 #pragma once
 
 #include <atomic>
@@ -21,7 +21,7 @@ struct Component {
     [[nodiscard]] int genus() const { return (2 - euler - boundary_loops) / 2; }
 };
 
-//! Which faces hang together through edges.
+//! Which faces are connected through edges.
 struct FaceLabels {
     std::vector<agvd::Index> of_face;  //!< #F: numbers from 0, by lowest face.
     agvd::Index count = 0;             //!< Of components.
@@ -65,14 +65,14 @@ private:
     int sum_ = 0;
 };
 
-//! Of a component: of its edges without a face on the other side. Cost: O(faces).
+//! Total length of a component's edges with a single face. Cost: O(faces).
 [[nodiscard]] double boundary_length(const agvd::Surface& surface, const Component& component);
 
 //! V - E + F of the whole surface; isolated vertices do not count. Cost: O(#V).
 [[nodiscard]] double euler_of(const agvd::Surface& surface);
 
-//! By lowest face. Linear time, as connectivity is given (analyze_topology sorts it out of
-//! indices).
+//! Sorted by lowest face. Linear time, since connectivity is given (analyze_topology derives it
+//! from indices).
 //!
 //! \param num_threads  >= 0; 0: all cores. The result is the same for any number.
 [[nodiscard]] std::vector<Component> find_components(const agvd::Surface& surface,

@@ -1,6 +1,5 @@
 //! \file
-//! The sides of all faces grouped by edge, for measures that must work on any mesh, manifold or
-//! not.
+//! The sides of all faces grouped by edge, for code that must work on any mesh, manifold or not.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +22,7 @@ struct EdgeSide {
     [[nodiscard]] agvd::Index high() const { return static_cast<agvd::Index>(ends); }
 };
 
-//! 3 #F sides, those of one edge side by side, by face within. Cost: O(n).
+//! 3 #F sides, grouped by edge and sorted by face within an edge. Cost: O(n).
 [[nodiscard]] std::vector<EdgeSide> sorted_edge_sides(std::span<const agvd::Triangle> triangles,
                                                       agvd::Ticker ticker = {});
 

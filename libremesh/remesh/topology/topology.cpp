@@ -1,3 +1,6 @@
+// Groups the sides of faces by edge to check that a mesh is manifold and oriented, and counts
+// vertices, edges, faces and boundary loops of each component. With known connectivity the checks
+// are not needed.
 #include "remesh/topology/topology.h"
 
 #include <algorithm>
@@ -39,7 +42,7 @@ double face_area(const agvd::MeshView& mesh, Index face) {
     return 0.5 * (mesh.positions[b] - origin).cross(mesh.positions[c] - origin).norm();
 }
 
-// One umbrella per vertex: the corners at a vertex hang together through the edges at it.
+// One umbrella per vertex: the corners at a vertex are connected through the edges at it.
 bool has_one_umbrella_each(const agvd::MeshView& mesh, const std::vector<EdgeSide>& sides,
                            agvd::Ticker& ticker) {
     agvd::UnionFind corner(3 * mesh.triangles.size());

@@ -34,7 +34,7 @@ struct Topology {
 [[nodiscard]] Topology analyze_topology(const agvd::MeshView& mesh,
                                         const agvd::Progress& progress = {});
 
-//! The same where connectivity is known; is_manifold and is_oriented are true.
+//! The same for a mesh with known connectivity; is_manifold and is_oriented are true.
 //!
 //! \param connectivity  agvd::find_connectivity(mesh), of which no two faces may have the same
 //!                      corners, as in what clean_input returns.
