@@ -22,6 +22,12 @@ public:
         while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
         return i;
     }
+    //! The same without halving paths: threads may ask at once while nothing is united.
+    [[nodiscard]] Index root(Index i) const {
+        while (parent_[i] != i) i = parent_[i];
+        return i;
+    }
+    [[nodiscard]] bool is_root(Index i) const { return parent_[i] == i; }
     //! \return false if both are in one set already.
     bool unite(Index a, Index b) {
         if (parent_[a] == parent_[b]) return false;

@@ -42,9 +42,9 @@ struct Candidate {
 
 class MeshBuilder {
 public:
-    MeshBuilder(Domain& domain, PlacedSites placed, const StageContext& context)
+    MeshBuilder(Domain& domain, const PlacedSites& placed, const StageContext& context)
         : domain_(domain),
-          placed_(std::move(placed)),
+          placed_(placed),
           context_(context),
           finder_(domain, context),
           layout_(std::move(domain.prepared.layout)),
@@ -254,16 +254,12 @@ private:
         const std::vector<Index> farthest = farthest_corners(dual.diagram);
         std::vector<Index> corners;
         sites_.is_wanted.resize(sites_.on_base.size(), false);
-        for (const auto& [f, g] : crossings) {
-            for (const Index face : {f, g}) {
-                for (const Index v : dual.mesh.triangles[face]) {
-                    const Index site = dual.site[v];
-                    if (site == no_index || farthest[site] == no_index) continue;
-                    corners.push_back(farthest[site]);
-                    sites_.is_wanted[site] = true;
-                }
-            }
-        }
+        for_each_corner(crossings, dual.mesh.triangles, [&](Index v) {
+            const Index site = dual.site[v];
+            if (site == no_index || farthest[site] == no_index) return;
+            corners.push_back(farthest[site]);
+            sites_.is_wanted[site] = true;
+        });
         if (corners.empty()) return false;
         std::sort(corners.begin(), corners.end());
         corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
@@ -286,7 +282,7 @@ private:
     }
 
     Domain& domain_;
-    const PlacedSites placed_;
+    const PlacedSites& placed_;
     const StageContext& context_;
     CrossingFinder finder_;
     std::optional<agvd::SurfaceLayout> layout_;
@@ -301,9 +297,9 @@ private:
 
 }  // namespace
 
-BuiltMesh build_mesh(Domain& domain, PlacedSites sites, int most_mends,
+BuiltMesh build_mesh(Domain& domain, const PlacedSites& sites, int most_mends,
                      const StageContext& context) {
-    return MeshBuilder(domain, std::move(sites), context).run(most_mends);
+    return MeshBuilder(domain, sites, context).run(most_mends);
 }
 
 }  // namespace remesh::detail

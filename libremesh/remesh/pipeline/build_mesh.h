@@ -30,7 +30,7 @@ struct BuiltMesh {
 //! \param most_mends  most rounds that add sites at self-intersections.
 //! \throw TooFewSamples, or NetworkFailed if there is a plan.
 //! Cost: a propagation and a diagram for each round of build_valid_dual.
-[[nodiscard]] BuiltMesh build_mesh(Domain& domain, PlacedSites sites, int most_mends,
+[[nodiscard]] BuiltMesh build_mesh(Domain& domain, const PlacedSites& sites, int most_mends,
                                    const StageContext& context);
 
 }  // namespace remesh::detail

@@ -55,16 +55,12 @@ CrossingFaces unfit_crossings(CrossingFinder& finder, const CurveSites& curves, 
     result.unfitted_vertices = 0;
     for (int round = 0; round < max_unfits && crossings && !crossings->empty(); ++round) {
         bool is_changed = false;
-        for (const auto& [f, g] : *crossings) {
-            for (const Index face : {f, g}) {
-                for (const Index v : placed.mesh.triangles[face]) {
-                    if (placed.mesh.offsets[v].isZero(0)) continue;
-                    unfit(v, curves, placed);
-                    ++result.unfitted_vertices;
-                    is_changed = true;
-                }
-            }
-        }
+        for_each_corner(*crossings, placed.mesh.triangles, [&](Index v) {
+            if (placed.mesh.offsets[v].isZero(0)) return;
+            unfit(v, curves, placed);
+            ++result.unfitted_vertices;
+            is_changed = true;
+        });
         if (!is_changed) break;
         crossings = finder.find(placed);
     }

@@ -9,6 +9,17 @@ namespace remesh::detail {
 //! Pairs of faces that intersect; unset without CGAL.
 using CrossingFaces = std::optional<std::vector<std::pair<agvd::Index, agvd::Index>>>;
 
+//! Calls each(vertex) for the corners of the faces of each pair.
+template <typename Each>
+void for_each_corner(const std::vector<std::pair<agvd::Index, agvd::Index>>& pairs,
+                     const std::vector<agvd::Triangle>& triangles, const Each& each) {
+    for (const auto& [f, g] : pairs) {
+        for (const agvd::Index face : {f, g}) {
+            for (const agvd::Index v : triangles[face]) each(v);
+        }
+    }
+}
+
 //! Finds self-intersections, and counts those of the input as soon as a result has any.
 class CrossingFinder {
 public:

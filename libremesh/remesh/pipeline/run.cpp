@@ -23,7 +23,7 @@ double spacing_of(const CleanedInput& cleaned, const RemeshOptions& options) {
 }
 
 // All stages after cleaning, in their order: cleaned surface, curves, domain, sites, mesh.
-// \throw TooFewSamples, NetworkFailed `cleaned` is unchanged.
+// \throw TooFewSamples, NetworkFailed; `cleaned` is unchanged then.
 void run_attempt(CleanedInput& cleaned, const FoundCurves& found, const KeptCurves& kept,
                  int most_mends, const StageContext& context) {
     const double spacing = spacing_of(cleaned, context.options);

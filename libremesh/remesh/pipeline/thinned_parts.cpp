@@ -13,18 +13,6 @@ using agvd::Index;
 // Most rounds of mending; in the second fewer vertices may move.
 constexpr int max_rounds = 2;
 
-// \param numbers  #V of the mended mesh: the numbers before mending.
-void fix_corners(const std::vector<std::pair<Index, Index>>& faces, const PlacedMesh& mended,
-                 const std::vector<Index>& numbers, std::vector<Mobility>& mobility) {
-    for (const auto& [f, g] : faces) {
-        for (const Index face : {f, g}) {
-            for (const Index v : mended.triangles[face]) {
-                if (numbers[v] < mobility.size()) mobility[numbers[v]] = Mobility::Fixed;
-            }
-        }
-    }
-}
-
 }  // namespace
 
 ThinnedParts find_thinned_parts(const Domain& domain, const ValidDual& dual, PlacedMesh placed,
@@ -66,7 +54,10 @@ std::optional<MendedMesh> mend_thinned(const Domain& domain, ThinnedParts parts,
         if (num_crossings <= most_crossings) {
             return MendedMesh{std::move(mended.mesh), num_crossings};
         }
-        fix_corners(*crossings, mended.mesh, numbers, parts.mobility);
+        for_each_corner(*crossings, mended.mesh.triangles, [&](Index v) {
+            const Index before = numbers[v];
+            if (before < parts.mobility.size()) parts.mobility[before] = Mobility::Fixed;
+        });
     }
     return std::nullopt;
 }

@@ -1,8 +1,9 @@
 #include "remesh/topology/components.h"
 
-#include <algorithm>
+#include <atomic>
 
 #include "agvd/core/parallel.h"
+#include "agvd/core/union_find.h"
 #include "agvd/mesh/face_area.h"
 
 namespace remesh::detail {
@@ -15,56 +16,51 @@ namespace {
 
 constexpr Index grain = 1 << 14;  // Faces, half-edges or vertices.
 
-// The lowest face that hangs together with each, or one on the way there: roots are their own.
-class FaceSets {
+// Adds to numbers of components, on several threads at once. Numbers of one component that come in
+// a row are added in one go: most surfaces have one component only.
+class ComponentTally {
 public:
-    explicit FaceSets(Index num_faces) : parent_(num_faces) {}
+    explicit ComponentTally(std::vector<int>& numbers) : numbers_(numbers) {}
+    ComponentTally(const ComponentTally&) = delete;
+    ComponentTally& operator=(const ComponentTally&) = delete;
+    ~ComponentTally() { flush(); }
 
-    // Joins what hangs together within a chunk; nobody else knows its faces yet.
-    // \param outside  gets half-edges to faces of lower chunks.
-    void join_chunk(std::span<const Index> twin, Index begin, Index end,
-                    std::vector<Index>& outside) {
-        for (Index f = begin; f < end; ++f) {
-            parent_[f] = f;
-            for (Index h = 3 * f; h < 3 * f + 3; ++h) {
-                if (twin[h] >= h) continue;  // Seen from the other side, or no_index.
-                if (Surface::face(twin[h]) >= begin) {
-                    unite(f, Surface::face(twin[h]));
-                } else {
-                    outside.push_back(h);
-                }
-            }
+    void add(Index component, int value) {
+        if (component != component_) {
+            flush();
+            component_ = component;
         }
-    }
-    void unite(Index a, Index b) {
-        if (parent_[a] == parent_[b]) return;
-        a = halved_root(a);
-        b = halved_root(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-    [[nodiscard]] bool is_root(Index face) const { return parent_[face] == face; }
-    [[nodiscard]] Index root(Index face) const {
-        while (parent_[face] != face) face = parent_[face];
-        return face;
+        sum_ += value;
     }
 
 private:
-    Index halved_root(Index face) {
-        while (parent_[face] != face) face = parent_[face] = parent_[parent_[face]];
-        return face;
+    void flush() {
+        if (sum_ == 0) return;
+        std::atomic_ref(numbers_[component_]).fetch_add(sum_, std::memory_order_relaxed);
+        sum_ = 0;
     }
 
-    std::vector<Index> parent_;
+    std::vector<int>& numbers_;
+    Index component_ = no_index;
+    int sum_ = 0;
 };
 
 }  // namespace
 
 FaceLabels label_components(std::span<const Index> twin, int num_threads, agvd::Poller& poller) {
     const auto num_faces = static_cast<Index>(twin.size() / 3);
-    FaceSets sets(num_faces);
+    agvd::UnionFind sets(num_faces);
     std::vector<std::vector<Index>> outside(agvd::num_chunks(num_faces, grain));
+    // A chunk unites its own faces only, which no other chunk reads.
     const auto join = [&](Index chunk, Index begin, Index end) {
-        sets.join_chunk(twin, begin, end, outside[chunk]);
+        for (Index h = 3 * begin; h < 3 * end; ++h) {
+            if (twin[h] >= h) continue;  // Its twin's turn, or no_index.
+            if (Surface::face(twin[h]) >= begin) {
+                sets.unite(Surface::face(h), Surface::face(twin[h]));
+            } else {
+                outside[chunk].push_back(h);
+            }
+        }
     };
     agvd::parallel_chunks(num_faces, grain, num_threads, join, poller);
     agvd::Ticker ticker(poller);
@@ -76,17 +72,44 @@ FaceLabels label_components(std::span<const Index> twin, int num_threads, agvd::
     }
     FaceLabels labels{std::vector<Index>(num_faces), 0};
     poller.poll();
+    const agvd::UnionFind& done = sets;
     for (Index f = 0; f < num_faces; ++f) {
-        if (sets.is_root(f)) labels.of_face[f] = labels.count++;
+        if (done.is_root(f)) labels.of_face[f] = labels.count++;
     }
     poller.poll();
     const auto label = [&](Index, Index begin, Index end) {
         for (Index f = begin; f < end; ++f) {
-            if (!sets.is_root(f)) labels.of_face[f] = labels.of_face[sets.root(f)];
+            if (const Index root = done.root(f); root != f)
+                labels.of_face[f] = labels.of_face[root];
         }
     };
     agvd::parallel_chunks(num_faces, grain, num_threads, label, poller);
     return labels;
+}
+
+std::vector<int> euler_of_components(std::span<const Index> twin, std::span<const Index> outgoing,
+                                     const FaceLabels& labels, int num_threads,
+                                     agvd::Poller& poller) {
+    std::vector<int> euler(labels.count, 0);
+    const auto count_faces = [&](Index, Index begin, Index end) {
+        ComponentTally tally(euler);
+        for (Index f = begin; f < end; ++f) {
+            int num_edges = 0;  // An edge counts at its lower half-edge; no_index is higher.
+            for (Index h = 3 * f; h < 3 * f + 3; ++h) num_edges += twin[h] > h ? 1 : 0;
+            tally.add(labels.of_face[f], 1 - num_edges);
+        }
+    };
+    agvd::parallel_chunks(static_cast<Index>(labels.of_face.size()), grain, num_threads,
+                          count_faces, poller);
+    const auto count_vertices = [&](Index, Index begin, Index end) {
+        ComponentTally tally(euler);
+        for (Index v = begin; v < end; ++v) {
+            if (outgoing[v] != no_index) tally.add(labels.of_face[Surface::face(outgoing[v])], 1);
+        }
+    };
+    agvd::parallel_chunks(static_cast<Index>(outgoing.size()), grain, num_threads, count_vertices,
+                          poller);
+    return euler;
 }
 
 double boundary_length(const Surface& surface, const Component& component) {
@@ -113,31 +136,17 @@ std::vector<Component> find_components(const Surface& surface, int num_threads,
     std::vector<Component> components(labels.count);
     std::vector<double> area(surface.num_faces());
     poller.poll();
-    const std::function<int&(Index)> euler_of_component = [&](Index i) -> int& {
-        return components[i].euler;
+    const auto measure = [&](Index, Index begin, Index end) {
+        for (Index f = begin; f < end; ++f) area[f] = agvd::face_area(surface, f);
     };
-    const auto count_faces = [&](Index, Index begin, Index end) {
-        ComponentTally euler(euler_of_component);
-        for (Index f = begin; f < end; ++f) {
-            area[f] = agvd::face_area(surface, f);
-            int num_edges = 0;  // An edge counts at its lower half-edge; no_index is higher.
-            for (Index h = 3 * f; h < 3 * f + 3; ++h) num_edges += surface.twin[h] > h ? 1 : 0;
-            euler.add(label[f], 1 - num_edges);
-        }
-    };
-    agvd::parallel_chunks(surface.num_faces(), grain, num_threads, count_faces, poller);
-    const auto count_vertices = [&](Index, Index begin, Index end) {
-        ComponentTally euler(euler_of_component);
-        for (Index v = begin; v < end; ++v) {
-            const Index h = surface.outgoing[v];
-            if (h != no_index) euler.add(label[Surface::face(h)], 1);
-        }
-    };
-    agvd::parallel_chunks(surface.num_vertices(), grain, num_threads, count_vertices, poller);
+    agvd::parallel_chunks(surface.num_faces(), grain, num_threads, measure, poller);
+    const std::vector<int> euler =
+        euler_of_components(surface.twin, surface.outgoing, labels, num_threads, poller);
     std::vector<Index> num_faces(labels.count, 0);
     for (const Index component : label) ++num_faces[component];
     poller.poll();
     for (Index i = 0; i < labels.count; ++i) {
+        components[i].euler = euler[i];
         components[i].faces.reserve(num_faces[i]);
         components[i].area_up_to.reserve(num_faces[i]);
     }

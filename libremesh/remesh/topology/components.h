@@ -2,8 +2,6 @@
 //! The connected components of a surface, with the data that sampling needs of each.
 #pragma once
 
-#include <atomic>
-#include <functional>
 #include <span>
 
 #include "agvd/core/poller.h"
@@ -34,36 +32,16 @@ struct FaceLabels {
 [[nodiscard]] FaceLabels label_components(std::span<const agvd::Index> twin, int num_threads,
                                           agvd::Poller& poller);
 
-//! Adds to integers of components, for several threads at once. A run of one component is added in
-//! one go: most surfaces have one only.
-class ComponentTally {
-public:
-    //! \param number_of  gives the component's number, an int&; outlives this.
-    explicit ComponentTally(const std::function<int&(agvd::Index)>& number_of)
-        : number_of_(number_of) {}
-    ComponentTally(const ComponentTally&) = delete;
-    ComponentTally& operator=(const ComponentTally&) = delete;
-    ~ComponentTally() { flush(); }
-
-    void add(agvd::Index component, int value) {
-        if (component != component_) {
-            flush();
-            component_ = component;
-        }
-        sum_ += value;
-    }
-
-private:
-    void flush() {
-        if (sum_ == 0) return;
-        std::atomic_ref(number_of_(component_)).fetch_add(sum_, std::memory_order_relaxed);
-        sum_ = 0;
-    }
-
-    const std::function<int&(agvd::Index)>& number_of_;
-    agvd::Index component_ = agvd::no_index;
-    int sum_ = 0;
-};
+//! V - E + F of each component. Vertices without faces do not count.
+//!
+//! \param twin, outgoing  as agvd::Connectivity has them.
+//! \param labels          of label_components(twin).
+//! \param num_threads     >= 0; 0: all cores. The result is the same for any number.
+//! Cost: O(#F).
+[[nodiscard]] std::vector<int> euler_of_components(std::span<const agvd::Index> twin,
+                                                   std::span<const agvd::Index> outgoing,
+                                                   const FaceLabels& labels, int num_threads,
+                                                   agvd::Poller& poller);
 
 //! Total length of a component's edges with a single face. Cost: O(faces).
 [[nodiscard]] double boundary_length(const agvd::Surface& surface, const Component& component);

@@ -159,38 +159,23 @@ Topology analyze_topology(const agvd::MeshView& mesh, const agvd::Progress& prog
 
 Topology analyze_topology(const agvd::MeshView& mesh, const agvd::Connectivity& connectivity,
                           int num_threads, const agvd::Progress& progress) {
-    constexpr Index grain = 1 << 14;  // Faces or vertices.
+    constexpr Index grain = 1 << 14;  // Faces.
     agvd::Poller poller(progress);
     agvd::Ticker ticker(poller);
     const auto& [twin, outgoing] = connectivity;
     detail::FaceLabels labels = detail::label_components(twin, num_threads, poller);
+    const std::vector<int> euler =
+        detail::euler_of_components(twin, outgoing, labels, num_threads, poller);
     Topology result{true, true, std::vector<ComponentTopology>(labels.count),
                     std::move(labels.of_face)};
     const std::vector<Index>& label = result.face_component;
-    const std::function<int&(Index)> euler_of = [&](Index component) -> int& {
-        return result.components[component].euler;
-    };
     const auto num_faces = static_cast<Index>(label.size());
     std::vector<double> area(num_faces);
     poller.poll();
-    const auto count_faces = [&](Index, Index begin, Index end) {
-        detail::ComponentTally euler(euler_of);
-        for (Index f = begin; f < end; ++f) {
-            area[f] = face_area(mesh, f);
-            int num_edges = 0;  // An edge counts at its lower half-edge; no_index is higher.
-            for (Index h = 3 * f; h < 3 * f + 3; ++h) num_edges += twin[h] > h ? 1 : 0;
-            euler.add(label[f], 1 - num_edges);
-        }
+    const auto measure = [&](Index, Index begin, Index end) {
+        for (Index f = begin; f < end; ++f) area[f] = face_area(mesh, f);
     };
-    agvd::parallel_chunks(num_faces, grain, num_threads, count_faces, poller);
-    const auto count_vertices = [&](Index, Index begin, Index end) {
-        detail::ComponentTally euler(euler_of);
-        for (Index v = begin; v < end; ++v) {
-            if (outgoing[v] != no_index) euler.add(label[outgoing[v] / 3], 1);
-        }
-    };
-    agvd::parallel_chunks(static_cast<Index>(outgoing.size()), grain, num_threads, count_vertices,
-                          poller);
+    agvd::parallel_chunks(num_faces, grain, num_threads, measure, poller);
     for (Index f = 0; f < num_faces; ++f) {  // Sums run in the order of the faces.
         ticker.tick();
         ComponentTopology& c = result.components[label[f]];
@@ -210,7 +195,11 @@ Topology analyze_topology(const agvd::MeshView& mesh, const agvd::Connectivity& 
             h = outgoing[mesh.triangles[h / 3][agvd::next_half_edge(h) % 3]];
         }
     }
-    for (ComponentTopology& c : result.components) c.genus = (2 - c.euler - c.boundary_loops) / 2;
+    for (Index i = 0; i < euler.size(); ++i) {
+        ComponentTopology& c = result.components[i];
+        c.euler = euler[i];
+        c.genus = (2 - c.euler - c.boundary_loops) / 2;
+    }
     return result;
 }
 
