@@ -1,6 +1,8 @@
 # agvd_flags(target): the language level, warnings and sanitizers of all our targets; never global.
 function(agvd_flags target)
     target_compile_features(${target} PUBLIC cxx_std_20)
+    set_target_properties(${target} PROPERTIES
+        UNITY_BUILD ${AGVD_UNITY} UNITY_BUILD_BATCH_SIZE 8)
     # Roots without errno or traps keep their values and are half as long.
     target_compile_options(${target} PRIVATE
         -ffp-contract=off -fno-math-errno -fno-trapping-math -Wall -Wextra -Wshadow -Wconversion $<$<BOOL:${AGVD_WERROR}>:-Werror>)

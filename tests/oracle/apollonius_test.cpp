@@ -26,17 +26,17 @@ using Traits = CGAL::Apollonius_graph_traits_2<Kernel, CGAL::Field_with_sqrt_tag
 using Graph = CGAL::Apollonius_graph_2<Traits>;
 
 // Positions in double, found by Newton here and by formulas there.
-constexpr double rounding = 1e-7;
+constexpr double position_rounding = 1e-7;
 
-struct Case {
+struct ApolloniusCase {
     std::array<Vec2, 3> corners;
     std::vector<PlanarRelay> relays;  // Relay i is site i.
 };
 
 // Sites lie outside, so that every cell that enters the triangle reaches its boundary.
-Case make_case(std::uint64_t seed) {
+ApolloniusCase make_case(std::uint64_t seed) {
     Dice dice(seed);
-    Case c;
+    ApolloniusCase c;
     c.corners = {Vec2(0, 0), Vec2(1, 0), Vec2(dice.number(-0.3, 1.3), dice.number(0.2, 1.2))};
     const Index count = dice.count(3, 12);
     const double spread = dice.one_in(2) ? 0.7 : 3;
@@ -55,7 +55,7 @@ Case make_case(std::uint64_t seed) {
     return c;
 }
 
-std::vector<Breakpoint> label_boundary(const Case& c) {
+std::vector<Breakpoint> label_boundary(const ApolloniusCase& c) {
     std::vector<Breakpoint> breakpoints;
     EnvelopeScratch scratch;
     std::vector<LabelInterval> intervals;
@@ -79,7 +79,7 @@ std::vector<Breakpoint> label_boundary(const Case& c) {
     return breakpoints;
 }
 
-Graph graph_of(const Case& c) {
+Graph graph_of(const ApolloniusCase& c) {
     Graph graph;
     for (const PlanarRelay& relay : c.relays) {
         graph.insert({{relay.image.x(), relay.image.y()}, -relay.weight});
@@ -87,7 +87,7 @@ Graph graph_of(const Case& c) {
     return graph;
 }
 
-Index site_of(const Case& c, const Graph::Site_2& site) {
+Index site_of(const ApolloniusCase& c, const Graph::Site_2& site) {
     for (const PlanarRelay& relay : c.relays) {
         if (relay.image.x() == site.point().x() && relay.image.y() == site.point().y()) {
             return relay.site;
@@ -97,7 +97,7 @@ Index site_of(const Case& c, const Graph::Site_2& site) {
 }
 
 // How far inside the triangle a point lies.
-double depth(const Case& c, const Vec2& p) {
+double depth(const ApolloniusCase& c, const Vec2& p) {
     double least = 1;
     for (std::size_t k = 0; k < 3; ++k) {
         const Vec2& a = c.corners[k];
@@ -112,7 +112,7 @@ struct Vertex {
     Vec2 position;
 };
 
-std::vector<Vertex> vertices_of(const Case& c, const Graph& graph) {
+std::vector<Vertex> vertices_of(const ApolloniusCase& c, const Graph& graph) {
     std::vector<Vertex> result;
     for (auto f = graph.finite_faces_begin(); f != graph.finite_faces_end(); ++f) {
         const auto& s0 = f->vertex(0)->site();
@@ -126,7 +126,7 @@ std::vector<Vertex> vertices_of(const Case& c, const Graph& graph) {
 
 bool has_near(const std::vector<Vertex>& vertices, const Vertex& v) {
     return std::any_of(vertices.begin(), vertices.end(), [&](const Vertex& other) {
-        return other.sites == v.sites && (other.position - v.position).norm() <= rounding;
+        return other.sites == v.sites && (other.position - v.position).norm() <= position_rounding;
     });
 }
 
@@ -141,12 +141,13 @@ bool barely_meets(const std::vector<Vertex>& vertices, const Vertex& v) {
 }
 
 // The distances of the two sites of an arc are the least that CGAL knows.
-void expect_on_bisector(const Case& c, const Graph& graph, const Vec2& p, const LocalArc& arc) {
+void expect_on_bisector(const ApolloniusCase& c, const Graph& graph, const Vec2& p,
+                        const LocalArc& arc) {
     const auto nearest_site = graph.nearest_neighbor({p.x(), p.y()})->site();
     const double least = (p - Vec2(nearest_site.point().x(), nearest_site.point().y())).norm() -
                          nearest_site.weight();
-    EXPECT_NEAR(reach(c.relays[arc.left], p).distance, least, rounding);
-    EXPECT_NEAR(reach(c.relays[arc.right], p).distance, least, rounding);
+    EXPECT_NEAR(reach(c.relays[arc.left], p).distance, least, position_rounding);
+    EXPECT_NEAR(reach(c.relays[arc.right], p).distance, least, position_rounding);
 }
 
 }  // namespace
@@ -155,7 +156,7 @@ TEST(Apollonius, InATriangleIsThatOfCgal) {
     std::size_t num_voronoi_vertices = 0, num_arcs = 0;
     for (std::uint64_t seed = 0; seed < 1000 && !HasFailure(); ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
-        const Case c = make_case(seed);
+        const ApolloniusCase c = make_case(seed);
         const std::vector<Breakpoint> breakpoints = label_boundary(c);
         const Graph graph = graph_of(c);
         LocalDiagram local;
@@ -176,7 +177,7 @@ TEST(Apollonius, InATriangleIsThatOfCgal) {
             EXPECT_TRUE(has_near(theirs, v)) << "only ours: " << v.position.transpose();
         }
         for (const Vertex& v : theirs) {
-            if (depth(c, v.position) < rounding || barely_meets(theirs, v)) continue;
+            if (depth(c, v.position) < position_rounding || barely_meets(theirs, v)) continue;
             EXPECT_TRUE(has_near(ours, v)) << "only CGAL's: " << v.position.transpose();
         }
         for (const LocalArc& arc : local.arcs) {

@@ -35,19 +35,19 @@ std::vector<DiagramError> errors_of(const Surface& surface, const std::vector<Su
 }
 
 // Distances of real paths, in double.
-constexpr double rounding = 1e-12;
+constexpr double path_rounding = 1e-12;
 
-struct Shape {
+struct DiagramShape {
     const char* name;
     TriangleMesh (*make)();
 };
 
-class SmallMeshes : public testing::TestWithParam<Shape> {
+class SmallMeshes : public testing::TestWithParam<DiagramShape> {
 protected:
     Surface surface = build_surface(GetParam().make().view());
 };
 
-const Shape small_meshes[] = {
+const DiagramShape small_meshes[] = {
     {"sphere", [] { return shapes::sphere(3); }},
     {"jittered_sphere", [] { return shapes::jitter(shapes::sphere(3), 0.02, 1); }},
     {"torus", [] { return shapes::torus(36, 16); }},
@@ -68,7 +68,7 @@ TEST_P(SmallMeshes, DistancesAreNeverBelowTheExactOnes) {
     for (std::uint64_t seed = 1; seed <= 3; ++seed) {
         const auto sites = points::scattered(surface, 3 + 9 * static_cast<Index>(seed), seed);
         for (const DiagramError& error : errors_of(surface, sites, {0, 1, 2, 5, 8})) {
-            EXPECT_GE(error.min_relative_distance, -rounding) << "seed " << seed;
+            EXPECT_GE(error.min_relative_distance, -path_rounding) << "seed " << seed;
         }
     }
 }
@@ -118,7 +118,7 @@ TEST_P(RealMeshes, DiagramsAreCloseToTheExactOne) {
         sites.push_back(point_at(surface, i * (surface.num_vertices() / 30)));
     }
     const auto errors = errors_of(surface, sites, {2, 8});
-    for (const DiagramError& error : errors) EXPECT_GE(error.min_relative_distance, -rounding);
+    for (const DiagramError& error : errors) EXPECT_GE(error.min_relative_distance, -path_rounding);
     EXPECT_LT(errors[1].bisectors.mean, errors[0].bisectors.mean);
     EXPECT_LT(errors[1].bisectors.p95, errors[0].bisectors.p95);
     EXPECT_LT(errors[1].wrong_label_area, errors[0].wrong_label_area);

@@ -11,7 +11,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
-#include <limits>
 #include <sstream>
 
 #include "agvd/diagram/point_label.h"
@@ -30,8 +29,6 @@
 using namespace agvd;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Distances of real paths in double, relative to the larger of the distance and the mesh.
 constexpr double rounding = 1e-9;
@@ -60,7 +57,7 @@ std::string describe(const PropagationOptions& options) {
 }
 
 // Sites, the points that are asked about (first every vertex that has a face), and the truth there.
-struct Case {
+struct EngineCase {
     Surface surface;
     std::vector<SurfacePoint> sites;
     std::vector<Index> vertices;
@@ -83,7 +80,7 @@ std::string number(double value) {
 
 // The arbiter's distances instead of the oracle's; where these differ, both are printed: CGAL has
 // faults where windows begin and end in line with vertices.
-void correct_by_arbiter(Case& c) {
+void correct_by_arbiter(EngineCase& c) {
     if (c.is_by_arbiter) return;
     c.is_by_arbiter = true;
     const arbiter::Distances truth = arbiter::nearest_sites(c.surface, c.sites, c.targets);
@@ -100,9 +97,9 @@ void correct_by_arbiter(Case& c) {
 // Whose word is taken first.
 enum class Judge { Oracle, Arbiter };
 
-Case make_case(const TriangleMesh& mesh, std::vector<SurfacePoint> sites,
-               const std::vector<SurfacePoint>& more_targets, Judge judge) {
-    Case c;
+EngineCase make_case(const TriangleMesh& mesh, std::vector<SurfacePoint> sites,
+                     const std::vector<SurfacePoint>& more_targets, Judge judge) {
+    EngineCase c;
     c.surface = build_surface(mesh.view());
     c.sites = std::move(sites);
     Eigen::AlignedBox3d box;
@@ -128,7 +125,7 @@ Case make_case(const TriangleMesh& mesh, std::vector<SurfacePoint> sites,
 }
 
 // What an engine says of the targets.
-std::vector<PointLabel> answers(const Case& c, const Propagation& propagation) {
+std::vector<PointLabel> answers(const EngineCase& c, const Propagation& propagation) {
     std::vector<PointLabel> all;
     PointLabels labels(c.surface, propagation);
     for (std::size_t i = 0; i < c.targets.size(); ++i) {
@@ -143,7 +140,7 @@ std::vector<PointLabel> answers(const Case& c, const Propagation& propagation) {
 }
 
 // Distances of the targets from one site, at least as far as `longest`.
-std::vector<double> distances_from(const Case& c, SiteId site,
+std::vector<double> distances_from(const EngineCase& c, SiteId site,
                                    std::span<const SurfacePoint> targets, double longest,
                                    Judge judge) {
     const SurfacePoint& from = c.sites[site.value()];
@@ -153,11 +150,11 @@ std::vector<double> distances_from(const Case& c, SiteId site,
 }
 
 // The greatest distance that the bound allows.
-double ceiling(const Case& c, double exact, double bound) {
+double ceiling(const EngineCase& c, double exact, double bound) {
     return std::isfinite(bound) ? exact * (1 + bound) + c.tolerance(exact) : infinity;
 }
 
-bool is_possible(const Case& c, const PointLabel& ours, double exact, double bound) {
+bool is_possible(const EngineCase& c, const PointLabel& ours, double exact, double bound) {
     if (ours.site.is_valid() != std::isfinite(exact)) return false;
     if (!ours.distance || *ours.distance == exact) return true;
     return *ours.distance >= exact - c.tolerance(exact) &&
@@ -166,7 +163,7 @@ bool is_possible(const Case& c, const PointLabel& ours, double exact, double bou
 
 // Every distance is that of a real path from its site, and none exceeds the nearest site's by more
 // than `bound`; hence the nearest site is right wherever the next one is farther than that.
-void expect_right(Case& c, const Propagation& propagation, double bound) {
+void expect_right(EngineCase& c, const Propagation& propagation, double bound) {
     const std::vector<PointLabel> ours = answers(c, propagation);
     const auto text_of = [&](std::size_t i) {
         return (i < c.vertices.size() ? "vertex " + std::to_string(c.vertices[i])
@@ -213,7 +210,7 @@ void expect_right(Case& c, const Propagation& propagation, double bound) {
 }
 
 // Of several sites at one place, the first owns all.
-void expect_first_of_equals(const Case& c, const Propagation& propagation) {
+void expect_first_of_equals(const EngineCase& c, const Propagation& propagation) {
     for (std::size_t s = 1; s < c.sites.size(); ++s) {
         for (std::size_t r = 0; r < s; ++r) {
             if (c.sites[r] != c.sites[s]) continue;
@@ -225,7 +222,7 @@ void expect_first_of_equals(const Case& c, const Propagation& propagation) {
 }
 
 // The contract of relays.h that needs no distances.
-void expect_well_formed(const Case& c, const Propagation& p) {
+void expect_well_formed(const EngineCase& c, const Propagation& p) {
     ASSERT_EQ(p.vertex_site.size(), c.surface.num_vertices());
     ASSERT_EQ(p.vertex_distance.size(), c.surface.num_vertices());
     ASSERT_EQ(p.relay_ranges.size(), p.mixed_faces.size());
@@ -253,7 +250,7 @@ void expect_well_formed(const Case& c, const Propagation& p) {
     }
 }
 
-void check_engines(Case c, int other_threads) {
+void check_engines(EngineCase c, int other_threads) {
     for (PropagationOptions options : settings()) {
         SCOPED_TRACE(describe(options));
         options.num_threads = 1;

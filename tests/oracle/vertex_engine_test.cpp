@@ -16,7 +16,7 @@ using namespace agvd;
 
 namespace {
 
-constexpr double rounding = 1e-9;
+constexpr double sum_rounding = 1e-9;
 
 struct Shape {
     const char* name;
@@ -63,7 +63,8 @@ TEST_P(VertexEngine, DistancesAtVerticesAreNeverBelowTheExactOnes) {
         double mean = 0;
         Index wrong = 0;
         for (Index v = 0; v < surface.num_vertices(); ++v) {
-            EXPECT_GE(p.vertex_distance[v], exact.distance[v] * (1 - rounding)) << "vertex " << v;
+            EXPECT_GE(p.vertex_distance[v], exact.distance[v] * (1 - sum_rounding))
+                << "vertex " << v;
             if (exact.distance[v] > 0) mean += p.vertex_distance[v] / exact.distance[v] - 1;
             if (p.vertex_site[v] != exact.site[v]) ++wrong;
         }
@@ -94,7 +95,7 @@ TEST_P(VertexEngine, DistancesThroughRelaysAreNeverBelowTheExactOnes) {
     const NearestSites exact = exact_nearest_sites(surface, sites, targets);
     double mean = 0;
     for (std::size_t i = 0; i < targets.size(); ++i) {
-        EXPECT_GE(through[i], exact.distance[i] * (1 - rounding));
+        EXPECT_GE(through[i], exact.distance[i] * (1 - sum_rounding));
         mean += through[i] / exact.distance[i] - 1;
     }
     EXPECT_LT(mean / static_cast<double>(targets.size()), 0.04);

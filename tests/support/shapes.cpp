@@ -1,5 +1,6 @@
 #include "support/shapes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
@@ -225,6 +226,10 @@ double signed_volume(const TriangleMesh& mesh) {
         volume += mesh.positions[a].dot(mesh.positions[b].cross(mesh.positions[c])) / 6;
     }
     return volume;
+}
+
+double longest_edge(const agvd::Surface& surface) {
+    return *std::max_element(surface.length.begin(), surface.length.end());
 }
 
 }  // namespace shapes

@@ -2,7 +2,7 @@
 //! Meshes by formula.
 #pragma once
 
-#include "agvd/mesh/mesh_view.h"
+#include "agvd/mesh/surface.h"
 
 namespace shapes {
 
@@ -30,6 +30,8 @@ namespace shapes {
 void add_flat_vertices(agvd::TriangleMesh& mesh, agvd::Index count, std::uint64_t seed);
 //! Above 0 for a closed mesh with outward normals.
 [[nodiscard]] double signed_volume(const agvd::TriangleMesh& mesh);
+//! Length of the longest edge.
+[[nodiscard]] double longest_edge(const agvd::Surface& surface);
 //! Two meshes side by side in one.
 [[nodiscard]] agvd::TriangleMesh join(const agvd::TriangleMesh& a, const agvd::TriangleMesh& b);
 

@@ -26,6 +26,9 @@ void parallel_chunks(Index count, Index grain, int num_threads,
 void parallel_chunks(Index count, Index grain, int num_threads,
                      const std::function<void(Index chunk, Index begin, Index end)>& body);
 
+//! A chunk size for passes that do little for each face, edge or vertex.
+inline constexpr Index pass_grain = 1 << 14;
+
 //! The number of chunks of parallel_chunks for `count` indices.
 [[nodiscard]] constexpr Index num_chunks(Index count, Index grain) {
     return count / grain + (count % grain != 0 ? 1 : 0);

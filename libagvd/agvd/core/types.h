@@ -8,12 +8,15 @@
 #include <compare>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 
 namespace agvd {
 
 //! Plain index of a vertex, face, half-edge, edge or site inside one array.
 using Index = std::uint32_t;
 inline constexpr Index no_index = std::numeric_limits<Index>::max();
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+inline constexpr double degree = std::numbers::pi / 180;  //!< In radians.
 
 using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;

@@ -21,11 +21,11 @@ using Side = Index;
     for (Side side = 0; side < next.size(); ++side) next[side] = side;  // Closed curves.
     for (Index v = 0; v + 1 < diagram.vertex_offsets.size(); ++v) {
         const Index begin = diagram.vertex_offsets[v];
-        const Index degree = diagram.vertex_offsets[v + 1] - begin;
-        for (Index i = 0; i < degree; ++i) {
+        const Index valence = diagram.vertex_offsets[v + 1] - begin;
+        for (Index i = 0; i < valence; ++i) {
             // The cell between end i and end i + 1 leaves along end i and arrives along end i + 1.
             const EdgeEnd& out = diagram.vertex_ends[begin + i];
-            const EdgeEnd& in = diagram.vertex_ends[begin + (i + 1) % degree];
+            const EdgeEnd& in = diagram.vertex_ends[begin + (i + 1) % valence];
             const Side leaving = 2 * out.edge + (out.is_tail ? 0 : 1);
             const Side arriving = 2 * in.edge + (in.is_tail ? 1 : 0);
             next[arriving] = leaving;

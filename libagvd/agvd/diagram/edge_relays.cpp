@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace agvd {
 namespace {
@@ -18,7 +17,6 @@ constexpr double same_distance = 1e-4;
 // The relays across an edge suffice if they give the distances of its ends up to this share of the
 // edge. Errors below it are accepted for a shorter list of candidates.
 constexpr double enough_at_ends = 1e-2;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double root(double x, double y) { return std::sqrt(x * x + y * y); }
 

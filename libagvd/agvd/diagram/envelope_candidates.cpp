@@ -7,7 +7,6 @@
 namespace agvd {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int max_root_steps = 60;
 
 // The relays of two sites that are the nearest at x.

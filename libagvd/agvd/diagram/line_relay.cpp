@@ -3,11 +3,7 @@
 #include <algorithm>
 
 namespace agvd {
-namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-}  // namespace
+namespace {}  // namespace
 
 LineRelay on_line(const PlanarRelay& relay, const Vec2& start, const Vec2& along, double length) {
     LineRelay line{};

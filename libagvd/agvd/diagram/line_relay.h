@@ -6,8 +6,6 @@
 //! the path at distance w from the site: the image, or the end of the interval where paths bend.
 #pragma once
 
-#include <limits>
-
 #include "agvd/diagram/face_relays.h"
 
 namespace agvd {
@@ -47,7 +45,6 @@ struct LineSample {
 
 //! A point at (x, 0).
 [[nodiscard]] inline LineRelay point_on_line(double x, double weight, Index site) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     return {{x, x, x}, {0, 0, 0}, {weight, weight, weight}, -infinity, infinity, site};
 }
 

@@ -1,7 +1,6 @@
 #include "agvd/diagram/relay_tree.h"
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 
 namespace agvd {
@@ -16,7 +15,6 @@ void RelayTree::build(std::span<const PlanarRelay> relays) {
 
 void RelayTree::add_node(Index begin, Index end) {
     constexpr Index leaf_size = 16;
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     Node node{Vec2(infinity, infinity), Vec2(-infinity, -infinity), infinity, begin, end, no_index};
     for (Index i = begin; i < end; ++i) {
         const PlanarRelay& relay = relays_[order_[i]];

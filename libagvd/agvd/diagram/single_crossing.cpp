@@ -9,7 +9,6 @@
 namespace agvd {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t most_relays = 16;
 
 struct Search {

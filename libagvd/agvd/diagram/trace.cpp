@@ -9,14 +9,14 @@
 namespace agvd {
 namespace {
 
-constexpr Index grain = 128;  // Faces that are traced by one task.
+constexpr Index faces_per_task = 128;  // Faces that are traced by one task.
 
 // \param step  faces that are stored together, side by side.
 void store(std::span<const Index> faces, std::span<const FaceArcs> chunks, Index step,
            DiagramParts& parts) {
     for (Index i = 0; i < faces.size(); i += step) {
         const auto some = faces.subspan(i, std::min<std::size_t>(step, faces.size() - i));
-        parts.arcs.add(some, chunks[i / grain], i % grain);
+        parts.arcs.add(some, chunks[i / faces_per_task], i % faces_per_task);
         for (const Index face : some) {
             parts.tally.count_parts(parts.arcs.parts()[parts.arcs.of_face(face).parts], 1);
         }
@@ -28,8 +28,8 @@ void store(std::span<const Index> faces, std::span<const FaceArcs> chunks, Index
 void trace_faces(const StageInput& input, const RelayGroups& groups, std::span<const Index> mixed,
                  DiagramParts& parts) {
     // Some chunks at a time, so that arcs are stored while they are in the cache.
-    constexpr Index most = 64 * grain;
-    std::vector<FaceArcs> chunks(num_chunks(most, grain));
+    constexpr Index most = 64 * faces_per_task;
+    std::vector<FaceArcs> chunks(num_chunks(most, faces_per_task));
     const bool is_first = parts.arcs.is_empty();
     for (std::size_t begin = 0; begin < mixed.size(); begin += most) {
         const auto some = mixed.subspan(begin, std::min<std::size_t>(most, mixed.size() - begin));
@@ -37,11 +37,11 @@ void trace_faces(const StageInput& input, const RelayGroups& groups, std::span<c
             find_arcs(input, groups, parts.labels, some.subspan(first, last - first),
                       chunks[chunk]);
         };
-        parallel_chunks(static_cast<Index>(some.size()), grain, input.num_threads, trace_chunk,
-                        input.poller);
+        parallel_chunks(static_cast<Index>(some.size()), faces_per_task, input.num_threads,
+                        trace_chunk, input.poller);
         input.poller.poll();
         // Released places are for one face at a time.
-        store(faces_at(input.propagation, some), chunks, is_first ? grain : 1, parts);
+        store(faces_at(input.propagation, some), chunks, is_first ? faces_per_task : 1, parts);
         if (begin == 0 && is_first) {
             parts.arcs.reserve_for(static_cast<double>(mixed.size()) / most);
         }

@@ -5,13 +5,11 @@
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
 #include <optional>
 
 namespace agvd {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 // A search that strays this far (share of the size) from its start does not come back.
 constexpr double lost = 2;
 

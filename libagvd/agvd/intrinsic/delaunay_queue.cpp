@@ -25,16 +25,15 @@ void DelaunayQueue::push(Index edge) {
 
 // On a good mesh most of the work is this test, and few edges fail it.
 void DelaunayQueue::push_all(int num_threads, Poller& poller) {
-    constexpr Index grain = 1 << 14;  // Edges.
     const Index num_edges = surface_.num_edges();
-    std::vector<std::vector<Waiting>> found(num_chunks(num_edges, grain));
+    std::vector<std::vector<Waiting>> found(num_chunks(num_edges, pass_grain));
     const auto body = [&](Index chunk, Index begin, Index end) {
         for (Index e = begin; e < end; ++e) {
             if (surface_.edge_half[e] == no_index) continue;  // The edge was removed.
             if (const auto waiting = test(e)) found[chunk].push_back(*waiting);
         }
     };
-    parallel_chunks(num_edges, grain, num_threads, body, poller);
+    parallel_chunks(num_edges, pass_grain, num_threads, body, poller);
     for (const std::vector<Waiting>& chunk : found) {
         heap_.insert(heap_.end(), chunk.begin(), chunk.end());
     }

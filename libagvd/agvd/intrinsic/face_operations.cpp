@@ -61,8 +61,7 @@ std::array<Index, 2> cut_face(Surface& surface, FaceCharts& charts, Index half_e
 }  // namespace
 
 Index raise_flat_faces(Surface& surface, int num_threads, Poller& poller) {
-    constexpr Index grain = 1 << 14;  // Faces.
-    std::vector<Index> raised(num_chunks(surface.num_faces(), grain), 0);
+    std::vector<Index> raised(num_chunks(surface.num_faces(), pass_grain), 0);
     const auto raise = [&](Index chunk, Index begin, Index end) {
         for (Index f = begin; f < end; ++f) {
             const double longest = longest_side(surface, f);
@@ -74,7 +73,7 @@ Index raise_flat_faces(Surface& surface, int num_threads, Poller& poller) {
             }
         }
     };
-    parallel_chunks(surface.num_faces(), grain, num_threads, raise, poller);
+    parallel_chunks(surface.num_faces(), pass_grain, num_threads, raise, poller);
     return std::accumulate(raised.begin(), raised.end(), Index{0});
 }
 

@@ -17,7 +17,7 @@ namespace agvd::detail {
 namespace {
 
 // Radians: the rounding of the sum of a vertex's angles in the input.
-constexpr double flat_enough = 1e-12;
+constexpr double angle_rounding = 1e-12;
 // The number of vertices of a part of the surface, roughly. Parts let threads work in parallel; the
 // data of a part fits into the caches, and the memory of charts is used again. A run on 1.4 M faces
 // that loses 643 000 vertices takes 5.1 s of user time and 410 MB; with one part it takes 5.7 s and
@@ -37,9 +37,9 @@ struct Shared {
 };
 
 // Removes the vertices inside a part, or those that all parts have left (no_index).
-class Remover {
+class FlatRemover {
 public:
-    Remover(Shared& shared, FaceCharts& charts, FaceHistory& history, Index part, Ticker ticker)
+    FlatRemover(Shared& shared, FaceCharts& charts, FaceHistory& history, Index part, Ticker ticker)
         : shared_(shared),
           history_(history),
           part_(part),
@@ -137,15 +137,14 @@ bool is_flat(const Surface& surface, Index vertex) {
         product = turned_by(product, surface.apex[h].normalized());
         if (was_below && product.y() >= 0) ++num_turns;
     });
-    return std::abs(product.y()) < flat_enough && product.x() > 0 &&
+    return std::abs(product.y()) < angle_rounding && product.x() > 0 &&
            num_turns == (product.y() < 0 ? 0 : 1);
 }
 
 // The inner vertices without curvature that have a short edge, ascending.
 std::vector<Index> find_flat(const Shared& shared, int num_threads, Poller& poller) {
-    constexpr Index grain = 1 << 14;  // Vertices.
     const Surface& surface = shared.surface;
-    std::vector<std::vector<Index>> found(num_chunks(surface.num_vertices(), grain));
+    std::vector<std::vector<Index>> found(num_chunks(surface.num_vertices(), pass_grain));
     const auto find = [&](Index chunk, Index begin, Index end) {
         for (Index v = begin; v < end; ++v) {
             if (surface.outgoing[v] == no_index || surface.is_boundary_vertex(v)) continue;
@@ -156,7 +155,7 @@ std::vector<Index> find_flat(const Shared& shared, int num_threads, Poller& poll
             if (is_short && is_flat(surface, v)) found[chunk].push_back(v);
         }
     };
-    parallel_chunks(surface.num_vertices(), grain, num_threads, find, poller);
+    parallel_chunks(surface.num_vertices(), pass_grain, num_threads, find, poller);
     std::vector<Index> flat;
     for (const std::vector<Index>& chunk : found) {
         poller.poll();
@@ -168,8 +167,7 @@ std::vector<Index> find_flat(const Shared& shared, int num_threads, Poller& poll
 // The parts are cells of a grid around the mesh. The number of cells along the longest side is
 // chosen so that the parts of a round surface have the wanted size.
 std::vector<Index> find_parts(const std::vector<Vec3>& positions, int num_threads, Poller& poller) {
-    constexpr Index grain = 1 << 14;  // Vertices.
-    std::vector<Vec3> low(num_chunks(static_cast<Index>(positions.size()), grain));
+    std::vector<Vec3> low(num_chunks(static_cast<Index>(positions.size()), pass_grain));
     std::vector<Vec3> high(low.size());
     const auto num_vertices = static_cast<Index>(positions.size());
     const auto measure = [&](Index chunk, Index begin, Index end) {
@@ -179,7 +177,7 @@ std::vector<Index> find_parts(const std::vector<Vec3>& positions, int num_thread
             high[chunk] = high[chunk].cwiseMax(positions[v]);
         }
     };
-    parallel_chunks(num_vertices, grain, num_threads, measure, poller);
+    parallel_chunks(num_vertices, pass_grain, num_threads, measure, poller);
     for (std::size_t i = 1; i < low.size(); ++i) {
         low[0] = low[0].cwiseMin(low[i]);
         high[0] = high[0].cwiseMax(high[i]);
@@ -197,12 +195,12 @@ std::vector<Index> find_parts(const std::vector<Vec3>& positions, int num_thread
             part_of[v] = (along(at.x()) * most_cells + along(at.y())) * most_cells + along(at.z());
         }
     };
-    parallel_chunks(num_vertices, grain, num_threads, sort, poller);
+    parallel_chunks(num_vertices, pass_grain, num_threads, sort, poller);
     return part_of;
 }
 
-struct Part {
-    Part(FaceCharts& all_charts, FaceHistory& all_history)
+struct ChangedPart {
+    ChangedPart(FaceCharts& all_charts, FaceHistory& all_history)
         : charts(FaceCharts::Part{all_charts}), history(FaceHistory::Part{all_history}) {}
 
     FaceCharts charts;
@@ -220,14 +218,14 @@ public:
         history.start();
     }
 
-    [[nodiscard]] std::unique_ptr<Part> make() const {
-        return std::make_unique<Part>(charts_, history_);
+    [[nodiscard]] std::unique_ptr<ChangedPart> make() const {
+        return std::make_unique<ChangedPart>(charts_, history_);
     }
-    void take(Index number, std::unique_ptr<Part> part) {
+    void take(Index number, std::unique_ptr<ChangedPart> part) {
         const std::scoped_lock lock(mutex_);
         waiting_[number] = std::move(part);
         for (; next_ < waiting_.size() && waiting_[next_]; ++next_) {
-            const std::unique_ptr<Part> done = std::move(waiting_[next_]);
+            const std::unique_ptr<ChangedPart> done = std::move(waiting_[next_]);
             charts_.take(done->charts);
             history_.take(done->history);
             counts_.vertices += done->counts.vertices;
@@ -241,7 +239,7 @@ public:
 private:
     FaceCharts& charts_;
     FaceHistory& history_;
-    std::vector<std::unique_ptr<Part>> waiting_;
+    std::vector<std::unique_ptr<ChangedPart>> waiting_;
     std::size_t next_ = 0;
     RemovalCounts counts_;
     std::vector<Index> left_;
@@ -271,16 +269,16 @@ RemovalCounts remove_flat_vertices(Surface& surface, FaceCharts& charts, FaceHis
     shared.round_of.assign(surface.num_vertices(), 0);
     PartsInOrder parts(num_parts, charts, history);
     const auto remove_inside = [&](Index number, Index, Index) {
-        std::unique_ptr<Part> part = parts.make();
-        Remover remover(shared, part->charts, part->history, shared.part_of[flat[begin[number]]],
-                        Ticker(poller));
+        std::unique_ptr<ChangedPart> part = parts.make();
+        FlatRemover remover(shared, part->charts, part->history,
+                            shared.part_of[flat[begin[number]]], Ticker(poller));
         part->left = remover.run({flat.begin() + begin[number], flat.begin() + begin[number + 1]});
         part->counts = remover.counts();
         parts.take(number, std::move(part));
     };
     parallel_chunks(num_parts, 1, num_threads, remove_inside, poller);
     shared.round_of.assign(surface.num_vertices(), 0);
-    Remover remover(shared, charts, history, no_index, Ticker(poller));
+    FlatRemover remover(shared, charts, history, no_index, Ticker(poller));
     (void)remover.run(parts.left());
     return {parts.counts().vertices + remover.counts().vertices,
             parts.counts().flips + remover.counts().flips};

@@ -22,7 +22,7 @@ double orientation(const Shares& a, const Shares& b, const Shares& c) {
 }
 
 // A face that is part of an old face, and the points to be inserted in it.
-struct Part {
+struct FacePart {
     std::array<Shares, 3> corner;  // Barycentric coordinates of the old face.
     std::vector<Index> waiting;    // Points.
 };
@@ -46,7 +46,7 @@ public:
     }
 
 private:
-    Part& part_of(Index face) {
+    FacePart& part_of(Index face) {
         const auto [it, is_new] = parts_.try_emplace(face);
         if (is_new) it->second.corner = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
         return it->second;
@@ -82,7 +82,7 @@ private:
         cut_face(face, where, vertex);
     }
 
-    [[nodiscard]] static Shares shares_in(const Part& part, const Shares& point) {
+    [[nodiscard]] static Shares shares_in(const FacePart& part, const Shares& point) {
         const auto& [a, b, c] = part.corner;
         Shares shares{orientation(b, c, point), orientation(c, a, point), orientation(a, b, point)};
         double sum = 0;
@@ -102,7 +102,7 @@ private:
     }
 
     void cut_face(Index face, const Shares& where, Index vertex) {
-        Part whole = std::move(part_of(face));
+        FacePart whole = std::move(part_of(face));
         const Index added = surface_.num_faces();
         insert_in_face(surface_, charts_, face, where, vertex);
         const Shares place = mixed(whole, where);
@@ -127,7 +127,7 @@ private:
     void cut_edge(Index half_edge, double at, Index vertex) {
         const Index twin = surface_.twin[half_edge];
         struct Half {
-            Part whole;
+            FacePart whole;
             std::size_t tail;
             double at;
         };
@@ -157,7 +157,7 @@ private:
         }
     }
 
-    [[nodiscard]] static Shares mixed(const Part& part, const Shares& where) {
+    [[nodiscard]] static Shares mixed(const FacePart& part, const Shares& where) {
         Shares sum{0, 0, 0};
         for (std::size_t i = 0; i < 3; ++i) {
             for (std::size_t k = 0; k < 3; ++k) sum[k] += where[i] * part.corner[i][k];
@@ -176,7 +176,7 @@ private:
     std::vector<Index> vertex_;   // By point.
     std::vector<Index> face_of_;  // By point: where it waits.
     std::vector<std::uint8_t> is_claimed_;
-    std::unordered_map<Index, Part> parts_;  // By face.
+    std::unordered_map<Index, FacePart> parts_;  // By face.
 };
 
 }  // namespace

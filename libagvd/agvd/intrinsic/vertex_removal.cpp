@@ -17,7 +17,7 @@ namespace agvd::detail {
 namespace {
 
 // Radians: a vertex flatter than this counts as flat.
-constexpr double flat_enough = 1e-9;
+constexpr double flat_tolerance = 1e-9;
 // Radians: among vertices flatter than this, those in dense regions go first.
 constexpr double small_curvature = 1e-2;
 // The most flips for each edge.
@@ -25,9 +25,9 @@ constexpr std::size_t most_flips = 1000;
 
 enum class Lengths : std::uint8_t { OnSurface, InSpace };
 
-class Remover {
+class VertexRemover {
 public:
-    Remover(Surface& surface, FaceCharts& charts, const std::vector<Index>& number)
+    VertexRemover(Surface& surface, FaceCharts& charts, const std::vector<Index>& number)
         : surface_(surface),
           charts_(charts),
           number_(number),
@@ -100,7 +100,7 @@ private:
         const bool is_boundary = surface_.is_boundary_vertex(v);
         collect_faces(v);
         if (is_boundary && faces_.size() == 1) return cut_ear(v);
-        if (lengths_ == Lengths::OnSurface && std::abs(angle - wanted) > flat_enough &&
+        if (lengths_ == Lengths::OnSurface && std::abs(angle - wanted) > flat_tolerance &&
             !flatten(surface_, charts_, v, wanted)) {
             return false;
         }
@@ -265,7 +265,7 @@ private:
 
 std::size_t remove_vertices(Surface& surface, FaceCharts& charts,
                             const std::vector<Index>& number) {
-    return Remover(surface, charts, number).run();
+    return VertexRemover(surface, charts, number).run();
 }
 
 }  // namespace agvd::detail

@@ -12,7 +12,6 @@
 namespace agvd {
 namespace {
 
-constexpr Index grain = 1 << 14;  // Faces, or vertices.
 // Lists from this length on are sorted: those of hubs have thousands of elements.
 constexpr Index long_list = 16;
 constexpr auto relaxed = std::memory_order_relaxed;
@@ -76,7 +75,8 @@ private:
                 each(3 * f + 2, t[2], t[0]);
             }
         };
-        parallel_chunks(static_cast<Index>(triangles_.size()), grain, num_threads_, body, poller_);
+        parallel_chunks(static_cast<Index>(triangles_.size()), pass_grain, num_threads_, body,
+                        poller_);
     }
 
     // False if a face repeats a corner.
@@ -112,7 +112,7 @@ private:
                 if (has_equal_heads(list_of(v), ticker)) has_equal.store(true, relaxed);
             }
         };
-        parallel_chunks(num_vertices, grain, num_threads_, body, poller_);
+        parallel_chunks(num_vertices, pass_grain, num_threads_, body, poller_);
         return !has_equal;
     }
 
@@ -172,7 +172,7 @@ private:
     // without a third face belong to two fans.
     [[nodiscard]] bool are_single_fans() {
         const auto num_vertices = static_cast<Index>(result_.outgoing.size());
-        std::vector<std::size_t> seen(num_chunks(num_vertices, grain), 0);
+        std::vector<std::size_t> seen(num_chunks(num_vertices, pass_grain), 0);
         const auto body = [&](Index chunk, Index begin, Index end) {
             std::size_t count = 0;
             for (Index v = begin; v < end; ++v) {
@@ -186,7 +186,7 @@ private:
             }
             seen[chunk] = count;
         };
-        parallel_chunks(num_vertices, grain, num_threads_, body, poller_);
+        parallel_chunks(num_vertices, pass_grain, num_threads_, body, poller_);
         return std::accumulate(seen.begin(), seen.end(), std::size_t{0}) == result_.twin.size();
     }
 

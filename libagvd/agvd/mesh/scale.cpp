@@ -14,8 +14,6 @@ namespace {
 // Bits of the coordinates that the shape of a mesh needs, beyond its distance from the origin.
 constexpr int least_bits = 10;
 
-constexpr Index grain = 1 << 14;  // Faces.
-
 }  // namespace
 
 // Halves, as the difference may overflow.
@@ -26,7 +24,7 @@ double MeshBox::longest_side() const {
 
 MeshBox box_of(const MeshView& mesh, int num_threads) {
     const auto num_faces = static_cast<Index>(mesh.triangles.size());
-    std::vector<MeshBox> boxes(num_chunks(num_faces, grain));
+    std::vector<MeshBox> boxes(num_chunks(num_faces, pass_grain));
     const auto measure = [&](Index chunk, Index begin, Index end) {
         MeshBox box;
         for (const Triangle& t : mesh.triangles.subspan(begin, end - begin)) {
@@ -37,7 +35,7 @@ MeshBox box_of(const MeshView& mesh, int num_threads) {
         }
         boxes[chunk] = box;
     };
-    parallel_chunks(num_faces, grain, num_threads, measure);
+    parallel_chunks(num_faces, pass_grain, num_threads, measure);
     MeshBox whole;
     for (const MeshBox& box : boxes) {
         whole.low = whole.low.cwiseMin(box.low);

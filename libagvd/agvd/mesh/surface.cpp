@@ -14,7 +14,6 @@ namespace agvd {
 namespace {
 
 constexpr const char* remedy = "; repair the mesh first (remesh::clean_input)";
-constexpr Index grain = 1 << 14;  // Vertices, edges or half-edges.
 
 void check_elements(const MeshView& mesh, Ticker& ticker) {
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
@@ -86,16 +85,16 @@ std::vector<Index> pair_or_explain(const MeshView& mesh, Ticker& ticker) {
 // Throws the reason why find_connectivity had no result.
 [[noreturn]] void explain(const MeshView& mesh, Ticker& ticker) {
     const std::vector<Index> twin = pair_or_explain(mesh, ticker);
-    std::vector<Index> degree(mesh.positions.size(), 0), outgoing(mesh.positions.size(), no_index);
+    std::vector<Index> valence(mesh.positions.size(), 0), outgoing(mesh.positions.size(), no_index);
     for (Index h = 0; h < twin.size(); ++h) {
         ticker.tick();
         const Index v = mesh.triangles[h / 3][h % 3];
-        ++degree[v];
+        ++valence[v];
         if (outgoing[v] == no_index || twin[h] == no_index) outgoing[v] = h;
     }
     Index vertex = 0;
-    for (; vertex < degree.size(); ++vertex) {
-        if (degree[vertex] == 0) continue;
+    for (; vertex < valence.size(); ++vertex) {
+        if (valence[vertex] == 0) continue;
         Index seen = 0;
         Index h = outgoing[vertex];
         do {
@@ -103,7 +102,7 @@ std::vector<Index> pair_or_explain(const MeshView& mesh, Ticker& ticker) {
             h = twin[previous_half_edge(h)];
         } while (h != no_index && h != outgoing[vertex]);
         ticker.tick(seen);
-        if (seen != degree[vertex]) break;
+        if (seen != valence[vertex]) break;
     }
     throw InvalidInput("the faces around vertex " + std::to_string(vertex) +
                        " do not form one fan" + remedy);
@@ -114,13 +113,13 @@ void number_edges(Surface& surface, int num_threads, Poller& poller) {
     const auto num_half_edges = static_cast<Index>(surface.twin.size());
     // True on the boundary, too, since no_index is the greatest.
     const auto is_first = [&](Index h) { return surface.twin[h] > h; };
-    std::vector<Index> begin_of(num_chunks(num_half_edges, grain) + 1, 0);
+    std::vector<Index> begin_of(num_chunks(num_half_edges, pass_grain) + 1, 0);
     const auto count_first = [&](Index chunk, Index begin, Index end) {
         Index count = 0;
         for (Index h = begin; h < end; ++h) count += is_first(h) ? 1 : 0;
         begin_of[chunk + 1] = count;
     };
-    parallel_chunks(num_half_edges, grain, num_threads, count_first, poller);
+    parallel_chunks(num_half_edges, pass_grain, num_threads, count_first, poller);
     std::partial_sum(begin_of.begin(), begin_of.end(), begin_of.begin());
     surface.edge.resize(num_half_edges);
     surface.edge_half.resize(begin_of.back());
@@ -134,7 +133,7 @@ void number_edges(Surface& surface, int num_threads, Poller& poller) {
             surface.edge_half[edge++] = h;
         }
     };
-    parallel_chunks(num_half_edges, grain, num_threads, number, poller);
+    parallel_chunks(num_half_edges, pass_grain, num_threads, number, poller);
 }
 
 void measure(Surface& surface, int num_threads, Poller& poller) {
@@ -144,21 +143,22 @@ void measure(Surface& surface, int num_threads, Poller& poller) {
             surface.length[e] = surface.length_in_space(surface.edge_half[e]);
         }
     };
-    parallel_chunks(surface.num_edges(), grain, num_threads, measure_edges, poller);
+    parallel_chunks(surface.num_edges(), pass_grain, num_threads, measure_edges, poller);
     surface.apex.resize(surface.twin.size());
     poller.poll();
     const auto num_half_edges = static_cast<Index>(surface.twin.size());
-    std::vector<Index> flat(num_chunks(num_half_edges, grain), no_index);
+    std::vector<Index> first_flat(num_chunks(num_half_edges, pass_grain), no_index);
     const auto find_apexes = [&](Index chunk, Index begin, Index end) {
         for (Index h = begin; h < end; ++h) {
             surface.apex[h] = surface.apex_in_space(h);
             const double height = surface.apex[h].y();
-            if (!(height > 0) || !std::isfinite(height)) flat[chunk] = std::min(flat[chunk], h);
+            if (!(height > 0) || !std::isfinite(height))
+                first_flat[chunk] = std::min(first_flat[chunk], h);
         }
     };
-    parallel_chunks(num_half_edges, grain, num_threads, find_apexes, poller);
-    const auto first = std::min_element(flat.begin(), flat.end());
-    if (first != flat.end() && *first != no_index) {
+    parallel_chunks(num_half_edges, pass_grain, num_threads, find_apexes, poller);
+    const auto first = std::min_element(first_flat.begin(), first_flat.end());
+    if (first != first_flat.end() && *first != no_index) {
         throw InvalidInput("face " + std::to_string(*first / 3) + " has no area" + remedy);
     }
 }
@@ -203,7 +203,7 @@ void find_pseudo_sources(Surface& surface, int num_threads, Poller& poller) {
             surface.can_be_pseudo_source[v] = can_be_pseudo_source ? 1 : 0;
         }
     };
-    parallel_chunks(surface.num_vertices(), grain, num_threads, find, poller);
+    parallel_chunks(surface.num_vertices(), pass_grain, num_threads, find, poller);
 }
 
 }  // namespace

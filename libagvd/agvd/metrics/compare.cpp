@@ -87,7 +87,6 @@ BisectorError measure_bisectors(const Questions& exact, const Open& open, double
 }
 
 double relative_excess(double ours, double exact) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     if (ours == exact) return 0;
     if (std::isinf(ours) || exact == 0) return infinity;
     return std::isinf(exact) ? -infinity : (ours - exact) / exact;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "agvd/core/error.h"
@@ -17,7 +16,6 @@
 namespace agvd {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr Index least_loop_points = 8;
 
 void check(const Surface& surface, const Diagram& a, const Diagram& b,

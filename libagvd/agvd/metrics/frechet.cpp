@@ -14,7 +14,6 @@
 namespace agvd {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double precision = 1e-7;  // Of the search for the length; far below any spacing.
 
 double longest_step(std::span<const Vec3> curve) {

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <exception>
 #include <functional>
-#include <limits>
 #include <string>
 
 #include "agvd/core/error.h"
@@ -22,8 +21,6 @@ using CgalMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 using Traits = CGAL::Surface_mesh_shortest_path_traits<Kernel, CgalMesh>;
 using WindowTree = CGAL::Surface_mesh_shortest_path<Traits>;
 using Location = WindowTree::Face_location;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 // Keeps a bound above the distances it was made from.
 constexpr double rounding = 1 + 1e-9;

@@ -3,7 +3,6 @@
 #include "agvd/metrics/site_distances.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "agvd/core/parallel.h"
 #include "agvd/intrinsic/intrinsic_triangulation.h"
@@ -13,7 +12,6 @@
 namespace agvd {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 // Of one search: windows, and their memory, grow with the vertices, worst in long slivers.
 constexpr std::size_t most_points = 200;
 

@@ -8,7 +8,7 @@ namespace agvd {
 namespace {
 
 // Arcs are lengthened by this, which exceeds all roundings of an exact distance.
-constexpr float round_up = 1 + 0x1p-20F;
+constexpr float arc_rounding = 1 + 0x1p-20F;
 
 // The straight line from the apex of a half-edge's face to the apex across it; below 0 where it
 // misses the edge.
@@ -37,7 +37,7 @@ template <bool is_shared>
 void add_arcs(const Surface& surface, const Corners& corners, Index begin, Index end,
               ArcGraph& graph) {
     const auto add = [&](Index a, Index b, double length) {
-        const float rounded = static_cast<float>(length) * round_up;
+        const float rounded = static_cast<float>(length) * arc_rounding;
         graph.arcs[take_next<is_shared>(graph.ends[a])] = {b, rounded};
         graph.arcs[take_next<is_shared>(graph.ends[b])] = {a, rounded};
     };
@@ -61,7 +61,6 @@ void add_arcs(const Surface& surface, const Corners& corners, Index begin, Index
 ArcGraph::ArcGraph(const Surface& surface, const Corners& corners, int num_threads,
                    const Progress& progress)
     : offsets(surface.num_vertices() + 1, 0) {
-    constexpr Index grain = 1 << 14;  // Edges.
     Poller poller(progress);
     Ticker ticker(poller);
     // An edge and a flip for each face, and one edge more on the boundary.
@@ -81,7 +80,7 @@ ArcGraph::ArcGraph(const Surface& surface, const Corners& corners, int num_threa
             add_arcs<true>(surface, corners, begin, end, *this);
         }
     };
-    parallel_chunks(surface.num_edges(), grain, num_threads, body, poller);
+    parallel_chunks(surface.num_edges(), pass_grain, num_threads, body, poller);
 }
 
 }  // namespace agvd

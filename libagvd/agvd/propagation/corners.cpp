@@ -9,11 +9,10 @@ namespace agvd {
 Corners::Corners(const Surface& surface, int num_threads, const Progress& progress)
     : num_half_edges_(surface.twin.size()),
       corners_(std::make_unique_for_overwrite<Corner[]>(num_half_edges_)) {
-    constexpr Index grain = 1 << 14;  // Faces.
     Poller poller(progress);
-    std::vector<double> sums(num_chunks(surface.num_faces(), grain), 0);
+    std::vector<double> sums(num_chunks(surface.num_faces(), pass_grain), 0);
     parallel_chunks(
-        surface.num_faces(), grain, num_threads,
+        surface.num_faces(), pass_grain, num_threads,
         [&](Index chunk, Index begin, Index end) {
             for (Index h = 3 * begin; h < 3 * end; ++h) {
                 const double length = surface.length_of(h);

@@ -15,9 +15,9 @@
 namespace agvd {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float unreached = std::numeric_limits<float>::infinity();
 // First lengths are rounded up by more than all roundings of the exact distance.
-constexpr float round_up = 1 + 0x1p-20F;
+constexpr float length_rounding = 1 + 0x1p-20F;
 
 // A sum of two numbers >= 0 that is not below the exact sum: the roundings of thousands of sums
 // must not make a path of short arcs too short.
@@ -76,7 +76,7 @@ BoundsSearch::BoundsSearch(const Surface& surface, const ArcGraph& graph, double
       num_threads_(num_threads),
       num_steps_(num_steps > 0 ? num_steps : good_num_steps(graph)),
       per_step_(static_cast<float>(2 / mean_edge)),
-      keys_(graph.ends.size(), to_key(infinity, no_index)),
+      keys_(graph.ends.size(), to_key(unreached, no_index)),
       queued_in_(keys_.size(), no_index) {}
 
 // Calls each(vertex, distance) for the vertices that a site reaches in its face.
@@ -104,7 +104,7 @@ BoundsSearch::BoundsSearch(const Surface& surface, const SurfaceLayout& layout, 
 
 void BoundsSearch::add(const SurfacePoint& point, Index site) {
     for_each_start(point, [&](Index vertex, double distance) {
-        const Key key = to_key(static_cast<float>(distance) * round_up, site);
+        const Key key = to_key(static_cast<float>(distance) * length_rounding, site);
         if (key >= keys_[vertex]) return;
         keys_[vertex] = key;
         queue(vertex);
@@ -123,7 +123,7 @@ std::vector<Index> BoundsSearch::remove(std::span<const std::uint8_t> is_removed
     for (Index v = 0; v < keys_.size(); ++v) {
         const Index site = site_of(keys_[v]);
         if (site == no_index || is_removed[site] == 0) continue;
-        keys_[v] = to_key(infinity, no_index);
+        keys_[v] = to_key(unreached, no_index);
         forgotten.push_back(v);
     }
     for (const Index v : forgotten) {

@@ -1,7 +1,6 @@
 #include "agvd/propagation/emit_fan.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "agvd/propagation/reach_vertex.h"
 #include "agvd/propagation/send_windows.h"
@@ -9,8 +8,6 @@
 
 namespace agvd {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Interval {
     double begin, end;

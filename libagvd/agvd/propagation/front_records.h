@@ -4,7 +4,6 @@
 #pragma once
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -14,8 +13,6 @@
 namespace agvd {
 
 struct VertexRecord {
-    static constexpr double infinity = std::numeric_limits<double>::infinity();
-
     Index vertex;
     float outer_bound;               //!< Given by the caller.
     double bound;                    //!< The lower of outer_bound and upper.
@@ -51,8 +48,6 @@ struct HalfEdgeEnds {
 };
 
 struct EdgeRecord {
-    static constexpr double infinity = std::numeric_limits<double>::infinity();
-
     Index half_edge;                  //!< no_index: the record is free.
     Index tail, head;                 //!< Records of its ends.
     Index arrival;                    //!< How many half-edges came before.

@@ -13,8 +13,6 @@
 namespace agvd {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 // Fewer where a distance's rounding is more than the face is wide: no window tells there where it
 // is.
 Index most_windows_through(const FrontState& front, const EdgeRecord& edge,

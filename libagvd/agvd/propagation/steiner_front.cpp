@@ -14,7 +14,6 @@
 namespace agvd {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t poll_interval = 1 << 16;
 
 // The width is a share of the mean spacing of the nodes, so that most improvements stay within a

@@ -9,10 +9,8 @@
 namespace agvd {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 // Distances are sums of some thousand lengths in double.
-constexpr double rounding = 1e-12;
+constexpr double distance_rounding = 1e-12;
 
 constexpr int max_rounds = 20;
 
@@ -26,7 +24,7 @@ public:
         worst_ = 0;
         for (Index v = 0; v < exact.size(); ++v) {
             const bool is_measured = exact[v] > 0 && exact[v] < infinity;
-            error_[v] = rounding;
+            error_[v] = distance_rounding;
             if (is_measured) error_[v] += std::max(vertices[v].distance / exact[v] - 1, 0.0);
             if (error_[v] > error_[worst_]) worst_ = v;
         }

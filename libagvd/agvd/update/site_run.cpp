@@ -4,15 +4,12 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 
 #include "agvd/propagation/window_front.h"
 #include "agvd/propagation/window_relays.h"
 
 namespace agvd {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool is_same(const Window& w, const Relay& r) {
     const Relay now = to_relay(w, no_index, r.half_edge);

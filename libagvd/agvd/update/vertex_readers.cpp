@@ -1,13 +1,10 @@
 #include "agvd/update/vertex_readers.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 namespace agvd {
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool is_reached(const Reader& reader) { return reader.distance < infinity; }
 

@@ -22,8 +22,6 @@ using agvd::InvalidInput;
 using agvd::no_index;
 using agvd::Triangle;
 
-constexpr Index grain = 1 << 14;  // Faces.
-
 void check_elements(const agvd::MeshView& mesh, agvd::Ticker& ticker) {
     if (mesh.triangles.size() > no_index / 3 || mesh.positions.size() >= no_index) {
         throw InvalidInput("the mesh has more than 2^32 / 3 faces; split it into parts");
@@ -98,7 +96,7 @@ std::optional<CleanResult> take_clean(const agvd::MeshView& mesh, int num_thread
             if (!is_good) is_clean.store(false, std::memory_order_relaxed);
         }
     };
-    agvd::parallel_chunks(num_faces, grain, num_threads, check_faces, poller);
+    agvd::parallel_chunks(num_faces, agvd::pass_grain, num_threads, check_faces, poller);
     if (!is_clean) return std::nullopt;
     std::vector<bool> is_boundary(outgoing.size());
     for (Index v = 0; v < outgoing.size(); ++v) {

@@ -21,7 +21,7 @@ using agvd::SurfacePoint;
 
 namespace {
 
-constexpr Index grain = 128;
+constexpr Index paths_per_task = 128;
 // Relative to the longest side, as lengths are sums of a few square roots.
 constexpr double length_tolerance = 1e-12;
 // Most passes over the triangles while sides become shorter.
@@ -128,7 +128,7 @@ void find_paths_through_gates(const Surface& surface, const DualVertices& vertic
             paths[e] = path_in(site_paths.through(a, face, b), a, straightener);
         }
     };
-    agvd::parallel_chunks(mesh.num_edges(), grain, num_threads, find, poller);
+    agvd::parallel_chunks(mesh.num_edges(), paths_per_task, num_threads, find, poller);
 }
 
 // Finds the other paths in rounds, each from the paths of earlier rounds along two edges of a
@@ -156,7 +156,7 @@ void find_missing_paths(const Surface& surface, const DualVertices& vertices,
                 }
             }
         };
-        agvd::parallel_chunks(num_missing, grain, num_threads, find, poller);
+        agvd::parallel_chunks(num_missing, paths_per_task, num_threads, find, poller);
         std::vector<Index> still_missing;
         for (Index i = 0; i < num_missing; ++i) {
             if (found[i].from == no_index) {

@@ -10,7 +10,7 @@ using agvd::no_index;
 using agvd::Triangle;
 
 // Most edges between two sites that are to be joined.
-constexpr std::size_t longest_way = 8;
+constexpr std::size_t most_edges_between = 8;
 
 // The site after another one on the rim; no_index unless there is exactly one.
 Index next_on(const std::vector<DirectedEdge>& rim, Index site) {
@@ -31,7 +31,7 @@ std::vector<Index> way_on(const std::vector<DirectedEdge>& edges, Index from, co
     std::vector<Index> way{from};
     do {
         way.push_back(next_on(edges, way.back()));
-        if (way.back() == no_index || way.size() > longest_way + 1) return {};
+        if (way.back() == no_index || way.size() > most_edges_between + 1) return {};
     } while (!is_end(way.back()));
     return way;
 }

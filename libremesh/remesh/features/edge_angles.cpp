@@ -17,7 +17,7 @@ using agvd::no_index;
 using agvd::Surface;
 using agvd::Vec3;
 
-constexpr Index grain = 4096;
+constexpr Index edges_per_task = 4096;
 
 double angle_between(const Vec3& a, const Vec3& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -55,7 +55,7 @@ Patches single_faces(const Surface& surface, int num_threads, agvd::Poller& poll
                     std::vector<double>(count)};
     const auto& p = surface.mesh.positions;
     agvd::parallel_chunks(
-        count, grain, num_threads,
+        count, edges_per_task, num_threads,
         [&](Index, Index begin, Index end) {
             for (Index f = begin; f < end; ++f) {
                 const auto& [a, b, c] = surface.mesh.triangles[f];
@@ -73,13 +73,13 @@ Patches single_faces(const Surface& surface, int num_threads, agvd::Poller& poll
 // Ascending.
 std::vector<Index> find_thin_faces(const Surface& surface, const Patches& patches, double thin,
                                    int num_threads, agvd::Poller& poller) {
-    std::vector<std::vector<Index>> found(agvd::num_chunks(surface.num_faces(), grain));
+    std::vector<std::vector<Index>> found(agvd::num_chunks(surface.num_faces(), edges_per_task));
     const auto find = [&](Index chunk, Index begin, Index end) {
         for (Index f = begin; f < end; ++f) {
             if (patches.is_thin(f, thin)) found[chunk].push_back(f);
         }
     };
-    agvd::parallel_chunks(surface.num_faces(), grain, num_threads, find, poller);
+    agvd::parallel_chunks(surface.num_faces(), edges_per_task, num_threads, find, poller);
     std::vector<Index> faces;
     for (const std::vector<Index>& some : found) {
         faces.insert(faces.end(), some.begin(), some.end());
@@ -138,7 +138,7 @@ std::vector<double> edge_angles(const Surface& surface, double thin, int num_thr
     join_thin_faces(surface, thin, num_threads, patches, poller);
     std::vector<double> angles(surface.num_edges());
     agvd::parallel_chunks(
-        surface.num_edges(), grain, num_threads,
+        surface.num_edges(), edges_per_task, num_threads,
         [&](Index, Index begin, Index end) {
             for (Index e = begin; e < end; ++e) {
                 const Index h = surface.edge_half[e];

@@ -17,9 +17,8 @@
 namespace remesh {
 namespace {
 
+using agvd::degree;
 using agvd::Index;
-
-constexpr double degree = std::numbers::pi / 180;
 
 // Faces lower than this have no reliable normal. Rounding to float moves vertices by some 3e-6
 // spacings at 2000 sites. With 3e-3 the creases at two places of a part with fillets depended on

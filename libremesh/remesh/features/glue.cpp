@@ -15,7 +15,7 @@ using agvd::no_index;
 using agvd::Triangle;
 
 // Most rounds of flips.
-constexpr int most_rounds = 10;
+constexpr int most_flip_rounds = 10;
 
 using Ends = std::pair<Index, Index>;
 
@@ -108,7 +108,7 @@ GluedMesh glue(std::span<const Triangle> triangles, std::span<const Index> group
     GluedMesh result;
     result.triangles.assign(triangles.begin(), triangles.end());
     const Numbering groups = number_sets(group);
-    for (int round = 0; round < most_rounds; ++round) {
+    for (int round = 0; round < most_flip_rounds; ++round) {
         if (!flip_repeated(result.triangles, groups.number)) break;
     }
     Numbering vertices = vertex.empty() ? groups : number_sets(vertex);

@@ -11,7 +11,7 @@ using agvd::Vec3;
 // Gauss-Seidel sweeps: each leaves a quarter of the error at most.
 constexpr int num_sweeps = 30;
 // Longest offset, as a share of the distance along the curve to the nearer neighbour.
-constexpr double longest_way = 0.25;
+constexpr double longest_offset = 0.25;
 
 // A chain's vertices on their curve: with both ends, or, if it is closed, with the first one
 // repeated at the end.
@@ -96,7 +96,7 @@ void fit(const agvd::Surface& surface, const Curve& curve, const Chain& chain,
     for (std::size_t i = 0; i < offsets.size(); ++i) {
         const std::size_t vertex = i + shift;
         const std::size_t before = vertex == 0 ? num_intervals - 1 : vertex - 1;
-        const double most = longest_way * std::min(width(before), width(vertex));
+        const double most = longest_offset * std::min(width(before), width(vertex));
         if (offsets[i].norm() > most) offsets[i] *= most / offsets[i].norm();
     }
 }

@@ -36,7 +36,7 @@ constexpr double along_cost = 0.12;
 constexpr double across_cost = 1e-3;
 // Longest move of a round, and longest pull towards equilateral triangles, in square roots of the
 // cell's area.
-constexpr double longest_move = 0.15;
+constexpr double longest_vertex_move = 0.15;
 constexpr double longest_pull = 0.2;
 // Weights of the distances of vertices and middles of triangles from the surface, relative to those
 // of the surface from the mesh. They keep vertices away from points far off the surface where
@@ -57,7 +57,7 @@ constexpr double inner_share = 0.05;
 constexpr double residual_share = 1e-3;
 constexpr int most_iterations = 40;
 constexpr std::size_t samples_per_block = std::size_t{1} << 15;  // 2 MB: fits into a cache.
-constexpr Index grain = 256;                                     // Samples or triangles.
+constexpr Index rows_per_task = 256;                             // Samples or triangles.
 
 // A point of the surface and the area that it stands for.
 struct Sample {
@@ -236,8 +236,8 @@ private:
             const auto body = [&](Index, Index begin, Index end) {
                 for (Index i = begin; i < end; ++i) gaps[i] = measure_gap(block[i]);
             };
-            agvd::parallel_chunks(static_cast<Index>(block.size()), grain, num_threads_, body,
-                                  poller_);
+            agvd::parallel_chunks(static_cast<Index>(block.size()), rows_per_task, num_threads_,
+                                  body, poller_);
             poller_.poll();
             for (std::size_t i = 0; i < block.size(); ++i) add_gap(block[i], gaps[i]);
         }
@@ -323,7 +323,7 @@ private:
         const auto body = [&](Index, Index begin, Index end) {
             for (Index i = begin; i < end; ++i) ways_[i] = way(i);
         };
-        agvd::parallel_chunks(count, grain, num_threads_, body, poller_);
+        agvd::parallel_chunks(count, rows_per_task, num_threads_, body, poller_);
     }
     // From a point of the mesh to the surface in these cells; zero if they have no vertex.
     [[nodiscard]] Vec3 way_to_surface(const Vec3& point, std::span<const Index> cells) const {
@@ -399,7 +399,7 @@ private:
     void move(const Field& moves) {
         const Field before = at_;
         for (std::size_t v = 0; v < at_.size(); ++v) {
-            const double most = longest_move * std::sqrt(area_[v]);
+            const double most = longest_vertex_move * std::sqrt(area_[v]);
             const double length = moves[v].norm();
             if (std::isfinite(length)) at_[v] += std::min(1.0, most / length) * moves[v];
         }

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/point_faces.h"
 #include "remesh/placement/shape_quality.h"
+#include "remesh/placement/slide_steps.h"
 #include "remesh/placement/vertex_triangles.h"
 #include "remesh/relax/cell_planes.h"
 #include "remesh/relax/face_parts.h"
@@ -30,11 +30,6 @@ constexpr double poor_quality = 0.62;
 // around the vertex; at other distances in proportion to the square.
 constexpr double plane_cost = 30;
 constexpr int most_rounds = 8;
-// Lengths of steps, in mean lengths of the edges around the vertex; each is repeated while it
-// helps.
-constexpr std::array step_lengths{0.2, 0.07, 0.02};
-constexpr int most_tries = 4;
-constexpr int num_directions = 8;
 // A fixed side shorter than short_side times the mean edge length makes its triangle slim wherever
 // the third corner is. Vertices within three spacings would crowd around it, so the quality of its
 // triangle is divided by slim_quality. Bunny with five given edges of .2 spacings: mean quality
@@ -201,29 +196,22 @@ private:
         mean /= num_others;
         length /= num_others;
         if (!(normal.norm() > 0)) return false;
-        const Vec3 x = normal.unitOrthogonal(), y = normal.normalized().cross(x);
+        directions_.clear();
+        detail::add_directions(normal, directions_);
 
         double worst = worst_around(v);
-        bool is_better = try_step(v, mean - at_[v], length, worst);
-        for (const double share : step_lengths) {
-            bool helps = true;
-            for (int tries = 0; tries < most_tries && helps; ++tries) {
-                helps = false;
-                for (int d = 0; d < num_directions; ++d) {
-                    const double angle = 2 * std::numbers::pi * d / num_directions;
-                    const Vec3 step = std::cos(angle) * x + std::sin(angle) * y;
-                    helps = try_step(v, share * length * step, length, worst) || helps;
-                }
-                is_better = is_better || helps;
-            }
-        }
-        return is_better;
+        const bool helps = try_step(v, mean - at_[v], length, worst);
+        return detail::try_steps(
+                   directions_, length,
+                   [&](const Vec3& step) { return try_step(v, step, length, worst); }) ||
+               helps;
     }
 
     const agvd::Surface& surface_;
     agvd::Ticker ticker_;
     PlacedMesh& mesh_;
     detail::VertexTriangles around_;
+    std::vector<Vec3> directions_;            // Of the vertex at hand.
     std::vector<Vec3> at_, facing_;           // #V: positions, and normals of the surface.
     std::vector<detail::CellPlanes> planes_;  // #V
     std::vector<std::uint8_t> is_slim_;       // By triangle: see short_side.

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 
 #include "agvd/core/poller.h"
 #include "remesh/placement/shape_quality.h"
+#include "remesh/placement/slide_steps.h"
 
 namespace remesh {
 namespace {
@@ -26,18 +26,14 @@ constexpr double wanted_quality = 0.425;
 // Least quality of triangles, before and after, where a vertex is removed to balance the count.
 constexpr double good_elsewhere = 0.6;
 // Least gain of a step, and of a trial of several steps.
-constexpr double least_gain = 1e-3, least_trial_gain = 0.02;
+constexpr double least_step_gain = 1e-3, least_trial_gain = 0.02;
 // At most one of so many vertices may be missing: a surface that is thinner than the spacing
 // everywhere has no place to take them from.
 constexpr agvd::Index most_moved = 8;
 // Budgets for each initially bad triangle: where all are bad, work would not end. Lips use half of
 // them.
 constexpr std::size_t edits_for_each = 3, slides_for_each = 200;
-constexpr int most_rounds = 6, most_sweeps = 3;
-// As in improve_shape.
-constexpr std::array step_lengths{0.2, 0.07, 0.02};
-constexpr int most_tries = 4;
-constexpr int num_directions = 8;
+constexpr int most_mend_rounds = 6, most_sweeps = 3;
 
 class Mender {
 public:
@@ -76,7 +72,7 @@ public:
 private:
     bool work() {
         bool is_changed = false;
-        for (int round = 0; round < most_rounds; ++round) {
+        for (int round = 0; round < most_mend_rounds; ++round) {
             bool is_better = false;
             for (const auto& [quality, f] : bad_faces()) {
                 if (!is_bad(f)) continue;
@@ -156,7 +152,7 @@ private:
     bool try_flip(Index f, Index k) {
         const EditedMesh::Mark before = mesh_.mark();
         if (!mesh_.flip(f, k)) return false;
-        if (gain_since(before).worst > least_gain) return true;
+        if (gain_since(before).worst > least_step_gain) return true;
         mesh_.take_back(before);
         return false;
     }
@@ -235,11 +231,7 @@ private:
         ways.to_mean /= count;
         ways.length /= count;
         if (!is_free) return ways;
-        const Vec3 x = normal.unitOrthogonal(), y = normal.normalized().cross(x);
-        for (int d = 0; d < num_directions; ++d) {
-            const double angle = 2 * std::numbers::pi * d / num_directions;
-            ways.steps.emplace_back(std::cos(angle) * x + std::sin(angle) * y);
-        }
+        detail::add_directions(normal, ways.steps);
         return ways;
     }
 
@@ -248,19 +240,13 @@ private:
         --slides_left_;
         const Ways ways = ways_of(v);
         if (ways.steps.empty()) return false;
-        bool is_better = mesh_.move(v, ways.to_mean, least_gain);
-        for (const double share : step_lengths) {
-            bool helps = true;
-            for (int tries = 0; tries < most_tries && helps; ++tries) {
-                helps = false;
-                for (const Vec3& step : ways.steps) {
-                    ticker_.tick(mesh_.faces_at(v).size());
-                    helps = mesh_.move(v, share * ways.length * step, least_gain) || helps;
-                }
-                is_better = is_better || helps;
-            }
-        }
-        return is_better;
+        const bool helps = mesh_.move(v, ways.to_mean, least_step_gain);
+        return detail::try_steps(ways.steps, ways.length,
+                                 [&](const Vec3& step) {
+                                     ticker_.tick(mesh_.faces_at(v).size());
+                                     return mesh_.move(v, step, least_step_gain);
+                                 }) ||
+               helps;
     }
 
     // Improves the bad triangles among those touched, as long as that helps.

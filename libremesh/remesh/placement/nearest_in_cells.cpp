@@ -15,7 +15,7 @@ using agvd::Vec3;
 namespace {
 
 // Most faces passed on the way to a nearer point.
-constexpr int most_steps = 1000;
+constexpr int most_faces_passed = 1000;
 
 }  // namespace
 
@@ -78,7 +78,7 @@ void NearestInCells::descend(const Vec3& point, Index vertex, agvd::ClosestPoint
     agvd::for_each_outgoing(base, vertex,
                             [&](Index h) { reach = std::max(reach, base.length_of(h)); });
     bool is_nearer = true;
-    for (int step = 0; step < most_steps && is_nearer; ++step) {
+    for (int step = 0; step < most_faces_passed && is_nearer; ++step) {
         is_nearer = false;
         const agvd::SurfacePoint from = nearest.point;
         for (Index k = 0; k < 3; ++k) {  // Across the edges that the point lies on.

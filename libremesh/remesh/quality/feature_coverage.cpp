@@ -14,12 +14,12 @@
 namespace remesh {
 namespace {
 
+using agvd::degree;
 using agvd::Index;
 using agvd::TriangleMesh;
 using agvd::Vec3;
 using detail::EdgeDihedral;
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double sharp = 40 * degree;
 constexpr double blunt = 25 * degree;
 constexpr double corner_turn = 45 * degree;
@@ -31,7 +31,7 @@ constexpr double thin_original = 1e-6, thin_result = 1e-9;
 
 constexpr Index num_points = 20'000;
 
-enum class Boundary { Counts, DoesNot };
+enum class BoundaryEdges { Counts, DoesNot };
 
 // A mesh without copies, and its edges.
 struct Edges {
@@ -40,15 +40,16 @@ struct Edges {
 
     // Calls use(end, end) for edges above an angle.
     template <typename Use>
-    void for_each_above(double angle, Boundary boundary, const Use& use) const {
+    void for_each_above(double angle, BoundaryEdges boundary, const Use& use) const {
         for (const EdgeDihedral& e : all) {
-            const bool is_above = e.num_faces == 1 ? boundary == Boundary::Counts : e.angle > angle;
+            const bool is_above =
+                e.num_faces == 1 ? boundary == BoundaryEdges::Counts : e.angle > angle;
             if (is_above) use(e.ends[0], e.ends[1]);
         }
     }
     [[nodiscard]] double sharp_length() const {
         double sum = 0;
-        for_each_above(sharp, Boundary::DoesNot, [&](Index a, Index b) {
+        for_each_above(sharp, BoundaryEdges::DoesNot, [&](Index a, Index b) {
             sum += (mesh.positions[b] - mesh.positions[a]).norm();
         });
         return sum;
@@ -70,7 +71,7 @@ std::vector<Vec3> points_on_sharp(const Edges& edges, double length, agvd::Ticke
     const double step = length / num_points;
     std::vector<Vec3> points;
     double before = 0;  // Length of the edges before this one.
-    edges.for_each_above(sharp, Boundary::DoesNot, [&](Index from, Index to) {
+    edges.for_each_above(sharp, BoundaryEdges::DoesNot, [&](Index from, Index to) {
         ticker.tick();
         const Vec3 &a = edges.mesh.positions[from], &b = edges.mesh.positions[to];
         const double here = (b - a).norm();
@@ -90,8 +91,8 @@ struct Shares {
     double very_near = 0;
 };
 
-Shares shares_near(std::vector<Vec3> points, const Edges& edges, Boundary boundary, double diagonal,
-                   agvd::Ticker& ticker) {
+Shares shares_near(std::vector<Vec3> points, const Edges& edges, BoundaryEdges boundary,
+                   double diagonal, agvd::Ticker& ticker) {
     detail::PointDistances distances(std::move(points), near * diagonal, ticker);
     edges.for_each_above(blunt, boundary, [&](Index a, Index b) {
         distances.pass(edges.mesh.positions[a], edges.mesh.positions[b], ticker);
@@ -116,7 +117,7 @@ double angle_between(const Vec3& a, const Vec3& b) {
 Corners corners_of(const Edges& edges, agvd::Ticker& ticker) {
     const auto& p = edges.mesh.positions;
     std::vector<std::pair<Index, Index>> ends;  // (vertex, neighbour).
-    edges.for_each_above(sharp, Boundary::Counts, [&](Index a, Index b) {
+    edges.for_each_above(sharp, BoundaryEdges::Counts, [&](Index a, Index b) {
         ends.emplace_back(a, b);
         ends.emplace_back(b, a);
     });
@@ -191,13 +192,13 @@ std::optional<FeatureCoverage> feature_coverage(const agvd::MeshView& original,
     coverage.result_length = after.sharp_length();
     if (coverage.length > 0) {
         const Shares shares = shares_near(points_on_sharp(before, coverage.length, ticker), after,
-                                          Boundary::DoesNot, diagonal, ticker);
+                                          BoundaryEdges::DoesNot, diagonal, ticker);
         coverage.covered = shares.near;
         coverage.covered_closely = shares.very_near;
     }
     if (coverage.result_length > 0) {
         const Shares shares = shares_near(points_on_sharp(after, coverage.result_length, ticker),
-                                          before, Boundary::Counts, diagonal, ticker);
+                                          before, BoundaryEdges::Counts, diagonal, ticker);
         coverage.false_share = 1 - shares.near;
     }
     const double reach = near_corner * diagonal;

@@ -18,11 +18,11 @@ namespace {
 using agvd::Index;
 using agvd::Triangle;
 using Pair = std::pair<Index, Index>;
-using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using ExactKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, Index>;
 
 // Pairs of boxes tested per chunk.
-constexpr Index grain = 4096;
+constexpr Index pairs_per_task = 4096;
 // Most pairs of boxes in memory at once. Meshes have some 10 for each face; a polygon of 20 000
 // corners cut into needles has hundreds of millions.
 constexpr std::size_t most_candidates = std::size_t{1} << 25;
@@ -41,7 +41,7 @@ public:
         std::vector<Box> result;
         for (Index f = 0; f < faces_.size(); ++f) {
             ticker_.tick();
-            const Kernel::Triangle_3 t = triangle(faces_[f]);
+            const ExactKernel::Triangle_3 t = triangle(faces_[f]);
             if (!t.is_degenerate()) result.emplace_back(t.bbox(), f);
         }
         return result;
@@ -69,11 +69,11 @@ public:
     }
 
 private:
-    [[nodiscard]] const Kernel::Point_3& point(Index v) const { return points_[v]; }
-    [[nodiscard]] Kernel::Triangle_3 triangle(const Triangle& t) const {
+    [[nodiscard]] const ExactKernel::Point_3& point(Index v) const { return points_[v]; }
+    [[nodiscard]] ExactKernel::Triangle_3 triangle(const Triangle& t) const {
         return {point(t[0]), point(t[1]), point(t[2])};
     }
-    [[nodiscard]] Kernel::Segment_3 side(const Triangle& t) const {
+    [[nodiscard]] ExactKernel::Segment_3 side(const Triangle& t) const {
         return {point(t[1]), point(t[2])};
     }
 
@@ -92,7 +92,7 @@ private:
     }
 
     std::span<const Triangle> faces_;
-    std::vector<Kernel::Point_3> points_;
+    std::vector<ExactKernel::Point_3> points_;
     agvd::Ticker ticker_;
 };
 
@@ -103,13 +103,13 @@ std::vector<Pair> intersecting(const Soup& soup, std::vector<Pair> candidates, I
         candidates, num_faces, [](const Pair& pair) { return pair.first; }, std::less<>(),
         agvd::Ticker(poller));
     const auto count = static_cast<Index>(candidates.size());
-    std::vector<std::vector<Pair>> found(agvd::num_chunks(count, grain));
+    std::vector<std::vector<Pair>> found(agvd::num_chunks(count, pairs_per_task));
     const auto test = [&](Index chunk, Index begin, Index end) {
         for (Index i = begin; i < end; ++i) {
             if (soup.intersect(candidates[i])) found[chunk].push_back(candidates[i]);
         }
     };
-    agvd::parallel_chunks(count, grain, num_threads, test, poller);
+    agvd::parallel_chunks(count, pairs_per_task, num_threads, test, poller);
     std::vector<Pair> all;
     for (const std::vector<Pair>& part : found) all.insert(all.end(), part.begin(), part.end());
     return all;

@@ -24,18 +24,18 @@ using agvd::Index;
 using agvd::Vec3;
 
 // Inexact constructions are enough: the errors are those of double, as in the coordinates.
-using Kernel = CGAL::Simple_cartesian<double>;
-using Triangles = std::vector<Kernel::Triangle_3>;
-using Tree = CGAL::AABB_tree<
-    CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>>>;
+using DistanceKernel = CGAL::Simple_cartesian<double>;
+using Triangles = std::vector<DistanceKernel::Triangle_3>;
+using Tree = CGAL::AABB_tree<CGAL::AABB_traits<
+    DistanceKernel, CGAL::AABB_triangle_primitive<DistanceKernel, Triangles::const_iterator>>>;
 
 // Queries per chunk: enough to hide the cost of a task, few enough to keep all threads busy.
-constexpr Index grain = 1024;
+constexpr Index queries_per_task = 1024;
 
-Kernel::Point_3 to_cgal(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
-Vec3 from_cgal(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
+DistanceKernel::Point_3 to_cgal(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
+Vec3 from_cgal(const DistanceKernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
-Vec3 normal_of(const Kernel::Triangle_3& t) {
+Vec3 normal_of(const DistanceKernel::Triangle_3& t) {
     return (from_cgal(t[1]) - from_cgal(t[0])).cross(from_cgal(t[2]) - from_cgal(t[0]));
 }
 
@@ -47,7 +47,7 @@ public:
         double area = 0;
         for (const auto& [a, b, c] : mesh.triangles) {
             ticker.tick();
-            const Kernel::Triangle_3 triangle(
+            const DistanceKernel::Triangle_3 triangle(
                 to_cgal(mesh.positions[a]), to_cgal(mesh.positions[b]), to_cgal(mesh.positions[c]));
             const double doubled_area = normal_of(triangle).norm();
             if (!(doubled_area > 0)) continue;
@@ -78,7 +78,7 @@ public:
     [[nodiscard]] Vec3 sample(Index i, Index n) const {
         const double area = (i + agvd::random_unit(0, 0, i)) / n * area_up_to_.back();
         const auto at = std::upper_bound(area_up_to_.begin(), area_up_to_.end() - 1, area);
-        const Kernel::Triangle_3& t = *(triangles_.begin() + (at - area_up_to_.begin()));
+        const DistanceKernel::Triangle_3& t = *(triangles_.begin() + (at - area_up_to_.begin()));
         const auto [a, b, c] =
             agvd::uniform_barycentric(agvd::random_unit(0, 1, i), agvd::random_unit(0, 2, i));
         return a * from_cgal(t[0]) + b * from_cgal(t[1]) + c * from_cgal(t[2]);
@@ -102,14 +102,14 @@ void for_each_closest(Index count, int num_threads, agvd::Poller& poller, const 
             use(chunk, i, point, faces.tree().closest_point_and_primitive(to_cgal(point)));
         }
     };
-    agvd::parallel_chunks(count, grain, num_threads, find, poller);
+    agvd::parallel_chunks(count, queries_per_task, num_threads, find, poller);
 }
 
 // Mean, RMS and maximum over the points, summed in a fixed order.
 template <typename PointAt>
 OneSidedDistance measure(Index count, int num_threads, agvd::Poller& poller, const Faces& faces,
                          const PointAt& point_at) {
-    std::vector<OneSidedDistance> sums(agvd::num_chunks(count, grain));
+    std::vector<OneSidedDistance> sums(agvd::num_chunks(count, queries_per_task));
     for_each_closest(count, num_threads, poller, faces, point_at,
                      [&](Index chunk, Index, const Vec3& point, const auto& closest) {
                          const double distance = (point - from_cgal(closest.first)).norm();
@@ -149,11 +149,11 @@ OneSidedDistance one_sided(const agvd::MeshView& mesh, const Faces& from, const 
 Index count_flipped(const Faces& original, const Faces& result, int num_threads,
                     agvd::Poller& poller) {
     const auto count = static_cast<Index>(result.triangles().size());
-    std::vector<Index> flipped(agvd::num_chunks(count, grain), 0);
+    std::vector<Index> flipped(agvd::num_chunks(count, queries_per_task), 0);
     for_each_closest(
         count, num_threads, poller, original,
         [&](Index f) {
-            const Kernel::Triangle_3& t = result.triangles()[f];
+            const DistanceKernel::Triangle_3& t = result.triangles()[f];
             return Vec3((from_cgal(t[0]) + from_cgal(t[1]) + from_cgal(t[2])) / 3);
         },
         [&](Index chunk, Index f, const Vec3&, const auto& closest) {

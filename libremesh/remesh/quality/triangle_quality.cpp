@@ -16,7 +16,7 @@ using agvd::Vec3;
 
 // Radians. Right angles on both sides of a diagonal are Delaunay; read from float files they are
 // off by 1e-7.
-constexpr double delaunay_tolerance = 1e-6;
+constexpr double angle_sum_tolerance = 1e-6;
 constexpr double small_angle = std::numbers::pi / 6;
 
 struct Shape {
@@ -77,7 +77,7 @@ void measure_edges(const agvd::MeshView& mesh, const std::vector<EdgeSide>& side
         lengths.push_back((mesh.positions[edge[0].high()] - mesh.positions[edge[0].low()]).norm());
         if (edge.size() != 2) return;
         const double sum = opposite[edge[0].half_edge] + opposite[edge[1].half_edge];
-        if (sum > std::numbers::pi + delaunay_tolerance) ++result.non_delaunay_edges;
+        if (sum > std::numbers::pi + angle_sum_tolerance) ++result.non_delaunay_edges;
     });
     result.edges = static_cast<Index>(lengths.size());
     double mean = 0, variance = 0;

@@ -10,7 +10,7 @@ using agvd::no_index;
 using agvd::Vec3;
 
 // Longest move, as a share of the distance to the neighbour: two approaching sites do not meet.
-constexpr double longest_move = 0.3;
+constexpr double longest_curve_move = 0.3;
 // Least distance of neighbours, as a share of their mean distance on the curve.
 constexpr double least_interval = 0.5;
 // Largest ratio of a curve's intervals that counts as even.
@@ -92,8 +92,8 @@ void CurveMotion::step(double stretch, double keep) {
             least_interval * curve.length() / (last - first + (curve.is_closed() ? 1 : 2));
         const double back = std::max((at - before - least) / 2, 0.0);
         const double ahead = std::max((after - at - least) / 2, 0.0);
-        move_[g] = std::clamp(move, -std::min(back, longest_move * (at - before)),
-                              std::min(ahead, longest_move * (after - at)));
+        move_[g] = std::clamp(move, -std::min(back, longest_curve_move * (at - before)),
+                              std::min(ahead, longest_curve_move * (after - at)));
         move_along(curve, g, at + move_[g], sites_);
     }
 }

@@ -81,9 +81,6 @@ struct Regions {
     }
 };
 
-// Progress ticks for the search that follows each region.
-constexpr std::size_t search_work = 256;
-
 // Makes regions around vertices that are far apart; a later call adds to those of earlier ones.
 class RegionMaker {
 public:

@@ -12,7 +12,6 @@ using agvd::no_index;
 
 // For several threads. With more, faces of two or three labels are in more parts.
 constexpr Index most_parts = 8;
-constexpr Index grain = 1 << 14;  // Faces.
 
 using PerPart = std::array<Index, most_parts>;
 
@@ -35,7 +34,7 @@ FaceParts::FaceParts(const agvd::Surface& surface, std::span<const Index> label,
     : count_(num_threads == 1 ? 1 : most_parts), num_faces_(surface.num_faces()) {
     if (count_ == 1) return;
     const std::vector<agvd::Triangle>& triangles = surface.mesh.triangles;
-    std::vector<PerPart> next(agvd::num_chunks(num_faces_, grain), PerPart{});
+    std::vector<PerPart> next(agvd::num_chunks(num_faces_, agvd::pass_grain), PerPart{});
     const auto count = [&](Index chunk, Index begin, Index end) {
         PerPart number{};
         for (Index f = begin; f < end; ++f) {
@@ -43,7 +42,7 @@ FaceParts::FaceParts(const agvd::Surface& surface, std::span<const Index> label,
         }
         next[chunk] = number;
     };
-    agvd::parallel_chunks(num_faces_, grain, num_threads, count, poller);
+    agvd::parallel_chunks(num_faces_, agvd::pass_grain, num_threads, count, poller);
     Index sum = 0;
     for (Index part = 0; part < most_parts; ++part) {
         begin_.push_back(sum);
@@ -61,7 +60,7 @@ FaceParts::FaceParts(const agvd::Surface& surface, std::span<const Index> label,
             for_each_part(triangles[f], label, [&](Index part) { faces_[at[part]++] = f; });
         }
     };
-    agvd::parallel_chunks(num_faces_, grain, num_threads, fill, poller);
+    agvd::parallel_chunks(num_faces_, agvd::pass_grain, num_threads, fill, poller);
 }
 
 }  // namespace remesh::detail

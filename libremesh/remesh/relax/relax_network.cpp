@@ -28,7 +28,7 @@ using agvd::Triangle;
 using detail::Relaxation;
 
 // Least number of inner sites of a coarse start.
-constexpr double least_coarse_sites = 32;
+constexpr double least_coarse_inner_sites = 32;
 // Least distance of inner sites from curves, in spacings.
 constexpr double least_distance = 0.4;
 
@@ -313,7 +313,7 @@ private:
         const double euler = detail::euler_of(plan_.cut.surface);
         const double wanted =
             (num_inner_ - static_cast<double>(coarse.sites.size()) + 3 * euler) / 4 + 1;
-        if (wanted < least_coarse_sites) return nullptr;
+        if (wanted < least_coarse_inner_sites) return nullptr;
         const auto num_inner = static_cast<Index>(wanted);
         if (!detail::gives_neighbours(surface_.base.surface(), coarse.sites.size() + num_inner)) {
             return nullptr;

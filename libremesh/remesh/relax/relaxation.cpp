@@ -25,13 +25,13 @@ using Mat3 = Eigen::Matrix3d;
 constexpr double stretch = 1.5;
 constexpr double momentum = 0.75;
 // Longest move, in square roots of the cell's area.
-constexpr double longest_move = 0.4;
+constexpr double longest_site_move = 0.4;
 // Most rounds of undoing moves.
 constexpr int most_rounds = 3;
 // Most rounds of flips at the start.
 constexpr int most_flip_rounds = 10;
 // Sites of a parallel chunk.
-constexpr Index grain = 256;
+constexpr Index sites_per_task = 256;
 // A cell that holds k times as much of the surface as of the triangulation should have 1 / k of the
 // area. The area goes as 1 / sqrt(density), so the density should grow by k^2. Half a power more
 // compensates for the small number of steps.
@@ -222,7 +222,7 @@ void Relaxation::choose_moves() {
             half_slope_[i] = now_.cells[i].slope / 2 + plane_weight * weight_[i] * along;
         }
     };
-    agvd::parallel_chunks(num_sites, grain, num_threads_, find_slopes, poller_);
+    agvd::parallel_chunks(num_sites, sites_per_task, num_threads_, find_slopes, poller_);
     double uphill = 0;
     for (Index i = 0; i < num_sites; ++i) uphill += half_slope_[i].dot(move_[i]);
     if (curves_) uphill += curves_->measure(now_.cells);
@@ -230,7 +230,7 @@ void Relaxation::choose_moves() {
     const auto choose = [&](Index, Index begin, Index end) {
         for (Index i = begin; i < end; ++i) choose_move(i, keep);
     };
-    agvd::parallel_chunks(num_sites, grain, num_threads_, choose, poller_);
+    agvd::parallel_chunks(num_sites, sites_per_task, num_threads_, choose, poller_);
     if (curves_) curves_->step(stretch, keep);
 }
 
@@ -245,7 +245,7 @@ void Relaxation::choose_move(Index i, double keep) {
                            plane_weight * weight_[i] * along * planes_[i].spread * along;
     Vec3 move = keep * move_[i] - stretch * (stiffness.inverse() * half_slope_[i]);
     move -= cell.normal.dot(move) * cell.normal;
-    const double most = longest_move * std::sqrt(std::max(cell.area, 0.0));
+    const double most = longest_site_move * std::sqrt(std::max(cell.area, 0.0));
     const double length = move.norm();
     move_[i] = length > most ? Vec3(most / length * move) : move;
 }
@@ -269,7 +269,8 @@ void Relaxation::walk() {
             locate(i);
         }
     };
-    agvd::parallel_chunks(static_cast<Index>(sites_.size()), grain, num_threads_, body, poller_);
+    agvd::parallel_chunks(static_cast<Index>(sites_.size()), sites_per_task, num_threads_, body,
+                          poller_);
     if (curves_) walk_curves();
 }
 

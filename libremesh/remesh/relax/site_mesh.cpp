@@ -22,7 +22,7 @@ using agvd::Vec3;
 // do not alternate.
 constexpr double flip_tolerance = -1e-9;
 // Least cosine between the normals of the triangles before and after a flip.
-constexpr double least_normal_cosine = 0.2;
+constexpr double least_flip_cosine = 0.2;
 
 double cotangent(const Vec3& a, const Vec3& b) {
     const double sine = a.cross(b).norm();
@@ -67,7 +67,7 @@ private:
                             (at(a) - at(b)).cross(at(d) - at(b)).normalized();
         const Vec3 left = (at(d) - at(c)).cross(at(b) - at(c));
         const Vec3 right = (at(c) - at(d)).cross(at(a) - at(d));
-        const double least = least_normal_cosine * before.norm();
+        const double least = least_flip_cosine * before.norm();
         return before.dot(left) > least * left.norm() && before.dot(right) > least * right.norm();
     }
 

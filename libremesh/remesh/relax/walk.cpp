@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "remesh/sampling/scatter.h"
+
 namespace remesh::detail {
 namespace {
 
@@ -15,9 +17,6 @@ using agvd::SurfacePoint;
 using agvd::Vec2;
 using agvd::Vec3;
 
-// Least barycentric coordinate of an end: keeps it off the edges by more than the rounding of any
-// position.
-constexpr double interior_margin = 1e-6;
 // A step has no direction on a face if the cosine of the angle between them is below this.
 constexpr double least_cosine = 0.05;
 // A walk that meets the boundary goes this share of its last section.

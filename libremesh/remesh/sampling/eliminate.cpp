@@ -19,7 +19,7 @@ using agvd::Vec3;
 
 // Points on faces whose normals differ by more than 120 degrees do not crowd each other: the walls
 // of a thin plate stay independent, while points on both sides of a right-angled edge keep apart.
-constexpr double least_normal_cosine = -0.5;
+constexpr double least_crowd_cosine = -0.5;
 
 // alpha = 8, beta = 0.65, gamma = 1.5.
 struct Weight {
@@ -117,7 +117,7 @@ Neighbours find_neighbours(const Grid& grid, double reach, int num_threads, agvd
                 for (Index other = first; other < last; ++other) {
                     const Vec3 apart = grid.position[place] - grid.position[other];
                     if (other != place && apart.squaredNorm() < reach * reach &&
-                        grid.normal[place].dot(grid.normal[other]) > least_normal_cosine) {
+                        grid.normal[place].dot(grid.normal[other]) > least_crowd_cosine) {
                         found[chunk].push_back(other);
                     }
                 }

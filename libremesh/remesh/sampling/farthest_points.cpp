@@ -13,6 +13,7 @@
 #include "agvd/propagation/distance_bounds.h"
 #include "agvd/propagation/surface_layout.h"
 #include "remesh/sampling/farthest_vertex.h"
+#include "remesh/sampling/scatter.h"
 
 namespace remesh::detail {
 namespace {
@@ -30,10 +31,6 @@ constexpr double longest_edge = 0.25;
 constexpr Index splits_per_point = 128;
 // Least and most distance of a point from its vertex, in heights of the face.
 constexpr double least_offset = 0.02, most_offset = 0.1;
-// Progress ticks for the search that follows each point.
-constexpr std::size_t search_work = 256;
-// Least barycentric coordinate of a point in its face.
-constexpr double interior_margin = 1e-6;
 
 Surface component_surface(const Surface& whole, const Component& component, int num_threads,
                           const agvd::Progress& progress) {

@@ -10,6 +10,9 @@
 
 namespace remesh::detail {
 
+//! Progress ticks for the search that follows each added site.
+inline constexpr std::size_t search_work = 256;
+
 //! A queue of vertices by distance, farthest first. Distances only decrease, so an outdated entry
 //! is never too late in the queue; pop() queues it again.
 class FarthestVertex {

@@ -13,10 +13,6 @@ namespace {
 
 using agvd::Index;
 
-// Least barycentric coordinate: keeps points off edges by more than the rounding of any position,
-// and biases the density by no more than this share.
-constexpr double interior_margin = 1e-6;
-
 agvd::SurfacePoint draw(const Component& component, double pick, double u, double v) {
     const auto& sums = component.area_up_to;
     const auto found = std::upper_bound(sums.begin(), sums.end(), pick * component.area());

@@ -7,6 +7,10 @@
 
 namespace remesh::detail {
 
+//! Least barycentric coordinate of a point inside a face. It keeps points off edges by more than
+//! the rounding of any position, and biases the density by no more than this share.
+inline constexpr double interior_margin = 1e-6;
+
 struct ScatteredPoint {
     agvd::SurfacePoint point;  //!< Strictly inside its face.
     agvd::Vec3 position;

@@ -14,8 +14,6 @@ using agvd::Surface;
 
 namespace {
 
-constexpr Index grain = 1 << 14;  // Faces, half-edges or vertices.
-
 // Adds to numbers of components, on several threads at once. Numbers of one component that come in
 // a row are added in one go: most surfaces have one component only.
 class ComponentTally {
@@ -50,7 +48,7 @@ private:
 FaceLabels label_components(std::span<const Index> twin, int num_threads, agvd::Poller& poller) {
     const auto num_faces = static_cast<Index>(twin.size() / 3);
     agvd::UnionFind sets(num_faces);
-    std::vector<std::vector<Index>> outside(agvd::num_chunks(num_faces, grain));
+    std::vector<std::vector<Index>> outside(agvd::num_chunks(num_faces, agvd::pass_grain));
     // A chunk unites its own faces only, which no other chunk reads.
     const auto join = [&](Index chunk, Index begin, Index end) {
         for (Index h = 3 * begin; h < 3 * end; ++h) {
@@ -62,7 +60,7 @@ FaceLabels label_components(std::span<const Index> twin, int num_threads, agvd::
             }
         }
     };
-    agvd::parallel_chunks(num_faces, grain, num_threads, join, poller);
+    agvd::parallel_chunks(num_faces, agvd::pass_grain, num_threads, join, poller);
     agvd::Ticker ticker(poller);
     for (const std::vector<Index>& half_edges : outside) {
         for (const Index h : half_edges) {
@@ -83,7 +81,7 @@ FaceLabels label_components(std::span<const Index> twin, int num_threads, agvd::
                 labels.of_face[f] = labels.of_face[root];
         }
     };
-    agvd::parallel_chunks(num_faces, grain, num_threads, label, poller);
+    agvd::parallel_chunks(num_faces, agvd::pass_grain, num_threads, label, poller);
     return labels;
 }
 
@@ -99,7 +97,7 @@ std::vector<int> euler_of_components(std::span<const Index> twin, std::span<cons
             tally.add(labels.of_face[f], 1 - num_edges);
         }
     };
-    agvd::parallel_chunks(static_cast<Index>(labels.of_face.size()), grain, num_threads,
+    agvd::parallel_chunks(static_cast<Index>(labels.of_face.size()), agvd::pass_grain, num_threads,
                           count_faces, poller);
     const auto count_vertices = [&](Index, Index begin, Index end) {
         ComponentTally tally(euler);
@@ -107,8 +105,8 @@ std::vector<int> euler_of_components(std::span<const Index> twin, std::span<cons
             if (outgoing[v] != no_index) tally.add(labels.of_face[Surface::face(outgoing[v])], 1);
         }
     };
-    agvd::parallel_chunks(static_cast<Index>(outgoing.size()), grain, num_threads, count_vertices,
-                          poller);
+    agvd::parallel_chunks(static_cast<Index>(outgoing.size()), agvd::pass_grain, num_threads,
+                          count_vertices, poller);
     return euler;
 }
 
@@ -139,7 +137,7 @@ std::vector<Component> find_components(const Surface& surface, int num_threads,
     const auto measure = [&](Index, Index begin, Index end) {
         for (Index f = begin; f < end; ++f) area[f] = agvd::face_area(surface, f);
     };
-    agvd::parallel_chunks(surface.num_faces(), grain, num_threads, measure, poller);
+    agvd::parallel_chunks(surface.num_faces(), agvd::pass_grain, num_threads, measure, poller);
     const std::vector<int> euler =
         euler_of_components(surface.twin, surface.outgoing, labels, num_threads, poller);
     std::vector<Index> num_faces(labels.count, 0);

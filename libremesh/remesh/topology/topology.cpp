@@ -159,7 +159,6 @@ Topology analyze_topology(const agvd::MeshView& mesh, const agvd::Progress& prog
 
 Topology analyze_topology(const agvd::MeshView& mesh, const agvd::Connectivity& connectivity,
                           int num_threads, const agvd::Progress& progress) {
-    constexpr Index grain = 1 << 14;  // Faces.
     agvd::Poller poller(progress);
     agvd::Ticker ticker(poller);
     const auto& [twin, outgoing] = connectivity;
@@ -175,7 +174,7 @@ Topology analyze_topology(const agvd::MeshView& mesh, const agvd::Connectivity& 
     const auto measure = [&](Index, Index begin, Index end) {
         for (Index f = begin; f < end; ++f) area[f] = face_area(mesh, f);
     };
-    agvd::parallel_chunks(num_faces, grain, num_threads, measure, poller);
+    agvd::parallel_chunks(num_faces, agvd::pass_grain, num_threads, measure, poller);
     for (Index f = 0; f < num_faces; ++f) {  // Sums run in the order of the faces.
         ticker.tick();
         ComponentTopology& c = result.components[label[f]];

@@ -24,16 +24,13 @@
 #include "support/points.h"
 #include "support/random_meshes.h"
 #include "support/random_surfaces.h"
+#include "support/shapes.h"
 
 using namespace agvd;
 
 namespace {
 
-constexpr double rounding = 1e-9;
-
-double longest_edge(const Surface& surface) {
-    return *std::max_element(surface.length.begin(), surface.length.end());
-}
+constexpr double metric_rounding = 1e-9;
 
 // A mesh, and a base of it with sites on both.
 struct Case {
@@ -53,7 +50,7 @@ struct Case {
     // Every other one is split.
     [[nodiscard]] IntrinsicOptions options(std::uint64_t seed) const {
         if (seed % 2 == 0) return {};
-        return {.max_length = 0.4 * longest_edge(input)};
+        return {.max_length = 0.4 * shapes::longest_edge(input)};
     }
     [[nodiscard]] const Surface& surface() const { return base.surface(); }
 };
@@ -95,7 +92,7 @@ Oddities oddities_of(const Surface& surface) {
 }
 
 void expect_same_distances(const Case& c, std::span<const SurfacePoint> targets) {
-    const double size = longest_edge(c.input);
+    const double size = shapes::longest_edge(c.input);
     const PropagationOptions exactly{.max_error = 0, .num_threads = 1};
     const Propagation here = propagate(c.input, c.on_input, exactly);
     const Propagation there = propagate(c.surface(), c.on_base, exactly);
@@ -104,7 +101,8 @@ void expect_same_distances(const Case& c, std::span<const SurfacePoint> targets)
         if (expected == std::numeric_limits<double>::infinity()) {
             EXPECT_EQ(there.vertex_distance[v], expected) << v;
         } else {
-            EXPECT_NEAR(there.vertex_distance[v], expected, rounding * (expected + size)) << v;
+            EXPECT_NEAR(there.vertex_distance[v], expected, metric_rounding * (expected + size))
+                << v;
         }
     }
     if (targets.empty()) return;
@@ -113,7 +111,7 @@ void expect_same_distances(const Case& c, std::span<const SurfacePoint> targets)
         const Index v = *vertex_of(c.input, targets[i]);
         const auto expected = static_cast<double>(truth.distance[i]);
         if (expected == std::numeric_limits<double>::infinity()) continue;
-        EXPECT_NEAR(there.vertex_distance[v], expected, rounding * (expected + size)) << v;
+        EXPECT_NEAR(there.vertex_distance[v], expected, metric_rounding * (expected + size)) << v;
     }
 }
 
@@ -157,12 +155,12 @@ TEST_P(DeltaComplexOf, NoEngineFallsShortOfExactDistances) {
     for_each_case(6, [](const Case& c, std::uint64_t) {
         const Propagation exact =
             propagate(c.surface(), c.on_base, {.max_error = 0, .num_threads = 1});
-        const double slack = rounding * longest_edge(c.input);
+        const double slack = metric_rounding * shapes::longest_edge(c.input);
         const auto expect_above = [&](const PropagationOptions& options, double most) {
             const Propagation other = propagate(c.surface(), c.on_base, options);
             for (Index v = 0; v < c.surface().num_vertices(); ++v) {
                 if (!exact.vertex_site[v].is_valid()) continue;
-                const double least = exact.vertex_distance[v] * (1 - rounding) - slack;
+                const double least = exact.vertex_distance[v] * (1 - metric_rounding) - slack;
                 EXPECT_GE(other.vertex_distance[v], least) << v;
                 EXPECT_LE(other.vertex_distance[v], exact.vertex_distance[v] * most + slack) << v;
             }
@@ -178,7 +176,7 @@ TEST_P(DeltaComplexOf, NoEngineFallsShortOfExactDistances) {
 TEST_P(DeltaComplexOf, RelaysReachEveryCornerNoFartherThanItsVertex) {
     for_each_case(4, [](const Case& c, std::uint64_t) {
         const Surface& s = c.surface();
-        const double slack = rounding * longest_edge(c.input);
+        const double slack = metric_rounding * shapes::longest_edge(c.input);
         for (const auto engine : {Engine::Window, Engine::Steiner, Engine::Vertex}) {
             SCOPED_TRACE(engine_name(engine));
             PropagationOptions options{.engine = engine, .num_threads = 1};
@@ -241,7 +239,7 @@ TEST_P(DeltaComplexOf, CellsHaveTheAreasOfThoseOfTheInput) {
     for (std::uint64_t seed = 0; seed < num_seeds; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         const Surface input = build_surface(mesh_of(GetParam(), seed).view());
-        const IntrinsicTriangulation base(input, {.max_length = 0.1 * longest_edge(input)});
+        const IntrinsicTriangulation base(input, {.max_length = 0.1 * shapes::longest_edge(input)});
         const std::vector<SurfacePoint> sites = uniform_points(input, 8, seed);
         const std::vector<SurfacePoint> on_base = base.to_intrinsic(sites);
         const PropagationOptions exactly{.max_error = 0, .num_threads = 1};
@@ -260,7 +258,8 @@ TEST_P(DeltaComplexOf, CellsHaveTheAreasOfThoseOfTheInput) {
             expected[truth.site.value()] += area / num_samples;
             const PointLabel label = labels_there(base.to_intrinsic(point));
             if (truth.distance && label.distance) {
-                EXPECT_NEAR(*label.distance, *truth.distance, rounding * longest_edge(input));
+                EXPECT_NEAR(*label.distance, *truth.distance,
+                            metric_rounding * shapes::longest_edge(input));
             }
         }
         // Four standard deviations of a share of a half.
@@ -313,14 +312,14 @@ TEST_P(DeltaComplexOf, DualEdgesAreLocallyShortestAndNoShorterThanDistances) {
                                   remesh::build_dual(c.surface(), d), {.num_threads = 1});
         EXPECT_EQ(made.counts.not_locally_shortest, 0u);
         EXPECT_EQ(made.counts.broken_triangles, 0u);
-        const double slack = rounding * longest_edge(c.input);
+        const double slack = metric_rounding * shapes::longest_edge(c.input);
         for (Index t = 0; t < made.triangles.size(); ++t) {
             for (std::size_t k = 0; k < 3; ++k) {
                 const Index a = made.triangles[t][k], b = made.triangles[t][(k + 1) % 3];
                 const auto truth = arbiter::nearest_sites(c.input, std::span(&on_input[a], 1),
                                                           std::span(&on_input[b], 1));
                 EXPECT_GE(made.side_lengths[t][k],
-                          static_cast<double>(truth.distance[0]) * (1 - rounding) - slack);
+                          static_cast<double>(truth.distance[0]) * (1 - metric_rounding) - slack);
             }
         }
     });
@@ -352,7 +351,7 @@ TEST(DeltaComplex, SitesOnSeamsAreSeenFromBothSides) {
             PointLabels labels_here(input, here), labels_there(s, there);
             std::vector<double> area(sites.size(), 0);
             constexpr Index num_samples = 2000;
-            const double slack = rounding * longest_edge(input);
+            const double slack = metric_rounding * shapes::longest_edge(input);
             double whole = 0;
             for (Index f = 0; f < s.num_faces(); ++f) whole += face_area(s, f);
             for (const SurfacePoint& point : uniform_points(input, num_samples, seed)) {
@@ -386,7 +385,8 @@ TEST(DeltaComplex, SitesOnSeamsAreSeenFromBothSides) {
                     EXPECT_GE(*label.distance, *truth.distance - slack);
                     // Steiner points: a spacing off at most.
                     if (engine == Engine::Steiner) {
-                        EXPECT_LE(*label.distance, *truth.distance + 0.15 * longest_edge(s));
+                        EXPECT_LE(*label.distance,
+                                  *truth.distance + 0.15 * shapes::longest_edge(s));
                     }
                 }
                 checks::expect_valid_complex(s, build_diagram(s, sites, other));
@@ -431,9 +431,10 @@ TEST(DeltaComplex, ASiteOnASeamIsSeenFromAcrossByTheShorterWay) {
                 const auto distance = [&](const PropagationOptions& options) {
                     return propagate(s, sites, options).vertex_distance[v];
                 };
-                EXPECT_LE(distance({.max_error = 0, .num_threads = 1}), straight * (1 + rounding));
+                EXPECT_LE(distance({.max_error = 0, .num_threads = 1}),
+                          straight * (1 + metric_rounding));
                 EXPECT_LE(distance({.engine = Engine::Vertex, .num_threads = 1}),
-                          straight * (1 + rounding));
+                          straight * (1 + metric_rounding));
                 EXPECT_LE(
                     distance({.engine = Engine::Steiner, .steiner_points = 200, .num_threads = 1}),
                     straight * 1.001);
@@ -476,13 +477,13 @@ TEST_P(DirtyMesh, ExactDistancesAreThoseOfTheInput) {
     const Propagation here = propagate(input, on_input, exactly);
     const std::vector<SurfacePoint> on_base = base.to_intrinsic(on_input);
     const Propagation there = propagate(base.surface(), on_base, exactly);
-    const double size = longest_edge(input);
+    const double size = shapes::longest_edge(input);
     double worst = 0;
     for (Index v = 0; v < input.num_vertices(); ++v) {
         if (!here.vertex_site[v].is_valid()) continue;
         worst = std::max(worst, std::abs(there.vertex_distance[v] - here.vertex_distance[v]));
     }
-    EXPECT_LE(worst, rounding * size);
+    EXPECT_LE(worst, metric_rounding * size);
     checks::expect_valid_complex(base.surface(), build_diagram(base.surface(), on_base, there));
 }
 

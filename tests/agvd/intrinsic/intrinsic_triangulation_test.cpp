@@ -25,10 +25,6 @@ namespace {
 
 constexpr std::uint64_t num_seeds = 12;
 
-double longest_edge(const Surface& surface) {
-    return *std::max_element(surface.length.begin(), surface.length.end());
-}
-
 double diagonal(const TriangleMesh& mesh) {
     Vec3 low = mesh.positions[0], high = low;
     for (const Vec3& p : mesh.positions) {
@@ -46,7 +42,7 @@ double area_of(const Surface& surface) {
 
 // Twins, edges, ends, lengths, apexes and one-rings fit together.
 void expect_consistent(const Surface& s) {
-    const double size = longest_edge(s);
+    const double size = shapes::longest_edge(s);
     ASSERT_EQ(s.twin.size(), std::size_t{3} * s.num_faces());
     ASSERT_EQ(s.length.size(), s.edge_half.size());
     std::vector<Index> num_corners(s.num_vertices(), 0), num_sides(s.num_edges(), 0);
@@ -108,8 +104,8 @@ void for_each_mesh(const Check& check) {
 
 IntrinsicOptions options_of(const Surface& input, std::uint64_t seed) {
     IntrinsicOptions options;
-    if (seed % 2 == 1) options.max_length = 0.3 * longest_edge(input);
-    if (has_flat_vertices(seed)) options.min_length = 0.2 * longest_edge(input);
+    if (seed % 2 == 1) options.max_length = 0.3 * shapes::longest_edge(input);
+    if (has_flat_vertices(seed)) options.min_length = 0.2 * shapes::longest_edge(input);
     return options;
 }
 
@@ -221,7 +217,7 @@ TEST(IntrinsicTriangulation, IsConsistentDelaunayAndOfTheSameArea) {
             EXPECT_TRUE(is_delaunay_at(s, h)) << h;
         }
         if (options.max_length == std::numeric_limits<double>::infinity()) return;
-        EXPECT_LE(longest_edge(s), options.max_length);
+        EXPECT_LE(shapes::longest_edge(s), options.max_length);
         const double squares = area_of(input) / (options.max_length * options.max_length);
         double boundary = 0;
         for (Index e = 0; e < input.num_edges(); ++e) {
@@ -419,7 +415,7 @@ TEST(IntrinsicTriangulation, PartsOfMergedFacesMakeUpTheirArea) {
 
 TEST(IntrinsicTriangulation, SplitsEndAtTheirBoundLongestFirst) {
     const Surface input = build_surface(shapes::cube().view());
-    const double longest = longest_edge(input);
+    const double longest = shapes::longest_edge(input);
     const double length = 0.1 * longest;
     Index all = IntrinsicTriangulation(input, {.max_length = length}).counts().splits;
     ASSERT_GT(all, 100u);
@@ -432,7 +428,7 @@ TEST(IntrinsicTriangulation, SplitsEndAtTheirBoundLongestFirst) {
     }
     // The first splits are of diagonals: none is left with as many as the cube has.
     const IntrinsicTriangulation six(input, {.max_length = length, .most_splits = 6});
-    EXPECT_LT(longest_edge(six.surface()), 0.8 * longest);
+    EXPECT_LT(shapes::longest_edge(six.surface()), 0.8 * longest);
     EXPECT_EQ(IntrinsicTriangulation(input, {.max_length = length, .most_splits = all + 1})
                   .counts()
                   .splits,

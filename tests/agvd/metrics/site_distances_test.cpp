@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 
 #include "agvd/mesh/point_faces.h"
 #include "agvd/propagation/propagate.h"
@@ -13,8 +12,6 @@
 using namespace agvd;
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::vector<SiteDistanceQuery> all_pairs(std::span<const SurfacePoint> sites,
                                          std::span<const SurfacePoint> targets, double guess) {

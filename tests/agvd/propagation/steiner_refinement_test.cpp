@@ -15,14 +15,14 @@ using namespace agvd;
 
 namespace {
 
-constexpr double rounding = 1e-12;
+constexpr double sum_rounding = 1e-12;
 
-struct Case {
+struct RefinementCase {
     const char* name;
     TriangleMesh mesh;
 };
 
-std::vector<Case> cases() {
+std::vector<RefinementCase> refinement_cases() {
     TriangleMesh flat_faces = shapes::jitter(shapes::sphere(2), 0.02, 8);
     for (Vec3& p : flat_faces.positions) p.z() *= 0.1;
     return {{"jittered sphere", shapes::jitter(shapes::sphere(3), 0.03, 3)},
@@ -45,7 +45,7 @@ double worst_error(const std::vector<double>& distances, const std::vector<doubl
         if (std::isinf(exact[v])) {
             EXPECT_TRUE(std::isinf(distances[v]));
         } else if (exact[v] > 0) {
-            EXPECT_GE(distances[v], exact[v] * (1 - rounding));
+            EXPECT_GE(distances[v], exact[v] * (1 - sum_rounding));
             worst = std::max(worst, distances[v] / exact[v] - 1);
         } else {
             EXPECT_EQ(distances[v], 0);
@@ -72,7 +72,7 @@ std::string refusal(const Surface& surface, const std::vector<SurfacePoint>& sit
 }  // namespace
 
 TEST(SteinerRefinement, MeetsTheErrorOnManyMeshesAndSiteSets) {
-    for (const Case& c : cases()) {
+    for (const RefinementCase& c : refinement_cases()) {
         const Surface surface = build_surface(c.mesh.view());
         for (const Index t : {1u, 5u, 60u}) {
             const auto sites = points::scattered(surface, t, t);
@@ -104,14 +104,14 @@ TEST(SteinerRefinement, IsNearStraightLinesOnAFlatSheet) {
     const Vec3 start = position(mesh.view(), site);
     for (Index v = 0; v < surface.num_vertices(); ++v) {
         const double exact = (mesh.positions[v] - start).norm();
-        EXPECT_GE(p.vertex_distance[v], exact * (1 - rounding));
+        EXPECT_GE(p.vertex_distance[v], exact * (1 - sum_rounding));
         EXPECT_LE(p.vertex_distance[v], exact * (1 + max_error));
     }
 }
 
 TEST(SteinerRefinement, TakesFewerPointsThanTheSameNumberOnEveryEdge) {
     constexpr double max_error = 2e-3;
-    for (const Case& c : cases()) {
+    for (const RefinementCase& c : refinement_cases()) {
         SCOPED_TRACE(c.name);
         const Surface surface = build_surface(c.mesh.view());
         const auto sites = points::scattered(surface, 6, 2);

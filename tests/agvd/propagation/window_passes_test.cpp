@@ -14,9 +14,7 @@ using namespace agvd;
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-Window window(double x, double y, double weight, double begin, double end) {
+Window new_window(double x, double y, double weight, double begin, double end) {
     Window w{x, y, weight, begin, end, infinity, infinity, 0, false};
     w.at_begin = w.weight + std::hypot(begin - x, y);
     w.at_end = w.weight + std::hypot(end - x, y);
@@ -61,8 +59,8 @@ struct Front {
 TEST(WindowPasses, WindowsThatWaitBecomeOneEnvelope) {
     Front front;
     const HalfEdgeEnds to = front.ends_of(0);
-    send(front.state, to, window(0.2, -1, 0, 0, 0.7));
-    send(front.state, to, window(0.8, -1, 0, 0.3, 1));
+    send(front.state, to, new_window(0.2, -1, 0, 0, 0.7));
+    send(front.state, to, new_window(0.8, -1, 0, 0.3, 1));
     take_in_windows(front.state, front.edge(0), front.face(0));
     EXPECT_EQ(front.edge(0).waiting, no_index);
     const std::span<const Window> windows = front.state.store[front.edge(0).windows];
@@ -77,7 +75,7 @@ TEST(WindowPasses, BoundsOfTheEndsBeatWindows) {
     Front front;
     const HalfEdgeEnds to = front.ends_of(0);
     front.state.vertices.lower_bound(to.tail, 0.5);
-    send(front.state, to, window(0.2, -1, 0, 0, 0.3));
+    send(front.state, to, new_window(0.2, -1, 0, 0, 0.3));
     take_in_windows(front.state, front.edge(0), front.face(0));
     EXPECT_EQ(front.edge(0).windows, no_index);
 }
@@ -86,7 +84,7 @@ TEST(WindowPasses, AWindowIsDividedAtTheRayToTheApex) {
     Front front;
     (void)front.state.edges.add(front.ends_of(0));
     const WindowFace face = front.face(0);
-    const Window w = window(0.5, -1, 0.25, 0, 1);
+    const Window w = new_window(0.5, -1, 0.25, 0, 1);
     const Division division = divide(front.state, w, front.edge(0), face);
     EXPECT_EQ(division.right.window, &w);
     EXPECT_EQ(division.left.window, &w);
@@ -95,7 +93,7 @@ TEST(WindowPasses, AWindowIsDividedAtTheRayToTheApex) {
     const VertexRecord& apex = front.state.vertices.records[face.apex_record];
     EXPECT_NEAR(apex.low, 1.25 + std::sqrt(0.75), 1e-14);
     // A worse window goes on from the best ray only.
-    const Window worse = window(0.9, -1, 1, 0, 1);
+    const Window worse = new_window(0.9, -1, 1, 0, 1);
     const Division late = divide(front.state, worse, front.edge(0), face);
     EXPECT_FALSE(late.left.is_apex);
     EXPECT_NEAR(late.left.limit, 0.5, 1e-14);
@@ -104,7 +102,7 @@ TEST(WindowPasses, AWindowIsDividedAtTheRayToTheApex) {
 
 TEST(WindowPasses, ServingSendsBothPartsOn) {
     Front front;
-    send(front.state, front.ends_of(0), window(0.5, -0.5, 0, 0, 1));
+    send(front.state, front.ends_of(0), new_window(0.5, -0.5, 0, 0, 1));
     const Index record = front.state.edges.find(0);
     serve_edge(front.state, record);
     EXPECT_EQ(front.state.num_served, 1u);
@@ -128,7 +126,7 @@ TEST(WindowPasses, HalfEdgesBehindTheFrontAreClosed) {
         const HalfEdgeEnds to = front.ends_of(h);
         front.state.vertices.lower_bound(to.tail, 0.1);
         front.state.vertices.lower_bound(to.head, 0.1);
-        send(front.state, to, window(0.5, -0.001, 0, 0.2, 0.8));
+        send(front.state, to, new_window(0.5, -0.001, 0, 0.2, 0.8));
         if (h < 6) take_in_windows(front.state, front.edge(h), front.face(h));
         watch(front.state, front.state.edges.find(h), 1);
     }

@@ -17,7 +17,6 @@ using namespace remesh::detail;
 
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
 constexpr double strong = 90 * degree, weak = 30 * degree;
 
 // A grid of 20 x 20 quads of side .05, and lines on it.

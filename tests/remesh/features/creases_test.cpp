@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "agvd/mesh/face_area.h"
 #include "remesh/clean/clean_input.h"
@@ -16,8 +15,6 @@
 using namespace agvd;
 
 namespace {
-
-constexpr double degree = std::numbers::pi / 180;
 
 double diagonal_of(const TriangleMesh& mesh) {
     Vec3 low = mesh.positions[0], high = low;

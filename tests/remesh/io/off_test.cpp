@@ -11,9 +11,9 @@ using texts::read_bytes;
 
 namespace {
 
-const std::string three = "0 0 0\n1 0 0\n0 1 0\n";
+const std::string three_vertices = "0 0 0\n1 0 0\n0 1 0\n";
 
-void expect_one_triangle(const std::string& bytes) {
+void expect_one_off_triangle(const std::string& bytes) {
     const auto file = read_bytes("a.off", bytes);
     ASSERT_EQ(file.mesh.positions.size(), 3u) << bytes;
     EXPECT_EQ(file.mesh.positions[1], Vec3(1, 0, 0)) << bytes;
@@ -25,30 +25,31 @@ void expect_one_triangle(const std::string& bytes) {
 }  // namespace
 
 TEST(Off, PlainFileIsRead) {
-    expect_one_triangle("OFF\n3 1 0\n" + three + "3 0 1 2\n");
-    expect_one_triangle("OFF\n3 1 3\n" + three + "3 0 1 2");
-    expect_one_triangle("OFF\r\n3 1 0\r\n0 0 0\r\n1 0 0\r\n0 1 0\r\n3 0 1 2\r\n");
-    expect_one_triangle("\xEF\xBB\xBFOFF\n3 1 0\n" + three + "3 0 1 2\n");
+    expect_one_off_triangle("OFF\n3 1 0\n" + three_vertices + "3 0 1 2\n");
+    expect_one_off_triangle("OFF\n3 1 3\n" + three_vertices + "3 0 1 2");
+    expect_one_off_triangle("OFF\r\n3 1 0\r\n0 0 0\r\n1 0 0\r\n0 1 0\r\n3 0 1 2\r\n");
+    expect_one_off_triangle("\xEF\xBB\xBFOFF\n3 1 0\n" + three_vertices + "3 0 1 2\n");
 }
 
 TEST(Off, HeaderMayHoldTheCounts) {
-    expect_one_triangle("OFF 3 1 0\n" + three + "3 0 1 2\n");
-    expect_one_triangle("OFF3 1 0\n" + three + "3 0 1 2\n");
-    expect_one_triangle("OFF\n3 1\n" + three + "3 0 1 2\n");
+    expect_one_off_triangle("OFF 3 1 0\n" + three_vertices + "3 0 1 2\n");
+    expect_one_off_triangle("OFF3 1 0\n" + three_vertices + "3 0 1 2\n");
+    expect_one_off_triangle("OFF\n3 1\n" + three_vertices + "3 0 1 2\n");
 }
 
 TEST(Off, CommentsAndEmptyLinesArePassedOver) {
-    expect_one_triangle(
+    expect_one_off_triangle(
         "# made by hand\n\nOFF # the keyword\n#\n3 1 0#counts\n\n0 0 0 # first\n"
         "  1\t0 0\n# between\n0 1 0\n\n3 0 1 2 # face\n# end\n");
 }
 
 TEST(Off, ColoursNormalsAndTextureCoordinatesArePassedOver) {
-    expect_one_triangle(
+    expect_one_off_triangle(
         "COFF\n3 1 0\n0 0 0 255 0 0 255\n1 0 0 9 9 9 9\n0 1 0 1 1 1 1\n3 0 1 2 1 0 0\n");
-    expect_one_triangle("NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2\n");
-    expect_one_triangle("STOFF\n3 1 0\n0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n3 0 1 2\n");
-    expect_one_triangle("STCNOFF 3 1 0\n0 0 0 0 0 1 9 9 9 9 0 0\n1 0 0 0\n0 1 0 0\n3 0 1 2 0.5\n");
+    expect_one_off_triangle("NOFF\n3 1 0\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 1 2\n");
+    expect_one_off_triangle("STOFF\n3 1 0\n0 0 0 0 0\n1 0 0 1 0\n0 1 0 0 1\n3 0 1 2\n");
+    expect_one_off_triangle(
+        "STCNOFF 3 1 0\n0 0 0 0 0 1 9 9 9 9 0 0\n1 0 0 0\n0 1 0 0\n3 0 1 2 0.5\n");
 }
 
 TEST(Off, PolygonsAreTriangulatedAndLinesLeftOut) {
@@ -71,13 +72,14 @@ TEST(Off, CoordinatesKeepEveryDigit) {
 
 TEST(Off, WrongHeadersAreRefused) {
     expect_error<IoError>("a.off", "\n\n", {"line 3", "OFF"});
-    expect_error<IoError>("a.off", "3 1 0\n" + three + "3 0 1 2\n",
+    expect_error<IoError>("a.off", "3 1 0\n" + three_vertices + "3 0 1 2\n",
                           {"line 1", "keyword OFF", "'3'"});
-    expect_error<IoError>("a.off", "4OFF\n3 1 0\n", {"line 1", "three dimensions"});
+    expect_error<IoError>("a.off", "4OFF\n3 1 0\n", {"line 1", "three_vertices dimensions"});
     expect_error<IoError>("a.off", "OFF BINARY\n3 1 0\n", {"line 1", "binary OFF"});
     expect_error<IoError>("a.off", "OFF\n3\n0 0 0\n", {"line 2", "number of faces"});
     expect_error<IoError>("a.off", "OFF\n-3 1 0\n", {"line 2", "negative"});
-    expect_error<IoError>("a.off", "OFF\nthree 1 0\n", {"line 2", "number of vertices", "'three'"});
+    expect_error<IoError>("a.off", "OFF\nthree 1 0\n",
+                          {"line 2", "number of vertices", "'three_vertices'"});
 }
 
 TEST(Off, TruncatedFilesAreRefused) {
@@ -86,15 +88,18 @@ TEST(Off, TruncatedFilesAreRefused) {
         if (size == whole.size() - 2) continue;  // "3 0 1 ": tested below
         expect_error<IoError>("a.off", whole.substr(0, size), {"line"});
     }
-    expect_error<IoError>("a.off", "OFF\n3 1 0\n" + three + "3 0 1 ", {"line 6", "truncated"});
-    expect_error<IoError>("a.off", "OFF\n3 2 0\n" + three + "3 0 1 2\n", {"line 7", "face 1 of 2"});
+    expect_error<IoError>("a.off", "OFF\n3 1 0\n" + three_vertices + "3 0 1 ",
+                          {"line 6", "truncated"});
+    expect_error<IoError>("a.off", "OFF\n3 2 0\n" + three_vertices + "3 0 1 2\n",
+                          {"line 7", "face 1 of 2"});
     expect_error<IoError>("a.off", "OFF\n3 1 0\n0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
                           {"line 3", "coordinate", "end of the line"});
 }
 
 TEST(Off, SeveralElementsOnALineAreRefusedNotMisread) {
     expect_error<IoError>("a.off", "OFF\n3 2 0\n0 0 0 1 0 0 0 1 0\n3 0 1 2\n3 0 1 2\n", {"line"});
-    expect_error<IoError>("a.off", "OFF\n3 2 0\n" + three + "3 0 1 2 3 0 1 2\n", {"several"});
+    expect_error<IoError>("a.off", "OFF\n3 2 0\n" + three_vertices + "3 0 1 2 3 0 1 2\n",
+                          {"several"});
 }
 
 TEST(Off, WrongNumbersAreRefused) {
@@ -106,29 +111,36 @@ TEST(Off, WrongNumbersAreRefused) {
         expect_error<IoError>("a.off", "OFF\n3 1 0\n0 0 0\n1 " + bad + " 0\n0 1 0\n3 0 1 2\n",
                               {"line 4", "'" + bad + "'"});
     }
-    expect_error<IoError>("a.off", "OFF\n3 1 0\n" + three + "3 0 1.0 2\n", {"line 6", "'1.0'"});
-    expect_error<IoError>("a.off", "OFF\n3 1 0\n" + three + "-3 0 1 2\n", {"line 6", "negative"});
+    expect_error<IoError>("a.off", "OFF\n3 1 0\n" + three_vertices + "3 0 1.0 2\n",
+                          {"line 6", "'1.0'"});
+    expect_error<IoError>("a.off", "OFF\n3 1 0\n" + three_vertices + "-3 0 1 2\n",
+                          {"line 6", "negative"});
 }
 
 TEST(Off, IndicesOutOfRangeAreRefused) {
-    expect_error<InvalidInput>("a.off", "OFF\n3 2 0\n" + three + "3 0 1 2\n3 0 1 3\n",
+    expect_error<InvalidInput>("a.off", "OFF\n3 2 0\n" + three_vertices + "3 0 1 2\n3 0 1 3\n",
                                {"line 7", "face 1", "corner 3", "3 vertices"});
-    expect_error<InvalidInput>("a.off", "OFF\n3 1 0\n" + three + "3 0 1 -2\n",
+    expect_error<InvalidInput>("a.off", "OFF\n3 1 0\n" + three_vertices + "3 0 1 -2\n",
                                {"line 6", "-2", "negative"});
-    expect_error<InvalidInput>("a.off", "OFF\n3 1 0\n" + three + "3 0 1 4294967295\n",
+    expect_error<InvalidInput>("a.off", "OFF\n3 1 0\n" + three_vertices + "3 0 1 4294967295\n",
                                {"line 6", "absurdly large"});
-    expect_error<InvalidInput>("a.off", "OFF\n3 1 0\n" + three + "3 0 1 99999999999999999999\n",
+    expect_error<InvalidInput>("a.off",
+                               "OFF\n3 1 0\n" + three_vertices + "3 0 1 99999999999999999999\n",
                                {"line 6", "absurdly large"});
 }
 
 TEST(Off, CountsAreNotBelieved) {
-    expect_error<IoError>("a.off", "OFF\n9223372036854775807 9223372036854775807 0\n" + three,
+    expect_error<IoError>("a.off",
+                          "OFF\n9223372036854775807 9223372036854775807 0\n" + three_vertices,
                           {"line 6", "vertex 3 of 9223372036854775807"});
-    expect_error<IoError>("a.off", "OFF\n3 1 0\n" + three + "4000000000000 0 1 2\n", {"line 6"});
+    expect_error<IoError>("a.off", "OFF\n3 1 0\n" + three_vertices + "4000000000000 0 1 2\n",
+                          {"line 6"});
 }
 
 TEST(Off, PointCloudsAndEmptyMeshesAreRefused) {
-    expect_error<InvalidInput>("a.off", "OFF\n3 0 0\n" + three, {"3 vertices but no face"});
+    expect_error<InvalidInput>("a.off", "OFF\n3 0 0\n" + three_vertices,
+                               {"3 vertices but no face"});
     expect_error<InvalidInput>("a.off", "OFF\n0 0 0\n", {"nor a face"});
-    expect_error<InvalidInput>("a.off", "OFF\n3 1 0\n" + three + "2 0 1\n", {"three corners"});
+    expect_error<InvalidInput>("a.off", "OFF\n3 1 0\n" + three_vertices + "2 0 1\n",
+                               {"three_vertices corners"});
 }

@@ -36,7 +36,7 @@ std::string bytes_of(T value, bool is_big) {
 
 const std::string three = "0 0 0\n1 0 0\n0 1 0\n";
 
-void expect_one_triangle(const std::string& bytes) {
+void expect_one_ply_triangle(const std::string& bytes) {
     const auto file = read_bytes("a.ply", bytes);
     ASSERT_EQ(file.mesh.positions.size(), 3u) << bytes;
     EXPECT_EQ(file.mesh.positions[1], Vec3(1, 0, 0)) << bytes;
@@ -57,19 +57,19 @@ void expect_binary_read(const std::string& real, const std::string& size,
             bytes += bytes_of(static_cast<Real>(x), is_big);
         bytes += bytes_of(Size{3}, is_big);
         for (const int v : {0, 1, 2}) bytes += bytes_of(static_cast<Corner>(v), is_big);
-        expect_one_triangle(bytes);
+        expect_one_ply_triangle(bytes);
     }
 }
 
 }  // namespace
 
 TEST(Ply, AsciiIsRead) {
-    expect_one_triangle(triangle_header("ascii") + three + "3 0 1 2\n");
+    expect_one_ply_triangle(triangle_header("ascii") + three + "3 0 1 2\n");
     std::string crlf = triangle_header("ascii") + three + "3 0 1 2\n";
     for (std::size_t at = 0; (at = crlf.find('\n', at)) != std::string::npos; at += 2) {
         crlf.replace(at, 1, "\r\n");
     }
-    expect_one_triangle(crlf);
+    expect_one_ply_triangle(crlf);
 }
 
 TEST(Ply, BinariesOfAllTypesAreRead) {
@@ -101,9 +101,9 @@ TEST(Ply, OtherPropertiesAndElementsArePassedOver) {
         "property list uint char name\nproperty double quality\nelement nothing 99999999999\n"
         "element face 1\nproperty ushort flags\n" +
         faces + "property list uchar float texcoord\nelement edge 1\nproperty int a\n";
-    expect_one_triangle(header("ascii", elements) +
-                        "0.5 2 1 2\n255 0 0 0 0 1\n255 1 0 0 3 1 2 3 1\n0 0 1 0 0 1\n"
-                        "7 3 0 1 2 2 0.5 0.5\n5\n");
+    expect_one_ply_triangle(header("ascii", elements) +
+                            "0.5 2 1 2\n255 0 0 0 0 1\n255 1 0 0 3 1 2 3 1\n0 0 1 0 0 1\n"
+                            "7 3 0 1 2 2 0.5 0.5\n5\n");
     std::string bytes = header("binary_little_endian", elements) + bytes_of(0.5, false) +
                         bytes_of(std::int16_t{2}, false) + bytes_of(1.0, false) +
                         bytes_of(2.0, false);
@@ -114,12 +114,13 @@ TEST(Ply, OtherPropertiesAndElementsArePassedOver) {
     }
     bytes += bytes_of(std::uint16_t{7}, false) + '\3' + bytes_of(0, false) + bytes_of(1, false) +
              bytes_of(2, false) + '\1' + bytes_of(0.5f, false) + bytes_of(5, false);
-    expect_one_triangle(bytes);
+    expect_one_ply_triangle(bytes);
 }
 
 TEST(Ply, FacesMayPrecedeVertices) {
-    expect_one_triangle(header("ascii", "element face 1\n" + faces + "element vertex 3\n" + xyz) +
-                        "3 0 1 2\n" + three);
+    expect_one_ply_triangle(
+        header("ascii", "element face 1\n" + faces + "element vertex 3\n" + xyz) + "3 0 1 2\n" +
+        three);
 }
 
 TEST(Ply, BinaryDataMayBeginLikeALineEnd) {
@@ -169,7 +170,7 @@ TEST(Ply, TruncatedFilesAreRefused) {
     for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f})
         binary += bytes_of(x, false);
     binary += '\3' + bytes_of(0, false) + bytes_of(1, false) + bytes_of(2, false);
-    expect_one_triangle(binary);
+    expect_one_ply_triangle(binary);
     for (std::size_t size = 1; size < ascii.size(); ++size) {
         expect_error<IoError>("a.ply", ascii.substr(0, size), {"line"});
     }

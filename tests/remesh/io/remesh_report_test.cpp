@@ -9,7 +9,7 @@ using nlohmann::json;
 
 namespace {
 
-remesh::RemeshResult example() {
+remesh::RemeshResult example_result() {
     remesh::RemeshResult result;
     result.mesh.positions.resize(3);
     result.mesh.triangles.resize(1);
@@ -38,7 +38,7 @@ remesh::RemeshResult example() {
 
 TEST(RemeshReport, GivesEveryFieldOfTheResult) {
     const json report = json::parse(remesh::to_json(
-        example(),
+        example_result(),
         {.version = "1.2",
          .input_path = "in.ply",
          .output_path = "out.obj",
@@ -95,7 +95,7 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
 }
 
 TEST(RemeshReport, AnErrorNotAskedForOrNotCertifiedIsNull) {
-    remesh::RemeshResult result = example();
+    remesh::RemeshResult result = example_result();
     result.certified_error = std::numeric_limits<double>::infinity();
     const json report = json::parse(
         remesh::to_json(result, {.options = {.propagation = {.engine = agvd::Engine::Vertex}}}));
@@ -115,15 +115,15 @@ TEST(RemeshReport, TextTellsTheEngineAndItsBound) {
 
 TEST(RemeshReport, WithoutDelaunayThereAreNoFiguresOfIt) {
     const remesh::RunInfo info{.options = {.delaunay = remesh::Delaunay::Off}};
-    const json report = json::parse(remesh::to_json(example(), info));
+    const json report = json::parse(remesh::to_json(example_result(), info));
     EXPECT_EQ(report["options"]["delaunay"], "off");
     EXPECT_EQ(report["delaunay"], nullptr);
-    EXPECT_EQ(remesh::to_text(example(), info).find("Delaunay"), std::string::npos);
+    EXPECT_EQ(remesh::to_text(example_result(), info).find("Delaunay"), std::string::npos);
 }
 
 TEST(RemeshReport, TextTellsRepairTopologyTimeAndMemory) {
     const std::string text = remesh::to_text(
-        example(),
+        example_result(),
         {.input_path = "in.ply", .options = {.propagation = {.engine = agvd::Engine::Window}}});
     for (const char* part :
          {"in.ply", "4 split edges", "1 component, genus 1, 0 boundary loops",

@@ -10,7 +10,7 @@ using nlohmann::json;
 
 namespace {
 
-remesh::Evaluation example() {
+remesh::Evaluation example_evaluation() {
     remesh::Evaluation e;
     e.original.vertices = 10;
     e.original.topology.components = {{.faces = 16, .euler = 2, .area = 2.5}};
@@ -56,8 +56,9 @@ std::vector<std::string> keys_of(const std::string& text) {
 }  // namespace
 
 TEST(EvaluationReport, GivesEveryFigureInTheUnitOfItsKey) {
-    const json report = json::parse(remesh::to_json(
-        example(), {.version = "1.2", .original_path = "a.ply", .result_path = "b.ply"}));
+    const json report = json::parse(
+        remesh::to_json(example_evaluation(),
+                        {.version = "1.2", .original_path = "a.ply", .result_path = "b.ply"}));
     EXPECT_EQ(report["program"], "remesh-eval");
     EXPECT_EQ(report["version"], "1.2");
     EXPECT_EQ(report["original_path"], "a.ply");
@@ -90,10 +91,11 @@ TEST(EvaluationReport, GivesEveryFigureInTheUnitOfItsKey) {
 }
 
 TEST(EvaluationReport, FeaturesAreThereWhereTheOriginalHasAny) {
-    EXPECT_NE(remesh::to_text(example()).find("covered within .1 % (%)              75.00"),
-              std::string::npos)
-        << remesh::to_text(example());
-    remesh::Evaluation e = example();
+    EXPECT_NE(
+        remesh::to_text(example_evaluation()).find("covered within .1 % (%)              75.00"),
+        std::string::npos)
+        << remesh::to_text(example_evaluation());
+    remesh::Evaluation e = example_evaluation();
     e.features->length = 0;
     json report = json::parse(remesh::to_json(e));
     EXPECT_EQ(report["features"]["covered_percent"], nullptr);
@@ -102,13 +104,13 @@ TEST(EvaluationReport, FeaturesAreThereWhereTheOriginalHasAny) {
     e.features.reset();
     report = json::parse(remesh::to_json(e));
     EXPECT_EQ(report["features"]["corners"], nullptr);
-    EXPECT_EQ(keys_of(remesh::to_json(e)), keys_of(remesh::to_json(example())));
+    EXPECT_EQ(keys_of(remesh::to_json(e)), keys_of(remesh::to_json(example_evaluation())));
     EXPECT_EQ(remesh::to_text(e).find("sharp"), std::string::npos);
 }
 
 TEST(EvaluationReport, HasTheSameKeysWhateverWasMeasured) {
-    const std::string all = remesh::to_json(example());
-    remesh::Evaluation bare = example();
+    const std::string all = remesh::to_json(example_evaluation());
+    remesh::Evaluation bare = example_evaluation();
     bare.distance.reset();
     bare.original.self_intersections.reset();
     const std::string some = remesh::to_json(bare);
@@ -120,7 +122,7 @@ TEST(EvaluationReport, HasTheSameKeysWhateverWasMeasured) {
 }
 
 TEST(EvaluationReport, NumbersThatAreNotFiniteAreNull) {
-    remesh::Evaluation e = example();
+    remesh::Evaluation e = example_evaluation();
     e.result.triangles.mean_quality = std::numeric_limits<double>::infinity();
     e.distance->from_result.max = std::nan("");
     const json report = json::parse(remesh::to_json(e));
@@ -129,18 +131,19 @@ TEST(EvaluationReport, NumbersThatAreNotFiniteAreNull) {
 }
 
 TEST(EvaluationReport, PathsNeedNotBeUtf8) {
-    const std::string text = remesh::to_json(example(), {.original_path = "caf\xe9.ply"});
+    const std::string text =
+        remesh::to_json(example_evaluation(), {.original_path = "caf\xe9.ply"});
     EXPECT_EQ(json::parse(text)["original_path"], "caf\xef\xbf\xbd.ply");
 }
 
 TEST(EvaluationReport, TextNamesWhatNeedsCgal) {
-    const std::string all = remesh::to_text(example());
+    const std::string all = remesh::to_text(example_evaluation());
     EXPECT_NE(all.find("repaired: 1 welded vertex, 2 flipped faces"), std::string::npos) << all;
     EXPECT_NE(all.find("topology kept" + std::string(40, ' ') + "yes"), std::string::npos) << all;
     EXPECT_NE(all.find("two-sided (the larger)             2.00000       4.00000       8.00000"),
               std::string::npos)
         << all;
-    remesh::Evaluation bare = example();
+    remesh::Evaluation bare = example_evaluation();
     bare.distance.reset();
     EXPECT_NE(remesh::to_text(bare).find("distance: needs CGAL"), std::string::npos);
 }

@@ -128,10 +128,6 @@ double diagonal(const TriangleMesh& mesh) {
     return around.diagonal().norm();
 }
 
-RemeshResult run(const TriangleMesh& mesh, const RemeshOptions& options) {
-    return remesh::remesh(mesh.view(), options);
-}
-
 std::vector<Vec3> positions_of(const TriangleMesh& mesh, const RemeshResult& result) {
     std::vector<Vec3> positions;
     for (const SurfacePoint& site : result.sites) {
@@ -174,7 +170,7 @@ TEST(Features, PartsKeepTheirNetworkAtEveryNumberOfVertices) {
     for (const Part& part : all_parts()) {
         for (const Index n : {50u, 200u, 2000u}) {
             SCOPED_TRACE(part.name + ", " + std::to_string(n));
-            const RemeshResult result = run(part.mesh, {.num_samples = n});
+            const RemeshResult result = remesh::remesh(part.mesh.view(), {.num_samples = n});
             expect_sound(result, n);
             expect_network(part, result);
             expect_sharp(part, result, n < 1000);
@@ -188,7 +184,7 @@ TEST(Features, TheFewestVerticesThatTheNetworkNeedsAreEnough) {
         for (const Index n : {part.fewest, part.fewest + 1, part.fewest + 7}) {
             SCOPED_TRACE(part.name + ", " + std::to_string(n));
             const RemeshResult result =
-                run(part.mesh, {.num_samples = n, .features = Features::Angle});
+                remesh::remesh(part.mesh.view(), {.num_samples = n, .features = Features::Angle});
             expect_sound(result, n);
             expect_network(part, result);
             expect_sharp(part, result, true);
@@ -199,7 +195,7 @@ TEST(Features, TheFewestVerticesThatTheNetworkNeedsAreEnough) {
 
 TEST(Features, ManyVerticesCarryTheNetwork) {
     const Part part = extruded_l();
-    const RemeshResult result = run(part.mesh, {.num_samples = 20000});
+    const RemeshResult result = remesh::remesh(part.mesh.view(), {.num_samples = 20000});
     expect_sound(result, 20000);
     expect_network(part, result);
     expect_sharp(part, result, false);
@@ -219,7 +215,7 @@ TEST(Features, TurningScalingAndNoiseKeepTheNetwork) {
             std::copy(p.begin() + static_cast<std::ptrdiff_t>(num_vertices), p.end(),
                       other.corners.begin());
             p.resize(num_vertices);
-            const RemeshResult result = run(other.mesh, {.num_samples = 200});
+            const RemeshResult result = remesh::remesh(other.mesh.view(), {.num_samples = 200});
             expect_sound(result, 200);
             expect_network(part, result);
             for (Vec3& v : p) v /= scale;
@@ -230,7 +226,7 @@ TEST(Features, TurningScalingAndNoiseKeepTheNetwork) {
         }
         SCOPED_TRACE(part.name + ", noise");
         const TriangleMesh noisy = shapes::jitter(part.mesh, 1e-3 * shortest_edge(part.mesh), 3);
-        const RemeshResult result = run(noisy, {.num_samples = 200});
+        const RemeshResult result = remesh::remesh(noisy.view(), {.num_samples = 200});
         expect_sound(result, 200);
         expect_network(part, result);
         EXPECT_LT(crease_checks::farthest_from_vertices(part.corners, result.mesh), 1e-3);
@@ -242,7 +238,7 @@ TEST(Features, NeedlesAndSplitsInFlatFacesKeepTheNetwork) {
         for (const double aspect : {0.3, 1e-4}) {
             SCOPED_TRACE(part.name + ", " + std::to_string(aspect));
             const TriangleMesh needles = parts::with_needles(part.mesh, aspect, 0.4, 7);
-            const RemeshResult result = run(needles, {.num_samples = 200});
+            const RemeshResult result = remesh::remesh(needles.view(), {.num_samples = 200});
             expect_sound(result, 200);
             expect_network(part, result);
             expect_sharp(part, result, true);
@@ -253,9 +249,11 @@ TEST(Features, NeedlesAndSplitsInFlatFacesKeepTheNetwork) {
 TEST(Features, ThreadsChangeNothing) {
     for (const Part& part : {extruded_l(), vaults(), slit_plate()}) {
         SCOPED_TRACE(part.name);
-        const RemeshResult one = run(part.mesh, {.num_samples = 400, .num_threads = 1});
+        const RemeshResult one =
+            remesh::remesh(part.mesh.view(), {.num_samples = 400, .num_threads = 1});
         for (const int threads : {2, 8}) {
-            const RemeshResult other = run(part.mesh, {.num_samples = 400, .num_threads = threads});
+            const RemeshResult other =
+                remesh::remesh(part.mesh.view(), {.num_samples = 400, .num_threads = threads});
             EXPECT_EQ(one.mesh.positions, other.mesh.positions);
             EXPECT_EQ(one.mesh.triangles, other.mesh.triangles);
         }
@@ -264,11 +262,12 @@ TEST(Features, ThreadsChangeNothing) {
 
 TEST(Features, WhatVerticesAreTooFewForIsDroppedAndCounted) {
     for (const Part& part : {box(), open_box(), prism(), extruded_l(), vaults()}) {
-        const double length = run(part.mesh, {.num_samples = 200}).features.length;
+        const double length =
+            remesh::remesh(part.mesh.view(), {.num_samples = 200}).features.length;
         for (Index n = 4; n < part.fewest; ++n) {
             SCOPED_TRACE(part.name + ", " + std::to_string(n));
             const RemeshOptions options{.num_samples = n, .features = Features::Angle};
-            const RemeshResult result = run(part.mesh, options);
+            const RemeshResult result = remesh::remesh(part.mesh.view(), options);
             expect_sound(result, n);
             EXPECT_LT(result.features.length, length);
             EXPECT_NEAR(result.features.length + result.features.dropped_length, length,
@@ -284,7 +283,7 @@ TEST(Features, AnglesDecide) {
     const auto num_curves = [&](Features features, double angle) {
         const RemeshOptions options{
             .num_samples = 300, .features = features, .feature_angle = angle};
-        const RemeshResult result = run(prism, options);
+        const RemeshResult result = remesh::remesh(prism.view(), options);
         expect_sound(result, 300);
         return result.features.curves;
     };
@@ -310,8 +309,9 @@ TEST(Features, FreeBoundariesKeepTheCreasesInside) {
         }
         return farthest;
     };
-    const RemeshResult keep = run(plate, {.num_samples = 200});
-    const RemeshResult free = run(plate, {.num_samples = 200, .boundary = remesh::Boundary::Free});
+    const RemeshResult keep = remesh::remesh(plate.view(), {.num_samples = 200});
+    const RemeshResult free =
+        remesh::remesh(plate.view(), {.num_samples = 200, .boundary = remesh::Boundary::Free});
     for (const RemeshResult& result : {keep, free}) {
         expect_sound(result, 200);
         expect_network(cone(), result);
@@ -325,18 +325,20 @@ TEST(Features, FreeBoundariesKeepTheCreasesInside) {
 TEST(Features, GivenSitesCarryTheCreasesThatTheyLieOn) {
     for (const Part& part : {box(), open_box(), extruded_l(), cylinder(), vaults()}) {
         SCOPED_TRACE(part.name);
-        const RemeshResult first = run(part.mesh, {.num_samples = 400, .fit = false});
+        const RemeshResult first =
+            remesh::remesh(part.mesh.view(), {.num_samples = 400, .fit = false});
         for (const bool keep_sites : {true, false}) {
             const RemeshOptions options{
                 .sites = first.sites, .keep_sites = keep_sites, .fit = keep_sites};
-            const RemeshResult result = run(part.mesh, options);
+            const RemeshResult result = remesh::remesh(part.mesh.view(), options);
             expect_sound(result, 400);
             expect_network(part, result);
             expect_sharp(part, result, true);
             EXPECT_EQ(result.features.uncarried_curves, 0u);
             RemeshOptions one_thread = options;
             one_thread.num_threads = 1;
-            EXPECT_EQ(run(part.mesh, one_thread).mesh.positions, result.mesh.positions);
+            EXPECT_EQ(remesh::remesh(part.mesh.view(), one_thread).mesh.positions,
+                      result.mesh.positions);
             EXPECT_EQ(result.sites_dropped, 0u);
             if (!keep_sites) continue;
             // In the order given.
@@ -351,7 +353,7 @@ TEST(Features, GivenSitesCarryTheCreasesThatTheyLieOn) {
 TEST(Features, CreasesWithoutGivenSitesAreDroppedAndCounted) {
     const Part part = box();
     RemeshOptions options{.num_samples = 600, .fit = false};
-    const RemeshResult all = run(part.mesh, options);
+    const RemeshResult all = remesh::remesh(part.mesh.view(), options);
     // Those inside one edge go.
     options.sites.emplace();
     for (Index i = 0; i < all.sites.size(); ++i) {
@@ -361,7 +363,7 @@ TEST(Features, CreasesWithoutGivenSitesAreDroppedAndCounted) {
     }
     ASSERT_LT(options.sites->size(), 600u);
     options.keep_sites = true;
-    const RemeshResult most = run(part.mesh, options);
+    const RemeshResult most = remesh::remesh(part.mesh.view(), options);
     expect_sound(most, static_cast<Index>(options.sites->size()));
     EXPECT_EQ(most.features.uncarried_curves, 1u);
     EXPECT_NEAR(most.features.length, 11, 1e-9);
@@ -370,12 +372,12 @@ TEST(Features, CreasesWithoutGivenSitesAreDroppedAndCounted) {
 
     // None lies on any.
     options.sites = remesh::sample_sites(build_surface(part.mesh.view()), {.num_samples = 200});
-    const RemeshResult none = run(part.mesh, options);
+    const RemeshResult none = remesh::remesh(part.mesh.view(), options);
     EXPECT_EQ(none.features.uncarried_curves, 12u);
     EXPECT_EQ(none.features.curves, 0u);
     EXPECT_NEAR(none.features.dropped_length, 12, 1e-9);
     options.features = Features::Off;
-    const RemeshResult off = run(part.mesh, options);
+    const RemeshResult off = remesh::remesh(part.mesh.view(), options);
     EXPECT_EQ(off.features.dropped_length, 0);
     EXPECT_EQ(none.mesh.positions, off.mesh.positions);
     EXPECT_EQ(none.mesh.triangles, off.mesh.triangles);
@@ -383,8 +385,9 @@ TEST(Features, CreasesWithoutGivenSitesAreDroppedAndCounted) {
 
 TEST(Features, ScansAreLeftAlone) {
     const TriangleMesh mesh = remesh::read_mesh(std::string(AGVD_DATA_DIR) + "/organic.ply").mesh;
-    const RemeshResult off = run(mesh, {.num_samples = 1000, .features = Features::Off});
-    const RemeshResult automatic = run(mesh, {.num_samples = 1000});
+    const RemeshResult off =
+        remesh::remesh(mesh.view(), {.num_samples = 1000, .features = Features::Off});
+    const RemeshResult automatic = remesh::remesh(mesh.view(), {.num_samples = 1000});
     EXPECT_EQ(automatic.features.curves, 0u);
     EXPECT_EQ(off.mesh.positions, automatic.mesh.positions);
     EXPECT_EQ(off.mesh.triangles, automatic.mesh.triangles);
@@ -394,7 +397,7 @@ TEST(Features, FandiskKeepsItsCreasesAndCorners) {
     const auto file = files::real_mesh("fandisk.off");
     if (!std::filesystem::exists(file)) GTEST_SKIP() << "no real mesh at " << file;
     const TriangleMesh mesh = remesh::read_mesh(file).mesh;
-    const RemeshResult result = run(mesh, {.num_samples = 2000});
+    const RemeshResult result = remesh::remesh(mesh.view(), {.num_samples = 2000});
     expect_sound(result, 2000);
     EXPECT_FALSE(result.features.gave_up);
     EXPECT_EQ(result.features.dropped_length, 0);
@@ -484,14 +487,14 @@ TEST(Features, AShortGivenEdgeLeavesTheOthersTheirShape) {
     const RemeshOptions without{.num_samples = 500};
     RemeshOptions with = without;
     with.feature_edges = {{t[0], t[1]}};
-    const RemeshResult result = run(sphere, with);
+    const RemeshResult result = remesh::remesh(sphere.view(), with);
     expect_sound(result, 500);
     EXPECT_NEAR(result.features.length, length, 1e-12);
     EXPECT_LT(length, 0.3 * std::sqrt(4 * std::numbers::pi / 500));
     const auto mean_quality = [](const RemeshResult& r) {
         return remesh::measure_triangles(r.mesh.view()).mean_quality;
     };
-    const double loss = mean_quality(run(sphere, without)) - mean_quality(result);
+    const double loss = mean_quality(remesh::remesh(sphere.view(), without)) - mean_quality(result);
     EXPECT_LT(loss, 0.012);
 }
 

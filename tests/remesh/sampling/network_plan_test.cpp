@@ -19,8 +19,6 @@ using remesh::NetworkPlan;
 
 namespace {
 
-Surface make(const agvd::TriangleMesh& mesh) { return agvd::build_surface(mesh.view()); }
-
 NetworkPlan plan_of(const Surface& surface, Index num_sites, double drop_share = 0) {
     return remesh::plan_network(surface, flag_sharp_edges(surface), num_sites, {}, drop_share);
 }
@@ -32,7 +30,7 @@ Vec3 at(const NetworkPlan& plan, const SurfacePoint& site) {
 }  // namespace
 
 TEST(NetworkPlan, CurvesAndPatchesHaveTheSameSpacing) {
-    const Surface surface = make(parts::box({1, 1, 1}, 4));
+    const Surface surface = agvd::build_surface(parts::box({1, 1, 1}, 4).view());
     for (const Index n : {50u, 200u, 2000u}) {
         const NetworkPlan plan = plan_of(surface, n);
         EXPECT_EQ(plan.network.curves.size(), 12u);
@@ -49,7 +47,7 @@ TEST(NetworkPlan, CurvesAndPatchesHaveTheSameSpacing) {
 }
 
 TEST(NetworkPlan, ShortCreasesGoFirstWhereSitesAreTooFew) {
-    const Surface surface = make(parts::box({4, 3, 1}, 2));
+    const Surface surface = agvd::build_surface(parts::box({4, 3, 1}, 2).view());
     const NetworkPlan plan = plan_of(surface, 7);
     EXPECT_EQ(plan.sites_for_all, 8u);
     EXPECT_GT(plan.dropped_length, 0);
@@ -67,7 +65,7 @@ TEST(NetworkPlan, ShortCreasesGoFirstWhereSitesAreTooFew) {
 }
 
 TEST(NetworkPlan, AShareOfTheCreasesMayGoBefore) {
-    const Surface surface = make(parts::box({4, 3, 1}, 2));
+    const Surface surface = agvd::build_surface(parts::box({4, 3, 1}, 2).view());
     const NetworkPlan plan = plan_of(surface, 200, 1 / 3.);
     EXPECT_NEAR(plan.dropped_length, 4, 1e-12);
     EXPECT_EQ(plan.sites_for_all, 8u);
@@ -78,14 +76,14 @@ TEST(NetworkPlan, AShareOfTheCreasesMayGoBefore) {
 }
 
 TEST(NetworkPlan, WithoutCreasesThereIsNone) {
-    const NetworkPlan plan = plan_of(make(shapes::grid(4)), 100);
+    const NetworkPlan plan = plan_of(agvd::build_surface(shapes::grid(4).view()), 100);
     EXPECT_TRUE(plan.network.curves.empty());
     EXPECT_EQ(plan.sites_for_all, 0u);
     EXPECT_EQ(plan.dropped_length, 0);
 }
 
 TEST(SampleInnerSites, PatchesGetTheirShareOffTheirRim) {
-    const Surface surface = make(parts::box({1, 1, 1}, 4));
+    const Surface surface = agvd::build_surface(parts::box({1, 1, 1}, 4).view());
     const NetworkPlan plan = plan_of(surface, 300);
     const remesh::CurveSites curves = remesh::curve_sites_at(plan.network, plan.cut, plan.along);
     const Index count = 300 - curves.num_groups();
@@ -110,7 +108,7 @@ TEST(SampleInnerSites, PatchesGetTheirShareOffTheirRim) {
 
 TEST(SampleInnerSites, PatchesThatLackNoneGetNoneButWhereAllAreSo) {
     // Two plates and four strips narrower than the spacing.
-    const Surface surface = make(parts::box({1, 1, .02}, 4));
+    const Surface surface = agvd::build_surface(parts::box({1, 1, .02}, 4).view());
     const NetworkPlan plan = plan_of(surface, 300);
     const remesh::Topology patches = remesh::analyze_topology(plan.cut.surface.mesh.view());
     const auto sites = remesh::sample_inner_sites(plan.cut.surface, {}, 100, plan.spacing, {});
@@ -124,7 +122,7 @@ TEST(SampleInnerSites, PatchesThatLackNoneGetNoneButWhereAllAreSo) {
 }
 
 TEST(RelaxNetwork, SitesOfCurvesStayOnThemAndTogether) {
-    const Surface surface = make(parts::capped_cylinder(64, 6));
+    const Surface surface = agvd::build_surface(parts::capped_cylinder(64, 6).view());
     const NetworkPlan plan = plan_of(surface, 400);
     const remesh::PreparedSurface prepared(plan.cut.surface, plan.spacing);
     for (const int steps : {0, 10}) {
@@ -157,7 +155,7 @@ TEST(RelaxNetwork, SitesOfCurvesStayOnThemAndTogether) {
 }
 
 TEST(RelaxNetwork, ThreadsChangeNothing) {
-    const Surface surface = make(parts::extruded_l(4));
+    const Surface surface = agvd::build_surface(parts::extruded_l(4).view());
     const NetworkPlan plan = plan_of(surface, 300);
     const remesh::PreparedSurface prepared(plan.cut.surface, plan.spacing);
     const auto with = [&](int threads) {

@@ -26,12 +26,7 @@ namespace {
 
 constexpr std::array all_inits{Init::Random, Init::BlueNoise, Init::Farthest};
 
-Surface make(const agvd::TriangleMesh& mesh) { return agvd::build_surface(mesh.view()); }
-
-double longest_edge(const agvd::TriangleMesh& mesh) {
-    const Surface surface = make(mesh);
-    return *std::max_element(surface.length.begin(), surface.length.end());
-}
+Surface surface_of(const agvd::TriangleMesh& mesh) { return agvd::build_surface(mesh.view()); }
 
 std::vector<Vec3> positions(const Surface& surface, const std::vector<SurfacePoint>& sites) {
     std::vector<Vec3> result;
@@ -69,7 +64,7 @@ Index count_below(const std::vector<SurfacePoint>& sites, Index face) {
 }  // namespace
 
 TEST(SampleSites, GivesTheExactCountOfDifferentPointsInsideFaces) {
-    const Surface surface = make(shapes::sphere(1));  // 80 faces.
+    const Surface surface = surface_of(shapes::sphere(1));  // 80 faces.
     for (const Init init : all_inits) {
         for (const Index n : {4u, 5u, 63u, 80u, 3000u}) {
             const auto sites = sample_sites(surface, {.num_samples = n, .init = init});
@@ -92,7 +87,7 @@ TEST(SampleSites, NeverPutsTwoSitesAtOnePositionEvenWhereThereAreFew) {
     agvd::TriangleMesh mesh = shapes::grid(1);
     const double far = 0x1p50;
     for (Vec3& p : mesh.positions) p = p + Vec3(far, far, 0);
-    const Surface surface = make(mesh);
+    const Surface surface = surface_of(mesh);
     for (const Init init : all_inits) {
         EXPECT_THROW((void)sample_sites(surface, {.num_samples = 2000, .init = init}),
                      agvd::ConstraintUnmet);
@@ -120,7 +115,7 @@ TEST(SampleSites, EveryComponentGetsWhatItsTopologyNeedsAndTheRestGoesByArea) {
     const agvd::TriangleMesh grid = shapes::grid(3);  // 18 faces, area 1.
     agvd::TriangleMesh large = grid;
     for (Vec3& p : large.positions) p = 2 * p + Vec3(5, 0, 0);  // Area 4.
-    const Surface surface = make(shapes::join(shapes::join(small, grid), large));
+    const Surface surface = surface_of(shapes::join(shapes::join(small, grid), large));
     for (const Init init : all_inits) {
         const auto sites = sample_sites(
             surface, {.num_samples = 13 + 101, .init = init, .boundary = remesh::Boundary::Free});
@@ -132,7 +127,7 @@ TEST(SampleSites, EveryComponentGetsWhatItsTopologyNeedsAndTheRestGoesByArea) {
 }
 
 TEST(SampleSites, RefusesTooFewAndNamesHowManyAreNeeded) {
-    const Surface surface = make(shapes::join(shapes::sphere(0), shapes::torus(8, 6)));
+    const Surface surface = surface_of(shapes::join(shapes::sphere(0), shapes::torus(8, 6)));
     try {
         (void)sample_sites(surface, {.num_samples = 10});
         FAIL() << "no error";
@@ -147,7 +142,7 @@ TEST(SampleSites, RefusesTooFewAndNamesHowManyAreNeeded) {
 TEST(SampleSites, SpreadsByAreaOverFacesAndWithinThem) {
     agvd::TriangleMesh mesh = shapes::grid(2);
     for (Vec3& p : mesh.positions) p = Vec3(p.x() * p.x(), p.y(), 0);  // Faces of unequal area.
-    const Surface surface = make(mesh);
+    const Surface surface = surface_of(mesh);
     for (const Init init : all_inits) {
         const Index n = 10000;
         std::array<double, 64> hits{};
@@ -170,7 +165,7 @@ INSTANTIATE_TEST_SUITE_P(Inits, SampleSitesOfEvenKind,
                          testing::Values(Init::BlueNoise, Init::Farthest));
 
 TEST_P(SampleSitesOfEvenKind, TheBoundaryGetsItsCornersAndEqualSteps) {
-    const Surface surface = make(shapes::grid(30));
+    const Surface surface = surface_of(shapes::grid(30));
     const Index n = 400;
     const auto sites = sample_sites(surface, {.num_samples = n, .init = GetParam()});
     ASSERT_EQ(sites.size(), n);
@@ -195,12 +190,12 @@ TEST_P(SampleSitesOfEvenKind, TheBoundaryGetsItsCornersAndEqualSteps) {
 TEST(SampleSites, NarrowStripsAndRoundHoles) {
     agvd::TriangleMesh strip = shapes::grid(20);
     for (Vec3& p : strip.positions) p.y() *= 1e-3;
-    const Surface narrow = make(strip);
+    const Surface narrow = surface_of(strip);
     const auto sites = sample_sites(narrow, {.num_samples = 40});
     EXPECT_GE(std::count_if(sites.begin(), sites.end(),
                             [&](const SurfacePoint& s) { return is_on_boundary(narrow, s); }),
               36);
-    const Surface tube = make(shapes::tube(64, 20));
+    const Surface tube = surface_of(shapes::tube(64, 20));
     for (const std::vector<Index>& loop : agvd::boundary_loops(tube)) {
         EXPECT_TRUE(remesh::find_corners(tube, loop, 0.5).empty());
         EXPECT_EQ(remesh::sample_loop(tube, loop, {}, 100.0).size(), 3u);
@@ -208,7 +203,7 @@ TEST(SampleSites, NarrowStripsAndRoundHoles) {
 }
 
 TEST(SampleSites, BlueNoiseKeepsItsDistance) {
-    const Surface surface = make(shapes::sphere(3));
+    const Surface surface = surface_of(shapes::sphere(3));
     const Index n = 500;
     const double spacing = best_spacing(4 * std::numbers::pi, n);
     EXPECT_LT(least_distance(positions(
@@ -219,7 +214,7 @@ TEST(SampleSites, BlueNoiseKeepsItsDistance) {
 }
 
 TEST_P(SampleSitesOfEvenKind, KeepsItsDistanceAcrossRightAngles) {
-    const Surface surface = make(shapes::subdivide(shapes::cube()));
+    const Surface surface = surface_of(shapes::subdivide(shapes::cube()));
     const auto points =
         positions(surface, sample_sites(surface, {.num_samples = 600, .init = GetParam()}));
     EXPECT_GT(least_distance(points), 0.5 * best_spacing(6, 600));
@@ -228,7 +223,7 @@ TEST_P(SampleSitesOfEvenKind, KeepsItsDistanceAcrossRightAngles) {
 TEST_P(SampleSitesOfEvenKind, BothWallsOfAThinPlateGetTheirShareOnTheirOwn) {
     agvd::TriangleMesh mesh = shapes::subdivide(shapes::subdivide(shapes::cube()));
     for (Vec3& p : mesh.positions) p.z() *= 1e-3;
-    const Surface surface = make(mesh);
+    const Surface surface = surface_of(mesh);
     const auto points =
         positions(surface, sample_sites(surface, {.num_samples = 1000, .init = GetParam()}));
     std::vector<Vec3> top, bottom;
@@ -249,15 +244,15 @@ TEST(SampleSites, FarthestPointsLeaveTheSmallestGaps) {
     for (const agvd::TriangleMesh& mesh :
          {shapes::sphere(3), shapes::torus(40, 20), shapes::cube(), uneven}) {
         for (const Index n : {30u, 500u}) {
-            const Surface surface = make(mesh);
+            const Surface surface = surface_of(mesh);
             double area = 0;
             for (Index f = 0; f < surface.num_faces(); ++f) {
                 area += agvd::face_area(surface, f);
             }
             const double fine = 0.3 * std::sqrt(area / n);
             agvd::TriangleMesh split = mesh;
-            while (longest_edge(split) > fine) split = shapes::subdivide(split);
-            const Surface judged = make(split);
+            while (shapes::longest_edge(surface_of(split)) > fine) split = shapes::subdivide(split);
+            const Surface judged = surface_of(split);
             const auto radius = [&](Init init) {
                 return covering_radius(judged,
                                        sample_sites(judged, {.num_samples = n, .init = init}));
@@ -272,14 +267,14 @@ TEST(SampleSites, FarthestPointsLeaveTheSmallestGaps) {
 }
 
 TEST(SampleSites, TheFirstFarthestPointsAreThoseOfASmallerCount) {
-    const Surface surface = make(shapes::sphere(4));
+    const Surface surface = surface_of(shapes::sphere(4));
     const auto many = sample_sites(surface, {.num_samples = 60, .init = Init::Farthest});
     const auto few = sample_sites(surface, {.num_samples = 25, .init = Init::Farthest});
     EXPECT_EQ(few, std::vector(many.begin(), many.begin() + 25));
 }
 
 TEST(SampleSites, FarthestPointsKeepAwayFromThoseThatAreFixed) {
-    const Surface surface = make(shapes::sphere(3));
+    const Surface surface = surface_of(shapes::sphere(3));
     const remesh::detail::Component whole = remesh::detail::find_components(surface)[0];
     std::vector<SurfacePoint> fixed;  // Northern hemisphere.
     for (const SurfacePoint& p : sample_sites(surface, {.num_samples = 400})) {
@@ -296,7 +291,7 @@ TEST(SampleSites, FarthestPointsKeepAwayFromThoseThatAreFixed) {
 TEST(SampleSites, SlenderPartsOfAnySizeGetTheirFarthestPoints) {
     agvd::TriangleMesh needle = shapes::subdivide(shapes::cube());
     for (Vec3& p : needle.positions) p = Vec3(p.x(), 1e-9 * p.y(), 1e-12 * p.z());
-    const Surface surface = make(shapes::join(shapes::sphere(2), needle));
+    const Surface surface = surface_of(shapes::join(shapes::sphere(2), needle));
     const auto sites = sample_sites(surface, {.num_samples = 200, .init = Init::Farthest});
     EXPECT_EQ(sites.size(), 200u);
     EXPECT_EQ(count_below(sites, 320), 196u);
@@ -308,7 +303,7 @@ TEST(SampleSites, SlenderPartsOfAnySizeGetTheirFarthestPoints) {
 }
 
 TEST(SampleSites, SameBytesForAnyThreadCountAndOtherOnesForAnotherSeed) {
-    const Surface surface = make(shapes::torus(20, 12));
+    const Surface surface = surface_of(shapes::torus(20, 12));
     for (const Init init : all_inits) {
         const auto sites = [&](std::uint64_t seed, int threads) {
             return sample_sites(
@@ -323,7 +318,7 @@ TEST(SampleSites, SameBytesForAnyThreadCountAndOtherOnesForAnotherSeed) {
 }
 
 TEST(SampleSites, CanBeStopped) {
-    const Surface surface = make(shapes::sphere(0));
+    const Surface surface = surface_of(shapes::sphere(0));
     EXPECT_THROW((void)sample_sites(surface, {.progress = [](double) { return false; }}),
                  agvd::Cancelled);
 }
