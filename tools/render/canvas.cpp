@@ -160,7 +160,8 @@ void Canvas::write_png(const std::filesystem::path& path) const {
     image.height = static_cast<png_uint_32>(rows);
     image.format = PNG_FORMAT_RGB;
     if (png_image_write_to_file(&image, path.c_str(), 0, bytes.data(), 0, nullptr) == 0) {
-        throw agvd::IoError(path.string() + ": cannot write the picture: " + image.message);
+        throw agvd::IoError(path.string() + ": cannot be written: " + image.message +
+                            "; check that its folder exists and is writable");
     }
 }
 

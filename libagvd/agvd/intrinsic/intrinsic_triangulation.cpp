@@ -26,14 +26,17 @@ constexpr std::size_t split_work = 16;
 
 void check_options(const Surface& input, const IntrinsicOptions& options) {
     if (!(options.max_length > 0)) {
-        throw InvalidOption("max_length of the intrinsic triangulation is not above 0");
+        throw InvalidOption("max_length is " + std::to_string(options.max_length) +
+                            "; use a number above 0");
     }
     if (!(options.min_length >= 0)) {
-        throw InvalidOption("min_length of the intrinsic triangulation is below 0");
+        throw InvalidOption("min_length is " + std::to_string(options.min_length) +
+                            "; use 0 or more");
     }
     if (!options.is_kept.empty() && options.is_kept.size() != input.num_edges()) {
         throw InvalidOption("is_kept has " + std::to_string(options.is_kept.size()) +
-                            " entries for " + std::to_string(input.num_edges()) + " edges");
+                            " entries, but the surface has " + std::to_string(input.num_edges()) +
+                            " edges; give one for each, or none");
     }
 }
 

@@ -95,7 +95,7 @@ ClosestPointTree::ClosestPointTree(const MeshView& mesh, const Progress& progres
     Ticker ticker(poller);
     const auto num_faces = static_cast<Index>(mesh.triangles.size());
     if (num_faces == 0) {
-        throw InvalidInput("the mesh has no face, so no point is nearest; check the input");
+        throw InvalidInput("the mesh has no face; check that the file holds a surface");
     }
     const auto corners_of = [&](Index face) {
         const Triangle& t = mesh.triangles[face];

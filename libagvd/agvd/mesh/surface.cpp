@@ -20,8 +20,9 @@ void check_elements(const MeshView& mesh, Ticker& ticker) {
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         ticker.tick();
         if (!mesh.positions[v].allFinite()) {
-            throw InvalidInput("vertex " + std::to_string(v) +
-                               " has a coordinate that is not finite" + remedy);
+            throw InvalidInput(
+                "vertex " + std::to_string(v) +
+                " has a coordinate that is not finite; correct or delete the vertex");
         }
     }
     if (mesh.triangles.size() > no_index / 3) {
@@ -33,12 +34,13 @@ void check_elements(const MeshView& mesh, Ticker& ticker) {
         for (const Index v : t) {
             if (v >= mesh.positions.size()) {
                 throw InvalidInput("face " + std::to_string(f) + " names vertex " +
-                                   std::to_string(v) + ", but there are only " +
-                                   std::to_string(mesh.positions.size()) + remedy);
+                                   std::to_string(v) + ", but the mesh has only " +
+                                   std::to_string(mesh.positions.size()) +
+                                   " vertices, counted from 0; correct or delete the face");
             }
         }
         if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
-            throw InvalidInput("face " + std::to_string(f) + " repeats a corner" + remedy);
+            throw InvalidInput("face " + std::to_string(f) + " names a vertex twice" + remedy);
         }
     }
 }

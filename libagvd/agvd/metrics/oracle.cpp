@@ -233,7 +233,8 @@ std::vector<std::vector<double>> exact_distances(const Surface& surface,
                                                  int num_threads) {
     if (sites.size() != targets.size()) {
         throw InvalidInput("there are " + std::to_string(sites.size()) + " sites, but " +
-                           std::to_string(targets.size()) + " lists of targets; give one for each");
+                           std::to_string(targets.size()) +
+                           " lists of targets; give one list for each site");
     }
     std::vector<std::vector<double>> distances(sites.size());
     for_each_site(sites.size(), num_threads,

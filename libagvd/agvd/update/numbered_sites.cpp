@@ -52,10 +52,10 @@ std::vector<SurfacePoint> NumberedSites::changed_points(const SiteChanges& chang
     std::vector<bool> is_named(count, false);
     const auto name = [&](Index site) {
         if (site >= count || is_named[site]) {
-            throw InvalidInput(
-                "site " + std::to_string(site) +
-                (site >= count ? " does not exist; there are " + std::to_string(count) + " sites"
-                               : " is changed twice; name it once"));
+            throw InvalidInput("site " + std::to_string(site) +
+                               (site >= count ? " does not exist; use one of the " +
+                                                    std::to_string(count) + " sites, counted from 0"
+                                              : " is changed twice; name it once"));
         }
         is_named[site] = true;
     };

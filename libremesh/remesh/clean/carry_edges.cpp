@@ -49,10 +49,11 @@ std::vector<std::uint8_t> carry_edges(std::span<const std::array<Index, 2>> edge
     std::vector<SurfacePoint> middles;
     for (const auto& [ends, face] : beside) {
         if (face.area < 0) {
-            throw agvd::InvalidInput("vertices " + std::to_string(ends.first) + " and " +
+            throw agvd::InvalidInput("the feature edge between vertices " +
+                                     std::to_string(ends.first) + " and " +
                                      std::to_string(ends.second) +
-                                     " of a feature edge are not the ends of an edge of the mesh; "
-                                     "name two that are, counted from 0");
+                                     " is no edge of the mesh; name the two ends of an edge, "
+                                     "counted from 0");
         }
         if (face.area > 0) middles.push_back(face.middle);
     }

@@ -32,15 +32,15 @@ void check_elements(const agvd::MeshView& mesh, agvd::Ticker& ticker) {
         ticker.tick();
         if (mesh.positions[v].allFinite()) continue;
         throw InvalidInput("vertex " + std::to_string(v) +
-                           " has a coordinate that is not finite; correct or delete it");
+                           " has a coordinate that is not finite; correct or delete the vertex");
     }
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
         ticker.tick();
         for (const Index v : mesh.triangles[f]) {
             if (v < mesh.positions.size()) continue;
             throw InvalidInput("face " + std::to_string(f) + " names vertex " + std::to_string(v) +
-                               ", but there are only " + std::to_string(mesh.positions.size()) +
-                               " (counted from 0); correct or delete it");
+                               ", but the mesh has only " + std::to_string(mesh.positions.size()) +
+                               " vertices, counted from 0; correct or delete the face");
         }
     }
 }

@@ -49,11 +49,15 @@ constexpr NetworkRule on_scans = {2.5, 3, 0.4};
 
 void check(const CreaseOptions& options) {
     if (!(options.angle > 0 && options.angle < 180)) {
-        throw agvd::InvalidOption("the angle of creases must lie between 0 and 180 degrees");
+        throw agvd::InvalidOption("angle is " + std::to_string(options.angle) +
+                                  "; use degrees above 0 and below 180");
     }
-    if (options.num_threads < 0) throw agvd::InvalidOption("num_threads must not be negative");
+    if (options.num_threads < 0)
+        throw agvd::InvalidOption("num_threads is " + std::to_string(options.num_threads) +
+                                  "; use 0 (all cores) or more");
     if (!(options.spacing > 0 && std::isfinite(options.spacing))) {
-        throw agvd::InvalidOption("the spacing of creases must be above 0");
+        throw agvd::InvalidOption("spacing is " + std::to_string(options.spacing) +
+                                  "; use a finite number above 0");
     }
 }
 

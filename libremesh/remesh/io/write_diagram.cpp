@@ -192,7 +192,8 @@ std::string format_diagram(const std::filesystem::path& path, const Surface& sur
     if (extension == ".vtp") return format_vtp(surface, diagram, ticker);
     if (extension == ".obj") return format_obj_lines(surface, diagram, ticker);
     if (extension == ".ply") return format_ply_diagram(surface, sites, diagram, ticker);
-    throw agvd::IoError(path.string() + ": unknown extension; use .vtp, .obj or .ply");
+    throw agvd::IoError(path.string() + ": unknown extension " +
+                        in_quotes(path.extension().string()) + "; use .vtp, .obj or .ply");
 }
 
 void write_diagram(const std::filesystem::path& path, const Surface& surface,

@@ -175,7 +175,7 @@ TEST(SteinerRefinement, RefusesWhatItCannotMeetAndSaysWhatItReached) {
     const std::string out_of_reach =
         refusal(surface, sites, {.engine = Engine::Steiner, .max_error = 1e-9});
     EXPECT_NE(out_of_reach.find("is off by"), std::string::npos) << out_of_reach;
-    EXPECT_NE(out_of_reach.find("would not do"), std::string::npos) << out_of_reach;
+    EXPECT_NE(out_of_reach.find("would not suffice"), std::string::npos) << out_of_reach;
     EXPECT_NE(out_of_reach.find("use the window engine"), std::string::npos) << out_of_reach;
     PropagationOptions finest{.engine = Engine::Steiner, .steiner_points = 1000};
     const double least = worst_error(propagate(surface, sites, finest).vertex_distance,
