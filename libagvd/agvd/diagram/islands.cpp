@@ -49,7 +49,7 @@ std::vector<Index> faces_of_cells(const Surface& surface, const DiagramParts& pa
     const auto visit = [&](Index face) {
         if (std::exchange(is_seen[face], 1) == 0 && is_reached(face)) faces.push_back(face);
     };
-    for (const Index face : faces_beside(parts, cells)) visit(face);
+    for (const Index face : faces_on_borders(parts, cells)) visit(face);
     for (std::size_t i = 0; i < faces.size(); ++i) {
         for (Index h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h) {
             if (surface.twin[h] != no_index) visit(Surface::face(surface.twin[h]));
@@ -175,7 +175,7 @@ void count_row(const IslandSearch& search, const Row& row, LineId line, int sign
     }
 }
 
-void add_faces_beside(const IslandSearch& search, LineId line, std::vector<Index>& faces) {
+void add_faces_of_line(const IslandSearch& search, LineId line, std::vector<Index>& faces) {
     if (line.is_cut()) {
         faces.push_back(search.parts.labels.cuts[line.cut()].face);
         return;
@@ -205,7 +205,7 @@ void relabel_row(IslandSearch& search, const Row& row, std::vector<Index>& stale
     labels.crossings.release(*row.crossings);
     *row.crossings = labels.crossings.add(kept);
     count_row(search, row, line, 1);
-    add_faces_beside(search, line, stale_faces);
+    add_faces_of_line(search, line, stale_faces);
 }
 
 // An inner point is the place of its site, so only mesh vertices get other labels.

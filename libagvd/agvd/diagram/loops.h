@@ -12,7 +12,7 @@ namespace agvd {
 [[nodiscard]] std::vector<Index> count_loops(const Surface& surface, const DiagramParts& parts,
                                              const CellSet& cells);
 
-//! \return a face beside each Voronoi edge that bounds one of these cells, in any order.
-[[nodiscard]] std::vector<Index> faces_beside(const DiagramParts& parts, const CellSet& cells);
+//! \return a face that holds a part of each Voronoi edge that bounds one of these cells, in any order.
+[[nodiscard]] std::vector<Index> faces_on_borders(const DiagramParts& parts, const CellSet& cells);
 
 }  // namespace agvd

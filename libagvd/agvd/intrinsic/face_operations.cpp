@@ -60,7 +60,7 @@ std::array<Index, 2> cut_face(Surface& surface, FaceCharts& charts, Index half_e
 
 }  // namespace
 
-Index raise_flat_faces(Surface& surface, int num_threads, Poller& poller) {
+Index raise_degenerate_faces(Surface& surface, int num_threads, Poller& poller) {
     constexpr Index grain = 1 << 14;  // Faces.
     std::vector<Index> raised(num_chunks(surface.num_faces(), grain), 0);
     const auto raise = [&](Index chunk, Index begin, Index end) {

@@ -151,7 +151,8 @@ void IntrinsicTriangulation::run(const IntrinsicOptions& options) {
     Poller poller(options.progress);
     Ticker ticker(poller);
     ticker.poll();
-    counts_.flat_faces = detail::raise_flat_faces(surface_, options.num_threads, poller);
+    counts_.degenerate_faces =
+        detail::raise_degenerate_faces(surface_, options.num_threads, poller);
     change_faces(options, poller, ticker);
     if (counts_.removed > 0) detail::compact_faces(surface_, *history_);
     history_->shrink();

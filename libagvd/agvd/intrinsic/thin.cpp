@@ -107,7 +107,7 @@ ThinnedMesh thin(const Surface& surface, std::span<const Index> faces,
     Part part = part_of(surface, faces);
     Surface& s = part.surface;
     Poller never;
-    (void)detail::raise_flat_faces(s, 1, never);
+    (void)detail::raise_degenerate_faces(s, 1, never);
     FaceCharts charts(s);
     const FaceHistory history = make_simplicial(part, charts, faces);
     std::vector<SurfacePoint> local(points.begin(), points.end());

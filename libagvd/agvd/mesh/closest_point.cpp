@@ -20,7 +20,7 @@ constexpr double padding_share = 1e-15;
 // this.
 constexpr double needle = 1e-8;
 // A point with a barycentric coordinate below this may lie on the side.
-constexpr double beside_side = 1e-6;
+constexpr double near_side = 1e-6;
 
 bool comes_before(const Vec3& a, const Vec3& b) {
     return std::tie(a.x(), a.y(), a.z()) < std::tie(b.x(), b.y(), b.z());
@@ -73,7 +73,7 @@ ClosestPoint closest_point_on_triangle(const std::array<Vec3, 3>& corners, FaceI
     ClosestPoint best;
     best.distance_sq = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < 3; ++k) {
-        if (!is_needle && b[(k + 2) % 3] > beside_side) continue;
+        if (!is_needle && b[(k + 2) % 3] > near_side) continue;
         take_nearer(best, closest_point_on_side(corners, face, k, query));
     }
     if (b[0] > 0 && b[1] > 0 && b[2] > 0) {  // False for NaN, when there is no area.

@@ -150,17 +150,18 @@ void measure(Surface& surface, int num_threads, Poller& poller) {
     surface.apex.resize(surface.twin.size());
     poller.poll();
     const auto num_half_edges = static_cast<Index>(surface.twin.size());
-    std::vector<Index> flat(num_chunks(num_half_edges, grain), no_index);
+    std::vector<Index> degenerate(num_chunks(num_half_edges, grain), no_index);
     const auto find_apexes = [&](Index chunk, Index begin, Index end) {
         for (Index h = begin; h < end; ++h) {
             surface.apex[h] = surface.apex_in_space(h);
             const double height = surface.apex[h].y();
-            if (!(height > 0) || !std::isfinite(height)) flat[chunk] = std::min(flat[chunk], h);
+            if (!(height > 0) || !std::isfinite(height))
+                degenerate[chunk] = std::min(degenerate[chunk], h);
         }
     };
     parallel_chunks(num_half_edges, grain, num_threads, find_apexes, poller);
-    const auto first = std::min_element(flat.begin(), flat.end());
-    if (first != flat.end() && *first != no_index) {
+    const auto first = std::min_element(degenerate.begin(), degenerate.end());
+    if (first != degenerate.end() && *first != no_index) {
         throw InvalidInput("face " + std::to_string(*first / 3) + " has no area" + remedy);
     }
 }

@@ -216,7 +216,7 @@ CleanResult clean_input(const agvd::MeshView& mesh, int num_threads,
     check_not_empty(soup);
     refresh(orient_faces(soup, sides));
     std::vector<agvd::Index> twin = pair_sheets(soup, sides);
-    remove_flat_faces(soup, twin);
+    remove_degenerate_faces(soup, twin);
     check_not_empty(soup);
     split_vertices(soup, twin);
     drop_isolated_vertices(soup);

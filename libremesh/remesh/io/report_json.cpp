@@ -197,7 +197,7 @@ std::string to_json(const RemeshResult& result, const RunInfo& info) {
     for (const auto& [reason, count] : result.added_because) reasons[to_text(reason)] = count;
     object["sites_moved"] = result.sites_moved;
     object["sites_removed"] = result.sites_removed;
-    object["components_from_faces"] = result.components_from_faces;
+    object["components_from_faces"] = result.components_thinned;
     object["sites_dropped"] = result.sites_dropped;
     object["features"] = to_json(result.features);
     object["junctions"] = to_json(result.junctions);

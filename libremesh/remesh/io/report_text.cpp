@@ -237,8 +237,8 @@ std::string to_text(const RemeshResult& result, const RunInfo& info) {
     for (const auto& [reason, count] : result.added_because) {
         text += "\n  " + counted(count, "site") + " added " + place_text(reason);
     }
-    if (result.components_from_faces > 0) {
-        text += "\n" + counted(result.components_from_faces, "component") +
+    if (result.components_thinned > 0) {
+        text += "\n" + counted(result.components_thinned, "component") +
                 " thinned to the sites, because cells failed there";
     }
     if (info.options.features != Features::Off) text += describe(result.features);
