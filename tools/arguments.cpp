@@ -1,3 +1,6 @@
+// The options that `remesh` and `agvd diagram` share: how they are declared, checked and explained.
+// Checks of values that CLI11 would let through (NaN, percentages, suffixes) return the text of the
+// error, as CLI11's validators do.
 #include "arguments.h"
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,6 @@
-// Turns exceptions and signals into exit codes, checks output paths, and draws the progress bar.
+// What all programs share. Exceptions of the libraries become texts on stderr and exit codes. The
+// first SIGINT or SIGTERM sets a flag, which progress callbacks read; then nothing is written. The
+// same callbacks look at the memory in use and draw the progress bar, every few milliseconds.
 #include "cli.h"
 
 #include <signal.h>

@@ -1,4 +1,6 @@
-// The main program: reads a mesh and writes the dual of its geodesic Voronoi diagram.
+// The main program: reads a mesh and writes the dual of its geodesic Voronoi diagram. It checks all
+// output paths before the long work, runs remesh::remesh(), and writes mesh and report together,
+// so that either both are new or none is.
 #include <malloc.h>
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,6 @@
-// render-mesh: a picture of a mesh, for documentation.
+// render-mesh: a picture of a mesh, for documentation. The view turns the mesh about its axes and
+// fits it into the picture in perspective. Faces are shaded by their normals, back faces are blue;
+// lines of an OBJ file or the network of creases can be drawn on top.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>

@@ -1,4 +1,6 @@
-// Quality against time for several numbers of relaxation steps.
+// Quality against time for several numbers of relaxation steps: remeshes each mesh with each number
+// of steps, measures the results as remesh-eval does, and writes a table, medians over the meshes,
+// and plots. A time is the processor time of a whole run on one thread, the quickest of several.
 
 #include <algorithm>
 

@@ -1,3 +1,6 @@
+// The unit cube under five triangulations. All have the same surface, so that differences in time
+// and result come from the shape of the triangles alone: right triangles, needles of two aspects,
+// random flips, and faces without area.
 #include "bench/coplanar_boxes.h"
 
 #include <algorithm>

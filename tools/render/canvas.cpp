@@ -1,3 +1,7 @@
+// A z-buffer with several samples per pixel and side, which are averaged at the end. A triangle
+// fills the samples that are in front; the distance from its edges, known from barycentric
+// coordinates, gives thin dark lines. Hollows are darkened by comparing the depth of each sample
+// with that of pairs of opposite samples around it, so that a slope alone stays bright.
 #include "render/canvas.h"
 
 #include <png.h>

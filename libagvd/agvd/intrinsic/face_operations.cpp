@@ -1,3 +1,7 @@
+// Flips and splits on a surface that is given by lengths. The corners of the faces are laid out in
+// one plane from the charts of the faces, which pass rotations on and never compute them from a
+// short side (docs/algorithm.md, "Charts"). A flip applies the test of Lawson's algorithm for
+// intrinsic Delaunay triangulations ([bobenko2007], [fisher2007]).
 #include "agvd/intrinsic/face_operations.h"
 
 #include <algorithm>

@@ -1,3 +1,9 @@
+// Builds the base in the order of docs/algorithm.md, "Intrinsic triangulation": raise degenerate
+// faces, remove flat vertices, flip to Delaunay ([bobenko2007], [fisher2007]), split long edges.
+// FaceHistory records every change and maps points and segments both ways.
+//
+// Splits take the longest edge first and restore the Delaunay condition after each. Edges that
+// flips have made longer are found by another search when the queue is empty.
 #include "agvd/intrinsic/intrinsic_triangulation.h"
 
 #include <algorithm>

@@ -1,3 +1,6 @@
+// Thins one component to given points ([liu2023]): makes it a surface of its own, cuts edges until
+// it is simplicial, inserts the points as vertices, and removes all other vertices. A vertex of the
+// result is named by the point that it is, or by its place on the whole surface if it had to stay.
 #include "agvd/intrinsic/thin.h"
 
 #include <algorithm>

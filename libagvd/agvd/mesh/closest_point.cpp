@@ -1,3 +1,7 @@
+// Finds the nearest point of a mesh with a tree of bounding boxes that halves the faces at the
+// median of their centres. A query visits the nearer child first and skips boxes that are farther
+// than the best point so far. Ties go to the lowest face: sides are measured in an order that does
+// not depend on the face, so that all faces at an edge give the same bits.
 #include "agvd/mesh/closest_point.h"
 
 #include <algorithm>

@@ -1,3 +1,7 @@
+// Builds a surface from a mesh: checks the elements, pairs half-edges, numbers edges, and computes
+// lengths, layouts of faces, and the vertices at which geodesics may bend. The quick search for
+// pairs only says that the mesh is no oriented 2-manifold; then a second, slower one finds the
+// first faulty element for the text of the error.
 #include "agvd/mesh/surface.h"
 
 #include <algorithm>

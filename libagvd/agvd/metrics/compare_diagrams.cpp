@@ -1,3 +1,10 @@
+// Compares two diagrams by the measure of [meng2023] Sec. 6.2, by the area that lies in different
+// cells (at random points), and by the Hausdorff distance of the bisectors (at points one spacing
+// apart). Loops of a cell are matched nearest first. Exact distances from the two sites of a
+// bisector come from the window engine, which runs on a patch around each site.
+//
+// Notation: a loop of a cell is a closed polyline; F is the sum of Fréchet distances (Eq. 8), and
+// delta = 1 - exp(-F / unit / c^2) (Eq. 9), where the unit is the mean cell radius.
 #include "agvd/metrics/compare_diagrams.h"
 
 #include <algorithm>

@@ -1,3 +1,6 @@
+// Sends the first windows of a site, and those of pseudo-sources ([mitchell1987]). A pseudo-source
+// emits windows only into its shadow: the directions that make at least pi with the arrival on both
+// sides. Its sides are found by unfolding the faces around the vertex, without computing angles.
 #include "agvd/propagation/emit_windows.h"
 
 #include <algorithm>

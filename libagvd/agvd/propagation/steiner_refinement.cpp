@@ -1,3 +1,8 @@
+// Inserts Steiner points until the distances of all vertices are within an error
+// (docs/algorithm.md, "Propagation"). Each round propagates, compares the vertices with the exact
+// distances of the window engine, and doubles the points on the edges of the faces that the paths
+// of bad vertices cross. If a vertex does not improve, all faces that a path of its exact length
+// can cross get more points. After the last round, or when the error is out of reach, it throws.
 #include "agvd/propagation/steiner_refinement.h"
 
 #include <cmath>

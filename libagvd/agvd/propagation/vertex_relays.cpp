@@ -1,3 +1,6 @@
+// Makes the relays of a face from the views of its corners and of the far corners of its
+// neighbours. A view is the image of a site that a vertex sees through an edge of a face. A corner
+// is a relay itself only if no image, site or neighbour's corner represents its path in the face.
 #include "agvd/propagation/vertex_relays.h"
 
 #include <algorithm>

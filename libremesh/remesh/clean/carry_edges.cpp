@@ -33,7 +33,8 @@ std::vector<std::uint8_t> carry_edges(std::span<const std::array<Index, 2>> edge
     std::vector<std::uint8_t> is_carried(surface.num_edges(), 0);
     std::map<std::pair<Index, Index>, EdgeMiddle> middle_of;
     for (const auto& [u, v] : edges) middle_of[std::minmax(u, v)];
-    // The larger of two faces is the one that cleaning keeps.
+    // Of the faces at an edge the largest counts, and of equal ones the first: cleaning removes
+    // faces without area, and of duplicate faces all but the first.
     for (Index f = 0; f < mesh.triangles.size(); ++f) {
         const agvd::Triangle& t = mesh.triangles[f];
         for (std::size_t k = 0; k < 3; ++k) {

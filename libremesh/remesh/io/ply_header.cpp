@@ -1,4 +1,6 @@
-// Reads the header line by line and finds the first byte of the data.
+// Reads the header line by line: the format, then elements with their properties in order. The data
+// begin behind the line of end_header; in binary files the first line of the file tells whether
+// lines end in one byte or in two, since the first datum may look like a line feed.
 #include "remesh/io/ply_header.h"
 
 #include <algorithm>

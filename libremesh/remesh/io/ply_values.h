@@ -1,5 +1,7 @@
 //! \file
 //! The values of a PLY file's elements, in any of its encodings. Private to the readers.
+//! AsciiValues and BinaryValues have the same interface (begin an element, take its values, end
+//! it), so that the readers of elements are templates that are written once.
 #pragma once
 
 #include "remesh/io/byte_order.h"

@@ -1,4 +1,6 @@
-// Formats results as text, with functions for the parts of a report.
+// Formats results as text for people: the report of a run, the table of remesh-eval, and the table
+// of agvd compare. Each part of a report has a function of its own. Lines for things that did not
+// happen are left out. Numbers do not depend on the locale.
 #include <algorithm>
 #include <cmath>
 #include <iomanip>

@@ -1,4 +1,6 @@
-// Loads a whole file into memory. The line of an error is found only when the error is thrown.
+// Loads a whole file, or what a pipe delivers, into memory, and words the errors of its readers.
+// The line of an error is counted only when the error is thrown. Waiting for a pipe polls the
+// progress callback, so that reading can be interrupted.
 #include "remesh/io/source_file.h"
 
 #include <fcntl.h>

@@ -1,4 +1,6 @@
-// Formats a diagram as VTK PolyData, OBJ lines or PLY.
+// Formats a diagram as VTK PolyData, OBJ lines or PLY (docs/io.md, "Diagrams"). The first two hold
+// the Voronoi edges as polylines; PLY also holds the cleaned mesh, nearest sites and distances, and
+// all that read_diagram() needs to give every bit back.
 #include "remesh/io/write_diagram.h"
 
 #include <string>

@@ -38,8 +38,9 @@ constexpr Index grain = 256;
 constexpr double area_power = 2.5;
 constexpr double most_area_ratio = 4;
 // The distance from the surface is least if the size of cells goes as the cubic root of the radius
-// of curvature: the density as curvature^(4/3), where curvature^2 goes as bending. Half of that
-// leaves better shapes. Below `even_bending` all cells are alike.
+// of curvature: the density as curvature^(4/3). The bending of cells of one size goes as
+// curvature^2, hence the power. Smaller cells bend less, so that the density that results from
+// several steps grows more slowly with the curvature. Below `even_bending` all cells are alike.
 constexpr double bending_power = 2.0 / 3;
 constexpr double even_bending = 0.05;
 // Weight of the squared distances from the planes of a cell, relative to those from its points.
