@@ -1,5 +1,6 @@
 // `agvd diagram` writes geodesic Voronoi diagrams to files, `agvd compare` measures their
-// difference.
+// difference. Diagrams are built on the intrinsic base, whose edges are short for the spacing of
+// the sites, and drawn on the cleaned input.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 

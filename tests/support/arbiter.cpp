@@ -1,5 +1,6 @@
 // Windows and vertices wait in one queue, nearest first. A window is given in the frame of the
-// half-edge through which it enters a face.
+// half-edge through which it enters a face. It is slow and safe on purpose: long double, only the
+// safest filter of [xin2009], no trimming and no merging.
 #include "support/arbiter.h"
 
 #include <cmath>

@@ -1,5 +1,6 @@
 // The evaluation of [meng2023] Sec. 6 and 7: tables and figures, with all engines and the exact
-// diagram in one execution.
+// diagram in one execution. A section is one figure or table; each writes JSON and a table, some
+// also a plot.
 
 #include <algorithm>
 

@@ -1,5 +1,6 @@
 // Time, memory and error of the propagation engines, and of the diagram if asked for, in one
-// execution with the sweep that is the unit of time.
+// execution with the sweep that is the unit of time. All methods run in turn, so that other
+// programs on the machine disturb all of them alike.
 
 #include <optional>
 #include <utility>

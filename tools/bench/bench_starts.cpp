@@ -1,5 +1,6 @@
 // Relaxation of uneven starts: the final energy, divided by that of the default start after the
-// same number of steps.
+// same number of steps. It shows whether uneven starts (all sites on one spot, in one face, on a
+// part of the surface) are evened out.
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // The cost of moving a few sites, compared with computing everything anew: for the propagation
-// alone, and with the diagram.
+// alone, and with the diagram. Different sites move in each repetition.
 
 #include "agvd/core/random.h"
 #include "agvd/diagram/build_diagram.h"

@@ -1,5 +1,7 @@
 // The sites inside a face become points of a triangulation that begins with its corners; its inner
-// edges are the cuts. A cut is labelled as a mesh edge is, by the relays that can reach it.
+// edges are the cuts. A cut is labelled as a mesh edge is, by the relays that can reach it. Chunks
+// of faces are cut in parallel into lists of their own; then the lists are copied into the labels
+// in order.
 #include "agvd/diagram/cuts.h"
 
 #include <algorithm>

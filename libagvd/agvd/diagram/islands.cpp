@@ -1,5 +1,7 @@
 // Points and intervals of one label that touch are united by union-find. What is not united with
-// its cell's site is an island. Nodes are numbered as in intervals.h.
+// its cell's site is an island. Nodes are numbered as in intervals.h. It gets the label of a
+// neighbouring cell that is connected to its own site, on edges and cuts alike, and the faces
+// around it lose their arcs, which are traced again.
 #include "agvd/diagram/islands.h"
 
 #include <algorithm>

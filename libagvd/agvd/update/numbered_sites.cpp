@@ -1,5 +1,7 @@
 // A change takes sites out of the search for bounds, mends the gaps, and puts sites in. Then it
-// finds the sites that lie where another one does, and the bounds that are others now.
+// finds the sites that lie where another one does, and the bounds that are others now. Callers know
+// sites by rank, which changes with every removal; numbers stay, so that stored relays need no
+// renaming.
 #include "agvd/update/numbered_sites.h"
 
 #include <algorithm>

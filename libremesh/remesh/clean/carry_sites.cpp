@@ -1,5 +1,6 @@
 // Carries points between a mesh and its cleaned version: bit for bit where the face kept its
-// corners, otherwise to the closest point, on pieces of the same face first.
+// corners, otherwise to the closest point, on pieces of the same face first. Several pieces of a
+// face are found by sorting pairs (input face, cleaned face).
 #include "remesh/clean/carry_sites.h"
 
 #include <algorithm>

@@ -1,5 +1,7 @@
 // Runs the passes of soup.h in their order, after a quick check whether the input needs none.
-// Sorted edge sides are made again only after passes that changed a triangle.
+// Sorted edge sides are made again only after passes that changed a triangle. Most passes look at
+// all edges by sorting their sides (a half-edge with the numbers of its two ends), because a soup
+// has no connectivity yet.
 #include "remesh/clean/clean_input.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
-// Reads the elements of write_diagram's PLY one after the other; each is checked against the
-// counts of the elements that it refers to.
+// Reads the elements of write_diagram's PLY one after the other; each is checked against the counts
+// of the elements that it refers to. An index out of range, or a count that does not fit, is an
+// error that names the place in the file.
 #include "remesh/io/read_diagram.h"
 
 #include <cmath>

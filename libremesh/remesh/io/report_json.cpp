@@ -1,5 +1,6 @@
-// Builds JSON objects from results, with functions for their parts. Keys stay in the order in
-// which they are set.
+// Builds JSON objects from results, with functions for their parts. Keys stay in the order in which
+// they are set. Every key with a unit names it (mesh_units, percent, deg, s); what was not measured
+// is null.
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,6 @@
 // Sites come from sampling or from the caller. On an uncut surface relaxation moves them anywhere
-// on the surface; with a plan, the sites of curves stay on their curves.
+// on the surface; with a plan, the sites of curves stay on their curves. The sharp corners of a
+// boundary that is kept get a site each.
 #include "remesh/pipeline/place_sites.h"
 
 #include <algorithm>

@@ -1,3 +1,7 @@
+// Relaxation from start to end: evens out bad starts, then runs the steps on the levels. Sampled
+// sites start with a quarter of their number, are relaxed, and get the others in the middles
+// between neighbours. If their triangulation does not resemble the surface, all sites are sampled
+// at once; if that of all sites does not either, they are not relaxed.
 #include "remesh/relax/relax_sites.h"
 
 #include <algorithm>
