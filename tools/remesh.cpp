@@ -62,7 +62,8 @@ std::string take_features(const std::string& text, Arguments& arguments) {
     const char* const end = text.data() + text.size();
     const auto [last, error] = std::from_chars(text.data(), end, angle);
     if (error != std::errc{} || last != end || !(angle > 0 && angle < 180)) {
-        return "the value is " + text + "; use auto, off or an angle above 0 and below 180 degrees";
+        return "the value is '" + text +
+               "'; use auto, off or an angle above 0 and below 180 degrees";
     }
     arguments.features = remesh::Features::Angle;
     arguments.feature_angle = angle;

@@ -63,7 +63,7 @@ int main(int argc, char** argv) {
                    "Number of points to measure on each surface")
         ->check(CLI::Range(agvd::Index{1}, agvd::Index{1'000'000'000}))
         ->capture_default_str();
-    app.add_option("-t,--threads", arguments.options.num_threads, "Threads to use; 0: all cores")
+    app.add_option("-t,--threads", arguments.options.num_threads, "Number of threads; 0: all cores")
         ->check(CLI::Range(0, 4096))
         ->capture_default_str();
     app.footer(std::string(footer) + cli::exit_code_help);

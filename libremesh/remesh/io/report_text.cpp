@@ -16,10 +16,11 @@ namespace {
 using detail::degrees;
 constexpr const char* not_measured = "needs CGAL";
 
-// "1 face", "2 faces", "2 vertices".
+// "1 face", "2 faces", "2 vertices", "2 patches".
 std::string counted(std::size_t count, const std::string& noun) {
     std::string plural = noun + 's';
     if (noun.ends_with("vertex")) plural.replace(plural.size() - 3, 3, "ices");
+    if (noun.ends_with("ch")) plural.insert(plural.size() - 1, 1, 'e');
     return std::to_string(count) + ' ' + (count == 1 ? noun : plural);
 }
 
@@ -221,10 +222,11 @@ std::string to_text(const RemeshResult& result, const RunInfo& info) {
             describe(result.input_topology) + '\n';
     text += to_text(info.options.propagation.engine, result.certified_error) + '\n';
     for (const RelaxLevel& level : result.relaxation) {
-        const double ratio = level.energy.back() / level.energy.front();
+        const double rise = level.energy.back() / level.energy.front() - 1;
         text += "relaxation: " + counted(level.num_sites, "site") + ", " +
-                counted(level.energy.size() - 1, "step") + ", energy lowered by " +
-                fixed(100 * (1 - ratio), 1) + " %\n";
+                counted(level.energy.size() - 1, "step") + ", energy " +
+                (rise > 0 ? "raised" : "lowered") + " by " + fixed(100 * std::abs(rise), 1) +
+                " %\n";
     }
     text += "result: " + counted(result.mesh.positions.size(), "vertex") + ", " +
             counted(result.mesh.triangles.size(), "face") +

@@ -116,9 +116,9 @@ TEST(Off, IndicesOutOfRangeAreRefused) {
     expect_error<InvalidInput>("a.off", "OFF\n3 1 0\n" + three + "3 0 1 -2\n",
                                {"line 6", "-2", "negative"});
     expect_error<InvalidInput>("a.off", "OFF\n3 1 0\n" + three + "3 0 1 4294967295\n",
-                               {"line 6", "absurdly large"});
+                               {"line 6", "too large"});
     expect_error<InvalidInput>("a.off", "OFF\n3 1 0\n" + three + "3 0 1 99999999999999999999\n",
-                               {"line 6", "absurdly large"});
+                               {"line 6", "too large"});
 }
 
 TEST(Off, CountsAreNotBelieved) {

@@ -80,7 +80,7 @@ TEST_F(ReadSites, NamesFileAndLineOfASyntaxError) {
 }
 
 TEST_F(ReadSites, NamesLineAndElementThatDoNotFitTheMesh) {
-    expect_error<agvd::InvalidInput>("\nv 9\n", "line 2: vertex 9");
+    expect_error<agvd::InvalidInput>("\nv 9\n", "line 2: the site names vertex 9");
     expect_error<agvd::InvalidInput>("v -1\n", "vertex -1");
     expect_error<agvd::InvalidInput>("v 99999999999999999999999\n", "too large");
     expect_error<agvd::InvalidInput>("f 8 1 0 0\n", "face 8");
