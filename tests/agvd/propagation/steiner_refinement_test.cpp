@@ -182,7 +182,7 @@ TEST(SteinerRefinement, RefusesWhatItCannotMeetAndSaysWhatItReached) {
                                      exact_distances(surface, sites));
     finest.max_error = least / 2;
     const std::string no_room = refusal(surface, sites, finest);
-    EXPECT_NE(no_room.find("hold 1000 points"), std::string::npos) << no_room;
+    EXPECT_NE(no_room.find("have 1000 points"), std::string::npos) << no_room;
     EXPECT_THROW((void)propagate(surface, sites, {.engine = Engine::Steiner, .max_error = 0}),
                  InvalidOption);
 }
