@@ -1,3 +1,6 @@
+// Meshes by formula: grid, tetrahedron, cube, icosahedron, sphere, torus and tubes, and operations
+// on meshes: subdivide, move vertices, join two meshes, insert vertices without curvature.
+// Coordinates and numbering are the same in every run, so that tests can state exact values.
 #include "support/shapes.h"
 
 #include <cmath>
