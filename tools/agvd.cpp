@@ -1,5 +1,6 @@
 // `agvd diagram` writes geodesic Voronoi diagrams to files, `agvd compare` measures their
-// difference.
+// difference. Diagrams are built on the intrinsic base, whose edges are short for the spacing of
+// the sites, and drawn on the cleaned input.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
@@ -70,7 +71,7 @@ constexpr const char* diagram_footer =
     "  .vtp  VTK PolyData: Voronoi edges and boundary arcs as polylines with the cell data\n"
     "        site_left, site_right (-1: outside) and the point data distance\n"
     "  .obj  the same polylines as v and l lines\n"
-    "  .ply  the cleaned mesh with the vertex properties site (-1: none reaches) and distance, "
+    "  .ply  the cleaned mesh with the vertex properties site (-1: no site) and distance, "
     "and\n"
     "        as further elements the sites and the diagram: what `agvd compare` reads\n\n";
 
@@ -81,16 +82,38 @@ struct DiagramArguments : cli::DiagramArguments {
 void check_outputs(const DiagramArguments& arguments) {
     for (const fs::path& output : arguments.outputs) {
         if (!remesh::is_known_diagram_extension(output)) {
-            throw agvd::IoError(output.string() + ": unknown extension; use .vtp, .obj or .ply");
+            throw agvd::IoError(output.string() + ": unknown extension '" +
+                                output.extension().string() + "'; use .vtp, .obj or .ply");
         }
         cli::check_output(output, {arguments.input, arguments.sites}, arguments.force);
         const auto same =
             std::count_if(arguments.outputs.begin(), arguments.outputs.end(),
                           [&](const fs::path& other) { return cli::is_same_file(output, other); });
         if (same > 1) {
-            throw agvd::InvalidOption(output.string() + " is named twice; choose another file");
+            throw agvd::InvalidOption(output.string() +
+                                      " is named twice as an output; choose another file");
         }
     }
+}
+
+std::vector<agvd::SurfacePoint> sample(const DiagramArguments& arguments,
+                                       const agvd::Surface& surface, cli::Console& console) {
+    remesh::SamplingOptions sampling = arguments.sampling;
+    sampling.num_threads = arguments.common.threads;
+    sampling.progress = console.progress_of("sample");
+    return cli::naming_file(arguments.input,
+                            [&] { return remesh::sample_sites(surface, sampling); });
+}
+
+// The sites of --sites as points of the cleaned mesh.
+std::vector<agvd::SurfacePoint> read_given_sites(const DiagramArguments& arguments,
+                                                 const agvd::MeshView& mesh,
+                                                 const remesh::CleanResult& clean,
+                                                 cli::Console& console) {
+    const std::vector<agvd::SurfacePoint> given =
+        remesh::read_sites(arguments.sites, mesh, console.progress_of("read"));
+    return cli::naming_file(arguments.sites,
+                            [&] { return remesh::to_cleaned(given, mesh, clean); });
 }
 
 void run_diagram(const DiagramArguments& arguments, cli::Console& console) {
@@ -105,18 +128,13 @@ void run_diagram(const DiagramArguments& arguments, cli::Console& console) {
     const agvd::Surface surface = agvd::build_surface(clean.mesh.view(), arguments.common.threads,
                                                       console.progress_of("clean"));
 
-    remesh::SamplingOptions sampling = arguments.sampling;
-    sampling.num_threads = arguments.common.threads;
-    sampling.progress = console.progress_of("sample");
     const std::vector<agvd::SurfacePoint> sites =
-        arguments.sites.empty()
-            ? remesh::sample_sites(surface, sampling)
-            : remesh::to_cleaned(
-                  remesh::read_sites(arguments.sites, mesh, console.progress_of("read")), mesh,
-                  clean);
+        arguments.sites.empty() ? sample(arguments, surface, console)
+                                : read_given_sites(arguments, mesh, clean, console);
     agvd::PropagationOptions propagating = arguments.propagation;
     propagating.num_threads = arguments.common.threads;
-    const auto [diagram, certified_error] = build(surface, sites, propagating, console);
+    const auto [diagram, certified_error] = cli::naming_file(
+        arguments.input, [&] { return build(surface, sites, propagating, console); });
 
     const agvd::Progress writing = console.progress_of("write");
     std::vector<remesh::FileContent> files;
@@ -127,13 +145,13 @@ void run_diagram(const DiagramArguments& arguments, cli::Console& console) {
     const auto unreached = std::count_if(diagram.nearest_site.begin(), diagram.nearest_site.end(),
                                          [](agvd::SiteId site) { return !site.is_valid(); });
     if (unreached > 0) {
-        console.warn(std::to_string(unreached) +
-                     " vertices are reached by no site; place one on every component");
+        console.warn("no site reaches " + std::to_string(unreached) +
+                     " vertices; place a site on every component");
     }
     console.info(remesh::to_text(propagating.engine, certified_error));
     console.info(std::to_string(sites.size()) + " sites, " +
                  std::to_string(diagram.vertices.size()) + " Voronoi vertices, " +
-                 std::to_string(diagram.edges.size()) + " edges");
+                 std::to_string(diagram.edges.size()) + " Voronoi edges");
 }
 
 constexpr const char* compare_footer =
@@ -149,12 +167,12 @@ constexpr const char* compare_footer =
     "Figures:\n"
     "  Frechet sum  over all cells and their boundary loops, the discrete Frechet distance of A's\n"
     "               and B's loop, measured in space; loops of a cell are matched nearest first, "
-    "one\n"
-    "               without partner is charged its diameter\n"
+    "and\n"
+    "               a loop without a partner counts as its diameter\n"
     "  delta        1 - exp(-F / 10^2), F being that sum in mean cell radii sqrt(area / (pi "
     "sites))\n"
     "  |dA - dB|    at points of the bisectors, difference of the exact distances from the two\n"
-    "               sites that they are said to be between\n\n";
+    "               sites of the bisector\n\n";
 
 struct CompareArguments {
     fs::path a;
@@ -172,14 +190,15 @@ void check_same_input(const CompareArguments& arguments, const remesh::DiagramFi
     if (a.mesh.positions != b.mesh.positions || a.mesh.triangles != b.mesh.triangles) {
         throw agvd::InvalidInput(
             both + " have different meshes (" + std::to_string(a.mesh.triangles.size()) + " and " +
-            std::to_string(b.mesh.triangles.size()) + " faces); compare diagrams of one mesh");
+            std::to_string(b.mesh.triangles.size()) + " faces); compare diagrams of the same mesh");
     }
     const auto [in_a, in_b] =
         std::mismatch(a.sites.begin(), a.sites.end(), b.sites.begin(), b.sites.end());
     if (in_a != a.sites.end() || in_b != b.sites.end()) {
         throw agvd::InvalidInput(both + " have different sites (" + std::to_string(a.sites.size()) +
                                  " and " + std::to_string(b.sites.size()) +
-                                 ", first difference at " + std::to_string(in_a - a.sites.begin()) +
+                                 " sites, which first differ at site " +
+                                 std::to_string(in_a - a.sites.begin()) +
                                  "); write both with the same --sites, or the same --samples, "
                                  "--init and --seed");
     }
@@ -190,7 +209,7 @@ void run_compare(const CompareArguments& arguments, cli::Console& console) {
     const bool is_exact = arguments.b == "exact";
     if (!arguments.json.empty() && !is_json_on_stdout) {
         cli::check_output(arguments.json,
-                          {arguments.a, is_exact ? fs::path() : fs::path(arguments.b)}, false);
+                          {arguments.a, is_exact ? fs::path() : fs::path(arguments.b)});
     }
     const remesh::DiagramFile a = remesh::read_diagram(arguments.a, console.progress_of("read"));
     const int threads = arguments.common.threads;
@@ -230,9 +249,12 @@ void run_compare(const CompareArguments& arguments, cli::Console& console) {
 }
 
 CLI::App* add_diagram(CLI::App& app, DiagramArguments& arguments) {
-    CLI::App* command = app.add_subcommand("diagram", "Diagram of sites on a mesh, as files");
+    CLI::App* command = app.add_subcommand(
+        "diagram", "Compute the diagram of sites on a mesh and write it to files");
     cli::add_diagram_options(*command, arguments);
-    command->add_option("-o,--output", arguments.outputs, "File to write; may be repeated")
+    command
+        ->add_option("-o,--output", arguments.outputs,
+                     "File to write; repeat the option to write more files")
         ->required()
         ->type_name("FILE")
         ->allow_extra_args(false);
@@ -241,30 +263,33 @@ CLI::App* add_diagram(CLI::App& app, DiagramArguments& arguments) {
 }
 
 void add_compare(CLI::App& app, CompareArguments& arguments) {
-    CLI::App* command =
-        app.add_subcommand("compare", "How far a diagram is from another, or from the exact one");
-    command->add_option("A", arguments.a, "Diagram to judge: a .ply of `agvd diagram`")->required();
-    command->add_option("B", arguments.b, "Diagram to compare it with, or `exact`")->required();
+    CLI::App* command = app.add_subcommand(
+        "compare", "Measure the difference of a diagram from another one, or from the exact one");
+    command->add_option("A", arguments.a, "Diagram to measure: a .ply file of `agvd diagram`")
+        ->required();
+    command->add_option("B", arguments.b, "Diagram to compare A with: a .ply file, or `exact`")
+        ->required();
     command
         ->add_option("--json", arguments.json, "Write the figures as JSON; - writes them to stdout")
         ->type_name("FILE|-");
     command
-        ->add_option("--spacing", arguments.options.spacing,
-                     "Between points of a loop, in mean cell radii; cost grows as it shrinks")
+        ->add_option(
+            "--spacing", arguments.options.spacing,
+            "Distance between points of a loop, in mean cell radii; a smaller one costs more")
         ->check(CLI::Range(1e-6, 10.0).description(""))
         ->type_name("H")
         ->capture_default_str();
     command
         ->add_option("--samples", arguments.options.area_samples,
-                     "Points at which cells are compared")
+                     "Number of points at which cells are compared")
         ->check(CLI::Range(agvd::Index{1}, agvd::Index{1'000'000'000}).description(""))
         ->type_name("N")
         ->capture_default_str();
     command
         ->add_option("--points", arguments.points,
-                     "Points of each diagram's bisectors at which |dA - dB| is measured, at most; "
-                     "fewer, or 0, on meshes of extreme slivers, where that takes long and "
-                     "gigabytes")
+                     "Largest number of points of each diagram's bisectors at which |dA - dB| is "
+                     "measured; use fewer, or 0, if the mesh has extreme slivers, as measuring "
+                     "then takes long and needs gigabytes")
         ->check(CLI::Range(agvd::Index{0}, agvd::Index{1'000'000'000}).description(""))
         ->type_name("N")
         ->capture_default_str();

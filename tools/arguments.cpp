@@ -1,3 +1,6 @@
+// The options that `remesh` and `agvd diagram` share: how they are declared, checked and explained.
+// Checks of values that CLI11 would let through (NaN, percentages, suffixes) return the text of the
+// error, as CLI11's validators do.
 #include "arguments.h"
 
 #include <CLI/CLI.hpp>
@@ -10,9 +13,10 @@ namespace {
 
 std::string max_error_help() {
     std::ostringstream text;
-    text << "Distances at most this share above exact, 0 to below 1; 0: exact. Without it the "
-            "window engine keeps below "
-         << agvd::default_max_error << ", the others promise nothing; the vertex engine takes none";
+    text << "Largest error of the distances, as a share of the exact ones: 0 (exact) to below 1. "
+            "Default: "
+         << agvd::default_max_error
+         << " for the window engine, no limit for the others; not for the vertex engine";
     return text.str();
 }
 
@@ -20,14 +24,14 @@ std::string max_error_help() {
 std::string check_max_error(const std::string& text) {
     double error = 0;
     if (CLI::detail::lexical_cast(text, error) && error >= 0 && error < 1) return {};
-    return "the error " + text + " is no number from 0 (exact) to below 1";
+    return "the maximal error is " + text + "; use a number from 0 (exact) to below 1";
 }
 
 // Checks the option; an empty text: valid.
 std::string check_memory_limit(const std::string& text) {
     if (parse_bytes(text)) return {};
-    return "the memory limit " + text +
-           " is no number of bytes above 0 (such as 500M or 2G) and no percentage (such as 50%)";
+    return "the memory limit is " + text +
+           "; use a number of bytes above 0 (such as 500M or 2G) or a percentage (such as 50%)";
 }
 
 // CLI::Range lets NaN through.
@@ -61,7 +65,7 @@ void add_diagram_options(CLI::App& app, DiagramArguments& arguments) {
     agvd::PropagationOptions& propagation = arguments.propagation;
     app.add_option("IN", arguments.input, "Mesh to read: .ply, .obj, .off or .stl")->required();
     auto* samples = app.add_option("-n,--samples,--vertices", sampling.num_samples,
-                                   "Sites to place, one output vertex each")
+                                   "Number of sites; remesh makes a vertex of each")
                         ->check(CLI::Range(agvd::Index{1}, agvd::no_index - 1).description(""))
                         ->type_name("N")
                         ->capture_default_str();
@@ -69,15 +73,19 @@ void add_diagram_options(CLI::App& app, DiagramArguments& arguments) {
         app.add_option_function<std::string>(
                "--init",
                [&sampling](const std::string& name) { sampling.init = inits_by_name().at(name); },
-               "How to place them: blue-noise (even), farthest (no large gap) or random (by area)")
+               "How sites are placed: blue-noise (even), farthest (no large gap) or random (by "
+               "area)")
             ->check(CLI::IsMember(inits_by_name()).description(""))
             ->type_name("NAME")
             ->default_str(remesh::init_name(sampling.init));
-    app.add_option("--seed", sampling.seed, "Same seed, same bytes, whatever the threads")
+    app.add_option("--seed", sampling.seed,
+                   "Seed of random numbers; the same seed gives the same bytes, whatever --threads")
         ->type_name("S")
         ->capture_default_str();
-    app.add_option("--sites", arguments.sites,
-                   "Sites to use instead; lines `v VERTEX`, `f FACE B0 B1 B2` or `p X Y Z`")
+    app.add_option(
+           "--sites", arguments.sites,
+           "Sites to use instead of --samples and --init: lines `v VERTEX`, `f FACE B0 B1 B2` or "
+           "`p X Y Z`")
         ->excludes(samples)
         ->excludes(init)
         ->type_name("FILE");
@@ -86,8 +94,8 @@ void add_diagram_options(CLI::App& app, DiagramArguments& arguments) {
            [&propagation](const std::string& name) {
                propagation.engine = engines_by_name().at(name);
            },
-           "window: error of your choice, and the quickest for it; steiner: the paper's, "
-           "for comparison; vertex: coarse, for a first look")
+           "How distances are computed: window (quickest for every error), steiner (as in the "
+           "paper) or vertex (coarse, of unknown error)")
         ->check(CLI::IsMember(engines_by_name()).description(""))
         ->type_name("NAME")
         ->default_str(agvd::engine_name(propagation.engine));
@@ -95,12 +103,13 @@ void add_diagram_options(CLI::App& app, DiagramArguments& arguments) {
         ->check(CLI::Validator(check_max_error, ""))
         ->type_name("E");
     app.add_option("--steiner-points", propagation.steiner_points,
-                   "Steiner engine: points on each edge; more is closer to exact, and slower")
+                   "Steiner engine: points on each edge; more points are more exact and slower")
         ->check(CLI::Range(0, 1000).description(""))
         ->type_name("M")
         ->capture_default_str();
-    app.add_option("--lambda", propagation.lambda,
-                   "Steiner engine: triangles are retired every L * #faces pops; costs memory only")
+    app.add_option(
+           "--lambda", propagation.lambda,
+           "Steiner engine: triangles retire every L * #faces pops; a larger L takes more memory")
         ->check(CLI::Validator(check_lambda, ""))
         ->type_name("L")
         ->capture_default_str();
@@ -110,13 +119,15 @@ void add_diagram_options(CLI::App& app, DiagramArguments& arguments) {
            [&arguments](const std::string& text) {
                arguments.memory_limit = parse_bytes(text).value();
            },
-           "Stop where more would be used: bytes, with K, M, G or T, or % of the machine's memory")
+           "Stop if more memory is used: bytes (also with K, M, G or T), or a percentage of the "
+           "machine's memory")
         ->check(CLI::Validator(check_memory_limit, ""))
         ->type_name("BYTES")
         ->default_str("75%");
     app.add_flag("--force", arguments.force, "Allow an output to overwrite an input");
-    app.add_flag("--lenient", arguments.is_lenient,
-                 "Read a file that holds more elements than its header announces");
+    app.add_flag(
+        "--lenient", arguments.is_lenient,
+        "If a file holds more elements than its header announces, read only those announced");
     add_common_options(app, arguments.common);
 }
 

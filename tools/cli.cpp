@@ -1,4 +1,6 @@
-// Turns exceptions and signals into exit codes, checks output paths, and draws the progress bar.
+// What all programs share. Exceptions of the libraries become texts on stderr and exit codes. The
+// first SIGINT or SIGTERM sets a flag, which progress callbacks read; then nothing is written. The
+// same callbacks look at the memory in use and draw the progress bar, every few milliseconds.
 #include "cli.h"
 
 #include <signal.h>
@@ -72,11 +74,12 @@ ExitCode parse_and_run(CLI::App& app, int argc, const char* const* argv,
 }  // namespace
 
 void add_common_options(CLI::App& app, CommonOptions& options) {
-    app.add_option("-t,--threads", options.threads, "Threads to use; 0: all cores")
+    app.add_option("-t,--threads", options.threads, "Number of threads; 0: all cores")
         ->check(CLI::Range(0, 4096))
         ->capture_default_str();
-    auto* quiet = app.add_flag("-q,--quiet", options.quiet, "Only warnings and errors on stderr");
-    app.add_flag("--verbose", options.verbose, "More on stderr")->excludes(quiet);
+    auto* quiet =
+        app.add_flag("-q,--quiet", options.quiet, "Write only warnings and errors to stderr");
+    app.add_flag("--verbose", options.verbose, "Write more to stderr")->excludes(quiet);
 }
 
 int run(CLI::App& app, int argc, const char* const* argv, const std::function<void()>& job) {
@@ -128,11 +131,13 @@ bool is_same_file(const fs::path& a, const fs::path& b) {
            fs::weakly_canonical(fs::absolute(a)) == fs::weakly_canonical(fs::absolute(b));
 }
 
-void check_output(const fs::path& path, std::initializer_list<fs::path> inputs, bool force) {
+void check_output(const fs::path& path, std::initializer_list<fs::path> inputs,
+                  std::optional<bool> force) {
     for (const fs::path& input : inputs) {
-        if (!force && !input.empty() && is_same_file(path, input)) {
+        if (!force.value_or(false) && !input.empty() && is_same_file(path, input)) {
             throw agvd::InvalidOption(path.string() +
-                                      " would overwrite an input; use --force if you mean it");
+                                      " would overwrite an input; choose another file" +
+                                      (force ? ", or use --force" : ""));
         }
     }
     remesh::require_writable(path);
@@ -142,8 +147,8 @@ void print(std::string_view text) {
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() ||
         std::fflush(stdout) != 0) {
         stop_if_interrupted();
-        throw agvd::IoError("cannot write to standard output: " +
-                            std::generic_category().message(errno));
+        throw agvd::IoError("standard output: cannot be written: " +
+                            std::generic_category().message(errno) + "; write to a file");
     }
 }
 
@@ -205,11 +210,12 @@ void Console::require_memory(const char* stage, std::size_t bytes) {
 OutOfMemory Console::out_of_memory() const {
     std::string text = "not enough memory";
     if (is_over_limit_) {
-        text += ": more than the " + format_bytes(limit_.bytes) + " of --memory-limit";
+        text += ": the program needs more than the " + format_bytes(limit_.bytes) +
+                " of --memory-limit";
     }
     if (!stage_.empty()) text += " (stage: " + stage_ + ")";
     text += "; " + memory_remedy(stage_, limit_.engine);
-    return OutOfMemory(is_over_limit_ ? text + ", or allow more" : text);
+    return OutOfMemory(is_over_limit_ ? text + ", or raise --memory-limit" : text);
 }
 
 // Keeps the name of the stage in which the limit was reached.

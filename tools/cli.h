@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -59,18 +60,23 @@ void stop_if_interrupted();
 
 //! Checks an output path before the long work.
 //! \param inputs  files that must not be overwritten without `force`; may be empty paths.
+//! \param force   value of --force; unset: the program has no such option.
 //! \throw agvd::InvalidOption  the path is one of the inputs (also through links).
 //! \throw agvd::IoError        it cannot be written (remesh::require_writable).
 void check_output(const std::filesystem::path& path,
-                  std::initializer_list<std::filesystem::path> inputs, bool force);
+                  std::initializer_list<std::filesystem::path> inputs,
+                  std::optional<bool> force = {});
 
-//! Returns what `work` returns; an agvd::InvalidInput that it throws gets the file's name in front.
+//! Returns what `work` returns; an error of the mesh or of a constraint that it throws gets the
+//! file's name in front.
 template <typename Work>
 auto naming_file(const std::filesystem::path& path, const Work& work) {
     try {
         return work();
     } catch (const agvd::InvalidInput& error) {
         throw agvd::InvalidInput(path.string() + ": " + error.what());
+    } catch (const agvd::ConstraintUnmet& error) {
+        throw agvd::ConstraintUnmet(path.string() + ": " + error.what());
     }
 }
 

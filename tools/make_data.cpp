@@ -10,7 +10,7 @@
 int main(int argc, char** argv) {
     std::filesystem::path folder;
     CLI::App app{"Writes the meshes of data/.", "make_data"};
-    app.add_option("FOLDER", folder, "an existing folder")
+    app.add_option("FOLDER", folder, "Folder to write to; it must exist")
         ->required()
         ->check(CLI::ExistingDirectory);
     return cli::run(app, argc, argv, [&] {

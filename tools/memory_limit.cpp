@@ -75,20 +75,20 @@ std::string memory_remedy(std::string_view stage, agvd::Engine engine) {
     if (stage == "propagate") {
         switch (engine) {
             case agvd::Engine::Window:
-                return "try a larger --max-error, fewer --threads or more --samples";
+                return "use a larger --max-error, fewer --threads or more --samples";
             case agvd::Engine::Steiner:
-                return "try fewer --steiner-points, a smaller --lambda or a smaller mesh";
+                return "use fewer --steiner-points, a smaller --lambda or a smaller mesh";
             case agvd::Engine::Vertex:
                 return "use a smaller mesh";
         }
     }
     if (stage == "read") return "use a smaller mesh";
-    if (stage == "clean") return "use a smaller mesh, or ask for fewer --samples";
+    if (stage == "clean") return "use a smaller mesh or fewer --samples";
     if (stage == "relax") return "use a smaller mesh, fewer --samples or --relax 0";
-    if (stage == "delaunay") return "ask for fewer --samples, or try --delaunay extrinsic or off";
+    if (stage == "delaunay") return "use fewer --samples, --delaunay extrinsic or --delaunay off";
     if (stage == "compare") return "use a smaller mesh, a larger --spacing or fewer --points";
     if (stage == "measure") return "use smaller meshes or fewer --samples";
-    return "ask for fewer --samples, or use a smaller mesh";
+    return "use fewer --samples or a smaller mesh";
 }
 
 }  // namespace cli

@@ -1,4 +1,6 @@
-// The main program: reads a mesh and writes the dual of its geodesic Voronoi diagram.
+// The main program: reads a mesh and writes the dual of its geodesic Voronoi diagram. It checks all
+// output paths before the long work, runs remesh::remesh(), and writes mesh and report together,
+// so that either both are new or none is.
 #include <malloc.h>
 
 #include <CLI/CLI.hpp>
@@ -60,7 +62,8 @@ std::string take_features(const std::string& text, Arguments& arguments) {
     const char* const end = text.data() + text.size();
     const auto [last, error] = std::from_chars(text.data(), end, angle);
     if (error != std::errc{} || last != end || !(angle > 0 && angle < 180)) {
-        return text + " is neither auto nor off nor an angle above 0 and below 180 degrees";
+        return "the value is '" + text +
+               "'; use auto, off or an angle above 0 and below 180 degrees";
     }
     arguments.features = remesh::Features::Angle;
     arguments.feature_angle = angle;
@@ -75,13 +78,13 @@ void add_feature_options(CLI::App& app, Arguments& arguments) {
     CLI::Option* const features =
         app.add_option_function<std::string>(
                "--features,--crease", take,
-               "Creases that become chains of edges: those long and strong enough for the spacing "
-               "(auto), all above an angle in degrees, or none (off)")
+               "Creases that the result keeps as chains of edges: those long and strong enough for "
+               "the spacing of the sites (auto), all above an angle in degrees, or none (off)")
             ->type_name("auto|DEG|off")
             ->default_str("auto");
     app.add_option("--feature-edges", arguments.feature_edges,
-                   "Edges that are creases whatever their angle: lines of two vertex indices, "
-                   "counted from 0")
+                   "Edges that are creases whatever their angle: lines of two vertices, counted "
+                   "from 0")
         ->type_name("FILE");
     app.add_option_function<std::string>(
            "--junctions",
@@ -89,8 +92,8 @@ void add_feature_options(CLI::App& app, Arguments& arguments) {
                arguments.junctions =
                    name == "keep" ? remesh::Junctions::Keep : remesh::Junctions::Apart;
            },
-           "Where more than two faces of the input meet, apart: sheets with vertices of their own "
-           "at the same points; keep: the sheets welded again")
+           "Sheets of the result where an edge of the input has more than two faces. apart: each "
+           "sheet has its own vertices, at the same points; keep: the sheets are welded")
         ->check(CLI::IsMember({"apart", "keep"}).description(""))
         ->type_name("NAME")
         ->default_str("apart");
@@ -108,7 +111,8 @@ void add_options(CLI::App& app, Arguments& arguments) {
                arguments.vertex_count =
                    name == "add" ? remesh::VertexCount::Add : remesh::VertexCount::Exact;
            },
-           "It is always kept. exact: with N vertices; add: with those that it needs besides")
+           "Number of vertices; the topology is always kept. exact: N; add: N and those that the "
+           "topology needs")
         ->check(CLI::IsMember({"exact", "add"}).description(""))
         ->type_name("NAME")
         ->default_str("exact");
@@ -118,8 +122,8 @@ void add_options(CLI::App& app, Arguments& arguments) {
                arguments.sampling.boundary =
                    name == "free" ? remesh::Boundary::Free : remesh::Boundary::Keep;
            },
-           "keep: boundary vertices lie on the input's boundary, its corners among them; free: "
-           "they lie near it")
+           "keep: boundary vertices lie on the input's boundary, and its corners are vertices; "
+           "free: boundary vertices lie near it")
         ->check(CLI::IsMember({"keep", "free"}).description(""))
         ->type_name("NAME")
         ->default_str("keep");
@@ -128,21 +132,22 @@ void add_options(CLI::App& app, Arguments& arguments) {
            [&arguments](const std::string& name) {
                arguments.delaunay = delaunay_by_name().at(name);
            },
-           "Flip edges that fail the Delaunay condition, by geodesic lengths (intrinsic) or by "
-           "straight ones (extrinsic); or leave them (off)")
+           "Flip edges that fail the Delaunay condition by geodesic lengths (intrinsic) or by "
+           "straight lengths (extrinsic); off: flip none")
         ->check(CLI::IsMember(delaunay_by_name()).description(""))
         ->type_name("NAME")
         ->default_str(remesh::delaunay_name(arguments.delaunay));
     add_feature_options(app, arguments);
     app.add_option("--drop-components", arguments.drop_components,
-                   "Leave out components with less than this % of the area")
+                   "Drop components with less than this percentage of the area")
         ->check(CLI::Range(0.0, 100.0).description(""))
         ->type_name("PERCENT")
         ->capture_default_str();
-    app.add_flag("--strict", arguments.strict,
-                 "Fail where the result self-intersects and the input does not");
+    app.add_flag(
+        "--strict", arguments.strict,
+        "Fail (exit code 5) if the result has more pairs of intersecting faces than the input");
     app.add_option("--relax,--lloyd", arguments.relax_steps,
-                   "Steps of Lloyd relaxation; 0: the dual of the sites as sampled")
+                   "Number of relaxation steps; 0: the sites stay as sampled")
         ->check(CLI::Range(0, 1'000'000).description(""))
         ->type_name("K")
         ->capture_default_str();
@@ -150,8 +155,8 @@ void add_options(CLI::App& app, Arguments& arguments) {
         ->needs("--sites");
     app.add_flag_function(
         "--fit,!--no-fit", [&arguments](std::int64_t count) { arguments.fit = count > 0; },
-        "Let vertices leave the surface so that the triangles lie nearer to it; on where sites "
-        "are relaxed");
+        "Let vertices leave the surface so that the triangles lie nearer to it; the default if "
+        "sites are relaxed");
     app.add_option("OUT,-o,--output", arguments.output,
                    "Mesh to write: .ply, .obj, .off or .stl; an existing file is replaced")
         ->required();
@@ -164,9 +169,9 @@ void judge(const remesh::RemeshResult& result, bool strict, cli::Console& consol
     const agvd::Index pairs = result.self_intersections.value_or(0);
     if (pairs <= result.input_self_intersections) return;
     const std::string text =
-        "the result has " + std::to_string(pairs) + " pairs of intersecting faces, the input " +
-        std::to_string(result.input_self_intersections) + "; ask for more samples";
-    if (strict) throw agvd::ConstraintUnmet(text + ", or leave --strict out");
+        "the result has " + std::to_string(pairs) + " pairs of intersecting faces, the input has " +
+        std::to_string(result.input_self_intersections) + "; use more --samples";
+    if (strict) throw agvd::ConstraintUnmet(text + ", or leave out --strict");
     console.warn(text);
 }
 
@@ -175,14 +180,15 @@ void warn_of_junctions(const remesh::JunctionCounts& counts, remesh::Junctions w
                        cli::Console& console) {
     if (counts.apart_edges == 0 || wanted == remesh::Junctions::Apart) return;
     console.warn("the sheets at " + std::to_string(counts.apart_edges) +
-                 " non-manifold edges of the input could not be welded; ask for more samples, and "
+                 " non-manifold edges of the input could not be welded; use more --samples, and "
                  "leave out --sites and --boundary free");
 }
 
 void check_outputs(const Arguments& arguments) {
     if (!remesh::is_known_mesh_extension(arguments.output)) {
-        throw agvd::IoError(arguments.output.string() +
-                            ": unknown extension; use .ply, .obj, .off or .stl");
+        throw agvd::IoError(arguments.output.string() + ": unknown extension '" +
+                            arguments.output.extension().string() +
+                            "'; use .ply, .obj, .off or .stl");
     }
     cli::check_output(arguments.output, {arguments.input, arguments.sites, arguments.feature_edges},
                       arguments.force);
@@ -190,7 +196,8 @@ void check_outputs(const Arguments& arguments) {
     cli::check_output(arguments.report, {arguments.input, arguments.sites, arguments.feature_edges},
                       arguments.force);
     if (cli::is_same_file(arguments.report, arguments.output)) {
-        throw agvd::InvalidOption("--report and the output name the same file; choose another one");
+        throw agvd::InvalidOption("--report and the output name the same file, " +
+                                  arguments.report.string() + "; choose another file");
     }
 }
 

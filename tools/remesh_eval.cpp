@@ -13,12 +13,13 @@ constexpr const char* footer =
     "Examples:\n"
     "  remesh-eval bunny.ply out.obj\n"
     "  remesh-eval bunny.ply out.obj --json - | jq .distance.two_sided\n\n"
-    "ORIGINAL is repaired first, as remesh does; the repair is told. RESULT is measured as it is.\n"
+    "ORIGINAL is cleaned first, as remesh does; the report counts the repairs. RESULT is measured\n"
+    "as it is.\n"
     "Distances are in percent of the diagonal of ORIGINAL's bounding box; two-sided is the larger\n"
     "of both directions. Q = 6 / sqrt(3) * area / (half perimeter * longest edge).\n"
-    "Sharp edges, of more than 40 degrees, are covered where the other mesh has one of more than "
-    "25\n"
-    "nearby; those of RESULT are false that are farther than .1 % from any of ORIGINAL.\n\n";
+    "An edge is sharp if its faces turn by more than 40 degrees. A sharp edge of ORIGINAL is\n"
+    "covered where RESULT has an edge of more than 25 degrees nearby. A sharp edge of RESULT is\n"
+    "false where it is farther than .1 % from all such edges and the boundary of ORIGINAL.\n\n";
 
 struct Arguments {
     fs::path original;
@@ -30,14 +31,15 @@ struct Arguments {
 void run_job(Arguments& arguments, cli::Console& console) {
     const bool is_json_on_stdout = arguments.json == "-";
     if (!arguments.json.empty() && !is_json_on_stdout) {
-        cli::check_output(arguments.json, {arguments.original, arguments.result}, false);
+        cli::check_output(arguments.json, {arguments.original, arguments.result});
     }
     const remesh::MeshFile original =
         remesh::read_mesh(arguments.original, console.progress_of("read"));
     const remesh::MeshFile result =
         remesh::read_mesh(arguments.result, console.progress_of("read"));
     arguments.options.progress = console.progress_of("measure");
-    const std::string both = arguments.original.string() + " against " + arguments.result.string();
+    const std::string both =
+        "comparing " + arguments.original.string() + " with " + arguments.result.string();
     const remesh::Evaluation evaluation = cli::naming_file(both, [&] {
         return remesh::evaluate(original.mesh.view(), result.mesh.view(), arguments.options);
     });
@@ -54,13 +56,14 @@ int main(int argc, char** argv) {
     CLI::App app("Measures a remeshed surface and its distance to the original.", "remesh-eval");
     Arguments arguments;
     app.add_option("ORIGINAL", arguments.original, "Mesh that was remeshed")->required();
-    app.add_option("RESULT", arguments.result, "Mesh to judge")->required();
+    app.add_option("RESULT", arguments.result, "Mesh to measure")->required();
     app.add_option("--json", arguments.json, "Write the figures as JSON; - writes them to stdout")
         ->type_name("FILE|-");
-    app.add_option("--samples", arguments.options.samples, "Points to measure on each surface")
+    app.add_option("--samples", arguments.options.samples,
+                   "Number of points to measure on each surface")
         ->check(CLI::Range(agvd::Index{1}, agvd::Index{1'000'000'000}))
         ->capture_default_str();
-    app.add_option("-t,--threads", arguments.options.num_threads, "Threads to use; 0: all cores")
+    app.add_option("-t,--threads", arguments.options.num_threads, "Number of threads; 0: all cores")
         ->check(CLI::Range(0, 4096))
         ->capture_default_str();
     app.footer(std::string(footer) + cli::exit_code_help);

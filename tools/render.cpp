@@ -1,4 +1,6 @@
-// render-mesh: a picture of a mesh, for documentation.
+// render-mesh: a picture of a mesh, for documentation. The view turns the mesh about its axes and
+// fits it into the picture in perspective. Faces are shaded by their normals, back faces are blue;
+// lines of an OBJ file or the network of creases can be drawn on top.
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -40,7 +42,7 @@ struct Lines {
 // The `v` and `l` lines of an OBJ file.
 Lines read_lines(const std::string& path) {
     std::ifstream file(path);
-    if (!file) throw agvd::IoError(path + ": cannot be read; is the name right?");
+    if (!file) throw agvd::IoError(path + ": cannot be read; check its name and permissions");
     Lines lines;
     std::string text, word;
     while (std::getline(file, text)) {
@@ -57,7 +59,10 @@ Lines read_lines(const std::string& path) {
     }
     for (const auto& [from, to] : lines.segments) {
         if (std::max(from, to) >= lines.points.size()) {
-            throw agvd::IoError(path + ": an `l` line names a vertex that is not there");
+            throw agvd::IoError(path + ": an `l` line names vertex " +
+                                std::to_string(std::max(from, to) + 1) +
+                                ", but the file has only " + std::to_string(lines.points.size()) +
+                                " vertices, counted from 1; correct the line");
         }
     }
     return lines;
@@ -136,7 +141,8 @@ void draw(const Options& options) {
     int width = 0, height = 0;
     if (char x = 0; !(std::istringstream(options.size) >> width >> x >> height) || x != 'x' ||
                     std::min(width, height) < 1 || std::max(width, height) > 10000) {
-        throw agvd::InvalidOption("--size: give it as 1200x900, each from 1 to 10000");
+        throw agvd::InvalidOption("--size is " + options.size +
+                                  "; use a size such as 1200x900, each number from 1 to 10000");
     }
     const TriangleMesh mesh = remesh::read_mesh(options.mesh).mesh;
     const View view(mesh, options.view, width, height);
@@ -172,22 +178,24 @@ void draw(const Options& options) {
 int main(int argc, char** argv) {
     Options options;
     CLI::App app{"Draws a mesh; back faces are blue.", "render-mesh"};
-    app.add_option("MESH", options.mesh, "ply, obj, off or stl")->required();
+    app.add_option("MESH", options.mesh, "Mesh to draw: .ply, .obj, .off or .stl")->required();
     app.add_option("PICTURE", options.picture, "PNG to write")->required();
-    app.add_option("--size", options.size, "WIDTHxHEIGHT in pixels")->capture_default_str();
-    app.add_option("--view", options.view, "turns about x, y, z in degrees; y first")
+    app.add_option("--size", options.size, "Size of the picture in pixels: WIDTHxHEIGHT")
+        ->capture_default_str();
+    app.add_option("--view", options.view, "Turns about x, y and z in degrees; y first")
         ->expected(3)
         ->capture_default_str();
-    app.add_flag("--wire", options.is_wire, "draw the edges");
+    app.add_flag("--wire", options.is_wire, "Draw the edges");
     app.add_option("--overlay", options.overlay, "OBJ whose `l` lines are drawn on the surface");
     app.add_option(
         "--network", options.network,
-        "mesh whose creases are drawn in colours as `remesh` keeps them, dots at corners");
+        "Mesh whose creases are drawn in colours as `remesh` keeps them, with dots at corners");
     app.add_option("--vertices", options.num_vertices,
-                   "of that run: what a crease is depends on it")
+                   "Number of vertices of that run; the creases depend on it")
         ->check(CLI::Range(300, 1000000))
         ->capture_default_str();
-    app.add_option("--line-width", options.line_width, "of the overlay, in pixels")
+    app.add_option("--line-width", options.line_width,
+                   "Width of the lines of the overlay, in pixels")
         ->check(CLI::Range(0.1, 50.0))
         ->capture_default_str();
     return cli::run(app, argc, argv, [&] { draw(options); });

@@ -81,6 +81,19 @@ TEST_F(AgvdDiagram, ExitCodes) {
     EXPECT_EQ(diagram({in, "--sites", at("missing"), "-o", at("d.vtp")}).exit_code, 3);
 }
 
+TEST_F(AgvdDiagram, AFaultySiteIsNamedWithItsFile) {
+    // The last face has no area and lies apart from the others.
+    const std::string in = put("in.off",
+                               "OFF\n7 5 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n5 0 0\n6 0 0\n7 0 0\n"
+                               "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n3 4 5 6\n");
+    const std::string sites = put("sites.txt", "v 0\nf 4 .2 .3 .5\n");
+    const auto outcome = diagram({in, "--sites", sites, "-o", at("d.vtp")});
+    EXPECT_EQ(outcome.exit_code, 4) << outcome.err;
+    EXPECT_NE(outcome.err.find("sites.txt: site 1 lies on face 4"), std::string::npos)
+        << outcome.err;
+    EXPECT_EQ(num_files(), 2u);
+}
+
 class AgvdCompare : public AgvdDiagram {
 protected:
     [[nodiscard]] static process::Outcome compare(std::vector<std::string> arguments) {

@@ -33,7 +33,9 @@ TEST_F(RemeshEval, ExitCodes) {
     EXPECT_EQ(eval({mesh}).exit_code, 2);
     EXPECT_EQ(eval({"--help"}).exit_code, 0);
     EXPECT_EQ(eval({mesh, mesh, "--samples", "0"}).exit_code, 2);
-    EXPECT_EQ(eval({mesh, mesh, "--json", mesh}).exit_code, 2);
+    const auto overwriting = eval({mesh, mesh, "--json", mesh});
+    EXPECT_EQ(overwriting.exit_code, 2);
+    EXPECT_EQ(overwriting.err.find("--force"), std::string::npos) << overwriting.err;
     EXPECT_EQ(eval({mesh, at("missing.off")}).exit_code, 3);
     EXPECT_EQ(eval({mesh, put("n.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n")}).exit_code,
               4);

@@ -90,7 +90,7 @@ TEST_F(Remesh, SitesOnOneSpotAreOneVertexOrAreParted) {
         if (!value.empty()) arguments.push_back(value);
         const auto outcome = remesh(arguments);
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-        const bool tells = outcome.err.find("240 sites that owned nothing") != std::string::npos;
+        const bool tells = outcome.err.find("240 sites dropped") != std::string::npos;
         const auto count = remesh::read_mesh(at("out.off")).mesh.positions.size();
         EXPECT_EQ(tells, count == 60) << outcome.err;
         return count;
@@ -202,6 +202,7 @@ TEST_F(Remesh, TooFewSamplesForTheTopologyAreFiveAndTheOldFileStays) {
     put("out.off", "old");
     const auto outcome = remesh({in, at("out.off"), "-n", "3"});
     EXPECT_EQ(outcome.exit_code, 5) << outcome.err;
+    EXPECT_NE(outcome.err.find("in.off: 3 samples are too few"), std::string::npos) << outcome.err;
     EXPECT_EQ(bytes("out.off"), "old");
     EXPECT_EQ(num_files(), 2u);
 }
@@ -271,7 +272,9 @@ TEST_F(Remesh, OverwritesAnInputOnlyWithForce) {
     for (const std::string& out : {in, at("link.off"), at("hard.off"), at("./in.off")}) {
         EXPECT_EQ(remesh({in, out, "-n", "30"}).exit_code, 2) << out;
     }
-    EXPECT_EQ(remesh({in, at("o.off"), "--report", in}).exit_code, 2);
+    const auto refused = remesh({in, at("o.off"), "--report", in});
+    EXPECT_EQ(refused.exit_code, 2);
+    EXPECT_NE(refused.err.find("--force"), std::string::npos) << refused.err;
     EXPECT_EQ(remesh({in, sites, "--sites", sites}).exit_code, 2);
     EXPECT_EQ(bytes("in.off"), old);
     EXPECT_EQ(remesh({in, in, "-n", "30", "--force"}).exit_code, 0);

@@ -1,5 +1,6 @@
 // Windows and vertices wait in one queue, nearest first. A window is given in the frame of the
-// half-edge through which it enters a face.
+// half-edge through which it enters a face. It is slow and safe on purpose: long double, only the
+// safest filter of [xin2009], no trimming and no merging.
 #include "support/arbiter.h"
 
 #include <cmath>
@@ -134,9 +135,9 @@ private:
         for (Index h = first; h < first + 3; ++h) {
             // This near to a vertex, rounding hides the faces beyond it: the vertex sends out
             // windows instead of the site.
-            constexpr Real beside_vertex = 1e-12L;
+            constexpr Real at_vertex = 1e-12L;
             const Index v = surface_.tail(h);
-            if (place(site, h).norm() <= beside_vertex * length_[h] && vertex_site_[v] == label) {
+            if (place(site, h).norm() <= at_vertex * length_[h] && vertex_site_[v] == label) {
                 send_out(v, label);
             }
             const Index twin = surface_.twin[h];

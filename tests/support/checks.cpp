@@ -1,3 +1,7 @@
+// Checks a diagram's complex: every edge has two sides and two ends or none, the cells around each
+// Voronoi vertex fit its edges, loops close, areas sum to the surface's, and Euler characteristics
+// sum to the surface's (a cell of genus g with b loops has 2 - 2 g - b). Polylines must run from
+// face to face; within a face no two of their segments may cross by more than rounding.
 #include "support/checks.h"
 
 #include "agvd/diagram/curve_piece.h"

@@ -1,3 +1,7 @@
+// Surfaces with few coarse faces, such as tubes of three sides, cones and doubled triangles, whose
+// intrinsic Delaunay triangulation has loops, repeated edges and self-glued faces. Needles are made
+// by splitting coarse faces at points near a side and flipping edges within them, which leaves the
+// surface as it is.
 #include "support/delta_shapes.h"
 
 #include <array>

@@ -1,3 +1,5 @@
+// Meshes with one defect each (unwelded, one-sided, non-manifold edge or vertex, faces without
+// area), and random damage to good meshes. The choices depend on the seed only.
 #include "support/dirty_shapes.h"
 
 #include <cmath>

@@ -1,3 +1,7 @@
+// Measures paths over a surface. A path is given by points of which consecutive ones lie in one
+// face. At each point the faces around it are laid out as sectors of angles; a path is locally
+// shortest if it leaves at least pi on both sides of every point between its ends ([xin2007]). All
+// angles are computed from positions in space, independently of the library's unfolding.
 #include "support/geodesics.h"
 
 #include <gtest/gtest.h>

@@ -1,3 +1,6 @@
+// Meshes whose sheets meet in edges of more than two faces. They are built from patches that are
+// welded where their points agree (Patchwork), so that junctions arise by themselves. Most shapes
+// come with the numbers of faces, sheets and edges that cleaning must find.
 #include "support/junction_shapes.h"
 
 #include <cmath>

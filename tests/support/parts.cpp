@@ -1,3 +1,6 @@
+// Mechanical parts whose creases are known: boxes, prisms, cylinders, cones, vaults, plates with
+// ribs and folds. They are built from patches of quads that are welded where they meet (Patchwork).
+// Needles and rotations change the mesh of such a part, but not its surface.
 #include "support/parts.h"
 
 #include <algorithm>

@@ -1,4 +1,7 @@
-// Each family of meshes is one function of random numbers.
+// Each family of meshes is one function of random numbers: plane and bumpy grids, needles, saddles,
+// cones of any angle, prisms, slit and reflex boundaries, folded sheets, solids and stacked faces.
+// They are small, so that thousands can be compared with exact distances, and each has what is hard
+// for some step: saddles, boundaries that bend paths, slivers, ties or sheets that touch.
 #include "support/random_meshes.h"
 
 #include <algorithm>

@@ -1,3 +1,6 @@
+// Surfaces of high genus, with thin tubes, spikes, many components and boundary loops. Plates with
+// holes and frames of rods are boundaries of sets of cubes; tubes, cones and knots are rings of
+// vertices joined in order. Loops are opened by removing faces far from each other.
 #include "support/random_surfaces.h"
 
 #include <algorithm>

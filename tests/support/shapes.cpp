@@ -1,3 +1,6 @@
+// Meshes by formula: grid, tetrahedron, cube, icosahedron, sphere, torus and tubes, and operations
+// on meshes: subdivide, move vertices, join two meshes, insert vertices without curvature.
+// Coordinates and numbering are the same in every run, so that tests can state exact values.
 #include "support/shapes.h"
 
 #include <algorithm>
@@ -226,6 +229,11 @@ double signed_volume(const TriangleMesh& mesh) {
         volume += mesh.positions[a].dot(mesh.positions[b].cross(mesh.positions[c])) / 6;
     }
     return volume;
+}
+
+TriangleMesh moved(TriangleMesh mesh, const Vec3& by) {
+    for (Vec3& p : mesh.positions) p += by;
+    return mesh;
 }
 
 double longest_edge(const agvd::Surface& surface) {

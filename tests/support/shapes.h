@@ -30,6 +30,7 @@ namespace shapes {
 void add_flat_vertices(agvd::TriangleMesh& mesh, agvd::Index count, std::uint64_t seed);
 //! Above 0 for a closed mesh with outward normals.
 [[nodiscard]] double signed_volume(const agvd::TriangleMesh& mesh);
+[[nodiscard]] agvd::TriangleMesh moved(agvd::TriangleMesh mesh, const agvd::Vec3& by);
 //! Length of the longest edge.
 [[nodiscard]] double longest_edge(const agvd::Surface& surface);
 //! Two meshes side by side in one.

@@ -76,12 +76,12 @@ int main(int argc, char** argv) {
     options.steiner_points = {2, 5, 8, 12};
     bench::add_options(app, options);
     std::vector<double> max_errors{0, agvd::default_max_error, 1e-3};
-    app.add_option("--max-error", max_errors, "Window engine: errors to ask for; 0: exact")
+    app.add_option("--max-error", max_errors, "Window engine: largest errors; 0: exact")
         ->capture_default_str();
     CompareOptions compare;
-    app.add_option("--threads", compare.num_threads, "Threads; 0: all cores")
+    app.add_option("--threads", compare.num_threads, "Number of threads; 0: all cores")
         ->capture_default_str();
-    app.add_option("--samples", compare.area_samples, "Points whose labels are compared")
+    app.add_option("--samples", compare.area_samples, "Number of points whose labels are compared")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     return cli::run(app, argc, argv, [&] {

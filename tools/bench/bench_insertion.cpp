@@ -75,11 +75,12 @@ int main(int argc, char** argv) {
     Arguments arguments;
     arguments.common.sites = {100};
     bench::add_options(app, arguments.common);
-    app.add_option("--max-error", arguments.max_errors, "Errors to keep")->capture_default_str();
-    app.add_option("--step", arguments.step, "Uniform numbers are multiples of this")
+    app.add_option("--max-error", arguments.max_errors, "Largest errors")->capture_default_str();
+    app.add_option("--step", arguments.step, "Uniform numbers of points are multiples of this")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
-    app.add_option("--repetitions", arguments.repetitions, "Runs of each case; the quickest counts")
+    app.add_option("--repetitions", arguments.repetitions,
+                   "Number of runs of each case; the quickest counts")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     return cli::run(app, argc, argv, [&] {

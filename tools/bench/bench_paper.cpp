@@ -1,5 +1,6 @@
 // The evaluation of [meng2023] Sec. 6 and 7: tables and figures, with all engines and the exact
-// diagram in one execution.
+// diagram in one execution. A section is one figure or table; each writes JSON and a table, some
+// also a plot.
 
 #include <algorithm>
 
@@ -265,22 +266,23 @@ int main(int argc, char** argv) {
     std::vector<std::string> names;
     for (const Section& section : sections()) names.emplace_back(section.name);
     app.add_option("MESHES", arguments.meshes, "Folder of the meshes")->type_name("FOLDER");
-    app.add_option("--only", arguments.only, "Sections to run; all without this")
+    app.add_option("--only", arguments.only, "Sections to run; default: all")
         ->check(CLI::IsMember(names));
-    app.add_option("--out", arguments.out,
-                   "Folder for SECTION.json, SECTION.md and SECTION.svg; made if need be")
+    app.add_option(
+           "--out", arguments.out,
+           "Folder for SECTION.json, SECTION.md and SECTION.svg; it is made if it does not exist")
         ->type_name("FOLDER")
         ->capture_default_str();
     app.add_option("--repetitions", arguments.repetitions,
-                   "At most so many runs of each case; the quickest counts")
+                   "Largest number of runs of each case; the quickest counts")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     app.add_option("--instead", arguments.instead,
-                   "Run on this small mesh instead of each section's; a quick look")
+                   "Run on this small mesh instead of the meshes of the sections")
         ->type_name("FILE");
     return cli::run(app, argc, argv, [&] {
         if (arguments.meshes.empty() && arguments.instead.empty()) {
-            throw InvalidOption("name the folder of the meshes");
+            throw InvalidOption("MESHES is missing; name the folder of the meshes");
         }
         fs::create_directories(arguments.out);
         for (const Section& section : sections()) {

@@ -1,5 +1,6 @@
 // Time, memory and error of the propagation engines, and of the diagram if asked for, in one
-// execution with the sweep that is the unit of time.
+// execution with the sweep that is the unit of time. All methods run in turn, so that other
+// programs on the machine disturb all of them alike.
 
 #include <optional>
 #include <utility>
@@ -235,23 +236,23 @@ void add_options(CLI::App& app, Arguments& arguments) {
     lists.max_errors = {0, default_max_error};
     lists.lambdas = {1};
     bench::add_options(app, common);
-    app.add_option("--engine", lists.engines, "Engines: window, steiner, vertex; all without this")
+    app.add_option("--engine", lists.engines, "Engines: window, steiner, vertex; default: all")
         ->transform(CLI::CheckedTransformer(cli::engines_by_name()).description(""));
-    app.add_option("--max-error", lists.max_errors, "Window engine: errors to ask for; 0: exact")
+    app.add_option("--max-error", lists.max_errors, "Window engine: largest errors; 0: exact")
         ->capture_default_str();
     app.add_option("--lambda", lists.lambdas,
-                   "Steiner engine: triangles are retired every lambda * #F pops")
+                   "Steiner engine: triangles retire every lambda * #F pops")
         ->capture_default_str();
     app.add_option("--threads", arguments.threads,
-                   "Numbers of threads, 0: all cores; the speedup is over 1")
+                   "Numbers of threads; 0: all cores; the speedup is over 1 thread")
         ->capture_default_str();
     app.add_option("--subdivide", arguments.min_faces,
-                   "Split faces in four until there are this many");
+                   "Split all faces in four until the mesh has this many faces");
     app.add_option("--exact-limit", arguments.exact_limit,
                    "Also run CGAL's exact method on meshes of up to this many faces, once, and "
                    "measure the error of the vertex distances; slow");
     app.add_option("--repetitions", arguments.repetitions,
-                   "Runs of each case; the quickest is shown")
+                   "Number of runs of each case; the quickest counts")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     app.add_flag("--diagram", arguments.diagram, "Also build the diagram");
@@ -261,7 +262,7 @@ void add_options(CLI::App& app, Arguments& arguments) {
 
 int main(int argc, char** argv) {
     CLI::App app(
-        "Time, memory and error of the propagation engines, beside one Dijkstra sweep (P0)",
+        "Time, memory and error of the propagation engines, compared with one Dijkstra sweep (P0)",
         "bench-propagation");
     Arguments arguments;
     add_options(app, arguments);

@@ -1,4 +1,6 @@
-// Quality against time for several numbers of relaxation steps.
+// Quality against time for several numbers of relaxation steps: remeshes each mesh with each number
+// of steps, measures the results as remesh-eval does, and writes a table, medians over the meshes,
+// and plots. A time is the processor time of a whole run on one thread, the quickest of several.
 
 #include <algorithm>
 
@@ -138,15 +140,16 @@ int main(int argc, char** argv) {
         "bench-relax");
     Arguments arguments;
     app.add_option("MESHES", arguments.meshes, "Meshes to read")->required();
-    app.add_option("-n,--samples", arguments.samples, "Sites to place")->capture_default_str();
+    app.add_option("-n,--samples", arguments.samples, "Number of sites")->capture_default_str();
     app.add_option("-k,--steps", arguments.steps, "Numbers of relaxation steps, ascending")
         ->check(CLI::Range(0, 1'000'000))
         ->capture_default_str();
-    app.add_option("--repetitions", arguments.repetitions, "Runs of each case; the quickest counts")
+    app.add_option("--repetitions", arguments.repetitions,
+                   "Number of runs of each case; the quickest counts")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     app.add_option("--out", arguments.out,
-                   "Folder for relax.json, relax.md and relax.svg; made if need be")
+                   "Folder for relax.json, relax.md and relax.svg; it is made if it does not exist")
         ->type_name("FOLDER")
         ->capture_default_str();
     return cli::run(app, argc, argv, [&] { run(arguments); });

@@ -57,8 +57,8 @@ int main(int argc, char** argv) {
                  "bench-slivers");
     agvd::Index samples = 2000;
     int repetitions = 3;
-    app.add_option("-n,--samples", samples, "Sites to place")->capture_default_str();
-    app.add_option("--repetitions", repetitions, "Runs of each case; the quickest counts")
+    app.add_option("-n,--samples", samples, "Number of sites")->capture_default_str();
+    app.add_option("--repetitions", repetitions, "Number of runs of each case; the quickest counts")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     return cli::run(app, argc, argv, [&] {

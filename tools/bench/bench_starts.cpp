@@ -1,5 +1,6 @@
 // Relaxation of uneven starts: the final energy, divided by that of the default start after the
-// same number of steps.
+// same number of steps. It shows whether uneven starts (all sites on one spot, in one face, on a
+// part of the surface) are evened out.
 
 #include <algorithm>
 #include <cmath>
@@ -103,11 +104,11 @@ void measure(const std::filesystem::path& path, const Arguments& arguments, Json
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Energy after relaxation from uneven starts, over that of the default start",
+    CLI::App app("Energy after relaxation from uneven starts, divided by that of the default start",
                  "bench-starts");
     Arguments arguments;
     app.add_option("MESHES", arguments.meshes, "Meshes to read")->required();
-    app.add_option("-n,--samples", arguments.samples, "Sites to place")->capture_default_str();
+    app.add_option("-n,--samples", arguments.samples, "Number of sites")->capture_default_str();
     app.add_option("-k,--steps", arguments.steps, "Numbers of relaxation steps")
         ->check(CLI::Range(1, 1'000'000))
         ->capture_default_str();

@@ -1,5 +1,5 @@
 // The cost of moving a few sites, compared with computing everything anew: for the propagation
-// alone, and with the diagram.
+// alone, and with the diagram. Different sites move in each repetition.
 
 #include "agvd/core/random.h"
 #include "agvd/diagram/build_diagram.h"
@@ -114,8 +114,7 @@ nlohmann::ordered_json measure(const std::string& mesh, const Surface& surface,
 }  // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app("Time of moving some sites, over that of doing all of them afresh",
-                 "bench-updates");
+    CLI::App app("Time of moving some sites, divided by that of a fresh run", "bench-updates");
     Arguments arguments;
     arguments.common.sites = {2000};
     bench::add_options(app, arguments.common);
@@ -124,9 +123,10 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--max-error", arguments.max_error, "Error of the distances; 0: exact")
         ->capture_default_str();
-    app.add_option("--repetitions", arguments.repetitions,
-                   "Fresh runs, each after four changes; the quickest is shown, and medians over "
-                   "medians")
+    app.add_option(
+           "--repetitions", arguments.repetitions,
+           "Number of fresh runs, each after four changes; the table shows the quickest, and "
+           "ratios of medians")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
     return cli::run(app, argc, argv, [&] {

@@ -1,3 +1,6 @@
+// The unit cube under five triangulations. All have the same surface, so that differences in time
+// and result come from the shape of the triangles alone: right triangles, needles of two aspects,
+// random flips, and faces without area.
 #include "bench/coplanar_boxes.h"
 
 #include <algorithm>
@@ -145,7 +148,7 @@ TriangleMesh randomly_flipped(TriangleMesh mesh) {
 
 // Every tenth face gets the middle of its first side, its neighbour does not: between the two lies
 // a face without area.
-TriangleMesh with_flat_faces(TriangleMesh mesh) {
+TriangleMesh with_degenerate_faces(TriangleMesh mesh) {
     const auto num_faces = static_cast<Index>(mesh.triangles.size());
     for (Index f = 0; f < num_faces; f += 10) {
         const auto [a, b, c] = mesh.triangles[f];
@@ -165,7 +168,7 @@ std::vector<NamedMesh> coplanar_boxes() {
             {"needles, 1e-3", needle_box(evenly_around())},
             {"needles, 1e-6", needle_box(bundles_around())},
             {"random flips", randomly_flipped(regular)},
-            {"faces without area", with_flat_faces(regular)}};
+            {"faces without area", with_degenerate_faces(regular)}};
 }
 
 }  // namespace bench

@@ -1,3 +1,6 @@
+// Dijkstra's algorithm over the edges of a mesh, with an indexed 4-ary heap: the unit P0 in which
+// benchmarks give times. It is written for speed, so that the unit is a fair one: flat arrays of
+// arcs, lengths in float, memory that is used again.
 #include "bench/p0.h"
 
 #include <algorithm>

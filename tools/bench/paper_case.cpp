@@ -1,3 +1,7 @@
+// Measures one mesh and set of sites with every method, for the evaluation of [meng2023] Sec. 6.
+// The methods run in turn in each repetition, each followed by sweeps of P0, so that changes of the
+// machine's speed concern all of them alike; the quickest times count. Errors compare the last
+// diagram of each method with the exact one.
 #include "bench/paper_case.h"
 
 #include <algorithm>

@@ -1,3 +1,6 @@
+// Draws line charts as SVG text. An axis collects the values to be shown, then chooses its range
+// and ticks: powers of ten (with 2 and 5 where there are few) on logarithmic axes, otherwise steps
+// of 1, 2 or 5 times a power of ten. Series differ by colour and have a legend.
 #include "bench/plot.h"
 
 #include <algorithm>

@@ -13,8 +13,8 @@ using agvd::Index;
 agvd::TriangleMesh bumpy_torus(Index max_faces) {
     const auto k = static_cast<Index>(std::sqrt(max_faces / 4.0));
     if (k < 3) {
-        throw agvd::InvalidOption("a torus of " + std::to_string(max_faces) +
-                                  " faces has less than three around; ask for 36 or more");
+        throw agvd::InvalidOption("a torus cannot have " + std::to_string(max_faces) +
+                                  " faces; use 36 or more");
     }
     agvd::TriangleMesh mesh;
     mesh.positions.reserve(2 * k * k);

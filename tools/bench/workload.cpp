@@ -39,9 +39,9 @@ std::vector<SurfacePoint> random_vertices(const Surface& surface, Index count, s
         if (surface.outgoing[v] != no_index) vertices.push_back(v);
     }
     if (count > vertices.size()) {
-        throw ConstraintUnmet(std::to_string(count) + " sites do not fit on " +
+        throw ConstraintUnmet(std::to_string(count) + " sites are more than the " +
                               std::to_string(vertices.size()) +
-                              " vertices; ask for fewer, or for sites in faces");
+                              " vertices of the mesh; use fewer --sites, or --place faces");
     }
     std::vector<SurfacePoint> sites(count);
     for (Index i = 0; i < count; ++i) {  // The first steps of a shuffle.
@@ -61,7 +61,7 @@ TriangleMesh named_torus(const std::string& name) {
     const char* end = name.data() + name.size();
     const auto read = std::from_chars(name.data() + torus_prefix.size(), end, faces);
     if (read.ec != std::errc() || read.ptr != end) {
-        throw InvalidOption(name + ": write torus:FACES, such as torus:1000000");
+        throw InvalidOption(name + " is no torus; use torus:FACES, such as torus:1000000");
     }
     return bumpy_torus(faces);
 }

@@ -1,5 +1,7 @@
 // The surface part of [labelle2007]: finds the lattice cells that the surface crosses, pulls close
-// lattice points onto the surface, cuts the tetrahedra, and smooths the mesh.
+// lattice points onto the surface, cuts the tetrahedra, and smooths the mesh. The search follows
+// the surface from the first crossed cell, so that its cost goes with the number of faces. Only
+// exactly rounded operations are used: the same bytes on every machine.
 #include "make_data/contour.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // An octopus: limbs are chains of round cones along splines, blended where they meet. Four arms
-// curl back into themselves, which makes four handles.
+// curl back into themselves, which makes four handles. The surface is a contour (contour.h) of the
+// blended distance; an inversion makes face sizes vary.
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
 // An L-shaped bracket (80 x 70 x 60): a plate with four bolt holes and a slot, a wall with a bored
-// boss and four bolt holes, a fillet between them. Ten through holes.
+// boss and four bolt holes, a fillet between them. Ten through holes. Plane faces are triangulated
+// polygons with holes (planar.h); round ones are strips between loops.
 
 #include <algorithm>
 #include <map>

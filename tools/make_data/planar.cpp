@@ -1,3 +1,6 @@
+// Triangulates a polygon with holes. Bridges join the holes to the outline, the shortest first;
+// then ears are clipped, and Lawson's flips make the triangulation Delaunay as far as the loops
+// allow. Simple and slow: the polygons of data/ have some hundred points.
 #include "make_data/planar.h"
 
 #include <algorithm>

@@ -1,3 +1,6 @@
+// The shell, plate, parts and slivers of data/. Shell and plate are grids of points by formula;
+// parts and slivers are contours of implicit functions (contour.h), scaled, joined, or cut further.
+// The shell's coordinates are rounded to six decimals, which keeps its text file short.
 #include "make_data/contour.h"
 #include "make_data/data_files.h"
 #include "make_data/formula.h"

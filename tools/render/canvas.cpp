@@ -1,3 +1,7 @@
+// A z-buffer with several samples per pixel and side, which are averaged at the end. A triangle
+// fills the samples that are in front; the distance from its edges, known from barycentric
+// coordinates, gives thin dark lines. Hollows are darkened by comparing the depth of each sample
+// with that of pairs of opposite samples around it, so that a slope alone stays bright.
 #include "render/canvas.h"
 
 #include <png.h>
@@ -160,7 +164,8 @@ void Canvas::write_png(const std::filesystem::path& path) const {
     image.height = static_cast<png_uint_32>(rows);
     image.format = PNG_FORMAT_RGB;
     if (png_image_write_to_file(&image, path.c_str(), 0, bytes.data(), 0, nullptr) == 0) {
-        throw agvd::IoError(path.string() + ": cannot write the picture: " + image.message);
+        throw agvd::IoError(path.string() + ": cannot be written: " + image.message +
+                            "; check that its folder exists and is writable");
     }
 }
 

@@ -1,3 +1,8 @@
+// Runs the chunks of a loop on several threads. The calling thread takes chunks too, and is the
+// only one that polls for long: TBB's tasks (with ThreadSanitizer plain threads) only help. A
+// helper that comes after the last chunk finds the loop closed, so that the calling thread never
+// waits for a task that has not started. The first exception of a chunk or of the poller ends the
+// loop and is thrown to the caller.
 #include "agvd/core/parallel.h"
 
 #include <tbb/task_arena.h>

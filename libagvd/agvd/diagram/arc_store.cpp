@@ -1,5 +1,6 @@
 // The arcs of a chunk are copied together into each pool; what they say of each other, counted from
-// the chunk's beginning, becomes places in the pools.
+// the chunk's beginning, becomes places in the pools. A face that is traced again gives its blocks
+// back first.
 #include "agvd/diagram/arc_store.h"
 
 #include <cassert>

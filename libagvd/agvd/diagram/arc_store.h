@@ -1,5 +1,8 @@
 //! \file
-//! The arcs of all faces, some of which are traced again now and then.
+//! The arcs of all faces, some of which are traced again now and then. What belongs to a face
+//! (arcs, Voronoi vertices and their places, points, connections, parts) is one block in each of
+//! several pools with free lists, so that faces can be emptied and filled again without renaming
+//! the others.
 #pragma once
 
 #include "agvd/core/block_pool.h"

@@ -1,5 +1,7 @@
 // The sites inside a face become points of a triangulation that begins with its corners; its inner
-// edges are the cuts. A cut is labelled as a mesh edge is, by the relays that can reach it.
+// edges are the cuts. A cut is labelled as a mesh edge is, by the relays that can reach it. Chunks
+// of faces are cut in parallel into lists of their own; then the lists are copied into the labels
+// in order.
 #include "agvd/diagram/cuts.h"
 
 #include <algorithm>
@@ -89,17 +91,17 @@ private:
             for (std::size_t k = 0; k < 3; ++k) {
                 const Index from = pieces[i].points[k];
                 const Index to = pieces[i].points[k == 2 ? 0 : k + 1];
-                const Index beside = pieces[i].beside[k];
+                const Index neighbour = pieces[i].neighbours[k];
                 triangle.points[k] = points_[from].name;
-                if (beside == no_index) {
+                if (neighbour == no_index) {
                     triangle.sides[k] = LineId::of_edge(3 * face_ + from);
-                } else if (beside > i) {
+                } else if (neighbour > i) {
                     triangle.sides[k] = add_cut(std::min(from, to), std::max(from, to));
                 } else {
-                    const auto& shared = pieces[beside].points;
+                    const auto& shared = pieces[neighbour].points;
                     const auto place = std::find(shared.begin(), shared.end(), to);
                     triangle.sides[k] =
-                        out_.triangles[first + beside].sides[place - shared.begin()];
+                        out_.triangles[first + neighbour].sides[place - shared.begin()];
                 }
             }
             out_.triangles.push_back(triangle);

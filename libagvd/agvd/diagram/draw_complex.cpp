@@ -1,5 +1,6 @@
 // Numbers the edges, then attaches their ends to the vertices: first at Voronoi vertices, then
-// along the surface's boundary, where an edge between cells meets two edges of the boundary.
+// along the surface's boundary, where an edge between cells meets two edges of the boundary. Each
+// vertex gets its ends counter-clockwise, and the cell after each end.
 #include "agvd/diagram/draw_complex.h"
 
 #include <cassert>

@@ -1,5 +1,6 @@
 // An edge is a chain of arcs. Its points are the node at the beginning of each arc, the inner
-// points of the arc, and the node at the end of the last one.
+// points of the arc, and the node at the end of the last one. Points lie in faces of the surface,
+// with barycentric coordinates; a crossing is given in the face of the half-edge that it names.
 #include "agvd/diagram/draw_points.h"
 
 #include "agvd/diagram/face_relays.h"

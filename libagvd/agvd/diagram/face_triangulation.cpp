@@ -43,7 +43,7 @@ Index FaceTriangulation::find_holder(const Vec2& p) const {
     for (std::size_t steps = 0; steps < pieces_.size(); ++steps) {
         Index across = no_index;
         for (std::size_t k = 0; k < 3 && across == no_index; ++k) {
-            if (margin(piece, k) < 0) across = pieces_[piece].beside[k];
+            if (margin(piece, k) < 0) across = pieces_[piece].neighbours[k];
         }
         if (across == no_index) return piece;
         piece = across;
@@ -61,9 +61,9 @@ Index FaceTriangulation::find_holder(const Vec2& p) const {
 
 void FaceTriangulation::replace_neighbour(Index piece, Index old, Index now) {
     if (piece == no_index) return;
-    for (Index& beside : pieces_[piece].beside) {
-        if (beside == old) {
-            beside = now;
+    for (Index& neighbour : pieces_[piece].neighbours) {
+        if (neighbour == old) {
+            neighbour = now;
             return;
         }
     }
@@ -76,11 +76,11 @@ void FaceTriangulation::add(const Vec2& p) {
     const Index third = second + 1;
     points_.push_back(p);
     const Piece old = pieces_[first];
-    pieces_[first] = {{old.points[0], old.points[1], n}, {old.beside[0], second, third}};
-    pieces_.push_back({{old.points[1], old.points[2], n}, {old.beside[1], third, first}});
-    pieces_.push_back({{old.points[2], old.points[0], n}, {old.beside[2], first, second}});
-    replace_neighbour(old.beside[1], first, second);
-    replace_neighbour(old.beside[2], first, third);
+    pieces_[first] = {{old.points[0], old.points[1], n}, {old.neighbours[0], second, third}};
+    pieces_.push_back({{old.points[1], old.points[2], n}, {old.neighbours[1], third, first}});
+    pieces_.push_back({{old.points[2], old.points[0], n}, {old.neighbours[2], first, second}});
+    replace_neighbour(old.neighbours[1], first, second);
+    replace_neighbour(old.neighbours[2], first, third);
     unchecked_.assign({first, second, third});
     while (!unchecked_.empty()) {
         const Index piece = unchecked_.back();
@@ -92,7 +92,7 @@ void FaceTriangulation::add(const Vec2& p) {
 // In pieces with the new point it is the last; flips give it another neighbour each, so they end.
 void FaceTriangulation::flip_opposite(Index here) {
     const Piece mine = pieces_[here];
-    const Index there = mine.beside[0];
+    const Index there = mine.neighbours[0];
     if (there == no_index) return;
     const Piece other = pieces_[there];
     std::size_t k = 0;  // Of the common side.
@@ -105,12 +105,12 @@ void FaceTriangulation::flip_opposite(Index here) {
     const double at_a = doubled_area(p, a, q);
     const double at_b = doubled_area(q, b, p);
     if (!(std::min(at_a, at_b) > least_share * (at_a + at_b))) return;
-    const Index beside_a = other.beside[next_of(k)];
-    const Index beside_b = other.beside[previous_of(k)];
-    pieces_[here] = {{a, q, p}, {beside_a, there, mine.beside[2]}};
-    pieces_[there] = {{q, b, p}, {beside_b, mine.beside[1], here}};
-    replace_neighbour(beside_a, there, here);
-    replace_neighbour(mine.beside[1], here, there);
+    const Index across_a = other.neighbours[next_of(k)];
+    const Index across_b = other.neighbours[previous_of(k)];
+    pieces_[here] = {{a, q, p}, {across_a, there, mine.neighbours[2]}};
+    pieces_[there] = {{q, b, p}, {across_b, mine.neighbours[1], here}};
+    replace_neighbour(across_a, there, here);
+    replace_neighbour(mine.neighbours[1], here, there);
     unchecked_.push_back(here);
     unchecked_.push_back(there);
 }

@@ -19,9 +19,9 @@ public:
     void add(const Vec2& p);
 
     struct Piece {
-        std::array<Index, 3> points;  //!< Counter-clockwise.
-        std::array<Index, 3> beside;  //!< The piece across the side from point k to k + 1;
-                                      //!< no_index: the side is one of the face.
+        std::array<Index, 3> points;      //!< Counter-clockwise.
+        std::array<Index, 3> neighbours;  //!< The piece across the side from point k to k + 1;
+                                          //!< no_index: the side is one of the face.
     };
     [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
 

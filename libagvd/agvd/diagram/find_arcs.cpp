@@ -1,5 +1,7 @@
 // Tries three ways on each triangle, the quickest first: one straight arc; the face's own relays;
-// the relays that are the nearest on the triangle's edges.
+// the relays that are the nearest on the triangle's edges. A way counts only if its arcs fit the
+// labels on the edges and each other; otherwise what it wrote is taken back. The last way always
+// gives a result.
 #include "agvd/diagram/find_arcs.h"
 
 #include <algorithm>

@@ -1,5 +1,7 @@
 // Points and intervals of one label that touch are united by union-find. What is not united with
-// its cell's site is an island. Nodes are numbered as in intervals.h.
+// its cell's site is an island. Nodes are numbered as in intervals.h. It gets the label of a
+// neighbouring cell that is connected to its own site, on edges and cuts alike, and the faces
+// around it lose their arcs, which are traced again.
 #include "agvd/diagram/islands.h"
 
 #include <algorithm>
@@ -49,7 +51,7 @@ std::vector<Index> faces_of_cells(const Surface& surface, const DiagramParts& pa
     const auto visit = [&](Index face) {
         if (std::exchange(is_seen[face], 1) == 0 && is_reached(face)) faces.push_back(face);
     };
-    for (const Index face : faces_beside(parts, cells)) visit(face);
+    for (const Index face : faces_on_borders(parts, cells)) visit(face);
     for (std::size_t i = 0; i < faces.size(); ++i) {
         for (Index h = 3 * faces[i]; h < 3 * faces[i] + 3; ++h) {
             if (surface.twin[h] != no_index) visit(Surface::face(surface.twin[h]));
@@ -175,7 +177,7 @@ void count_row(const IslandSearch& search, const Row& row, LineId line, int sign
     }
 }
 
-void add_faces_beside(const IslandSearch& search, LineId line, std::vector<Index>& faces) {
+void add_faces_of_line(const IslandSearch& search, LineId line, std::vector<Index>& faces) {
     if (line.is_cut()) {
         faces.push_back(search.parts.labels.cuts[line.cut()].face);
         return;
@@ -205,7 +207,7 @@ void relabel_row(IslandSearch& search, const Row& row, std::vector<Index>& stale
     labels.crossings.release(*row.crossings);
     *row.crossings = labels.crossings.add(kept);
     count_row(search, row, line, 1);
-    add_faces_beside(search, line, stale_faces);
+    add_faces_of_line(search, line, stale_faces);
 }
 
 // An inner point is the place of its site, so only mesh vertices get other labels.

@@ -1,5 +1,6 @@
 // Follows arcs from crossing to crossing. An edge is taken apart when one of its faces loses its
-// arcs; the arcs that it leaves in other faces are joined again.
+// arcs; the arcs that it leaves in other faces are joined again. Keys give the edges an order that
+// depends on the faces alone and not on the changes before.
 #include "agvd/diagram/join.h"
 
 #include <algorithm>

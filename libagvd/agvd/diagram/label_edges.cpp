@@ -1,4 +1,7 @@
-// Edges are labelled in chunks side by side and stored in their order.
+// Labels the edges of the mesh: the stretches of each edge and the sites that are nearest there.
+// Edges are labelled in chunks in parallel, by the lower envelope of their relays (envelope.h), and
+// stored in their order. Reads of the face across an edge miss the cache, so they are prefetched
+// some edges ahead.
 #include "agvd/diagram/label_edges.h"
 
 #include <algorithm>

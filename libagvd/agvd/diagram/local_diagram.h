@@ -1,5 +1,7 @@
 //! \file
-//! The arcs of bisectors inside the triangles of one chunk of faces.
+//! The arcs of bisectors inside the triangles of one chunk of faces. The faces of a chunk are
+//! traced into one LocalDiagram; indices in it count from the beginning of the chunk, and ArcStore
+//! makes them places in its pools.
 #pragma once
 
 #include <array>

@@ -90,7 +90,7 @@ std::vector<Index> count_loops(const Surface& surface, const DiagramParts& parts
     return count;
 }
 
-std::vector<Index> faces_beside(const DiagramParts& parts, const CellSet& cells) {
+std::vector<Index> faces_on_borders(const DiagramParts& parts, const CellSet& cells) {
     std::vector<Index> faces;
     for (const Index name : parts.joined.order) {
         const JoinedEdges::Edge& edge = parts.joined.edges[name];

@@ -12,7 +12,8 @@ namespace agvd {
 [[nodiscard]] std::vector<Index> count_loops(const Surface& surface, const DiagramParts& parts,
                                              const CellSet& cells);
 
-//! \return a face beside each Voronoi edge that bounds one of these cells, in any order.
-[[nodiscard]] std::vector<Index> faces_beside(const DiagramParts& parts, const CellSet& cells);
+//! \return for each Voronoi edge that bounds one of these cells a face that it passes, in any
+//! order.
+[[nodiscard]] std::vector<Index> faces_on_borders(const DiagramParts& parts, const CellSet& cells);
 
 }  // namespace agvd

@@ -44,8 +44,8 @@ void RelayTree::find_near(const Vec2& p, double radius, std::vector<Index>& out)
     while (num_open > 0) {
         const Index i = open[--num_open];
         const Node& node = nodes_[i];
-        const Vec2 beside = (node.low - p).cwiseMax(p - node.high).cwiseMax(0.0);
-        if (!(node.least_weight + beside.norm() <= radius)) continue;
+        const Vec2 outside = (node.low - p).cwiseMax(p - node.high).cwiseMax(0.0);
+        if (!(node.least_weight + outside.norm() <= radius)) continue;
         if (node.second_half != no_index) {
             open[num_open++] = node.second_half;
             open[num_open++] = i + 1;

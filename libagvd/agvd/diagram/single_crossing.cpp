@@ -1,5 +1,7 @@
 // Notation: f_a and f_b are the distances from two sites along the segment [0, length], each the
 // least over the site's relays. [lo, hi] brackets a root of f_a - f_b: a is nearer at lo, b at hi.
+// Newton steps find the root; tangents at the root against chords to the ends of the segment prove
+// that it is the only one, since distances along a segment are convex.
 #include "agvd/diagram/single_crossing.h"
 
 #include <algorithm>

@@ -12,8 +12,8 @@ Vec2 position_of(const TriangleBoundary& boundary, const LocalDiagram& local, No
                                     : boundary.breakpoints[node.crossing()].position;
 }
 
-void add_area_beside(const TriangleBoundary& boundary, const LocalDiagram& local,
-                     const LocalArc& arc, TriangleParts parts) {
+void add_area_along(const TriangleBoundary& boundary, const LocalDiagram& local,
+                    const LocalArc& arc, TriangleParts parts) {
     const Vec2 head = position_of(boundary, local, arc.head);
     Vec2 last = position_of(boundary, local, arc.tail);
     double doubled = 0;
@@ -68,7 +68,7 @@ void count_arcs(const TriangleBoundary& boundary, const LocalDiagram& local,
         parts.add(local.connections[i].site, -1, 0);
     }
     for (std::size_t i = before.arcs; i < local.arcs.size(); ++i) {
-        add_area_beside(boundary, local, local.arcs[i], parts);
+        add_area_along(boundary, local, local.arcs[i], parts);
     }
 }
 

@@ -1,3 +1,12 @@
+// Carries points, segments and polygons through a record of flips, splits and merges ([sharp2019]
+// trace geodesics instead). Operations are linked face by face, forward and backward, so that a
+// point passes only those that touch its face.
+//
+// Notation: a flip replaces the faces (a, b, c) and (b, a, d) by (a, d, c) and (d, b, c), where
+//   d = q.tail a + q.head b + q.apex c;
+// a split is the same with the middle of the side ab for d, and without the second face. A merge
+// removes m = q[0] a + q[1] b + q[2] c: its faces become (a, b, c). Shares are barycentric
+// coordinates; a slot is the number of a face within its operation.
 #include "agvd/intrinsic/face_history.h"
 
 #include <algorithm>

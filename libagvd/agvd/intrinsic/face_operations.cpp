@@ -1,3 +1,7 @@
+// Flips and splits on a surface that is given by lengths. The corners of the faces are laid out in
+// one plane from the charts of the faces, which pass rotations on and never compute them from a
+// short side (docs/algorithm.md, "Charts"). A flip applies the test of Lawson's algorithm for
+// intrinsic Delaunay triangulations ([bobenko2007], [fisher2007]).
 #include "agvd/intrinsic/face_operations.h"
 
 #include <algorithm>
@@ -60,7 +64,7 @@ std::array<Index, 2> cut_face(Surface& surface, FaceCharts& charts, Index half_e
 
 }  // namespace
 
-Index raise_flat_faces(Surface& surface, int num_threads, Poller& poller) {
+Index raise_degenerate_faces(Surface& surface, int num_threads, Poller& poller) {
     std::vector<Index> raised(num_chunks(surface.num_faces(), pass_grain), 0);
     const auto raise = [&](Index chunk, Index begin, Index end) {
         for (Index f = begin; f < end; ++f) {

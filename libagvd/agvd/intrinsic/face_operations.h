@@ -18,7 +18,7 @@ struct QuadShares {
 
 //! Gives a height to every face that has less than `least_doubled_area`.
 //! \return the number of such faces. Cost: O(#F).
-Index raise_flat_faces(Surface& surface, int num_threads, Poller& poller);
+Index raise_degenerate_faces(Surface& surface, int num_threads, Poller& poller);
 
 //! Two faces with a common edge, laid out in one plane: the tail of the half-edge at (0, 0), the
 //! apex on its left, the corner across on its right.

@@ -1,3 +1,7 @@
+// Describes each face of the base by pieces with a point and an area vector in space. The pieces
+// of a changed face are the parts of the input's faces in it, mapped back through the record; if
+// these are too many, evenly spread points are mapped instead. Faces that are planar in space need
+// one piece. Chunks of faces are processed in parallel and joined in order.
 #include "agvd/intrinsic/face_pieces.h"
 
 #include <algorithm>
@@ -34,7 +38,7 @@ Vec3 area_vector(const Surface& surface, Index face) {
 
 // Whether the sides of a face are straight in space. Then they lie on the surface, and the face is
 // flat: no other surface between them is as small.
-bool is_flat(const Surface& surface, Index face) {
+bool is_planar(const Surface& surface, Index face) {
     constexpr double rounding = 1e-9;  // Of a side.
     const auto& p = surface.mesh.positions;
     for (Index h = 3 * face; h < 3 * face + 3; ++h) {
@@ -82,7 +86,7 @@ void add_samples(const IntrinsicTriangulation& base, Index face, double piece_ar
 void add_pieces(const IntrinsicTriangulation& base, Index face, double piece_area,
                 std::vector<InputPart>& parts, std::vector<SurfacePiece>& pieces) {
     parts.clear();
-    if (is_flat(base.surface(), face)) {
+    if (is_planar(base.surface(), face)) {
         pieces.push_back(whole_face(base.surface(), face));
     } else if (base.parts_of(face, parts) && !parts.empty()) {
         add_parts(base.input(), parts, pieces);

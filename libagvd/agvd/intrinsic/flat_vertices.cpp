@@ -1,3 +1,10 @@
+// Removes inner vertices whose angles sum to 2 pi, in parallel. The vertices are divided into the
+// cells of a grid. A cell removes the vertices whose neighbours it owns, and records flips and
+// merges on its own; the records are joined in the order of the cells, so that the result is the
+// same for any number of threads. Vertices on the rims of cells follow on one thread.
+//
+// Within a cell vertices are removed in rounds: no two neighbours in one round, and vertices of few
+// edges first. So the operations that a point passes stay few.
 #include "agvd/intrinsic/flat_vertices.h"
 
 #include <algorithm>

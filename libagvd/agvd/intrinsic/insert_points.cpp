@@ -1,3 +1,7 @@
+// Inserts points one by one and keeps, for each part of a face of the surface, the points that
+// still wait in it. When a part is cut, orientations in the barycentric coordinates of the old face
+// decide which of the new parts gets each waiting point. The coordinates of the old face are exact
+// for all points, so rounding does not add up.
 #include "agvd/intrinsic/insert_points.h"
 
 #include <algorithm>

@@ -1,3 +1,9 @@
+// Builds the base in the order of docs/algorithm.md, "Intrinsic triangulation": raise degenerate
+// faces, remove flat vertices, flip to Delaunay ([bobenko2007], [fisher2007]), split long edges.
+// FaceHistory records every change and maps points and segments both ways.
+//
+// Splits take the longest edge first and restore the Delaunay condition after each. Edges that
+// flips have made longer are found by another search when the queue is empty.
 #include "agvd/intrinsic/intrinsic_triangulation.h"
 
 #include <algorithm>
@@ -26,14 +32,17 @@ constexpr std::size_t split_work = 16;
 
 void check_options(const Surface& input, const IntrinsicOptions& options) {
     if (!(options.max_length > 0)) {
-        throw InvalidOption("max_length of the intrinsic triangulation is not above 0");
+        throw InvalidOption("max_length is " + std::to_string(options.max_length) +
+                            "; use a number above 0");
     }
     if (!(options.min_length >= 0)) {
-        throw InvalidOption("min_length of the intrinsic triangulation is below 0");
+        throw InvalidOption("min_length is " + std::to_string(options.min_length) +
+                            "; use 0 or more");
     }
     if (!options.is_kept.empty() && options.is_kept.size() != input.num_edges()) {
         throw InvalidOption("is_kept has " + std::to_string(options.is_kept.size()) +
-                            " entries for " + std::to_string(input.num_edges()) + " edges");
+                            " entries, but the surface has " + std::to_string(input.num_edges()) +
+                            " edges; give one for each, or none");
     }
 }
 
@@ -148,7 +157,8 @@ void IntrinsicTriangulation::run(const IntrinsicOptions& options) {
     Poller poller(options.progress);
     Ticker ticker(poller);
     ticker.poll();
-    counts_.flat_faces = detail::raise_flat_faces(surface_, options.num_threads, poller);
+    counts_.degenerate_faces =
+        detail::raise_degenerate_faces(surface_, options.num_threads, poller);
     change_faces(options, poller, ticker);
     if (counts_.removed > 0) detail::compact_faces(surface_, *history_);
     history_->shrink();

@@ -33,10 +33,10 @@ struct IntrinsicOptions {
 
 struct IntrinsicCounts {
     std::size_t flips = 0;
-    Index splits = 0;         //!< Edges split: vertices added.
-    Index removed = 0;        //!< Vertices without curvature that were removed: they have no faces.
-    Index flat_faces = 0;     //!< Degenerate faces of the input, which got the least area.
-    bool is_delaunay = true;  //!< False: flips ended before the condition held everywhere.
+    Index splits = 0;   //!< Edges split: vertices added.
+    Index removed = 0;  //!< Vertices without curvature that were removed: they have no faces.
+    Index degenerate_faces = 0;  //!< Degenerate faces of the input, which got the least area.
+    bool is_delaunay = true;     //!< False: flips ended before the condition held everywhere.
 };
 
 //! A convex part of a face of the input.

@@ -1,3 +1,6 @@
+// Thins one component to given points ([liu2023]): makes it a surface of its own, cuts edges until
+// it is simplicial, inserts the points as vertices, and removes all other vertices. A vertex of the
+// result is named by the point that it is, or by its place on the whole surface if it had to stay.
 #include "agvd/intrinsic/thin.h"
 
 #include <algorithm>
@@ -107,7 +110,7 @@ ThinnedMesh thin(const Surface& surface, std::span<const Index> faces,
     Part part = part_of(surface, faces);
     Surface& s = part.surface;
     Poller never;
-    (void)detail::raise_flat_faces(s, 1, never);
+    (void)detail::raise_degenerate_faces(s, 1, never);
     FaceCharts charts(s);
     const FaceHistory history = make_simplicial(part, charts, faces);
     std::vector<SurfacePoint> local(points.begin(), points.end());

@@ -1,3 +1,6 @@
+// Inserts a vertex into a face, and removes vertices that have become simple: inner ones with three
+// faces, boundary ones with two or with one. Each operation updates corners, twins, edges, lengths
+// and charts of the few faces that it touches. What is removed leaves gaps in the arrays.
 #include "agvd/intrinsic/vertex_operations.h"
 
 #include <algorithm>

@@ -1,3 +1,9 @@
+// Removes vertices in the order of (curvature + a small constant) times mean edge length
+// ([liu2023]). The lengths around the vertex are scaled by one factor until its angles sum to 2 pi
+// (pi on the boundary), which is a conformal change ([springborn2008]). Its edges are flipped away,
+// the one that gives the best triangle first, until three faces (two on the boundary) are left,
+// which merge. The rest is kept Delaunay, and no flip may repeat an edge. Vertices that cannot be
+// removed in this way are tried again with the lengths of straight edges in space.
 #include "agvd/intrinsic/vertex_removal.h"
 
 #include <algorithm>

@@ -1,3 +1,9 @@
+// Lays the faces around a flat vertex out in one plane, and finds there how to remove it: flips
+// until three edges are left, or four of which two form a straight line, then a merge. Sectors of
+// the ring stand for faces while flips are found; faces of the surface are written once at the end.
+//
+// Notation: m is the vertex at (0, 0). A sector lies between two consecutive spokes, edges from m
+// to its neighbours; the rim of a sector is the side of its face opposite to m.
 #include "agvd/intrinsic/vertex_ring.h"
 
 #include <algorithm>

@@ -16,18 +16,18 @@ void check_site(const Surface& surface, const SurfacePoint& site, std::size_t in
         throw InvalidInput("site " + std::to_string(index) + why);
     };
     if (site.face.value() >= surface.num_faces()) {
-        refuse(" names a face that does not exist; there are " +
+        refuse(" names a face that does not exist; use one of the " +
                std::to_string(surface.num_faces()) + " faces, counted from 0");
     }
     double sum = 0;
     for (const double b : site.barycentric) {
         if (!(b >= 0)) {
-            refuse(" has a negative barycentric coordinate; a site must lie in its face");
+            refuse(" has barycentric coordinates of which one is negative; correct them");
         }
         sum += b;
     }
     if (!(std::abs(sum - 1) <= barycentric_tolerance)) {
-        refuse(" has barycentric coordinates that do not sum to 1; divide them by their sum");
+        refuse(" has barycentric coordinates that do not sum to 1; correct them");
     }
 }
 

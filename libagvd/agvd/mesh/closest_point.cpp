@@ -1,3 +1,7 @@
+// Finds the nearest point of a mesh with a tree of bounding boxes that halves the faces at the
+// median of their centres. A query visits the nearer child first and skips boxes that are farther
+// than the best point so far. Ties go to the lowest face: sides are measured in an order that does
+// not depend on the face, so that all faces at an edge give the same bits.
 #include "agvd/mesh/closest_point.h"
 
 #include <algorithm>
@@ -20,7 +24,7 @@ constexpr double padding_share = 1e-15;
 // this.
 constexpr double needle = 1e-8;
 // A point with a barycentric coordinate below this may lie on the side.
-constexpr double beside_side = 1e-6;
+constexpr double near_side = 1e-6;
 
 bool comes_before(const Vec3& a, const Vec3& b) {
     return std::tie(a.x(), a.y(), a.z()) < std::tie(b.x(), b.y(), b.z());
@@ -73,7 +77,7 @@ ClosestPoint closest_point_on_triangle(const std::array<Vec3, 3>& corners, FaceI
     ClosestPoint best;
     best.distance_sq = std::numeric_limits<double>::infinity();
     for (std::size_t k = 0; k < 3; ++k) {
-        if (!is_needle && b[(k + 2) % 3] > beside_side) continue;
+        if (!is_needle && b[(k + 2) % 3] > near_side) continue;
         take_nearer(best, closest_point_on_side(corners, face, k, query));
     }
     if (b[0] > 0 && b[1] > 0 && b[2] > 0) {  // False for NaN, when there is no area.
@@ -95,7 +99,7 @@ ClosestPointTree::ClosestPointTree(const MeshView& mesh, const Progress& progres
     Ticker ticker(poller);
     const auto num_faces = static_cast<Index>(mesh.triangles.size());
     if (num_faces == 0) {
-        throw InvalidInput("the mesh has no face, so no point is nearest; check the input");
+        throw InvalidInput("the mesh has no face; check that the file holds a surface");
     }
     const auto corners_of = [&](Index face) {
         const Triangle& t = mesh.triangles[face];

@@ -1,3 +1,8 @@
+// Pairs half-edges without sorting all of them. Half-edges that run from a lower to a higher vertex
+// are listed at their tails; every other half-edge searches for its twin in the list of its head.
+// Then walks around all vertices are counted: they pass every half-edge only if the faces around
+// each vertex form one fan. Passes run in parallel; the result does
+// not depend on the number of threads.
 #include "agvd/mesh/connectivity.h"
 
 #include <algorithm>

@@ -5,9 +5,9 @@
 namespace agvd {
 namespace {
 
-constexpr double beside_vertex = 1e-12;  // A share of the edge length.
-constexpr double beside_edge = 1e-12;    // A share of the height of the face.
-constexpr double flat = 1e-3;            // A share of the position along the edge.
+constexpr double at_vertex = 1e-12;     // A share of the edge length.
+constexpr double on_edge = 1e-12;       // A share of the height of the face.
+constexpr double on_edge_slope = 1e-3;  // A share of the position along the edge.
 
 }  // namespace
 
@@ -21,11 +21,11 @@ std::optional<Index> corner_of(const Surface& surface, const SurfacePoint& point
     for (Index k = 0; k < 3; ++k) {
         const double to_next = b[(k + 1) % 3], to_last = b[(k + 2) % 3];
         // A quick test without the edges' lengths.
-        if (to_next + to_last > beside_vertex) continue;
+        if (to_next + to_last > at_vertex) continue;
         const Index h = 3 * point.face.value() + k;
         if (to_next == 0 && to_last == 0) return h;
         const double next = surface.length_of(h), last = surface.length_of(Surface::previous(h));
-        if (to_next * next + to_last * last <= beside_vertex * std::min(next, last)) return h;
+        if (to_next * next + to_last * last <= at_vertex * std::min(next, last)) return h;
     }
     return std::nullopt;
 }
@@ -35,7 +35,7 @@ std::optional<Index> half_edge_of(const SurfacePoint& point) {
     for (Index k = 0; k < 3; ++k) {
         const double height = b[(k + 2) % 3];
         const double along = std::min(b[k], b[(k + 1) % 3]);
-        if (along > 0 && height <= std::min(beside_edge, flat * along)) {
+        if (along > 0 && height <= std::min(on_edge, on_edge_slope * along)) {
             return 3 * point.face.value() + k;
         }
     }

@@ -65,8 +65,8 @@ void check_digits(const MeshBox& box) {
     if (box.longest_side() >= std::ldexp(farthest, -most_lost)) return;
     std::ostringstream text;
     text << "the mesh is " << box.longest_side() << " long, but lies " << farthest
-         << " from the origin: its coordinates have no digits left for its shape; move it to the "
-            "origin before it is saved";
+         << " from the origin, so that its coordinates have too few digits for its shape; "
+            "move it to the origin before you save it";
     throw InvalidInput(text.str());
 }
 

@@ -1,3 +1,7 @@
+// Builds a surface from a mesh: checks the elements, pairs half-edges, numbers edges, and computes
+// lengths, layouts of faces, and the vertices at which geodesics may bend. The quick search for
+// pairs only says that the mesh is no oriented 2-manifold; then a second, slower one finds the
+// first faulty element for the text of the error.
 #include "agvd/mesh/surface.h"
 
 #include <algorithm>
@@ -19,8 +23,9 @@ void check_elements(const MeshView& mesh, Ticker& ticker) {
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         ticker.tick();
         if (!mesh.positions[v].allFinite()) {
-            throw InvalidInput("vertex " + std::to_string(v) +
-                               " has a coordinate that is not finite" + remedy);
+            throw InvalidInput(
+                "vertex " + std::to_string(v) +
+                " has a coordinate that is not finite; correct or delete the vertex");
         }
     }
     if (mesh.triangles.size() > no_index / 3) {
@@ -32,12 +37,13 @@ void check_elements(const MeshView& mesh, Ticker& ticker) {
         for (const Index v : t) {
             if (v >= mesh.positions.size()) {
                 throw InvalidInput("face " + std::to_string(f) + " names vertex " +
-                                   std::to_string(v) + ", but there are only " +
-                                   std::to_string(mesh.positions.size()) + remedy);
+                                   std::to_string(v) + ", but the mesh has only " +
+                                   std::to_string(mesh.positions.size()) +
+                                   " vertices, counted from 0; correct or delete the face");
             }
         }
         if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) {
-            throw InvalidInput("face " + std::to_string(f) + " repeats a corner" + remedy);
+            throw InvalidInput("face " + std::to_string(f) + " names a vertex twice" + remedy);
         }
     }
 }
@@ -147,18 +153,18 @@ void measure(Surface& surface, int num_threads, Poller& poller) {
     surface.apex.resize(surface.twin.size());
     poller.poll();
     const auto num_half_edges = static_cast<Index>(surface.twin.size());
-    std::vector<Index> first_flat(num_chunks(num_half_edges, pass_grain), no_index);
+    std::vector<Index> degenerate(num_chunks(num_half_edges, pass_grain), no_index);
     const auto find_apexes = [&](Index chunk, Index begin, Index end) {
         for (Index h = begin; h < end; ++h) {
             surface.apex[h] = surface.apex_in_space(h);
             const double height = surface.apex[h].y();
             if (!(height > 0) || !std::isfinite(height))
-                first_flat[chunk] = std::min(first_flat[chunk], h);
+                degenerate[chunk] = std::min(degenerate[chunk], h);
         }
     };
     parallel_chunks(num_half_edges, pass_grain, num_threads, find_apexes, poller);
-    const auto first = std::min_element(first_flat.begin(), first_flat.end());
-    if (first != first_flat.end() && *first != no_index) {
+    const auto first = std::min_element(degenerate.begin(), degenerate.end());
+    if (first != degenerate.end() && *first != no_index) {
         throw InvalidInput("face " + std::to_string(*first / 3) + " has no area" + remedy);
     }
 }

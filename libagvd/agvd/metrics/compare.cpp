@@ -1,3 +1,7 @@
+// Measures diagrams against CGAL's exact distances. One exact search from all sites answers the
+// random samples and the vertices. The questions of all approximations to one site are collected,
+// so that each site is searched once: the distances at the points of its bisectors, and of the
+// samples that an approximation gives to it although another site is nearest.
 #include "agvd/metrics/compare.h"
 
 #include <algorithm>

@@ -1,3 +1,10 @@
+// Compares two diagrams by the measure of [meng2023] Sec. 6.2, by the area that lies in different
+// cells (at random points), and by the Hausdorff distance of the bisectors (at points one spacing
+// apart). Loops of a cell are matched nearest first. Exact distances from the two sites of a
+// bisector come from the window engine, which runs on a patch around each site.
+//
+// Notation: a loop of a cell is a closed polyline; F is the sum of Fréchet distances (Eq. 8), and
+// delta = 1 - exp(-F / unit / c^2) (Eq. 9), where the unit is the mean cell radius.
 #include "agvd/metrics/compare_diagrams.h"
 
 #include <algorithm>
@@ -23,8 +30,9 @@ void check(const Surface& surface, const Diagram& a, const Diagram& b,
     if (!(options.spacing > 0) || !(options.c > 0) || options.area_samples < 1 ||
         options.max_loop_points < least_loop_points) {
         throw InvalidOption(
-            "spacing and c must be above 0, there must be an area sample, and at least 8 points "
-            "for a loop");
+            "an option of the comparison is out of range; use a spacing and c above 0, at least 1 "
+            "area "
+            "sample and at least 8 points for each loop");
     }
     if (a.num_sites != b.num_sites) {
         throw InvalidInput("the diagrams have " + std::to_string(a.num_sites) + " and " +
@@ -33,9 +41,10 @@ void check(const Surface& surface, const Diagram& a, const Diagram& b,
     }
     for (const Diagram* diagram : {&a, &b}) {
         if (diagram->nearest_site.size() == surface.num_vertices()) continue;
-        throw InvalidInput("a diagram labels " + std::to_string(diagram->nearest_site.size()) +
-                           " vertices of " + std::to_string(surface.num_vertices()) +
-                           "; give the surface that it was built on");
+        throw InvalidInput(
+            "the diagram has labels for " + std::to_string(diagram->nearest_site.size()) +
+            " vertices, but the surface has " + std::to_string(surface.num_vertices()) +
+            "; use the surface that the diagram was built on");
     }
 }
 
@@ -239,7 +248,7 @@ std::vector<BisectorError> exact_bisector_errors(const Surface& surface,
                                                  std::span<const SurfacePoint> sites,
                                                  std::span<const Diagram* const> diagrams,
                                                  const BisectorErrorOptions& options) {
-    if (options.max_points < 1) throw InvalidOption("measure at least one point");
+    if (options.max_points < 1) throw InvalidOption("max_points is 0; use 1 or more");
     std::vector<SiteDistanceQuery> queries;  // Left and right site of each sample in turn.
     std::vector<std::size_t> begin{0};       // Of each diagram's.
     for (const Diagram* diagram : diagrams) {

@@ -1,3 +1,10 @@
+// Exact distances by CGAL's Surface_mesh_shortest_path ([xin2009]). The search from a site sees
+// only the part of the surface within reach in space, which holds every shortest path that is no
+// longer than the reach; the reach grows until all targets are answered. A search from all sites at
+// once gives upper bounds, which tell which single sites must be asked.
+//
+// CGAL up to at least 5.5 has faults with sources on edges: the functions below say how each is
+// avoided.
 #include "agvd/metrics/oracle.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -230,7 +237,8 @@ std::vector<std::vector<double>> exact_distances(const Surface& surface,
                                                  int num_threads) {
     if (sites.size() != targets.size()) {
         throw InvalidInput("there are " + std::to_string(sites.size()) + " sites, but " +
-                           std::to_string(targets.size()) + " lists of targets; give one for each");
+                           std::to_string(targets.size()) +
+                           " lists of targets; give one list for each site");
     }
     std::vector<std::vector<double>> distances(sites.size());
     for_each_site(sites.size(), num_threads,

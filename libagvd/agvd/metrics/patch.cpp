@@ -1,3 +1,7 @@
+// Gathers the faces within a radius by a search across edges, gives each run of faces around a
+// vertex a vertex of its own, and inserts the points: first those on edges, which both faces of the
+// edge must share, then those inside faces, one by one. Each insertion splits the part that holds
+// the point into three, or the two parts at a side into two each.
 #include "agvd/metrics/patch.h"
 
 #include <algorithm>

@@ -1,5 +1,7 @@
 //! \file
-//! Buckets of items, in order of their numbers: the store below the queues of all engines.
+//! Buckets of items, in order of their numbers: the store below the queues of all engines. A bucket
+//! holds a range of distances, so a bucket queue replaces a heap: adding and removing an item takes
+//! constant time, and items of one bucket come in the order in which they were added.
 #pragma once
 
 #include <algorithm>

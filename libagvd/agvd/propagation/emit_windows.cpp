@@ -1,3 +1,6 @@
+// Sends the first windows of a site, and those of pseudo-sources ([mitchell1987]). A pseudo-source
+// emits windows only into its shadow: the directions that make at least pi with the arrival on both
+// sides. Its sides are found by unfolding the faces around the vertex, without computing angles.
 #include "agvd/propagation/emit_windows.h"
 
 #include <algorithm>
@@ -32,13 +35,13 @@ void emit_from_face(FrontState& front, const SurfacePoint& point, Index skipped)
 
 // Beside a vertex rounding may leave gaps between the faces that the site sees: one or two of ten
 // thousand such sites. What leaves through the vertex fills them, and dies elsewhere.
-void emit_beside_vertices(FrontState& front, const SurfacePoint& site) {
+void emit_from_near_vertices(FrontState& front, const SurfacePoint& site) {
     const Surface& surface = front.input.surface;
     for (Index h = 3 * site.face.value(); h < 3 * site.face.value() + 3; ++h) {
         const double distance = position_in_frame(surface, site, h).norm();
         const double shorter =
             std::min(surface.length_of(h), surface.length_of(Surface::previous(h)));
-        if (distance > beside_vertex * shorter) continue;
+        if (distance > near_vertex * shorter) continue;
         (void)emit_fan(front, fan_around(front, vertex_record(front, surface.tail(h))));
     }
 }
@@ -104,7 +107,7 @@ void emit_from_site(FrontState& front, const SurfacePoint& site) {
     if (half_edge && surface.twin[*half_edge] != no_index) {
         emit_from_face(front, across_edge(surface, site, *half_edge), surface.twin[*half_edge]);
     }
-    emit_beside_vertices(front, site);
+    emit_from_near_vertices(front, site);
 }
 
 void emit_from_pseudo_source(FrontState& front, const PseudoSource& source) {

@@ -1,3 +1,6 @@
+// Sorts logged windows by face in two passes over ranges of faces, both in parallel: the first
+// counts the mixed faces and relays of each range, the second writes them behind those of the
+// ranges before. Only faces with relays, corners or sites of more than one site are written.
 #include "agvd/propagation/mixed_faces.h"
 
 #include <algorithm>

@@ -23,8 +23,9 @@ void check_steiner_options(const Surface& surface, const PropagationOptions& opt
             "the Steiner engine cannot be exact; use the window engine or an error above 0");
     }
     if (!NodeNumbers::suffice(surface, static_cast<Index>(options.steiner_points))) {
-        throw InvalidOption("this mesh with " + std::to_string(options.steiner_points) +
-                            " Steiner points per edge needs more than 2^32 nodes; use fewer");
+        throw InvalidOption(
+            "this mesh with " + std::to_string(options.steiner_points) +
+            " Steiner points per edge needs more than 2^32 nodes; use fewer Steiner points");
     }
 }
 
@@ -38,7 +39,7 @@ void check_options(const Surface& surface, const PropagationOptions& options) {
     if (options.engine == Engine::Steiner) check_steiner_options(surface, options);
     if (options.engine == Engine::Vertex && options.max_error) {
         throw InvalidOption(
-            "the vertex engine knows no error bound; leave max_error unset, or use the window or "
+            "the vertex engine has no error bound; leave max_error unset, or use the window or "
             "the Steiner engine");
     }
 }

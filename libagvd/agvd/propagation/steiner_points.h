@@ -1,5 +1,7 @@
 //! \file
-//! The nodes of the Steiner graph: the vertices, and evenly spaced points on each edge.
+//! The nodes of the Steiner graph ([meng2023] Sec. 4.1): the vertices, and evenly spaced points on
+//! each edge. Nodes are numbered by formula, vertices first; m points divide an edge into m + 1
+//! equal parts. The number of points may differ from edge to edge.
 #pragma once
 
 #include <algorithm>

@@ -1,3 +1,8 @@
+// Inserts Steiner points until the distances of all vertices are within an error
+// (docs/algorithm.md, "Propagation"). Each round propagates, compares the vertices with the exact
+// distances of the window engine, and doubles the points on the edges of the faces that the paths
+// of bad vertices cross. If a vertex does not improve, all faces that a path of its exact length
+// can cross get more points. After the last round, or when the error is out of reach, it throws.
 #include "agvd/propagation/steiner_refinement.h"
 
 #include <cmath>
@@ -55,11 +60,10 @@ bool is_in_reach(double error, double max_error, Index most_points) {
 [[noreturn]] void refuse(double max_error, const VertexErrors& errors, int rounds,
                          const SteinerCounts& counts, Index num_edges, const char* reason) {
     std::ostringstream text;
-    text << "the Steiner engine cannot meet a maximal error of " << max_error
-         << " here: after round " << rounds << ", with up to " << counts.most()
-         << " Steiner points on an edge (" << counts.total(num_edges) / num_edges
-         << " on average), the distance of vertex " << errors.worst() << " is off by "
-         << errors[errors.worst()] << ", and " << reason
+    text << "the Steiner engine cannot keep a maximal error of " << max_error << ": after round "
+         << rounds << ", with up to " << counts.most() << " Steiner points on an edge ("
+         << counts.total(num_edges) / num_edges << " on average), the distance of vertex "
+         << errors.worst() << " is off by " << errors[errors.worst()] << ", and " << reason
          << "; allow a larger error, or use the window engine";
     throw ConstraintUnmet(text.str());
 }
@@ -106,13 +110,13 @@ Propagation propagate_steiner_within(const Surface& surface, std::span<const Sur
         }
         const char* reason = nullptr;
         if (round == max_rounds) {
-            reason = "more rounds are not tried";
+            reason = "that is the last round";
         } else if (!is_in_reach(worst, max_error, counts.most())) {
-            reason = "1000 points, the most there may be, would not do";
+            reason = "1000 points on each edge, the most that are allowed, would not suffice";
         } else if (!insertion.insert()) {
-            reason = "the edges along its path hold 1000 points, the most there may be";
+            reason = "the edges along its path have 1000 points, the most that are allowed";
         } else if (!NodeNumbers::suffice(surface, SteinerCounts(insertion.points()).most())) {
-            reason = "more points would need more than 2^32 nodes";
+            reason = "more points need more than 2^32 nodes";
         }
         if (reason) refuse(max_error, errors, round, counts, surface.num_edges(), reason);
     }

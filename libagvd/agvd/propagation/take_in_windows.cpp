@@ -1,3 +1,8 @@
+// Merges the windows that wait at a half-edge into its lower envelope. Windows that lose to the
+// bounds of the edge's ends are dropped: one comparison, where the paths from both ends meet,
+// decides for the whole interval. Windows mostly come in order along the edge, and one cut between
+// neighbours is enough; the others are inserted one by one. At last neighbours that have not been
+// served are merged as far as the error allows.
 #include "agvd/propagation/take_in_windows.h"
 
 #include <algorithm>

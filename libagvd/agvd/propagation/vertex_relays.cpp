@@ -1,3 +1,6 @@
+// Makes the relays of a face from the views of its corners and of the far corners of its
+// neighbours. A view is the image of a site that a vertex sees through an edge of a face. A corner
+// is a relay itself only if no image, site or neighbour's corner represents its path in the face.
 #include "agvd/propagation/vertex_relays.h"
 
 #include <algorithm>
@@ -115,16 +118,16 @@ bool VertexRelays::is_served(Index h, std::vector<Relay>& out) const {
     }
     // Edges of the neighbours: the one opposite to the corner, and the one from it to the far
     // corner.
-    const bool is_beside[2] = {across[0] != no_index, across[1] != no_index};
+    const bool has_neighbour[2] = {across[0] != no_index, across[1] != no_index};
     if (view.kind == ViewKind::Face) {  // The site is a relay of its face and of the neighbours.
         return view.half_edge == Surface::next(h) ||
-               (is_beside[0] && view.half_edge == Surface::previous(across[0])) ||
-               (is_beside[1] && view.half_edge == Surface::next(across[1]));
+               (has_neighbour[0] && view.half_edge == Surface::previous(across[0])) ||
+               (has_neighbour[1] && view.half_edge == Surface::next(across[1]));
     }
     const Index along = surface_.edge[view.half_edge];
     return along == surface_.edge[h] || along == surface_.edge[previous] ||
-           (is_beside[0] && along == surface_.edge[Surface::next(across[0])]) ||
-           (is_beside[1] && along == surface_.edge[Surface::previous(across[1])]);
+           (has_neighbour[0] && along == surface_.edge[Surface::next(across[0])]) ||
+           (has_neighbour[1] && along == surface_.edge[Surface::previous(across[1])]);
 }
 
 // Adds what passes h of the view of one end of h, which lies in the face across h.

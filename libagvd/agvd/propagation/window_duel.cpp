@@ -1,3 +1,8 @@
+// Finds where the distances of two windows are equal on an interval of their edge. With images
+// (x, y) and weights w, the distances w + sqrt((t - x)^2 + y^2) of two windows are equal at roots
+// of a quadratic, so the winner changes at most twice. In most cases the signs at the ends decide,
+// or tangents against chords, since the distances are convex; then no root is computed. Where the
+// closed form has lost its digits, regula falsi (Illinois) finds the root.
 #include "agvd/propagation/window_duel.h"
 
 #include <algorithm>

@@ -1,3 +1,11 @@
+// Runs the windows ([mitchell1987]) of one site after the other, each only as far as the bounds
+// allow, and collects distances and relays. Sites run in batches of parallel tasks. A task uses the
+// memory of a worker and hands its results over; they are taken in a fixed order, so that bytes do
+// not depend on threads.
+//
+// Windows are kept as relays in the faces near a change of label in the bounds. Where a site
+// reaches a face that the bounds give to another site, its windows are strays: the other site runs
+// once more to keep its windows there (docs/algorithm.md, "Window engine").
 #include "agvd/propagation/window_engine.h"
 
 #include <algorithm>

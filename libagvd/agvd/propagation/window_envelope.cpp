@@ -1,3 +1,11 @@
+// The lower envelope of windows along a half-edge, and the merging of windows.
+//
+// Inserting a window compares it with every old window that it overlaps (fight()), and writes the
+// pieces of both that win. Two windows of different weight can change places twice.
+//
+// Merging: the image of the merged window is where the outermost rays of both windows meet, and its
+// weight is lowered until its distances lie below both. The differences to the old distances are
+// monotone over each interval, so their values at the ends bound the error that is added.
 #include "agvd/propagation/window_envelope.h"
 
 #include <algorithm>

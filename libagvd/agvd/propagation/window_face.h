@@ -1,5 +1,8 @@
 //! \file
-//! A face that windows cross: the parts of windows that leave it on the other side.
+//! A face that windows cross: the parts of windows that leave it on the other side. The face is
+//! laid out in the frame of the half-edge through which windows enter. A child of a window is the
+//! part of its beam that leaves through one of the two other sides, in the frame beyond that side.
+//! It is dropped if it is no wider than rounding, or if paths by the corners around it are shorter.
 #pragma once
 
 #include <algorithm>

@@ -13,7 +13,7 @@ inline constexpr double grazing = 1e-10;
 //! A share of the edge: if a site is nearer to a vertex than this, rounding may hide which faces it
 //! sees past the vertex. Of
 //! 470 000 sites, most of them on edges, those up to 7e-6 away missed a vertex behind now and then.
-inline constexpr double beside_vertex = 1e-4;
+inline constexpr double near_vertex = 1e-4;
 
 //! A vector in the frame whose x axis is the unit vector `axis`.
 [[nodiscard]] inline Vec2 into(const Vec2& axis, const Vec2& v) {

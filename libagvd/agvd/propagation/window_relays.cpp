@@ -15,7 +15,7 @@ bool is_source(const Surface& surface, const Propagation& result, Index half_edg
     if (!unseen.empty() && std::binary_search(unseen.begin(), unseen.end(), v)) return true;
     return result.vertex_site[v].is_valid() &
            ((surface.can_be_pseudo_source[v] != 0) |
-            (result.vertex_distance[v] <= beside_vertex * surface.length_of(half_edge)));
+            (result.vertex_distance[v] <= near_vertex * surface.length_of(half_edge)));
 }
 
 }  // namespace

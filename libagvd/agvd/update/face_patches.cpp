@@ -1,5 +1,6 @@
 // A face keeps the relays of the sites that did not run again. Those of the sites that did are
-// patches, sorted by face with a counting sort.
+// patches, sorted by face with a counting sort. Both are merged in the order of the sites, as a
+// fresh run gives them.
 #include "agvd/update/face_patches.h"
 
 #include <algorithm>

@@ -90,8 +90,8 @@ private:
 MovingSites::MovingSites(const Surface& surface, const SurfaceLayout& layout,
                          std::vector<SurfacePoint> sites, const PropagationOptions& options) {
     if (options.engine != Engine::Window) {
-        throw InvalidOption(std::string("moving sites need the window engine, not the ") +
-                            engine_name(options.engine) + " engine");
+        throw InvalidOption(std::string("moving sites do not work with the ") +
+                            engine_name(options.engine) + " engine; use the window engine");
     }
     check_options(surface, options);
     state_ = std::make_unique<State>(surface, layout, std::move(sites), options);

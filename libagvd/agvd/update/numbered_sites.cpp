@@ -1,5 +1,7 @@
 // A change takes sites out of the search for bounds, mends the gaps, and puts sites in. Then it
-// finds the sites that lie where another one does, and the bounds that are others now.
+// finds the sites that lie where another one does, and the bounds that are others now. Callers know
+// sites by rank, which changes with every removal; numbers stay, so that stored relays need no
+// renaming.
 #include "agvd/update/numbered_sites.h"
 
 #include <algorithm>
@@ -52,10 +54,10 @@ std::vector<SurfacePoint> NumberedSites::changed_points(const SiteChanges& chang
     std::vector<bool> is_named(count, false);
     const auto name = [&](Index site) {
         if (site >= count || is_named[site]) {
-            throw InvalidInput(
-                "site " + std::to_string(site) +
-                (site >= count ? " does not exist; there are " + std::to_string(count) + " sites"
-                               : " is changed twice; name it once"));
+            throw InvalidInput("site " + std::to_string(site) +
+                               (site >= count ? " does not exist; use one of the " +
+                                                    std::to_string(count) + " sites, counted from 0"
+                                              : " is changed twice; name it once"));
         }
         is_named[site] = true;
     };

@@ -1,5 +1,6 @@
 // Compares the new run with the old one vertex by vertex and half-edge by half-edge, and tells the
-// faces in which they differ.
+// faces in which they differ. A run records the vertices whose bounds it read, so that a change of
+// other bounds does not make the site run again.
 #include "agvd/update/site_run.h"
 
 #include <algorithm>

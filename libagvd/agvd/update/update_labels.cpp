@@ -1,5 +1,6 @@
 // Stages 1 and 2 of the diagram on what a change touches. The tally is corrected for every label
-// that differs from the one before.
+// that differs from the one before. Vertices that islands had relabelled get their own labels back
+// before, so that islands are found anew as in a fresh run.
 #include "agvd/update/update_labels.h"
 
 #include <algorithm>

@@ -15,7 +15,7 @@ using agvd::Index;
 using agvd::SurfacePoint;
 
 // A face of an edge, and the edge's middle as a point of this face.
-struct Beside {
+struct EdgeMiddle {
     double area = -1;
     SurfacePoint middle;
 };
@@ -31,14 +31,15 @@ std::vector<std::uint8_t> carry_edges(std::span<const std::array<Index, 2>> edge
                                       const agvd::MeshView& mesh, const CleanedView& clean,
                                       const agvd::Surface& surface) {
     std::vector<std::uint8_t> is_carried(surface.num_edges(), 0);
-    std::map<std::pair<Index, Index>, Beside> beside;
-    for (const auto& [u, v] : edges) beside[std::minmax(u, v)];
-    // The larger of two faces is the one that cleaning keeps.
+    std::map<std::pair<Index, Index>, EdgeMiddle> middle_of;
+    for (const auto& [u, v] : edges) middle_of[std::minmax(u, v)];
+    // Of the faces at an edge the largest counts, and of equal ones the first: cleaning removes
+    // faces without area, and of duplicate faces all but the first.
     for (Index f = 0; f < mesh.triangles.size(); ++f) {
         const agvd::Triangle& t = mesh.triangles[f];
         for (std::size_t k = 0; k < 3; ++k) {
-            const auto found = beside.find(std::minmax(t[k], t[(k + 1) % 3]));
-            if (found == beside.end()) continue;
+            const auto found = middle_of.find(std::minmax(t[k], t[(k + 1) % 3]));
+            if (found == middle_of.end()) continue;
             const double area = area_of(mesh, t);
             if (!(area > found->second.area)) continue;
             SurfacePoint middle{agvd::FaceId(f), {0, 0, 0}};
@@ -47,12 +48,13 @@ std::vector<std::uint8_t> carry_edges(std::span<const std::array<Index, 2>> edge
         }
     }
     std::vector<SurfacePoint> middles;
-    for (const auto& [ends, face] : beside) {
+    for (const auto& [ends, face] : middle_of) {
         if (face.area < 0) {
-            throw agvd::InvalidInput("vertices " + std::to_string(ends.first) + " and " +
+            throw agvd::InvalidInput("the feature edge between vertices " +
+                                     std::to_string(ends.first) + " and " +
                                      std::to_string(ends.second) +
-                                     " of a feature edge are not the ends of an edge of the mesh; "
-                                     "name two that are, counted from 0");
+                                     " is no edge of the mesh; name the two ends of an edge, "
+                                     "counted from 0");
         }
         if (face.area > 0) middles.push_back(face.middle);
     }

@@ -1,5 +1,6 @@
 // Carries points between a mesh and its cleaned version: bit for bit where the face kept its
-// corners, otherwise to the closest point, on pieces of the same face first.
+// corners, otherwise to the closest point, on pieces of the same face first. Several pieces of a
+// face are found by sorting pairs (input face, cleaned face).
 #include "remesh/clean/carry_sites.h"
 
 #include <algorithm>
@@ -117,15 +118,16 @@ private:
 void check_site(const SurfacePoint& site, std::size_t number, Index num_faces) {
     const std::string name = "site " + std::to_string(number);
     if (!site.face.is_valid() || site.face.value() >= num_faces) {
-        throw agvd::InvalidInput(name + " names a face that does not exist; there are " +
-                                 std::to_string(num_faces));
+        throw agvd::InvalidInput(name + " names a face that does not exist; use one of the " +
+                                 std::to_string(num_faces) + " faces, counted from 0");
     }
     const auto& [a, b, c] = site.barycentric;
     // The accuracy of decimals in a file and of sums in double.
     constexpr double tolerance = 1e-6;
     if (!(a >= 0 && b >= 0 && c >= 0 && std::abs(a + b + c - 1) <= tolerance)) {
         throw agvd::InvalidInput(name + " on face " + std::to_string(site.face.value()) +
-                                 " has coordinates that are negative or do not sum to 1");
+                                 " has barycentric coordinates that are negative or do not sum "
+                                 "to 1; correct them");
     }
 }
 
@@ -143,7 +145,7 @@ std::vector<SurfacePoint> to_cleaned(const std::vector<SurfacePoint>& sites, con
             throw agvd::InvalidInput("site " + std::to_string(i) + " lies on face " +
                                      std::to_string(sites[i].face.value()) +
                                      ", which cleaning dropped as degenerate or duplicate; "
-                                     "place it on a neighbour");
+                                     "place it on another face");
         }
         carried.push_back(*placed);
     }

@@ -1,5 +1,7 @@
 // Runs the passes of soup.h in their order, after a quick check whether the input needs none.
-// Sorted edge sides are made again only after passes that changed a triangle.
+// Sorted edge sides are made again only after passes that changed a triangle. Most passes look at
+// all edges by sorting their sides (a half-edge with the numbers of its two ends), because a soup
+// has no connectivity yet.
 #include "remesh/clean/clean_input.h"
 
 #include <algorithm>
@@ -30,15 +32,15 @@ void check_elements(const agvd::MeshView& mesh, agvd::Ticker& ticker) {
         ticker.tick();
         if (mesh.positions[v].allFinite()) continue;
         throw InvalidInput("vertex " + std::to_string(v) +
-                           " has a coordinate that is not finite; correct or delete it");
+                           " has a coordinate that is not finite; correct or delete the vertex");
     }
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
         ticker.tick();
         for (const Index v : mesh.triangles[f]) {
             if (v < mesh.positions.size()) continue;
             throw InvalidInput("face " + std::to_string(f) + " names vertex " + std::to_string(v) +
-                               ", but there are only " + std::to_string(mesh.positions.size()) +
-                               " (counted from 0); correct or delete it");
+                               ", but the mesh has only " + std::to_string(mesh.positions.size()) +
+                               " vertices, counted from 0; correct or delete the face");
         }
     }
 }
@@ -214,7 +216,7 @@ CleanResult clean_input(const agvd::MeshView& mesh, int num_threads,
     check_not_empty(soup);
     refresh(orient_faces(soup, sides));
     std::vector<agvd::Index> twin = pair_sheets(soup, sides);
-    remove_flat_faces(soup, twin);
+    remove_degenerate_faces(soup, twin);
     check_not_empty(soup);
     split_vertices(soup, twin);
     drop_isolated_vertices(soup);

@@ -20,9 +20,8 @@ Index drop_components(CleanResult& clean, const Topology& topology, double least
     const auto dropped = static_cast<Index>(std::count(stays.begin(), stays.end(), false));
     if (dropped == 0) return 0;
     if (dropped == stays.size()) {
-        throw agvd::InvalidOption("each of the " + std::to_string(dropped) +
-                                  " components has less than " + std::to_string(100 * least_share) +
-                                  " % of the area, so that none is left; drop fewer");
+        throw agvd::InvalidOption("no component has " + std::to_string(100 * least_share) +
+                                  " % of the area or more; use a smaller drop_components");
     }
     clean.connectivity = {};
     std::vector<Index> number(clean.mesh.positions.size(), no_index);

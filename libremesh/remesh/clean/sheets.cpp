@@ -1,5 +1,6 @@
 // Decides which faces belong together at non-manifold edges and vertices: the flattest pairs.
-// Vertices are then copied until vertex indices alone give these pairs.
+// Vertices are then copied until vertex indices alone give these pairs. Among equally flat pairs
+// the one that bounds a convex wedge is taken, so that boxes that touch along an edge stay apart.
 #include <algorithm>
 #include <tuple>
 

@@ -59,7 +59,7 @@ bool orient_faces(Soup& soup, std::span<const EdgeSide> sides);
                                            const agvd::Triangle& face);
 //! Faces without area are absorbed by their neighbours, or dropped.
 //! \throw agvd::InvalidInput  a face is so large that its area overflows.
-void remove_flat_faces(Soup& soup, std::vector<agvd::Index>& twin);
+void remove_degenerate_faces(Soup& soup, std::vector<agvd::Index>& twin);
 //! Gives every fan of faces a vertex of its own, until vertex indices alone give the twins.
 void split_vertices(Soup& soup, std::vector<agvd::Index>& twin);
 void drop_isolated_vertices(Soup& soup);

@@ -1,7 +1,7 @@
 // Edges above the angle are candidates; edge_angles() keeps needles from raising false ones. Each
-// candidate is weighed by its sharpness and by how much the surface beside it turns (turn_beside).
-// The share of noisy candidates sets how strict pruning is: little on parts, much on scans. The
-// steps are listed in the header. All lengths are in spacings unless stated.
+// candidate is weighed by its sharpness and by how much the surface around it turns
+// (surrounding_turn). The share of noisy candidates sets how strict pruning is: little on parts,
+// much on scans. The steps are listed in the header. All lengths are in spacings unless stated.
 #include "remesh/features/find_creases.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 #include "remesh/features/carry_creases.h"
 #include "remesh/features/edge_angles.h"
 #include "remesh/features/prune_creases.h"
-#include "remesh/features/turn_beside.h"
+#include "remesh/features/surrounding_turn.h"
 
 namespace remesh {
 namespace {
@@ -24,14 +24,14 @@ using agvd::Index;
 // spacings at 2000 sites. With 3e-3 the creases at two places of a part with fillets depended on
 // its triangles.
 constexpr double thin = 1e-3;
-// How far beside a crease the surface is examined.
+// How far around a crease the surface is examined.
 constexpr double reach = 0.5;
-// An edge is noise if turn_beside() is above this share of its angle. The median over all edges
-// above 40 degrees, 2000 sites, is 0 to .13 on seven parts and .69 to 1.5 on eight scans.
+// An edge is noise if surrounding_turn() is above this share of its angle. The median over all
+// edges above 40 degrees, 2000 sites, is 0 to .13 on seven parts and .69 to 1.5 on eight scans.
 constexpr double noise_contrast = 0.5;
 // The finest scale, in mean lengths of the noisy edges.
 constexpr double noise_edges = 4;
-// Share of the crease angle. Below it an edge is worth nothing, and no crease continues along it.
+// Share of the crease angle. Below it an edge has no weight, and no crease continues along it.
 constexpr double weak_share = 0.625;
 constexpr double most_gap = 1;
 constexpr double least_spur = 1;
@@ -41,27 +41,31 @@ constexpr double least_island = 3;
 struct NetworkRule {
     double least_merit;
     double short_chain;
-    double least_worth;  // Merit per length.
+    double least_density;  // Merit per length.
 };
 constexpr NetworkRule on_parts = {1, 1, 0.05};
 constexpr NetworkRule on_scans = {2.5, 3, 0.4};
 
 void check(const CreaseOptions& options) {
     if (!(options.angle > 0 && options.angle < 180)) {
-        throw agvd::InvalidOption("the angle of creases must lie between 0 and 180 degrees");
+        throw agvd::InvalidOption("angle is " + std::to_string(options.angle) +
+                                  "; use degrees above 0 and below 180");
     }
-    if (options.num_threads < 0) throw agvd::InvalidOption("num_threads must not be negative");
+    if (options.num_threads < 0)
+        throw agvd::InvalidOption("num_threads is " + std::to_string(options.num_threads) +
+                                  "; use 0 (all cores) or more");
     if (!(options.spacing > 0 && std::isfinite(options.spacing))) {
-        throw agvd::InvalidOption("the spacing of creases must be above 0");
+        throw agvd::InvalidOption("spacing is " + std::to_string(options.spacing) +
+                                  "; use a finite number above 0");
     }
 }
 
-// The worth of an edge: 0 if weak, 1 at a right angle; less where the surface beside it turns as
+// The weight of an edge: 0 if weak, 1 at a right angle; less where the surface around it turns as
 // much as the edge itself.
-double worth(double angle, double beside, double weak) {
+double weight_of(double angle, double surrounding, double weak) {
     const double full = std::max(std::numbers::pi / 2, weak / weak_share);
     const double sharpness = std::clamp((angle - weak) / (full - weak), 0., 1.);
-    const double noisiness = beside / (noise_contrast * angle);
+    const double noisiness = surrounding / (noise_contrast * angle);
     return sharpness / (1 + noisiness * noisiness);
 }
 
@@ -70,11 +74,11 @@ struct Noise {
     double edge_length = 0;  // Mean.
 };
 
-// An edge is noisy if the surface beside it turns as much as the edge itself. If noise is so strong
-// that most edges are above the angle, no other edges are left beside them; then most chains are
+// An edge is noisy if the surface around it turns as much as the edge itself. If noise is so strong
+// that most edges are above the angle, no other edges are left around them; then most chains are
 // short.
 Noise find_noise(const detail::CreaseSet& set, const std::vector<double>& angles,
-                 const std::vector<double>& beside, double shortest, agvd::Poller& poller) {
+                 const std::vector<double>& surrounding, double shortest, agvd::Poller& poller) {
     const std::vector<double>& length = set.surface().length;
     double all = 0, noise = 0, in_short_chains = 0;
     Index num_noisy = 0;
@@ -82,7 +86,7 @@ Noise find_noise(const detail::CreaseSet& set, const std::vector<double>& angles
         all += chain.length;
         if (chain.length < shortest) in_short_chains += chain.length;
         for (const Index e : chain.edges) {
-            if (beside[e] <= noise_contrast * angles[e]) continue;
+            if (surrounding[e] <= noise_contrast * angles[e]) continue;
             noise += length[e];
             ++num_noisy;
         }
@@ -104,19 +108,19 @@ detail::PruningRules pruning_rules(double spacing, const Noise& noise) {
             .least_island = least_island * scale,
             .least_network = between(&NetworkRule::least_merit) * scale,
             .short_chain = between(&NetworkRule::short_chain) * scale,
-            .least_worth = between(&NetworkRule::least_worth)};
+            .least_density = between(&NetworkRule::least_density)};
 }
 
 // Prunes the edges above the angle and adds the weak edges that continue them.
 void apply_scale(detail::CreaseSet& set, const std::vector<double>& angles, double angle,
                  double spacing, agvd::Poller& poller) {
     const double weak = weak_share * angle;
-    std::vector<double> weights = detail::turn_beside(set, angles, reach * spacing, poller);
+    std::vector<double> weights = detail::surrounding_turn(set, angles, reach * spacing, poller);
     const Noise noise = find_noise(set, angles, weights, 2 * spacing, poller);
     agvd::Ticker ticker(poller);
     for (Index e = set.next(0); e < weights.size(); e = set.next(e + 1)) {
         ticker.tick();
-        weights[e] = worth(angles[e], weights[e], weak);
+        weights[e] = weight_of(angles[e], weights[e], weak);
     }
     const detail::CarryRules carry{.least_angle = weak, .most_gap = most_gap * spacing};
     detail::close_gaps(set, angles, carry, poller);

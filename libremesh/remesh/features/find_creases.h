@@ -24,12 +24,13 @@ struct CreaseOptions {
 //!
 //! 1. Edges above the angle are candidates. A face too thin for a reliable normal takes that of its
 //!    neighbours.
-//! 2. An edge is worth more the sharper it is, and less if the surface beside it turns as sharply.
+//! 2. The weight of an edge is larger the sharper it is, and smaller if the surface around it
+//!    turns as sharply.
 //!    The share of such edges in the candidates' length tells parts from scans.
 //! 3. Gaps of up to a spacing are closed along edges of at least 5/8 of the angle.
-//! 4. A chain with an open end is removed if its length times worth is below a spacing, or below
-//!    three if both ends are open. Then networks that are worth too little are removed; scans need
-//!    a much higher worth.
+//! 4. A chain with an open end is removed if its length times weight is below a spacing, or below
+//!    three if both ends are open. Then networks of too little weight are removed; scans need
+//!    a much larger weight.
 //! 5. The open ends that are left continue along edges of at least 5/8 of the angle.
 //!
 //! All criteria are lengths, not numbers of edges, so all triangulations of a surface give the same

@@ -98,10 +98,10 @@ private:
     [[nodiscard]] bool ends_strip(const std::vector<CurveEnd>& ends,
                                   const CurveEnd& shortest) const {
         return std::any_of(ends.begin(), ends.end(), [&](const CurveEnd& end) {
-            return is_much_longer(end, shortest) && runs_beside(end, shortest);
+            return is_much_longer(end, shortest) && runs_side_by_side(end, shortest);
         });
     }
-    [[nodiscard]] bool runs_beside(const CurveEnd& end, const CurveEnd& shortest) const {
+    [[nodiscard]] bool runs_side_by_side(const CurveEnd& end, const CurveEnd& shortest) const {
         if (shortest.next == no_index) return false;
         const auto& others = at_node_[shortest.next];
         return std::any_of(others.begin(), others.end(), [&](const CurveEnd& other) {

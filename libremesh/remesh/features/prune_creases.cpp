@@ -63,7 +63,7 @@ public:
                     }
                 }
             }
-            if (merit >= std::max(rules_.least_network, rules_.least_worth * length)) continue;
+            if (merit >= std::max(rules_.least_network, rules_.least_density * length)) continue;
             for (const Index other : network) drop_edges(other);
         }
     }

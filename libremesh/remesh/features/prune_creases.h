@@ -14,8 +14,8 @@ struct PruningRules {
     //! Merit of a connected network, which may be a single closed chain. Short chains count in
     //! proportion to their length.
     double least_network = 0;
-    double short_chain = 0;  //!< Length below which chains are short.
-    double least_worth = 0;  //!< A network's merit, counted in this way, per length.
+    double short_chain = 0;    //!< Length below which chains are short.
+    double least_density = 0;  //!< A network's merit, counted in this way, per length.
 };
 
 //! Removes chains with open ends, then networks, that fall short of the rules.

@@ -28,4 +28,30 @@ const char* to_text(SiteReason reason) {
     return "unknown";
 }
 
+const char* place_text(SiteReason reason) {
+    switch (reason) {
+        case SiteReason::BoundaryCorner:
+            return "at corners of the boundary";
+        case SiteReason::WholeComponent:
+            return "in cells that cover a whole component";
+        case SiteReason::NoDisc:
+            return "in cells that are not discs";
+        case SiteReason::ClosedCurve:
+            return "between cells that meet along a closed curve";
+        case SiteReason::SeveralArcs:
+            return "between cells that meet in more than one arc";
+        case SiteReason::BoundaryAtBothEnds:
+            return "between cells whose common arc has both ends on the boundary";
+        case SiteReason::BoundaryTwice:
+            return "in cells that meet the boundary more than once";
+        case SiteReason::SameThirdCell:
+            return "between cells that meet twice, each time with the same third cell";
+        case SiteReason::NoSite:
+            return "on components without a site";
+        case SiteReason::SelfIntersection:
+            return "where the mesh self-intersected";
+    }
+    return "for an unknown reason";
+}
+
 }  // namespace remesh

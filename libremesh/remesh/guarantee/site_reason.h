@@ -20,7 +20,10 @@ enum class SiteReason : std::uint8_t {
     SelfIntersection,    //!< The mesh self-intersects there.
 };
 
-//! A fixed text, for reports.
+//! A fixed text: the key in JSON reports.
 [[nodiscard]] const char* to_text(SiteReason reason);
+
+//! Where the site is, for texts: "in cells that are not discs".
+[[nodiscard]] const char* place_text(SiteReason reason);
 
 }  // namespace remesh

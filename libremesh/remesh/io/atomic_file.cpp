@@ -1,5 +1,6 @@
 // Writes each file to a temporary one in the target's folder, and renames the temporary files once
-// all are complete.
+// all are complete. A temporary is removed on every failure. Devices and pipes are written to
+// directly.
 #include "remesh/io/atomic_file.h"
 
 #include <fcntl.h>
@@ -26,7 +27,7 @@ namespace fs = std::filesystem;
 }
 
 constexpr const char* check_folder =
-    "check that its folder exists and is writable, or write elsewhere";
+    "check that its folder exists and is writable, or write to another file";
 
 // The end of a chain of symbolic links, whether or not it exists.
 fs::path follow_links(const fs::path& path) {
@@ -46,7 +47,7 @@ void write_all(int fd, std::string_view bytes, const fs::path& path,
         agvd::poll(progress, 0);
         const ssize_t written = ::write(fd, bytes.data(), std::min(most, bytes.size()));
         if (written < 0 && errno == EINTR) continue;
-        if (written < 0) fail(path, errno, "free some room, or write elsewhere");
+        if (written < 0) fail(path, errno, "free some space, or write to another file");
         bytes.remove_prefix(static_cast<std::size_t>(written));
     }
 }
@@ -57,9 +58,9 @@ public:
     explicit TemporaryFile(const fs::path& target) : target_(target) {
         struct stat old {};
         const bool exists = ::stat(target.c_str(), &old) == 0;
-        if (exists && S_ISDIR(old.st_mode)) fail(target, EISDIR, "name a file in it");
+        if (exists && S_ISDIR(old.st_mode)) fail(target, EISDIR, "name a file in this folder");
         if (exists && ::access(target.c_str(), W_OK) != 0) {
-            fail(target, errno, "make the old file writable, or write elsewhere");
+            fail(target, errno, "make the old file writable, or write to another file");
         }
         const std::string stem = ".remesh-" + std::to_string(::getpid()) + "-";
         for (int n = 0; fd_ < 0; ++n) {
@@ -75,7 +76,7 @@ public:
         if (::fchmod(fd_, old.st_mode & 07777) != 0) {
             const int reason = errno;
             discard();
-            fail(target, reason, "write elsewhere");
+            fail(target, reason, "write to another file");
         }
     }
     TemporaryFile(const TemporaryFile&) = delete;
@@ -90,7 +91,8 @@ public:
     void close() {
         if (fd_ < 0) return;
         const int fd = std::exchange(fd_, -1);
-        if (::close(fd) != 0 && errno != EINTR) fail(target_, errno, "free some room");
+        if (::close(fd) != 0 && errno != EINTR)
+            fail(target_, errno, "free some space, or write to another file");
     }
 
     void rename_to_target() {
@@ -120,7 +122,7 @@ bool is_special(const fs::path& target) {
 void write_directly(const fs::path& target, std::string_view bytes,
                     const agvd::Progress& progress) {
     const int fd = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
-    if (fd < 0) fail(target, errno, "check its permissions, or write elsewhere");
+    if (fd < 0) fail(target, errno, "check its permissions, or write to another file");
     try {
         write_all(fd, bytes, target, progress);
     } catch (...) {

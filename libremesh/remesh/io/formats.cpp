@@ -35,9 +35,8 @@ const MeshFormat* find_format(const std::filesystem::path& path) {
 
 const MeshFormat& require_format(const std::filesystem::path& path) {
     if (const MeshFormat* const format = find_format(path)) return *format;
-    throw agvd::IoError(path.string() + ": unknown mesh format " +
-                        in_quotes(path.extension().string()) +
-                        "; use a name that ends in .ply, .obj, .off or .stl");
+    throw agvd::IoError(path.string() + ": unknown extension " +
+                        in_quotes(path.extension().string()) + "; use .ply, .obj, .off or .stl");
 }
 
 }  // namespace remesh

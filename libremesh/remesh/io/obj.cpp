@@ -20,16 +20,16 @@ std::int64_t read_corner(TextScanner& scan, const SourceFile& file, std::size_t 
         if (scan.rest_of_word().find_first_not_of("0123456789-/") != std::string_view::npos) {
             file.fail_malformed(slash,
                                 "expected texture and normal numbers after a corner's '/'; "
-                                "correct the line, or export the mesh again");
+                                "correct the line, or export the file again");
         }
     }
     const auto count = static_cast<std::int64_t>(num_vertices);
     if (number == 0 || number < -count) {
-        file.fail_unusable(start, "a face has the corner " + std::to_string(number) +
-                                      (number == 0 ? ", but OBJ numbers its vertices from 1"
+        file.fail_unusable(start, "a face names vertex " + std::to_string(number) +
+                                      (number == 0 ? ", but OBJ counts vertices from 1"
                                                    : ", but only " + std::to_string(count) +
                                                          " vertices come before it") +
-                                      "; correct it, or export the mesh again");
+                                      "; correct the face, or export the file again");
     }
     return number > 0 ? number - 1 : count + number;
 }

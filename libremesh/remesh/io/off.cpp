@@ -20,27 +20,28 @@ void read_keyword(TextScanner& scan) {
     scan.take("N");
     if (scan.take("4") || scan.take("n")) {
         scan.fail_malformed(
-            "4OFF and nOFF hold points of other than three dimensions; export as OFF");
+            "4OFF and nOFF hold points that do not have three dimensions; export the file as OFF");
     }
     if (!scan.take("OFF") && !scan.take("off")) {
         scan.fail_expecting("the keyword OFF (or COFF, NOFF, STOFF)");
     }
     if (scan.has_word() && scan.take("BINARY")) {
-        scan.fail_malformed("binary OFF is not supported; export as ascii OFF or as PLY");
+        scan.fail_malformed("binary OFF is not supported; export the file as ascii OFF or as PLY");
     }
 }
 
 std::uint64_t read_count(TextScanner& scan, const char* what) {
     const std::int64_t count = scan.integer(what);
-    if (count < 0) scan.fail_malformed(std::string(what) + " is negative; export the mesh again");
+    if (count < 0) scan.fail_malformed(std::string(what) + " is negative; export the file again");
     return static_cast<std::uint64_t>(count);
 }
 
 void find_element(TextScanner& scan, const char* kind, std::uint64_t index, std::uint64_t count) {
     if (scan.find_word()) return;
-    scan.fail_malformed("the file ends before " + std::string(kind) + " " + std::to_string(index) +
-                        " of " + std::to_string(count) +
-                        "; it is truncated, or has several elements on a line: export it again");
+    scan.fail_malformed(
+        "the file ends before " + std::string(kind) + " " + std::to_string(index) + " of " +
+        std::to_string(count) +
+        "; it is truncated, or has several elements on a line: export the file again");
 }
 
 }  // namespace
@@ -67,7 +68,8 @@ MeshFile read_off(SourceFile file) {
         const std::int64_t corners = scan.integer("the number of corners");
         if (corners < 0)
             file.fail_malformed(start,
-                                "a face has a negative number of corners; export the mesh again");
+                                "face " + std::to_string(f) +
+                                    " has a negative number of corners; export the file again");
         for (std::int64_t k = 0; k < corners; ++k) {
             soup.add_corner(scan.integer("a corner"), start);
         }

@@ -47,9 +47,12 @@ ToOpenMesh to_openmesh(const agvd::MeshView& mesh) {
     }
     for (agvd::Index f = 0; f < mesh.triangles.size(); ++f) {
         const agvd::Triangle& triangle = mesh.triangles[f];
-        if (std::ranges::max(triangle) >= mesh.positions.size()) {
-            throw agvd::InvalidInput("face " + std::to_string(f) +
-                                     " has a corner that is no vertex; correct or drop it");
+        const agvd::Index highest = std::ranges::max(triangle);
+        if (highest >= mesh.positions.size()) {
+            throw agvd::InvalidInput("face " + std::to_string(f) + " names vertex " +
+                                     std::to_string(highest) + ", but the mesh has only " +
+                                     std::to_string(mesh.positions.size()) +
+                                     " vertices, counted from 0; correct or delete the face");
         }
         Corners corner;
         std::ranges::transform(triangle, corner.begin(), [](agvd::Index v) {

@@ -42,7 +42,8 @@ template <OpenMeshTriangles Mesh>
                                            static_cast<double>(p[2]));
         if (!result.mesh.positions.back().allFinite()) {
             throw agvd::InvalidInput("OpenMesh vertex " + std::to_string(v.idx()) +
-                                     " has a coordinate that is not finite; repair or delete it");
+                                     " has a coordinate that is not finite; correct or delete "
+                                     "the vertex");
         }
         index[static_cast<std::size_t>(v.idx())] = static_cast<agvd::Index>(result.vertices.size());
         result.vertices.push_back(v);

@@ -21,7 +21,7 @@ void read_vertices(Values& values, const PlyElement& element, const SourceFile& 
     for (const PlyProperty* axis : axes) {
         if (axis == nullptr || axis->size_type) {
             file.fail_malformed(
-                0, "element vertex needs the numbers x, y and z; export the mesh again");
+                0, "element vertex lacks the numbers x, y and z; export the file again");
         }
     }
     for (std::uint64_t v = 0; v < element.count; ++v) {
@@ -39,8 +39,8 @@ void read_vertices(Values& values, const PlyElement& element, const SourceFile& 
         }
         if (!p.allFinite()) {
             file.fail_unusable(start, name_of(element, v) +
-                                          " has a coordinate that is not finite (NaN or infinite); "
-                                          "repair or remove it");
+                                          " has a coordinate that is not finite; "
+                                          "correct or delete the vertex");
         }
         values.end();
         soup.positions.push_back(p);
@@ -55,8 +55,8 @@ void read_faces(Values& values, const PlyElement& element, const SourceFile& fil
     if (corners == nullptr || !corners->size_type || corners->type == PlyType::Float32 ||
         corners->type == PlyType::Float64) {
         file.fail_malformed(0,
-                            "element face needs a list of whole numbers named vertex_indices; "
-                            "export the mesh again");
+                            "element face lacks a list of whole numbers named vertex_indices; "
+                            "export the file again");
     }
     for (std::uint64_t f = 0; f < element.count; ++f) {
         values.begin(element, f);
@@ -90,7 +90,7 @@ MeshFile read_body(Values values, const PlyHeader& header, const SourceFile& fil
             read_faces(values, element, file, soup);
         } else if (element.name == "tristrips") {
             file.fail_malformed(0,
-                                "triangle strips are not supported; export the mesh with a list of "
+                                "triangle strips are not supported; export the file with a list of "
                                 "faces");
         } else if (!element.properties.empty()) {
             for (std::uint64_t i = 0; i < element.count; ++i) {

@@ -1,4 +1,6 @@
-// Reads the header line by line and finds the first byte of the data.
+// Reads the header line by line: the format, then elements with their properties in order. The data
+// begin behind the line of end_header; in binary files the first line of the file tells whether
+// lines end in one byte or in two, since the first datum may look like a line feed.
 #include "remesh/io/ply_header.h"
 
 #include <algorithm>
@@ -33,7 +35,7 @@ PlyType read_type(TextScanner& scan, const SourceFile& file) {
     if (found == std::end(type_names)) {
         file.fail_malformed(start, "unknown property type " + in_quotes(name) +
                                        "; PLY has char, uchar, short, ushort, int, uint, float and "
-                                       "double: export the mesh with these");
+                                       "double; export the file with these");
     }
     return found->type;
 }
@@ -45,9 +47,10 @@ PlyProperty read_property(TextScanner& scan, const SourceFile& file) {
     if (is_list) {
         size_type = read_type(scan, file);
         if (*size_type == PlyType::Float32 || *size_type == PlyType::Float64) {
-            file.fail_malformed(start,
-                                "the length of a list must be of an integer type; export the "
-                                "mesh again");
+            file.fail_malformed(
+                start,
+                "the length of a list has a type that is no integer type; export the "
+                "file again");
         }
     }
     const PlyType type = read_type(scan, file);
@@ -87,15 +90,15 @@ PlyHeader read_ply_header(const SourceFile& file) {
     TextScanner scan(file, 0, {});
     PlyHeader header;
     if (scan.word() != "ply") {
-        file.fail_malformed(0,
-                            "not a PLY file (it does not begin with 'ply'); check its extension");
+        file.fail_malformed(
+            0, "this is not a PLY file, as it does not begin with 'ply'; check its extension");
     }
     bool has_format = false;
     while (true) {
         scan.skip_line();
         if (!scan.find_word()) {
             scan.fail_malformed(
-                "the header has no 'end_header'; the file is truncated: export again");
+                "the header has no 'end_header'; it is truncated: export the file again");
         }
         const std::size_t start = scan.offset();
         const std::string_view keyword = scan.word();
@@ -107,18 +110,21 @@ PlyHeader read_ply_header(const SourceFile& file) {
         } else if (keyword == "element") {
             PlyElement element{.name = read_name(scan, "the element's name"), .properties = {}};
             const std::int64_t count = scan.integer("the number of elements");
-            if (count < 0) file.fail_malformed(start, "a negative count; export the mesh again");
+            if (count < 0)
+                file.fail_malformed(start,
+                                    "the number of elements is negative; export the file again");
             element.count = static_cast<std::uint64_t>(count);
             header.elements.push_back(std::move(element));
         } else if (keyword == "property" && !header.elements.empty()) {
             header.elements.back().properties.push_back(read_property(scan, file));
         } else {
             file.fail_malformed(start, "unexpected " + in_quotes(keyword) +
-                                           " in the header; export the mesh again");
+                                           " in the header; export the file again");
         }
     }
-    if (!has_format) file.fail_malformed(0, "the header has no 'format'; export the mesh again");
-    if (scan.has_word()) scan.fail_malformed("data on the line of 'end_header'; export again");
+    if (!has_format) file.fail_malformed(0, "the header has no 'format'; export the file again");
+    if (scan.has_word())
+        scan.fail_malformed("data follow on the line of 'end_header'; export the file again");
     header.size = end_of_header(file, scan.offset());
     return header;
 }

@@ -1,5 +1,7 @@
 //! \file
 //! The values of a PLY file's elements, in any of its encodings. Private to the readers.
+//! AsciiValues and BinaryValues have the same interface (begin an element, take its values, end
+//! it), so that the readers of elements are templates that are written once.
 #pragma once
 
 #include "remesh/io/byte_order.h"
@@ -21,7 +23,7 @@ public:
     void begin(const PlyElement& element, std::uint64_t index) {
         if (scan_.find_word()) return;
         scan_.fail_malformed("the file ends before " + name_of(element, index) +
-                             "; it is truncated: export it again");
+                             "; it is truncated: export the file again");
     }
     double real(PlyType) { return scan_.number("a number"); }
     std::int64_t integer(PlyType) { return scan_.integer("a whole number"); }
@@ -33,7 +35,7 @@ public:
     void end() {
         if (scan_.has_word()) {
             scan_.fail_malformed(
-                "more values on the line than the header announces; write one "
+                "the line has more values than the header announces; write one "
                 "element on each line");
         }
     }
@@ -66,9 +68,9 @@ public:
 private:
     const char* take(std::size_t size) {
         if (file_.bytes.size() - at_ < size) {
-            file_.fail_malformed(file_.bytes.size(), "the file ends within " +
-                                                         name_of(*element_, index_) +
-                                                         "; it is truncated: export it again");
+            file_.fail_malformed(file_.bytes.size(),
+                                 "the file ends within " + name_of(*element_, index_) +
+                                     "; it is truncated: export the file again");
         }
         at_ += size;
         return file_.bytes.data() + at_ - size;
@@ -111,7 +113,8 @@ template <typename Values>
 std::int64_t read_length(Values& values, const PlyProperty& list, const SourceFile& file) {
     const std::size_t start = values.offset();
     const std::int64_t length = values.integer(*list.size_type);
-    if (length < 0) file.fail_malformed(start, "a list of negative length; export the mesh again");
+    if (length < 0)
+        file.fail_malformed(start, "a list has a negative length; export the file again");
     return length;
 }
 

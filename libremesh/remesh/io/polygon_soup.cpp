@@ -11,7 +11,7 @@ namespace remesh {
 using agvd::Index;
 
 namespace {
-constexpr const char* export_again = "; correct it, or export the mesh again";
+constexpr const char* export_again = "; correct the face, or export the file again";
 }
 
 void PolygonSoup::reserve(std::uint64_t vertices, std::uint64_t polygons) {
@@ -24,10 +24,9 @@ void PolygonSoup::reserve(std::uint64_t vertices, std::uint64_t polygons) {
 
 void PolygonSoup::add_corner(std::int64_t vertex, std::size_t offset) {
     if (vertex < 0 || vertex >= agvd::no_index) {
-        file_.fail_unusable(offset, "face " + std::to_string(num_polygons()) + " has the corner " +
+        file_.fail_unusable(offset, "face " + std::to_string(num_polygons()) + " names vertex " +
                                         std::to_string(vertex) + ", which is " +
-                                        (vertex < 0 ? "negative" : "absurdly large") +
-                                        export_again);
+                                        (vertex < 0 ? "negative" : "too large") + export_again);
     }
     const auto index = static_cast<Index>(vertex);
     if (index > highest_) {
@@ -43,21 +42,22 @@ MeshFile PolygonSoup::finish() && {
         throw agvd::InvalidInput(
             file_.path.string() +
             (positions.empty()
-                 ? ": neither a vertex nor a face; check that it is a mesh of the kind its name "
-                   "says"
-                 : ": " + std::to_string(positions.size()) +
-                       " vertices but no face; a point cloud must be made a surface first"));
+                 ? ": the file has neither a vertex nor a face; check that its extension "
+                   "names its format"
+                 : ": the file has " + std::to_string(positions.size()) +
+                       " vertices but no face; make a surface of the points first"));
     }
     if (positions.size() >= agvd::no_index || corners_.size() >= agvd::no_index) {
-        throw agvd::InvalidInput(file_.path.string() +
-                                 ": more than 2^32 - 2 vertices or corners; split the mesh");
+        throw agvd::InvalidInput(
+            file_.path.string() +
+            ": the mesh has more than 2^32 - 2 vertices or corners; split it into parts");
     }
     if (highest_ >= positions.size()) {
         file_.fail_unusable(highest_offset_,
-                            "face " + std::to_string(highest_polygon_) + " has the corner " +
+                            "face " + std::to_string(highest_polygon_) + " names vertex " +
                                 std::to_string(std::int64_t{highest_} + first_index_) +
-                                ", but the file has " + std::to_string(positions.size()) +
-                                " vertices, numbered from " + std::to_string(first_index_) +
+                                ", but the file has only " + std::to_string(positions.size()) +
+                                " vertices, counted from " + std::to_string(first_index_) +
                                 export_again);
     }
 
@@ -78,8 +78,9 @@ MeshFile PolygonSoup::finish() && {
         result.face_polygon.resize(result.mesh.triangles.size(), p);
     }
     if (result.mesh.triangles.empty()) {
-        throw agvd::InvalidInput(file_.path.string() +
-                                 ": no face has three corners; export surfaces, not lines");
+        throw agvd::InvalidInput(
+            file_.path.string() +
+            ": no face of the file has three corners; export a surface, not lines");
     }
     return result;
 }

@@ -1,5 +1,6 @@
-// Reads the elements of write_diagram's PLY one after the other; each is checked against the
-// counts of the elements that it refers to.
+// Reads the elements of write_diagram's PLY one after the other; each is checked against the counts
+// of the elements that it refers to. An index out of range, or a count that does not fit, is an
+// error that names the place in the file.
 #include "remesh/io/read_diagram.h"
 
 #include <cmath>
@@ -30,9 +31,10 @@ public:
     void read(const PlyHeader& header) {
         for (const char* name : {"site", "curve_point", "voronoi_edge", "voronoi_vertex"}) {
             if (count_.contains(name)) continue;
-            file_.fail_malformed(0, std::string("the file has no element ") + name +
-                                        " and so no diagram; write one by `agvd diagram MESH -o "
-                                        "FILE.ply`");
+            file_.fail_malformed(0,
+                                 std::string("the file has no element ") + name +
+                                     ", so that it holds no diagram; write one with `agvd diagram "
+                                     "MESH -o FILE.ply`");
         }
         agvd::Diagram& diagram = out_.diagram;
         diagram.edge_points = diagram.vertex_offsets = {0};
@@ -48,7 +50,8 @@ public:
                     read_row(element, i, {"face", "b0", "b1", "b2", "cell_area", "cell_euler"}, {});
                     out_.sites.push_back(point());
                     diagram.cell_area.push_back(row_[4]);
-                    if (!(std::abs(row_[5]) < INT32_MAX)) fail("an Euler characteristic is absurd");
+                    if (!(std::abs(row_[5]) < INT32_MAX))
+                        fail("the Euler characteristic of a cell is out of range");
                     diagram.cell_euler.push_back(static_cast<int>(row_[5]));
                 } else if (element.name == "curve_point") {
                     read_row(element, i, {"face", "b0", "b1", "b2", "distance"}, {});
@@ -65,7 +68,7 @@ public:
         }
         diagram.num_sites = static_cast<Index>(out_.sites.size());
         if (diagram.edge_points.back() != diagram.points.size()) {
-            fail("the edges do not share out the curve points");
+            fail("the Voronoi edges do not have all curve points");
         }
     }
 
@@ -78,7 +81,7 @@ private:
                                      optional_index(row_[3], "voronoi_vertex")};
         if (!edge.left.is_valid()) fail("a Voronoi edge has no cell on its left");
         if ((edge.tail == agvd::no_index) != (edge.head == agvd::no_index)) {
-            fail("a Voronoi edge has one end only");
+            fail("a Voronoi edge has only one end");
         }
         diagram.edges.push_back(edge);
         const Index before = diagram.edge_points.back();
@@ -94,7 +97,8 @@ private:
         agvd::Diagram& diagram = out_.diagram;
         diagram.vertices.push_back(point());
         diagram.vertex_distance.push_back(row_[4]);
-        if (lists_[0].size() != lists_[1].size()) fail("a vertex has other ends than cells");
+        if (lists_[0].size() != lists_[1].size())
+            fail("a Voronoi vertex has different numbers of ends and sites");
         for (const double end : lists_[0]) {
             const Index edge = index(std::floor(end / 2), "voronoi_edge");
             diagram.vertex_ends.push_back({edge, std::fmod(end, 2) == 0});
@@ -135,7 +139,7 @@ private:
         values_.end();
         if (num_found != numbers.size() + lists.size()) {
             file_.fail_malformed(0, "element " + element.name +
-                                        " lacks properties of a diagram; write one by `agvd "
+                                        " lacks properties of a diagram; write one with `agvd "
                                         "diagram MESH -o FILE.ply`");
         }
     }
@@ -161,13 +165,14 @@ private:
         const auto found = count_.find(element);
         if (!(number >= 0 && found != count_.end() && number < static_cast<double>(found->second) &&
               number == std::floor(number))) {
-            fail(std::string("a ") + element + " is named that does not exist");
+            fail(std::string("the file names a ") + element + " that does not exist");
         }
         return static_cast<Index>(number);
     }
 
     [[noreturn]] void fail(const std::string& text) const {
-        file_.fail_unusable(start_, text + "; the file is damaged: write the diagram again");
+        file_.fail_unusable(
+            start_, text + "; the file is damaged: write the diagram again with `agvd diagram`");
     }
 
     const SourceFile& file_;

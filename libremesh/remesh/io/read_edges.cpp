@@ -13,7 +13,8 @@ std::vector<std::array<agvd::Index, 2>> read_edges(const std::filesystem::path& 
         const std::size_t start = scan.offset();
         const std::int64_t value = scan.integer("a vertex index");
         if (value < 0 || value >= agvd::no_index) {
-            file.fail_malformed(start, "a vertex index is from 0 on; correct it");
+            file.fail_malformed(start, "the vertex index " + std::to_string(value) +
+                                           " is out of range; count vertices from 0");
         }
         return static_cast<agvd::Index>(value);
     };

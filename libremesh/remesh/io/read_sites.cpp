@@ -54,19 +54,19 @@ private:
                                          "; correct the line or begin it with #");
     }
 
-    Index index(const char* what, std::size_t count) {
+    Index index(const char* what, const char* plural, std::size_t count) {
         const std::int64_t value = scan_.integer(("a " + std::string(what) + " index").c_str());
         if (value < 0 || static_cast<std::uint64_t>(value) >= count) {
-            file_.fail_unusable(start_, std::string(what) + " " + std::to_string(value) +
-                                            " does not exist: the mesh has " +
-                                            std::to_string(count) +
-                                            ", counted from 0; correct the index");
+            file_.fail_unusable(start_, "the site names " + std::string(what) + " " +
+                                            std::to_string(value) + ", but the mesh has only " +
+                                            std::to_string(count) + " " + plural +
+                                            ", counted from 0; correct the line");
         }
         return static_cast<Index>(value);
     }
 
     SurfacePoint vertex_site() {
-        const Index vertex = index("vertex", mesh_.positions.size());
+        const Index vertex = index("vertex", "vertices", mesh_.positions.size());
         if (lowest_corner_.empty()) {
             lowest_corner_.assign(mesh_.positions.size(), agvd::no_index);
             for (auto corner = static_cast<Index>(3 * mesh_.triangles.size()); corner-- > 0;) {
@@ -76,7 +76,7 @@ private:
         const Index corner = lowest_corner_[vertex];
         if (corner == agvd::no_index) {
             file_.fail_unusable(start_, "vertex " + std::to_string(vertex) +
-                                            " is in no face; name a vertex of the surface");
+                                            " is in no face; use a vertex of a face");
         }
         SurfacePoint site{agvd::FaceId(corner / 3), {0, 0, 0}};
         site.barycentric[corner % 3] = 1;
@@ -84,7 +84,7 @@ private:
     }
 
     SurfacePoint face_site() {
-        SurfacePoint site{agvd::FaceId(index("face", mesh_.triangles.size())), {}};
+        SurfacePoint site{agvd::FaceId(index("face", "faces", mesh_.triangles.size())), {}};
         auto& b = site.barycentric;
         for (double& x : b) x = scan_.number("a barycentric coordinate");
         const double sum = b[0] + b[1] + b[2];

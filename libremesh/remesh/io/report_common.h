@@ -27,7 +27,7 @@ struct RepairRow {
 inline constexpr std::array repair_rows = {
     RepairRow{&CleanCounts::welded_vertices, "welded_vertices", "welded vertex"},
     RepairRow{&CleanCounts::degenerate_faces, "degenerate_faces", "degenerate face"},
-    RepairRow{&CleanCounts::absorbed_faces, "absorbed_faces", "absorbed flat face"},
+    RepairRow{&CleanCounts::absorbed_faces, "absorbed_faces", "absorbed face without area"},
     RepairRow{&CleanCounts::duplicate_faces, "duplicate_faces", "duplicate face"},
     RepairRow{&CleanCounts::flipped_faces, "flipped_faces", "flipped face"},
     RepairRow{&CleanCounts::split_edges, "split_edges", "split edge"},

@@ -1,5 +1,6 @@
-// Builds JSON objects from results, with functions for their parts. Keys stay in the order in
-// which they are set.
+// Builds JSON objects from results, with functions for their parts. Keys stay in the order in which
+// they are set. Every key with a unit names it (mesh_units, percent, deg, s); what was not measured
+// is null.
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -197,7 +198,7 @@ std::string to_json(const RemeshResult& result, const RunInfo& info) {
     for (const auto& [reason, count] : result.added_because) reasons[to_text(reason)] = count;
     object["sites_moved"] = result.sites_moved;
     object["sites_removed"] = result.sites_removed;
-    object["components_from_faces"] = result.components_from_faces;
+    object["components_from_faces"] = result.components_thinned;
     object["sites_dropped"] = result.sites_dropped;
     object["features"] = to_json(result.features);
     object["junctions"] = to_json(result.junctions);

@@ -1,4 +1,6 @@
-// Formats results as text, with functions for the parts of a report.
+// Formats results as text for people: the report of a run, the table of remesh-eval, and the table
+// of agvd compare. Each part of a report has a function of its own. Lines for things that did not
+// happen are left out. Numbers do not depend on the locale.
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
@@ -14,10 +16,11 @@ namespace {
 using detail::degrees;
 constexpr const char* not_measured = "needs CGAL";
 
-// "1 face", "2 faces", "2 vertices".
+// "1 face", "2 faces", "2 vertices", "2 patches".
 std::string counted(std::size_t count, const std::string& noun) {
     std::string plural = noun + 's';
     if (noun.ends_with("vertex")) plural.replace(plural.size() - 3, 3, "ices");
+    if (noun.ends_with("ch")) plural.insert(plural.size() - 1, 1, 'e');
     return std::to_string(count) + ' ' + (count == 1 ? noun : plural);
 }
 
@@ -95,10 +98,10 @@ void add_features(Table& table, const FeatureCoverage& features) {
         table.row("false sharp edges (%)", "", fixed(100 * features.false_share, 2));
     }
     if (features.corners > 0)
-        table.row("corners, and those kept", features.corners, features.corners_kept);
+        table.row("corners, corners kept", features.corners, features.corners_kept);
     if (features.acute_corners > 0) {
         table.row("corners below 30 deg", features.acute_corners, "");
-        table.row("smallest angle off these", "", fixed(features.min_angle_elsewhere * degrees, 2));
+        table.row("smallest angle elsewhere", "", fixed(features.min_angle_elsewhere * degrees, 2));
     }
 }
 
@@ -141,14 +144,16 @@ std::string describe(const DelaunayCounts& counts, Delaunay delaunay) {
         return fixed(100 * count / inner_edges, 2) + " %";
     };
     std::string text = std::string(delaunay_name(delaunay)) +
-                       " Delaunay: " + percent(counts.failing_before) + " of the edges failed, " +
-                       percent(counts.failing_after) + " after " + counted(counts.flips, "flip");
-    if (!counts.is_finished) text += " (stopped)";
+                       " Delaunay condition: " + percent(counts.failing_before) +
+                       " of the edges failed it before " + counted(counts.flips, "flip") + ", " +
+                       percent(counts.failing_after) + " after";
+    if (!counts.is_finished) text += "; the flips reached their limit";
     if (counts.not_locally_shortest > 0) {
-        text += "; " + counted(counts.not_locally_shortest, "edge") + " not locally shortest";
+        text +=
+            "; " + counted(counts.not_locally_shortest, "edge") + " not proved locally shortest";
     }
     if (counts.broken_triangles > 0) {
-        text += "; " + counted(counts.broken_triangles, "face") + " without triangle inequality";
+        text += "; the triangle inequality fails in " + counted(counts.broken_triangles, "face");
     }
     return text;
 }
@@ -156,15 +161,15 @@ std::string describe(const DelaunayCounts& counts, Delaunay delaunay) {
 std::string why_dropped(const FeatureCounts& features) {
     std::string text;
     if (features.uncarried_curves > 0) {
-        text = counted(features.uncarried_curves, "crease") +
-               " without enough of the given sites on them, or on the boundary";
+        text = "too few of the given sites lie on " + counted(features.uncarried_curves, "crease") +
+               " or on the boundary";
         if (!features.gave_up) return text;
         text += "; ";
     }
     if (!features.gave_up) {
-        return "all take " + std::to_string(features.samples_for_all) + " samples";
+        return "to keep all, use " + std::to_string(features.samples_for_all) + " samples";
     }
-    return text + "with all of them the result would self-intersect, or not close";
+    return text + "with all creases no mesh was found, or only one that self-intersects";
 }
 
 // Empty without creases.
@@ -175,11 +180,12 @@ std::string describe(const FeatureCounts& features) {
                        counted(features.vertices, "vertex") + "; creases of length " +
                        fixed(features.length, 4) + " kept";
     if (features.dropped_length > 0) {
-        text += ", of " + fixed(features.dropped_length, 4) + " dropped: " + why_dropped(features);
+        text += ", creases of length " + fixed(features.dropped_length, 4) + " dropped (" +
+                why_dropped(features) + ")";
     }
     if (features.thinned_patches > 0) {
-        text +=
-            "; " + counted(features.thinned_patches, "part") + " between them too narrow for cells";
+        text += "; " + counted(features.thinned_patches, "patch") +
+                " between them thinned to the sites, because cells failed there";
     }
     return text;
 }
@@ -191,17 +197,17 @@ std::string describe(const JunctionCounts& junctions) {
         "\nnon-manifold edges of the input: " + counted(junctions.edges, "edge") +
         " where sheets meet; ";
     if (junctions.apart_edges > 0) {
-        return text + "each sheet has points of its own there" +
+        return text + "each sheet has its own points there" +
                (junctions.samples_for_all == 0
                     ? ""
-                    : "; the same points take " + std::to_string(junctions.samples_for_all) +
-                          " samples or more");
+                    : "; for common points use at least " +
+                          std::to_string(junctions.samples_for_all) + " samples");
     }
     const std::string on_curves =
         counted(junctions.vertices, "vertex") + " on " + counted(junctions.curves, "curve");
     if (junctions.welded_edges > 0) {
         return text + "welded in the result: " + on_curves + ", " +
-               counted(junctions.welded_edges, "edge") + " of more than two faces";
+               counted(junctions.welded_edges, "edge") + " with more than two faces";
     }
     return text + "the sheets have the same points there: " + on_curves;
 }
@@ -216,40 +222,43 @@ std::string to_text(const RemeshResult& result, const RunInfo& info) {
             describe(result.input_topology) + '\n';
     text += to_text(info.options.propagation.engine, result.certified_error) + '\n';
     for (const RelaxLevel& level : result.relaxation) {
-        const double ratio = level.energy.back() / level.energy.front();
+        const double rise = level.energy.back() / level.energy.front() - 1;
         text += "relaxation: " + counted(level.num_sites, "site") + ", " +
-                counted(level.energy.size() - 1, "step") + ", energy lowered by " +
-                fixed(100 * (1 - ratio), 1) + " %\n";
+                counted(level.energy.size() - 1, "step") + ", energy " +
+                (rise > 0 ? "raised" : "lowered") + " by " + fixed(100 * std::abs(rise), 1) +
+                " %\n";
     }
     text += "result: " + counted(result.mesh.positions.size(), "vertex") + ", " +
             counted(result.mesh.triangles.size(), "face") +
-            (result.junctions.welded_edges > 0 ? "; sheets of the same topology, welded"
+            (result.junctions.welded_edges > 0 ? "; same topology before the sheets were welded"
                                                : "; same topology");
     if (result.repair_rounds > 0 || result.sites_removed > 0) {
-        text += "\nfor it: " + counted(result.sites_added, "site") + " added, " +
+        text += "\ntopology repair: " + counted(result.sites_added, "site") + " added, " +
                 counted(result.sites_moved, "site") + " moved, " +
-                counted(result.sites_removed, "site") + " removed, " +
+                counted(result.sites_removed, "site") + " removed in " +
                 counted(static_cast<std::size_t>(result.repair_rounds), "round");
     }
     for (const auto& [reason, count] : result.added_because) {
-        text += "\n  " + std::to_string(count) + " added: " + to_text(reason);
+        text += "\n  " + counted(count, "site") + " added " + place_text(reason);
     }
-    if (result.components_from_faces > 0) {
-        text += "\n" + counted(result.components_from_faces, "component") +
-                " thinned to the sites, as no cells would do";
+    if (result.components_thinned > 0) {
+        text += "\n" + counted(result.components_thinned, "component") +
+                " thinned to the sites, because cells failed there";
     }
     if (info.options.features != Features::Off) text += describe(result.features);
     text += describe(result.junctions);
     if (result.components_dropped > 0) {
-        text += "\n" + counted(result.components_dropped, "component") + " left out as too small";
+        text += "\n" + counted(result.components_dropped, "component") +
+                " dropped, because the area is too small";
     }
     if (result.sites_dropped > 0) {
-        text += "\n" + counted(result.sites_dropped, "site") + " that owned nothing dropped";
+        text +=
+            "\n" + counted(result.sites_dropped, "site") + " dropped, because they have no cell";
     }
     if (result.self_intersections.value_or(0) > 0) {
         text +=
             "\nself-intersecting pairs of faces: " + std::to_string(*result.self_intersections) +
-            ", in the input " + std::to_string(result.input_self_intersections);
+            " in the result, " + std::to_string(result.input_self_intersections) + " in the input";
     }
     if (info.options.delaunay != Delaunay::Off) {
         text += '\n' + describe(result.delaunay, info.options.delaunay);
@@ -276,14 +285,15 @@ std::string to_text(const Evaluation& evaluation, const EvaluationInfo& info) {
     if (evaluation.features) add_features(table, *evaluation.features);
     if (!evaluation.distance) {
         table.row("flipped normals", "", not_measured);
-        out << "\ndistance: " << not_measured;
+        out << "\ndistance: not measured, as this build lacks CGAL";
         return out.str();
     }
     table.row("flipped normals", "", evaluation.distance->flipped_faces);
     out << '\n';
     add_distance(table, *evaluation.distance);
-    out << "the original's diagonal: " << evaluation.distance->diagonal << " mesh units; "
-        << counted(evaluation.distance->samples, "sample") << " on each surface and all vertices";
+    out << "diagonal of the original: " << evaluation.distance->diagonal
+        << " mesh units; distances from all vertices and "
+        << counted(evaluation.distance->samples, "sample") << " of each surface";
     return out.str();
 }
 
@@ -304,7 +314,7 @@ std::string to_text(const Comparison& comparison, const ComparisonInfo& info) {
         table.row(name, value, in_radii(value));
     };
     length("Frechet sum (Eq. 8)", frechet.sum);
-    length("largest of a loop", frechet.largest);
+    length("largest of one loop", frechet.largest);
     length("Hausdorff of bisectors", difference.hausdorff);
     table.row("delta (Eq. 9)", "", fixed(100 * frechet.delta, 4) + " %");
     table.row("area in other cells", "", fixed(100 * difference.wrong_label_area, 4) + " %");

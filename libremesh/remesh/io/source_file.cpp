@@ -1,4 +1,6 @@
-// Loads a whole file into memory. The line of an error is found only when the error is thrown.
+// Loads a whole file, or what a pipe delivers, into memory, and words the errors of its readers.
+// The line of an error is counted only when the error is thrown. Waiting for a pipe polls the
+// progress callback, so that reading can be interrupted.
 #include "remesh/io/source_file.h"
 
 #include <fcntl.h>
@@ -18,7 +20,7 @@ namespace {
 [[noreturn]] void fail_to_read(const std::filesystem::path& path, int reason) {
     throw agvd::IoError(path.string() +
                         ": cannot be read: " + std::generic_category().message(reason) +
-                        "; check the name and its permissions");
+                        "; check its name and permissions");
 }
 
 struct Descriptor {
@@ -70,15 +72,17 @@ std::string SourceFile::judge_rest(std::size_t offset, const char* kind,
         }
     }
     if (num_more == 0) {
-        return place(offset) + "what follows the last element is passed over (" +
-               std::to_string(bytes.size() - offset) + " bytes)";
+        return place(offset) + "the " + std::to_string(bytes.size() - offset) +
+               " bytes after the last element are ignored";
     }
     const std::string text = "the header announces " + std::to_string(num_announced) + " " + kind +
                              ", the file holds " + std::to_string(num_announced + num_more);
     if (!is_lenient) {
-        fail_malformed(offset, text + "; export it again, or read what is announced (--lenient)");
+        fail_malformed(offset, text +
+                                   "; export the file again, or read only what the header "
+                                   "announces (remesh and agvd diagram: --lenient)");
     }
-    return place(offset) + text + "; the others are passed over";
+    return place(offset) + text + "; the others are ignored";
 }
 
 void SourceFile::fail_unusable(std::size_t offset, const std::string& text) const {
@@ -111,7 +115,7 @@ SourceFile load_file(const std::filesystem::path& path, agvd::Poller& poller) {
     }
     file.bytes.resize(length);
     if (length == 0) {
-        throw agvd::IoError(path.string() + ": the file is empty; write or download it again");
+        throw agvd::IoError(path.string() + ": the file is empty; export the file again");
     }
     return file;
 }

@@ -48,15 +48,16 @@ MeshFile read_binary(const SourceFile& file) {
     if (bytes.size() < header_size) {
         file.fail_malformed(
             bytes.size(),
-            "too short for STL (a binary one has a header of 84 bytes, an ascii one "
-            "begins with 'solid'); export the mesh again");
+            "the file is too short for STL (a binary file has a header of 84 bytes, an ascii "
+            "file begins with 'solid'); export the file again");
     }
     const std::uint64_t count = load<std::uint32_t>(&bytes[80]);
     if ((bytes.size() - header_size) / record_size < count) {
         file.fail_malformed(
-            bytes.size(),
-            "the file ends after " + std::to_string((bytes.size() - header_size) / record_size) +
-                " of " + std::to_string(count) + " triangles; it is truncated: export it again");
+            bytes.size(), "the file ends after " +
+                              std::to_string((bytes.size() - header_size) / record_size) + " of " +
+                              std::to_string(count) +
+                              " triangles; it is truncated: export the file again");
     }
     PolygonSoup soup(file, 0);
     soup.reserve(0, count);
@@ -67,8 +68,9 @@ MeshFile read_binary(const SourceFile& file) {
             const char* const corner = &bytes[offset];
             const Vec3 p(load<float>(corner), load<float>(corner + 4), load<float>(corner + 8));
             if (!p.allFinite()) {
-                file.fail_unusable(offset, "triangle " + std::to_string(f) + " has a coordinate " +
-                                               "that is not finite; repair or remove it");
+                file.fail_unusable(offset,
+                                   "triangle " + std::to_string(f) + " has a coordinate " +
+                                       "that is not finite; correct or delete the triangle");
             }
             soup.add_corner(welder.index_of(p), offset);
         }
@@ -85,7 +87,8 @@ MeshFile read_binary(const SourceFile& file) {
 void find_keyword(TextScanner& scan) {
     if (scan.find_word()) return;
     scan.fail_malformed(
-        "the file ends without 'endsolid'; it is truncated: export it again, or add that line if "
+        "the file ends without 'endsolid'; it is truncated: export the file again, or add that "
+        "line if "
         "nothing is missing");
 }
 
@@ -95,7 +98,7 @@ void expect(TextScanner& scan, const SourceFile& file, const char* keyword) {
     const std::string_view word = scan.word();
     if (equals_keyword(word, keyword)) return;
     file.fail_malformed(start, std::string("expected '") + keyword + "', found " + in_quotes(word) +
-                                   "; correct it, or export the mesh again");
+                                   "; correct the line, or export the file again");
 }
 
 // The loop of a facet whose first word has been read; returns its corners.

@@ -92,8 +92,9 @@ public:
         std::int64_t value = 0;
         const auto [last, error] = std::from_chars(at_, end_, value);
         if (error == std::errc::result_out_of_range) {
-            file_.fail_unusable(offset(), std::string(what) + " is absurdly large; it may be " +
-                                              "damaged: export the mesh again");
+            file_.fail_unusable(
+                offset(),
+                std::string(what) + " is too large; correct it, or export the file again");
         }
         if (error != std::errc{} || (!is_separator(last) && *last != stop)) {
             fail_expecting(what);
@@ -108,8 +109,9 @@ public:
         agvd::Vec3 p;
         for (int k = 0; k < 3; ++k) p[k] = number("a coordinate");
         if (!p.allFinite()) {
-            file_.fail_unusable(start, "a coordinate is not finite (NaN, infinite, or beyond " +
-                                           std::string("double precision); repair or remove it"));
+            file_.fail_unusable(start,
+                                "a coordinate is not finite (NaN, infinite or beyond double "
+                                "precision); correct or delete it");
         }
         return p;
     }
@@ -121,11 +123,12 @@ public:
     [[noreturn]] void fail_expecting(const char* what) {
         const std::size_t start = offset();
         const std::string_view found = word();
-        file_.fail_malformed(start, std::string("expected ") + what + ", found " +
-                                        (!found.empty() ? in_quotes(found)
-                                         : at_ == end_  ? "the end of the file; it may be truncated"
-                                                        : "the end of the line") +
-                                        "; correct it, or export the mesh again");
+        file_.fail_malformed(start,
+                             std::string("expected ") + what + ", found " +
+                                 (!found.empty() ? in_quotes(found)
+                                  : at_ == end_  ? "the end of the file, which may be truncated"
+                                                 : "the end of the line") +
+                                 "; correct the line, or export the file again");
     }
 
 private:

@@ -1,4 +1,6 @@
-// Formats a diagram as VTK PolyData, OBJ lines or PLY.
+// Formats a diagram as VTK PolyData, OBJ lines or PLY (docs/io.md, "Diagrams"). The first two hold
+// the Voronoi edges as polylines; PLY also holds the cleaned mesh, nearest sites and distances, and
+// all that read_diagram() needs to give every bit back.
 #include "remesh/io/write_diagram.h"
 
 #include <string>
@@ -192,7 +194,8 @@ std::string format_diagram(const std::filesystem::path& path, const Surface& sur
     if (extension == ".vtp") return format_vtp(surface, diagram, ticker);
     if (extension == ".obj") return format_obj_lines(surface, diagram, ticker);
     if (extension == ".ply") return format_ply_diagram(surface, sites, diagram, ticker);
-    throw agvd::IoError(path.string() + ": unknown extension; use .vtp, .obj or .ply");
+    throw agvd::IoError(path.string() + ": unknown extension " +
+                        in_quotes(path.extension().string()) + "; use .vtp, .obj or .ply");
 }
 
 void write_diagram(const std::filesystem::path& path, const Surface& surface,

@@ -11,22 +11,26 @@ namespace {
 
 void check(const std::filesystem::path& path, const MeshFormat& format,
            const agvd::MeshView& mesh) {
-    const auto fail = [&](const char* kind, std::size_t index, const char* text) {
-        throw agvd::InvalidInput(path.string() + " is not written: " + kind + " " +
+    const auto fail = [&](const char* kind, std::size_t index, const std::string& text) {
+        throw agvd::InvalidInput(path.string() + ": cannot be written: " + kind + " " +
                                  std::to_string(index) + " " + text);
     };
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         if (!mesh.positions[v].allFinite()) {
-            fail("vertex", v, "has a coordinate that is not finite; repair the mesh");
+            fail("vertex", v, "has a coordinate that is not finite; correct or delete the vertex");
         }
         if ((mesh.positions[v].array().abs() > format.largest).any()) {
             fail("vertex", v,
-                 "is beyond single precision, all that STL has; write PLY, OBJ or OFF");
+                 "is too large for the single precision of STL; write PLY, OBJ or OFF");
         }
     }
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-        if (std::ranges::max(mesh.triangles[f]) >= mesh.positions.size()) {
-            fail("face", f, "has a corner that is no vertex; repair the mesh");
+        const agvd::Index highest = std::ranges::max(mesh.triangles[f]);
+        if (highest >= mesh.positions.size()) {
+            fail("face", f,
+                 "names vertex " + std::to_string(highest) + ", but the mesh has only " +
+                     std::to_string(mesh.positions.size()) +
+                     " vertices, counted from 0; correct or delete the face");
         }
     }
 }

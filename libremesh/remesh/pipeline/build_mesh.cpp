@@ -9,7 +9,7 @@
 
 #include "agvd/mesh/point_faces.h"
 #include "remesh/features/weld_sheets.h"
-#include "remesh/guarantee/farthest_corner.h"
+#include "remesh/guarantee/farthest_voronoi_vertices.h"
 #include "remesh/pipeline/place_vertices.h"
 #include "remesh/pipeline/vertex_count.h"
 
@@ -49,7 +49,7 @@ public:
           finder_(domain, context),
           layout_(std::move(domain.prepared.layout)),
           is_corner_(domain.base().num_vertices(), false) {
-        for (const Index v : placed_.corners) is_corner_[v] = true;
+        for (const Index v : placed_.boundary_corners) is_corner_[v] = true;
         sites_.on_surface = placed_.sites;
         first_on_base_ = domain.prepared.base.to_intrinsic(placed_.sites);
         sites_.on_base = first_on_base_;
@@ -101,13 +101,14 @@ private:
 
     ValidDual build_cells() {
         RemeshResult& result = context_.result;
-        const DualInput input{domain_.base(),    layout_,         domain_.parts->components,
-                              domain_.component, placed_.corners, placed_.chain};
+        const DualInput input{
+            domain_.base(),           layout_,      domain_.parts->components, domain_.component,
+            placed_.boundary_corners, placed_.chain};
         ValidDual dual =
             build_valid_dual(input, sites_.on_base, is_thinned_, cell_options(), context_.result);
         carry_sites_back();
         if (domain_.plan) {
-            result.features.thinned_patches = std::exchange(result.components_from_faces, 0);
+            result.features.thinned_patches = std::exchange(result.components_thinned, 0);
         }
         return dual;
     }
@@ -160,7 +161,7 @@ private:
     // With VertexCount::Add only thinned components have surplus vertices: more than sites.
     Index reduce(ValidDual& dual) const {
         const bool adds = context_.options.vertex_count == VertexCount::Add;
-        if (adds && context_.result.components_from_faces == 0) return 0;
+        if (adds && context_.result.components_thinned == 0) return 0;
         const auto num_vertices = static_cast<Index>(dual.mesh.points.size());
         const Index target = adds ? static_cast<Index>(sites_.on_base.size()) : *target_;
         if (num_vertices <= target) return 0;
@@ -240,7 +241,7 @@ private:
 
     void keep_thinned(const ValidDual& dual, PlacedMesh placed) {
         thinned_.reset();
-        if (domain_.plan || context_.result.components_from_faces == 0 ||
+        if (domain_.plan || context_.result.components_thinned == 0 ||
             !is_relaxed(context_.options)) {
             return;
         }
@@ -251,23 +252,23 @@ private:
     // marks the sites of the cells as wanted. False if there is no such place.
     bool add_sites_at(const std::vector<std::pair<Index, Index>>& crossings,
                       const ValidDual& dual) {
-        const std::vector<Index> farthest = farthest_corners(dual.diagram);
-        std::vector<Index> corners;
+        const std::vector<Index> farthest = farthest_voronoi_vertices(dual.diagram);
+        std::vector<Index> places;
         sites_.is_wanted.resize(sites_.on_base.size(), false);
         for_each_corner(crossings, dual.mesh.triangles, [&](Index v) {
             const Index site = dual.site[v];
             if (site == no_index || farthest[site] == no_index) return;
-            corners.push_back(farthest[site]);
+            places.push_back(farthest[site]);
             sites_.is_wanted[site] = true;
         });
-        if (corners.empty()) return false;
-        std::sort(corners.begin(), corners.end());
-        corners.erase(std::unique(corners.begin(), corners.end()), corners.end());
-        for (const Index v : corners) sites_.on_base.push_back(dual.diagram.vertices[v]);
+        if (places.empty()) return false;
+        std::sort(places.begin(), places.end());
+        places.erase(std::unique(places.begin(), places.end()), places.end());
+        for (const Index v : places) sites_.on_base.push_back(dual.diagram.vertices[v]);
         sites_.is_wanted.resize(sites_.on_base.size(), true);
-        context_.result.sites_added += static_cast<Index>(corners.size());
+        context_.result.sites_added += static_cast<Index>(places.size());
         context_.result.added_because[SiteReason::SelfIntersection] +=
-            static_cast<Index>(corners.size());
+            static_cast<Index>(places.size());
         return true;
     }
 

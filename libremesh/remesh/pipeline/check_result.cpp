@@ -35,8 +35,7 @@ void check_result(const CleanedInput& cleaned, const Domain& domain,
     if (!topology.is_manifold || !topology.is_oriented ||
         !same_topology(topology, cleaned.topology)) {
         if (domain.plan) throw NetworkFailed{};
-        throw std::logic_error(
-            "the result lost the topology of the input; please report this with the mesh");
+        throw std::logic_error("the result does not have the topology of the input");
     }
     if (domain.has_junctions() && options.junctions == Junctions::Keep) {
         weld_junctions(domain.plan->network.network, chain, built, result);

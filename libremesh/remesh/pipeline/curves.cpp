@@ -1,5 +1,6 @@
 // Finds creases and junctions, and plans the network of curves at the spacing of the sites. If the
-// caller gives sites, these decide which creases the network keeps.
+// caller gives sites, these decide which creases the network keeps. Creases are sought at the
+// spacing of the sites, or of a least number of sites, so that small parts keep theirs.
 #include "remesh/pipeline/curves.h"
 
 #include <algorithm>

@@ -1,5 +1,6 @@
 // Sites come from sampling or from the caller. On an uncut surface relaxation moves them anywhere
-// on the surface; with a plan, the sites of curves stay on their curves.
+// on the surface; with a plan, the sites of curves stay on their curves. The sharp corners of a
+// boundary that is kept get a site each.
 #include "remesh/pipeline/place_sites.h"
 
 #include <algorithm>
@@ -71,13 +72,13 @@ PlacedSites place_uncut(const CleanedInput& cleaned, const Domain& domain,
         } else if (!is_coarse_to_fine(options)) {
             placed.sites = sample_sites(*domain.whole, sampling);
         }
-        if (options.boundary == Boundary::Keep) placed.corners = boundary_corners(domain);
+        if (options.boundary == Boundary::Keep) placed.boundary_corners = boundary_corners(domain);
     }
     if (is_relaxed(options)) {
         const StageClock clock(Stage::Relax, result);
         const RelaxOptions relax{.steps = options.relax_steps,
                                  .boundary = options.boundary,
-                                 .corners = placed.corners,
+                                 .corners = placed.boundary_corners,
                                  .num_threads = options.num_threads,
                                  .progress = progress_of(Stage::Relax, options)};
         RelaxResult relaxed = is_coarse_to_fine(options)

@@ -9,9 +9,10 @@ namespace remesh::detail {
 struct PlacedSites {
     //! On the cleaned surface. Sites of curves come first, with a copy for each side of the cut.
     std::vector<agvd::SurfacePoint> sites;
-    CurveSites curves = {};                 //!< The first of `sites`; empty without a plan.
-    std::vector<ChainEdge> chain = {};      //!< Edges along the curves that the dual must have.
-    std::vector<agvd::Index> corners = {};  //!< Boundary vertices that need a site, ascending.
+    CurveSites curves = {};             //!< The first of `sites`; empty without a plan.
+    std::vector<ChainEdge> chain = {};  //!< Edges along the curves that the dual must have.
+    std::vector<agvd::Index> boundary_corners =
+        {};  //!< Boundary vertices that need a site, ascending.
 
     //! Copies of sites of curves, the first of each site excluded: they become no vertex of their
     //! own.

@@ -12,7 +12,7 @@ namespace {
 
 void check_options(const RemeshOptions& options, std::size_t num_faces) {
     if (options.num_samples < 1) {
-        throw agvd::InvalidOption("num_samples is 0; ask for at least 1");
+        throw agvd::InvalidOption("num_samples is 0; use 1 or more");
     }
     if (options.repair_rounds < 0) {
         throw agvd::InvalidOption("repair_rounds is " + std::to_string(options.repair_rounds) +
@@ -32,7 +32,7 @@ void check_options(const RemeshOptions& options, std::size_t num_faces) {
     }
     if (!options.face_labels.empty() && options.face_labels.size() != num_faces) {
         throw agvd::InvalidOption("face_labels has " + std::to_string(options.face_labels.size()) +
-                                  " labels, but the mesh " + std::to_string(num_faces) +
+                                  " labels, but the mesh has " + std::to_string(num_faces) +
                                   " faces; give one for each, or none");
     }
     if (options.num_threads < 0) {

@@ -22,7 +22,9 @@ namespace remesh {
 //! \throw agvd::ConstraintUnmet  num_samples is too small for the topology; the text gives a number
 //!        that was tried and works.
 //! \throw agvd::Cancelled        the progress callback returned false.
-//! Cost: O(m n log n) a round, n = #F. Re-entrant: no global state.
+//! Cost: mostly that of the propagations, of which each round of repair needs one: about O(n) with
+//! an error bound, O(n sqrt(n / t)) for exact distances; n = faces of the base, t = sites. The
+//! Steiner engine has O(m n) nodes, m = Steiner points per edge. Re-entrant: no global state.
 [[nodiscard]] RemeshResult remesh(const agvd::MeshView& mesh, const RemeshOptions& options = {});
 
 //! The same for a mesh that the caller no longer needs. If it needs no repair and no option refers

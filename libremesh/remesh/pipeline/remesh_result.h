@@ -67,7 +67,7 @@ struct RemeshResult {
     std::vector<RelaxLevel> relaxation = {};  //!< Empty: the sites were not relaxed.
     //! Components whose cells did not give their topology: they were thinned to their sites instead
     //! (agvd::thin).
-    agvd::Index components_from_faces = 0;
+    agvd::Index components_thinned = 0;
     FeatureCounts features = {};
     JunctionCounts junctions = {};
     DelaunayCounts delaunay = {};  //!< Edges that failed, were flipped, still fail.

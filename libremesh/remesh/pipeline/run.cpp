@@ -94,12 +94,12 @@ std::string describe_enough(CleanedInput& cleaned, const RemeshResult& after_cle
         try {
             RemeshResult result = after_cleaning;
             run_attempt(cleaned, {}, {}, 0, {more, result});
-            return std::to_string(reached) + " work";
+            return "use " + std::to_string(reached) + " samples, which were tried and work";
         } catch (const TooFewSamples& failure) {
             reached = std::max(failure.reached, reached + reached / 4 + 1);
         }
     }
-    return "more than " + std::to_string(more.num_samples) + " are needed";
+    return "use more than " + std::to_string(more.num_samples) + " samples";
 }
 
 }  // namespace
@@ -116,9 +116,9 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& options) {
         result = run_with_curves(cleaned, result, options);
     } catch (const TooFewSamples& failure) {
         const std::string asked = std::to_string(failure.asked);
-        const std::string who =
-            options.sites ? "the given sites, of which " + asked + " own a part of the surface,"
-                          : asked + " samples";
+        const std::string who = options.sites
+                                    ? "the given sites, of which " + asked + " have a cell,"
+                                    : asked + " samples";
         throw agvd::ConstraintUnmet(who + " are too few for the topology of the mesh; " +
                                     describe_enough(cleaned, result, options, failure.reached));
     }

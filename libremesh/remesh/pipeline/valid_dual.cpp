@@ -15,7 +15,7 @@
 #include "remesh/features/close_rim.h"
 #include "remesh/guarantee/boundary_cells.h"
 #include "remesh/guarantee/closed_ball.h"
-#include "remesh/guarantee/farthest_corner.h"
+#include "remesh/guarantee/farthest_voronoi_vertices.h"
 #include "remesh/pipeline/stage_context.h"
 #include "remesh/simplify/thin_patch.h"
 #include "remesh/topology/topology.h"
@@ -83,7 +83,8 @@ private:
             build_diagram();
             BoundaryFixes fixes;
             if (options_.boundary == Boundary::Keep) {
-                fixes = find_boundary_fixes(surface_, dual_.diagram, sites_, input_.corners);
+                fixes =
+                    find_boundary_fixes(surface_, dual_.diagram, sites_, input_.boundary_corners);
             }
             std::vector<ClosedBallViolation> violations = find_violations();
             move_empty_sites(fixes);
@@ -198,10 +199,10 @@ private:
         empty.resize(std::min<std::size_t>(empty.size(), options_.num_samples - owning.size()));
         std::stable_sort(owning.begin(), owning.end(),
                          [&](Index a, Index b) { return area[a] > area[b]; });
-        const std::vector<Index> corner = farthest_corners(dual_.diagram);
-        std::erase_if(owning, [&](Index s) { return corner[s] == no_index; });
+        const std::vector<Index> farthest = farthest_voronoi_vertices(dual_.diagram);
+        std::erase_if(owning, [&](Index s) { return farthest[s] == no_index; });
         for (std::size_t i = 0; i < std::min(empty.size(), owning.size()); ++i) {
-            fixes.moved.emplace_back(empty[i], dual_.diagram.vertices[corner[owning[i]]]);
+            fixes.moved.emplace_back(empty[i], dual_.diagram.vertices[farthest[owning[i]]]);
         }
     }
 
@@ -278,7 +279,7 @@ private:
             if (const auto v = agvd::vertex_of(surface_, site)) has_site[*v] = true;
         }
         first_new_ = sites_.size();
-        for (const Index v : input_.corners) {
+        for (const Index v : input_.boundary_corners) {
             const Index h = surface_.outgoing[v];
             if (has_site[v] || !progress_[input_.component[Surface::face(h)]].gave_up) continue;
             SurfacePoint corner{agvd::FaceId(Surface::face(h)), {0, 0, 0}};
@@ -327,10 +328,10 @@ private:
             dual_.site.push_back(s);
             dual_.mesh.points.push_back(sites_[s]);
         }
-        result_.components_from_faces = 0;
+        result_.components_thinned = 0;
         for (Index c = 0; c < triangles.size(); ++c) {
             if (has_failed_[c]) {
-                ++result_.components_from_faces;
+                ++result_.components_thinned;
                 append_thinned(c);
                 continue;
             }

@@ -19,8 +19,8 @@ struct DualInput {
     //! own, which takes a tenth of a round. It is larger than the surface.
     std::optional<agvd::SurfaceLayout>& layout;
     std::span<const ComponentTopology> components;
-    std::span<const agvd::Index> component;  //!< #F of surface: index into components.
-    std::span<const agvd::Index> corners;    //!< Boundary vertices that need a site.
+    std::span<const agvd::Index> component;         //!< #F of surface: index into components.
+    std::span<const agvd::Index> boundary_corners;  //!< Boundary vertices that need a site.
     //! If the surface is cut along a network: the boundary that the mesh must have. Components
     //! whose cells do not give it are thinned.
     std::span<const ChainEdge> chain = {};

@@ -86,7 +86,7 @@ private:
 
     void work_below(double least_quality, double cost) {
         plane_cost_ = cost;
-        is_worth_it_.assign(at_.size(), 1);
+        may_improve_.assign(at_.size(), 1);
         for (int round = 0; round < most_rounds; ++round) {
             std::vector<std::pair<double, Index>> bad;
             for (Index i = 0; i < mesh_.triangles.size(); ++i) {
@@ -98,12 +98,12 @@ private:
             std::sort(bad.begin(), bad.end());
             bool is_better = false;
             for (const auto& [q, v] : bad) {
-                if (is_worth_it_[v] == 0) continue;
-                is_worth_it_[v] = 0;
+                if (may_improve_[v] == 0) continue;
+                may_improve_[v] = 0;
                 if (!improve(v)) continue;
                 is_better = true;
                 for (const Index i : around_.of(v)) {
-                    for (const Index other : mesh_.triangles[i]) is_worth_it_[other] = 1;
+                    for (const Index other : mesh_.triangles[i]) may_improve_[other] = 1;
                 }
             }
             if (!is_better) return;
@@ -217,7 +217,7 @@ private:
     std::vector<std::uint8_t> is_slim_;       // By triangle: see short_side.
     double plane_cost_ = 0;
     // #V: 0 if the last try changed nothing, nor moved a neighbour since.
-    std::vector<std::uint8_t> is_worth_it_;
+    std::vector<std::uint8_t> may_improve_;
 };
 
 }  // namespace

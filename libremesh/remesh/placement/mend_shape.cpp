@@ -180,11 +180,11 @@ private:
         return gain;
     }
 
-    // The worth of a trial; 0: none. Collapses that mend all triangles come first, since they leave
-    // a spare vertex; then splits. Splits count by their sum, since in a chain of equal triangles
-    // no worst one improves alone. Other collapses count by the worst triangle: they remove faces,
-    // which distorts the sum.
-    [[nodiscard]] static double worth_of(const Gain& gain, bool is_split) {
+    // The score of a trial; 0: no gain. Collapses that mend all triangles come first, since they
+    // leave a spare vertex; then splits. Splits count by their sum, since in a chain of equal
+    // triangles no worst one improves alone. Other collapses count by the worst triangle: they
+    // remove faces, which distorts the sum.
+    [[nodiscard]] static double score_of(const Gain& gain, bool is_split) {
         if (gain.worst < 0 || gain.sum < least_trial_gain) return 0;
         if (is_split) return 1 + gain.sum;
         if (gain.is_all) return 100 + gain.sum;
@@ -294,9 +294,9 @@ private:
             const bool is_done = edit(trial);
             const Gain gain = is_done ? gain_since(before) : Gain{};
             mesh_.take_back(before);
-            const double worth = is_done ? worth_of(gain, trial.is_split) : 0;
-            if (!(worth > most)) continue;
-            most = worth;
+            const double score = is_done ? score_of(gain, trial.is_split) : 0;
+            if (!(score > most)) continue;
+            most = score;
             best = trial;
             if (gain.is_all) break;
         }

@@ -24,14 +24,14 @@ void check_result(const agvd::MeshView& mesh) {
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         if (mesh.positions[v].allFinite()) continue;
         fail("vertex " + std::to_string(v) +
-             " has a coordinate that is not finite; correct or delete it");
+             " has a coordinate that is not finite; correct or delete the vertex");
     }
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
         for (const agvd::Index v : mesh.triangles[f]) {
             if (v < mesh.positions.size()) continue;
             fail("face " + std::to_string(f) + " names vertex " + std::to_string(v) +
-                 ", but there are only " + std::to_string(mesh.positions.size()) +
-                 " (counted from 0); correct or delete it");
+                 ", but the mesh has only " + std::to_string(mesh.positions.size()) +
+                 " vertices, counted from 0; correct or delete the face");
         }
     }
 }

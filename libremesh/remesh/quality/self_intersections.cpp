@@ -1,3 +1,7 @@
+// Finds pairs of faces with intersecting boxes (CGAL's box_self_intersection_d), then tests each
+// pair with exact predicates. Uses vertex indices instead of a half-edge structure, so that it
+// works on non-manifold meshes: the test depends on the corners that two faces have in common.
+// Candidates are tested in batches of bounded memory, in parallel chunks.
 #include "remesh/quality/self_intersections.h"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -10,8 +14,6 @@
 #include "agvd/core/bucket_sort.h"
 #include "agvd/core/parallel.h"
 
-// Finds pairs of faces with intersecting boxes, then tests each pair exactly with CGAL. Uses vertex
-// indices instead of a half-edge structure, so that it works on non-manifold meshes.
 namespace remesh {
 namespace {
 

@@ -57,7 +57,7 @@ public:
         }
         if (triangles_.empty()) {
             throw agvd::InvalidInput(std::string("no face of the ") + name +
-                                     " mesh has area; there is no surface to measure");
+                                     " mesh has an area; check that the file holds a surface");
         }
         tree_.insert(triangles_.begin(), triangles_.end());
         const auto& traits = tree_.traits();
@@ -170,8 +170,10 @@ Index count_flipped(const Faces& original, const Faces& result, int num_threads,
 std::optional<SurfaceDistance> surface_distance(const agvd::MeshView& original,
                                                 const agvd::MeshView& result,
                                                 const DistanceOptions& options) {
-    if (options.samples < 1) throw agvd::InvalidOption("samples must be at least 1");
-    if (options.num_threads < 0) throw agvd::InvalidOption("num_threads must not be negative");
+    if (options.samples < 1) throw agvd::InvalidOption("samples is 0; use 1 or more");
+    if (options.num_threads < 0)
+        throw agvd::InvalidOption("num_threads is " + std::to_string(options.num_threads) +
+                                  "; use 0 (all cores) or more");
     agvd::Poller poller(options.progress);
     const Faces original_faces(original, "original", poller);
     const Faces result_faces(result, "result", poller);

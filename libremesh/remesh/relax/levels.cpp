@@ -147,9 +147,9 @@ void Levels::sweep(Relaxation& relaxation, std::span<const Index> corners,
     const bool is_cheap = gives_neighbours(surface_, num_sites);
     // Not with curves, which hold the triangulation together: fandisk takes 1.3 times the time for
     // .001 of mean Q.
-    const bool is_worth_it =
+    const bool is_useful =
         chain.empty() && num_mended_ < result_.levels.size() && flaws > most_flaws * num_sites;
-    if (flaws > 0 && (is_cheap || is_worth_it)) {
+    if (flaws > 0 && (is_cheap || is_useful)) {
         if (!is_cheap) num_mended_ = result_.levels.size();
         relaxation.mend(triangulate_sites(prepared_, labels, relaxation.sites(), chain,
                                           options_.num_threads, progress_));

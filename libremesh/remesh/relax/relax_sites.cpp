@@ -1,3 +1,7 @@
+// Relaxation from start to end: evens out bad starts, then runs the steps on the levels. Sampled
+// sites start with a quarter of their number, are relaxed, and get the others in the middles
+// between neighbours. If their triangulation does not resemble the surface, all sites are sampled
+// at once; if that of all sites does not either, they are not relaxed.
 #include "remesh/relax/relax_sites.h"
 
 #include <algorithm>
@@ -30,17 +34,20 @@ constexpr double coarse_margin = 1.002;
 
 void check_options(const RelaxOptions& options, std::size_t num_sites) {
     if (options.steps < 0) {
-        throw agvd::InvalidOption("the number of relaxation steps is negative; use 0 or more");
+        throw agvd::InvalidOption("steps is " + std::to_string(options.steps) + "; use 0 or more");
     }
     if (!(options.tolerance >= 0)) {
-        throw agvd::InvalidOption("the tolerance of relaxation is negative; use 0 or more");
+        throw agvd::InvalidOption("tolerance is " + std::to_string(options.tolerance) +
+                                  "; use 0 or more");
     }
     if (options.num_threads < 0) {
-        throw agvd::InvalidOption("the number of threads is negative; use 0 for all cores");
+        throw agvd::InvalidOption("num_threads is " + std::to_string(options.num_threads) +
+                                  "; use 0 (all cores) or more");
     }
     if (!options.is_fixed.empty() && options.is_fixed.size() != num_sites) {
         throw agvd::InvalidOption("is_fixed has " + std::to_string(options.is_fixed.size()) +
-                                  " entries for " + std::to_string(num_sites) + " sites");
+                                  " entries, but there are " + std::to_string(num_sites) +
+                                  " sites; give one for each, or none");
     }
 }
 

@@ -38,8 +38,9 @@ constexpr Index sites_per_task = 256;
 constexpr double area_power = 2.5;
 constexpr double most_area_ratio = 4;
 // The distance from the surface is least if the size of cells goes as the cubic root of the radius
-// of curvature: the density as curvature^(4/3), where curvature^2 goes as bending. Half of that
-// leaves better shapes. Below `even_bending` all cells are alike.
+// of curvature: the density as curvature^(4/3). The bending of cells of one size goes as
+// curvature^2, hence the power. Smaller cells bend less, so that the density that results from
+// several steps grows more slowly with the curvature. Below `even_bending` all cells are alike.
 constexpr double bending_power = 2.0 / 3;
 constexpr double even_bending = 0.05;
 // Weight of the squared distances from the planes of a cell, relative to those from its points.
@@ -48,7 +49,7 @@ constexpr double plane_weight = 2;
 constexpr double most_weight = 64;
 // A triangle of three boundary sites below this quality (4 sqrt(3) S / sum of the squared sides, S:
 // area) covers no part of the surface.
-constexpr double flat_quality = 0.1;
+constexpr double degenerate_quality = 0.1;
 
 }  // namespace
 
@@ -134,12 +135,12 @@ void Relaxation::move_to_boundary(std::span<const std::optional<SurfacePoint>> p
     if (!has_moved) return;
     std::vector<agvd::Triangle> kept;
     for (const agvd::Triangle& t : mesh_.triangles) {
-        if (!is_flat_at_boundary(t)) kept.push_back(t);
+        if (!is_degenerate_at_boundary(t)) kept.push_back(t);
     }
     take_triangles(std::move(kept));
 }
 
-bool Relaxation::is_flat_at_boundary(const agvd::Triangle& t) const {
+bool Relaxation::is_degenerate_at_boundary(const agvd::Triangle& t) const {
     double squares = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         if (boundary_[t[k]] == no_index) return false;
@@ -147,7 +148,7 @@ bool Relaxation::is_flat_at_boundary(const agvd::Triangle& t) const {
     }
     const Vec3 normal = (at_[t[1]] - at_[t[0]]).cross(at_[t[2]] - at_[t[0]]);
     return !(normal.dot(facing_[t[0]] + facing_[t[1]] + facing_[t[2]]) > 0) ||
-           2 * std::numbers::sqrt3 * normal.norm() < flat_quality * squares;
+           2 * std::numbers::sqrt3 * normal.norm() < degenerate_quality * squares;
 }
 
 void Relaxation::set_density(const CellMeasures& cells) {

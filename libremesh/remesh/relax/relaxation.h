@@ -72,7 +72,7 @@ public:
     [[nodiscard]] const std::vector<double>& weights() const { return weight_; }
 
 private:
-    [[nodiscard]] bool is_flat_at_boundary(const agvd::Triangle& triangle) const;
+    [[nodiscard]] bool is_degenerate_at_boundary(const agvd::Triangle& triangle) const;
     void find_stuck();
     void take_triangles(std::vector<agvd::Triangle> triangles);
     void locate(agvd::Index i);

@@ -1,5 +1,6 @@
 // Adds the middles of the longest pairs of neighbours as sites, and divides each triangle at its
-// middles. If the middles are too few, the largest triangles get a site in their centre.
+// middles. If the middles are too few, the largest triangles get a site in their centre. So new
+// sites inside the surface get six neighbours, and old ones keep their number.
 #include "remesh/relax/subdivide.h"
 
 #include <algorithm>

@@ -1,5 +1,7 @@
 // A walk unfolds face after face along a straight line. Notation: the frame of a half-edge has its
-// tail as origin and its direction as x axis; the face lies above.
+// tail as origin and its direction as x axis; the face lies above. A ray leaves a face through the
+// next or the previous half-edge and is turned into the frame of its twin; the walk ends after the
+// length of the step, or just before the boundary ([polthier1998]).
 #include "remesh/relax/walk.h"
 
 #include <algorithm>

@@ -59,16 +59,16 @@ Surface component_surface(const Surface& whole, const Component& component, int 
 }
 
 // A component as a surface of its own.
-struct Ground {
-    Ground(const Surface& whole, const Component& component, double max_length,
-           agvd::Index most_splits, int num_threads, const agvd::Progress& progress)
+struct RefinedComponent {
+    RefinedComponent(const Surface& whole, const Component& component, double max_length,
+                     agvd::Index most_splits, int num_threads, const agvd::Progress& progress)
         : faces(component.faces),
           input(component_surface(whole, component, num_threads, progress)),
           base(input, {.max_length = max_length,
                        .most_splits = most_splits,
                        .num_threads = num_threads,
                        .progress = progress}) {}
-    Ground(const Ground&) = delete;
+    RefinedComponent(const RefinedComponent&) = delete;
 
     std::span<const Index> faces;  // Ascending: faces of the whole surface, by face of `input`.
     Surface input;
@@ -79,18 +79,18 @@ struct Ground {
 
 class FarthestPoints {
 public:
-    FarthestPoints(const Surface& whole, const Ground& ground, std::uint64_t seed,
+    FarthestPoints(const Surface& whole, const RefinedComponent& component, std::uint64_t seed,
                    std::uint64_t stream, int num_threads, const agvd::Progress& progress)
         : whole_(whole),
-          ground_(ground),
+          component_(component),
           progress_(progress),
-          layout_(ground_.surface(), num_threads, progress),
-          search_(ground_.surface(), layout_, num_threads),
+          layout_(component_.surface(), num_threads, progress),
+          search_(component_.surface(), layout_, num_threads),
           seed_(seed),
           stream_(stream) {}
 
     // Adds a given point of the whole surface.
-    void add(const SurfacePoint& point) { take(to_ground(point), point); }
+    void add(const SurfacePoint& point) { take(to_component(point), point); }
 
     std::vector<SurfacePoint> run(Index count) {
         std::vector<SurfacePoint> result;
@@ -98,7 +98,7 @@ public:
         search_.run(progress_);
         agvd::Poller poller(progress_);
         agvd::Ticker ticker(poller);
-        FarthestVertex farthest(ground_.surface(), search_);
+        FarthestVertex farthest(component_.surface(), search_);
         for (std::uint64_t i = 0; result.size() < count && !farthest.is_empty(); ++i) {
             const Index v = farthest.pop();
             const SurfacePoint near = draw(v, i);
@@ -122,7 +122,7 @@ private:
 
     // A random point next to a vertex, in the face around it whose other corners are farthest.
     [[nodiscard]] SurfacePoint draw(Index vertex, std::uint64_t number) const {
-        const Surface& surface = ground_.surface();
+        const Surface& surface = component_.surface();
         const auto reach = [&](Index h) {
             return search_.distance(surface.head(h)) +
                    search_.distance(surface.tail(Surface::previous(h)));
@@ -146,22 +146,22 @@ private:
     }
 
     [[nodiscard]] SurfacePoint to_whole(const SurfacePoint& point) const {
-        SurfacePoint found = ground_.base.to_input(point);
-        found.face = agvd::FaceId(ground_.faces[found.face.value()]);
+        SurfacePoint found = component_.base.to_input(point);
+        found.face = agvd::FaceId(component_.faces[found.face.value()]);
         double sum = 0;
         for (double& b : found.barycentric) sum += b = std::max(b, interior_margin);
         for (double& b : found.barycentric) b /= sum;
         return found;
     }
-    [[nodiscard]] SurfacePoint to_ground(const SurfacePoint& point) const {
+    [[nodiscard]] SurfacePoint to_component(const SurfacePoint& point) const {
         const auto found =
-            std::lower_bound(ground_.faces.begin(), ground_.faces.end(), point.face.value());
-        const auto face = static_cast<Index>(found - ground_.faces.begin());
-        return ground_.base.to_intrinsic(SurfacePoint{agvd::FaceId(face), point.barycentric});
+            std::lower_bound(component_.faces.begin(), component_.faces.end(), point.face.value());
+        const auto face = static_cast<Index>(found - component_.faces.begin());
+        return component_.base.to_intrinsic(SurfacePoint{agvd::FaceId(face), point.barycentric});
     }
 
     const Surface& whole_;
-    const Ground& ground_;
+    const RefinedComponent& component_;
     const agvd::Progress& progress_;
     const agvd::SurfaceLayout layout_;
     agvd::BoundsSearch search_;
@@ -179,9 +179,9 @@ std::vector<SurfacePoint> farthest_points(const Surface& surface, const Componen
     if (count == 0) return {};
     const Index most_splits =
         splits_per_point * (count + 1) + static_cast<Index>(component.faces.size());
-    const Ground ground(surface, component, longest_edge * spacing, most_splits, num_threads,
-                        progress);
-    FarthestPoints points(surface, ground, seed, stream, num_threads, progress);
+    const RefinedComponent refined(surface, component, longest_edge * spacing, most_splits,
+                                   num_threads, progress);
+    FarthestPoints points(surface, refined, seed, stream, num_threads, progress);
     for (const SurfacePoint& point : fixed) points.add(point);
     if (!fixed.empty()) return points.run(count);
     const SurfacePoint first = scatter(surface, component, 1, seed, stream).front().point;

@@ -31,10 +31,11 @@ constexpr Index most_samples = agvd::no_index / candidates_per_site;
 void check_count(const std::vector<Component>& components, Index num_samples) {
     const std::uint64_t needed = detail::needed_samples(components);
     if (num_samples >= needed) return;
-    throw agvd::ConstraintUnmet("the topology of the mesh (" + std::to_string(components.size()) +
-                                " components) needs at least " + std::to_string(needed) +
-                                " samples, not " + std::to_string(num_samples) +
-                                "; ask for that many or more");
+    throw agvd::ConstraintUnmet(
+        std::to_string(num_samples) +
+        " samples are too few for the topology of the mesh (number of components: " +
+        std::to_string(components.size()) + "); use at least " + std::to_string(needed) +
+        " samples");
 }
 
 // The boundary loops of each component.
@@ -117,17 +118,18 @@ const char* init_name(Init init) {
 std::vector<agvd::SurfacePoint> sample_sites(const agvd::Surface& surface,
                                              const SamplingOptions& options) {
     if (options.num_samples < 1) {
-        throw agvd::InvalidOption("the number of samples is 0; ask for at least 1");
+        throw agvd::InvalidOption("num_samples is 0; use 1 or more");
     }
     if (options.num_samples > most_samples) {
-        throw agvd::InvalidOption("more than " + std::to_string(most_samples) +
-                                  " samples cannot be handled; ask for fewer");
+        throw agvd::InvalidOption("num_samples is " + std::to_string(options.num_samples) +
+                                  "; use at most " + std::to_string(most_samples));
     }
     if (options.num_threads < 0) {
-        throw agvd::InvalidOption("the number of threads is negative; use 0 for all cores");
+        throw agvd::InvalidOption("num_threads is " + std::to_string(options.num_threads) +
+                                  "; use 0 (all cores) or more");
     }
     if (surface.num_faces() == 0) {
-        throw agvd::InvalidInput("the surface has no face to put samples on; check the input");
+        throw agvd::InvalidInput("the surface has no face; check that the file holds a surface");
     }
     agvd::poll(options.progress, 0);
     const agvd::Progress begin = agvd::within(options.progress, 0, 0);
@@ -161,8 +163,8 @@ std::vector<agvd::SurfacePoint> sample_sites(const agvd::Surface& surface,
         if (points.size() < inner) {
             throw agvd::ConstraintUnmet(
                 "the component of face " + std::to_string(components[i].faces[0]) +
-                " is so small for its coordinates that it holds no " + std::to_string(quota[i]) +
-                " different points; ask for fewer samples or move the mesh to the origin");
+                " is too small for " + std::to_string(quota[i]) +
+                " different points; use fewer samples, or move the mesh to the origin");
         }
         sites.insert(sites.end(), rim.begin(), rim.end());
         sites.insert(sites.end(), points.begin(), points.end());

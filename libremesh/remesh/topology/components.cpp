@@ -1,3 +1,6 @@
+// Finds connected components by union-find over faces. Chunks of faces are united in parallel, each
+// on its own; the pairs across chunks follow on one thread. The root of a set is its lowest face,
+// so that components are numbered by lowest face for any number of threads.
 #include "remesh/topology/components.h"
 
 #include <atomic>

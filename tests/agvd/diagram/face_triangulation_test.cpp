@@ -27,16 +27,16 @@ void expect_fills_face(const std::vector<Vec2>& points, const FaceTriangulation&
         for (std::size_t k = 0; k < 3; ++k) {
             const Index from = pieces[i].points[k];
             const Index to = pieces[i].points[(k + 1) % 3];
-            const Index beside = pieces[i].beside[k];
-            if (beside == no_index) {
+            const Index neighbour = pieces[i].neighbours[k];
+            if (neighbour == no_index) {
                 EXPECT_EQ(to, (from + 1) % 3);
                 continue;
             }
             std::size_t j = 0;
-            while (j < 3 && pieces[beside].points[j] != to) ++j;
+            while (j < 3 && pieces[neighbour].points[j] != to) ++j;
             ASSERT_LT(j, 3u);
-            EXPECT_EQ(pieces[beside].points[(j + 1) % 3], from);
-            EXPECT_EQ(pieces[beside].beside[j], i);
+            EXPECT_EQ(pieces[neighbour].points[(j + 1) % 3], from);
+            EXPECT_EQ(pieces[neighbour].neighbours[j], i);
         }
     }
     EXPECT_NEAR(sum, doubled_area(corners[0], corners[1], corners[2]), 1e-12);

@@ -121,7 +121,7 @@ TEST(FaceOperations, RandomFlipsAndSplitsKeepEverythingConsistent) {
     for_each_mesh([&](const TriangleMesh&, Surface surface, std::uint64_t seed) {
         const double area = area_of(surface);
         Poller poller;
-        (void)detail::raise_flat_faces(surface, 1, poller);
+        (void)detail::raise_degenerate_faces(surface, 1, poller);
         detail::FaceCharts charts(surface);
         Dice dice(seed);
         for (int step = 0; step < 60; ++step) {
@@ -435,16 +435,17 @@ TEST(IntrinsicTriangulation, SplitsEndAtTheirBoundLongestFirst) {
               all);
 }
 
-TEST(IntrinsicTriangulation, NearlyFlatFacesAreRaisedAndCounted) {
+TEST(IntrinsicTriangulation, NearlyDegenerateFacesAreRaisedAndCounted) {
     TriangleMesh mesh;
     mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0.5, 1e-20, 0}, {0.5, 1, 0}};
     mesh.triangles = {{0, 1, 2}, {0, 2, 3}, {2, 1, 3}};
     const Surface input = build_surface(mesh.view());
     const IntrinsicTriangulation base(input);
-    EXPECT_EQ(base.counts().flat_faces, 1u);
+    EXPECT_EQ(base.counts().degenerate_faces, 1u);
     for (const Vec2& apex : base.surface().apex) EXPECT_GT(apex.y(), 1e-16);
     EXPECT_NEAR(area_of(base.surface()), 0.5, 1e-12);
-    EXPECT_EQ(IntrinsicTriangulation(build_surface(shapes::cube().view())).counts().flat_faces, 0u);
+    EXPECT_EQ(
+        IntrinsicTriangulation(build_surface(shapes::cube().view())).counts().degenerate_faces, 0u);
 }
 
 TEST(IntrinsicTriangulation, InvalidOptionsThrow) {

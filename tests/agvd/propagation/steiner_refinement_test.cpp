@@ -175,14 +175,14 @@ TEST(SteinerRefinement, RefusesWhatItCannotMeetAndSaysWhatItReached) {
     const std::string out_of_reach =
         refusal(surface, sites, {.engine = Engine::Steiner, .max_error = 1e-9});
     EXPECT_NE(out_of_reach.find("is off by"), std::string::npos) << out_of_reach;
-    EXPECT_NE(out_of_reach.find("would not do"), std::string::npos) << out_of_reach;
+    EXPECT_NE(out_of_reach.find("would not suffice"), std::string::npos) << out_of_reach;
     EXPECT_NE(out_of_reach.find("use the window engine"), std::string::npos) << out_of_reach;
     PropagationOptions finest{.engine = Engine::Steiner, .steiner_points = 1000};
     const double least = worst_error(propagate(surface, sites, finest).vertex_distance,
                                      exact_distances(surface, sites));
     finest.max_error = least / 2;
     const std::string no_room = refusal(surface, sites, finest);
-    EXPECT_NE(no_room.find("hold 1000 points"), std::string::npos) << no_room;
+    EXPECT_NE(no_room.find("have 1000 points"), std::string::npos) << no_room;
     EXPECT_THROW((void)propagate(surface, sites, {.engine = Engine::Steiner, .max_error = 0}),
                  InvalidOption);
 }

@@ -159,7 +159,7 @@ TEST(CleanInput, AbsorbsFacesWithoutAreaAndLeavesNoSlit) {
     }
 }
 
-TEST(CleanInput, DropsFlatFacesOnTheBoundary) {
+TEST(CleanInput, DropsDegenerateFacesOnTheBoundary) {
     TriangleMesh mesh = shapes::grid(2);
     mesh.triangles.push_back({0, 6, 3});  // 0, 3 and 6 lie on the side y = 0.
     const CleanResult clean = clean_input(mesh.view());

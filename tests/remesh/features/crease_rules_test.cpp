@@ -8,7 +8,7 @@
 #include "remesh/features/carry_creases.h"
 #include "remesh/features/edge_angles.h"
 #include "remesh/features/prune_creases.h"
-#include "remesh/features/turn_beside.h"
+#include "remesh/features/surrounding_turn.h"
 #include "support/parts.h"
 #include "support/shapes.h"
 
@@ -205,7 +205,7 @@ TEST(Prune, NetworksOfShortChainsGoThoseWithAFewStay) {
     drawing.line(0.6, 0.8, 1, 0.8);
     drawing.line(0.6, 0.7, 0.6, 0.8);
     drawing.line(0.7, 0.7, 0.7, 0.8);
-    drawing.prune_with({.short_chain = 0.3, .least_worth = 0.5});
+    drawing.prune_with({.short_chain = 0.3, .least_density = 0.5});
     EXPECT_NEAR(drawing.length(), 1.0, 1e-12);
 }
 
@@ -241,7 +241,7 @@ TEST(EdgeAngles, NeedleOfAnyDirectionTakesThatOfItsNeighbours) {
     }
 }
 
-TEST(TurnBeside, IsTheRootOfTheSquaresWithinReach) {
+TEST(SurroundingTurn, IsTheRootOfTheSquaresWithinReach) {
     // Folds of 20 degrees at y = -.1 and .1, beside a flat line at y = 0.
     const double rise = std::tan(20 * degree);
     TriangleMesh mesh = parts::folded_plate(160, 20, 0.5, [](double) { return 0; });
@@ -261,7 +261,7 @@ TEST(TurnBeside, IsTheRootOfTheSquaresWithinReach) {
     }
     ASSERT_NE(middle, no_index);
     const auto at = [&](double reach) {
-        return turn_beside(set, angles, reach, poller)[middle] / degree;
+        return surrounding_turn(set, angles, reach, poller)[middle] / degree;
     };
     EXPECT_NEAR(at(0.3), 20 * std::numbers::sqrt2, 0.1);
     EXPECT_EQ(at(0.07), 0);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 
 #include "agvd/diagram/build_diagram.h"
 #include "agvd/mesh/point_faces.h"
@@ -194,9 +195,12 @@ TEST(ClosedBall, EdgesOfNoLengthAreNoArcs) {
 
 TEST(SiteReason, EachHasATextOfItsOwn) {
     std::vector<std::string> texts;
+    std::set<std::string> places;
     for (int i = 0; i <= static_cast<int>(SiteReason::SelfIntersection); ++i) {
         texts.emplace_back(to_text(static_cast<SiteReason>(i)));
+        places.emplace(place_text(static_cast<SiteReason>(i)));
     }
+    EXPECT_EQ(places.size(), 10u);
     EXPECT_EQ(texts.size(), 10u);
     EXPECT_TRUE(std::is_sorted(texts.begin(), texts.end()));
     EXPECT_EQ(std::adjacent_find(texts.begin(), texts.end()), texts.end());

@@ -77,12 +77,12 @@ TEST(Obj, VerticesMayFollowTheirFaces) {
 
 TEST(Obj, IndicesOutOfRangeAreRefused) {
     expect_error<InvalidInput>("a.obj", four + "f 1 2 3\nf 1 2 5\nf 1 2 4\n",
-                               {"line 6", "face 1", "corner 5", "4 vertices", "from 1"});
-    expect_error<InvalidInput>("a.obj", four + "f 1 2 0\n", {"line 5", "corner 0", "from 1"});
+                               {"line 6", "face 1", "vertex 5", "4 vertices", "from 1"});
+    expect_error<InvalidInput>("a.obj", four + "f 1 2 0\n", {"line 5", "vertex 0", "from 1"});
     expect_error<InvalidInput>("a.obj", four + "f -5 2 1\n", {"line 5", "-5", "4 vertices"});
-    expect_error<InvalidInput>("a.obj", four + "f 1 2 99999999999\n", {"line 5", "absurdly large"});
+    expect_error<InvalidInput>("a.obj", four + "f 1 2 99999999999\n", {"line 5", "too large"});
     expect_error<InvalidInput>("a.obj", four + "f 1 2 99999999999999999999\n",
-                               {"line 5", "absurdly large"});
+                               {"line 5", "too large"});
     expect_error<InvalidInput>("a.obj", four + "f 1 2 -9223372036854775808\n", {"line 5"});
 }
 

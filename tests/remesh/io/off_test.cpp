@@ -119,14 +119,14 @@ TEST(Off, WrongNumbersAreRefused) {
 
 TEST(Off, IndicesOutOfRangeAreRefused) {
     expect_error<InvalidInput>("a.off", "OFF\n3 2 0\n" + three_vertices + "3 0 1 2\n3 0 1 3\n",
-                               {"line 7", "face 1", "corner 3", "3 vertices"});
+                               {"line 7", "face 1", "vertex 3", "3 vertices"});
     expect_error<InvalidInput>("a.off", "OFF\n3 1 0\n" + three_vertices + "3 0 1 -2\n",
                                {"line 6", "-2", "negative"});
     expect_error<InvalidInput>("a.off", "OFF\n3 1 0\n" + three_vertices + "3 0 1 4294967295\n",
-                               {"line 6", "absurdly large"});
+                               {"line 6", "too large"});
     expect_error<InvalidInput>("a.off",
                                "OFF\n3 1 0\n" + three_vertices + "3 0 1 99999999999999999999\n",
-                               {"line 6", "absurdly large"});
+                               {"line 6", "too large"});
 }
 
 TEST(Off, CountsAreNotBelieved) {

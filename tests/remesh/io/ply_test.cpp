@@ -185,7 +185,7 @@ TEST(Ply, WrongValuesAreRefused) {
     const std::string head = triangle_header("ascii");
     expect_error<InvalidInput>("a.ply", head + "0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n",
                                {"line 11", "vertex 1", "not finite"});
-    expect_error<InvalidInput>("a.ply", head + three + "3 0 1 3\n", {"line 13", "corner 3"});
+    expect_error<InvalidInput>("a.ply", head + three + "3 0 1 3\n", {"line 13", "vertex 3"});
     expect_error<InvalidInput>("a.ply", head + three + "3 0 1 -1\n", {"line 13", "negative"});
     expect_error<IoError>("a.ply", head + three + "-3 0 1 2\n", {"line 13", "negative length"});
     expect_error<IoError>("a.ply", head + "0 0 0 9\n1 0 0 9\n0 1 0 9\n3 0 1 2\n",

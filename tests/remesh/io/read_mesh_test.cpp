@@ -78,7 +78,7 @@ TEST(ReadMesh, StrayBytesAreAWarningAndCommentsAreNot) {
     files::write(folder / "a.off", off + "made by hand\n");
     const auto warned = remesh::read_mesh(folder / "a.off").warnings;
     ASSERT_EQ(warned.size(), 1u);
-    EXPECT_NE(warned[0].find("line 7: what follows the last element"), std::string::npos)
+    EXPECT_NE(warned[0].find("line 7: the 13 bytes after the last element"), std::string::npos)
         << warned[0];
     files::write(folder / "b.off", off + "# 3 0 1 2\n\n");
     EXPECT_TRUE(remesh::read_mesh(folder / "b.off").warnings.empty());

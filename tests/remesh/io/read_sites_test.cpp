@@ -80,9 +80,9 @@ TEST_F(ReadSites, NamesFileAndLineOfASyntaxError) {
 }
 
 TEST_F(ReadSites, NamesLineAndElementThatDoNotFitTheMesh) {
-    expect_error<agvd::InvalidInput>("\nv 9\n", "line 2: vertex 9");
+    expect_error<agvd::InvalidInput>("\nv 9\n", "line 2: the site names vertex 9");
     expect_error<agvd::InvalidInput>("v -1\n", "vertex -1");
-    expect_error<agvd::InvalidInput>("v 99999999999999999999999\n", "absurdly large");
+    expect_error<agvd::InvalidInput>("v 99999999999999999999999\n", "too large");
     expect_error<agvd::InvalidInput>("f 8 1 0 0\n", "face 8");
     expect_error<agvd::InvalidInput>("f 0 1.5 -0.5 0\n", "negative");
     expect_error<agvd::InvalidInput>("f 0 0.3 0.3 0.3\n", "sum to 1");

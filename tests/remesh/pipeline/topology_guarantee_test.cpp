@@ -179,7 +179,7 @@ TEST(TopologyGuarantee, AddedVerticesStayIfAsked) {
     const auto result = remesh::remesh(mesh.view(), {.num_samples = 30,
                                                      .vertex_count = remesh::VertexCount::Add,
                                                      .features = remesh::Features::Off});
-    EXPECT_EQ(result.components_from_faces, 0u);
+    EXPECT_EQ(result.components_thinned, 0u);
     EXPECT_GT(result.sites_added, 0u);
     EXPECT_EQ(result.mesh.positions.size(), 30 + result.sites_added);
     EXPECT_TRUE(same_topology(remesh::analyze_topology(result.mesh.view()), result.input_topology));

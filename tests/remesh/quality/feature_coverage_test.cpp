@@ -38,11 +38,6 @@ TriangleMesh prism(const std::vector<Vec3>& polygon) {
     return mesh;
 }
 
-TriangleMesh moved(TriangleMesh mesh, const Vec3& by) {
-    for (Vec3& p : mesh.positions) p += by;
-    return mesh;
-}
-
 // Of a unit cube.
 const double diagonal = std::numbers::sqrt3;
 
@@ -87,7 +82,7 @@ TEST(FeatureCoverage, BevelLosesAnEdgeAndMakesTwo) {
 TEST(FeatureCoverage, MovedByLittleIsCoveredButNotClosely) {
     for (const double percent : {0.01, 0.04, 0.2}) {
         const Vec3 by = Vec3(1, 1, 1) * percent / 100;  // In diagonals.
-        const FeatureCoverage c = coverage(shapes::cube(), moved(shapes::cube(), by));
+        const FeatureCoverage c = coverage(shapes::cube(), shapes::moved(shapes::cube(), by));
         EXPECT_EQ(c.covered_closely, percent < 0.02 ? 1 : 0);
         // Nearest is the same edge, sqrt(2/3) of the way.
         EXPECT_NEAR(c.covered, percent < 0.1 ? 1 : 0, 0.01);
@@ -174,7 +169,7 @@ TEST(FeatureCoverage, EdgesThatReachFarBeyondTheOriginalCoverIt) {
     const TriangleMesh large{{{-far, 0, 0}, {far, 0, 0}, {0, far, far}, {0, -far, far}},
                              {{0, 1, 2}, {1, 0, 3}}};
     EXPECT_EQ(coverage(fold, large).covered_closely, 1);
-    EXPECT_EQ(coverage(fold, moved(large, {0, 0, 1})).covered, 0);
+    EXPECT_EQ(coverage(fold, shapes::moved(large, {0, 0, 1})).covered, 0);
 }
 
 TEST(PointDistances, FindWhatIsWithinReach) {

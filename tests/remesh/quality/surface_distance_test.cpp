@@ -21,17 +21,13 @@ SurfaceDistance distance(const TriangleMesh& original, const TriangleMesh& resul
     return remesh::surface_distance(original.view(), result.view(), options).value();
 }
 
-TriangleMesh moved(TriangleMesh mesh, const agvd::Vec3& by) {
-    for (agvd::Vec3& p : mesh.positions) p += by;
-    return mesh;
-}
-
 void turn(agvd::Triangle& triangle) { std::swap(triangle[0], triangle[1]); }
 
 }  // namespace
 
 TEST(SurfaceDistance, AnOffsetPlaneLiesAtItsOffset) {
-    const SurfaceDistance d = distance(shapes::grid(4), moved(shapes::grid(3), {0, 0, 0.25}));
+    const SurfaceDistance d =
+        distance(shapes::grid(4), shapes::moved(shapes::grid(3), {0, 0, 0.25}));
     for (const auto& side : {d.from_original, d.from_result, d.two_sided()}) {
         EXPECT_NEAR(side.mean, 0.25, 1e-12);
         EXPECT_NEAR(side.rms, 0.25, 1e-12);

@@ -1,4 +1,4 @@
-#include "remesh/features/turn_beside.h"
+#include "remesh/features/surrounding_turn.h"
 
 #include <algorithm>
 #include <cmath>
@@ -94,8 +94,8 @@ private:
 
 }  // namespace
 
-std::vector<double> turn_beside(const CreaseSet& set, const std::vector<double>& angles,
-                                double reach, agvd::Poller& poller) {
+std::vector<double> surrounding_turn(const CreaseSet& set, const std::vector<double>& angles,
+                                     double reach, agvd::Poller& poller) {
     Gathering gathering(set, angles, reach, poller);
     gathering.spread();
     return gathering.of_edges();

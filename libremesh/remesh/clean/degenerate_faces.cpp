@@ -21,7 +21,7 @@ using agvd::Vec3;
 // few.
 constexpr std::size_t most_flips = 32;
 
-bool is_flat(const std::vector<Vec3>& positions, const Triangle& t) {
+bool is_degenerate(const std::vector<Vec3>& positions, const Triangle& t) {
     return smallest_doubled_area(positions, t) == 0;
 }
 
@@ -59,14 +59,14 @@ void flip(Soup& soup, std::vector<Index>& twin, Index h) {
     join(3 * f + 1, 3 * g + 2);
 }
 
-class FlatFaces {
+class DegenerateFaces {
 public:
-    FlatFaces(Soup& soup, std::vector<Index>& twin)
-        : soup_(soup), twin_(twin), is_flat_(soup.triangles.size()) {
-        for (Index f = 0; f < is_flat_.size(); ++f) {
+    DegenerateFaces(Soup& soup, std::vector<Index>& twin)
+        : soup_(soup), twin_(twin), is_degenerate_(soup.triangles.size()) {
+        for (Index f = 0; f < is_degenerate_.size(); ++f) {
             soup.ticker.tick();
-            is_flat_[f] = smallest_doubled_area(soup.positions, soup.triangles[f]) == 0;
-            if (is_flat_[f]) waiting_.push_back(f);
+            is_degenerate_[f] = smallest_doubled_area(soup.positions, soup.triangles[f]) == 0;
+            if (is_degenerate_[f]) waiting_.push_back(f);
         }
     }
 
@@ -76,7 +76,7 @@ public:
         while (!waiting_.empty()) {
             const Index face = waiting_.front();
             waiting_.pop_front();
-            if (flips_left > 0 && is_flat_[face] && try_flip(face)) --flips_left;
+            if (flips_left > 0 && is_degenerate_[face] && try_flip(face)) --flips_left;
         }
         drop_rest();
     }
@@ -92,24 +92,24 @@ private:
         const Index other = o / 3;
         const Index a = soup_.tail(h), b = soup_.head(h), c = soup_.apex(h), d = soup_.apex(o);
         if (c == d || are_joined(soup_.triangles, twin_, Surface::previous(h), d)) return false;
-        const std::array<bool, 2> flat{is_flat(soup_.positions, {a, d, c}),
-                                       is_flat(soup_.positions, {d, b, c})};
-        const int before = is_flat_[other] ? 2 : 1;
-        const int after = int{flat[0]} + int{flat[1]};
+        const std::array<bool, 2> degenerate{is_degenerate(soup_.positions, {a, d, c}),
+                                             is_degenerate(soup_.positions, {d, b, c})};
+        const int before = is_degenerate_[other] ? 2 : 1;
+        const int after = int{degenerate[0]} + int{degenerate[1]};
         if (after > before ||
             (after == before && !(length_sq(soup_, c, d) < length_sq(soup_, a, b)))) {
             return false;
         }
         flip(soup_, twin_, h);
-        if (!is_flat_[other]) soup_.face_origin[face] = soup_.face_origin[other];
-        is_flat_[face] = flat[0];
-        is_flat_[other] = flat[1];
+        if (!is_degenerate_[other]) soup_.face_origin[face] = soup_.face_origin[other];
+        is_degenerate_[face] = degenerate[0];
+        is_degenerate_[other] = degenerate[1];
         if (after < before) soup_.counts.absorbed_faces += static_cast<Index>(before - after);
         for (const Index changed : {face, other}) {  // Their neighbours may be flipped now.
-            if (is_flat_[changed]) waiting_.push_back(changed);
+            if (is_degenerate_[changed]) waiting_.push_back(changed);
             for (Index side = 3 * changed; side < 3 * changed + 3; ++side) {
                 const Index next_to = twin_[side] == no_index ? no_index : twin_[side] / 3;
-                if (next_to != no_index && is_flat_[next_to]) waiting_.push_back(next_to);
+                if (next_to != no_index && is_degenerate_[next_to]) waiting_.push_back(next_to);
             }
         }
         return true;
@@ -117,15 +117,15 @@ private:
 
     void drop_rest() {
         Index dropped = 0;
-        for (const bool flat : is_flat_) dropped += flat ? 1 : 0;
+        for (const bool degenerate : is_degenerate_) dropped += degenerate ? 1 : 0;
         if (dropped == 0) return;
         soup_.counts.degenerate_faces += dropped;
-        erase_faces(soup_, is_flat_, twin_);
+        erase_faces(soup_, is_degenerate_, twin_);
     }
 
     Soup& soup_;
     std::vector<Index>& twin_;
-    std::vector<bool> is_flat_;
+    std::vector<bool> is_degenerate_;
     std::deque<Index> waiting_;
 };
 
@@ -144,6 +144,8 @@ double smallest_doubled_area(std::span<const Vec3> positions, const Triangle& t)
     return smallest;
 }
 
-void remove_flat_faces(Soup& soup, std::vector<Index>& twin) { FlatFaces(soup, twin).remove(); }
+void remove_degenerate_faces(Soup& soup, std::vector<Index>& twin) {
+    DegenerateFaces(soup, twin).remove();
+}
 
 }  // namespace remesh::detail

@@ -1,5 +1,5 @@
 //! \file
-//! How much a surface turns beside its creases.
+//! How much a surface turns around its creases.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace remesh::detail {
 
-//! For each edge of the set: how much the surface beside it turns, radians; 0 for other edges. It
+//! For each edge of the set: how much the surface around it turns, radians; 0 for other edges. It
 //! is the root of the sum of angle squared times length over all edges outside the set within
 //! `reach`, on both sides, per length of the set's edge. So the many small turns of round faces and
 //! fillets count little, noise counts about as much as the noisy edge itself, and edges between
@@ -18,8 +18,8 @@ namespace remesh::detail {
 //! \param angles  #E, radians.
 //! \return #E.
 //! Cost: O(#V + k log k), k = edges within reach.
-[[nodiscard]] std::vector<double> turn_beside(const CreaseSet& set,
-                                              const std::vector<double>& angles, double reach,
-                                              agvd::Poller& poller);
+[[nodiscard]] std::vector<double> surrounding_turn(const CreaseSet& set,
+                                                   const std::vector<double>& angles, double reach,
+                                                   agvd::Poller& poller);
 
 }  // namespace remesh::detail
