@@ -5,9 +5,9 @@
 namespace agvd {
 namespace {
 
-constexpr double at_vertex = 1e-12;     // A share of the edge length.
-constexpr double on_edge = 1e-12;       // A share of the height of the face.
-constexpr double on_edge_slope = 1e-3;  // A share of the position along the edge.
+constexpr double at_vertex = 1e-12;      // A share of the edge length.
+constexpr double edge_rounding = 1e-12;  // A share of the height of the face.
+constexpr double on_edge_slope = 1e-3;   // A share of the position along the edge.
 
 }  // namespace
 
@@ -35,7 +35,7 @@ std::optional<Index> half_edge_of(const SurfacePoint& point) {
     for (Index k = 0; k < 3; ++k) {
         const double height = b[(k + 2) % 3];
         const double along = std::min(b[k], b[(k + 1) % 3]);
-        if (along > 0 && height <= std::min(on_edge, on_edge_slope * along)) {
+        if (along > 0 && height <= std::min(edge_rounding, on_edge_slope * along)) {
             return 3 * point.face.value() + k;
         }
     }
