@@ -1,7 +1,8 @@
-// The reader of diagrams, and the cells of what it returns.
+// The reader of diagrams, and the comparison of what it returns, as in `agvd compare`.
 #include "remesh/io/read_diagram.h"
 
 #include "agvd/core/error.h"
+#include "agvd/metrics/compare_diagrams.h"
 #include "memory_file.h"
 
 namespace {
@@ -57,6 +58,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const remesh::DiagramFile file = remesh::read_diagram(bytes.path());
         check_sizes(file);
         check_indices(file);
+        const agvd::Surface surface = agvd::build_surface(file.mesh.view());
+        (void)agvd::compare_diagrams(
+            surface, file.diagram, file.diagram,
+            {.spacing = 1, .max_loop_points = 16, .area_samples = 20, .num_threads = 1});
     } catch (const agvd::IoError&) {
     } catch (const agvd::InvalidInput&) {
     }
