@@ -162,7 +162,8 @@ Topology analyze_topology(const agvd::MeshView& mesh, const agvd::Connectivity& 
     constexpr Index grain = 1 << 14;  // Faces or vertices.
     agvd::Poller poller(progress);
     agvd::Ticker ticker(poller);
-    const auto& [twin, outgoing] = connectivity;
+    const std::vector<Index>& twin = connectivity.twin;
+    const std::vector<Index>& outgoing = connectivity.outgoing;
     detail::FaceLabels labels = detail::label_components(twin, num_threads, poller);
     Topology result{true, true, std::vector<ComponentTopology>(labels.count),
                     std::move(labels.of_face)};
