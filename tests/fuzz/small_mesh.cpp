@@ -19,7 +19,8 @@ TriangleMesh soup(Bytes& bytes) {
     TriangleMesh mesh;
     const Index num_vertices = 3 + bytes.below(18), num_faces = 4 + bytes.below(77);
     for (Index v = 0; v < num_vertices; ++v) {
-        mesh.positions.emplace_back(bytes.below(9), bytes.below(9), bytes.below(9));
+        const double x = bytes.below(9), y = bytes.below(9);
+        mesh.positions.emplace_back(x, y, bytes.below(9));
     }
     for (Index f = 0; f < num_faces && !bytes.is_empty(); ++f) {
         const Index a = bytes.below(num_vertices), b = bytes.below(num_vertices);
@@ -95,7 +96,7 @@ void move_vertex(Bytes& bytes, TriangleMesh& mesh) {
             p[axis] *= 1 + times(amount(), -52);
             break;
         case 7:
-            p[axis] += times(amount(), -amount() / 2);
+            p[axis] += times(1, amount());
             break;
         default:
             p[axis] = bytes.take<double>();
