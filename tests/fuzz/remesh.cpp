@@ -125,6 +125,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         options.num_threads = 2;
         check_same(result, remesh::remesh(mesh.view(), options));
     } catch (const InvalidInput&) {
+    } catch (const InvalidOption&) {
+        require(options.drop_components > 0, "no option is out of its range");  // None is left.
     } catch (const ConstraintUnmet& error) {
         const Index enough = number_named(error.what());
         if (enough == 0 || options.sites || !is_repeated) return 0;
