@@ -170,7 +170,7 @@ private:
     bool try_step(Index v, const Vec3& step, double length, double& worst) {
         const SurfacePoint before = mesh_.points[v];
         const Vec3 at_before = at_[v];
-        mesh_.points[v] = detail::walk_straight(surface_, before, step);
+        mesh_.points[v] = detail::walk_straight(surface_, before, step).end;
         locate(v);
         const double now = worst_around(v);
         const double area = planes_[v].spread.trace();
