@@ -126,13 +126,16 @@ void change_face(Bytes& bytes, TriangleMesh& mesh) {
     }
 }
 
-// All of it: far from the origin, or tiny or huge along some axes.
+// All of it: far from the origin, of any size, or flat along some axes.
 void transform(Bytes& bytes, TriangleMesh& mesh) {
     const Index kind = bytes.below(8);
-    if (kind >= 2) return;
+    if (kind >= 3) return;
+    const double size = times(1, 8 * int{bytes.take<std::int8_t>()});
     Vec3 by;
-    for (double& x : by) x = times(1, 4 * int{bytes.take<std::int8_t>()});
-    for (Vec3& p : mesh.positions) p = kind == 0 ? Vec3(p + by) : Vec3(p.cwiseProduct(by));
+    for (double& x : by) x = times(1, int{bytes.take<std::int8_t>()} / 8);
+    for (Vec3& p : mesh.positions) {
+        p = kind == 0 ? Vec3(p + size * by) : kind == 1 ? Vec3(size * p) : Vec3(p.cwiseProduct(by));
+    }
 }
 
 }  // namespace
