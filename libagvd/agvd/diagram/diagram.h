@@ -63,7 +63,7 @@ struct Diagram {
     //! #sites, square mesh units; 0 for a site that owns nothing. Each part of a cell is rounded to
     //! 2^-61 of the surface's area, so that sums do not depend on an order.
     std::vector<double> cell_area;
-    std::vector<int> cell_euler;    //!< #sites: Euler characteristic of each cell (a disc has 1).
+    std::vector<int> cell_euler;  //!< #sites: Euler characteristic of each cell (a disc has 1).
 };
 
 struct DiagramOptions {
