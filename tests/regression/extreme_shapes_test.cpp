@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "agvd/core/error.h"
 #include "agvd/mesh/scale.h"
 #include "remesh/pipeline/remesh.h"
 #include "support/dirty_shapes.h"
@@ -111,6 +112,14 @@ TEST(ExtremeShapes, SidesOfARoundingEndInAMeshOrAReason) {
         }
     }
     EXPECT_GE(num_done, 3u);
+}
+
+// The boundary alone needs more vertices, and there is no crease that could be dropped.
+TEST(ExtremeShapes, AFeatureEdgeOnABoundaryThatNeedsMoreVertices) {
+    const TriangleMesh mesh = shapes::tube(3, 1);  // Vertices 0, 2 and 4 are one of its ends.
+    const remesh::RemeshOptions few{
+        .num_samples = 4, .features = remesh::Features::Off, .feature_edges = {{0, 2}}};
+    EXPECT_THROW((void)remesh::remesh(mesh.view(), few), ConstraintUnmet);
 }
 
 TEST(ExtremeShapes, AThinTriangleIsNotRefinedByItsLength) {

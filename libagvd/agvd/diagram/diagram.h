@@ -60,8 +60,10 @@ struct Diagram {
     std::vector<SiteId> nearest_site;      //!< #V of the mesh: the cell that holds each vertex;
     std::vector<double> nearest_distance;  //!< invalid and infinity where no site reaches.
 
-    std::vector<double> cell_area;  //!< #sites, square mesh units; 0 for a site that owns nothing.
-    std::vector<int> cell_euler;    //!< #sites: Euler characteristic of each cell (a disc has 1).
+    //! #sites, square mesh units; 0 for a site that owns nothing. Each part of a cell is rounded to
+    //! 2^-61 of the surface's area, so that sums do not depend on an order.
+    std::vector<double> cell_area;
+    std::vector<int> cell_euler;  //!< #sites: Euler characteristic of each cell (a disc has 1).
 };
 
 struct DiagramOptions {

@@ -80,7 +80,8 @@ std::optional<CleanResult> take_clean(const agvd::MeshView& mesh, int num_thread
     agvd::Ticker ticker(poller);
     std::optional<agvd::Connectivity> found = agvd::find_connectivity(mesh, num_threads, progress);
     if (!found || found->outgoing.empty()) return std::nullopt;
-    const auto& [twin, outgoing] = *found;
+    const std::vector<Index>& twin = found->twin;
+    const std::vector<Index>& outgoing = found->outgoing;
     if (std::find(outgoing.begin(), outgoing.end(), no_index) != outgoing.end()) {
         return std::nullopt;  // An isolated vertex.
     }

@@ -65,8 +65,9 @@ void close_rim(std::span<const DirectedEdge> chain, std::vector<Triangle>& trian
     std::vector<DirectedEdge> wanted(chain.begin(), chain.end());
     std::sort(wanted.begin(), wanted.end());
     const std::vector<Index> used = corners_of(triangles);
-    for (const auto& [from, to] : wanted) {
-        if (has(rim, {from, to})) continue;
+    for (const DirectedEdge& edge : wanted) {
+        if (has(rim, edge)) continue;
+        const Index from = edge.first, to = edge.second;
         const std::vector<Index> way = way_on(rim, from, [&](Index site) { return site == to; });
         for (std::size_t i = way.size(); i-- > 2;) {
             triangles.push_back({from, way[i], way[i - 1]});

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "remesh/io/formats.h"
 #include "remesh/io/ply_values.h"
@@ -23,49 +24,38 @@ public:
     DiagramReader(const SourceFile& file, const PlyHeader& header, DiagramFile& out)
         : file_(file), ticker_(file.ticker), values_(file, header), out_(out) {
         for (const PlyElement& element : header.elements) {
-            count_.try_emplace(element.name, element.count);
+            // Without properties it has no bytes, so that its count may be anything.
+            if (!element.properties.empty()) count_.try_emplace(element.name, element.count);
         }
         count_["face"] = out.mesh.triangles.size();  // Other polygons were dropped.
     }
 
     void read(const PlyHeader& header) {
         for (const char* name : {"site", "curve_point", "voronoi_edge", "voronoi_vertex"}) {
-            if (count_.contains(name)) continue;
-            file_.fail_malformed(0,
-                                 std::string("the file has no element ") + name +
-                                     ", so that it holds no diagram; write one with `agvd diagram "
-                                     "MESH -o FILE.ply`");
+            if (!count_.contains(name)) {
+                file_.fail_malformed(
+                    0, std::string("the file has no element ") + name +
+                           ", so that it holds no diagram; write one with `agvd diagram MESH -o "
+                           "FILE.ply`");
+            }
+            if (count_.at(name) >= agvd::no_index) fail("there are more than 2^32 - 2 elements");
         }
-        agvd::Diagram& diagram = out_.diagram;
-        diagram.edge_points = diagram.vertex_offsets = {0};
+        out_.diagram.edge_points = out_.diagram.vertex_offsets = {0};
+        std::set<std::string> names;
         for (const PlyElement& element : header.elements) {
+            if (element.properties.empty()) continue;
+            const bool is_first = names.insert(element.name).second;
             for (std::uint64_t i = 0; i < element.count; ++i) {
                 ticker_.tick(8);
                 start_ = values_.offset();
-                if (element.name == "vertex") {
-                    read_row(element, i, {"site", "distance"}, {});
-                    diagram.nearest_site.push_back(site(row_[0]));
-                    diagram.nearest_distance.push_back(row_[1]);
-                } else if (element.name == "site") {
-                    read_row(element, i, {"face", "b0", "b1", "b2", "cell_area", "cell_euler"}, {});
-                    out_.sites.push_back(point());
-                    diagram.cell_area.push_back(row_[4]);
-                    if (!(std::abs(row_[5]) < INT32_MAX))
-                        fail("the Euler characteristic of a cell is out of range");
-                    diagram.cell_euler.push_back(static_cast<int>(row_[5]));
-                } else if (element.name == "curve_point") {
-                    read_row(element, i, {"face", "b0", "b1", "b2", "distance"}, {});
-                    diagram.points.push_back(point());
-                    diagram.point_distance.push_back(row_[4]);
-                } else if (element.name == "voronoi_edge") {
-                    read_edge(element, i);
-                } else if (element.name == "voronoi_vertex") {
-                    read_vertex(element, i);
+                if (is_first) {
+                    read_item(element, i);
                 } else {
                     skip_element(values_, element, i, file_);
                 }
             }
         }
+        agvd::Diagram& diagram = out_.diagram;
         diagram.num_sites = static_cast<Index>(out_.sites.size());
         if (diagram.edge_points.back() != diagram.points.size()) {
             fail("the Voronoi edges do not have all curve points");
@@ -73,6 +63,32 @@ public:
     }
 
 private:
+    void read_item(const PlyElement& element, std::uint64_t i) {
+        agvd::Diagram& diagram = out_.diagram;
+        if (element.name == "vertex") {
+            read_row(element, i, {"site", "distance"}, {});
+            diagram.nearest_site.push_back(site(row_[0]));
+            diagram.nearest_distance.push_back(row_[1]);
+        } else if (element.name == "site") {
+            read_row(element, i, {"face", "b0", "b1", "b2", "cell_area", "cell_euler"}, {});
+            out_.sites.push_back(point());
+            diagram.cell_area.push_back(row_[4]);
+            if (!(std::abs(row_[5]) < INT32_MAX))
+                fail("the Euler characteristic of a cell is out of range");
+            diagram.cell_euler.push_back(static_cast<int>(row_[5]));
+        } else if (element.name == "curve_point") {
+            read_row(element, i, {"face", "b0", "b1", "b2", "distance"}, {});
+            diagram.points.push_back(point());
+            diagram.point_distance.push_back(row_[4]);
+        } else if (element.name == "voronoi_edge") {
+            read_edge(element, i);
+        } else if (element.name == "voronoi_vertex") {
+            read_vertex(element, i);
+        } else {
+            skip_element(values_, element, i, file_);
+        }
+    }
+
     void read_edge(const PlyElement& element, std::uint64_t i) {
         read_row(element, i, {"site_left", "site_right", "tail", "head", "num_points"}, {});
         agvd::Diagram& diagram = out_.diagram;

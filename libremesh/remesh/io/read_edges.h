@@ -16,6 +16,7 @@ namespace remesh {
 //!
 //! \throw agvd::IoError  the file cannot be read, a line has another form, or there is no edge; the
 //!        text names the file, the line and the remedy.
+//! \throw agvd::InvalidInput  a number is beyond 64 bits.
 //! Cost: O(file size).
 [[nodiscard]] std::vector<std::array<agvd::Index, 2>> read_edges(
     const std::filesystem::path& path, const agvd::Progress& progress = {});

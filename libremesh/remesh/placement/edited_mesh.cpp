@@ -201,7 +201,7 @@ bool EditedMesh::place_between(Index a, Index b, bool is_hard, Place& place) con
             if (!h) continue;
             place.point = walk_boundary(surface_, point, *h, step);
         } else {
-            place.point = walk_straight(surface_, point, step);
+            place.point = walk_straight(surface_, point, step).end;
         }
         locate(place);
         if ((place.at - middle).norm() <= most) return true;
@@ -405,7 +405,12 @@ bool EditedMesh::move(Index v, const Vec3& step, double gain) {
         if (!h) return false;
         place.point = walk_boundary(surface_, place.point, *h, step);
     } else {
-        place.point = walk_straight(surface_, place.point, step);
+        const Walk walk = walk_straight(surface_, place.point, step);
+        if (walk.is_cut_off) {
+            ++num_lost_walks_;
+            return false;
+        }
+        place.point = walk.end;
     }
     locate(place);
     const double worst = worst_at(v);

@@ -61,8 +61,10 @@ public:
     //! Collapses the edge between two vertices: removes `gone`; `into` stays in place.
     bool collapse(agvd::Index gone, agvd::Index into);
     //! Moves a vertex along the surface if the worst face around it gets better by more than
-    //! `gain`.
+    //! `gain`. Does not if its walk is cut off.
     bool move(agvd::Index v, const agvd::Vec3& step, double gain);
+    //! Calls of `move` whose walk was cut off.
+    [[nodiscard]] std::size_t num_lost_walks() const { return num_lost_walks_; }
 
     [[nodiscard]] Mark mark() const;
     void take_back(const Mark& mark);
@@ -108,6 +110,7 @@ private:
 
     const agvd::Surface& surface_;
     double mean_length_ = 0;  // Of the initial edges.
+    std::size_t num_lost_walks_ = 0;
     std::vector<Face> faces_;
     std::vector<Place> places_;                   // By vertex.
     std::vector<std::vector<agvd::Index>> fans_;  // By vertex: its faces.

@@ -165,7 +165,7 @@ private:
     bool try_step(Index v, const Vec3& step, double length, double& worst) {
         const SurfacePoint before = mesh_.points[v];
         const Vec3 at_before = at_[v];
-        mesh_.points[v] = detail::walk_straight(surface_, before, step);
+        mesh_.points[v] = detail::walk_straight(surface_, before, step).end;
         locate(v);
         const double now = worst_around(v);
         const double area = planes_[v].spread.trace();
@@ -200,11 +200,11 @@ private:
         detail::add_directions(normal, directions_);
 
         double worst = worst_around(v);
-        const bool helps = try_step(v, mean - at_[v], length, worst);
-        return detail::try_steps(
-                   directions_, length,
-                   [&](const Vec3& step) { return try_step(v, step, length, worst); }) ||
-               helps;
+        const bool moves_to_mean = try_step(v, mean - at_[v], length, worst);
+        const bool takes_steps = detail::try_steps(directions_, length, [&](const Vec3& step) {
+            return try_step(v, step, length, worst);
+        });
+        return moves_to_mean || takes_steps;
     }
 
     const agvd::Surface& surface_;

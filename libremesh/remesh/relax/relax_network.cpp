@@ -139,7 +139,7 @@ private:
     [[nodiscard]] detail::Middle middle_of(const Pair& pair) const {
         const agvd::Vec3 way = at(pair.second) - at(pair.first);
         return {pair.first, pair.second, way.norm(),
-                detail::walk_straight(surface(), sites_[pair.first], way / 2)};
+                detail::walk_straight(surface(), sites_[pair.first], way / 2).end};
     }
 
     // Drops the middle of edge (a, b) if it is too near to a curve on the side of c.

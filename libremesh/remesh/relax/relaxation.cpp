@@ -266,7 +266,7 @@ void Relaxation::walk() {
             if (move_[i].isZero(0)) continue;
             sites_[i] = boundary_[i] != no_index
                             ? walk_boundary(surface_, sites_[i], boundary_[i], move_[i])
-                            : walk_straight(surface_, sites_[i], move_[i]);
+                            : walk_straight(surface_, sites_[i], move_[i]).end;
             locate(i);
         }
     };

@@ -118,7 +118,7 @@ private:
             const auto [a, b, c] = triangles[by_size[i].second];
             const auto site = static_cast<Index>(result_.sites.size());
             const Vec3 centre = (at(a) + at(b) + at(c)) / 3;
-            result_.sites.push_back(walk_straight(surface_, result_.sites[a], centre - at(a)));
+            result_.sites.push_back(walk_straight(surface_, result_.sites[a], centre - at(a)).end);
             const auto& w = result_.weights;
             result_.weights.push_back((w[a] + w[b] + w[c]) / 3);
             triangles[by_size[i].second] = {a, b, site};

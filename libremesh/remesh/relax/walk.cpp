@@ -96,7 +96,7 @@ Index boundary_into(const Surface& surface, Index vertex) {
 
 }  // namespace
 
-SurfacePoint walk_straight(const Surface& surface, const SurfacePoint& from, const Vec3& step) {
+Walk walk_straight(const Surface& surface, const SurfacePoint& from, const Vec3& step) {
     const Index h = 3 * from.face.value();
     const auto& p = surface.mesh.positions;
     const agvd::Triangle& t = surface.mesh.triangles[from.face.value()];
@@ -108,7 +108,7 @@ SurfacePoint walk_straight(const Surface& surface, const SurfacePoint& from, con
     const Vec2 flat(x_axis.dot(step), y_axis.dot(step));
     double left = step.norm();
     const double flat_length = flat.norm();
-    if (!(flat_length > least_cosine * left)) return from;
+    if (!(flat_length > least_cosine * left)) return {from};
 
     Ray ray{h, from.barycentric[2] * apex + Vec2(from.barycentric[1] * length, 0),
             flat / flat_length};
@@ -118,19 +118,19 @@ SurfacePoint walk_straight(const Surface& surface, const SurfacePoint& from, con
         const double stretch = fall > 0 ? std::max(ray.at.y() / fall, 0.0) : left;
         if (stretch >= left) {
             ray.at += left * ray.direction;
-            return point_at(surface, ray);
+            return {point_at(surface, ray)};
         }
         const Index twin = surface.twin[ray.half_edge];
         if (twin == no_index) {
             ray.at += stop_share * stretch * ray.direction;
-            return point_at(surface, ray);
+            return {point_at(surface, ray)};
         }
         const double edge = surface.length_of(ray.half_edge);
         const double along = std::clamp(ray.at.x() + stretch * ray.direction.x(), 0.0, edge);
         ray = {twin, Vec2(edge - along, 0), -ray.direction};
         left -= stretch;
     }
-    return point_at(surface, ray);
+    return {point_at(surface, ray), true};
 }
 
 std::optional<Index> boundary_half_edge(const Surface& surface, const SurfacePoint& point) {

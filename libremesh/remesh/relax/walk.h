@@ -9,16 +9,20 @@
 
 namespace remesh::detail {
 
-//! The end of the straightest geodesic ([polthier1998]) from a point in the direction of `step`,
-//! with the length of `step`. It runs from face to face, so it never passes through a wall, and it
-//! stops short of the boundary. The end lies strictly inside a face, unless the point does not move
+struct Walk {
+    agvd::SurfacePoint end;
+    bool is_cut_off = false;  //!< After 2000 crossings: at a spike it may circle for ever.
+};
+
+//! Walks the straightest geodesic ([polthier1998]) from a point in the direction of `step`, with
+//! the length of `step`. It runs from face to face, so it never passes through a wall, and it stops
+//! short of the boundary. The end lies strictly inside a face, unless the point does not move
 //! because `step` is nearly normal to its face.
 //!
 //! \param step  mesh units; its component in the plane of the face gives the direction.
 //! Cost: O(faces crossed).
-[[nodiscard]] agvd::SurfacePoint walk_straight(const agvd::Surface& surface,
-                                               const agvd::SurfacePoint& from,
-                                               const agvd::Vec3& step);
+[[nodiscard]] Walk walk_straight(const agvd::Surface& surface, const agvd::SurfacePoint& from,
+                                 const agvd::Vec3& step);
 
 //! The boundary half-edge that a point lies on, if any; at a vertex the one that leaves it.
 [[nodiscard]] std::optional<agvd::Index> boundary_half_edge(const agvd::Surface& surface,

@@ -153,6 +153,8 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
     };
     while (has_creases() || !plan.junctions.empty()) {
         if (find() > num_vertices) {
+            // Marked edges of the boundary are no creases: nothing is left that could be dropped.
+            if (!std::ranges::any_of(plan.network.curves, &Curve::is_crease)) break;
             drop_shortest(surface, plan.network, drop_at_once, is_crease);
             continue;
         }
@@ -169,6 +171,7 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
         return plan;
     }
     plan.network = {};
+    plan.junctions = {};
     plan.dropped_length = length_at_first;
     return plan;
 }

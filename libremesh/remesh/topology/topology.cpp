@@ -161,7 +161,8 @@ Topology analyze_topology(const agvd::MeshView& mesh, const agvd::Connectivity& 
                           int num_threads, const agvd::Progress& progress) {
     agvd::Poller poller(progress);
     agvd::Ticker ticker(poller);
-    const auto& [twin, outgoing] = connectivity;
+    const std::vector<Index>& twin = connectivity.twin;
+    const std::vector<Index>& outgoing = connectivity.outgoing;
     detail::FaceLabels labels = detail::label_components(twin, num_threads, poller);
     const std::vector<int> euler =
         detail::euler_of_components(twin, outgoing, labels, num_threads, poller);

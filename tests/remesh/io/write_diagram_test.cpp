@@ -120,6 +120,20 @@ TEST_F(WriteDiagram, DamagedDiagramsAreRefused) {
     EXPECT_GT(refused, 100);
 }
 
+// Of elements without properties a file may announce any number: they have no bytes.
+TEST_F(WriteDiagram, ElementsWithoutPropertiesArePassedOver) {
+    std::string text = written("d.ply");
+    text.insert(text.find("element vertex"), "element junk 9000000000000000000\n");
+    EXPECT_EQ(remesh::read_diagram(put("junk.ply", text)).sites, sites_);
+}
+
+TEST_F(WriteDiagram, ASecondElementOfANameIsPassedOver) {
+    std::string text = written("d.ply");
+    text.insert(text.find("end_header"), "element vertex 1\nproperty char v\n");
+    const remesh::DiagramFile back = remesh::read_diagram(put("twice.ply", text + 'x'));
+    EXPECT_EQ(back.diagram.nearest_site, diagram_.nearest_site);
+}
+
 TEST_F(WriteDiagram, OtherExtensionsAreRefused) {
     EXPECT_THROW((void)written("d.stl"), IoError);
     EXPECT_THROW((void)written("d"), IoError);

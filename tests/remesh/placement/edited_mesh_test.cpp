@@ -46,6 +46,17 @@ TEST(EditedMesh, AFlipTakesTheOtherDiagonalOnce) {
     EXPECT_TRUE(is_like(flipped, mesh));
 }
 
+TEST(EditedMesh, AVertexWhoseWalkIsCutOffStays) {
+    const TriangleMesh mesh = shapes::sphere(0);
+    const Sample sample(mesh);
+    EditedMesh edited = sample.edited();
+    const Vec3 way = mesh.positions[mesh.triangles[0][1]] - mesh.positions[0];
+    EXPECT_FALSE(edited.move(0, 1e5 * way, -2));
+    EXPECT_EQ(edited.num_lost_walks(), 1u);
+    EXPECT_TRUE(edited.move(0, 1e-4 * way, -2));
+    EXPECT_EQ(edited.num_lost_walks(), 1u);
+}
+
 TEST(EditedMesh, HardEdgesAreNotFlipped) {
     const TriangleMesh mesh = shapes::sphere(1);
     Sample sample(mesh);

@@ -29,7 +29,7 @@ TEST(Walk, InThePlaneItGoesWhereTheStepPoints) {
     const Vec3 from = place(surface, centre);
     for (std::uint64_t i = 0; i < 200; ++i) {
         const Vec3 step(agvd::random_unit(1, i, 0) - 0.5, agvd::random_unit(1, i, 1) - 0.5, 0);
-        const Vec3 end = place(surface, walk_straight(surface, centre, 0.9 * step));
+        const Vec3 end = place(surface, walk_straight(surface, centre, 0.9 * step).end);
         EXPECT_LT((end - from - 0.9 * step).norm(), 1e-5) << i;
     }
 }
@@ -41,8 +41,16 @@ TEST(Walk, AroundATubeItComesBack) {
     const SurfacePoint start{agvd::FaceId(n * 7), {0.2, 0.5, 0.3}};
     const Vec3 from = place(surface, start);
     const Vec3 along(-from.y(), from.x(), 0);
-    const Vec3 end = place(surface, walk_straight(surface, start, around * along.normalized()));
+    const Vec3 end = place(surface, walk_straight(surface, start, around * along.normalized()).end);
     EXPECT_LT((end - from).norm(), 1e-4);
+}
+
+TEST(Walk, ItIsCutOffWhereItCirclesWithoutEnd) {
+    const agvd::Surface surface = agvd::build_surface(shapes::tube(3, 1).view());
+    const SurfacePoint start{agvd::FaceId(0), {0.2, 0.5, 0.3}};
+    const Vec3 around = (surface.mesh.positions[2] - surface.mesh.positions[0]).normalized();
+    EXPECT_FALSE(walk_straight(surface, start, 1e2 * around).is_cut_off);
+    EXPECT_TRUE(walk_straight(surface, start, 1e4 * around).is_cut_off);
 }
 
 TEST(Walk, ItStopsShortOfTheBoundary) {
@@ -51,7 +59,7 @@ TEST(Walk, ItStopsShortOfTheBoundary) {
     for (std::uint64_t i = 0; i < 50; ++i) {
         const double angle = static_cast<double>(i);
         const Vec3 step(5 * std::cos(angle), 5 * std::sin(angle), 0);
-        const SurfacePoint end = walk_straight(surface, start, step);
+        const SurfacePoint end = walk_straight(surface, start, step).end;
         EXPECT_FALSE(boundary_half_edge(surface, end)) << i;
         EXPECT_GT(*std::min_element(end.barycentric.begin(), end.barycentric.end()), 0) << i;
     }
@@ -60,7 +68,7 @@ TEST(Walk, ItStopsShortOfTheBoundary) {
 TEST(Walk, AStepIntoTheWallGoesNowhere) {
     const agvd::Surface surface = agvd::build_surface(shapes::grid(5).view());
     const SurfacePoint start{agvd::FaceId(24), {0.3, 0.3, 0.4}};
-    const SurfacePoint end = walk_straight(surface, start, Vec3(0, 0, 1));
+    const SurfacePoint end = walk_straight(surface, start, Vec3(0, 0, 1)).end;
     EXPECT_EQ(end.face, start.face);
     EXPECT_EQ(end.barycentric, start.barycentric);
 }

@@ -1,0 +1,70 @@
+//! \file
+//! What every reader of meshes promises.
+#pragma once
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+
+#include "agvd/core/error.h"
+#include "remesh/io/formats.h"
+#include "require.h"
+
+namespace fuzz {
+
+//! Of the bytes of a whole file; nothing where they are refused in the documented way.
+inline std::optional<remesh::MeshFile> read_bytes(const remesh::MeshFormat& format,
+                                                  std::string bytes, bool is_lenient) {
+    try {
+        return format.read({.path = std::string("fuzzed") + format.extension,
+                            .bytes = std::move(bytes),
+                            .is_lenient = is_lenient});
+    } catch (const agvd::IoError&) {
+    } catch (const agvd::InvalidInput&) {
+    }
+    return {};
+}
+
+inline bool has_same_bits(const agvd::TriangleMesh& a, const agvd::TriangleMesh& b) {
+    return a.triangles == b.triangles && a.positions.size() == b.positions.size() &&
+           std::equal(a.positions.begin(), a.positions.end(), b.positions.begin(),
+                      [](const agvd::Vec3& p, const agvd::Vec3& q) {
+                          return std::memcmp(p.data(), q.data(), sizeof(p)) == 0;
+                      });
+}
+
+inline void check_mesh_file(const remesh::MeshFile& file) {
+    const auto& [positions, triangles] = file.mesh;
+    require(!triangles.empty(), "there is a face");
+    for (const agvd::Vec3& p : positions) require(p.allFinite(), "coordinates are finite");
+    for (const agvd::Triangle& t : triangles) {
+        require(std::ranges::max(t) < positions.size(), "corners are in range");
+    }
+    require(file.face_polygon.size() == triangles.size(), "each face has its polygon");
+    require(std::ranges::is_sorted(file.face_polygon), "polygons are in order");
+}
+
+//! Reads the bytes as the whole file, strictly and leniently, then what is written of the result.
+//! \param extension  with its dot.
+inline int check_reader(const char* extension, const std::uint8_t* data, std::size_t size) {
+    const remesh::MeshFormat& format = *remesh::find_format(std::string("fuzzed") + extension);
+    const std::string bytes(reinterpret_cast<const char*>(data), size);
+    if (bytes.empty()) return 0;  // Refused before the format matters.
+    const auto lenient = read_bytes(format, bytes, true);
+    if (lenient) check_mesh_file(*lenient);
+    const auto strict = read_bytes(format, bytes, false);
+    if (!strict) return 0;
+    require(lenient && has_same_bits(strict->mesh, lenient->mesh), "leniency only adds");
+    for (const agvd::Vec3& p : strict->mesh.positions) {
+        if ((p.array().abs() > format.largest).any()) return 0;  // Only STL has such a limit.
+    }
+    const auto again = read_bytes(format, format.format(strict->mesh.view(), {}), false);
+    require(again.has_value(), "what was written can be read");
+    const bool is_stl = std::string_view(extension) == ".stl";  // Rounds and welds.
+    require(is_stl ? again->mesh.triangles.size() == strict->mesh.triangles.size()
+                   : has_same_bits(again->mesh, strict->mesh),
+            "what was written comes back");
+    return 0;
+}
+
+}  // namespace fuzz

@@ -1,0 +1,157 @@
+// make_seeds FOLDER: the first inputs of every fuzz target, in FOLDER/TARGET: small files of every
+// format, and bytes that give each shape of small_mesh once.
+#include <bit>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "agvd/diagram/build_diagram.h"
+#include "agvd/propagation/propagate.h"
+#include "remesh/io/byte_order.h"
+#include "remesh/io/write_diagram.h"
+#include "remesh/io/write_mesh.h"
+#include "support/dice.h"
+#include "support/points.h"
+#include "support/shapes.h"
+
+namespace {
+
+using agvd::Index;
+using agvd::TriangleMesh;
+
+class Seeds {
+public:
+    explicit Seeds(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+    void put(const char* target, const std::string& bytes) {
+        std::filesystem::create_directories(folder_ / target);
+        std::ofstream file(folder_ / target / ("seed-" + std::to_string(number_++)),
+                           std::ios::binary);
+        file << bytes;
+    }
+
+private:
+    std::filesystem::path folder_;
+    int number_ = 0;
+};
+
+std::string ply_header(const TriangleMesh& mesh, const char* format) {
+    std::ostringstream text;
+    text << "ply\nformat " << format << " 1.0\ncomment a seed\nelement vertex "
+         << mesh.positions.size() << "\nproperty float x\nproperty float y\nproperty double z\n"
+         << "property uchar red\nelement face " << mesh.triangles.size()
+         << "\nproperty list uchar short vertex_indices\nproperty list ushort float texcoord\n"
+         << "end_header\n";
+    return text.str();
+}
+
+std::string ascii_ply(const TriangleMesh& mesh) {
+    std::ostringstream text;
+    text << ply_header(mesh, "ascii");
+    for (const auto& p : mesh.positions) text << p.transpose() << " 7\n";
+    for (const auto& [a, b, c] : mesh.triangles)
+        text << "3 " << a << ' ' << b << ' ' << c << " 1 .5\n";
+    return text.str();
+}
+
+template <typename T>
+void append_big_endian(std::string& bytes, T value) {
+    auto stored = std::bit_cast<std::array<char, sizeof(T)>>(value);
+    if (std::endian::native == std::endian::little) std::ranges::reverse(stored);
+    bytes.append(stored.data(), stored.size());
+}
+
+std::string big_endian_ply(const TriangleMesh& mesh) {
+    std::string bytes = ply_header(mesh, "binary_big_endian");
+    for (const auto& p : mesh.positions) {
+        append_big_endian(bytes, static_cast<float>(p.x()));
+        append_big_endian(bytes, static_cast<float>(p.y()));
+        append_big_endian(bytes, p.z());
+        append_big_endian(bytes, std::uint8_t{7});
+    }
+    for (const agvd::Triangle& t : mesh.triangles) {
+        append_big_endian(bytes, std::uint8_t{3});
+        for (const Index v : t) append_big_endian(bytes, static_cast<std::int16_t>(v));
+        append_big_endian(bytes, std::uint16_t{1});
+        append_big_endian(bytes, 0.5f);
+    }
+    return bytes;
+}
+
+std::string ascii_stl(const TriangleMesh& mesh) {
+    std::ostringstream text;
+    text << "solid seed\n";
+    for (const agvd::Triangle& t : mesh.triangles) {
+        text << "facet normal 0 0 1\n outer loop\n";
+        for (const Index v : t) text << "  vertex " << mesh.positions[v].transpose() << '\n';
+        text << " endloop\nendfacet\n";
+    }
+    text << "endsolid seed\n";
+    return text.str();
+}
+
+void put_meshes(Seeds& seeds) {
+    for (const TriangleMesh& mesh : {shapes::tetrahedron(), shapes::grid(2), shapes::cube()}) {
+        seeds.put("read_ply", remesh::format_mesh("a.ply", mesh.view()));
+        seeds.put("read_ply", ascii_ply(mesh));
+        seeds.put("read_ply", big_endian_ply(mesh));
+        seeds.put("read_obj", remesh::format_mesh("a.obj", mesh.view()));
+        seeds.put("read_off", remesh::format_mesh("a.off", mesh.view()));
+        seeds.put("read_stl", remesh::format_mesh("a.stl", mesh.view()));
+        seeds.put("read_stl", ascii_stl(mesh));
+    }
+    seeds.put("read_off",
+              "COFF # colours\n5 2 0\n0 0 0 255 0 0 255\n1 0 0 0 1 0 1\n1 1 0 .5 .5 .5 1\n"
+              "0 1 0 9 9 9 9\n.5 2 0 9 9 9 9\n4 0 1 2 3 128 128 0\n3 3 2 4\n");
+    seeds.put("read_off",
+              "STNOFF 6 1 0\n1 0 0 0 0 1 0 0\n2 0 0 0 0 1 0 0\n2 1 0 0 0 1 0 0\n"
+              "1.5 .5 0 0 0 1 0 0\n1 2 0 0 0 1 0 0\n0 1 0 0 0 1 0 0\n6 0 1 2 3 4 5\n");
+    seeds.put("read_obj",
+              "# a seed\no part\nv 0 0 0\r\nv 1 0 0 1 .5 .5\r\nv 1 1 0\r\nv 0 1e0 0\r\nvt 0 0\n"
+              "vn 0 0 1\nusemtl m\nf 1/1/1 2//1 \\\n 3/1 4\nf -4 -2 -1\nl 1 2\nv +.5 2 -0\n"
+              "f 4 3 5 1 2\n");
+}
+
+void put_sites(Seeds& seeds) {
+    seeds.put("read_sites", "# sites\nv 0\nv 15 # the last one\nf 17 .25 .25 .5\nf 0 1 0 0\n");
+    seeds.put("read_sites", "p 0.5 0.5 0\r\np -1 2e0 +.3\rp 1e308 0 0\n\xEF\xBB\xBF");
+    seeds.put("read_sites", "\xEF\xBB\xBFv 16\nf 0 0.3333333 0.3333333 0.3333334\n");
+    seeds.put("read_edges", "0 1\n1 2 # one\n\n4294967294 7\r\n");
+    const agvd::Surface surface = agvd::build_surface(shapes::icosahedron().view());
+    for (const Index num_sites : {1u, 6u}) {
+        const auto sites = points::scattered(surface, num_sites, 3);
+        const agvd::Diagram diagram =
+            agvd::build_diagram(surface, sites, agvd::propagate(surface, sites));
+        seeds.put("read_diagram", remesh::format_diagram("a.ply", surface, sites, diagram));
+    }
+}
+
+// Random options and each shape of small_mesh: as it is, and moved at random. What is left are
+// random sites.
+void put_shapes(Seeds& seeds) {
+    Dice dice(1);
+    const auto random = [&](Index count) {
+        std::string bytes;
+        for (; count > 0; --count) bytes += static_cast<char>(dice.count(0, 255));
+        return bytes;
+    };
+    for (int shape = 0; shape < 16; ++shape) {
+        for (const bool is_moved : {false, true}) {
+            for (const auto& [target, num_options] : {std::pair("remesh", 17u), {"diagram", 6u}}) {
+                const std::string bytes = random(num_options) + static_cast<char>(shape) +
+                                          random(2) + (is_moved ? "" : std::string("\0\0\7", 3));
+                seeds.put(target, bytes + random(80));
+            }
+        }
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    if (argc != 2) return 2;
+    Seeds seeds(argv[1]);
+    put_meshes(seeds);
+    put_sites(seeds);
+    put_shapes(seeds);
+}
