@@ -171,7 +171,7 @@ TEST_F(RemeshFeatures, EdgesComeFromAFile) {
                                                 {"# none\n", 3, "holds no edge"},
                                                 {"a b\n", 3, "edges.txt: line 1"},
                                                 {"0 0\n", 4, "vertices 0 and 0"},
-                                                {"0 99999999999999999999\n", 4, "absurdly large"},
+                                                {"0 99999999999999999999\n", 4, "too large"},
                                                 {"0 4000000\n", 4, "vertices 0 and 4000000"}}) {
         put("edges.txt", text);
         const auto outcome = run(
