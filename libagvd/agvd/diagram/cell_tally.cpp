@@ -50,7 +50,9 @@ void CellTally::count_cut(std::span<const Crossing> row, Index site_at_end, int 
 
 void CellTally::count_face(Index face, Index site, int sign) {
     if (site == no_index) return;
-    change_cell(site, sign, sign * units(face_area(*surface_, face)));
+    // At least one unit: a cell that owns a face is not empty, however small its component is.
+    const std::int64_t area = std::max(units(face_area(*surface_, face)), std::int64_t{1});
+    change_cell(site, sign, sign * area);
 }
 
 void CellTally::count_parts(std::span<const FaceArcs::CellPart> parts, int sign) {

@@ -91,6 +91,22 @@ TEST(ClosedBall, OneSiteCoversItsComponentAndAsksForOneOnTheFarSide) {
     EXPECT_LT(scene.at(violations[0].remedies[0]).z(), -2.9);
 }
 
+TEST(ClosedBall, ASiteOwnsATorusHoweverSmallItIsBesideOtherComponents) {
+    constexpr double scale = 1e-11;
+    agvd::TriangleMesh torus = shapes::torus(12, 8);
+    for (Vec3& p : torus.positions) p = scale * p + Vec3(3, 0, 0);
+    Scene scene{build_surface(shapes::join(torus, shapes::sphere(3)).view()), {}};
+    const auto first_of_sphere = static_cast<Index>(torus.triangles.size());
+    scene.sites = {{agvd::FaceId(0), {0.2, 0.3, 0.5}},
+                   {agvd::FaceId(first_of_sphere), {0.2, 0.3, 0.5}},
+                   {agvd::FaceId(first_of_sphere), {0.2, 0.3, 0.5}}};  // Owns nothing.
+    const auto violations = scene.violations();
+    ASSERT_EQ(reasons_of(violations),
+              (Reasons{SiteReason::WholeComponent, SiteReason::WholeComponent}));
+    EXPECT_EQ(violations[0].site, SiteId(0));
+    EXPECT_EQ(violations[1].site, SiteId(1));
+}
+
 TEST(ClosedBall, ThreeSitesInARowOnASpindleMakeARingBetweenTwoClosedCurves) {
     const Scene scene = scene_of(spindle(6), {{0, 0, 6}, {1, 0, 0}, {0, 0, -6}});
     const auto violations = scene.violations();
