@@ -50,8 +50,6 @@ std::map<std::string, remesh::Init> inits_by_name() {
     return inits;
 }
 
-}  // namespace
-
 std::map<std::string, agvd::Engine> engines_by_name() {
     std::map<std::string, agvd::Engine> engines;
     for (const auto engine : {agvd::Engine::Window, agvd::Engine::Steiner, agvd::Engine::Vertex}) {
@@ -60,24 +58,19 @@ std::map<std::string, agvd::Engine> engines_by_name() {
     return engines;
 }
 
-void add_diagram_options(CLI::App& app, DiagramArguments& arguments) {
+void add_site_options(CLI::App& app, DiagramArguments& arguments) {
     remesh::SamplingOptions& sampling = arguments.sampling;
-    agvd::PropagationOptions& propagation = arguments.propagation;
-    app.add_option("IN", arguments.input, "Mesh to read: .ply, .obj, .off or .stl")->required();
     auto* samples = app.add_option("-n,--samples,--vertices", sampling.num_samples,
                                    "Number of sites; remesh makes a vertex of each")
                         ->check(CLI::Range(agvd::Index{1}, agvd::no_index - 1).description(""))
                         ->type_name("N")
                         ->capture_default_str();
-    auto* init =
-        app.add_option_function<std::string>(
-               "--init",
-               [&sampling](const std::string& name) { sampling.init = inits_by_name().at(name); },
-               "How sites are placed: blue-noise (even), farthest (no large gap) or random (by "
-               "area)")
-            ->check(CLI::IsMember(inits_by_name()).description(""))
-            ->type_name("NAME")
-            ->default_str(remesh::init_name(sampling.init));
+    auto* init = add_choice(
+        app,
+        {"--init", names_of(inits_by_name()), remesh::init_name(sampling.init),
+         "How sites are placed: blue-noise (even), farthest (no large gap) or random (by "
+         "area)"},
+        [&sampling](const std::string& name) { sampling.init = inits_by_name().at(name); });
     app.add_option("--seed", sampling.seed,
                    "Seed of random numbers; the same seed gives the same bytes, whatever --threads")
         ->type_name("S")
@@ -89,16 +82,16 @@ void add_diagram_options(CLI::App& app, DiagramArguments& arguments) {
         ->excludes(samples)
         ->excludes(init)
         ->type_name("FILE");
-    app.add_option_function<std::string>(
-           "--engine",
-           [&propagation](const std::string& name) {
-               propagation.engine = engines_by_name().at(name);
-           },
-           "How distances are computed: window (quickest for every error), steiner (as in the "
-           "paper) or vertex (coarse, of unknown error)")
-        ->check(CLI::IsMember(engines_by_name()).description(""))
-        ->type_name("NAME")
-        ->default_str(agvd::engine_name(propagation.engine));
+}
+
+void add_propagation_options(CLI::App& app, agvd::PropagationOptions& propagation) {
+    add_choice(app,
+               {"--engine", names_of(engines_by_name()), agvd::engine_name(propagation.engine),
+                "How distances are computed: window (quickest for every error), steiner (as in the "
+                "paper) or vertex (coarse, of unknown error)"},
+               [&propagation](const std::string& name) {
+                   propagation.engine = engines_by_name().at(name);
+               });
     app.add_option("--max-error", propagation.max_error, max_error_help())
         ->check(CLI::Validator(check_max_error, ""))
         ->type_name("E");
@@ -113,6 +106,22 @@ void add_diagram_options(CLI::App& app, DiagramArguments& arguments) {
         ->check(CLI::Validator(check_lambda, ""))
         ->type_name("L")
         ->capture_default_str();
+}
+
+}  // namespace
+
+CLI::Option* add_choice(CLI::App& app, const Choice& choice,
+                        const std::function<void(const std::string& name)>& take) {
+    return app.add_option_function<std::string>(choice.flag, take, choice.help)
+        ->check(CLI::IsMember(choice.names).description(""))
+        ->type_name("NAME")
+        ->default_str(choice.default_name);
+}
+
+void add_diagram_options(CLI::App& app, DiagramArguments& arguments) {
+    app.add_option("IN", arguments.input, "Mesh to read: .ply, .obj, .off or .stl")->required();
+    add_site_options(app, arguments);
+    add_propagation_options(app, arguments.propagation);
     arguments.memory_limit = machine_memory() / 4 * 3;
     app.add_option_function<std::string>(
            "--memory-limit",

@@ -3,13 +3,19 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "agvd/propagation/propagate.h"
 #include "cli.h"
 #include "remesh/io/read_mesh.h"
 #include "remesh/sampling/sample_sites.h"
+
+namespace CLI {
+class Option;
+}
 
 namespace cli {
 
@@ -31,6 +37,25 @@ struct DiagramArguments {
 //! Adds IN, --samples, --init, --seed, --sites, --engine, --max-error, --steiner-points, --lambda,
 //! --memory-limit, --force, --lenient and the common options.
 void add_diagram_options(CLI::App& app, DiagramArguments& arguments);
+
+//! The keys.
+template <typename T>
+[[nodiscard]] std::vector<std::string> names_of(const std::map<std::string, T>& by_name) {
+    std::vector<std::string> names;
+    for (const auto& [name, value] : by_name) names.push_back(name);
+    return names;
+}
+
+//! An option whose value is one of a few names.
+struct Choice {
+    std::string flag;
+    std::vector<std::string> names;
+    std::string default_name;
+    std::string help;
+};
+//! \param take  called with the name given.
+CLI::Option* add_choice(CLI::App& app, const Choice& choice,
+                        const std::function<void(const std::string& name)>& take);
 
 //! The limit for a Console.
 [[nodiscard]] MemoryLimit limit_of(const DiagramArguments& arguments);

@@ -86,57 +86,60 @@ void add_feature_options(CLI::App& app, Arguments& arguments) {
                    "Edges that are creases whatever their angle: lines of two vertices, counted "
                    "from 0")
         ->type_name("FILE");
-    app.add_option_function<std::string>(
-           "--junctions",
-           [&arguments](const std::string& name) {
-               arguments.junctions =
-                   name == "keep" ? remesh::Junctions::Keep : remesh::Junctions::Apart;
-           },
-           "Sheets of the result where an edge of the input has more than two faces. apart: each "
-           "sheet has its own vertices, at the same points; keep: the sheets are welded")
-        ->check(CLI::IsMember({"apart", "keep"}).description(""))
-        ->type_name("NAME")
-        ->default_str("apart");
+    const auto take_junctions = [&arguments](const std::string& name) {
+        arguments.junctions = name == "keep" ? remesh::Junctions::Keep : remesh::Junctions::Apart;
+    };
+    cli::add_choice(
+        app,
+        {"--junctions",
+         {"apart", "keep"},
+         "apart",
+         "Sheets of the result where an edge of the input has more than two faces. apart: each "
+         "sheet has its own vertices, at the same points; keep: the sheets are welded"},
+        take_junctions);
     app.add_flag_callback(
            "--no-features", [&arguments] { arguments.features = remesh::Features::Off; },
            "The same as --features off")
         ->excludes(features);
 }
 
+// Which vertices and edges the result has.
+void add_result_options(CLI::App& app, Arguments& arguments) {
+    cli::add_choice(
+        app,
+        {"--topology",
+         {"exact", "add"},
+         "exact",
+         "Number of vertices; the topology is always kept. exact: N; add: N and those that the "
+         "topology needs"},
+        [&arguments](const std::string& name) {
+            arguments.vertex_count =
+                name == "add" ? remesh::VertexCount::Add : remesh::VertexCount::Exact;
+        });
+    cli::add_choice(
+        app,
+        {"--boundary",
+         {"keep", "free"},
+         "keep",
+         "keep: boundary vertices lie on the input's boundary, and its corners are vertices; "
+         "free: boundary vertices lie near it"},
+        [&arguments](const std::string& name) {
+            arguments.sampling.boundary =
+                name == "free" ? remesh::Boundary::Free : remesh::Boundary::Keep;
+        });
+    cli::add_choice(
+        app,
+        {"--delaunay", cli::names_of(delaunay_by_name()), remesh::delaunay_name(arguments.delaunay),
+         "Flip edges that fail the Delaunay condition by geodesic lengths (intrinsic) or by "
+         "straight lengths (extrinsic); off: flip none"},
+        [&arguments](const std::string& name) {
+            arguments.delaunay = delaunay_by_name().at(name);
+        });
+}
+
 void add_options(CLI::App& app, Arguments& arguments) {
     cli::add_diagram_options(app, arguments);
-    app.add_option_function<std::string>(
-           "--topology",
-           [&arguments](const std::string& name) {
-               arguments.vertex_count =
-                   name == "add" ? remesh::VertexCount::Add : remesh::VertexCount::Exact;
-           },
-           "Number of vertices; the topology is always kept. exact: N; add: N and those that the "
-           "topology needs")
-        ->check(CLI::IsMember({"exact", "add"}).description(""))
-        ->type_name("NAME")
-        ->default_str("exact");
-    app.add_option_function<std::string>(
-           "--boundary",
-           [&arguments](const std::string& name) {
-               arguments.sampling.boundary =
-                   name == "free" ? remesh::Boundary::Free : remesh::Boundary::Keep;
-           },
-           "keep: boundary vertices lie on the input's boundary, and its corners are vertices; "
-           "free: boundary vertices lie near it")
-        ->check(CLI::IsMember({"keep", "free"}).description(""))
-        ->type_name("NAME")
-        ->default_str("keep");
-    app.add_option_function<std::string>(
-           "--delaunay",
-           [&arguments](const std::string& name) {
-               arguments.delaunay = delaunay_by_name().at(name);
-           },
-           "Flip edges that fail the Delaunay condition by geodesic lengths (intrinsic) or by "
-           "straight lengths (extrinsic); off: flip none")
-        ->check(CLI::IsMember(delaunay_by_name()).description(""))
-        ->type_name("NAME")
-        ->default_str(remesh::delaunay_name(arguments.delaunay));
+    add_result_options(app, arguments);
     add_feature_options(app, arguments);
     app.add_option("--drop-components", arguments.drop_components,
                    "Drop components with less than this percentage of the area")

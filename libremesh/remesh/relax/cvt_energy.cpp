@@ -92,6 +92,14 @@ private:
     }
 };
 
+// Normals become unit vectors, slopes tangential.
+void project_slopes(std::vector<CvtEnergy::Cell>& cells) {
+    for (CvtEnergy::Cell& cell : cells) {
+        cell.normal.normalize();
+        cell.slope -= cell.normal.dot(cell.slope) * cell.normal;
+    }
+}
+
 }  // namespace
 
 void measure_energy(const SiteMesh& mesh, std::span<const Vec3> positions,
@@ -152,10 +160,7 @@ void measure_energy(const SiteMesh& mesh, std::span<const Vec3> positions,
             cell.area += part[k].area;
         }
     }
-    for (CvtEnergy::Cell& cell : result.cells) {
-        cell.normal.normalize();
-        cell.slope -= cell.normal.dot(cell.slope) * cell.normal;
-    }
+    project_slopes(result.cells);
 }
 
 void find_turned(const SiteMesh& mesh, std::span<const Vec3> positions,

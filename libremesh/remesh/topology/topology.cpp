@@ -69,6 +69,26 @@ bool has_one_umbrella_each(const agvd::MeshView& mesh, const std::vector<EdgeSid
     return true;
 }
 
+// Adds to boundary_loops of the components.
+void count_boundary_loops(const agvd::MeshView& mesh, const agvd::Connectivity& connectivity,
+                          agvd::Poller& poller, Topology& result) {
+    const std::vector<Index>& twin = connectivity.twin;
+    agvd::Ticker ticker(poller);
+    std::vector<bool> is_seen(twin.size(), false);
+    poller.poll();
+    const auto next_open = [&](auto from) { return std::find(from, twin.end(), no_index); };
+    for (auto open = next_open(twin.begin()); open != twin.end(); open = next_open(open + 1)) {
+        const auto start = static_cast<Index>(open - twin.begin());
+        if (is_seen[start]) continue;
+        ++result.components[result.face_component[start / 3]].boundary_loops;
+        for (Index h = start; !is_seen[h];) {
+            ticker.tick();
+            is_seen[h] = true;
+            h = connectivity.outgoing[mesh.triangles[h / 3][agvd::next_half_edge(h) % 3]];
+        }
+    }
+}
+
 }  // namespace
 
 int Topology::genus() const {
@@ -182,19 +202,7 @@ Topology analyze_topology(const agvd::MeshView& mesh, const agvd::Connectivity& 
         ++c.faces;
         c.area += area[f];
     }
-    std::vector<bool> is_seen(twin.size(), false);
-    poller.poll();
-    const auto next_open = [&](auto from) { return std::find(from, twin.end(), no_index); };
-    for (auto open = next_open(twin.begin()); open != twin.end(); open = next_open(open + 1)) {
-        const auto start = static_cast<Index>(open - twin.begin());
-        if (is_seen[start]) continue;
-        ++result.components[label[start / 3]].boundary_loops;
-        for (Index h = start; !is_seen[h];) {
-            ticker.tick();
-            is_seen[h] = true;
-            h = outgoing[mesh.triangles[h / 3][agvd::next_half_edge(h) % 3]];
-        }
-    }
+    count_boundary_loops(mesh, connectivity, poller, result);
     for (Index i = 0; i < euler.size(); ++i) {
         ComponentTopology& c = result.components[i];
         c.euler = euler[i];
