@@ -69,6 +69,49 @@ bool has_one_umbrella_each(const agvd::MeshView& mesh, const std::vector<EdgeSid
     return true;
 }
 
+// Adds to euler. A vertex counts once for each component that meets there.
+void count_vertices(const agvd::MeshView& mesh, agvd::Ticker& ticker, Topology& result) {
+    std::vector<Index> by_component(mesh.triangles.size());
+    std::iota(by_component.begin(), by_component.end(), Index{0});
+    if (result.components.size() > 1) {
+        by_component = agvd::sort_in_buckets(
+            by_component, static_cast<Index>(result.components.size()),
+            [&](Index face) { return result.face_component[face]; }, std::less<>(), ticker);
+    }
+    std::vector<Index> last_component(mesh.positions.size(), no_index);
+    for (const Index f : by_component) {
+        ticker.tick();
+        for (const Index v : mesh.triangles[f]) {
+            if (last_component[v] == result.face_component[f]) continue;
+            last_component[v] = result.face_component[f];
+            ++result.components[last_component[v]].euler;
+        }
+    }
+}
+
+// Adds to euler and to boundary_loops: the connected pieces of the graph of boundary edges.
+void count_edges(const std::vector<EdgeSide>& sides, std::size_t num_vertices, agvd::Ticker& ticker,
+                 Topology& result) {
+    agvd::UnionFind boundary(num_vertices);
+    std::vector<std::pair<Index, Index>> boundary_ends;  // (lower vertex, face)
+    for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
+        ticker.tick();
+        --result.components[result.face_component[edge[0].face()]].euler;
+        if (edge.size() != 1) return;
+        boundary.unite(edge[0].low(), edge[0].high());
+        boundary_ends.emplace_back(edge[0].low(), edge[0].face());
+    });
+    ticker.poll();
+    std::vector<bool> counted(num_vertices, false);
+    for (const auto& [vertex, face] : boundary_ends) {
+        ticker.tick();
+        const Index root = boundary.root(vertex);
+        if (counted[root]) continue;
+        counted[root] = true;
+        ++result.components[result.face_component[face]].boundary_loops;
+    }
+}
+
 // Adds to boundary_loops of the components.
 void count_boundary_loops(const agvd::MeshView& mesh, const agvd::Connectivity& connectivity,
                           agvd::Poller& poller, Topology& result) {
@@ -136,43 +179,8 @@ Topology analyze_topology(const agvd::MeshView& mesh, const agvd::Progress& prog
         c.area += face_area(mesh, f);
     }
 
-    // A vertex counts once for each component that meets there.
-    std::vector<Index> by_component(num_faces);
-    std::iota(by_component.begin(), by_component.end(), Index{0});
-    if (result.components.size() > 1) {
-        by_component = agvd::sort_in_buckets(
-            by_component, static_cast<Index>(result.components.size()),
-            [&](Index face) { return result.face_component[face]; }, std::less<>(), ticker);
-    }
-    std::vector<Index> last_component(mesh.positions.size(), no_index);
-    for (const Index f : by_component) {
-        ticker.tick();
-        for (const Index v : mesh.triangles[f]) {
-            if (last_component[v] == result.face_component[f]) continue;
-            last_component[v] = result.face_component[f];
-            ++result.components[last_component[v]].euler;
-        }
-    }
-
-    // Boundary loops: the connected pieces of the graph of boundary edges.
-    agvd::UnionFind boundary(mesh.positions.size());
-    std::vector<std::pair<Index, Index>> boundary_ends;  // (lower vertex, face)
-    for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
-        ticker.tick();
-        --result.components[result.face_component[edge[0].face()]].euler;
-        if (edge.size() != 1) return;
-        boundary.unite(edge[0].low(), edge[0].high());
-        boundary_ends.emplace_back(edge[0].low(), edge[0].face());
-    });
-    ticker.poll();
-    std::vector<bool> counted(mesh.positions.size(), false);
-    for (const auto& [vertex, face] : boundary_ends) {
-        ticker.tick();
-        const Index root = boundary.root(vertex);
-        if (counted[root]) continue;
-        counted[root] = true;
-        ++result.components[result.face_component[face]].boundary_loops;
-    }
+    count_vertices(mesh, ticker, result);
+    count_edges(sides, mesh.positions.size(), ticker, result);
     for (ComponentTopology& c : result.components) c.genus = (2 - c.euler - c.boundary_loops) / 2;
     return result;
 }
