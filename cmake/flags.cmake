@@ -6,6 +6,8 @@ function(agvd_flags target)
     # Roots without errno or traps keep their values and are half as long.
     target_compile_options(${target} PRIVATE
         -ffp-contract=off -fno-math-errno -fno-trapping-math -Wall -Wextra -Wshadow -Wconversion $<$<BOOL:${AGVD_WERROR}>:-Werror>)
+    # Some hot loops have & and | in place of branches that could not be predicted.
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>)
     if(AGVD_SANITIZE)
         # gcc sees uninitialised temporaries in instrumented code of the standard library.
         target_compile_options(${target} PRIVATE

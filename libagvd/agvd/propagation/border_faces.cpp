@@ -45,7 +45,7 @@ private:
     void mark_two_rings() {
         for (const Triangle& t : surface_.mesh.triangles) {
             const auto &a = bounds_.site[t[0]], &b = bounds_.site[t[1]], &c = bounds_.site[t[2]];
-            mark(t, (a != b) | (b != c) ? 1 : 0);
+            mark(t, ((a != b) | (b != c)) ? 1 : 0);
         }
         for (const Triangle& t : surface_.mesh.triangles) {
             mark(t, ((marks_[t[0]] | marks_[t[1]] | marks_[t[2]]) & 1) << 1);

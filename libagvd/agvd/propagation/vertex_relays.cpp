@@ -13,7 +13,7 @@ std::vector<Index> VertexRelays::mixed_faces() const {
     is_mixed.reserve(surface_.num_faces());
     for (const auto& [a, b, c] : surface_.mesh.triangles) {
         const Index site = reach_[a].site;
-        is_mixed.push_back((reach_[b].site != site) | (reach_[c].site != site) ? 1 : 0);
+        is_mixed.push_back(((reach_[b].site != site) | (reach_[c].site != site)) ? 1 : 0);
     }
     const auto mark_if_foreign = [&](Index face, Index site) {
         if (reach_[surface_.tail(3 * face)].site != site) is_mixed[face] = 1;

@@ -23,7 +23,7 @@ struct FaceRelays {
 
     // There are no branches, since they could not be predicted.
     void add_site(Index other) {
-        const Index both = (other == no_index) | (other == site) ? site : several;
+        const Index both = ((other == no_index) | (other == site)) ? site : several;
         site = site == no_index ? other : both;
     }
 };

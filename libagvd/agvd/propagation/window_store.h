@@ -29,7 +29,7 @@ public:
     //! \param count  > 0.
     //! \return the number of a run, whose windows are to be written.
     [[nodiscard]] Index take(Index count) {
-        const int size_class = std::bit_width(count - 1);
+        const auto size_class = static_cast<int>(std::bit_width(count - 1));
         Index& free_run = free_runs_[static_cast<std::size_t>(size_class)];
         if (free_run == no_index) {
             const std::size_t size = std::size_t{1} << size_class;

@@ -17,7 +17,7 @@ void remove_stale_arcs(std::span<const Index> faces, DiagramParts& parts) {
     for (std::size_t i = 0; i < faces.size(); ++i) {
         constexpr std::size_t ahead = 4;
         for (int step = 0; step < 3; ++step) {
-            const std::size_t later = i + ahead * (3 - step);
+            const std::size_t later = i + ahead * static_cast<std::size_t>(3 - step);
             if (later < faces.size()) parts.arcs.prefetch(faces[later], step);
         }
         remove_arcs(faces[i], parts);
