@@ -50,14 +50,6 @@ std::map<std::string, remesh::Init> inits_by_name() {
     return inits;
 }
 
-std::map<std::string, agvd::Engine> engines_by_name() {
-    std::map<std::string, agvd::Engine> engines;
-    for (const auto engine : {agvd::Engine::Window, agvd::Engine::Steiner, agvd::Engine::Vertex}) {
-        engines[agvd::engine_name(engine)] = engine;
-    }
-    return engines;
-}
-
 void add_site_options(CLI::App& app, DiagramArguments& arguments) {
     remesh::SamplingOptions& sampling = arguments.sampling;
     auto* samples = app.add_option("-n,--samples,--vertices", sampling.num_samples,
@@ -109,6 +101,14 @@ void add_propagation_options(CLI::App& app, agvd::PropagationOptions& propagatio
 }
 
 }  // namespace
+
+std::map<std::string, agvd::Engine> engines_by_name() {
+    std::map<std::string, agvd::Engine> engines;
+    for (const auto engine : {agvd::Engine::Window, agvd::Engine::Steiner, agvd::Engine::Vertex}) {
+        engines[agvd::engine_name(engine)] = engine;
+    }
+    return engines;
+}
 
 CLI::Option* add_choice(CLI::App& app, const Choice& choice,
                         const std::function<void(const std::string& name)>& take) {
