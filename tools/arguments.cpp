@@ -42,12 +42,8 @@ std::string check_lambda(const std::string& text) {
 }
 
 std::map<std::string, remesh::Init> inits_by_name() {
-    std::map<std::string, remesh::Init> inits;
-    for (const auto init :
-         {remesh::Init::Random, remesh::Init::BlueNoise, remesh::Init::Farthest}) {
-        inits[remesh::init_name(init)] = init;
-    }
-    return inits;
+    return by_name({remesh::Init::Random, remesh::Init::BlueNoise, remesh::Init::Farthest},
+                   remesh::init_name);
 }
 
 void add_site_options(CLI::App& app, DiagramArguments& arguments) {
@@ -103,11 +99,8 @@ void add_propagation_options(CLI::App& app, agvd::PropagationOptions& propagatio
 }  // namespace
 
 std::map<std::string, agvd::Engine> engines_by_name() {
-    std::map<std::string, agvd::Engine> engines;
-    for (const auto engine : {agvd::Engine::Window, agvd::Engine::Steiner, agvd::Engine::Vertex}) {
-        engines[agvd::engine_name(engine)] = engine;
-    }
-    return engines;
+    return by_name({agvd::Engine::Window, agvd::Engine::Steiner, agvd::Engine::Vertex},
+                   agvd::engine_name);
 }
 
 CLI::Option* add_choice(CLI::App& app, const Choice& choice,

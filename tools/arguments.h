@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <initializer_list>
 #include <map>
 #include <string>
 #include <vector>
@@ -38,10 +39,20 @@ struct DiagramArguments {
 //! --memory-limit, --force, --lenient and the common options.
 void add_diagram_options(CLI::App& app, DiagramArguments& arguments);
 
+//! Values by the names that name_of gives them.
+template <typename T>
+[[nodiscard]] std::map<std::string, T> by_name(std::initializer_list<T> values,
+                                               const char* (*name_of)(T)) {
+    std::map<std::string, T> result;
+    for (const T value : values) result[name_of(value)] = value;
+    return result;
+}
+
 //! The keys.
 template <typename T>
 [[nodiscard]] std::vector<std::string> names_of(const std::map<std::string, T>& by_name) {
     std::vector<std::string> names;
+    names.reserve(by_name.size());
     for (const auto& [name, value] : by_name) names.push_back(name);
     return names;
 }

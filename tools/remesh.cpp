@@ -43,12 +43,9 @@ struct Arguments : cli::DiagramArguments {
 };
 
 std::map<std::string, remesh::Delaunay> delaunay_by_name() {
-    std::map<std::string, remesh::Delaunay> names;
-    for (const auto delaunay :
-         {remesh::Delaunay::Intrinsic, remesh::Delaunay::Extrinsic, remesh::Delaunay::Off}) {
-        names[remesh::delaunay_name(delaunay)] = delaunay;
-    }
-    return names;
+    return cli::by_name(
+        {remesh::Delaunay::Intrinsic, remesh::Delaunay::Extrinsic, remesh::Delaunay::Off},
+        remesh::delaunay_name);
 }
 
 // auto, off, or degrees above 0 and below 180.

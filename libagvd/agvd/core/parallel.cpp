@@ -14,8 +14,11 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <string>
 #include <thread>
 #include <vector>
+
+#include "agvd/core/error.h"
 
 namespace agvd {
 namespace {
@@ -177,6 +180,12 @@ void parallel_chunks(Index count, Index grain, int num_threads,
                      const std::function<void(Index chunk, Index begin, Index end)>& body) {
     Poller none;
     parallel_chunks(count, grain, num_threads, body, none);
+}
+
+void check_num_threads(int num_threads) {
+    if (num_threads >= 0) return;
+    throw InvalidOption("num_threads is " + std::to_string(num_threads) +
+                        "; use 0 (all cores) or more");
 }
 
 }  // namespace agvd

@@ -26,6 +26,9 @@ void parallel_chunks(Index count, Index grain, int num_threads,
 void parallel_chunks(Index count, Index grain, int num_threads,
                      const std::function<void(Index chunk, Index begin, Index end)>& body);
 
+//! \throw InvalidOption  num_threads < 0.
+void check_num_threads(int num_threads);
+
 //! A chunk size for passes that do little for each face, edge or vertex.
 inline constexpr Index pass_grain = 1 << 14;
 

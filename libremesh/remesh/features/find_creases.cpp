@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "agvd/core/error.h"
+#include "agvd/core/parallel.h"
 #include "remesh/features/carry_creases.h"
 #include "remesh/features/edge_angles.h"
 #include "remesh/features/prune_creases.h"
@@ -51,9 +52,7 @@ void check(const CreaseOptions& options) {
         throw agvd::InvalidOption("angle is " + std::to_string(options.angle) +
                                   "; use degrees above 0 and below 180");
     }
-    if (options.num_threads < 0)
-        throw agvd::InvalidOption("num_threads is " + std::to_string(options.num_threads) +
-                                  "; use 0 (all cores) or more");
+    agvd::check_num_threads(options.num_threads);
     if (!(options.spacing > 0 && std::isfinite(options.spacing))) {
         throw agvd::InvalidOption("spacing is " + std::to_string(options.spacing) +
                                   "; use a finite number above 0");

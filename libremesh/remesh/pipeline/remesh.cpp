@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "agvd/core/parallel.h"
 #include "agvd/mesh/scale.h"
 #include "remesh/pipeline/run.h"
 
@@ -35,10 +36,7 @@ void check_options(const RemeshOptions& options, std::size_t num_faces) {
                                   " labels, but the mesh has " + std::to_string(num_faces) +
                                   " faces; give one for each, or none");
     }
-    if (options.num_threads < 0) {
-        throw agvd::InvalidOption("num_threads is " + std::to_string(options.num_threads) +
-                                  "; use 0 (all cores) or more");
-    }
+    agvd::check_num_threads(options.num_threads);
 }
 
 // Scales the lengths of a result back: it was computed from the mesh times 2^-exponent.

@@ -171,9 +171,7 @@ std::optional<SurfaceDistance> surface_distance(const agvd::MeshView& original,
                                                 const agvd::MeshView& result,
                                                 const DistanceOptions& options) {
     if (options.samples < 1) throw agvd::InvalidOption("samples is 0; use 1 or more");
-    if (options.num_threads < 0)
-        throw agvd::InvalidOption("num_threads is " + std::to_string(options.num_threads) +
-                                  "; use 0 (all cores) or more");
+    agvd::check_num_threads(options.num_threads);
     agvd::Poller poller(options.progress);
     const Faces original_faces(original, "original", poller);
     const Faces result_faces(result, "result", poller);

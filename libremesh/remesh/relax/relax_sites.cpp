@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "agvd/core/parallel.h"
 #include "agvd/core/poller.h"
 #include "agvd/mesh/check_sites.h"
 #include "remesh/relax/even_out.h"
@@ -40,10 +41,7 @@ void check_options(const RelaxOptions& options, std::size_t num_sites) {
         throw agvd::InvalidOption("tolerance is " + std::to_string(options.tolerance) +
                                   "; use 0 or more");
     }
-    if (options.num_threads < 0) {
-        throw agvd::InvalidOption("num_threads is " + std::to_string(options.num_threads) +
-                                  "; use 0 (all cores) or more");
-    }
+    agvd::check_num_threads(options.num_threads);
     if (!options.is_fixed.empty() && options.is_fixed.size() != num_sites) {
         throw agvd::InvalidOption("is_fixed has " + std::to_string(options.is_fixed.size()) +
                                   " entries, but there are " + std::to_string(num_sites) +

@@ -56,12 +56,7 @@ SurfacePoint point_at(const Surface& surface, const Ray& ray) {
     b[k] = 1 - head - up;
     b[(k + 1) % 3] = head;
     b[(k + 2) % 3] = up;
-    double sum = 0;
-    for (double& x : b) {
-        x = std::max(x, interior_margin);
-        sum += x;
-    }
-    for (double& x : b) x /= sum;
+    keep_inside(b);
     return {agvd::FaceId(Surface::face(ray.half_edge)), b};
 }
 

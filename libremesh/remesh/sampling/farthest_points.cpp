@@ -148,9 +148,7 @@ private:
     [[nodiscard]] SurfacePoint to_whole(const SurfacePoint& point) const {
         SurfacePoint found = component_.base.to_input(point);
         found.face = agvd::FaceId(component_.faces[found.face.value()]);
-        double sum = 0;
-        for (double& b : found.barycentric) sum += b = std::max(b, interior_margin);
-        for (double& b : found.barycentric) b /= sum;
+        keep_inside(found.barycentric);
         return found;
     }
     [[nodiscard]] SurfacePoint to_component(const SurfacePoint& point) const {

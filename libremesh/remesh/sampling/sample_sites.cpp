@@ -8,6 +8,7 @@
 #include <string>
 
 #include "agvd/core/error.h"
+#include "agvd/core/parallel.h"
 #include "remesh/sampling/boundary_curves.h"
 #include "remesh/sampling/eliminate.h"
 #include "remesh/sampling/farthest_points.h"
@@ -124,10 +125,7 @@ std::vector<agvd::SurfacePoint> sample_sites(const agvd::Surface& surface,
         throw agvd::InvalidOption("num_samples is " + std::to_string(options.num_samples) +
                                   "; use at most " + std::to_string(most_samples));
     }
-    if (options.num_threads < 0) {
-        throw agvd::InvalidOption("num_threads is " + std::to_string(options.num_threads) +
-                                  "; use 0 (all cores) or more");
-    }
+    agvd::check_num_threads(options.num_threads);
     if (surface.num_faces() == 0) {
         throw agvd::InvalidInput("the surface has no face; check that the file holds a surface");
     }

@@ -2,6 +2,9 @@
 //! Independent area-uniform points on one component.
 #pragma once
 
+#include <algorithm>
+#include <array>
+
 #include "agvd/mesh/surface_point.h"
 #include "remesh/topology/components.h"
 
@@ -10,6 +13,13 @@ namespace remesh::detail {
 //! Least barycentric coordinate of a point inside a face. It keeps points off edges by more than
 //! the rounding of any position, and biases the density by no more than this share.
 inline constexpr double interior_margin = 1e-6;
+
+//! Moves a point of a face off its edges by at least that, where it is nearer.
+inline void keep_inside(std::array<double, 3>& barycentric) {
+    double sum = 0;
+    for (double& b : barycentric) sum += b = std::max(b, interior_margin);
+    for (double& b : barycentric) b /= sum;
+}
 
 struct ScatteredPoint {
     agvd::SurfacePoint point;  //!< Strictly inside its face.
