@@ -202,9 +202,13 @@ void Console::run(const std::function<void()>& job) {
 
 void Console::require_memory(const char* stage, std::size_t bytes) {
     look(stage, 0);
-    if (limit_.bytes == 0 || resident_memory() + bytes <= limit_.bytes) return;
+    const std::size_t needed = resident_memory() + bytes;
+    if (limit_.bytes == 0 || needed <= limit_.bytes) return;
     is_over_limit_ = true;
-    throw out_of_memory();
+    throw OutOfMemory("not enough memory: the program needs some " + format_bytes(needed) +
+                      ", more than the " + format_bytes(limit_.bytes) +
+                      " of --memory-limit (stage: " + stage + "); " +
+                      memory_remedy(stage, limit_.engine) + ", or raise --memory-limit");
 }
 
 OutOfMemory Console::out_of_memory() const {

@@ -117,8 +117,8 @@ public:
     //! Calls the job, whose callbacks are those above.
     //! \throw OutOfMemory  in place of the agvd::Cancelled or std::bad_alloc that this causes.
     void run(const std::function<void()>& job);
-    //! Call before a stage that allocates this many bytes at once.
-    //! \throw OutOfMemory  the limit would be exceeded.
+    //! Call before work that needs at least this many bytes more.
+    //! \throw OutOfMemory  the limit would be exceeded; the text tells how much is needed.
     void require_memory(const char* stage, std::size_t bytes);
 
 private:

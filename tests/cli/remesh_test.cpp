@@ -100,6 +100,26 @@ TEST_F(Remesh, SitesOnOneSpotAreOneVertexOrAreParted) {
     EXPECT_EQ(num_vertices("--relax", "10"), 300u);
 }
 
+TEST_F(Remesh, ManySitesOnFewSpotsAreAMistake) {
+    const auto run = [&](const agvd::TriangleMesh& mesh, int num_copies) {
+        std::string sites;
+        for (int v = 0; v < 8; ++v) {
+            for (int copy = 0; copy < num_copies; ++copy) sites += "v " + std::to_string(v) + "\n";
+        }
+        return remesh({put("in.off", mesh), at("out.off"), "--sites", put("sites.txt", sites),
+                       "--relax", "2"});
+    };
+    // Creases carry the sites of a cube, and none is found on the sphere.
+    for (const agvd::TriangleMesh& mesh : {shapes::sphere(2), shapes::cube()}) {
+        const auto refused = run(mesh, 200);
+        EXPECT_EQ(refused.exit_code, 4) << refused.err;
+        EXPECT_NE(refused.err.find("1600 sites were given, but only at 8 different points"),
+                  std::string::npos)
+            << refused.err;
+        EXPECT_EQ(run(mesh, 100).exit_code, 0);
+    }
+}
+
 TEST_F(Remesh, WrongUsageIsTwo) {
     const std::string in = put("in.off", shapes::sphere(1));
     const std::string out = at("out.off");
@@ -310,6 +330,17 @@ TEST_F(Remesh, RefusesAFileThatCannotFit) {
     const auto outcome = remesh({in, at("out.ply"), "--memory-limit", "4G"});
     EXPECT_EQ(outcome.exit_code, 1);
     EXPECT_NE(outcome.err.find("stage: read"), std::string::npos) << outcome.err;
+}
+
+TEST_F(Remesh, RefusesMoreSamplesThanFitAndTellsWhatTheyNeed) {
+    const std::string in = put("in.off", shapes::sphere(2));
+    const auto outcome = remesh({in, at("out.ply"), "-n", "1000000", "--memory-limit", "2G"});
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_NE(outcome.err.find("the program needs some 3.7"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("more than the 2G of --memory-limit"), std::string::npos)
+        << outcome.err;
+    EXPECT_NE(outcome.err.find("use fewer --samples"), std::string::npos) << outcome.err;
+    EXPECT_FALSE(fs::exists(at("out.ply")));
 }
 
 TEST_F(Remesh, TakesMemoryLimitsWithSuffixesAndRefusesGarbage) {

@@ -100,16 +100,27 @@ void draw_boundary_arcs(const DrawingInput& in, const std::vector<Index>& loop,
     }
 }
 
+// How many points are drawn at most.
+std::size_t most_points(const DrawingInput& in) {
+    const ArcStore& arcs = in.parts.arcs;
+    // A node at the beginning of each arc and at the end of each edge.
+    std::size_t count = arcs.arcs().size() + arcs.points().size() + in.parts.joined.order.size();
+    for (std::size_t i = 0; i < in.boundary.size(); ++i) {
+        count += in.parts.boundary_loops[i].size() + 2 * in.boundary[i].size();
+    }
+    return count;
+}
+
 }  // namespace
 
 void clear_points(const DrawingInput& input, Diagram& diagram) {
     diagram.points.clear();
     diagram.point_distance.clear();
     diagram.passages.clear();
-    const std::size_t num_arcs = input.parts.arcs.arcs().size();  // A node an arc, and the ends.
-    diagram.points.reserve(num_arcs + num_arcs / 4 + input.parts.arcs.points().size());
-    diagram.point_distance.reserve(diagram.points.capacity());
-    diagram.passages.reserve(diagram.points.capacity());
+    const std::size_t most = most_points(input);
+    diagram.points.reserve(most);
+    diagram.point_distance.reserve(most);
+    diagram.passages.reserve(most);
     diagram.edge_points.assign(1, 0);
 }
 

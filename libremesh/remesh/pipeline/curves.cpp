@@ -8,7 +8,7 @@
 
 #include "agvd/mesh/distinct_points.h"
 #include "remesh/clean/carry_edges.h"
-#include "remesh/clean/carry_sites.h"
+#include "remesh/pipeline/given_sites.h"
 #include "remesh/relax/prepared_surface.h"
 #include "remesh/sampling/given_network.h"
 
@@ -70,8 +70,7 @@ std::pair<NetworkPlan, GivenSites> plan_with_given(const CleanedInput& cleaned,
                                                    const StageContext& context) {
     const auto& [options, result] = context;
     const agvd::Progress progress = progress_of(Stage::Clean, options);
-    const std::vector<SurfacePoint> sites = to_cleaned(
-        *options.sites, cleaned.given, {cleaned.surface.mesh.view(), cleaned.face_origin});
+    const std::vector<SurfacePoint> sites = given_sites(cleaned, cleaned.surface, *options.sites);
     GivenNetwork given =
         plan_given_network(cleaned.surface, std::move(is_crease),
                            agvd::points_of(sites, agvd::distinct_points(cleaned.surface, sites)),

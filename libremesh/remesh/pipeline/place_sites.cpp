@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "agvd/mesh/distinct_points.h"
-#include "remesh/clean/carry_sites.h"
+#include "remesh/pipeline/given_sites.h"
 #include "remesh/relax/relax_network.h"
 #include "remesh/sampling/boundary_curves.h"
 #include "remesh/sampling/minimum_samples.h"
@@ -53,12 +53,6 @@ Index least_samples(const Topology& topology) {
     return needed;
 }
 
-std::vector<SurfacePoint> given_sites(const CleanedInput& cleaned, const Domain& domain,
-                                      const RemeshOptions& options) {
-    const agvd::Surface& surface = *domain.whole;
-    return to_cleaned(*options.sites, cleaned.given, {surface.mesh.view(), cleaned.face_origin});
-}
-
 PlacedSites place_uncut(const CleanedInput& cleaned, const Domain& domain,
                         const StageContext& context) {
     const auto& [options, result] = context;
@@ -68,7 +62,7 @@ PlacedSites place_uncut(const CleanedInput& cleaned, const Domain& domain,
     {
         const StageClock clock(Stage::Sample, result);
         if (options.sites) {
-            placed.sites = given_sites(cleaned, domain, options);
+            placed.sites = given_sites(cleaned, *domain.whole, *options.sites);
         } else if (!is_coarse_to_fine(options)) {
             placed.sites = sample_sites(*domain.whole, sampling);
         }

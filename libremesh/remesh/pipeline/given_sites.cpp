@@ -1,0 +1,34 @@
+#include "remesh/pipeline/given_sites.h"
+
+#include <string>
+
+#include "agvd/core/error.h"
+#include "agvd/mesh/distinct_points.h"
+#include "remesh/clean/carry_sites.h"
+
+namespace remesh::detail {
+namespace {
+
+// Fewer sites may repeat as they like: relaxation parts them.
+constexpr std::size_t least_checked = 1000;
+
+void check_repeats(const agvd::Surface& surface, std::span<const agvd::SurfacePoint> sites) {
+    if (sites.size() < least_checked) return;
+    const std::size_t distinct = agvd::distinct_points(surface, sites).size();
+    if (distinct * 2 >= sites.size()) return;
+    throw agvd::InvalidInput(std::to_string(sites.size()) + " sites were given, but only at " +
+                             std::to_string(distinct) + " different points; give each point once");
+}
+
+}  // namespace
+
+std::vector<agvd::SurfacePoint> given_sites(const CleanedInput& cleaned,
+                                            const agvd::Surface& surface,
+                                            const std::vector<agvd::SurfacePoint>& sites) {
+    std::vector<agvd::SurfacePoint> carried =
+        to_cleaned(sites, cleaned.given, {surface.mesh.view(), cleaned.face_origin});
+    check_repeats(surface, carried);
+    return carried;
+}
+
+}  // namespace remesh::detail
