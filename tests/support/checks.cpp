@@ -165,10 +165,11 @@ void expect_valid_complex(const Surface& surface, const Diagram& d) {
     expect_cells_fit(d);
     expect_arcs_do_not_cross(surface, d);
 
-    double whole_area = 0, surface_area = 0;
+    double whole_area = 0, surface_area = 0, squares = 0;
     int surface_euler = 0;
     for (Index f = 0; f < surface.num_faces(); ++f) {
         whole_area += face_area(surface, f);
+        for (Index k = 0; k < 3; ++k) squares += std::pow(surface.length_of(3 * f + k), 2);
         if (!d.nearest_site[surface.mesh.triangles[f][0]].is_valid()) continue;
         ++surface_euler;
         surface_area += face_area(surface, f);
@@ -187,8 +188,9 @@ void expect_valid_complex(const Surface& surface, const Diagram& d) {
         cell_area += d.cell_area[s];
         complex_euler += d.cell_euler[s];
     }
-    // Areas of parts are rounded to 2^-61 of the whole one.
-    EXPECT_NEAR(cell_area, surface_area, 1e-9 * surface_area + 1e-15 * whole_area);
+    // Areas of parts are rounded to 2^-61 of the whole one, and coordinates to 2^-53 of the face.
+    EXPECT_NEAR(cell_area, surface_area,
+                1e-9 * surface_area + 1e-15 * whole_area + 1e-16 * squares);
     for (const VoronoiEdge& e : d.edges) {
         if (e.right.is_valid() && e.tail != no_index) --complex_euler;
     }
