@@ -43,21 +43,12 @@ SamplingOptions sampling_of(const RemeshOptions& options, Index num_samples) {
             .progress = progress_of(Stage::Sample, options)};
 }
 
-// The fewest sites that sampling places. Surplus vertices are removed later, as far as the topology
-// allows.
-Index least_samples(const Topology& topology) {
-    Index needed = 0;
-    for (const ComponentTopology& c : topology.components) {
-        needed += minimum_samples(c.genus, c.boundary_loops);
-    }
-    return needed;
-}
-
 PlacedSites place_uncut(const CleanedInput& cleaned, const Domain& domain,
                         const StageContext& context) {
     const auto& [options, result] = context;
+    // Surplus vertices are removed later, as far as the topology allows.
     const SamplingOptions sampling =
-        sampling_of(options, std::max(options.num_samples, least_samples(cleaned.topology)));
+        sampling_of(options, std::max(options.num_samples, minimum_samples(cleaned.topology)));
     PlacedSites placed;
     {
         const StageClock clock(Stage::Sample, result);

@@ -8,6 +8,7 @@
 
 #include "remesh/clean/carry_sites.h"
 #include "remesh/pipeline/check_result.h"
+#include "remesh/sampling/minimum_samples.h"
 
 namespace remesh::detail {
 namespace {
@@ -83,10 +84,26 @@ RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cl
     return *std::move(best);
 }
 
-// For the text of an error: a number of samples that was tried and works.
+// \throw TooFewSamples  no mesh of this topology has as few vertices as are asked for.
+void require_least_samples(const Topology& topology, const RemeshOptions& options) {
+    // Sheets that are welded share vertices, and sites have a check of their own.
+    if (options.vertex_count != VertexCount::Exact || options.junctions == Junctions::Keep ||
+        options.sites) {
+        return;
+    }
+    const Index needed = minimum_samples(topology);
+    if (options.num_samples < needed) throw TooFewSamples{options.num_samples, needed};
+}
+
+// For the text of an error: a number of samples that was tried and works. Large numbers are not
+// tried: a run would take minutes.
 std::string describe_enough(CleanedInput& cleaned, const RemeshResult& after_cleaning,
                             const RemeshOptions& options, Index reached) {
     constexpr int max_tries = 6;
+    constexpr Index most_tried = 10'000;
+    if (reached > std::max(most_tried, options.num_samples)) {
+        return "use " + std::to_string(reached) + " samples or more";
+    }
     RemeshOptions more = options;
     more.sites.reset();
     for (int tries = 0; tries < max_tries; ++tries) {
@@ -113,6 +130,7 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& options) {
     }
     CleanedInput cleaned = clean_stage(input, {options, result});
     try {
+        require_least_samples(cleaned.topology, options);
         result = run_with_curves(cleaned, result, options);
     } catch (const TooFewSamples& failure) {
         const std::string asked = std::to_string(failure.asked);

@@ -406,10 +406,8 @@ bool EditedMesh::move(Index v, const Vec3& step, double gain) {
         place.point = walk_boundary(surface_, place.point, *h, step);
     } else {
         const Walk walk = walk_straight(surface_, place.point, step);
-        if (walk.is_cut_off) {
-            ++num_lost_walks_;
-            return false;
-        }
+        num_crossings_ += static_cast<std::size_t>(walk.crossings);
+        if (walk.is_cut_off) return false;
         place.point = walk.end;
     }
     locate(place);

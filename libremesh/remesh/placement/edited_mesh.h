@@ -63,8 +63,8 @@ public:
     //! Moves a vertex along the surface if the worst face around it gets better by more than
     //! `gain`. Does not if its walk is cut off.
     bool move(agvd::Index v, const agvd::Vec3& step, double gain);
-    //! Calls of `move` whose walk was cut off.
-    [[nodiscard]] std::size_t num_lost_walks() const { return num_lost_walks_; }
+    //! Edges of the surface that all calls of `move` together crossed: their cost.
+    [[nodiscard]] std::size_t num_crossings() const { return num_crossings_; }
 
     [[nodiscard]] Mark mark() const;
     void take_back(const Mark& mark);
@@ -110,7 +110,7 @@ private:
 
     const agvd::Surface& surface_;
     double mean_length_ = 0;  // Of the initial edges.
-    std::size_t num_lost_walks_ = 0;
+    std::size_t num_crossings_ = 0;
     std::vector<Face> faces_;
     std::vector<Place> places_;                   // By vertex.
     std::vector<std::vector<agvd::Index>> fans_;  // By vertex: its faces.

@@ -33,16 +33,25 @@ constexpr agvd::Index most_moved = 8;
 // Budgets for each initially bad triangle: where all are bad, work would not end. Lips use half of
 // them.
 constexpr std::size_t edits_for_each = 3, slides_for_each = 200;
-// A slide whose walk circles around a spike until it is cut off counts as so many. Without this a
-// mesh of 13 faces took 14 s.
-constexpr std::size_t slides_for_lost = 20;
+// A slide takes some 16 steps of at most an edge's length. Where its walks cross more edges of the
+// surface than these would on faces of even size, or more than the least number, it counts as
+// several slides. At spikes walks run around for ever: without this a mesh of 13 faces took 14 s.
+constexpr double steps_of_slide = 16;
+constexpr std::size_t least_crossings = 100;
+// A slide ends when it counts as so many more.
+constexpr std::size_t most_more = 20;
 constexpr int most_mend_rounds = 6, most_sweeps = 3;
 
 class Mender {
 public:
-    Mender(EditedMesh& mesh, agvd::Ticker ticker)
+    // \param num_faces  of the surface.
+    Mender(EditedMesh& mesh, Index num_faces, agvd::Ticker ticker)
         : mesh_(mesh),
           ticker_(ticker),
+          crossings_of_slide_(std::max(
+              least_crossings,
+              static_cast<std::size_t>(steps_of_slide * std::sqrt(static_cast<double>(num_faces) /
+                                                                  mesh.num_vertices())))),
           least_spare_(-static_cast<int>(mesh.num_vertices() / most_moved)) {}
 
     // First balances the count at the end, when the number of missing vertices is known: it is
@@ -243,18 +252,18 @@ private:
         --slides_left_;
         const Ways ways = ways_of(v);
         if (ways.steps.empty()) return false;
-        bool is_lost = false;
+        const std::size_t start = mesh_.num_crossings();
+        const auto num_more = [&] { return (mesh_.num_crossings() - start) / crossings_of_slide_; };
         const auto move = [&](const Vec3& step) {
-            if (is_lost) return false;
-            ticker_.tick(mesh_.faces_at(v).size());
-            const std::size_t num_lost = mesh_.num_lost_walks();
+            if (num_more() >= most_more) return false;
+            const std::size_t before = mesh_.num_crossings();
             const bool helps = mesh_.move(v, step, least_step_gain);
-            is_lost = mesh_.num_lost_walks() > num_lost;
+            ticker_.tick(mesh_.faces_at(v).size() + mesh_.num_crossings() - before);
             return helps;
         };
         const bool moves_to_mean = move(ways.to_mean);
         const bool takes_steps = detail::try_steps(ways.steps, ways.length, move);
-        if (is_lost) slides_left_ -= std::min(slides_left_, slides_for_lost);
+        slides_left_ -= std::min(slides_left_, num_more());
         return moves_to_mean || takes_steps;
     }
 
@@ -435,6 +444,7 @@ private:
 
     EditedMesh& mesh_;
     agvd::Ticker ticker_;
+    const std::size_t crossings_of_slide_;
     const int least_spare_;
     bool pays_at_once_ = false;
     int num_spare_ = 0;  // Vertices removed and not yet added elsewhere; below 0: to be removed.
@@ -454,7 +464,8 @@ std::vector<Index> mend_shape(const agvd::Surface& surface, std::span<const Mobi
     agvd::Poller poller(progress);
     EditedMesh edited(surface, mesh, mobility, hard);
     std::vector<Index> numbers;
-    if (Mender(edited, agvd::Ticker(poller)).run()) mesh = edited.result(numbers);
+    if (Mender(edited, surface.num_faces(), agvd::Ticker(poller)).run())
+        mesh = edited.result(numbers);
     return numbers;
 }
 

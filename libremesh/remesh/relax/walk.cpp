@@ -113,19 +113,19 @@ Walk walk_straight(const Surface& surface, const SurfacePoint& from, const Vec3&
         const double stretch = fall > 0 ? std::max(ray.at.y() / fall, 0.0) : left;
         if (stretch >= left) {
             ray.at += left * ray.direction;
-            return {point_at(surface, ray)};
+            return {point_at(surface, ray), crossings};
         }
         const Index twin = surface.twin[ray.half_edge];
         if (twin == no_index) {
             ray.at += stop_share * stretch * ray.direction;
-            return {point_at(surface, ray)};
+            return {point_at(surface, ray), crossings};
         }
         const double edge = surface.length_of(ray.half_edge);
         const double along = std::clamp(ray.at.x() + stretch * ray.direction.x(), 0.0, edge);
         ray = {twin, Vec2(edge - along, 0), -ray.direction};
         left -= stretch;
     }
-    return {point_at(surface, ray), true};
+    return {point_at(surface, ray), most_crossings, true};
 }
 
 std::optional<Index> boundary_half_edge(const Surface& surface, const SurfacePoint& point) {

@@ -19,4 +19,12 @@ Index minimum_samples(int genus, int boundary_loops) {
     return std::max(static_cast<Index>(bound), static_cast<Index>(3 * boundary_loops));
 }
 
+Index minimum_samples(const Topology& topology) {
+    Index needed = 0;
+    for (const ComponentTopology& c : topology.components) {
+        needed += minimum_samples(c.genus, c.boundary_loops);
+    }
+    return needed;
+}
+
 }  // namespace remesh

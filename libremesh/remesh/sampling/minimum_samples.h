@@ -3,6 +3,7 @@
 #pragma once
 
 #include "agvd/core/types.h"
+#include "remesh/topology/topology.h"
 
 namespace remesh {
 
@@ -13,5 +14,8 @@ namespace remesh {
 //!
 //! \param genus, boundary_loops  >= 0, of one connected component.
 [[nodiscard]] agvd::Index minimum_samples(int genus, int boundary_loops);
+
+//! The same for all components together. Cost: O(#components).
+[[nodiscard]] agvd::Index minimum_samples(const Topology& topology);
 
 }  // namespace remesh

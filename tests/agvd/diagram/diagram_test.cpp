@@ -161,6 +161,22 @@ TEST(Diagram, AThousandSitesInTwelveFacesAreAValidComplex) {
     }
 }
 
+// Their distances to a corner are not 0, but rounding puts them there.
+TEST(Diagram, SitesInAFaceMayRoundToItsCorners) {
+    const Surface surface = build_surface(shapes::tetrahedron().view());
+    for (std::size_t k = 0; k < 3; ++k) {
+        std::vector<SurfacePoint> sites{{FaceId(0), {1e-25, 1e-25, 1e-25}},
+                                        {FaceId(0), {0.25, 0.25, 0.5}}};
+        sites[0].barycentric[k] = 1;
+        const Propagation propagation = propagate(surface, sites);
+        const Diagram diagram = build_diagram(surface, sites, propagation);
+        checks::expect_valid_complex(surface, diagram);
+        EXPECT_EQ(diagram.nearest_site[surface.mesh.triangles[0][k]], SiteId(0));
+        EXPECT_GT(diagram.cell_area[0], 0);
+        EXPECT_GT(diagram.cell_area[1], 0);
+    }
+}
+
 TEST(Diagram, ManySitesInAFaceOfAPlaneGiveThePlanarVoronoiDiagram) {
     const TriangleMesh mesh = shapes::grid(1);
     const Surface surface = build_surface(mesh.view());

@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 
 #include "remesh/io/read_mesh.h"
 #include "remesh/pipeline/remesh.h"
@@ -99,6 +100,28 @@ TEST(Remesh, AMeshThatIsGivenAwayIsThereAgainWhereSamplesAreTooFew) {
     const std::string text = text_of([&] { return remesh::remesh(mesh.view(), options); });
     EXPECT_NE(text.find("work"), std::string::npos) << text;
     EXPECT_EQ(text, text_of([&] { return remesh::remesh_moved(mesh, options); }));
+}
+
+// A run with so many vertices would take minutes: their number is told without one.
+TEST(Remesh, TooFewSamplesForManyPartsAreRefusedAtOnce) {
+    TriangleMesh parts = shapes::unweld(shapes::torus(50, 40));
+    for (std::size_t f = 0; f < parts.triangles.size(); ++f) {
+        for (const Index v : parts.triangles[f]) parts.positions[v].z() += 1e-3 * f;
+    }
+    std::string text;
+    std::set<remesh::Stage> stages;
+    const auto note = [&](remesh::Stage stage, double) {
+        stages.insert(stage);
+        return true;
+    };
+    try {
+        (void)remesh::remesh(parts.view(), {.num_samples = 100, .progress = note});
+    } catch (const ConstraintUnmet& error) {
+        text = error.what();
+    }
+    EXPECT_EQ(text,
+              "100 samples are too few for the topology of the mesh; use 12000 samples or more");
+    EXPECT_EQ(stages, std::set{remesh::Stage::Clean});
 }
 
 TEST(Remesh, TooFewSamplesForTheTopologyAreRefused) {

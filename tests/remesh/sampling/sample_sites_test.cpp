@@ -107,6 +107,10 @@ TEST(SampleSites, MinimumFollowsTheTopology) {
     EXPECT_EQ(remesh::minimum_samples(0, 2), 6u);
     EXPECT_EQ(remesh::minimum_samples(0, 11), 33u);
     EXPECT_EQ(remesh::minimum_samples(1, 1), 6u);
+    remesh::Topology sphere_and_tube;
+    sphere_and_tube.components.resize(2);
+    sphere_and_tube.components[1].boundary_loops = 2;
+    EXPECT_EQ(remesh::minimum_samples(sphere_and_tube), 10u);
 }
 
 TEST(SampleSites, EveryComponentGetsWhatItsTopologyNeedsAndTheRestGoesByArea) {
