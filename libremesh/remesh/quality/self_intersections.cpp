@@ -25,9 +25,9 @@ using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, Index>;
 
 // Pairs of boxes tested per chunk.
 constexpr Index pairs_per_task = 4096;
-// Most pairs of boxes in memory at once. Meshes have some 10 for each face; a polygon of 20 000
-// corners cut into needles has hundreds of millions.
-constexpr std::size_t most_candidates = std::size_t{1} << 25;
+// Most pairs of boxes in memory at once, for each face and at least. Meshes have some 10 for each
+// face; a polygon of 20 000 corners cut into needles has hundreds of millions.
+constexpr std::size_t candidates_per_face = 32, least_candidates = std::size_t{1} << 16;
 
 class Soup {
 public:
@@ -127,6 +127,8 @@ std::optional<std::vector<Pair>> find_self_intersections(const agvd::MeshView& m
     const auto num_faces = static_cast<Index>(mesh.triangles.size());
     std::vector<Box> boxes = soup.boxes();
     std::vector<Pair> candidates, all;
+    const std::size_t most_candidates =
+        std::max(least_candidates, candidates_per_face * boxes.size());
     const auto test_candidates = [&] {
         const std::vector<Pair> found =
             intersecting(soup, std::exchange(candidates, {}), num_faces, num_threads, poller);

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include "support/shapes.h"
 
 using agvd::Index;
@@ -78,6 +82,23 @@ TEST(SelfIntersections, OverlappingSpheresMeetInPairsOfBoth) {
         EXPECT_GE(b, half);
     }
     EXPECT_TRUE(std::is_sorted(pairs.begin(), pairs.end()));
+}
+
+// More pairs than are tested at a time.
+TEST(SelfIntersections, AHundredThousandPairsAreAllFoundAndInOrder) {
+    constexpr Index count = 500;
+    TriangleMesh mesh;
+    for (Index i = 0; i < count; ++i) {
+        const double angle = std::numbers::pi * i / count;
+        mesh.positions.emplace_back(std::cos(angle), std::sin(angle), -1);
+        mesh.positions.emplace_back(-std::cos(angle), -std::sin(angle), -1);
+        mesh.positions.emplace_back(0, 0, 2);
+        mesh.triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    const Pairs pairs = pairs_of(mesh);
+    EXPECT_EQ(pairs.size(), count * (count - 1) / 2);
+    EXPECT_TRUE(std::is_sorted(pairs.begin(), pairs.end()));
+    EXPECT_EQ(std::adjacent_find(pairs.begin(), pairs.end()), pairs.end());
 }
 
 TEST(SelfIntersections, ThreadsDoNotMatter) {
