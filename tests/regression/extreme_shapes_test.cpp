@@ -91,6 +91,8 @@ TEST(ExtremeShapes, AnyScaleGivesTheScaledMesh) {
         EXPECT_EQ(result.mesh.positions, scaled(usual.mesh.view(), exponent).positions);
         EXPECT_EQ(result.mesh.triangles, usual.mesh.triangles);
         EXPECT_EQ(result.features.length, std::ldexp(usual.features.length, exponent));
+        EXPECT_EQ(result.input_topology.components.at(0).area,
+                  std::ldexp(usual.input_topology.components.at(0).area, 2 * exponent));
         ASSERT_EQ(result.relaxation.size(), usual.relaxation.size());
         EXPECT_EQ(result.relaxation[0].energy[0],
                   std::ldexp(usual.relaxation[0].energy[0], 4 * exponent));

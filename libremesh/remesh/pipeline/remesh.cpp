@@ -45,6 +45,9 @@ void scale_back(RemeshResult& result, int exponent) {
     for (double* length : {&result.features.length, &result.features.dropped_length}) {
         *length = std::ldexp(*length, exponent);
     }
+    for (ComponentTopology& component : result.input_topology.components) {
+        component.area = std::ldexp(component.area, 2 * exponent);
+    }
     for (RelaxLevel& level : result.relaxation) {
         for (double& energy : level.energy) energy = std::ldexp(energy, 4 * exponent);
     }

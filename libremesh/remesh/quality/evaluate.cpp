@@ -1,8 +1,10 @@
 #include "remesh/quality/evaluate.h"
 
+#include <cmath>
 #include <string>
 
 #include "agvd/core/error.h"
+#include "agvd/mesh/scale.h"
 #include "remesh/quality/self_intersections.h"
 
 namespace remesh {
@@ -44,10 +46,9 @@ MeshFigures measure(const agvd::MeshView& mesh, int num_threads, const agvd::Pro
             .self_intersections = find_self_intersections(mesh, num_threads, progress)};
 }
 
-}  // namespace
-
-Evaluation evaluate(const agvd::MeshView& original, const agvd::MeshView& result,
-                    const EvaluationOptions& options) {
+// \param original  of a size that can be computed on.
+Evaluation evaluate_in_scale(const agvd::MeshView& original, const agvd::MeshView& result,
+                             const EvaluationOptions& options) {
     check_result(result);
     const agvd::Progress& all = options.progress;
     const CleanResult clean =
@@ -64,6 +65,41 @@ Evaluation evaluate(const agvd::MeshView& original, const agvd::MeshView& result
     const Topology& topology = evaluation.result.topology;
     evaluation.topology_kept = topology.is_manifold && topology.is_oriented &&
                                same_topology(evaluation.original.topology, topology);
+    return evaluation;
+}
+
+// Scales the lengths back: the meshes were measured times 2^-exponent.
+void scale_back(Evaluation& evaluation, int exponent) {
+    for (Topology* topology : {&evaluation.original.topology, &evaluation.result.topology}) {
+        for (ComponentTopology& c : topology->components) c.area = std::ldexp(c.area, 2 * exponent);
+    }
+    if (evaluation.distance) {
+        SurfaceDistance& d = *evaluation.distance;
+        for (OneSidedDistance* side : {&d.from_original, &d.from_result}) {
+            for (double* length : {&side->mean, &side->rms, &side->max}) {
+                *length = std::ldexp(*length, exponent);
+            }
+        }
+        d.diagonal = std::ldexp(d.diagonal, exponent);
+    }
+    if (!evaluation.features) return;
+    FeatureCoverage& f = *evaluation.features;
+    for (double* length : {&f.length, &f.result_length, &f.diagonal}) {
+        *length = std::ldexp(*length, exponent);
+    }
+}
+
+}  // namespace
+
+Evaluation evaluate(const agvd::MeshView& original, const agvd::MeshView& result,
+                    const EvaluationOptions& options) {
+    const double size = agvd::box_of(original).longest_side();
+    if (agvd::is_in_scale(size)) return evaluate_in_scale(original, result, options);
+    const int exponent = std::ilogb(size);
+    const agvd::TriangleMesh normal = agvd::scaled(original, -exponent);
+    const agvd::TriangleMesh normal_result = agvd::scaled(result, -exponent);
+    Evaluation evaluation = evaluate_in_scale(normal.view(), normal_result.view(), options);
+    scale_back(evaluation, exponent);
     return evaluation;
 }
 

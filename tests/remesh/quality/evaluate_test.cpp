@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "agvd/core/error.h"
+#include "agvd/mesh/scale.h"
 #include "remesh/io/report.h"
 #include "support/shapes.h"
 
@@ -78,6 +79,39 @@ TEST(Evaluate, WhatCannotBeMeasuredIsNamed) {
     bad = good;
     bad.positions[1].x() = std::nan("");
     EXPECT_EQ(text_of_failure(good, bad).find("result: vertex 1 "), 0u);
+}
+
+TEST(Evaluate, AnyScaleGivesTheSameSharesAndScaledLengths) {
+    const TriangleMesh original = shapes::subdivide(shapes::subdivide(shapes::cube()));
+    const TriangleMesh result = shapes::jitter(shapes::subdivide(shapes::cube()), 0.02, 3);
+    const Evaluation usual = evaluate(original, result);
+    ASSERT_TRUE(usual.features.has_value());
+    for (const int exponent : {-300, -90, 90, 300}) {
+        SCOPED_TRACE(exponent);
+        const Evaluation e = evaluate(agvd::scaled(original.view(), exponent),
+                                      agvd::scaled(result.view(), exponent));
+        EXPECT_TRUE(e.topology_kept);
+        EXPECT_EQ(e.result.triangles.mean_quality, usual.result.triangles.mean_quality);
+        EXPECT_EQ(e.features->covered, usual.features->covered);
+        EXPECT_EQ(e.features->length, std::ldexp(usual.features->length, exponent));
+        EXPECT_EQ(e.features->result_length, std::ldexp(usual.features->result_length, exponent));
+        EXPECT_EQ(e.features->diagonal, std::ldexp(usual.features->diagonal, exponent));
+        for (const auto mesh : {&Evaluation::original, &Evaluation::result}) {
+            EXPECT_EQ((e.*mesh).topology.components.at(0).area,
+                      std::ldexp((usual.*mesh).topology.components.at(0).area, 2 * exponent));
+        }
+        ASSERT_EQ(e.distance.has_value(), usual.distance.has_value());
+        if (!e.distance) continue;
+        for (const auto side :
+             {&remesh::SurfaceDistance::from_original, &remesh::SurfaceDistance::from_result}) {
+            const remesh::OneSidedDistance &scaled = (*e.distance).*side,
+                                           &plain = (*usual.distance).*side;
+            EXPECT_EQ(scaled.mean, std::ldexp(plain.mean, exponent));
+            EXPECT_EQ(scaled.rms, std::ldexp(plain.rms, exponent));
+            EXPECT_EQ(scaled.max, std::ldexp(plain.max, exponent));
+        }
+        EXPECT_EQ(e.distance->diagonal, std::ldexp(usual.distance->diagonal, exponent));
+    }
 }
 
 TEST(Evaluate, ThreadsDoNotMatter) {
