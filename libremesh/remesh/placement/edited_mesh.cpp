@@ -406,7 +406,7 @@ bool EditedMesh::move(Index v, const Vec3& step, double gain) {
         place.point = walk_boundary(surface_, place.point, *h, step);
     } else {
         const Walk walk = walk_straight(surface_, place.point, step);
-        num_crossings_ += static_cast<std::size_t>(walk.crossings);
+        num_crossings_ += static_cast<std::size_t>(walk.num_crossings);
         if (walk.is_cut_off) return false;
         place.point = walk.end;
     }

@@ -11,7 +11,7 @@ namespace remesh::detail {
 
 struct Walk {
     agvd::SurfacePoint end;
-    int crossings = 0;        //!< Edges that it crossed.
+    int num_crossings = 0;    //!< From face to face.
     bool is_cut_off = false;  //!< After 2000 crossings: at a spike it may circle for ever.
 };
 

@@ -53,6 +53,16 @@ TEST(Walk, ItIsCutOffWhereItCirclesWithoutEnd) {
     EXPECT_TRUE(walk_straight(surface, start, 1e4 * around).is_cut_off);
 }
 
+TEST(Walk, ItCountsTheFacesItEnters) {
+    const agvd::Surface surface = agvd::build_surface(shapes::grid(10).view());
+    const SurfacePoint start{agvd::FaceId(0), {0.2, 0.5, 0.3}};
+    // Along a row each square has two faces.
+    for (const int squares : {0, 1, 4, 8}) {
+        const auto walk = walk_straight(surface, start, Vec3(0.1 * squares, 0, 0));
+        EXPECT_EQ(walk.num_crossings, 2 * squares);
+    }
+}
+
 TEST(Walk, ItStopsShortOfTheBoundary) {
     const agvd::Surface surface = agvd::build_surface(shapes::grid(5).view());
     const SurfacePoint start{agvd::FaceId(24), {0.3, 0.3, 0.4}};
