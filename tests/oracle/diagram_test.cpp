@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 
 #include "agvd/diagram/build_diagram.h"
@@ -10,6 +9,7 @@
 #include "agvd/metrics/compare.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/io/read_mesh.h"
+#include "support/files.h"
 #include "support/points.h"
 #include "support/shapes.h"
 
@@ -97,18 +97,16 @@ class RealMeshes : public testing::TestWithParam<const char*> {};
 }  // namespace
 
 INSTANTIATE_TEST_SUITE_P(Oracle, RealMeshes,
-                         testing::Values("rocker-arm.obj", "fandisk.off", "fertility.off"),
+                         testing::Values("data/shell.obj", "rocker-arm.obj", "fandisk.off",
+                                         "fertility.off"),
                          [](const auto& test) {
-                             std::string name = test.param;
-                             name.resize(name.find('.'));
+                             std::string name = std::filesystem::path(test.param).stem();
                              std::erase(name, '-');
                              return name;
                          });
 
 TEST_P(RealMeshes, DiagramsAreCloseToTheExactOne) {
-    const char* const folder = std::getenv("AGVD_MESHES");
-    const std::filesystem::path path =
-        std::filesystem::path(folder != nullptr ? folder : AGVD_MESHES_DEFAULT) / GetParam();
+    const std::filesystem::path path = files::find_mesh(GetParam());
     if (!std::filesystem::exists(path)) {
         GTEST_SKIP() << path << " is absent; set AGVD_MESHES to the folder that has it";
     }

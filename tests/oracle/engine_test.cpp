@@ -321,24 +321,26 @@ std::string identifier(std::string text) {
     return text;
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Engines, RealMesh,
-    testing::Values("spot.obj", "fandisk.off", "hole_capsule.off", "alligator.obj", "3holes.off",
-                    "fertility.off", "rocker-arm.obj", "camelhead.off", "beetle.off", "bunny.off",
-                    "armadillo.obj", "nefertiti.obj", "dirty/72214.stl", "dirty/65004.stl",
-                    "dirty/79741.stl", "dirty/58011.stl", "dirty/triple_vierbein.obj",
-                    "dirty/fan3.obj", "dirty/hourglass_ico.obj", "dirty/stl_box_ascii.stl"),
-    [](const auto& test) { return identifier(test.param); });
+INSTANTIATE_TEST_SUITE_P(Engines, RealMesh,
+                         testing::Values("data/part.off", "data/slivers.off", "spot.obj",
+                                         "fandisk.off", "hole_capsule.off", "alligator.obj",
+                                         "3holes.off", "fertility.off", "rocker-arm.obj",
+                                         "camelhead.off", "beetle.off", "bunny.off",
+                                         "armadillo.obj", "nefertiti.obj", "dirty/72214.stl",
+                                         "dirty/65004.stl", "dirty/79741.stl", "dirty/58011.stl",
+                                         "dirty/triple_vierbein.obj", "dirty/fan3.obj",
+                                         "dirty/hourglass_ico.obj", "dirty/stl_box_ascii.stl"),
+                         [](const auto& test) { return identifier(test.param); });
 
 TEST_P(RealMesh, EnginesAreRight) {
-    const auto path = files::real_mesh(GetParam());
+    const auto path = files::find_mesh(GetParam());
     if (!std::filesystem::exists(path)) {
         GTEST_SKIP() << path << " is absent; set AGVD_MESHES to the folder of real meshes";
     }
     const std::string name = GetParam();
     if (is_long()) {
         for (const Index t : {1u, 2u, 30u, 1000u}) check_real_mesh(path, t);
-    } else if (name == "spot.obj" || name == "fandisk.off") {
+    } else if (name == "spot.obj" || name == "fandisk.off" || name.starts_with("data/")) {
         for (const Index t : {2u, 30u}) check_real_mesh(path, t);
     } else {
         GTEST_SKIP() << "set AGVD_LONG for " << path;

@@ -137,6 +137,13 @@ double crossing_depth(const Segment& s, const Segment& t) {
                     apart(height(t, s.from), height(t, s.to)));
 }
 
+// The sum of the squares of a face's sides: its area is known to 2^-53 of it.
+double square_of_sides(const Surface& surface, Index face) {
+    double sum = 0;
+    for (Index h = 3 * face; h < 3 * face + 3; ++h) sum += std::pow(surface.length_of(h), 2);
+    return sum;
+}
+
 void expect_arcs_do_not_cross(const Surface& surface, const Diagram& d) {
     std::vector<Segment> segments;
     for (Index e = 0; e < d.edges.size(); ++e) {
@@ -145,8 +152,10 @@ void expect_arcs_do_not_cross(const Surface& surface, const Diagram& d) {
     }
     std::stable_sort(segments.begin(), segments.end(),
                      [](const Segment& a, const Segment& b) { return a.face < b.face; });
-    constexpr double rounding = 1e-9;  // In barycentric coordinates.
     for (std::size_t i = 0; i < segments.size(); ++i) {
+        // In barycentric coordinates. Positions are rounded to 2^-53 of the longest side.
+        const Index f = segments[i].face;
+        const double rounding = 1e-9 + 1e-15 * square_of_sides(surface, f) / face_area(surface, f);
         for (std::size_t j = i + 1; j < segments.size() && segments[j].face == segments[i].face;
              ++j) {
             EXPECT_LE(crossing_depth(segments[i], segments[j]), rounding)
@@ -169,7 +178,7 @@ void expect_valid_complex(const Surface& surface, const Diagram& d) {
     int surface_euler = 0;
     for (Index f = 0; f < surface.num_faces(); ++f) {
         whole_area += face_area(surface, f);
-        for (Index k = 0; k < 3; ++k) squares += std::pow(surface.length_of(3 * f + k), 2);
+        squares += square_of_sides(surface, f);
         if (!d.nearest_site[surface.mesh.triangles[f][0]].is_valid()) continue;
         ++surface_euler;
         surface_area += face_area(surface, f);

@@ -10,6 +10,7 @@
 #include <iterator>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace files {
 
@@ -51,9 +52,13 @@ inline void write(const std::filesystem::path& path, const std::string& bytes) {
     return {std::istreambuf_iterator<char>(in), {}};
 }
 
-//! A real mesh of the folder in AGVD_MESHES, or of the default one. It may not exist: tests then
-//! skip, and say so.
-[[nodiscard]] inline std::filesystem::path real_mesh(const std::string& name) {
+//! "data/NAME": a mesh of the project. Any other name: a real mesh of the folder in AGVD_MESHES, or
+//! of the default one. It may not exist: tests then skip, and say so.
+[[nodiscard]] inline std::filesystem::path find_mesh(const std::string& name) {
+    constexpr std::string_view ours = "data/";
+    if (name.starts_with(ours)) {
+        return std::filesystem::path(AGVD_DATA_DIR) / name.substr(ours.size());
+    }
     const char* const folder = std::getenv("AGVD_MESHES");
     return std::filesystem::path(folder != nullptr ? folder : AGVD_MESHES_DEFAULT) / name;
 }

@@ -464,7 +464,7 @@ TEST(DeltaComplex, TheFamiliesHoldWhatAMeshCannot) {
 class DirtyMesh : public testing::TestWithParam<const char*> {};
 
 TEST_P(DirtyMesh, ExactDistancesAreThoseOfTheInput) {
-    const auto path = files::real_mesh(std::string("dirty/") + GetParam());
+    const auto path = files::find_mesh(GetParam());
     if (!std::filesystem::exists(path)) {
         GTEST_SKIP() << path << " is absent; set AGVD_MESHES to the folder that has it";
     }
@@ -488,7 +488,8 @@ TEST_P(DirtyMesh, ExactDistancesAreThoseOfTheInput) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Meshes, DirtyMesh,
-                         testing::Values("79741.stl", "58011.stl", "65004.stl", "72214.stl"),
+                         testing::Values("data/slivers.off", "data/part.off", "dirty/79741.stl",
+                                         "dirty/58011.stl", "dirty/65004.stl", "dirty/72214.stl"),
                          [](const auto& name) {
-                             return "of" + std::string(name.param).substr(0, 5);
+                             return std::filesystem::path(name.param).stem().string();
                          });

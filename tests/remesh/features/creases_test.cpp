@@ -55,7 +55,7 @@ TriangleMesh cleaned(const std::filesystem::path& path) {
 }  // namespace
 
 TEST_P(RealPart, HasItsCreasesAtEverySpacing) {
-    const auto path = files::real_mesh(GetParam());
+    const auto path = files::find_mesh(GetParam());
     if (!exists(path)) GTEST_SKIP() << path << " is absent; set AGVD_MESHES to its folder";
     const TriangleMesh mesh = cleaned(path);
     const double diagonal = diagonal_of(mesh);
@@ -75,8 +75,9 @@ TEST_P(RealPart, HasItsCreasesAtEverySpacing) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Creases, RealPart,
-                         testing::Values("fandisk.off", "beetle.off", "dirty/65004.stl",
-                                         "dirty/58011.stl", "dirty/79741.stl", "dirty/72214.stl"));
+                         testing::Values("data/part.off", "fandisk.off", "beetle.off",
+                                         "dirty/65004.stl", "dirty/58011.stl", "dirty/79741.stl",
+                                         "dirty/72214.stl"));
 
 TEST(Creases, PartOfTheDataFolderHasAllOfThem) {
     const TriangleMesh mesh = cleaned(std::filesystem::path(AGVD_DATA_DIR) / "part.off");
@@ -87,7 +88,7 @@ TEST(Creases, PartOfTheDataFolderHasAllOfThem) {
 }
 
 TEST_P(RealScan, IsLeftAlone) {
-    const auto path = files::real_mesh(GetParam());
+    const auto path = files::find_mesh(GetParam());
     if (!exists(path)) GTEST_SKIP() << path << " is absent; set AGVD_MESHES to its folder";
     const TriangleMesh mesh = cleaned(path);
     const double diagonal = diagonal_of(mesh);
@@ -98,6 +99,7 @@ TEST_P(RealScan, IsLeftAlone) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Creases, RealScan,
-                         testing::Values("3holes.off", "hole_capsule.off", "fertility.off",
-                                         "bunny.off", "armadillo.obj", "nefertiti.obj",
-                                         "camelhead.off", "rocker-arm.obj", "spot.obj"));
+                         testing::Values("data/organic.ply", "3holes.off", "hole_capsule.off",
+                                         "fertility.off", "bunny.off", "armadillo.obj",
+                                         "nefertiti.obj", "camelhead.off", "rocker-arm.obj",
+                                         "spot.obj"));

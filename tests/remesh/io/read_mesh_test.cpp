@@ -113,14 +113,17 @@ TEST(ReadMesh, RealMeshesHaveTheirCountsAndTopology) {
         int genus, loops;
     };
     for (const auto& [name, vertices, faces, genus, loops] :
-         {Expected{"spot.obj", 2930, 5856, 0, 0}, Expected{"bunny.off", 34835, 69666, 0, 0},
-          Expected{"3holes.off", 3596, 7200, 3, 0}, Expected{"camelhead.off", 11381, 22704, 0, 1},
+         {Expected{"data/part.off", 1312, 2660, 10, 0},
+          Expected{"data/shell.obj", 3168, 6144, 0, 2},
+          Expected{"data/plate.stl", 2050, 4096, 0, 0}, Expected{"spot.obj", 2930, 5856, 0, 0},
+          Expected{"bunny.off", 34835, 69666, 0, 0}, Expected{"3holes.off", 3596, 7200, 3, 0},
+          Expected{"camelhead.off", 11381, 22704, 0, 1},
           Expected{"dirty/72214.stl", 830, 1660, 1, 0},
           Expected{"dirty/65004.stl", 731, 1466, 2, 0},
           Expected{"dirty/79741.stl", 7372, 14740, 0, 0},
           Expected{"dirty/58011.stl", 13215, 26430, 1, 0},
           Expected{"dirty/stl_box_ascii.stl", 8, 12, 0, 0}}) {
-        const std::filesystem::path path = files::real_mesh(name);
+        const std::filesystem::path path = files::find_mesh(name);
         if (!std::filesystem::exists(path)) {
             GTEST_SKIP() << path << " is absent: set AGVD_MESHES to the folder of real meshes";
         }

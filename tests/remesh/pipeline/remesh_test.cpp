@@ -7,6 +7,7 @@
 
 #include "remesh/io/read_mesh.h"
 #include "remesh/pipeline/remesh.h"
+#include "support/files.h"
 #include "support/shapes.h"
 
 using namespace agvd;
@@ -27,11 +28,6 @@ void expect_same_topology(const TriangleMesh& mesh, const remesh::RemeshOptions&
         const Vec3 offset = position(mesh.view(), result.sites[i]) - result.mesh.positions[i];
         EXPECT_LT(offset.norm(), options.fit == false ? 1e-9 : 0.5);  // Half a shape's size.
     }
-}
-
-std::filesystem::path meshes() {
-    const char* folder = std::getenv("AGVD_MESHES");
-    return folder != nullptr ? folder : AGVD_MESHES_DEFAULT;
 }
 
 }  // namespace
@@ -152,11 +148,13 @@ TEST(Remesh, SameBytesForAnyThreadCount) {
 }
 
 TEST(Remesh, RealMeshesKeepTheirTopology) {
-    if (!std::filesystem::exists(meshes())) GTEST_SKIP() << "no real meshes at " << meshes();
-    for (const char* name : {"fertility.off", "3holes.off", "fandisk.off", "camelhead.off",
-                             "spot.obj", "dirty/72214.stl", "hole_capsule.off"}) {
+    for (const char* name :
+         {"data/parts.ply", "data/shell.obj", "data/part.off", "fertility.off", "3holes.off",
+          "fandisk.off", "camelhead.off", "spot.obj", "dirty/72214.stl", "hole_capsule.off"}) {
         SCOPED_TRACE(name);
-        const TriangleMesh mesh = remesh::read_mesh(meshes() / name).mesh;
+        const auto path = files::find_mesh(name);
+        if (!std::filesystem::exists(path)) GTEST_SKIP() << "no real mesh at " << path;
+        const TriangleMesh mesh = remesh::read_mesh(path).mesh;
         const remesh::RemeshResult result =
             remesh::remesh(mesh.view(), {.num_samples = 500, .propagation = {.steiner_points = 5}});
         EXPECT_TRUE(

@@ -191,12 +191,14 @@ TEST(RelaxSites, SitesWhoseCellsMeetTheBoundaryMoveOntoIt) {
 }
 
 TEST(RelaxSites, FromOneSpotItGetsAsFarAsFromBlueNoise) {
-    std::map<std::string, agvd::TriangleMesh> meshes{{"sphere", shapes::sphere(5)}};
-    const auto bunny = files::real_mesh("bunny.off");
+    std::map<std::string, agvd::TriangleMesh> meshes{
+        {"sphere", shapes::sphere(5)},
+        {"organic", remesh::read_mesh(files::find_mesh("data/organic.ply")).mesh}};
+    const auto bunny = files::find_mesh("bunny.off");
     if (std::filesystem::exists(bunny)) {
         meshes["bunny"] = remesh::read_mesh(bunny).mesh;
     } else {
-        std::printf("%s is not there: the sphere has to do\n", bunny.c_str());
+        std::printf("%s is not there: the others have to do\n", bunny.c_str());
     }
     for (const auto& [name, mesh] : meshes) {
         const Surface surface = agvd::build_surface(mesh.view());
