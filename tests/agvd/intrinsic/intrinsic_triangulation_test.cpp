@@ -227,6 +227,23 @@ TEST(IntrinsicTriangulation, IsConsistentDelaunayAndOfTheSameArea) {
     });
 }
 
+// Corners of a quad on one circle: both diagonals are Delaunay.
+TEST(IntrinsicTriangulation, OfTwoDelaunayDiagonalsTheShorterOneIsTaken) {
+    const std::vector<Vec3> corners{{-1, 0, 0}, {0.6, -0.8, 0}, {1, 0, 0}, {0.6, 0.8, 0}};
+    for (const bool is_long : {false, true}) {
+        const TriangleMesh mesh{corners, is_long ? std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}
+                                                 : std::vector<Triangle>{{0, 1, 3}, {1, 2, 3}}};
+        const Surface input = build_surface(mesh.view());
+        const IntrinsicTriangulation base(input);
+        EXPECT_EQ(base.counts().flips, is_long ? 1u : 0u);
+        const Surface& s = base.surface();
+        for (Index h = 0; h < s.twin.size(); ++h) {
+            if (s.twin[h] == no_index) continue;
+            EXPECT_NEAR(s.length_of(h), 1.6, 1e-12);
+        }
+    }
+}
+
 TEST(IntrinsicTriangulation, KeptEdgesStay) {
     for_each_mesh([](const TriangleMesh&, const Surface& input, std::uint64_t seed) {
         Dice dice(seed);

@@ -70,6 +70,26 @@ TEST(SiteDistances, AreTheSameBothWaysAndForAnyGuessAndThreads) {
     EXPECT_EQ(site_distances(surface, a, all_pairs(a, b, 1), 8), there);
 }
 
+// Folds run along y up to y = 1. The faces near both points hold a path across all folds; a shorter
+// one goes around their ends.
+TEST(SiteDistances, AShorterPathOutsideOfWhatIsNearIsFound) {
+    TriangleMesh mesh = shapes::grid(40);
+    for (Vec3& p : mesh.positions) {
+        const auto column = static_cast<int>(std::lround(40 * p.x()));
+        p.x() -= 0.5;
+        p.y() *= 2;
+        p.z() = column % 2 == 1 && p.y() < 0.99 ? 0.2 : 0;
+    }
+    const Surface surface = build_surface(mesh.view());
+    const SurfacePoint site = point_at(surface, 10 * 41), target = point_at(surface, 30 * 41);
+    const double exact = propagate(surface, {&site, 1}, {.max_error = 0}).vertex_distance[30 * 41];
+    for (const double guess : {0.0, 0.6, 10.0}) {
+        const auto found =
+            site_distances(surface, {&site, 1}, all_pairs({&site, 1}, {&target, 1}, guess));
+        EXPECT_NEAR(found[0], exact, 1e-9) << guess;
+    }
+}
+
 TEST(SiteDistances, OtherComponentsAreNotReached) {
     const Surface surface =
         build_surface(shapes::join(shapes::sphere(1), shapes::sphere(1)).view());

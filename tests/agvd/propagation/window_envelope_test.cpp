@@ -167,6 +167,18 @@ TEST(WindowEnvelope, OneCutMakesTwoWindowsDisjoint) {
     EXPECT_GT(num_cut, 1000);
 }
 
+TEST(WindowEnvelope, OneCutIsNotEnoughWhereOneWindowWinsInTheMiddleOfTheOther) {
+    const Window wide = window(0.5, -1, 0, 0, 1);
+    for (const auto& [begin, end] : {std::pair{0.0, 1.0}, std::pair{0.1, 0.9}}) {
+        const Window narrow = window(0.5, -0.1, 0.88, begin, end);
+        Window last = wide, next = narrow;
+        EXPECT_FALSE(cut_where_they_change(last, next));
+        EXPECT_EQ(last.end, 1);
+        EXPECT_EQ(next.begin, begin);
+        EXPECT_EQ(next.end, end);
+    }
+}
+
 // The beam from a vertex overlaps the one that passes it by the grazing of its ray.
 TEST(WindowEnvelope, TheBeamThatPassesAVertexHoldsTheRay) {
     const double grazing = 1e-10;
