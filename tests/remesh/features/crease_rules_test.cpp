@@ -195,6 +195,20 @@ TEST(Prune, IslandsAndRingsAreJudgedAsAWhole) {
     }
 }
 
+TEST(Prune, RingsAreSpursOnlyWhereTheyHangOnOthers) {
+    for (const bool hangs : {false, true}) {
+        Drawing drawing;
+        drawing.line(0.3, 0.3, 0.4, 0.3);
+        drawing.line(0.3, 0.4, 0.4, 0.4);
+        drawing.line(0.3, 0.3, 0.3, 0.4);
+        drawing.line(0.4, 0.3, 0.4, 0.4);
+        if (hangs) drawing.line(0, 0.3, 0.3, 0.3);
+        if (hangs) drawing.line(0.3, 0, 0.3, 0.3);
+        drawing.prune_with({.least_spur = 0.5});
+        EXPECT_NEAR(drawing.length(), hangs ? 0.6 : 0.4, 1e-12);
+    }
+}
+
 TEST(Prune, NetworksOfShortChainsGoThoseWithAFewStay) {
     Drawing drawing;
     for (int i = 0; i <= 4; ++i) {  // 40 chains of .1.

@@ -270,6 +270,17 @@ TEST(CurveNetwork, TheTurnsOfAClosedCreaseAreNodesAsFarAsTheSpacingTellsThemApar
     }
 }
 
+// A loop of 7 edges turns by 51.4 degrees at each vertex, one of 9 edges by 40.
+TEST(CurveNetwork, TurnsFrom45DegreesOnAreNodes) {
+    for (const Index sides : {7u, 9u}) {
+        const Surface surface = make(shapes::tube(sides, 1));
+        const CurveNetwork network =
+            find(surface, Flags(surface.num_edges(), 0), 0.5 * std::numbers::pi / sides);
+        EXPECT_EQ(network.nodes.size(), sides == 7 ? 14u : 0u);
+        EXPECT_EQ(network.curves.size(), sides == 7 ? 14u : 2u);
+    }
+}
+
 TEST(CurveNetwork, PlacesOfACurveAreTheSameOnBothSides) {
     const Surface surface = make(parts::capped_cylinder(32, 4));
     const CurveNetwork network = find(surface, flag_sharp_edges(surface));

@@ -86,6 +86,8 @@ TEST_F(ReadSites, NamesLineAndElementThatDoNotFitTheMesh) {
     expect_error<agvd::InvalidInput>("f 8 1 0 0\n", "face 8");
     expect_error<agvd::InvalidInput>("f 0 1.5 -0.5 0\n", "negative");
     expect_error<agvd::InvalidInput>("f 0 0.3 0.3 0.3\n", "sum to 1");
+    expect_error<agvd::InvalidInput>("f 0 0.5 0.5 0.00001\n", "sum to 1");
+    expect_error<agvd::InvalidInput>("f 0 0.5 0.49999 0\n", "sum to 1");
     expect_error<agvd::InvalidInput>("f 0 nan 0 1\n", "sum to 1");
     expect_error<agvd::InvalidInput>("p 1 2 nan\n", "not finite");
     mesh_.positions.emplace_back(7, 7, 7);

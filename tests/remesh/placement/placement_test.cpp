@@ -188,6 +188,31 @@ TEST(ImproveShape, TheWorstTriangleGetsBetterAndVerticesStayOnTheSurface) {
     }
 }
 
+// From the middle of its neighbours a vertex does not see all sides of their pentagon. The angles
+// are better there, but a triangle turns over.
+TEST(ImproveShape, NoTriangleTurnsOver) {
+    const TriangleMesh pentagon{{{0.1, 1.1, 0},
+                                 {-0.7, -0.9, 0},
+                                 {-0.4, -0.5, 0},
+                                 {0.1, -1.6, 0},
+                                 {1.9, -0.9, 0},
+                                 {-0.15, 0.1, 0}},
+                                {{0, 1, 5}, {1, 2, 5}, {2, 3, 5}, {3, 4, 5}, {4, 0, 5}}};
+    Remeshed r(pentagon);
+    r.mesh.triangles = pentagon.triangles;
+    for (Index v = 0; v < 6; ++v) {
+        r.mesh.points.push_back(point_at(r.surface, v));
+        r.mesh.offsets.emplace_back(Vec3::Zero());
+        r.nearest_vertex.push_back(v);
+    }
+    remesh::improve_shape(r.prepared, r.nearest_vertex, r.mesh);
+    const TriangleMesh after = shape_of(r);
+    for (const auto& [a, b, c] : after.triangles) {
+        const auto& p = after.positions;
+        EXPECT_GT((p[b] - p[a]).cross(p[c] - p[a]).z(), 0);
+    }
+}
+
 TEST(ImproveShape, VerticesStayAtTheEdgesOfACube) {
     TriangleMesh cube = shapes::cube();
     for (int i = 0; i < 5; ++i) cube = shapes::subdivide(cube);

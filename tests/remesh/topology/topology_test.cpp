@@ -26,6 +26,21 @@ TEST(Topology, OpenSurfacesAndComponents) {
     EXPECT_NEAR(both.components[1].area, 1, 1e-14);
 }
 
+TEST(Topology, SurfacesDifferByTheirBoundaryLoopsAndComponentsToo) {
+    const auto tube = analyze_topology(shapes::tube(8, 3).view());
+    const auto sheet = analyze_topology(shapes::grid(4).view());
+    const auto sphere = analyze_topology(shapes::sphere(1).view());
+    EXPECT_FALSE(same_topology(tube, sheet));
+    EXPECT_FALSE(same_topology(sheet, sphere));
+    EXPECT_TRUE(same_topology(sheet, analyze_topology(shapes::grid(7).view())));
+    const auto two = analyze_topology(shapes::join(shapes::grid(4), shapes::grid(4)).view());
+    EXPECT_FALSE(same_topology(sheet, two));
+    const auto one_way = analyze_topology(shapes::join(shapes::grid(4), shapes::tube(8, 3)).view());
+    const auto other_way =
+        analyze_topology(shapes::join(shapes::tube(8, 3), shapes::grid(4)).view());
+    EXPECT_TRUE(same_topology(one_way, other_way));
+}
+
 TEST(Topology, DefectsAreSeen) {
     agvd::TriangleMesh mesh = shapes::tetrahedron();
     mesh.triangles.push_back(mesh.triangles[0]);
