@@ -10,6 +10,7 @@
 #include <Eigen/Geometry>
 
 #include "agvd/mesh/closest_point.h"
+#include "agvd/mesh/point_faces.h"
 #include "remesh/io/read_mesh.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/quality/triangle_quality.h"
@@ -381,6 +382,31 @@ TEST(Features, CreasesWithoutGivenSitesAreDroppedAndCounted) {
     EXPECT_EQ(off.features.dropped_length, 0);
     EXPECT_EQ(none.mesh.positions, off.mesh.positions);
     EXPECT_EQ(none.mesh.triangles, off.mesh.triangles);
+}
+
+// A box beside two spheres so close that few sites make their meshes intersect, whatever becomes of
+// the box.
+TEST(Features, CreasesStayWhereDroppingThemDoesNotHelpAgainstIntersections) {
+    TriangleMesh inner = shapes::sphere(2);
+    for (Vec3& p : inner.positions) p *= 0.98;
+    for (Triangle& t : inner.triangles) std::swap(t[1], t[2]);
+    const TriangleMesh spheres = shapes::join(shapes::sphere(2), inner);
+    const TriangleMesh mesh =
+        shapes::join(shapes::moved(spheres, {4, 0, 0}), parts::box({1, 1, 1}, 4));
+    const Surface surface = build_surface(mesh.view());
+    RemeshOptions options{.vertex_count = remesh::VertexCount::Add, .keep_sites = true};
+    options.sites.emplace();
+    for (Index v = 0; v < spheres.positions.size(); v += 7) {
+        options.sites->push_back(point_at(surface, v));
+    }
+    for (auto v = static_cast<Index>(spheres.positions.size()); v < surface.num_vertices(); ++v) {
+        options.sites->push_back(point_at(surface, v));
+    }
+    const RemeshResult result = remesh::remesh(mesh.view(), options);
+    if (!result.self_intersections) GTEST_SKIP() << "without CGAL";
+    EXPECT_GT(*result.self_intersections, 0u);
+    EXPECT_EQ(result.features.curves, 12u);
+    EXPECT_FALSE(result.features.gave_up);
 }
 
 TEST(Features, ScansAreLeftAlone) {

@@ -174,6 +174,31 @@ TEST(TopologyGuarantee, ComponentsGoOnlyWhenAsked) {
     EXPECT_THROW((void)remesh::remesh(mesh.view(), {.drop_components = -1}), InvalidOption);
 }
 
+TEST(TopologyGuarantee, CornersOfTheBoundaryStayWhereSurplusVerticesGo) {
+    TriangleMesh strip = shapes::grid(8);
+    for (Vec3& p : strip.positions) p.x() *= 6;
+    int num_reduced = 0;
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+        for (const Index n : {8u, 10u}) {
+            SCOPED_TRACE(std::to_string(n) + " vertices, seed " + std::to_string(seed));
+            const remesh::RemeshOptions options{.num_samples = n,
+                                                .init = remesh::Init::Random,
+                                                .features = remesh::Features::Off,
+                                                .seed = seed,
+                                                .relax_steps = 0};
+            const auto result = remesh::remesh(strip.view(), options);
+            expect_kept(strip, options, result);
+            num_reduced += result.sites_removed > 0 ? 1 : 0;
+            const std::vector<Vec3>& p = result.mesh.positions;
+            for (const Vec3& corner :
+                 {Vec3(0, 0, 0), Vec3(6, 0, 0), Vec3(0, 1, 0), Vec3(6, 1, 0)}) {
+                EXPECT_NE(std::find(p.begin(), p.end(), corner), p.end());
+            }
+        }
+    }
+    EXPECT_GT(num_reduced, 5);
+}
+
 TEST(TopologyGuarantee, AddedVerticesStayIfAsked) {
     const TriangleMesh mesh = shapes::torus(60, 8, 0.1);
     const auto result = remesh::remesh(mesh.view(), {.num_samples = 30,
