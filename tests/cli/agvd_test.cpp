@@ -167,6 +167,15 @@ TEST_F(AgvdCompare, OtherMeshesAndSitesAreRefused) {
     expect_refused(other_mesh, "different meshes");
     expect_refused(more_sites, "different sites (5 and 6");
     expect_refused(other_sites, "different sites (5 and 5");
+    // The sites of one are the first of the other.
+    const std::string two = diagram_file("e.ply", mesh_, {"--sites", put("s", "v 0\nv 7\n")});
+    const std::string three =
+        diagram_file("f.ply", mesh_, {"--sites", put("s", "v 0\nv 7\nv 20\n")});
+    for (const auto& [first, second] : {std::pair(two, three), {three, two}}) {
+        const auto outcome = compare({first, second});
+        EXPECT_EQ(outcome.exit_code, 4);
+        EXPECT_NE(outcome.err.find("first differ at site 2"), std::string::npos) << outcome.err;
+    }
 }
 
 TEST_F(AgvdCompare, ExitCodes) {

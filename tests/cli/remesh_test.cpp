@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "remesh/io/read_mesh.h"
+#include "remesh/quality/self_intersections.h"
 #include "remesh/topology/topology.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
@@ -135,6 +136,7 @@ TEST_F(Remesh, WrongUsageIsTwo) {
              {in, out, "--steiner-points", "-1"},
              {in, out, "--lambda", "0"},
              {in, out, "--lambda", "nan"},
+             {in, out, "--lambda", "inf"},
              {in, out, "--engine", "magic"},
              {in, out, "--engine", "1"},
              {in, out, "--delaunay", "magic"},
@@ -227,6 +229,26 @@ TEST_F(Remesh, TooFewSamplesForTheTopologyAreFiveAndTheOldFileStays) {
     EXPECT_EQ(num_files(), 2u);
 }
 
+// Two spheres, one just inside the other: their coarse meshes run through each other.
+TEST_F(Remesh, IntersectionsAreToldAndWithStrictNothingIsWritten) {
+    if (!remesh::find_self_intersections(shapes::cube().view())) GTEST_SKIP() << "without CGAL";
+    agvd::TriangleMesh inner = shapes::sphere(2);
+    for (agvd::Vec3& p : inner.positions) p *= 0.98;
+    for (agvd::Triangle& t : inner.triangles) std::swap(t[1], t[2]);
+    const std::string in = put("in.off", shapes::join(shapes::sphere(2), inner));
+    const auto told = remesh({in, at("out.off"), "-n", "20", "-q"});
+    EXPECT_EQ(told.exit_code, 0) << told.err;
+    EXPECT_NE(told.err.find("warning: the result has "), std::string::npos) << told.err;
+    put("out.off", "old");
+    const auto refused = remesh({in, at("out.off"), "-n", "20", "--strict"});
+    EXPECT_EQ(refused.exit_code, 5) << refused.err;
+    EXPECT_NE(refused.err.find("or leave out --strict"), std::string::npos) << refused.err;
+    EXPECT_EQ(bytes("out.off"), "old");
+    EXPECT_EQ(num_files(), 2u);
+    const std::string sphere = put("sphere.off", shapes::sphere(2));
+    EXPECT_EQ(remesh({sphere, at("out.off"), "-n", "50", "--strict"}).exit_code, 0);
+}
+
 TEST_F(Remesh, AnOutputThatCannotBeWrittenIsThreeAndSaidBeforeTheWork) {
     // The input is missing too: the output is looked at first.
     const std::string in = at("missing.off");
@@ -296,6 +318,12 @@ TEST_F(Remesh, OverwritesAnInputOnlyWithForce) {
     EXPECT_EQ(refused.exit_code, 2);
     EXPECT_NE(refused.err.find("--force"), std::string::npos) << refused.err;
     EXPECT_EQ(remesh({in, sites, "--sites", sites}).exit_code, 2);
+    const std::string edges = put("edges.off", "0 1\n");
+    EXPECT_EQ(remesh({in, edges, "--feature-edges", edges}).exit_code, 2);
+    for (const auto& [option, file] : {std::pair("--sites", sites), {"--feature-edges", edges}}) {
+        EXPECT_EQ(remesh({in, at("o.off"), option, file, "--report", file}).exit_code, 2) << file;
+    }
+    EXPECT_EQ(bytes("sites.off") + bytes("edges.off"), "v 0\n0 1\n");
     EXPECT_EQ(bytes("in.off"), old);
     EXPECT_EQ(remesh({in, in, "-n", "30", "--force"}).exit_code, 0);
     EXPECT_NE(bytes("in.off"), old);
