@@ -118,3 +118,22 @@ TEST(GuardCorners, IntervalsGrowFromAShortCurveOn) {
     }
     EXPECT_EQ(num_guarded, 3);
 }
+
+// The other half is left to the other end.
+TEST(GuardCorners, ASingleIntervalIsDividedUpToItsMiddle) {
+    const double cut = .01, before = cut * std::sqrt(2), length = 1 - cut;
+    const Surface surface = agvd::build_surface(cube_without_corner(cut).view());
+    const remesh::CurveNetwork network =
+        remesh::find_network(surface, flag_sharp_edges(surface), .001);
+    Places guarded(network.curves.size());
+    remesh::guard_corners(surface, network, guarded);
+    int num_guarded = 0;
+    for (const std::vector<double>& places : guarded) {
+        if (places.empty()) continue;
+        ++num_guarded;
+        // One place, at the geometric mean of the short interval and the half.
+        ASSERT_EQ(places.size(), 1u);
+        EXPECT_NEAR(std::min(places[0], length - places[0]), std::sqrt(before * length / 2), 1e-12);
+    }
+    EXPECT_EQ(num_guarded, 3);
+}
