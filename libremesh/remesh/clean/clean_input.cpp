@@ -201,6 +201,7 @@ CleanResult clean_input(const agvd::MeshView& mesh, int num_threads,
     const agvd::MeshBox box = agvd::box_of(mesh, num_threads);
     agvd::check_scale(box);
     agvd::check_digits(box);
+    agvd::check_spread(mesh, box);
     if (std::optional<CleanResult> clean = take_clean(mesh, num_threads, progress)) {
         return *std::move(clean);
     }

@@ -21,6 +21,27 @@ TriangleMesh cube_of(double size) {
 
 }  // namespace
 
+TEST(Scale, AVertexFarFromAllOthersIsNamed) {
+    TriangleMesh mesh = shapes::sphere(3);
+    for (const double far : {1e9, 1e12, 1e300}) {
+        mesh.positions[77] = {0, far, 0};
+        std::string text;
+        try {
+            check_spread(mesh.view(), box_of(mesh.view()));
+        } catch (const InvalidInput& error) {
+            text = error.what();
+        }
+        EXPECT_EQ(text.starts_with("vertex 77 is 1"), far > 1e10) << text;
+    }
+    // One of two parts may be far away, and any part small.
+    const TriangleMesh speck =
+        shapes::join(shapes::sphere(3), scaled(shapes::sphere(2).view(), -50));
+    EXPECT_NO_THROW(check_spread(speck.view(), box_of(speck.view())));
+    TriangleMesh parts = shapes::join(shapes::sphere(2), shapes::sphere(2));
+    for (std::size_t v = 0; v < parts.positions.size() / 2; ++v) parts.positions[v].x() += 1e12;
+    EXPECT_NO_THROW(check_spread(parts.view(), box_of(parts.view())));
+}
+
 TEST(Scale, ExtentIsThatOfTheFaces) {
     TriangleMesh mesh = cube_of(3);
     mesh.positions.emplace_back(100, 0, 0);  // In no face.
