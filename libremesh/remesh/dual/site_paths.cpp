@@ -4,9 +4,7 @@
 #include "remesh/dual/site_paths.h"
 
 #include <algorithm>
-#include <limits>
 #include <queue>
-#include <unordered_map>
 
 namespace remesh {
 
@@ -59,7 +57,7 @@ FaceStrip SitePaths::between(Index from, Index to) {
 
 // Sets `way` to vertices from a corner of the face to one that shares a face with the site; to none
 // if the face holds the site.
-void SitePaths::find_way(Index face, Index goal, Way& way) const {
+void SitePaths::find_way(Index face, Index goal, Way& way) {
     way.clear();
     if (holds_goal(face, goal)) return;
     const Index common = common_corner(face, goal);
@@ -84,7 +82,7 @@ Index SitePaths::common_corner(Index face, Index goal) const {
 // that ends before the site is reached.
 void SitePaths::descend(Index face, Index goal, Way& way) const {
     const std::vector<double>& distance = vertices_.diagram.nearest_distance;
-    double nearest = std::numeric_limits<double>::infinity();
+    double nearest = agvd::infinity;
     for (const Index v : surface_.mesh.triangles[face]) {
         if (!is_inside(v, goal) || !(distance[v] < nearest)) continue;
         nearest = distance[v];
@@ -94,7 +92,7 @@ void SitePaths::descend(Index face, Index goal, Way& way) const {
         ticker_.tick();
         const Index here = way.back();
         Index next = no_index;
-        double least = std::numeric_limits<double>::infinity();
+        double least = agvd::infinity;
         bool is_there = false;
         for_each_neighbour(surface_, here, [&](Index h, Index v) {
             is_there = holds_goal(Surface::face(h), goal);
@@ -117,12 +115,7 @@ void SitePaths::descend(Index face, Index goal, Way& way) const {
 }
 
 // A* search along edges. Ties go to the lower vertex.
-void SitePaths::search(Index face, Index goal, Way& way) const {
-    struct Reached {
-        double length;
-        Index from;
-        bool is_done;
-    };
+void SitePaths::search(Index face, Index goal, Way& way) {
     struct Entry {
         double estimate;
         Index vertex;
@@ -130,24 +123,25 @@ void SitePaths::search(Index face, Index goal, Way& way) const {
             return estimate != other.estimate ? estimate > other.estimate : vertex > other.vertex;
         }
     };
-    std::unordered_map<Index, Reached> reached;
+    if (reached_.empty()) reached_.resize(surface_.num_vertices());
+    for (const Index v : visited_) reached_[v] = {};
+    visited_.clear();
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     const Vec3& place = vertices_.positions[goal];
     const auto reach = [&](Index v, double length, Index from) {
-        const auto [entry, is_new] = reached.try_emplace(v, Reached{length, from, false});
-        if (!is_new) {
-            if (entry->second.is_done || !(length < entry->second.length)) return;
-            entry->second = {length, from, false};
-        }
+        Reached& state = reached_[v];
+        if (state.is_done || !(length < state.length)) return;
+        if (state.length == agvd::infinity) visited_.push_back(v);
+        state = {length, from, false};
         queue.push({length + (surface_.mesh.positions[v] - place).norm(), v});
     };
     for (const Index v : surface_.mesh.triangles[face]) reach(v, 0, no_index);
     way.clear();
     while (!queue.empty()) {
-        ticker_.tick(4);  // Hashing is slow.
+        ticker_.tick(4);
         const Index here = queue.top().vertex;
         queue.pop();
-        Reached& state = reached.at(here);
+        Reached& state = reached_[here];
         if (state.is_done) continue;
         state.is_done = true;
         const double length = state.length;
@@ -160,7 +154,7 @@ void SitePaths::search(Index face, Index goal, Way& way) const {
             return true;
         });
         if (!is_there) continue;
-        for (Index v = here; v != no_index; v = reached.at(v).from) way.push_back(v);
+        for (Index v = here; v != no_index; v = reached_[v].from) way.push_back(v);
         break;
     }
     std::reverse(way.begin(), way.end());

@@ -43,15 +43,26 @@ private:
     [[nodiscard]] bool is_inside(agvd::Index mesh_vertex, agvd::Index goal) const {
         return vertices_.diagram.nearest_site[mesh_vertex].value() == vertices_.site[goal];
     }
-    void find_way(agvd::Index face, agvd::Index goal, Way& way) const;
+    void find_way(agvd::Index face, agvd::Index goal, Way& way);
     [[nodiscard]] agvd::Index common_corner(agvd::Index face, agvd::Index goal) const;
     void descend(agvd::Index face, agvd::Index goal, Way& way) const;
-    void search(agvd::Index face, agvd::Index goal, Way& way) const;
+    void search(agvd::Index face, agvd::Index goal, Way& way);
+
+    // What a search knows of a mesh vertex.
+    struct Reached {
+        double length = agvd::infinity;
+        agvd::Index from = agvd::no_index;
+        bool is_done = false;
+    };
 
     const agvd::Surface& surface_;
     const DualVertices& vertices_;
     mutable agvd::Ticker ticker_;
     Way back_, forth_;
+    // By mesh vertex, made for the first search. With a hash table a rough star of 20 000 corners
+    // took 1.4 times as long.
+    std::vector<Reached> reached_;
+    Way visited_;  // By the last search.
 };
 
 }  // namespace remesh
