@@ -102,7 +102,8 @@ TEST(Remesh, AMeshThatIsGivenAwayIsThereAgainWhereSamplesAreTooFew) {
 TEST(Remesh, TooFewSamplesForManyPartsAreRefusedAtOnce) {
     TriangleMesh parts = shapes::unweld(shapes::torus(50, 40));
     for (std::size_t f = 0; f < parts.triangles.size(); ++f) {
-        for (const Index v : parts.triangles[f]) parts.positions[v].z() += 1e-3 * f;
+        for (const Index v : parts.triangles[f])
+            parts.positions[v].z() += 1e-3 * static_cast<double>(f);
     }
     std::string text;
     std::set<remesh::Stage> stages;
