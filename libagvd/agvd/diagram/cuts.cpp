@@ -66,9 +66,10 @@ private:
     void add_site(const PlacedSite& placed) {
         if (half_edge_of(placed.point)) return;
         const Vec2 p = position_in_frame(surface_, placed.point, 3 * face_);
-        // Inside by its coordinates, but so near to a corner that rounding moves it there.
+        // Inside by its coordinates, but so near to a corner that the distance is rounded to 0.
         const auto first = points_.begin();
-        if (std::any_of(first, first + 3, [&](const Point& c) { return c.position == p; })) return;
+        const auto is_here = [&](const Point& corner) { return (corner.position - p).norm() == 0; };
+        if (std::any_of(first, first + 3, is_here)) return;
         const double distance = least_reach(of_site(relays_, placed.site), p).distance;
         find_near(p, distance);
         if (nearest(near_, p).site != placed.site) return;

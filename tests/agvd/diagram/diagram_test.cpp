@@ -164,8 +164,10 @@ TEST(Diagram, AThousandSitesInTwelveFacesAreAValidComplex) {
 // Their distances to a corner are not 0, but rounding puts them there.
 TEST(Diagram, SitesInAFaceMayRoundToItsCorners) {
     const Surface surface = build_surface(shapes::tetrahedron().view());
-    for (std::size_t k = 0; k < 3; ++k) {
-        std::vector<SurfacePoint> sites{{FaceId(0), {1e-25, 1e-25, 1e-25}},
+    for (int i = 0; i < 6; ++i) {
+        const std::size_t k = i % 3;
+        const double little = i < 3 ? 1e-25 : 1e-200;  // Its square is 0.
+        std::vector<SurfacePoint> sites{{FaceId(0), {little, little, little}},
                                         {FaceId(0), {0.25, 0.25, 0.5}}};
         sites[0].barycentric[k] = 1;
         const Propagation propagation = propagate(surface, sites);
