@@ -164,7 +164,7 @@ TEST(Diagram, AThousandSitesInTwelveFacesAreAValidComplex) {
 // Their distances to a corner are not 0, but rounding puts them there.
 TEST(Diagram, SitesInAFaceMayRoundToItsCorners) {
     const Surface surface = build_surface(shapes::tetrahedron().view());
-    for (int i = 0; i < 6; ++i) {
+    for (std::size_t i = 0; i < 6; ++i) {
         const std::size_t k = i % 3;
         const double little = i < 3 ? 1e-25 : 1e-200;  // Its square is 0.
         std::vector<SurfacePoint> sites{{FaceId(0), {little, little, little}},
