@@ -7,6 +7,7 @@
 
 #include "remesh/io/read_mesh.h"
 #include "remesh/pipeline/remesh.h"
+#include "support/dirty_shapes.h"
 #include "support/files.h"
 #include "support/shapes.h"
 
