@@ -148,14 +148,14 @@ TriangleMesh random_soup(Index vertices, Index faces, std::uint64_t seed) {
     return mesh;
 }
 
-TriangleMesh spiked(std::uint64_t seed) {
+TriangleMesh spiked(std::uint64_t seed, agvd::Index most) {
     TriangleMesh mesh = subdivide(cube());
     mesh.triangles.resize(mesh.triangles.size() * 3 / 4);
     Dice dice(seed);
     for (int i = 0; i < 6; ++i) {
         agvd::Vec3& p =
             mesh.positions[dice.count(0, static_cast<agvd::Index>(mesh.positions.size()) - 1)];
-        p[dice.count(0, 2)] *= std::pow(10.0, dice.count(0, 17));
+        p[dice.count(0, 2)] *= std::pow(10.0, dice.count(0, most));
     }
     return mesh;
 }

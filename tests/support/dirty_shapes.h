@@ -27,8 +27,8 @@ namespace shapes {
 [[nodiscard]] agvd::TriangleMesh random_soup(agvd::Index vertices, agvd::Index faces,
                                              std::uint64_t seed);
 
-//! Three quarters of a cube of 48 faces, some of its coordinates times up to 10^17: spikes whose
-//! width is a rounding of their length.
-[[nodiscard]] agvd::TriangleMesh spiked(std::uint64_t seed);
+//! Three quarters of a cube of 48 faces, some of its coordinates times up to 10^most: spikes. With
+//! 17 their width is a rounding of their length.
+[[nodiscard]] agvd::TriangleMesh spiked(std::uint64_t seed, agvd::Index most = 17);
 
 }  // namespace shapes
