@@ -26,6 +26,9 @@ constexpr double angle_tolerance = 1e-7;
 // Most rounds, besides one for each crossing at the start. On meshes no path took more than half as
 // many rounds as crossings.
 constexpr std::size_t more_rounds = 500;
+// Most crossings that all rounds together look at, for each crossing at the start and besides.
+// Where a path winds around a spike of needles, each of thousands of rounds looks at thousands.
+constexpr std::size_t looks_for_each = 400, more_looks = 200'000;
 // Most rounds in a row that do not shorten the path, as rounding may hide what they save.
 constexpr int max_stalled_rounds = 5;
 // Relative error of a path's length.
@@ -76,10 +79,13 @@ GeodesicPath PathStraightener::straighten(FaceStrip& strip) {
     strip.source = snapped(surface_, strip.source);
     strip.target = snapped(surface_, strip.target);
     const std::size_t max_rounds = strip.crossed.size() + more_rounds;
+    const std::size_t max_looks = looks_for_each * strip.crossed.size() + more_looks;
+    std::size_t looks = 0;
     int stalled_rounds = 0;
-    for (std::size_t round = 0; round < max_rounds && stalled_rounds <= max_stalled_rounds;
-         ++round) {
+    for (std::size_t round = 0;
+         round < max_rounds && looks < max_looks && stalled_rounds <= max_stalled_rounds; ++round) {
         ticker_.tick(1 + strip.crossed.size());
+        looks += strip.crossed.size();
         trim(surface_, strip);
         const double length = find_shortest(strip);
         const bool is_rerouted = reroute(strip.crossed);

@@ -92,6 +92,7 @@ std::vector<agvd::SurfacePoint> place_inside(const agvd::Surface& surface,
     auto points = detail::scatter(surface, component, scattered, options.seed, stream, progress);
     if (!is_blue || points.size() < count) {
         std::vector<agvd::SurfacePoint> all;
+        all.reserve(points.size());
         for (const detail::ScatteredPoint& p : points) all.push_back(p.point);
         return all;
     }
