@@ -79,6 +79,12 @@ void CellTally::write(Diagram& diagram) const {
     }
 }
 
-std::int64_t CellTally::units(double area) const { return std::llrint(area * (1 / unit_)); }
+std::int64_t CellTally::units(double area) const {
+    const double count = area * (1 / unit_);
+    // A part that is larger than the surface has lost its digits: its triangle is 10^15 times as
+    // long as wide.
+    constexpr double most = 0x1p62;
+    return std::abs(count) <= most ? std::llrint(count) : 0;
+}
 
 }  // namespace agvd

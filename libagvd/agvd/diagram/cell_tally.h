@@ -61,7 +61,9 @@ private:
     void change_cell(Index site, int euler, std::int64_t area) {
         Cell& cell = cells_[site];
         cell.euler += euler;
-        cell.area += area;
+        // Wraps, so that what is removed undoes what was added, whatever that was.
+        cell.area = static_cast<std::int64_t>(static_cast<std::uint64_t>(cell.area) +
+                                              static_cast<std::uint64_t>(area));
         cell.is_changed = true;
     }
     [[nodiscard]] std::int64_t units(double area) const;
