@@ -205,16 +205,13 @@ void Console::require_memory(const char* stage, std::size_t bytes) {
     const std::size_t needed = resident_memory() + bytes;
     if (limit_.bytes == 0 || needed <= limit_.bytes) return;
     is_over_limit_ = true;
-    throw OutOfMemory("not enough memory: the program needs some " + format_bytes(needed) +
-                      ", more than the " + format_bytes(limit_.bytes) +
-                      " of --memory-limit (stage: " + stage + "); " +
-                      memory_remedy(stage, limit_.engine) + ", or raise --memory-limit");
+    throw out_of_memory("some " + format_bytes(needed) + ", ");
 }
 
-OutOfMemory Console::out_of_memory() const {
+OutOfMemory Console::out_of_memory(const std::string& needed) const {
     std::string text = "not enough memory";
     if (is_over_limit_) {
-        text += ": the program needs more than the " + format_bytes(limit_.bytes) +
+        text += ": the program needs " + needed + "more than the " + format_bytes(limit_.bytes) +
                 " of --memory-limit";
     }
     if (!stage_.empty()) text += " (stage: " + stage_ + ")";

@@ -124,7 +124,8 @@ public:
 private:
     void look(std::string_view stage, double fraction);
     void clear_bar();
-    [[nodiscard]] OutOfMemory out_of_memory() const;
+    // \param needed  how much, if it is known: "some 3.7G, ".
+    [[nodiscard]] OutOfMemory out_of_memory(const std::string& needed = {}) const;
 
     const CommonOptions& options_;
     MemoryLimit limit_;

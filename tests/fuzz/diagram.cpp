@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "agvd/core/error.h"
 #include "agvd/intrinsic/intrinsic_triangulation.h"
@@ -33,7 +32,7 @@ PropagationOptions propagation_options(fuzz::Bytes& bytes) {
 // need only end.
 bool has_digits(const Surface& surface) {
     constexpr double most_ratio = 1e12;
-    double shortest = std::numeric_limits<double>::infinity(), longest = 0;
+    double shortest = infinity, longest = 0;
     for (Index h = 0; h < 3 * surface.num_faces(); ++h) {
         shortest = std::min(shortest, surface.length_of(h));
         longest = std::max(longest, surface.length_of(h));

@@ -41,9 +41,10 @@ void check_scale(const MeshBox& box);
 //!        of their 53 bits left for its shape.
 void check_digits(const MeshBox& box);
 
-//! \throw InvalidInput  a vertex lies so far from the others (10^10 times farther from the middle than
-//!        three quarters of them) that it can only be a mistake; names the vertex.
-//! Cost: that of box_of, given already, and O(1000 log 1000).
+//! \param box  box_of(mesh).
+//! \throw InvalidInput  a vertex is 10^10 times farther from the middle of the mesh than three
+//!        quarters of its vertices: a mistake. The text names the vertex.
+//! Cost: O(1), as it looks at up to 1000 vertices; O(#F) if it throws.
 void check_spread(const MeshView& mesh, const MeshBox& box);
 
 //! The mesh times 2^exponent. Exact, unless a coordinate becomes subnormal. Cost: O(n).
