@@ -40,6 +40,7 @@ struct Arguments : cli::DiagramArguments {
     double feature_angle = remesh::RemeshOptions{}.feature_angle;
     fs::path feature_edges;  // Empty: none.
     remesh::Junctions junctions = remesh::RemeshOptions{}.junctions;
+    remesh::Sizing sizing;
 };
 
 std::map<std::string, remesh::Delaunay> delaunay_by_name() {
@@ -134,10 +135,19 @@ void add_result_options(CLI::App& app, Arguments& arguments) {
         });
 }
 
+void add_sizing_options(CLI::App& app, remesh::Sizing& sizing) {
+    app.add_flag("--adaptive", sizing.is_adaptive,
+                 "Shorter edges where the surface is curved, longer ones elsewhere");
+    app.add_option("--gradation,--hgrad", sizing.gradation)->capture_default_str();
+    app.add_option("--min-edge,--hmin", sizing.min_edge);
+    app.add_option("--max-edge,--hmax", sizing.max_edge);
+}
+
 void add_options(CLI::App& app, Arguments& arguments) {
     cli::add_diagram_options(app, arguments);
     add_result_options(app, arguments);
     add_feature_options(app, arguments);
+    add_sizing_options(app, arguments.sizing);
     app.add_option("--drop-components", arguments.drop_components,
                    "Drop components with less than this percentage of the area")
         ->check(CLI::Range(0.0, 100.0).description(""))
@@ -214,6 +224,7 @@ void run_job(const Arguments& arguments, cli::Console& console) {
     console.info(cli::describe(arguments.input, input.mesh.view()));
     remesh::RemeshOptions options{
         .num_samples = arguments.sampling.num_samples,
+        .sizing = arguments.sizing,
         .vertex_count = arguments.vertex_count,
         .boundary = arguments.sampling.boundary,
         .drop_components = arguments.drop_components / 100,

@@ -15,6 +15,7 @@
 #include "agvd/intrinsic/compact_faces.h"
 #include "agvd/intrinsic/delaunay_queue.h"
 #include "agvd/intrinsic/flat_vertices.h"
+#include "agvd/mesh/point_faces.h"
 
 namespace agvd {
 namespace {
@@ -50,14 +51,22 @@ void check_options(const Surface& input, const IntrinsicOptions& options) {
 class Refinement {
 public:
     Refinement(Surface& surface, FaceCharts& charts, FaceHistory& history, DelaunayQueue& flips,
-               std::vector<std::uint8_t>& is_kept, double max_length, Ticker& ticker)
+               std::vector<std::uint8_t>& is_kept, const IntrinsicOptions& options, Ticker& ticker)
         : surface_(surface),
           charts_(charts),
           history_(history),
           flips_(flips),
           is_kept_(is_kept),
-          max_length_(max_length),
-          ticker_(ticker) {}
+          options_(options),
+          ticker_(ticker) {
+        if (!options.unit_at) return;
+        unit_.assign(surface.num_vertices(), 1);
+        for (Index v = 0; v < surface.num_vertices(); ++v) {
+            ticker_.tick();
+            if (surface.outgoing[v] == no_index) continue;
+            unit_[v] = options.unit_at(history.backward(point_at(surface, v)));
+        }
+    }
 
     // \param added  gets the new vertices, on the input.
     // \return false if flips ended early.
@@ -68,7 +77,7 @@ public:
                 queue_.pop();
                 ticker_.tick(split_work);
                 const Index edge = ~key;
-                if (surface_.length[edge] != length) continue;
+                if (measure(edge) != length) continue;
                 if (added.size() >= most_splits) return true;
                 split(edge, added);
                 if (!flips_.flip_all(flips_per_edge * surface_.num_edges())) return false;
@@ -88,7 +97,13 @@ private:
         return !queue_.empty();
     }
     void push(Index edge) {
-        if (surface_.length[edge] > max_length_) queue_.emplace(surface_.length[edge], ~edge);
+        const double length = measure(edge);
+        if (length > options_.max_length) queue_.emplace(length, ~edge);
+    }
+    [[nodiscard]] double measure(Index edge) const {
+        if (unit_.empty()) return surface_.length[edge];
+        const Index h = surface_.edge_half[edge];
+        return 2 * surface_.length[edge] / (unit_[surface_.tail(h)] + unit_[surface_.head(h)]);
     }
 
     void split(Index edge, std::vector<SurfacePoint>& added) {
@@ -96,6 +111,7 @@ private:
         SurfacePoint middle{FaceId(Surface::face(h)), {0, 0, 0}};
         middle.barycentric[h % 3] = middle.barycentric[Surface::next(h) % 3] = 0.5;
         added.push_back(history_.backward(middle));
+        if (options_.unit_at) unit_.push_back(options_.unit_at(added.back()));
         const Index vertex = surface_.num_vertices();
         surface_.mesh.positions.push_back(Vec3::Zero());  // Set at the end.
         surface_.outgoing.push_back(no_index);
@@ -123,8 +139,9 @@ private:
     FaceHistory& history_;
     DelaunayQueue& flips_;
     std::vector<std::uint8_t>& is_kept_;
-    double max_length_;
+    const IntrinsicOptions& options_;
     Ticker& ticker_;
+    std::vector<double> unit_;  // #V, or empty: IntrinsicOptions::unit_at.
     std::priority_queue<std::pair<double, Index>> queue_;  // Length, and the edge's complement.
     std::vector<Index> fresh_;
 };
@@ -182,7 +199,7 @@ void IntrinsicTriangulation::change_faces(const IntrinsicOptions& options, Polle
     flips.push_all(options.num_threads, poller);
     charts.reserve(2 * flips.num_waiting());
     counts_.is_delaunay = flips.flip_all(most_flips * surface_.num_edges());
-    Refinement refinement(surface_, charts, *history_, flips, is_kept, options.max_length, ticker);
+    Refinement refinement(surface_, charts, *history_, flips, is_kept, options, ticker);
     counts_.is_delaunay =
         refinement.run(most_flips, options.most_splits, added_) && counts_.is_delaunay;
     counts_.removed = removal.vertices;

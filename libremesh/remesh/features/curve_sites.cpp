@@ -33,17 +33,47 @@ double turn_over(const agvd::Surface& surface, const Curve& curve, double along,
     return 2 * std::atan2(in.cross(out).norm(), in.dot(out)) * length / (2 * reach);
 }
 
+// Where a curve has how many spacings behind it; linear in between.
+struct CurveMeasure {
+    std::vector<double> place, count;  // From the beginning to the end of the curve.
+};
+
+// With a unit that is not the same everywhere, edges are divided into parts of half a spacing.
+CurveMeasure measure_curve(const agvd::Surface& surface, const Curve& curve, double spacing,
+                           const UnitAt& unit_at) {
+    if (!unit_at) return {curve.up_to, spacings_along(surface, curve, spacing)};
+    CurveMeasure result{{0}, {0}};
+    const auto spacing_at = [&](double along) {
+        return spacing * unit_at(point_on_curve(curve, along));
+    };
+    for (std::size_t i = 0; i < curve.num_edges(); ++i) {
+        const double end = curve.up_to[i + 1];
+        for (double begin = curve.up_to[i]; begin < end;) {
+            const double step = spacing_at(begin + (end - begin) * 1e-3) / 2;
+            const double next = end - begin < 1.5 * step ? end : begin + step;
+            const double local = spacing_at((begin + next) / 2);
+            const double turn = turn_over(surface, curve, (begin + next) / 2, local);
+            const double rate = std::clamp(turn / most_turn, 1.0, most_rate);
+            result.place.push_back(next);
+            result.count.push_back(result.count.back() + rate * (next - begin) / local);
+            begin = next;
+        }
+    }
+    return result;
+}
+
 // The place with `count` spacings before it.
-double place_at(const Curve& curve, const std::vector<double>& spacings, double count) {
+double place_at(const CurveMeasure& measure, double count) {
+    const std::vector<double>& spacings = measure.count;
     const auto after = std::upper_bound(spacings.begin() + 1, spacings.end() - 1, count);
     const auto i = static_cast<std::size_t>(after - spacings.begin()) - 1;
     const double share = (count - spacings[i]) / (spacings[i + 1] - spacings[i]);
-    return curve.up_to[i] + share * (curve.up_to[i + 1] - curve.up_to[i]);
+    return measure.place[i] + share * (measure.place[i + 1] - measure.place[i]);
 }
 
 // The first site of a closed curve lies off its vertices.
-double start_of(const Curve& curve, const std::vector<double>& spacings) {
-    return curve.is_closed() ? spacings[1] / 2 : 0;
+double start_of(const Curve& curve, const CurveMeasure& measure) {
+    return curve.is_closed() ? measure.count[1] / 2 : 0;
 }
 
 // The node at a vertex of the surface before the cut; no_index if there is none.
@@ -136,10 +166,11 @@ std::vector<Index> fewest_intervals(const CurveNetwork& network) {
 }
 
 std::vector<Index> curve_intervals(const agvd::Surface& surface, const CurveNetwork& network,
-                                   double spacing) {
+                                   double spacing, const UnitAt& unit_at) {
     std::vector<Index> intervals = fewest_intervals(network);
     for (std::size_t c = 0; c < intervals.size(); ++c) {
-        const double spacings = spacings_along(surface, network.curves[c], spacing).back();
+        const double spacings =
+            measure_curve(surface, network.curves[c], spacing, unit_at).count.back();
         intervals[c] = std::max(intervals[c], static_cast<Index>(std::round(spacings)));
     }
     return intervals;
@@ -176,15 +207,16 @@ Index num_junction_vertices(const CurveNetwork& network, const CurveSites& sites
 
 std::vector<std::vector<double>> even_places(const agvd::Surface& surface,
                                              const CurveNetwork& network, double spacing,
-                                             std::span<const Index> intervals) {
+                                             std::span<const Index> intervals,
+                                             const UnitAt& unit_at) {
     std::vector<std::vector<double>> along;
     for (std::size_t c = 0; c < network.curves.size(); ++c) {
         const Curve& curve = network.curves[c];
-        const std::vector<double> spacings = spacings_along(surface, curve, spacing);
+        const CurveMeasure measure = measure_curve(surface, curve, spacing, unit_at);
         std::vector<double>& places = along.emplace_back();
         for (Index i = curve.is_closed() ? 0 : 1; i < intervals[c]; ++i) {
-            const double count = start_of(curve, spacings) + spacings.back() * i / intervals[c];
-            places.push_back(place_at(curve, spacings, count));
+            const double count = start_of(curve, measure) + measure.count.back() * i / intervals[c];
+            places.push_back(place_at(measure, count));
         }
     }
     return along;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 
 #include "remesh/features/close_rim.h"
 #include "remesh/features/curve_network.h"
@@ -26,6 +27,9 @@ struct CurveSites {
     [[nodiscard]] agvd::Index num_nodes() const { return first_of_curve[0]; }
 };
 
+//! The unit of spacings at a point of the surface, mesh units > 0; empty: spacings are in mesh units.
+using UnitAt = std::function<double(const agvd::SurfacePoint&)>;
+
 //! Measures a curve in spacings. Its sites belong at even distances in this measure.
 //!
 //! \return #edges + 1: spacings before each edge, then of the whole curve. An edge counts as its
@@ -38,7 +42,8 @@ struct CurveSites {
 //! The number of intervals of each curve: they are about a spacing long, but no fewer than
 //! fewest_intervals.
 [[nodiscard]] std::vector<agvd::Index> curve_intervals(const agvd::Surface& surface,
-                                                       const CurveNetwork& network, double spacing);
+                                                       const CurveNetwork& network, double spacing,
+                                                       const UnitAt& unit_at = {});
 
 //! The fewest intervals that can be triangulated: three on a curve that returns to its start; two
 //! on a junction, on a curve with the same ends as another, and on one whose ends belong to no
@@ -67,7 +72,8 @@ struct CurveSites {
 [[nodiscard]] std::vector<std::vector<double>> even_places(const agvd::Surface& surface,
                                                            const CurveNetwork& network,
                                                            double spacing,
-                                                           std::span<const agvd::Index> intervals);
+                                                           std::span<const agvd::Index> intervals,
+                                                           const UnitAt& unit_at = {});
 
 //! The number of intervals into which such places divide each curve.
 [[nodiscard]] std::vector<agvd::Index> intervals_between(

@@ -126,6 +126,7 @@ FoundCurves find_curves(const CleanedInput& cleaned, double spacing, const Stage
 
 std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const FoundCurves& found,
                                              const KeptCurves& kept, double spacing,
+                                             const SizeField* sizes,
                                              const StageContext& context) {
     const auto& [options, result] = context;
     const StageClock clock(Stage::Clean, result);
@@ -145,7 +146,7 @@ std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const 
     } else {
         plan->network =
             plan_network(cleaned.surface, std::move(is_crease), options.num_samples,
-                         std::move(junctions), kept.drop_share, options.num_threads, done);
+                         std::move(junctions), kept.drop_share, options.num_threads, done, sizes);
     }
     count_plan(plan->network, result);
     if (plan->network.network.curves.empty()) return nullptr;

@@ -45,11 +45,13 @@ struct CurvePlan {
 [[nodiscard]] FoundCurves find_curves(const CleanedInput& cleaned, double spacing,
                                       const StageContext& context);
 
+//! \param sizes  target lengths; null: all equal.
 //! \return null if the boundary is the only curve to reproduce. Cost: see plan_network and
 //! plan_given_network.
 [[nodiscard]] std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned,
                                                            const FoundCurves& found,
                                                            const KeptCurves& kept, double spacing,
+                                                           const SizeField* sizes,
                                                            const StageContext& context);
 
 }  // namespace remesh::detail

@@ -6,25 +6,26 @@ namespace remesh::detail {
 namespace {
 
 PreparedSurface prepare(CleanedInput& cleaned, const CurvePlan* plan, double spacing,
-                        int num_threads, const agvd::Progress& progress) {
-    if (plan != nullptr) return {plan->network.cut.surface, spacing, num_threads, progress};
-    return {std::move(cleaned.surface), spacing, num_threads, progress};
+                        const SizeField* sizes, int num_threads, const agvd::Progress& progress) {
+    if (plan != nullptr) return {plan->network.cut.surface, spacing, num_threads, progress, sizes};
+    return {std::move(cleaned.surface), spacing, num_threads, progress, sizes};
 }
 
 }  // namespace
 
 Domain prepare_domain(CleanedInput& cleaned, std::unique_ptr<const CurvePlan> plan, double spacing,
-                      const StageContext& context) {
+                      const SizeField* sizes, const StageContext& context) {
     const auto& [options, result] = context;
     const StageClock clock(Stage::Clean, result);
     const agvd::Progress all = progress_of(Stage::Clean, options);
     const agvd::Progress progress = agvd::within(all, 1, 1);
     const CurvePlan* cut = plan.get();
     Domain domain{.plan = std::move(plan),
-                  .prepared = prepare(cleaned, cut, spacing, options.num_threads, progress),
+                  .prepared = prepare(cleaned, cut, spacing, sizes, options.num_threads, progress),
                   .whole = &cleaned.surface,
                   .parts = &cleaned.topology,
-                  .spacing = spacing};
+                  .spacing = spacing,
+                  .sizes = sizes};
     if (cut != nullptr) {
         domain.parts = &cut->patches;
     } else {

@@ -15,6 +15,7 @@ struct Domain {
     const Topology* parts;                    //!< Of prepared.input().
     std::vector<agvd::Index> component = {};  //!< #F of the base: index into parts->components.
     double spacing = 0;                       //!< Mesh units: mean distance of the sites.
+    const SizeField* sizes = nullptr;         //!< Target lengths; null: all equal.
 
     //! The surface on which propagation runs.
     [[nodiscard]] const agvd::Surface& base() const { return prepared.base.surface(); }
@@ -25,7 +26,8 @@ struct Domain {
 //!                 give_back).
 //! Cost: that of PreparedSurface.
 [[nodiscard]] Domain prepare_domain(CleanedInput& cleaned, std::unique_ptr<const CurvePlan> plan,
-                                    double spacing, const StageContext& context);
+                                    double spacing, const SizeField* sizes,
+                                    const StageContext& context);
 
 //! Ends a domain and gives `cleaned` its surface back. Cost: O(#F) if it had moved.
 void give_back(Domain domain, CleanedInput& cleaned, const StageContext& context);

@@ -34,13 +34,15 @@ bool is_coarse_to_fine(const RemeshOptions& options) {
     return !options.sites && options.init == Init::BlueNoise && options.relax_steps > 0;
 }
 
-SamplingOptions sampling_of(const RemeshOptions& options, Index num_samples) {
+SamplingOptions sampling_of(const RemeshOptions& options, Index num_samples,
+                            const SizeField* sizes) {
     return {.num_samples = num_samples,
             .init = options.init,
             .boundary = options.boundary,
             .seed = options.seed,
             .num_threads = options.num_threads,
-            .progress = progress_of(Stage::Sample, options)};
+            .progress = progress_of(Stage::Sample, options),
+            .sizes = sizes};
 }
 
 PlacedSites place_uncut(const CleanedInput& cleaned, const Domain& domain,
@@ -48,7 +50,8 @@ PlacedSites place_uncut(const CleanedInput& cleaned, const Domain& domain,
     const auto& [options, result] = context;
     // Surplus vertices are removed later, as far as the topology allows.
     const SamplingOptions sampling =
-        sampling_of(options, std::max(options.num_samples, minimum_samples(cleaned.topology)));
+        sampling_of(options, std::max(options.num_samples, minimum_samples(cleaned.topology)),
+                    domain.sizes);
     PlacedSites placed;
     {
         const StageClock clock(Stage::Sample, result);
@@ -65,7 +68,8 @@ PlacedSites place_uncut(const CleanedInput& cleaned, const Domain& domain,
                                  .boundary = options.boundary,
                                  .corners = placed.boundary_corners,
                                  .num_threads = options.num_threads,
-                                 .progress = progress_of(Stage::Relax, options)};
+                                 .progress = progress_of(Stage::Relax, options),
+                                 .sizes = domain.sizes};
         RelaxResult relaxed = is_coarse_to_fine(options)
                                   ? sample_relaxed_sites(domain.prepared, sampling, relax)
                                   : relax_sites(domain.prepared, std::move(placed.sites), relax);
@@ -85,12 +89,14 @@ PlacedSites place_on_network(const Domain& domain, const StageContext& context) 
     const StageClock clock(Stage::Relax, result);
     const RelaxOptions relax{.steps = is_relaxed(options) ? options.relax_steps : 0,
                              .num_threads = options.num_threads,
-                             .progress = progress_of(Stage::Relax, options)};
+                             .progress = progress_of(Stage::Relax, options),
+                             .sizes = domain.sizes};
     const auto& [network, patches, given] = *domain.plan;
     NetworkSites made =
         given ? relax_network_sites(domain.prepared, network, given->on_curves, given->inner, relax)
               : sample_network_sites(domain.prepared, network,
-                                     sampling_of(options, options.num_samples), relax);
+                                     sampling_of(options, options.num_samples, domain.sizes),
+                                     relax);
     PlacedSites placed{.sites = std::move(made.sites), .curves = std::move(made.curves)};
     placed.chain = chain_edges(network.network, network.cut, placed.curves);
     result.relaxation = std::move(made.levels);

@@ -15,6 +15,7 @@
 #include "remesh/features/junctions.h"
 #include "remesh/relax/relax_options.h"
 #include "remesh/sampling/sample_sites.h"
+#include "remesh/sizing/sizing.h"
 
 namespace remesh {
 
@@ -42,6 +43,8 @@ enum class VertexCount {
 //! All lengths in mesh units. `{}` gives a good result.
 struct RemeshOptions {
     agvd::Index num_samples = 2000;  //!< Sites to place, >= 1: one output vertex each.
+    //! How long edges are, and where. Some of its fields decide the number of samples instead.
+    Sizing sizing = {};
     VertexCount vertex_count = VertexCount::Exact;
     //! Keep: boundary vertices lie on the input's boundary. Free: they lie near it; if creases are
     //! kept, only `fit` moves vertices off the boundary.

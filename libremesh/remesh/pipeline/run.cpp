@@ -8,6 +8,7 @@
 
 #include "remesh/clean/carry_sites.h"
 #include "remesh/pipeline/check_result.h"
+#include "remesh/pipeline/sizes.h"
 #include "remesh/sampling/minimum_samples.h"
 
 namespace remesh::detail {
@@ -26,10 +27,10 @@ double spacing_of(const CleanedInput& cleaned, const RemeshOptions& options) {
 // All stages after cleaning, in their order: cleaned surface, curves, domain, sites, mesh.
 // \throw TooFewSamples, NetworkFailed; `cleaned` is unchanged then.
 void run_attempt(CleanedInput& cleaned, const FoundCurves& found, const KeptCurves& kept,
-                 int most_mends, const StageContext& context) {
+                 const SizeField* sizes, int most_mends, const StageContext& context) {
     const double spacing = spacing_of(cleaned, context.options);
-    std::unique_ptr<const CurvePlan> plan = plan_curves(cleaned, found, kept, spacing, context);
-    Domain domain = prepare_domain(cleaned, std::move(plan), spacing, context);
+    std::unique_ptr<const CurvePlan> plan = plan_curves(cleaned, found, kept, spacing, sizes, context);
+    Domain domain = prepare_domain(cleaned, std::move(plan), spacing, sizes, context);
     const PlacedSites sites = place_sites(cleaned, domain, context);
     try {
         BuiltMesh built = build_mesh(domain, sites, most_mends, context);
@@ -56,7 +57,9 @@ Index num_new_crossings(const RemeshResult& result) {
 RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cleaning,
                              const RemeshOptions& options) {
     RemeshResult first = after_cleaning;
-    const FoundCurves found = find_curves(cleaned, spacing_of(cleaned, options), {options, first});
+    const double spacing = spacing_of(cleaned, options);
+    const FoundCurves found = find_curves(cleaned, spacing, {options, first});
+    const RunSizes sizes = find_sizes(cleaned, found, spacing, {options, first});
     const std::vector<double> drop_shares =
         found.is_crease.empty() ? std::vector{0.0} : std::vector{0.0, 0.3, 0.6, 1.0};
     std::optional<RemeshResult> best;
@@ -64,8 +67,8 @@ RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cl
         for (const double drop_share : drop_shares) {
             RemeshResult result = first;
             try {
-                run_attempt(cleaned, found, {has_junctions, drop_share}, max_mends,
-                            {options, result});
+                run_attempt(cleaned, found, {has_junctions, drop_share}, sizes.field.get(),
+                            max_mends, {options, result});
                 result.features.gave_up = drop_share > 0;
             } catch (const NetworkFailed&) {
                 first.seconds = result.seconds;
@@ -110,7 +113,7 @@ std::string describe_enough(CleanedInput& cleaned, const RemeshResult& after_cle
         more.num_samples = reached;
         try {
             RemeshResult result = after_cleaning;
-            run_attempt(cleaned, {}, {}, 0, {more, result});
+            run_attempt(cleaned, {}, {}, nullptr, 0, {more, result});
             return "use " + std::to_string(reached) + " samples, which were tried and work";
         } catch (const TooFewSamples& failure) {
             reached = std::max(failure.reached, reached + reached / 4 + 1);

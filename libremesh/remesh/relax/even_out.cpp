@@ -50,7 +50,8 @@ struct Regions {
     std::vector<double> area_up_to;  // Area of the region up to this face.
 
     // \param region_of_face  #F: numbers without gaps.
-    Regions(const Surface& surface, std::vector<Index> region_of_face, Index count)
+    // \param area_of_face    #F
+    Regions(std::span<const double> area_of_face, std::vector<Index> region_of_face, Index count)
         : of_face(std::move(region_of_face)), area(count, 0), begin(count + 1, 0) {
         for (const Index r : of_face) ++begin[r + 1];
         std::partial_sum(begin.begin(), begin.end(), begin.begin());
@@ -59,7 +60,7 @@ struct Regions {
         std::vector<Index> next(begin.begin(), begin.end() - 1);
         for (Index f = 0; f < of_face.size(); ++f) {
             const Index r = of_face[f];
-            area[r] += agvd::face_area(surface, f);
+            area[r] += area_of_face[f];
             faces[next[r]] = f;
             area_up_to[next[r]++] = area[r];
         }
@@ -84,9 +85,10 @@ struct Regions {
 // Makes regions around vertices that are far apart; a later call adds to those of earlier ones.
 class RegionMaker {
 public:
-    RegionMaker(const Surface& surface, const agvd::SurfaceLayout& layout, int num_threads,
-                const agvd::Progress& progress)
+    RegionMaker(const Surface& surface, std::span<const double> area_of_face,
+                const agvd::SurfaceLayout& layout, int num_threads, const agvd::Progress& progress)
         : surface_(surface),
+          area_of_face_(area_of_face),
           progress_(progress),
           search_(surface, layout, num_threads),
           farthest_(surface, search_) {}
@@ -114,11 +116,12 @@ public:
             if (n == no_index) n = num_regions++;
             region[f] = n;
         }
-        return {surface_, std::move(region), num_regions};
+        return {area_of_face_, std::move(region), num_regions};
     }
 
 private:
     const Surface& surface_;
+    std::span<const double> area_of_face_;
     const agvd::Progress& progress_;
     agvd::BoundsSearch search_;
     FarthestVertex farthest_;
@@ -128,7 +131,8 @@ private:
 class EvenOut {
 public:
     EvenOut(const agvd::IntrinsicTriangulation& base, std::vector<SurfacePoint>& sites,
-            std::span<const std::uint8_t> is_fixed, int num_threads, const agvd::Progress& progress)
+            std::span<const std::uint8_t> is_fixed, const SizeField* sizes, int num_threads,
+            const agvd::Progress& progress)
         : base_(base),
           surface_(base.surface()),
           sites_(sites),
@@ -145,13 +149,14 @@ public:
             for (const Index f : components_[c].faces) component_of_face_[f] = c;
             area_ += components_[c].area();
         }
+        measure_faces(sizes);
         is_moved_.assign(sites.size(), 0);
         find_surplus();
     }
 
     Index run(const agvd::SurfaceLayout& layout, int num_threads, const agvd::Progress& progress) {
         const auto num_sites = static_cast<Index>(sites_.size());
-        const Regions components(surface_, component_of_face_,
+        const Regions components(area_of_face_, component_of_face_,
                                  static_cast<Index>(components_.size()));
         std::vector<double> shares;
         if (num_sites >= needed_samples(components_)) {
@@ -164,7 +169,7 @@ public:
         }
         balance(components, shares, components_.size());
 
-        RegionMaker maker(surface_, layout, num_threads, progress);
+        RegionMaker maker(surface_, area_of_face_, layout, num_threads, progress);
         for (const double per_region : sites_per_region) {
             const auto count = static_cast<Index>(num_sites / per_region);
             if (count < 2 || count * vertices_per_region > surface_.num_vertices()) continue;
@@ -175,6 +180,29 @@ public:
     }
 
 private:
+    // Areas of faces and components, in squares of local lengths if there are sizes.
+    void measure_faces(const SizeField* sizes) {
+        const double third = 1.0 / 3;
+        for (Index f = 0; f < surface_.num_faces(); ++f) {
+            const double area = agvd::face_area(surface_, f);
+            if (sizes == nullptr) {
+                area_of_face_.push_back(area);
+                continue;
+            }
+            const double length =
+                sizes->at(base_.to_input(SurfacePoint{agvd::FaceId(f), {third, third, third}}));
+            area_of_face_.push_back(area / (length * length));
+        }
+        if (sizes == nullptr) return;
+        for (Component& component : components_) {
+            double area = 0;
+            for (std::size_t i = 0; i < component.faces.size(); ++i) {
+                area += area_of_face_[component.faces[i]];
+                component.area_up_to[i] = area;
+            }
+        }
+    }
+
     // Of several sites at one place, all but one wait for a region.
     void find_surplus() {
         const double cell = same_place * std::sqrt(area_ / static_cast<double>(sites_.size()));
@@ -266,8 +294,9 @@ private:
     std::vector<SurfacePoint>& sites_;   // On the input.
     std::vector<SurfacePoint> on_base_;  // The same, on the base.
     std::vector<Component> components_;
+    std::vector<double> area_of_face_;      // #F
     std::vector<Index> component_of_face_;  // #F
-    double area_ = 0;
+    double area_ = 0;                       // Square mesh units.
     std::vector<std::uint8_t> may_move_;  // #sites
     std::vector<std::uint8_t> is_moved_;  // #sites
     std::vector<Index> surplus_;
@@ -277,8 +306,8 @@ private:
 
 Index even_out(const PreparedSurface& surface, std::vector<SurfacePoint>& sites,
                std::span<const std::uint8_t> is_fixed, int num_threads,
-               const agvd::Progress& progress) {
-    return EvenOut(surface.base, sites, is_fixed, num_threads, progress)
+               const agvd::Progress& progress, const SizeField* sizes) {
+    return EvenOut(surface.base, sites, is_fixed, sizes, num_threads, progress)
         .run(surface.layout, num_threads, progress);
 }
 

@@ -21,11 +21,12 @@ namespace remesh::detail {
 //! \param surface   regions consist of its base's faces.
 //! \param sites     on surface.input().
 //! \param is_fixed  #sites: 1 for sites that stay; or empty.
+//! \param sizes     areas count in squares of the local length; null: in mesh units.
 //! \return  the number of sites moved.
 //! \throw agvd::Cancelled  the progress callback returned false; `sites` is unspecified then.
 //! Cost: O(n log n), a few sweeps over the edges.
 agvd::Index even_out(const PreparedSurface& surface, std::vector<agvd::SurfacePoint>& sites,
                      std::span<const std::uint8_t> is_fixed, int num_threads,
-                     const agvd::Progress& progress = {});
+                     const agvd::Progress& progress = {}, const SizeField* sizes = nullptr);
 
 }  // namespace remesh::detail

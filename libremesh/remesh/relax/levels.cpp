@@ -95,6 +95,9 @@ void Levels::run(Relaxation& relaxation, const agvd::DistanceBounds* labels,
     RelaxLevel& level = result_.levels.emplace_back();
     level.num_sites = num_sites;
     level.energy.push_back(relaxation.energy().energy);
+    if (options_.sizes != nullptr && labels != nullptr) {
+        relaxation.set_density(options_.sizes->at(relaxation.sites()));
+    }
     if (labels != nullptr) look(relaxation, *labels, corners);
     double last = relaxation.objective();
     for (int step = 1; step <= options_.steps; ++step) {
@@ -133,8 +136,13 @@ void Levels::look(Relaxation& relaxation, const agvd::DistanceBounds& labels,
     if (has_boundary_ && options_.boundary == Boundary::Keep) {
         relaxation.move_to_boundary(boundary_places(prepared_.base, labels, num_sites, corners));
     }
-    relaxation.set_density(
-        measure_cells(prepared_, labels, num_sites, options_.num_threads, progress_));
+    const CellMeasures cells =
+        measure_cells(prepared_, labels, num_sites, options_.num_threads, progress_);
+    if (options_.sizes != nullptr) {
+        relaxation.set_density(cells, options_.sizes->at(relaxation.sites()));
+    } else {
+        relaxation.set_density(cells);
+    }
 }
 
 // Labels and measures the surface again.

@@ -22,6 +22,8 @@ constexpr double shortest_edge = 0.15;
 // Most splits, for each site and each vertex. Regular refinement takes 4 for each site. Without a
 // limit, surfaces thinner than the spacing would get vertices in proportion to their length.
 constexpr double splits_per_site = 16, splits_per_vertex = 1;
+// The spacing of sites whose neighbours are 1 apart: the root of the area of a cell.
+constexpr double spacing_of_edge = 0.9306;  // Root of sqrt(3) / 2.
 // Share of a cell that one piece stands for, in a face of the base that holds needles.
 constexpr double piece_share = 1.0 / 16;
 
@@ -32,8 +34,17 @@ agvd::Index most_splits(const agvd::Surface& input, double spacing) {
     return static_cast<agvd::Index>(std::min(most, 1e9));
 }
 
-agvd::IntrinsicOptions options_for(const agvd::Surface& input, double spacing, int num_threads,
+agvd::IntrinsicOptions options_for(const agvd::Surface& input, double spacing,
+                                   const SizeField* sizes, int num_threads,
                                    const agvd::Progress& progress) {
+    if (sizes != nullptr) {
+        return {.max_length = longest_edge * spacing_of_edge,
+                .min_length = shortest_edge * spacing_of_edge * sizes->least(),
+                .most_splits = most_splits(input, spacing),
+                .unit_at = sizes->function(),
+                .num_threads = num_threads,
+                .progress = progress};
+    }
     return {.max_length = longest_edge * spacing,
             .min_length = std::isfinite(spacing) ? shortest_edge * spacing : 0,
             .most_splits = most_splits(input, spacing),
@@ -44,14 +55,14 @@ agvd::IntrinsicOptions options_for(const agvd::Surface& input, double spacing, i
 }  // namespace
 
 PreparedSurface::PreparedSurface(const agvd::Surface& input, double spacing, int num_threads,
-                                 const agvd::Progress& progress)
-    : base(input, options_for(input, spacing, num_threads, progress)),
+                                 const agvd::Progress& progress, const SizeField* sizes)
+    : base(input, options_for(input, spacing, sizes, num_threads, progress)),
       pieces(base, piece_share * spacing * spacing, num_threads, progress),
       layout(base.surface(), num_threads, progress) {}
 
 PreparedSurface::PreparedSurface(agvd::Surface&& input, double spacing, int num_threads,
-                                 const agvd::Progress& progress)
-    : base(std::move(input), options_for(input, spacing, num_threads, progress)),
+                                 const agvd::Progress& progress, const SizeField* sizes)
+    : base(std::move(input), options_for(input, spacing, sizes, num_threads, progress)),
       pieces(base, piece_share * spacing * spacing, num_threads, progress),
       layout(base.surface(), num_threads, progress) {}
 

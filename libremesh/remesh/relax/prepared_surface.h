@@ -4,6 +4,7 @@
 
 #include "agvd/intrinsic/face_pieces.h"
 #include "agvd/propagation/surface_layout.h"
+#include "remesh/sizing/size_field.h"
 
 namespace remesh {
 
@@ -13,13 +14,14 @@ struct PreparedSurface {
     //! \param spacing  mean distance of the sites, > 0: the base's edges are not much longer, and
     //!        vertices without curvature not much closer. Infinity: its vertices are those of the
     //!        input.
+    //! \param sizes  its lengths are counted in target lengths instead; not kept. Null: all equal.
     //! \throw agvd::Cancelled  the progress callback returned false.
     //! Cost: that of the base, and O(#F) for the rest. Some 280 bytes for each face of the base.
     PreparedSurface(const agvd::Surface& input, double spacing, int num_threads = 0,
-                    const agvd::Progress& progress = {});
+                    const agvd::Progress& progress = {}, const SizeField* sizes = nullptr);
     //! The same, but takes the input over (see IntrinsicTriangulation).
     PreparedSurface(agvd::Surface&& input, double spacing, int num_threads = 0,
-                    const agvd::Progress& progress = {});
+                    const agvd::Progress& progress = {}, const SizeField* sizes = nullptr);
 
     agvd::IntrinsicTriangulation base;
     agvd::FacePieces pieces;     //!< Of the base's faces.

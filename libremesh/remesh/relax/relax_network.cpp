@@ -101,8 +101,8 @@ private:
 class MiddleFinder {
 public:
     MiddleFinder(const NetworkPlan& plan, std::span<const ChainEdge> chain,
-                 std::span<const SurfacePoint> sites)
-        : plan_(plan), chain_(chain), sites_(sites) {
+                 std::span<const SurfacePoint> sites, const SizeField* sizes)
+        : plan_(plan), chain_(chain), sites_(sites), sizes_(sizes) {
         for (const ChainEdge& edge : chain) is_chain_.insert(std::minmax({edge.from, edge.to}));
     }
 
@@ -151,7 +151,8 @@ private:
         for (const Index end : {a, b}) {
             if (!is_chain_.contains(std::minmax({end, c}))) continue;
             const double apart = agvd::distance_to_segment(middle, at(end), at(c));
-            if (apart >= least_distance * plan_.spacing) continue;
+            const double unit = sizes_ != nullptr ? sizes_->at(found->second.point) : 1;
+            if (apart >= least_distance * plan_.spacing * unit) continue;
             by_pair_.erase(found);
             return;
         }
@@ -173,6 +174,7 @@ private:
     const NetworkPlan& plan_;
     std::span<const ChainEdge> chain_;
     std::span<const SurfacePoint> sites_;
+    const SizeField* sizes_;
     std::set<Pair> is_chain_;
     std::map<Pair, detail::Middle> by_pair_;
 };
@@ -309,7 +311,9 @@ private:
         const std::vector<Index> intervals = coarse_intervals(plan_);
         const CurveSites coarse =
             curve_sites_at(plan_.network, plan_.cut,
-                           even_places(plan_.cut.surface, plan_.network, plan_.spacing, intervals));
+                           even_places(plan_.cut.surface, plan_.network, plan_.spacing, intervals,
+                                       options_.sizes != nullptr ? options_.sizes->function()
+                                                                 : UnitAt{}));
         const double euler = detail::euler_of(plan_.cut.surface);
         const double wanted =
             (num_inner_ - static_cast<double>(coarse.sites.size()) + 3 * euler) / 4 + 1;
@@ -331,7 +335,7 @@ private:
         const auto relaxed = patches_.sort(first.triangles(), first.sites());
         patches_.mend(chain, first.sites(), dual.triangles,
                       [&](Index patch) { return relaxed[patch]; });
-        MiddleFinder(plan_, chain, first.sites()).run(refinement, dual);
+        MiddleFinder(plan_, chain, first.sites(), options_.sizes).run(refinement, dual);
         // The sites in the order of the fine level. New curve sites have no triangle yet.
         std::vector<SurfacePoint> sites = fine_.sites;
         std::vector<double> weights(fine_.sites.size(), 1);
@@ -358,7 +362,9 @@ private:
         });
         const auto count = static_cast<Index>(fine_.sites.size()) + num_inner_;
         std::optional<detail::TriangulatedSites> divided =
-            detail::subdivide(plan_.cut.surface, sites, weights, dual, count);
+            detail::subdivide(plan_.cut.surface, sites, weights, dual, count,
+                              options_.sizes != nullptr ? options_.sizes->at(sites)
+                                                        : std::vector<double>{});
         if (!divided) return nullptr;
         auto last = std::make_unique<Relaxation>(
             surface_.input(), std::move(divided->sites), std::move(divided->triangles),

@@ -19,6 +19,9 @@ struct RelaxOptions {
     std::vector<agvd::Index> corners = {};    //!< Boundary vertices: with Keep, sites move there.
     int num_threads = 0;  //!< >= 0; 0: all cores. The same bytes for any number.
     agvd::Progress progress = {};
+    //! Target lengths: cells get areas in proportion to their squares. Outlives the call; null: all
+    //! are equal, and cells are smaller where they are bent.
+    const SizeField* sizes = nullptr;
 };
 
 //! One level of relaxation.

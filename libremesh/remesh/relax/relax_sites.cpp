@@ -72,7 +72,8 @@ RelaxResult relax_sites(const PreparedSurface& surface, std::vector<SurfacePoint
     agvd::check_sites(surface.input(), sites);
     Levels levels(surface, options, 1);
     if (options.steps == 0 || sites.empty()) return levels.finish(std::move(sites));
-    detail::even_out(surface, sites, options.is_fixed, options.num_threads, levels.progress());
+    detail::even_out(surface, sites, options.is_fixed, options.num_threads, levels.progress(),
+                     options.sizes);
     const agvd::DistanceBounds labels = levels.label(sites);
     Relaxation relaxation(surface.input(), sites,
                           detail::triangulate_sites(surface, labels, sites, {}, options.num_threads,
@@ -111,7 +112,9 @@ RelaxResult sample_relaxed_sites(const PreparedSurface& surface, const SamplingO
     labels = levels.label(relaxation.sites());
     std::optional<detail::TriangulatedSites> fine =
         detail::subdivide(input, relaxation.sites(), relaxation.weights(),
-                          detail::label_dual(surface.base, labels), sampling.num_samples);
+                          detail::label_dual(surface.base, labels), sampling.num_samples,
+                          options.sizes != nullptr ? options.sizes->at(relaxation.sites())
+                                                   : std::vector<double>{});
     if (!fine) return one_after_the_other();
     Relaxation last(input, std::move(fine->sites), std::move(fine->triangles), {},
                     std::move(fine->weights), options.num_threads, levels.progress());

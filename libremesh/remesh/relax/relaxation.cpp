@@ -152,6 +152,33 @@ bool Relaxation::is_degenerate_at_boundary(const agvd::Triangle& t) const {
 }
 
 void Relaxation::set_density(const CellMeasures& cells) {
+    set_density(cells, bending_power);
+    measure_energy(mesh_, at_, weight_, curves_.has_value(), ticker_, now_);
+}
+
+void Relaxation::set_density(const CellMeasures& cells, std::span<const double> length) {
+    set_density(cells, 0);
+    multiply_density(length);
+    measure_energy(mesh_, at_, weight_, curves_.has_value(), ticker_, now_);
+}
+
+void Relaxation::set_density(std::span<const double> length) {
+    weight_.assign(sites_.size(), 1);
+    multiply_density(length);
+    measure_energy(mesh_, at_, weight_, curves_.has_value(), ticker_, now_);
+}
+
+// Cells of area A have A^2 in proportion to 1 / density.
+void Relaxation::multiply_density(std::span<const double> length) {
+    double sum = 0;
+    for (const double l : length) sum += l;
+    const double mean = sum / static_cast<double>(length.size());
+    for (std::size_t i = 0; i < length.size(); ++i) {
+        weight_[i] *= std::pow(mean / length[i], 4);
+    }
+}
+
+void Relaxation::set_density(const CellMeasures& cells, double power_of_bending) {
     // Sums over a site and its neighbours: measurements of cells are rough where faces are large,
     // and sizes must not change abruptly.
     struct Sums {
@@ -175,11 +202,10 @@ void Relaxation::set_density(const CellMeasures& cells) {
         const Sums& s = sums[i];
         const double ratio = s.on_triangles > 0 ? s.on_surface / s.on_triangles : 1;
         const double lost = std::pow(std::clamp(ratio, 1.0, most_area_ratio), area_power);
-        const double bent = std::pow(1 + s.bending / s.count / even_bending, bending_power);
+        const double bent = std::pow(1 + s.bending / s.count / even_bending, power_of_bending);
         weight_[i] = std::min(lost * bent, most_weight);
     }
     planes_ = cells.planes;
-    measure_energy(mesh_, at_, weight_, curves_.has_value(), ticker_, now_);
 }
 
 void Relaxation::step() {

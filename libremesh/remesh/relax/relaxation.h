@@ -40,6 +40,12 @@ public:
 
     //! Sets the density by what the cells hold of the surface.
     void set_density(const CellMeasures& cells);
+    //! The same with target lengths: bent cells are not smaller than others.
+    //!
+    //! \param length  #sites: in any unit.
+    void set_density(const CellMeasures& cells, std::span<const double> length);
+    //! Sets the density by target lengths alone.
+    void set_density(std::span<const double> length);
 
     //! The number of triangles that face against the surface.
     [[nodiscard]] agvd::Index num_turned() const {
@@ -72,6 +78,8 @@ public:
     [[nodiscard]] const std::vector<double>& weights() const { return weight_; }
 
 private:
+    void set_density(const CellMeasures& cells, double power_of_bending);
+    void multiply_density(std::span<const double> length);
     [[nodiscard]] bool is_degenerate_at_boundary(const agvd::Triangle& triangle) const;
     void find_stuck();
     void take_triangles(std::vector<agvd::Triangle> triangles);

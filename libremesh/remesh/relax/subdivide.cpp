@@ -17,8 +17,12 @@ using agvd::Vec3;
 class Subdivision {
 public:
     Subdivision(const agvd::Surface& surface, const std::vector<agvd::SurfacePoint>& sites,
-                const std::vector<double>& weights, const SiteDual& dual)
-        : surface_(surface), dual_(dual), result_{sites, {}, weights} {}
+                const std::vector<double>& weights, const SiteDual& dual,
+                std::span<const double> unit)
+        : surface_(surface), dual_(dual), result_{sites, {}, weights} {
+        unit_.assign(unit.begin(), unit.end());
+        if (unit_.empty()) unit_.assign(sites.size(), 1);
+    }
 
     std::optional<TriangulatedSites> run(Index count) {
         const auto has_no_site = [](const Middle& m) { return m.site == no_index; };
@@ -40,7 +44,7 @@ private:
             if (dual_.middles[i].site == no_index) order.push_back(i);
         }
         std::stable_sort(order.begin(), order.end(), [&](Index a, Index b) {
-            return dual_.middles[a].length > dual_.middles[b].length;
+            return length_of(dual_.middles[a]) > length_of(dual_.middles[b]);
         });
         new_site_.assign(dual_.middles.size(), no_index);
         for (std::size_t i = 0; i < count; ++i) new_site_[order[i]] = 0;
@@ -51,7 +55,12 @@ private:
             new_site_[i] = static_cast<Index>(result_.sites.size());
             result_.sites.push_back(m.point);
             result_.weights.push_back((result_.weights[m.low] + result_.weights[m.high]) / 2);
+            unit_.push_back((unit_[m.low] + unit_[m.high]) / 2);
         }
+    }
+
+    [[nodiscard]] double length_of(const Middle& m) const {
+        return 2 * m.length / (unit_[m.low] + unit_[m.high]);
     }
 
     [[nodiscard]] Index between(Index a, Index b) const {
@@ -111,7 +120,8 @@ private:
         std::vector<std::pair<double, Index>> by_size;  // (minus the area, triangle)
         for (Index i = 0; i < triangles.size(); ++i) {
             const auto& [a, b, c] = triangles[i];
-            by_size.emplace_back(-(at(b) - at(a)).cross(at(c) - at(a)).norm(), i);
+            const double unit = (unit_[a] + unit_[b] + unit_[c]) / 3;
+            by_size.emplace_back(-(at(b) - at(a)).cross(at(c) - at(a)).norm() / (unit * unit), i);
         }
         std::sort(by_size.begin(), by_size.end());
         for (Index i = 0; i < count; ++i) {
@@ -131,6 +141,7 @@ private:
     const agvd::Surface& surface_;
     const SiteDual& dual_;
     TriangulatedSites result_;
+    std::vector<double> unit_;      // By site.
     std::vector<Index> new_site_;  // By middle; no_index: not added.
 };
 
@@ -139,8 +150,8 @@ private:
 std::optional<TriangulatedSites> subdivide(const agvd::Surface& surface,
                                            const std::vector<agvd::SurfacePoint>& sites,
                                            const std::vector<double>& weights, const SiteDual& dual,
-                                           Index count) {
-    return Subdivision(surface, sites, weights, dual).run(count);
+                                           Index count, std::span<const double> unit) {
+    return Subdivision(surface, sites, weights, dual, unit).run(count);
 }
 
 }  // namespace remesh::detail

@@ -20,9 +20,11 @@ struct TriangulatedSites {
 //! site each. Nothing if that is not enough for `count` sites.
 //!
 //! \param weights  #sites; new ones get the mean of the sites around them.
+//! \param unit     #sites: of lengths at each; empty: mesh units.
 //! Cost: O(n log n).
 [[nodiscard]] std::optional<TriangulatedSites> subdivide(
     const agvd::Surface& surface, const std::vector<agvd::SurfacePoint>& sites,
-    const std::vector<double>& weights, const SiteDual& dual, agvd::Index count);
+    const std::vector<double>& weights, const SiteDual& dual, agvd::Index count,
+    std::span<const double> unit = {});
 
 }  // namespace remesh::detail

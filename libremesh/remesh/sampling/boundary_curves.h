@@ -4,6 +4,7 @@
 
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_point.h"
+#include "remesh/features/curve_sites.h"
 
 namespace remesh {
 
@@ -17,9 +18,11 @@ namespace remesh {
 //! Sites on a loop, at least three: at its corners, and at equal distances of about a spacing along
 //! each curve between them.
 //! \param corners  vertices of the loop, in its order.
+//! \param unit_at  the unit of distances and spacing; empty: mesh units.
 [[nodiscard]] std::vector<agvd::SurfacePoint> sample_loop(const agvd::Surface& surface,
                                                           const std::vector<agvd::Index>& loop,
                                                           const std::vector<agvd::Index>& corners,
-                                                          double spacing);
+                                                          double spacing,
+                                                          const UnitAt& unit_at = {});
 
 }  // namespace remesh

@@ -41,13 +41,20 @@ struct Grid {
     std::vector<Index> order;            // Place in this order -> point.
     std::vector<std::uint64_t> cell;     // Per place, ascending; x runs fastest.
     std::vector<Vec3> position, normal;  // Per place.
+    std::vector<double> unit;            // Per place; empty: 1.
+
+    // In the mean of both units.
+    [[nodiscard]] double distance(Index a, Index b) const {
+        const double apart = (position[a] - position[b]).norm();
+        return unit.empty() ? apart : 2 * apart / (unit[a] + unit[b]);
+    }
 };
 
 constexpr int bits_per_axis = 21;
 constexpr std::uint64_t row = std::uint64_t{1} << bits_per_axis;
 
 Grid build_grid(const agvd::Surface& surface, std::span<const ScatteredPoint> points,
-                double cell_size, agvd::Ticker ticker) {
+                std::span<const double> unit, double cell_size, agvd::Ticker ticker) {
     Vec3 low = points[0].position, high = low;
     for (const ScatteredPoint& p : points) {
         low = low.cwiseMin(p.position);
@@ -66,6 +73,7 @@ Grid build_grid(const agvd::Surface& surface, std::span<const ScatteredPoint> po
     Grid grid;
     for (const auto& [cell, i] : keys) {
         ticker.tick();
+        if (!unit.empty()) grid.unit.push_back(unit[i]);
         const agvd::Triangle& t = surface.mesh.triangles[points[i].point.face.value()];
         const auto& p = surface.mesh.positions;
         grid.order.push_back(i);
@@ -116,7 +124,10 @@ Neighbours find_neighbours(const Grid& grid, double reach, int num_threads, agvd
                 ticker.tick(1 + (last - first) / 8);
                 for (Index other = first; other < last; ++other) {
                     const Vec3 apart = grid.position[place] - grid.position[other];
-                    if (other != place && apart.squaredNorm() < reach * reach &&
+                    const double most =
+                        grid.unit.empty() ? reach
+                                          : reach * (grid.unit[place] + grid.unit[other]) / 2;
+                    if (other != place && apart.squaredNorm() < most * most &&
                         grid.normal[place].dot(grid.normal[other]) > least_crowd_cosine) {
                         found[chunk].push_back(other);
                     }
@@ -195,18 +206,20 @@ private:
 std::vector<agvd::SurfacePoint> eliminate(const agvd::Surface& surface,
                                           std::span<const ScatteredPoint> points, Index num_fixed,
                                           Index keep, double spacing, int num_threads,
-                                          const agvd::Progress& progress) {
+                                          const agvd::Progress& progress,
+                                          std::span<const double> unit) {
     agvd::Poller poller(progress);
     agvd::Ticker ticker(poller);
     const auto first_fixed = static_cast<Index>(points.size()) - num_fixed;
     const Weight weight(spacing, keep, static_cast<double>(first_fixed));
-    const Grid grid = build_grid(surface, points, weight.reach, ticker);
+    const double longest = unit.empty() ? 1 : *std::max_element(unit.begin(), unit.end());
+    const Grid grid = build_grid(surface, points, unit, longest * weight.reach, ticker);
     const Neighbours neighbours = find_neighbours(grid, weight.reach, num_threads, poller);
     const auto for_each_neighbour = [&](Index place, const auto& body) {
         ticker.tick(1 + neighbours.begin[place + 1] - neighbours.begin[place]);
         for (std::size_t i = neighbours.begin[place]; i < neighbours.begin[place + 1]; ++i) {
             const Index other = neighbours.data[i];
-            body(other, weight((grid.position[place] - grid.position[other]).norm()));
+            body(other, weight(grid.distance(place, other)));
         }
     };
 

@@ -13,12 +13,15 @@ namespace remesh::detail {
 //! which have weight for others and stay.
 //!
 //! \param spacing  distance of the kept points in the densest packing.
+//! \param unit     #points: of distances between a point and its neighbours; empty: mesh units. It
+//!                 must not change much over a spacing.
 //! \return  the kept points in their old order, without the fixed ones.
 //! Cost: O(M log M) for M = points.size() spread over the area.
 [[nodiscard]] std::vector<agvd::SurfacePoint> eliminate(const agvd::Surface& surface,
                                                         std::span<const ScatteredPoint> points,
                                                         agvd::Index num_fixed, agvd::Index keep,
                                                         double spacing, int num_threads,
-                                                        const agvd::Progress& progress = {});
+                                                        const agvd::Progress& progress = {},
+                                                        std::span<const double> unit = {});
 
 }  // namespace remesh::detail

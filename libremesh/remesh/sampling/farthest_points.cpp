@@ -10,6 +10,7 @@
 #include "agvd/core/position_hash.h"
 #include "agvd/core/random.h"
 #include "agvd/intrinsic/intrinsic_triangulation.h"
+#include "agvd/mesh/point_faces.h"
 #include "agvd/propagation/distance_bounds.h"
 #include "agvd/propagation/surface_layout.h"
 #include "remesh/sampling/farthest_vertex.h"
@@ -61,20 +62,41 @@ Surface component_surface(const Surface& whole, const Component& component, int 
 // A component as a surface of its own.
 struct RefinedComponent {
     RefinedComponent(const Surface& whole, const Component& component, double max_length,
-                     agvd::Index most_splits, int num_threads, const agvd::Progress& progress)
+                     agvd::Index most_splits, const SizeField* sizes, int num_threads,
+                     const agvd::Progress& progress)
         : faces(component.faces),
           input(component_surface(whole, component, num_threads, progress)),
           base(input, {.max_length = max_length,
                        .most_splits = most_splits,
+                       .unit_at = unit_of(sizes),
                        .num_threads = num_threads,
-                       .progress = progress}) {}
+                       .progress = progress}) {
+        if (sizes == nullptr) return;
+        const agvd::IntrinsicOptions options{.unit_at = unit_of(sizes)};
+        for (Index v = 0; v < surface().num_vertices(); ++v) {
+            unit.push_back(options.unit_at(v < input.num_vertices()
+                                               ? agvd::point_at(input, v)
+                                               : base.place_of_added(v)));
+        }
+    }
     RefinedComponent(const RefinedComponent&) = delete;
 
     std::span<const Index> faces;  // Ascending: faces of the whole surface, by face of `input`.
     Surface input;
     agvd::IntrinsicTriangulation base;
 
+    std::vector<double> unit;  // #V of the base: local lengths, or empty.
+
     [[nodiscard]] const Surface& surface() const { return base.surface(); }
+
+private:
+    // The local length at a point of `input`.
+    [[nodiscard]] std::function<double(const SurfacePoint&)> unit_of(const SizeField* sizes) const {
+        if (sizes == nullptr) return {};
+        return [this, sizes](const SurfacePoint& point) {
+            return sizes->at({agvd::FaceId(faces[point.face.value()]), point.barycentric});
+        };
+    }
 };
 
 class FarthestPoints {
@@ -98,7 +120,7 @@ public:
         search_.run(progress_);
         agvd::Poller poller(progress_);
         agvd::Ticker ticker(poller);
-        FarthestVertex farthest(component_.surface(), search_);
+        FarthestVertex farthest(component_.surface(), search_, component_.unit);
         for (std::uint64_t i = 0; result.size() < count && !farthest.is_empty(); ++i) {
             const Index v = farthest.pop();
             const SurfacePoint near = draw(v, i);
@@ -173,16 +195,17 @@ private:
 std::vector<SurfacePoint> farthest_points(const Surface& surface, const Component& component,
                                           std::span<const SurfacePoint> fixed, Index count,
                                           double spacing, std::uint64_t seed, std::uint64_t stream,
-                                          int num_threads, const agvd::Progress& progress) {
+                                          int num_threads, const agvd::Progress& progress,
+                                          const SizeField* sizes) {
     if (count == 0) return {};
     const Index most_splits =
         splits_per_point * (count + 1) + static_cast<Index>(component.faces.size());
     const RefinedComponent refined(surface, component, longest_edge * spacing, most_splits,
-                                   num_threads, progress);
+                                   sizes, num_threads, progress);
     FarthestPoints points(surface, refined, seed, stream, num_threads, progress);
     for (const SurfacePoint& point : fixed) points.add(point);
     if (!fixed.empty()) return points.run(count);
-    const SurfacePoint first = scatter(surface, component, 1, seed, stream).front().point;
+    const SurfacePoint first = scatter(surface, component, 1, seed, stream, {}, sizes).front().point;
     points.add(first);
     std::vector<SurfacePoint> result = points.run(count - 1);
     result.insert(result.begin(), first);

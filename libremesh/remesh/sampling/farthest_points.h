@@ -5,6 +5,7 @@
 #include <span>
 
 #include "remesh/sampling/scatter.h"
+#include "remesh/sizing/size_field.h"
 #include "remesh/topology/components.h"
 
 namespace remesh::detail {
@@ -18,6 +19,7 @@ namespace remesh::detail {
 //! the farthest vertex, not on it, so that ties are rare.
 //! \param fixed    points of the component.
 //! \param spacing  > 0, mesh units: expected distance of neighbours at the end.
+//! \param sizes    spacing and distances are in local lengths; null: in mesh units.
 //! \return  points at different positions; fewer than `count` only if the component is so small for
 //! its coordinates that double holds no more. The same for the same seed and stream, whatever
 //! num_threads.
@@ -25,6 +27,7 @@ namespace remesh::detail {
 [[nodiscard]] std::vector<agvd::SurfacePoint> farthest_points(
     const agvd::Surface& surface, const Component& component,
     std::span<const agvd::SurfacePoint> fixed, agvd::Index count, double spacing,
-    std::uint64_t seed, std::uint64_t stream, int num_threads, const agvd::Progress& progress = {});
+    std::uint64_t seed, std::uint64_t stream, int num_threads, const agvd::Progress& progress = {},
+    const SizeField* sizes = nullptr);
 
 }  // namespace remesh::detail

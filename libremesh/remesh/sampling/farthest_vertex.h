@@ -3,6 +3,7 @@
 #pragma once
 
 #include <queue>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -18,13 +19,15 @@ inline constexpr std::size_t search_work = 256;
 class FarthestVertex {
 public:
     //! \param search  of the surface; outlives this. Sites may be added and run at any time.
+    //! \param unit    #V: of the distance at each vertex; empty: mesh units. Outlives this.
     //! Cost: O(#V).
-    FarthestVertex(const agvd::Surface& surface, const agvd::BoundsSearch& search)
-        : search_(search) {
+    FarthestVertex(const agvd::Surface& surface, const agvd::BoundsSearch& search,
+                   std::span<const double> unit = {})
+        : search_(search), unit_(unit) {
         std::vector<Entry> entries;
         entries.reserve(surface.num_vertices());
         for (agvd::Index v = 0; v < surface.num_vertices(); ++v) {
-            if (surface.outgoing[v] != agvd::no_index) entries.emplace_back(search.distance(v), v);
+            if (surface.outgoing[v] != agvd::no_index) entries.emplace_back(distance(v), v);
         }
         queue_ = std::priority_queue<Entry>({}, std::move(entries));
     }
@@ -39,16 +42,22 @@ public:
         while (true) {
             const auto [distance, v] = queue_.top();
             queue_.pop();
-            if (search_.distance(v) == distance) return v;
+            if (this->distance(v) == distance) return v;
             push(v);
         }
     }
-    void push(agvd::Index vertex) { queue_.emplace(search_.distance(vertex), vertex); }
+    void push(agvd::Index vertex) { queue_.emplace(distance(vertex), vertex); }
 
 private:
     using Entry = std::pair<float, agvd::Index>;
 
+    [[nodiscard]] float distance(agvd::Index vertex) const {
+        const float distance = search_.distance(vertex);
+        return unit_.empty() ? distance : static_cast<float>(distance / unit_[vertex]);
+    }
+
     const agvd::BoundsSearch& search_;
+    std::span<const double> unit_;
     std::priority_queue<Entry> queue_;
 };
 

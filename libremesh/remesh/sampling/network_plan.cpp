@@ -10,6 +10,7 @@
 #include "agvd/mesh/face_area.h"
 #include "remesh/features/guard_corners.h"
 #include "remesh/sampling/shares.h"
+#include "remesh/sampling/sized_components.h"
 #include "remesh/topology/components.h"
 
 namespace remesh {
@@ -26,27 +27,33 @@ struct Patch {
     double area = 0, boundary_length = 0;
 };
 
-std::vector<Patch> find_patches(const Surface& surface, int num_threads,
+std::vector<Patch> find_patches(const Surface& surface, const SizeField* sizes, int num_threads,
                                 const agvd::Progress& progress) {
     std::vector<Patch> patches;
     for (const detail::Component& component :
-         detail::find_components(surface, num_threads, progress)) {
-        patches.push_back({component.area(), detail::boundary_length(surface, component)});
+         detail::sized_components(surface, sizes, num_threads, progress)) {
+        patches.push_back(
+            {component.area(), detail::sized_boundary_length(surface, component, sizes)});
     }
     return patches;
 }
 
+UnitAt unit_of(const SizeField* sizes) { return sizes != nullptr ? sizes->function() : UnitAt{}; }
+
 std::vector<std::vector<double>> places_at(const Surface& surface, const CurveNetwork& network,
-                                           double spacing, bool has_guards) {
+                                           double spacing, const UnitAt& unit_at,
+                                           bool has_guards) {
     std::vector<std::vector<double>> along =
-        even_places(surface, network, spacing, curve_intervals(surface, network, spacing));
+        even_places(surface, network, spacing,
+                    curve_intervals(surface, network, spacing, unit_at), unit_at);
     if (has_guards) guard_corners(surface, network, along);
     return along;
 }
 
 double num_sites_at(const Surface& surface, const CurveNetwork& network,
-                    const std::vector<Patch>& patches, double spacing, bool has_guards) {
-    const auto along = places_at(surface, network, spacing, has_guards);
+                    const std::vector<Patch>& patches, double spacing, const UnitAt& unit_at,
+                    bool has_guards) {
+    const auto along = places_at(surface, network, spacing, unit_at, has_guards);
     auto count =
         static_cast<double>(num_curve_vertices(network, intervals_between(network, along)));
     for (const Patch& p : patches) {
@@ -62,7 +69,7 @@ struct Division {
 
 // The least spacing that needs at most num_sites sites.
 Division divide(const Surface& surface, const CurveNetwork& network,
-                const std::vector<Patch>& patches, double num_sites) {
+                const std::vector<Patch>& patches, const UnitAt& unit_at, double num_sites) {
     double area = 0, length = 0;
     for (const Patch& p : patches) {
         area += p.area;
@@ -71,14 +78,14 @@ Division divide(const Surface& surface, const CurveNetwork& network,
     double low = std::sqrt(area / num_sites) / 4, high = length + std::sqrt(area);
     bool has_guards = true;
     const auto num_needed = [&](double spacing) {
-        return num_sites_at(surface, network, patches, spacing, has_guards);
+        return num_sites_at(surface, network, patches, spacing, unit_at, has_guards);
     };
     has_guards = num_needed(high) <= num_sites;
     for (int i = 0; i < num_halvings; ++i) {
         const double middle = (low + high) / 2;
         (num_needed(middle) > num_sites ? low : high) = middle;
     }
-    return {high, places_at(surface, network, high, has_guards)};
+    return {high, places_at(surface, network, high, unit_at, has_guards)};
 }
 
 // Unmarks creases on junctions, which are curves already.
@@ -126,7 +133,7 @@ double length_of(const Surface& surface, std::span<const std::uint8_t> is_crease
 
 NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_crease,
                          Index num_vertices, JunctionSet junctions, double drop_share,
-                         int num_threads, const agvd::Progress& progress) {
+                         int num_threads, const agvd::Progress& progress, const SizeField* sizes) {
     const double spacing = detail::spacing_of(num_vertices, agvd::surface_area(surface), 0);
     NetworkPlan plan;
     plan.junctions = std::move(junctions);
@@ -161,7 +168,8 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
         plan.cut =
             cut_surface(surface, edges_to_cut(plan.junctions, is_crease), num_threads, progress);
         Division division =
-            divide(surface, plan.network, find_patches(plan.cut.surface, num_threads, progress),
+            divide(surface, plan.network,
+                   find_patches(plan.cut.surface, sizes, num_threads, progress), unit_of(sizes),
                    num_vertices);
         plan.spacing = division.spacing;
         plan.along = std::move(division.along);

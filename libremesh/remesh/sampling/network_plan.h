@@ -3,6 +3,7 @@
 #pragma once
 
 #include "remesh/features/curve_sites.h"
+#include "remesh/sizing/size_field.h"
 
 namespace remesh {
 
@@ -13,7 +14,7 @@ struct NetworkPlan {
     std::vector<std::vector<double>> along;  //!< By curve: places of its sites, mesh units.
     std::vector<agvd::Index> intervals;      //!< By curve: number of intervals between them.
     JunctionSet junctions;                   //!< The given ones; none if the sites are too few.
-    double spacing = 0;                      //!< Mesh units: of neighbouring sites.
+    double spacing = 0;                      //!< Of neighbouring sites: mesh units, or local lengths.
     double length = 0;                       //!< Of the creases kept, mesh units.
     double dropped_length = 0;               //!< Of the creases dropped, mesh units.
     agvd::Index sites_for_junctions = 0;     //!< Fewest vertices that keep the junctions.
@@ -28,6 +29,7 @@ struct NetworkPlan {
 //! \param is_crease     #E: 1 for the edges of creases.
 //! \param num_vertices  of the result: see num_curve_vertices.
 //! \param drop_share    in [0, 1]: share of the creases to drop in any case, shortest first.
+//! \param sizes           spacings are in local lengths; null: in mesh units.
 //! \return a plan without curves if there is neither crease nor junction, or none is left.
 //! \throw agvd::Cancelled  the progress callback returned false.
 //! Cost: O(n), once more for each tenth of the creases that is dropped.
@@ -35,7 +37,8 @@ struct NetworkPlan {
                                        std::vector<std::uint8_t> is_crease,
                                        agvd::Index num_vertices, JunctionSet junctions = {},
                                        double drop_share = 0, int num_threads = 0,
-                                       const agvd::Progress& progress = {});
+                                       const agvd::Progress& progress = {},
+                                       const SizeField* sizes = nullptr);
 
 //! Drops the shortest creases of a network.
 //!

@@ -14,6 +14,7 @@
 #include "remesh/sampling/farthest_points.h"
 #include "remesh/sampling/scatter.h"
 #include "remesh/sampling/shares.h"
+#include "remesh/sampling/sized_components.h"
 #include "remesh/topology/components.h"
 
 namespace remesh {
@@ -55,17 +56,28 @@ std::vector<std::vector<std::vector<Index>>> find_loops(const agvd::Surface& sur
     return loops;
 }
 
+// The mean of the local lengths along a loop; 1 without.
+double sized_mean(const agvd::Surface& surface, const std::vector<Index>& loop,
+                  const SizeField* sizes) {
+    if (sizes == nullptr) return 1;
+    return detail::sized_length(surface, loop, nullptr) /
+           detail::sized_length(surface, loop, sizes);
+}
+
 // At most `most` sites on the loops of a component, with a wider spacing if necessary; none if even
 // three on each loop are too many.
 std::vector<agvd::SurfacePoint> sample_boundary(const agvd::Surface& surface,
                                                 const std::vector<std::vector<Index>>& loops,
-                                                double spacing, Index most) {
+                                                double spacing, Index most,
+                                                const SizeField* sizes) {
     constexpr double widening = 1.1;
     while (true) {
         std::vector<agvd::SurfacePoint> sites;
         for (const std::vector<Index>& loop : loops) {
-            const auto corners = find_corners(surface, loop, spacing);
-            const auto more = sample_loop(surface, loop, corners, spacing);
+            const double length = sized_mean(surface, loop, sizes);
+            const auto corners = find_corners(surface, loop, spacing * length);
+            const auto more = sample_loop(surface, loop, corners, spacing,
+                                          sizes != nullptr ? sizes->function() : UnitAt{});
             sites.insert(sites.end(), more.begin(), more.end());
         }
         if (sites.size() <= most) return sites;
@@ -84,12 +96,13 @@ std::vector<agvd::SurfacePoint> place_inside(const agvd::Surface& surface,
                                              const agvd::Progress& progress) {
     if (options.init == Init::Farthest) {
         return detail::farthest_points(surface, component, rim, count, spacing, options.seed,
-                                       stream, options.num_threads, progress);
+                                       stream, options.num_threads, progress, options.sizes);
     }
     const bool is_blue = options.init == Init::BlueNoise;
     const Index scattered =
         is_blue ? std::max(candidates_per_site * count, least_candidates) : count;
-    auto points = detail::scatter(surface, component, scattered, options.seed, stream, progress);
+    auto points = detail::scatter(surface, component, scattered, options.seed, stream, progress,
+                                  options.sizes);
     if (!is_blue || points.size() < count) {
         std::vector<agvd::SurfacePoint> all;
         all.reserve(points.size());
@@ -99,8 +112,12 @@ std::vector<agvd::SurfacePoint> place_inside(const agvd::Surface& surface,
     for (const agvd::SurfacePoint& p : rim) {
         points.push_back({p, agvd::position(surface.mesh.view(), p)});
     }
+    std::vector<double> unit;
+    for (const detail::ScatteredPoint& p : points) {
+        if (options.sizes != nullptr) unit.push_back(options.sizes->at(p.point));
+    }
     return detail::eliminate(surface, points, static_cast<Index>(rim.size()), count, spacing,
-                             options.num_threads, progress);
+                             options.num_threads, progress, unit);
 }
 
 }  // namespace
@@ -133,12 +150,16 @@ std::vector<agvd::SurfacePoint> sample_sites(const agvd::Surface& surface,
     agvd::poll(options.progress, 0);
     const agvd::Progress begin = agvd::within(options.progress, 0, 0);
     const std::vector<Component> components =
-        detail::find_components(surface, options.num_threads, begin);
+        detail::sized_components(surface, options.sizes, options.num_threads, begin);
     const bool keeps_boundary = options.init != Init::Random && options.boundary == Boundary::Keep;
     const auto loops = find_loops(surface, components);
     std::vector<double> boundary_length(components.size(), 0);
     for (Index i = 0; keeps_boundary && i < components.size(); ++i) {
         for (const std::vector<Index>& loop : loops[i]) {
+            if (options.sizes != nullptr) {
+                boundary_length[i] += detail::sized_length(surface, loop, options.sizes);
+                continue;
+            }
             for (const Index h : loop) boundary_length[i] += surface.length_of(h);
         }
     }
@@ -153,7 +174,7 @@ std::vector<agvd::SurfacePoint> sample_sites(const agvd::Surface& surface,
             detail::spacing_of(quota[i], components[i].area(), boundary_length[i]);
         std::vector<agvd::SurfacePoint> rim;
         if (keeps_boundary && !loops[i].empty()) {
-            rim = sample_boundary(surface, loops[i], spacing, quota[i]);
+            rim = sample_boundary(surface, loops[i], spacing, quota[i], options.sizes);
         }
         const Index inner = quota[i] - static_cast<Index>(rim.size());
         const double done = static_cast<double>(sites.size()) / options.num_samples;
@@ -178,12 +199,13 @@ std::vector<agvd::SurfacePoint> sample_inner_sites(const agvd::Surface& surface,
                                                    const SamplingOptions& options) {
     const agvd::Progress begin = agvd::within(options.progress, 0, 0);
     const std::vector<Component> components =
-        detail::find_components(surface, options.num_threads, begin);
+        detail::sized_components(surface, options.sizes, options.num_threads, begin);
     std::vector<Index> component_of(surface.num_faces());
     std::vector<double> lacking;
     for (Index i = 0; i < components.size(); ++i) {
         for (const Index f : components[i].faces) component_of[f] = i;
-        const double length = detail::boundary_length(surface, components[i]);
+        const double length =
+            detail::sized_boundary_length(surface, components[i], options.sizes);
         lacking.push_back(
             std::max(detail::inner_sites(components[i].area(), length, spacing), 0.0));
     }

@@ -10,6 +10,8 @@
 
 namespace remesh {
 
+class SizeField;
+
 enum class Init {
     Random,     //!< Area-uniform, independent (the paper's choice).
     BlueNoise,  //!< Area-uniform with large mutual distances, by sample elimination.
@@ -31,6 +33,9 @@ struct SamplingOptions {
     std::uint64_t seed = 1;              //!< Same seed, same bytes, any num_threads.
     int num_threads = 0;                 //!< >= 0; 0: all cores.
     agvd::Progress progress = {};
+    //! Target lengths on the surface: areas, lengths and distances count in local lengths. Outlives
+    //! the call; null: all are equal.
+    const SizeField* sizes = nullptr;
 };
 
 //! Places exactly num_samples points, no two at one position, component by component (by lowest
@@ -58,7 +63,7 @@ struct SamplingOptions {
 //!
 //! \param rim      sites on the boundary, from which inner ones keep a distance.
 //! \param count    of inner sites; shared by how many each component lacks at this spacing.
-//! \param spacing  > 0, mesh units: of all sites.
+//! \param spacing  > 0: of all sites, in mesh units or in local lengths.
 //! \param options  num_samples and boundary are ignored.
 //! \throw as sample_sites.
 [[nodiscard]] std::vector<agvd::SurfacePoint> sample_inner_sites(

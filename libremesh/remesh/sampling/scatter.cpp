@@ -6,6 +6,7 @@
 
 #include "agvd/core/poller.h"
 #include "agvd/core/position_hash.h"
+#include "agvd/mesh/face_area.h"
 #include "agvd/mesh/uniform_points.h"
 
 namespace remesh::detail {
@@ -13,9 +14,10 @@ namespace {
 
 using agvd::Index;
 
-agvd::SurfacePoint draw(const Component& component, double pick, double u, double v) {
-    const auto& sums = component.area_up_to;
-    const auto found = std::upper_bound(sums.begin(), sums.end(), pick * component.area());
+// \param sums  by face of the component: weight up to and with it.
+agvd::SurfacePoint draw(const Component& component, const std::vector<double>& sums, double pick,
+                        double u, double v) {
+    const auto found = std::upper_bound(sums.begin(), sums.end(), pick * sums.back());
     const auto slot = std::min<std::ptrdiff_t>(found - sums.begin(),
                                                static_cast<std::ptrdiff_t>(sums.size()) - 1);
     const std::array<double, 3> uniform = agvd::uniform_barycentric(u, v);
@@ -24,24 +26,45 @@ agvd::SurfacePoint draw(const Component& component, double pick, double u, doubl
     return {agvd::FaceId(component.faces[static_cast<std::size_t>(slot)]), {1 - b1 - b2, b1, b2}};
 }
 
+// Weights with the highest density in each face; fewer points are accepted where it is lower.
+std::vector<double> highest_weights(const agvd::Surface& surface, const Component& component,
+                                    const SizeField& sizes) {
+    std::vector<double> sums;
+    double sum = 0;
+    for (const Index f : component.faces) {
+        const double least = sizes.least_in_face()[f];
+        sum += agvd::face_area(surface, f) / (least * least);
+        sums.push_back(sum);
+    }
+    return sums;
+}
+
 }  // namespace
 
 std::vector<ScatteredPoint> scatter(const agvd::Surface& surface, const Component& component,
                                     Index count, std::uint64_t seed, std::uint64_t stream,
-                                    const agvd::Progress& progress) {
+                                    const agvd::Progress& progress, const SizeField* sizes) {
     agvd::Poller poller(progress);
     agvd::Ticker ticker(poller);
     std::vector<ScatteredPoint> points;
     points.reserve(count);
     std::unordered_set<agvd::Vec3, agvd::PositionHash> taken;
     taken.reserve(count);
-    const std::uint64_t most_draws = 4 * std::uint64_t{count} + 64;  // Usually one each.
+    // Usually one each.
+    const std::uint64_t most_draws = (sizes != nullptr ? 1000 : 4) * std::uint64_t{count} + 64;
+    const std::vector<double> weights = sizes != nullptr
+                                            ? highest_weights(surface, component, *sizes)
+                                            : component.area_up_to;
     for (std::uint64_t i = 0; points.size() < count && i < most_draws; ++i) {
         ticker.tick(4);
         const auto unit = [&](std::uint64_t k) {
             return agvd::random_unit(seed, stream, 3 * i + k);
         };
-        const agvd::SurfacePoint point = draw(component, unit(0), unit(1), unit(2));
+        const agvd::SurfacePoint point = draw(component, weights, unit(0), unit(1), unit(2));
+        if (sizes != nullptr) {
+            const double share = sizes->least_in_face()[point.face.value()] / sizes->at(point);
+            if (agvd::random_unit(seed, ~stream, i) > share * share) continue;
+        }
         const agvd::Vec3 where = agvd::position(surface.mesh.view(), point);
         if (taken.insert(where).second) points.push_back({point, where});
     }

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "agvd/mesh/surface_point.h"
+#include "remesh/sizing/size_field.h"
 #include "remesh/topology/components.h"
 
 namespace remesh::detail {
@@ -28,9 +29,11 @@ struct ScatteredPoint {
 
 //! Draws `count` points, no two at one position; the same for the same seed and stream. There are
 //! fewer only if the component is so small for its coordinates that double holds no more.
+//! \param sizes  points are uniform by area in squares of the local length; null: by area.
 [[nodiscard]] std::vector<ScatteredPoint> scatter(const agvd::Surface& surface,
                                                   const Component& component, agvd::Index count,
                                                   std::uint64_t seed, std::uint64_t stream,
-                                                  const agvd::Progress& progress = {});
+                                                  const agvd::Progress& progress = {},
+                                                  const SizeField* sizes = nullptr);
 
 }  // namespace remesh::detail

@@ -1,0 +1,109 @@
+// The field gets a base of its own, cut along all creases that were found: attempts with fewer
+// creases cut the surface in other ways, but its faces stay.
+#include "remesh/pipeline/sizes.h"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "agvd/core/poller.h"
+#include "remesh/sizing/curvature.h"
+#include "remesh/sizing/target_lengths.h"
+
+namespace remesh::detail {
+namespace {
+
+using agvd::Index;
+using agvd::SurfacePoint;
+
+// Longest edge of the base, and shortest at vertices without curvature, in spacings.
+constexpr double longest_edge = 0.85, shortest_edge = 0.15;
+constexpr double most_splits_per_site = 16;
+// Pieces of faces that hold needles, as a share of a cell.
+constexpr double piece_share = 1.0 / 16;
+constexpr double patches_per_site = 4;
+
+// The caller's value at each vertex of the base.
+std::vector<double> carry_values(const std::vector<double>& given, const CleanedInput& cleaned,
+                                 std::span<const Index> original,
+                                 const agvd::IntrinsicTriangulation& base) {
+    const agvd::Surface& input = base.input();
+    std::vector<double> values;
+    for (Index v = 0; v < input.num_vertices(); ++v) {
+        const Index whole = original[v];
+        values.push_back(given[cleaned.vertex_origin.empty() ? whole : cleaned.vertex_origin[whole]]);
+    }
+    for (Index v = input.num_vertices(); v < base.surface().num_vertices(); ++v) {
+        const SurfacePoint& place = base.place_of_added(v);
+        const agvd::Triangle& t = input.mesh.triangles[place.face.value()];
+        double value = 0;
+        for (std::size_t k = 0; k < 3; ++k) value += place.barycentric[k] * values[t[k]];
+        values.push_back(value);
+    }
+    return values;
+}
+
+std::vector<std::uint8_t> edges_to_cut(const FoundCurves& found, Index num_edges) {
+    std::vector<std::uint8_t> is_cut = found.is_crease;
+    is_cut.resize(num_edges, 0);
+    for (const std::vector<Index>& copies : found.junctions.edges) {
+        for (const Index e : copies) is_cut[e] = 1;
+    }
+    return is_cut;
+}
+
+}  // namespace
+
+RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, double spacing,
+                    const StageContext& context) {
+    const auto& [options, result] = context;
+    const Sizing& sizing = options.sizing;
+    if (is_uniform(sizing)) return {nullptr, options.num_samples, 0};
+    const StageClock clock(Stage::Clean, result);
+    const agvd::Progress all = progress_of(Stage::Clean, options);
+    const agvd::Progress progress = agvd::within(all, 1, 1);
+    agvd::Poller poller(progress);
+    agvd::Ticker ticker(poller);
+    CutSurface cut =
+        cut_surface(cleaned.surface, edges_to_cut(found, cleaned.surface.num_edges()),
+                    options.num_threads, progress);
+    const double num_sites = options.num_samples;
+    const auto base = std::make_shared<const agvd::IntrinsicTriangulation>(
+        std::move(cut.surface),
+        agvd::IntrinsicOptions{
+            .max_length = longest_edge * spacing,
+            .min_length = sizing.is_adaptive ? shortest_edge * spacing : 0,
+            .most_splits = static_cast<Index>(std::min(
+                most_splits_per_site * (num_sites + 1) + cleaned.surface.num_vertices(), 1e9)),
+            .num_threads = options.num_threads,
+            .progress = progress});
+    std::vector<double> values;
+    if (sizing.is_adaptive) {
+        const agvd::FacePieces pieces(*base, piece_share * spacing * spacing, options.num_threads,
+                                      progress);
+        const agvd::SurfaceLayout layout(base->surface(), options.num_threads, progress);
+        values = largest_curvature(*base, pieces, layout,
+                                   static_cast<Index>(std::min(patches_per_site * num_sites, 1e9)),
+                                   options.num_threads, progress);
+    } else {
+        values = carry_values(
+            sizing.target_lengths.empty() ? sizing.densities : sizing.target_lengths, cleaned,
+            cut.original, *base);
+    }
+    std::vector<std::pair<Index, Index>> joined;
+    for (Index v = cut.num_original; v < cut.original.size(); ++v) {
+        joined.emplace_back(cut.original[v], v);
+    }
+    const double area = sizing.gives_count ? 0 : num_sites * std::numbers::sqrt3 / 2;
+    TargetLengths targets =
+        target_lengths(base->surface(), values, joined, sizing, area, ticker);
+    RunSizes sizes{nullptr, options.num_samples, targets.scale};
+    sizes.field = std::make_unique<const SizeField>(base, std::move(targets.length));
+    if (sizing.gives_count) {
+        sizes.num_samples = static_cast<Index>(
+            std::max(1.0, std::round(sizes.field->area() * 2 / std::numbers::sqrt3)));
+    }
+    return sizes;
+}
+
+}  // namespace remesh::detail

@@ -1,0 +1,22 @@
+//! \file
+//! The target lengths of a run.
+#pragma once
+
+#include "remesh/pipeline/curves.h"
+#include "remesh/sizing/size_field.h"
+
+namespace remesh::detail {
+
+struct RunSizes {
+    std::unique_ptr<const SizeField> field;  //!< Null: all edges are equally long.
+    agvd::Index num_samples = 0;             //!< To place; as given, or as the lengths give it.
+    double scale = 0;                        //!< See TargetLengths.
+};
+
+//! \param found    creases and junctions: curvature does not count across them.
+//! \param spacing  mesh units: of the sites in the mean.
+//! Cost: that of a base, and a few sweeps over the edges.
+[[nodiscard]] RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found,
+                                  double spacing, const StageContext& context);
+
+}  // namespace remesh::detail

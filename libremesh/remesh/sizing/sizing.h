@@ -1,0 +1,32 @@
+//! \file
+//! The options of sizing: how long the edges of the result are, and where.
+#pragma once
+
+#include <limits>
+#include <vector>
+
+namespace remesh {
+
+//! At most one of is_adaptive, target_lengths and densities. None: all edges are equally long.
+//! Lengths in mesh units. With a number of samples given, lengths are scaled so that this number
+//! comes out.
+struct Sizing {
+    bool is_adaptive = false;  //!< Shorter edges where the surface is curved: see length_for_error.
+    std::vector<double> target_lengths = {};  //!< > 0, for each of the caller's vertices; or empty.
+    std::vector<double> densities = {};       //!< Likewise: vertices per area, in any unit.
+    double min_edge = 0;                      //!< >= 0: no target is shorter ...
+    double max_edge = std::numeric_limits<double>::infinity();  //!< ... or longer.
+    //! >= 1. Over a distance d targets grow by at most d times its logarithm.
+    double gradation = 1.3;
+    //! > 0: the mean edge of the result; the number of samples follows. 0: not used.
+    double edge_length = 0;
+    //! The number of samples follows from target_lengths, not scaled.
+    bool gives_count = false;
+};
+
+//! Whether all edges have one target.
+[[nodiscard]] inline bool is_uniform(const Sizing& sizing) {
+    return !sizing.is_adaptive && sizing.target_lengths.empty() && sizing.densities.empty();
+}
+
+}  // namespace remesh

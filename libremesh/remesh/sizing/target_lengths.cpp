@@ -1,0 +1,138 @@
+// The scale is found by the secant method on the logarithms of scale and area, which is a straight
+// line but for bounds and gradation.
+#include "remesh/sizing/target_lengths.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "agvd/mesh/face_area.h"
+#include "remesh/sizing/gradation.h"
+#include "remesh/sizing/size_field.h"
+
+namespace remesh {
+namespace {
+
+using agvd::Index;
+using agvd::Surface;
+
+constexpr int most_tries = 12;
+// Relative error of the area at which the search ends. The rest is one factor.
+constexpr double area_tolerance = 2e-3;
+// Longest edge where nothing bounds it, in mean edges: flat parts would get one of their own size.
+constexpr double longest_of_mean = 4;
+// Paths along the edges of a Delaunay triangulation are up to a tenth longer than geodesics.
+constexpr double path_excess = 1.1;
+
+class LengthSearch {
+public:
+    LengthSearch(const Surface& surface, std::span<const double> values,
+                 std::span<const std::pair<Index, Index>> joined, const Sizing& sizing,
+                 double area, agvd::Ticker& ticker)
+        : surface_(surface),
+          values_(values),
+          joined_(joined),
+          sizing_(sizing),
+          area_(area),
+          ticker_(ticker),
+          slope_(std::log(sizing.gradation) / path_excess) {
+        const double real_area = agvd::surface_area(surface);
+        mean_ = std::sqrt(real_area / (area > 0 ? area : 1));
+        longest_ = sizing.max_edge;
+        if (sizing.is_adaptive && area > 0) {
+            longest_ = std::min(longest_, std::max(longest_of_mean * mean_, sizing.min_edge));
+        }
+    }
+
+    TargetLengths run() {
+        if (area_ == 0) return at(1);
+        double scale = first_scale(), slope = sizing_.is_adaptive ? -1 : -2;
+        TargetLengths best = at(scale);
+        double error = error_of(best);
+        double previous_scale = 0, previous_error = 0;
+        for (int i = 1; i < most_tries && std::abs(error) > area_tolerance; ++i) {
+            if (i > 1 && scale != previous_scale) {
+                slope = std::clamp((error - previous_error) / std::log(scale / previous_scale), -4.0,
+                                   -0.2);
+            }
+            previous_scale = scale;
+            previous_error = error;
+            scale *= std::exp(-error / slope);
+            best = at(scale);
+            error = error_of(best);
+        }
+        const double factor = std::exp(error / 2);
+        for (double& length : best.length) length *= factor;
+        return best;
+    }
+
+private:
+    [[nodiscard]] double first_scale() const {
+        if (sizing_.is_adaptive) {
+            // Without bounds the area is the integral of k / 6 e.
+            double sum = 0;
+            for (Index f = 0; f < surface_.num_faces(); ++f) {
+                for (const Index v : surface_.mesh.triangles[f]) {
+                    sum += agvd::face_area(surface_, f) / 3 * values_[v];
+                }
+            }
+            return sum > 0 ? sum / (6 * area_) : mean_;
+        }
+        double sum = 0;
+        for (Index f = 0; f < surface_.num_faces(); ++f) {
+            for (const Index v : surface_.mesh.triangles[f]) {
+                const double length = wanted(v, 1);
+                sum += agvd::face_area(surface_, f) / 3 / (length * length);
+            }
+        }
+        return std::sqrt(sum / area_);
+    }
+
+    [[nodiscard]] double wanted(Index v, double scale) const {
+        if (sizing_.is_adaptive) return length_for_error(values_[v], scale);
+        if (!sizing_.target_lengths.empty()) return scale * values_[v];
+        return scale / std::sqrt(values_[v]);
+    }
+
+    [[nodiscard]] TargetLengths at(double scale) {
+        TargetLengths result;
+        result.scale = sizing_.densities.empty() ? scale : 0;
+        result.length.reserve(values_.size());
+        for (Index v = 0; v < values_.size(); ++v) {
+            result.length.push_back(
+                std::max(std::min(wanted(v, scale), longest_), sizing_.min_edge));
+        }
+        limit_growth(surface_, joined_, slope_, result.length, ticker_);
+        return result;
+    }
+
+    // The logarithm of the area over that wanted.
+    [[nodiscard]] double error_of(const TargetLengths& lengths) const {
+        return std::log(area_in_lengths(surface_, lengths.length) / area_);
+    }
+
+    const Surface& surface_;
+    std::span<const double> values_;
+    std::span<const std::pair<Index, Index>> joined_;
+    const Sizing& sizing_;
+    double area_;
+    agvd::Ticker& ticker_;
+    double slope_;
+    double mean_ = 0, longest_ = 0;
+};
+
+}  // namespace
+
+double length_for_error(double curvature, double error) {
+    if (!(curvature > 0)) return std::numeric_limits<double>::infinity();
+    const double radius = std::max(1 / curvature, error);
+    return std::sqrt(3 * error * (2 * radius - error));
+}
+
+TargetLengths target_lengths(const Surface& surface, std::span<const double> values,
+                             std::span<const std::pair<Index, Index>> joined, const Sizing& sizing,
+                             double area, agvd::Ticker& ticker) {
+    return LengthSearch(surface, values, joined, sizing, area, ticker).run();
+}
+
+}  // namespace remesh
