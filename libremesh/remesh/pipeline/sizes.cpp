@@ -21,7 +21,7 @@ constexpr double longest_edge = 0.85, shortest_edge = 0.15;
 constexpr double most_splits_per_site = 16;
 // Pieces of faces that hold needles, as a share of a cell.
 constexpr double piece_share = 1.0 / 16;
-constexpr double patches_per_site = 4;
+constexpr double cells_per_site = 4;
 
 // The caller's value at each vertex of the base.
 std::vector<double> carry_values(const std::vector<double>& given, const CleanedInput& cleaned,
@@ -82,9 +82,9 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
         const agvd::FacePieces pieces(*base, piece_share * spacing * spacing, options.num_threads,
                                       progress);
         const agvd::SurfaceLayout layout(base->surface(), options.num_threads, progress);
-        values = largest_curvature(*base, pieces, layout,
-                                   static_cast<Index>(std::min(patches_per_site * num_sites, 1e9)),
-                                   options.num_threads, progress);
+        values = patch_curvature(*base, pieces, layout,
+                                 static_cast<Index>(std::min(cells_per_site * num_sites, 1e9)),
+                                 options.num_threads, progress);
     } else {
         values = carry_values(
             sizing.target_lengths.empty() ? sizing.densities : sizing.target_lengths, cleaned,
@@ -94,12 +94,13 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
     for (Index v = cut.num_original; v < cut.original.size(); ++v) {
         joined.emplace_back(cut.original[v], v);
     }
-    const double area = sizing.gives_count ? 0 : num_sites * std::numbers::sqrt3 / 2;
+    const bool gives_count = sizing.gives_count || sizing.max_error > 0;
+    const double area = gives_count ? 0 : num_sites * std::numbers::sqrt3 / 2;
     TargetLengths targets =
         target_lengths(base->surface(), values, joined, sizing, area, ticker);
     RunSizes sizes{nullptr, options.num_samples, targets.scale};
     sizes.field = std::make_unique<const SizeField>(base, std::move(targets.length));
-    if (sizing.gives_count) {
+    if (gives_count) {
         sizes.num_samples = static_cast<Index>(
             std::max(1.0, std::round(sizes.field->area() * 2 / std::numbers::sqrt3)));
     }

@@ -1,12 +1,11 @@
-// Patches are the cells of random points by labels of the vertices. A patch holds the sums of least
-// squares over its pieces; sums of neighbours are added. Notation: x position, n normal, both with
-// the area as weight.
+// Cells are those of random points, by labels of the vertices. On a small patch the normal is a
+// linear function of the position, whose singular values are the principal curvatures: so variances
+// of normals and positions are in the ratio of their mean square.
 #include "remesh/sizing/curvature.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "agvd/core/edge_key.h"
 #include "agvd/core/poller.h"
@@ -19,70 +18,49 @@ namespace {
 using agvd::Index;
 using agvd::no_index;
 using agvd::Vec3;
-using Mat3 = Eigen::Matrix3d;
 
 // Any value works.
-constexpr std::uint64_t patch_seed = 0x5eed;
-// Added to the variance of the positions, as a share of it: where a patch is flat, its normals say
-// nothing about the change across it.
-constexpr double least_variance = 0.02;
+constexpr std::uint64_t cell_seed = 0x5eed;
 
-// By size, of a symmetric matrix; by the trigonometric formula.
-double largest_eigenvalue(const Mat3& matrix) {
-    const double mean = matrix.trace() / 3;
-    const Mat3 rest = matrix - mean * Mat3::Identity();
-    const double size = std::sqrt(rest.squaredNorm() / 6);
-    if (!(size > 0)) return std::abs(mean);
-    const double angle = std::acos(std::clamp((rest / size).determinant() / 2, -1.0, 1.0)) / 3;
-    const double most = mean + 2 * size * std::cos(angle);
-    const double least = mean + 2 * size * std::cos(angle + 2 * std::numbers::pi / 3);
-    return std::max(std::abs(most), std::abs(least));
-}
-
-// Positions count from an origin near the patch.
+// Integrals over a part of the surface. Positions count from the cell's own point, so that
+// differences of squares keep their digits.
 struct PatchSums {
-    double area = 0;
-    Vec3 x = Vec3::Zero(), n = Vec3::Zero();
-    Mat3 xx = Mat3::Zero(), nx = Mat3::Zero();
+    double area = 0, squares = 0;  // Squares of the distances from the point.
+    Vec3 normal = Vec3::Zero(), position = Vec3::Zero();
 
     void add(const agvd::SurfacePiece& piece, const Vec3& origin, double share) {
         const double weight = share * piece.vector.norm();
         const Vec3 at = piece.position - origin;
         area += weight;
-        x += weight * at;
-        n += share * piece.vector;
-        xx += weight * at * at.transpose();
-        nx += share * piece.vector * at.transpose();
+        squares += weight * at.squaredNorm();
+        normal += share * piece.vector;
+        position += weight * at;
     }
-    // The sums of another patch, whose origin is at `offset` from this one.
+    // \param offset  from this part's point to the other's.
     void add(const PatchSums& other, const Vec3& offset) {
         area += other.area;
-        x += other.x + other.area * offset;
-        n += other.n;
-        xx += other.xx + other.x * offset.transpose() + offset * other.x.transpose() +
-              other.area * offset * offset.transpose();
-        nx += other.nx + other.n * offset.transpose();
+        squares +=
+            other.squares + 2 * offset.dot(other.position) + other.area * offset.squaredNorm();
+        normal += other.normal;
+        position += other.position + other.area * offset;
     }
 
     [[nodiscard]] double curvature() const {
         if (!(area > 0)) return 0;
-        Mat3 variance = xx / area - x * x.transpose() / (area * area);
-        const Mat3 together = nx / area - n * x.transpose() / (area * area);
-        const double spread = variance.trace();
-        if (!(spread > 0)) return 0;
-        variance += least_variance * spread * Mat3::Identity();
-        const Mat3 change = together * variance.inverse();
-        return largest_eigenvalue((change + change.transpose()) / 2);
+        const double of_normals = 1 - (normal / area).squaredNorm();
+        const double of_positions = squares / area - (position / area).squaredNorm();
+        return of_positions > 0 ? std::sqrt(std::max(of_normals, 0.0) / of_positions) : 0;
     }
 };
 
-// Pairs of patches that share an edge between their vertices, both ways, sorted.
-std::vector<std::uint64_t> adjacent_pairs(const agvd::Surface& surface,
-                                          const std::vector<Index>& label, agvd::Ticker& ticker) {
+// Keys of the pairs of cells that share an edge between their vertices, both ways, sorted.
+std::vector<std::uint64_t> adjacent_cells(const agvd::Surface& surface,
+                                          const std::vector<Index>& cell, agvd::Ticker& ticker) {
     std::vector<std::uint64_t> pairs;
-    for (Index h = 0; h < surface.twin.size(); ++h) {
+    for (Index e = 0; e < surface.num_edges(); ++e) {
         ticker.tick();
-        const Index a = label[surface.tail(h)], b = label[surface.head(h)];
+        const Index h = surface.edge_half[e];
+        const Index a = cell[surface.tail(h)], b = cell[surface.head(h)];
         if (a == b || a == no_index || b == no_index) continue;
         pairs.push_back((std::uint64_t{a} << 32) | b);
         pairs.push_back((std::uint64_t{b} << 32) | a);
@@ -94,43 +72,40 @@ std::vector<std::uint64_t> adjacent_pairs(const agvd::Surface& surface,
 
 }  // namespace
 
-std::vector<double> largest_curvature(const agvd::IntrinsicTriangulation& base,
-                                      const agvd::FacePieces& pieces,
-                                      const agvd::SurfaceLayout& layout, Index num_patches,
-                                      int num_threads, const agvd::Progress& progress) {
+std::vector<double> patch_curvature(const agvd::IntrinsicTriangulation& base,
+                                    const agvd::FacePieces& pieces,
+                                    const agvd::SurfaceLayout& layout, Index num_cells,
+                                    int num_threads, const agvd::Progress& progress) {
     agvd::Poller poller(progress);
     agvd::Ticker ticker(poller);
     const agvd::Surface& surface = base.surface();
-    const std::vector<agvd::SurfacePoint> seeds =
-        agvd::uniform_points(base.input(), num_patches, patch_seed);
-    const std::vector<Index> label =
-        agvd::distance_bounds(surface, layout, base.to_intrinsic(seeds), num_threads, progress)
+    const std::vector<agvd::SurfacePoint> points =
+        agvd::uniform_points(base.input(), num_cells, cell_seed);
+    const std::vector<Index> cell =
+        agvd::distance_bounds(surface, layout, base.to_intrinsic(points), num_threads, progress)
             .site;
     std::vector<Vec3> origin;
-    for (const agvd::SurfacePoint& seed : seeds) {
-        origin.push_back(agvd::position(base.input().mesh.view(), seed));
+    origin.reserve(points.size());
+    for (const agvd::SurfacePoint& point : points) {
+        origin.push_back(agvd::position(base.input().mesh.view(), point));
     }
-    std::vector<PatchSums> own(num_patches);
+    std::vector<PatchSums> own(points.size());
     for (Index f = 0; f < surface.num_faces(); ++f) {
         ticker.tick();
-        const agvd::Triangle& t = surface.mesh.triangles[f];
         pieces.for_each(f, [&](const agvd::SurfacePiece& piece) {
-            for (const Index v : t) {
-                const Index patch = label[v];
-                if (patch != no_index) own[patch].add(piece, origin[patch], 1.0 / 3);
+            for (const Index v : surface.mesh.triangles[f]) {
+                if (cell[v] != no_index) own[cell[v]].add(piece, origin[cell[v]], 1.0 / 3);
             }
         });
     }
-    std::vector<PatchSums> sums = own;
-    for (const std::uint64_t pair : adjacent_pairs(surface, label, ticker)) {
+    std::vector<PatchSums> patches = own;
+    for (const std::uint64_t pair : adjacent_cells(surface, cell, ticker)) {
         const auto to = static_cast<Index>(pair >> 32), from = static_cast<Index>(pair);
-        sums[to].add(own[from], origin[from] - origin[to]);
+        patches[to].add(own[from], origin[from] - origin[to]);
     }
-    std::vector<double> of_patch;
-    for (const PatchSums& patch : sums) of_patch.push_back(patch.curvature());
     std::vector<double> result;
-    result.reserve(label.size());
-    for (const Index patch : label) result.push_back(patch == no_index ? 0 : of_patch[patch]);
+    result.reserve(cell.size());
+    for (const Index c : cell) result.push_back(c == no_index ? 0 : patches[c].curvature());
     return result;
 }
 

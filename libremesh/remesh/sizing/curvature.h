@@ -10,21 +10,20 @@
 
 namespace remesh {
 
-//! The largest principal curvature. The surface is divided into patches around evenly spread random
-//! points. In each patch and those next to it, normals n are fitted by a linear function of the
-//! position x: n = M x + c. The largest eigenvalue of M, by its size, is the curvature; it depends
-//! on the surface, not on its triangles, and noise finer than a patch cancels out.
+//! The root mean square of the two principal curvatures, averaged over patches: the standard
+//! deviation of the normals over that of the positions. The surface is divided into cells around
+//! evenly spread random points; a patch is a cell with those next to it. The result depends on the
+//! surface, not on its triangles. Patches end at the boundary: cut creases first.
 //!
-//! Patches do not cross the boundary: cut creases first.
 //! \param pieces, layout  of `base`.
-//! \param num_patches     >= 1.
+//! \param num_cells       >= 1.
 //! \return #V of base.surface(): 1 / mesh units, >= 0. The same for any number of threads.
 //! \throw agvd::Cancelled  the progress callback returned false.
 //! Cost: O(n), two sweeps over the edges.
-[[nodiscard]] std::vector<double> largest_curvature(const agvd::IntrinsicTriangulation& base,
-                                                    const agvd::FacePieces& pieces,
-                                                    const agvd::SurfaceLayout& layout,
-                                                    agvd::Index num_patches, int num_threads = 0,
-                                                    const agvd::Progress& progress = {});
+[[nodiscard]] std::vector<double> patch_curvature(const agvd::IntrinsicTriangulation& base,
+                                                  const agvd::FacePieces& pieces,
+                                                  const agvd::SurfaceLayout& layout,
+                                                  agvd::Index num_cells, int num_threads = 0,
+                                                  const agvd::Progress& progress = {});
 
 }  // namespace remesh

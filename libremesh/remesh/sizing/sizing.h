@@ -11,7 +11,12 @@ namespace remesh {
 //! Lengths in mesh units. With a number of samples given, lengths are scaled so that this number
 //! comes out.
 struct Sizing {
-    bool is_adaptive = false;  //!< Shorter edges where the surface is curved: see length_for_error.
+    //! Shorter edges where the surface is curved, as the cubic root of the radius of curvature: the
+    //! RMS distance of the result is least.
+    bool is_adaptive = false;
+    //! > 0: lengths of adaptive edges are those of length_for_error instead, and the number of
+    //! samples follows. 0: not used.
+    double max_error = 0;
     std::vector<double> target_lengths = {};  //!< > 0, for each of the caller's vertices; or empty.
     std::vector<double> densities = {};       //!< Likewise: vertices per area, in any unit.
     double min_edge = 0;                      //!< >= 0: no target is shorter ...

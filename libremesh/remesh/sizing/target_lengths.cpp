@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "agvd/mesh/face_area.h"
 #include "remesh/sizing/gradation.h"
@@ -46,7 +47,7 @@ public:
 
     TargetLengths run() {
         if (area_ == 0) return at(1);
-        double scale = first_scale(), slope = sizing_.is_adaptive ? -1 : -2;
+        double scale = first_scale(), slope = -2;
         TargetLengths best = at(scale);
         double error = error_of(best);
         double previous_scale = 0, previous_error = 0;
@@ -67,36 +68,32 @@ public:
     }
 
 private:
+    // Without bounds and gradation the area is in proportion to 1 / scale^2.
     [[nodiscard]] double first_scale() const {
-        if (sizing_.is_adaptive) {
-            // Without bounds the area is the integral of k / 6 e.
-            double sum = 0;
-            for (Index f = 0; f < surface_.num_faces(); ++f) {
-                for (const Index v : surface_.mesh.triangles[f]) {
-                    sum += agvd::face_area(surface_, f) / 3 * values_[v];
-                }
-            }
-            return sum > 0 ? sum / (6 * area_) : mean_;
-        }
-        double sum = 0;
+        double sum = 0, whole = 0;
         for (Index f = 0; f < surface_.num_faces(); ++f) {
+            const double area = agvd::face_area(surface_, f);
+            whole += area;
             for (const Index v : surface_.mesh.triangles[f]) {
                 const double length = wanted(v, 1);
-                sum += agvd::face_area(surface_, f) / 3 / (length * length);
+                sum += area / 3 / (length * length);
             }
         }
-        return std::sqrt(sum / area_);
+        return std::sqrt((sum > 0 ? sum : whole) / area_);
     }
 
     [[nodiscard]] double wanted(Index v, double scale) const {
-        if (sizing_.is_adaptive) return length_for_error(values_[v], scale);
+        if (sizing_.max_error > 0) {
+            return length_for_error(std::numbers::sqrt2 * values_[v], sizing_.max_error);
+        }
+        if (sizing_.is_adaptive) return scale / std::cbrt(values_[v]);
         if (!sizing_.target_lengths.empty()) return scale * values_[v];
         return scale / std::sqrt(values_[v]);
     }
 
     [[nodiscard]] TargetLengths at(double scale) {
         TargetLengths result;
-        result.scale = sizing_.densities.empty() ? scale : 0;
+        result.scale = sizing_.target_lengths.empty() ? 0 : scale;
         result.length.reserve(values_.size());
         for (Index v = 0; v < values_.size(); ++v) {
             result.length.push_back(

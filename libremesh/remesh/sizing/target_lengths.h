@@ -23,11 +23,12 @@ namespace remesh {
 
 struct TargetLengths {
     std::vector<double> length;  //!< #V; mesh units.
-    //! The error of length_for_error, or the factor to the given lengths; 0 for densities.
+    //! The factor to the given lengths; 0 if none are given.
     double scale = 0;
 };
 
-//! \param values  #V: curvatures, lengths or densities, whichever `sizing` asks for.
+//! \param values  #V: curvatures (patch_curvature), lengths or densities, whichever `sizing` asks
+//!        for.
 //! \param joined  see limit_growth.
 //! \param area    in squares of the local length, that the result has; 0: as the lengths give it.
 //!        Bounds and gradation hold in the scaled lengths unless no scale gives this area: then all
