@@ -19,8 +19,6 @@ using agvd::SurfacePoint;
 // Longest edge of the base, and shortest at vertices without curvature, in spacings.
 constexpr double longest_edge = 0.85, shortest_edge = 0.15;
 constexpr double most_splits_per_site = 16;
-// Pieces of faces that hold needles, as a share of a cell.
-constexpr double piece_share = 1.0 / 16;
 constexpr double cells_per_site = 4;
 
 // The caller's value at each vertex of the base.
@@ -79,12 +77,8 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
             .progress = progress});
     std::vector<double> values;
     if (sizing.is_adaptive) {
-        const agvd::FacePieces pieces(*base, piece_share * spacing * spacing, options.num_threads,
-                                      progress);
-        const agvd::SurfaceLayout layout(base->surface(), options.num_threads, progress);
-        values = patch_curvature(*base, pieces, layout,
-                                 static_cast<Index>(std::min(cells_per_site * num_sites, 1e9)),
-                                 options.num_threads, progress);
+        values = patch_curvature(
+            *base, static_cast<Index>(std::clamp(cells_per_site * num_sites, 1.0, 1e9)), ticker);
     } else {
         values = carry_values(
             sizing.target_lengths.empty() ? sizing.densities : sizing.target_lengths, cleaned,

@@ -1,9 +1,10 @@
-// Dijkstra's algorithm with all vertices as sources: the shortest lengths spread first.
+// Rounds over the vertices that the last round has lowered. The result is the least sum over all
+// paths, whatever the order.
 #include "remesh/sizing/gradation.h"
 
 #include <algorithm>
-#include <functional>
-#include <queue>
+
+#include "remesh/sizing/vertex_edges.h"
 
 namespace remesh {
 namespace {
@@ -15,7 +16,11 @@ class GrowthLimit {
 public:
     GrowthLimit(const Surface& surface, std::span<const std::pair<Index, Index>> joined,
                 double slope, std::span<double> length, agvd::Ticker& ticker)
-        : surface_(surface), slope_(slope), length_(length), ticker_(ticker) {
+        : surface_(surface),
+          slope_(slope),
+          length_(length),
+          ticker_(ticker),
+          waits_(length.size(), 0) {
         for (const auto& [a, b] : joined) {
             copies_.emplace_back(a, b);
             copies_.emplace_back(b, a);
@@ -25,18 +30,22 @@ public:
 
     void run() {
         for (const auto& [a, b] : copies_) lower(a, length_[b]);
-        for (Index h = 0; h < surface_.twin.size(); ++h) {
+        for (Index e = 0; e < surface_.num_edges(); ++e) {
             ticker_.tick();
+            const Index h = surface_.edge_half[e];
             const Index a = surface_.tail(h), b = surface_.head(h);
-            const double rise = slope_ * surface_.length_of(h);
+            const double rise = slope_ * surface_.length[e];
             lower(b, length_[a] + rise);
             lower(a, length_[b] + rise);
         }
-        while (!queue_.empty()) {
-            const auto [length, v] = queue_.top();
-            queue_.pop();
-            ticker_.tick(4);
-            if (length_[v] == length) spread(v);
+        while (!lowered_.empty()) {
+            now_.swap(lowered_);
+            lowered_.clear();
+            for (const Index v : now_) {
+                ticker_.tick(4);
+                waits_[v] = 0;
+                spread(v);
+            }
         }
     }
 
@@ -44,7 +53,9 @@ private:
     void lower(Index vertex, double length) {
         if (!(length < length_[vertex])) return;
         length_[vertex] = length;
-        queue_.emplace(length, vertex);
+        if (waits_[vertex] != 0) return;
+        waits_[vertex] = 1;
+        lowered_.push_back(vertex);
     }
 
     void spread(Index v) {
@@ -53,28 +64,18 @@ private:
              copy != copies_.end() && copy->first == v; ++copy) {
             lower(copy->second, length);
         }
-        const Index first = surface_.outgoing[v];
-        if (first == agvd::no_index) return;
-        Index h = first;
-        do {
-            lower(surface_.head(h), length + slope_ * surface_.length_of(h));
-            const Index in = Surface::previous(h);
-            if (surface_.twin[in] == agvd::no_index) {
-                lower(surface_.tail(in), length + slope_ * surface_.length_of(in));
-                return;
-            }
-            h = surface_.twin[in];
-        } while (h != first);
+        for_each_edge(surface_, v, [&](Index other, Index edge) {
+            lower(other, length + slope_ * surface_.length[edge]);
+        });
     }
-
-    using Entry = std::pair<double, Index>;
 
     const Surface& surface_;
     double slope_;
     std::span<double> length_;
     agvd::Ticker& ticker_;
+    std::vector<std::uint8_t> waits_;              // #V: is in lowered_.
     std::vector<std::pair<Index, Index>> copies_;  // Both ways, sorted.
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+    std::vector<Index> lowered_, now_;
 };
 
 }  // namespace

@@ -19,7 +19,7 @@ using agvd::Surface;
 
 constexpr int most_tries = 12;
 // Relative error of the area at which the search ends. The rest is one factor.
-constexpr double area_tolerance = 2e-3;
+constexpr double area_tolerance = 5e-3;
 // Longest edge where nothing bounds it, in mean edges: flat parts would get one of their own size.
 constexpr double longest_of_mean = 4;
 // Paths along the edges of a Delaunay triangulation are up to a tenth longer than geodesics.
