@@ -4,6 +4,7 @@
 #include "arguments.h"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cmath>
 #include <sstream>
 #include <string>
@@ -41,6 +42,18 @@ std::string check_lambda(const std::string& text) {
     return "lambda is " + text + "; use a number above 0";
 }
 
+// Checks the option; an empty text: valid.
+std::string check_samples(const std::string& text) {
+    const std::optional<Amount> amount = parse_amount(text);
+    if (amount && (amount->is_percent || (amount->value < agvd::no_index &&
+                                          amount->value == std::floor(amount->value)))) {
+        return {};
+    }
+    return "the number of samples is " + text +
+           "; use a whole number from 1 to 4294967294 (such as 2000 or 1e4), or a percentage of "
+           "the input's vertices (such as 10%)";
+}
+
 std::map<std::string, remesh::Init> inits_by_name() {
     return by_name({remesh::Init::Random, remesh::Init::BlueNoise, remesh::Init::Farthest},
                    remesh::init_name);
@@ -48,11 +61,21 @@ std::map<std::string, remesh::Init> inits_by_name() {
 
 void add_site_options(CLI::App& app, DiagramArguments& arguments) {
     remesh::SamplingOptions& sampling = arguments.sampling;
-    auto* samples = app.add_option("-n,--samples,--vertices", sampling.num_samples,
-                                   "Number of sites; remesh makes a vertex of each")
-                        ->check(CLI::Range(agvd::Index{1}, agvd::no_index - 1).description(""))
-                        ->type_name("N")
-                        ->capture_default_str();
+    const auto take_samples = [&arguments](const std::string& text) {
+        const Amount amount = parse_amount(text).value();
+        arguments.sample_percent = amount.is_percent ? amount.value : 0;
+        if (!amount.is_percent) {
+            arguments.sampling.num_samples = static_cast<agvd::Index>(amount.value);
+        }
+    };
+    auto* samples =
+        app.add_option_function<std::string>(
+               "-n,--samples,--vertices", take_samples,
+               "Number of sites, or a percentage of the input's vertices; remesh makes a vertex "
+               "of each")
+            ->check(CLI::Validator(check_samples, ""))
+            ->type_name("N|N%")
+            ->default_str(std::to_string(sampling.num_samples));
     auto* init = add_choice(
         app,
         {"--init", names_of(inits_by_name()), remesh::init_name(sampling.init),
@@ -109,6 +132,28 @@ CLI::Option* add_choice(CLI::App& app, const Choice& choice,
         ->check(CLI::IsMember(choice.names).description(""))
         ->type_name("NAME")
         ->default_str(choice.default_name);
+}
+
+std::optional<Amount> parse_amount(std::string_view text) {
+    Amount amount;
+    amount.is_percent = text.ends_with('%');
+    if (amount.is_percent) text.remove_suffix(1);
+    const char* const end = text.data() + text.size();
+    const auto [last, error] = std::from_chars(text.data(), end, amount.value);
+    if (error != std::errc{} || last != end) return std::nullopt;
+    if (!(amount.value > 0 && std::isfinite(amount.value))) return std::nullopt;
+    return amount;
+}
+
+agvd::Index num_samples_for(const DiagramArguments& arguments, const agvd::MeshView& mesh) {
+    if (arguments.sample_percent == 0) return arguments.sampling.num_samples;
+    const double share = arguments.sample_percent / 100;
+    const double count = std::round(share * static_cast<double>(mesh.positions.size()));
+    if (count >= 1 && count < agvd::no_index) return static_cast<agvd::Index>(count);
+    throw agvd::InvalidOption("--samples is " + std::to_string(arguments.sample_percent) +
+                              " % of " + std::to_string(mesh.positions.size()) +
+                              " vertices, which is " + (count < 1 ? "none" : "too many") +
+                              "; use another percentage or a number");
 }
 
 void add_diagram_options(CLI::App& app, DiagramArguments& arguments) {

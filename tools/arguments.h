@@ -6,6 +6,7 @@
 #include <functional>
 #include <initializer_list>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct DiagramArguments {
     std::filesystem::path input;
     std::filesystem::path sites;  //!< Empty: sample.
     remesh::SamplingOptions sampling;
+    double sample_percent = 0;  //!< Of the input's vertices; 0: sampling.num_samples counts.
     agvd::PropagationOptions propagation;
     std::size_t memory_limit = 0;  //!< Bytes; 0: the machine's memory is unknown.
     bool force = false;
@@ -34,6 +36,18 @@ struct DiagramArguments {
 
 //! Every engine by its name on the command line.
 [[nodiscard]] std::map<std::string, agvd::Engine> engines_by_name();
+
+//! The number of sites for a mesh. \throw agvd::InvalidOption  a percentage gives none.
+[[nodiscard]] agvd::Index num_samples_for(const DiagramArguments& arguments,
+                                          const agvd::MeshView& mesh);
+
+//! A number, or a percentage: 12, 1e4, .5, 20%.
+struct Amount {
+    double value = 0;
+    bool is_percent = false;
+};
+//! Nothing unless the text is such a number, finite and above 0.
+[[nodiscard]] std::optional<Amount> parse_amount(std::string_view text);
 
 //! Adds IN, --samples, --init, --seed, --sites, --engine, --max-error, --steiner-points, --lambda,
 //! --memory-limit, --force, --lenient and the common options.

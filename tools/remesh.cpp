@@ -15,6 +15,7 @@
 #include "remesh/io/report.h"
 #include "remesh/io/write_mesh.h"
 #include "remesh/pipeline/remesh.h"
+#include "sizing_arguments.h"
 
 namespace fs = std::filesystem;
 
@@ -24,6 +25,7 @@ constexpr const char* footer =
     "Examples:\n"
     "  remesh bunny.ply --samples 2000 out.obj\n"
     "  remesh scan.stl -n 5000 -o scan.ply --report scan.json\n"
+    "  remesh part.stl --edge-length 2% --adaptive part.obj\n"
     "  remesh part.off --sites sites.txt part.obj --report - | jq .\n\n";
 
 struct Arguments : cli::DiagramArguments {
@@ -40,7 +42,7 @@ struct Arguments : cli::DiagramArguments {
     double feature_angle = remesh::RemeshOptions{}.feature_angle;
     fs::path feature_edges;  // Empty: none.
     remesh::Junctions junctions = remesh::RemeshOptions{}.junctions;
-    remesh::Sizing sizing;
+    cli::SizingArguments sizing;
 };
 
 std::map<std::string, remesh::Delaunay> delaunay_by_name() {
@@ -135,19 +137,11 @@ void add_result_options(CLI::App& app, Arguments& arguments) {
         });
 }
 
-void add_sizing_options(CLI::App& app, remesh::Sizing& sizing) {
-    app.add_flag("--adaptive", sizing.is_adaptive,
-                 "Shorter edges where the surface is curved, longer ones elsewhere");
-    app.add_option("--gradation,--hgrad", sizing.gradation)->capture_default_str();
-    app.add_option("--min-edge,--hmin", sizing.min_edge);
-    app.add_option("--max-edge,--hmax", sizing.max_edge);
-}
-
 void add_options(CLI::App& app, Arguments& arguments) {
     cli::add_diagram_options(app, arguments);
     add_result_options(app, arguments);
     add_feature_options(app, arguments);
-    add_sizing_options(app, arguments.sizing);
+    cli::add_sizing_options(app, arguments.sizing);
     app.add_option("--drop-components", arguments.drop_components,
                    "Drop components with less than this percentage of the area")
         ->check(CLI::Range(0.0, 100.0).description(""))
@@ -223,8 +217,8 @@ void run_job(const Arguments& arguments, cli::Console& console) {
     std::vector<agvd::Index>().swap(input.face_polygon);  // Not used any more.
     console.info(cli::describe(arguments.input, input.mesh.view()));
     remesh::RemeshOptions options{
-        .num_samples = arguments.sampling.num_samples,
-        .sizing = arguments.sizing,
+        .num_samples = cli::num_samples_for(arguments, input.mesh.view()),
+        .sizing = cli::sizing_for(arguments.sizing, input.mesh.view()),
         .vertex_count = arguments.vertex_count,
         .boundary = arguments.sampling.boundary,
         .drop_components = arguments.drop_components / 100,

@@ -149,9 +149,35 @@ Json to_json(const JunctionCounts& counts) {
             {"welded_edges", counts.welded_edges}};
 }
 
+Json to_json(const Sizing& sizing) {
+    Json object;
+    object["adaptive"] = sizing.is_adaptive;
+    object["given_target_lengths"] = sizing.target_lengths.size();
+    object["given_densities"] = sizing.densities.size();
+    object["min_edge_mesh_units"] = sizing.min_edge;
+    object["max_edge_mesh_units"] = sizing.max_edge;
+    object["gradation"] = sizing.gradation;
+    object["edge_length_mesh_units"] = sizing.edge_length > 0 ? Json(sizing.edge_length) : Json();
+    object["faces"] = sizing.num_faces > 0 ? Json(sizing.num_faces) : Json();
+    object["max_error_mesh_units"] = sizing.max_error > 0 ? Json(sizing.max_error) : Json();
+    return object;
+}
+
+Json to_json(const SizingResult& sizing) {
+    const bool has_targets = sizing.largest_target > 0;
+    const auto measured = [&](double value) { return has_targets ? Json(value) : Json(); };
+    return {{"samples", sizing.num_samples},
+            {"mean_edge_mesh_units", sizing.mean_edge},
+            {"least_target_mesh_units", measured(sizing.least_target)},
+            {"largest_target_mesh_units", measured(sizing.largest_target)},
+            {"edge_over_target_5th_percentile", measured(sizing.low_ratio)},
+            {"edge_over_target_95th_percentile", measured(sizing.high_ratio)}};
+}
+
 Json to_json(const RemeshOptions& options) {
     Json object;
     object["samples"] = options.num_samples;
+    object["sizing"] = to_json(options.sizing);
     object["topology"] = options.vertex_count == VertexCount::Exact ? "exact" : "add";
     object["boundary"] = options.boundary == Boundary::Keep ? "keep" : "free";
     object["drop_components"] = options.drop_components;
@@ -202,6 +228,7 @@ std::string to_json(const RemeshResult& result, const RunInfo& info) {
     object["sites_dropped"] = result.sites_dropped;
     object["features"] = to_json(result.features);
     object["junctions"] = to_json(result.junctions);
+    object["sizing"] = to_json(result.sizing);
     object["repair_rounds"] = result.repair_rounds;
     object["delaunay"] = to_json(result.delaunay, info.options.delaunay);
     object["unfitted_vertices"] = result.unfitted_vertices;

@@ -32,6 +32,14 @@ std::string fixed(double value, int digits) {
     return out.str();
 }
 
+// printf's %.4g, without a locale's comma.
+std::string significant(double value) {
+    std::ostringstream out;
+    out.imbue(std::locale::classic());
+    out << std::setprecision(4) << value;
+    return out.str();
+}
+
 std::string describe(const Topology& topology) {
     return counted(topology.components.size(), "component") + ", genus " +
            std::to_string(topology.genus()) + ", " +
@@ -214,6 +222,19 @@ std::string describe(const JunctionCounts& junctions) {
 
 }  // namespace
 
+namespace {
+
+std::string to_text(const SizingResult& sizing) {
+    std::string text = "edges: " + counted(sizing.num_samples, "sample") + ", mean edge " +
+                       significant(sizing.mean_edge);
+    if (sizing.largest_target == 0) return text;
+    return text + ", targets from " + significant(sizing.least_target) + " to " +
+           significant(sizing.largest_target) + ", 90 % of the edges are " +
+           fixed(sizing.low_ratio, 2) + " to " + fixed(sizing.high_ratio, 2) + " times theirs";
+}
+
+}  // namespace
+
 std::string to_text(const RemeshResult& result, const RunInfo& info) {
     std::string text;
     if (!info.input_path.empty()) text += "input: " + info.input_path + '\n';
@@ -228,6 +249,7 @@ std::string to_text(const RemeshResult& result, const RunInfo& info) {
                 (rise > 0 ? "raised" : "lowered") + " by " + fixed(100 * std::abs(rise), 1) +
                 " %\n";
     }
+    text += to_text(result.sizing) + '\n';
     text += "result: " + counted(result.mesh.positions.size(), "vertex") + ", " +
             counted(result.mesh.triangles.size(), "face") +
             (result.junctions.welded_edges > 0 ? "; same topology before the sheets were welded"

@@ -11,7 +11,68 @@
 namespace remesh {
 namespace {
 
-void check_options(const RemeshOptions& options, std::size_t num_faces) {
+void check_values(const char* name, const std::vector<double>& values, std::size_t num_vertices) {
+    if (values.empty()) return;
+    if (values.size() != num_vertices) {
+        throw agvd::InvalidOption(std::string(name) + " has " + std::to_string(values.size()) +
+                                  " values, but the mesh has " + std::to_string(num_vertices) +
+                                  " vertices; give one for each, or none");
+    }
+    const auto is_bad = [](double value) { return !(value > 0 && std::isfinite(value)); };
+    const auto bad = std::find_if(values.begin(), values.end(), is_bad);
+    if (bad == values.end()) return;
+    throw agvd::InvalidOption(std::string(name) + " is " + std::to_string(*bad) + " at vertex " +
+                              std::to_string(bad - values.begin()) + "; use numbers above 0");
+}
+
+void check_sizing(const RemeshOptions& options, std::size_t num_vertices) {
+    const Sizing& sizing = options.sizing;
+    check_values("target_lengths", sizing.target_lengths, num_vertices);
+    check_values("densities", sizing.densities, num_vertices);
+    const int num_fields = (sizing.is_adaptive ? 1 : 0) + (sizing.target_lengths.empty() ? 0 : 1) +
+                           (sizing.densities.empty() ? 0 : 1);
+    if (num_fields > 1) {
+        throw agvd::InvalidOption(
+            "several of is_adaptive, target_lengths and densities are given; use one of them");
+    }
+    const int num_counts = (sizing.max_error > 0 ? 1 : 0) + (sizing.edge_length > 0 ? 1 : 0) +
+                           (sizing.num_faces > 0 ? 1 : 0) + (sizing.gives_count ? 1 : 0);
+    if (num_counts > 1) {
+        throw agvd::InvalidOption(
+            "several of max_error, edge_length, num_faces and gives_count are given; use one of "
+            "them");
+    }
+    if (sizing.max_error > 0 && !sizing.is_adaptive) {
+        throw agvd::InvalidOption("max_error needs is_adaptive");
+    }
+    if (sizing.gives_count && sizing.target_lengths.empty()) {
+        throw agvd::InvalidOption("gives_count needs target_lengths");
+    }
+    const auto is_length = [](double value) { return value >= 0 && std::isfinite(value); };
+    if (!is_length(sizing.max_error) || !is_length(sizing.edge_length)) {
+        throw agvd::InvalidOption("max_error and edge_length must be 0 or more");
+    }
+    if (!(sizing.min_edge >= 0 && sizing.max_edge > 0 && sizing.min_edge <= sizing.max_edge)) {
+        throw agvd::InvalidOption("min_edge is " + std::to_string(sizing.min_edge) +
+                                  " and max_edge " + std::to_string(sizing.max_edge) +
+                                  "; use numbers above 0, the second not below the first");
+    }
+    if (!(sizing.gradation >= 1 && std::isfinite(sizing.gradation))) {
+        throw agvd::InvalidOption("gradation is " + std::to_string(sizing.gradation) +
+                                  "; use a number of 1 or more");
+    }
+}
+
+// Multiplies all lengths by 2^exponent.
+void scale_lengths(Sizing& sizing, int exponent) {
+    for (double& length : sizing.target_lengths) length = std::ldexp(length, exponent);
+    for (double* length :
+         {&sizing.min_edge, &sizing.max_edge, &sizing.edge_length, &sizing.max_error}) {
+        *length = std::ldexp(*length, exponent);
+    }
+}
+
+void check_options(const RemeshOptions& options, std::size_t num_vertices, std::size_t num_faces) {
     if (options.num_samples < 1) {
         throw agvd::InvalidOption("num_samples is 0; use 1 or more");
     }
@@ -36,13 +97,16 @@ void check_options(const RemeshOptions& options, std::size_t num_faces) {
                                   " labels, but the mesh has " + std::to_string(num_faces) +
                                   " faces; give one for each, or none");
     }
+    check_sizing(options, num_vertices);
     agvd::check_num_threads(options.num_threads);
 }
 
 // Scales the lengths of a result back: it was computed from the mesh times 2^-exponent.
 void scale_back(RemeshResult& result, int exponent) {
     result.mesh = agvd::scaled(result.mesh.view(), exponent);
-    for (double* length : {&result.features.length, &result.features.dropped_length}) {
+    for (double* length :
+         {&result.features.length, &result.features.dropped_length, &result.sizing.mean_edge,
+          &result.sizing.least_target, &result.sizing.largest_target}) {
         *length = std::ldexp(*length, exponent);
     }
     for (ComponentTopology& component : result.input_topology.components) {
@@ -54,12 +118,14 @@ void scale_back(RemeshResult& result, int exponent) {
 }
 
 RemeshResult run(const detail::InputMesh& input, const RemeshOptions& options) {
-    check_options(options, input.view.triangles.size());
+    check_options(options, input.view.positions.size(), input.view.triangles.size());
     const double size = agvd::box_of(input.view, options.num_threads).longest_side();
     if (agvd::is_in_scale(size)) return detail::run_stages(input, options);
     const int exponent = std::ilogb(size);
     agvd::TriangleMesh normal = agvd::scaled(input.view, -exponent);
-    RemeshResult result = detail::run_stages({normal.view(), &normal}, options);
+    RemeshOptions scaled_options = options;
+    scale_lengths(scaled_options.sizing, -exponent);
+    RemeshResult result = detail::run_stages({normal.view(), &normal}, scaled_options);
     scale_back(result, exponent);
     return result;
 }

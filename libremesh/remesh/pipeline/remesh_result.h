@@ -46,6 +46,16 @@ struct JunctionCounts {
     agvd::Index welded_edges = 0;     //!< Edges of the result with more than two faces.
 };
 
+//! Lengths of the result's edges, in mesh units.
+struct SizingResult {
+    agvd::Index num_samples = 0;  //!< Asked for, or as edge length, faces or targets gave it.
+    double mean_edge = 0;         //!< Of the result.
+    //! Least and largest target at the result's vertices. 0: all targets are equal.
+    double least_target = 0, largest_target = 0;
+    //! Edges over the mean of the targets at their ends: 5th and 95th percentile.
+    double low_ratio = 0, high_ratio = 0;
+};
+
 //! Plain values owned by the caller; nothing points back into the input.
 struct RemeshResult {
     //! Oriented 2-manifold with the topology of the cleaned input; Junctions::Keep welds its sheets
@@ -70,6 +80,7 @@ struct RemeshResult {
     agvd::Index components_thinned = 0;
     FeatureCounts features = {};
     JunctionCounts junctions = {};
+    SizingResult sizing = {};
     DelaunayCounts delaunay = {};  //!< Edges that failed, were flipped, still fail.
     //! Intersecting pairs of faces of the result and, if that is not 0, of the cleaned input.
     //! Sheets that touch at a junction with equal points do not count. Unset: without CGAL.

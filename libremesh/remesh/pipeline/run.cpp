@@ -8,6 +8,7 @@
 
 #include "remesh/clean/carry_sites.h"
 #include "remesh/pipeline/check_result.h"
+#include "remesh/pipeline/sample_count.h"
 #include "remesh/pipeline/sizes.h"
 #include "remesh/sampling/minimum_samples.h"
 
@@ -36,6 +37,8 @@ void run_attempt(CleanedInput& cleaned, const FoundCurves& found, const KeptCurv
         BuiltMesh built = build_mesh(domain, sites, most_mends, context);
         check_result(cleaned, domain, sites.chain, built, context);
         const agvd::MeshView cleaned_mesh = domain.whole->mesh.view();
+        context.result.sizing =
+            measure_edges(built.mesh.view(), built.sites, context.options.num_samples, sizes);
         context.result.sites =
             to_original(built.sites, cleaned.given, {cleaned_mesh, cleaned.face_origin});
         context.result.mesh = std::move(built.mesh);
@@ -55,11 +58,17 @@ Index num_new_crossings(const RemeshResult& result) {
 // Tries all creases, then fewer and fewer, at last none, until a mesh has no new
 // self-intersections. If none of these gives a mesh, tries the same without junctions.
 RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cleaning,
-                             const RemeshOptions& options) {
+                             const RemeshOptions& given) {
     RemeshResult first = after_cleaning;
-    const double spacing = spacing_of(cleaned, options);
-    const FoundCurves found = find_curves(cleaned, spacing, {options, first});
-    const RunSizes sizes = find_sizes(cleaned, found, spacing, {options, first});
+    RemeshOptions options = given;
+    FoundCurves found = find_curves(cleaned, spacing_of(cleaned, options), {options, first});
+    RunSizes sizes = find_sizes(cleaned, found, spacing_of(cleaned, options), {options, first});
+    if (sizes.num_samples != options.num_samples) {
+        options.num_samples = sizes.num_samples;
+        found = find_curves(cleaned, spacing_of(cleaned, options), {options, first});
+        sizes = find_sizes(cleaned, found, spacing_of(cleaned, options), {options, first});
+        options.num_samples = sizes.num_samples;
+    }
     const std::vector<double> drop_shares =
         found.is_crease.empty() ? std::vector{0.0} : std::vector{0.0, 0.3, 0.6, 1.0};
     std::optional<RemeshResult> best;
@@ -124,7 +133,8 @@ std::string describe_enough(CleanedInput& cleaned, const RemeshResult& after_cle
 
 }  // namespace
 
-RemeshResult run_stages(const InputMesh& input, const RemeshOptions& options) {
+RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
+    RemeshOptions options = given;
     RemeshResult result;
     for (const Stage stage :
          {Stage::Clean, Stage::Sample, Stage::Relax, Stage::Propagate, Stage::Diagram, Stage::Dual,
@@ -133,8 +143,16 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& options) {
     }
     CleanedInput cleaned = clean_stage(input, {options, result});
     try {
+        options.num_samples = sample_count(cleaned, options);
         require_least_samples(cleaned.topology, options);
-        result = run_with_curves(cleaned, result, options);
+        const RemeshResult after_cleaning = result;
+        result = run_with_curves(cleaned, after_cleaning, options);
+        if (const auto length = corrected_edge_length(result.sizing.mean_edge, options)) {
+            options.sizing.edge_length = *length;
+            options.num_samples = sample_count(cleaned, options);
+            require_least_samples(cleaned.topology, options);
+            result = run_with_curves(cleaned, after_cleaning, options);
+        }
     } catch (const TooFewSamples& failure) {
         const std::string asked = std::to_string(failure.asked);
         const std::string who = options.sites

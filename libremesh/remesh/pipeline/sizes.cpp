@@ -2,11 +2,15 @@
 // creases cut the surface in other ways, but its faces stay.
 #include "remesh/pipeline/sizes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "agvd/core/edge_key.h"
 #include "agvd/core/poller.h"
+#include "agvd/mesh/face_area.h"
+#include "remesh/pipeline/sample_count.h"
 #include "remesh/sizing/curvature.h"
 #include "remesh/sizing/target_lengths.h"
 
@@ -20,6 +24,8 @@ using agvd::SurfacePoint;
 constexpr double longest_edge = 0.85, shortest_edge = 0.15;
 constexpr double most_splits_per_site = 16;
 constexpr double cells_per_site = 4;
+// With a mean edge given, the number of samples is found in so many rounds.
+constexpr int edge_length_tries = 2;
 
 // The caller's value at each vertex of the base.
 std::vector<double> carry_values(const std::vector<double>& given, const CleanedInput& cleaned,
@@ -39,6 +45,19 @@ std::vector<double> carry_values(const std::vector<double>& given, const Cleaned
         values.push_back(value);
     }
     return values;
+}
+
+// The mean over the vertices of a mesh that follows these lengths.
+double mean_length(const agvd::Surface& surface, std::span<const double> length) {
+    double lengths = 0, vertices = 0;
+    for (Index f = 0; f < surface.num_faces(); ++f) {
+        const double area = agvd::face_area(surface, f);
+        for (const Index v : surface.mesh.triangles[f]) {
+            lengths += area / length[v];
+            vertices += area / (length[v] * length[v]);
+        }
+    }
+    return lengths / vertices;
 }
 
 std::vector<std::uint8_t> edges_to_cut(const FoundCurves& found, Index num_edges) {
@@ -65,7 +84,8 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
     CutSurface cut =
         cut_surface(cleaned.surface, edges_to_cut(found, cleaned.surface.num_edges()),
                     options.num_threads, progress);
-    const double num_sites = options.num_samples;
+    const double num_sites =
+        options.sites ? static_cast<double>(options.sites->size()) : options.num_samples;
     const auto base = std::make_shared<const agvd::IntrinsicTriangulation>(
         std::move(cut.surface),
         agvd::IntrinsicOptions{
@@ -88,17 +108,47 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
     for (Index v = cut.num_original; v < cut.original.size(); ++v) {
         joined.emplace_back(cut.original[v], v);
     }
-    const bool gives_count = sizing.gives_count || sizing.max_error > 0;
-    const double area = gives_count ? 0 : num_sites * std::numbers::sqrt3 / 2;
-    TargetLengths targets =
-        target_lengths(base->surface(), values, joined, sizing, area, ticker);
+    const bool gives_count = !options.sites && (sizing.gives_count || sizing.max_error > 0);
+    const bool is_edge_given = sizing.edge_length > 0 && !options.sites;
+    double area = gives_count ? 0 : num_sites * std::numbers::sqrt3 / 2;
+    TargetLengths targets = target_lengths(base->surface(), values, joined, sizing, area, ticker);
+    for (int i = 0; i < edge_length_tries && is_edge_given; ++i) {
+        const double ratio = mean_length(base->surface(), targets.length) / sizing.edge_length;
+        area *= ratio * ratio;
+        targets = target_lengths(base->surface(), values, joined, sizing, area, ticker);
+    }
     RunSizes sizes{nullptr, options.num_samples, targets.scale};
     sizes.field = std::make_unique<const SizeField>(base, std::move(targets.length));
-    if (gives_count) {
+    if (gives_count || is_edge_given) {
         sizes.num_samples = static_cast<Index>(
             std::max(1.0, std::round(sizes.field->area() * 2 / std::numbers::sqrt3)));
     }
     return sizes;
+}
+
+SizingResult measure_edges(const agvd::MeshView& mesh, std::span<const SurfacePoint> sites,
+                           Index num_samples, const SizeField* sizes) {
+    SizingResult result{.num_samples = num_samples, .mean_edge = mean_edge(mesh)};
+    if (sizes == nullptr) return result;
+    const std::vector<double> target = sizes->at(sites);
+    std::vector<double> ratios;  // Each inner edge twice.
+    for (const agvd::Triangle& t : mesh.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index a = t[k], b = t[(k + 1) % 3];
+            const double length = (mesh.positions[a] - mesh.positions[b]).norm();
+            ratios.push_back(2 * length / (target[a] + target[b]));
+        }
+    }
+    std::sort(ratios.begin(), ratios.end());
+    const auto percentile = [&](std::size_t percent) {
+        return ratios[(ratios.size() - 1) * percent / 100];
+    };
+    const auto [least, largest] = std::minmax_element(target.begin(), target.end());
+    result.least_target = *least;
+    result.largest_target = *largest;
+    result.low_ratio = percentile(5);
+    result.high_ratio = percentile(95);
+    return result;
 }
 
 }  // namespace remesh::detail

@@ -19,4 +19,13 @@ struct RunSizes {
 [[nodiscard]] RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found,
                                   double spacing, const StageContext& context);
 
+//! Compares a mesh with the target lengths.
+//!
+//! \param sites  #V: places of the vertices on the surface.
+//! \param sizes  null: all targets are equal.
+//! Cost: O(n log n).
+[[nodiscard]] SizingResult measure_edges(const agvd::MeshView& mesh,
+                                         std::span<const agvd::SurfacePoint> sites,
+                                         agvd::Index num_samples, const SizeField* sizes);
+
 }  // namespace remesh::detail

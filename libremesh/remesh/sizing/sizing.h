@@ -5,11 +5,13 @@
 #include <limits>
 #include <vector>
 
+#include "agvd/core/types.h"
+
 namespace remesh {
 
-//! At most one of is_adaptive, target_lengths and densities. None: all edges are equally long.
-//! Lengths in mesh units. With a number of samples given, lengths are scaled so that this number
-//! comes out.
+//! Lengths in mesh units. Where: at most one of is_adaptive, target_lengths and densities; none:
+//! all edges are equally long. How many: at most one of max_error, edge_length, num_faces and
+//! gives_count; none: lengths are scaled so that RemeshOptions::num_samples vertices come out.
 struct Sizing {
     //! Shorter edges where the surface is curved, as the cubic root of the radius of curvature: the
     //! RMS distance of the result is least.
@@ -25,6 +27,8 @@ struct Sizing {
     double gradation = 1.3;
     //! > 0: the mean edge of the result; the number of samples follows. 0: not used.
     double edge_length = 0;
+    //! > 0: faces of the result, up to a few along the boundary. 0: not used.
+    agvd::Index num_faces = 0;
     //! The number of samples follows from target_lengths, not scaled.
     bool gives_count = false;
 };

@@ -1,0 +1,111 @@
+#include "remesh/pipeline/sample_count.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "agvd/core/edge_key.h"
+#include "agvd/mesh/face_area.h"
+
+namespace remesh::detail {
+namespace {
+
+using agvd::Index;
+using agvd::Surface;
+
+constexpr double most_samples = 8e8;
+// The mean edge of a relaxed result over that of equilateral triangles, and without relaxation.
+constexpr double relaxed_excess = 1.003, unrelaxed_excess = 1.025;
+// Largest relative error of the mean edge that is not corrected, and largest correction.
+constexpr double near_enough = 0.008, most_correction = 1.5;
+
+double boundary_length(const Surface& surface) {
+    double length = 0;
+    for (Index h = 0; h < surface.twin.size(); ++h) {
+        if (surface.twin[h] == agvd::no_index) length += surface.length_of(h);
+    }
+    return length;
+}
+
+// Vertices of a mesh of equilateral triangles.
+double vertices_for(double edge, double area, double boundary) {
+    return 2 / std::numbers::sqrt3 * area / (edge * edge) + boundary / (2 * edge);
+}
+
+// By Euler's formula F = 2 (V - X) - B, where B edges of the boundary are as long as the others.
+double vertices_for_faces(double faces, const CleanedInput& cleaned) {
+    const double area = agvd::surface_area(cleaned.surface);
+    const double boundary = boundary_length(cleaned.surface);
+    double euler = 0;
+    for (const ComponentTopology& c : cleaned.topology.components) {
+        euler += 2 - 2 * c.genus - c.boundary_loops;
+    }
+    const double edge = std::sqrt(4 / std::numbers::sqrt3 * area / faces);
+    return (faces + boundary / edge) / 2 + euler;
+}
+
+// The integral of the density over the faces of the input.
+double vertices_for_targets(const CleanedInput& cleaned, const std::vector<double>& targets) {
+    const auto target = [&](Index v) {
+        return targets[cleaned.vertex_origin.empty() ? v : cleaned.vertex_origin[v]];
+    };
+    double sum = 0;
+    for (Index f = 0; f < cleaned.surface.num_faces(); ++f) {
+        const auto& [a, b, c] = cleaned.surface.mesh.triangles[f];
+        const double length = (target(a) + target(b) + target(c)) / 3;
+        sum += agvd::face_area(cleaned.surface, f) / (length * length);
+    }
+    return 2 / std::numbers::sqrt3 * sum;
+}
+
+Index to_count(double vertices) {
+    if (!(vertices <= most_samples)) {
+        throw agvd::InvalidOption("the lengths asked for need more than " +
+                                  std::to_string(static_cast<Index>(most_samples)) +
+                                  " vertices; use longer ones");
+    }
+    return static_cast<Index>(std::max(1.0, std::round(vertices)));
+}
+
+}  // namespace
+
+Index sample_count(const CleanedInput& cleaned, const RemeshOptions& options) {
+    const Sizing& sizing = options.sizing;
+    if (options.sites) return options.num_samples;
+    if (sizing.edge_length > 0) {
+        const double excess = options.relax_steps > 0 ? relaxed_excess : unrelaxed_excess;
+        return to_count(vertices_for(sizing.edge_length / excess,
+                                     agvd::surface_area(cleaned.surface),
+                                     boundary_length(cleaned.surface)));
+    }
+    if (sizing.num_faces > 0) return to_count(vertices_for_faces(sizing.num_faces, cleaned));
+    if (sizing.gives_count) {
+        return to_count(vertices_for_targets(cleaned, sizing.target_lengths));
+    }
+    return options.num_samples;
+}
+
+std::optional<double> corrected_edge_length(double mean_edge, const RemeshOptions& options) {
+    const double wanted = options.sizing.edge_length;
+    if (options.sites || !(wanted > 0) || !(mean_edge > 0)) return std::nullopt;
+    const double ratio = wanted / mean_edge;
+    if (std::abs(ratio - 1) < near_enough) return std::nullopt;
+    return wanted * std::clamp(ratio, 1 / most_correction, most_correction);
+}
+
+double mean_edge(const agvd::MeshView& mesh) {
+    std::vector<std::uint64_t> edges;
+    for (const agvd::Triangle& t : mesh.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) edges.push_back(agvd::edge_key(t[k], t[(k + 1) % 3]));
+    }
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    double sum = 0;
+    for (const std::uint64_t edge : edges) {
+        sum += (mesh.positions[static_cast<Index>(edge)] - mesh.positions[edge >> 32]).norm();
+    }
+    return edges.empty() ? 0 : sum / static_cast<double>(edges.size());
+}
+
+}  // namespace remesh::detail

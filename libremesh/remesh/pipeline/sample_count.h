@@ -1,0 +1,26 @@
+//! \file
+//! How many samples a run places.
+#pragma once
+
+#include "remesh/pipeline/cleaned_input.h"
+
+namespace remesh::detail {
+
+//! The number of samples by which the options' edge length, number of faces or target lengths come
+//! out; num_samples if they have none of these. Creases and junctions do not count yet.
+//!
+//! \throw agvd::InvalidOption  the number would be too large.
+//! Cost: O(#F).
+[[nodiscard]] agvd::Index sample_count(const CleanedInput& cleaned, const RemeshOptions& options);
+
+//! The edge length to ask for so that the mean edge comes nearer to options.sizing.edge_length;
+//! nothing if it is near enough.
+//!
+//! \param mean_edge  of the result with these options.
+[[nodiscard]] std::optional<double> corrected_edge_length(double mean_edge,
+                                                          const RemeshOptions& options);
+
+//! The mean length of the edges of a mesh; 0 without faces. Cost: O(#F).
+[[nodiscard]] double mean_edge(const agvd::MeshView& mesh);
+
+}  // namespace remesh::detail

@@ -1,0 +1,99 @@
+#include "sizing_arguments.h"
+
+#include <CLI/CLI.hpp>
+
+#include "agvd/mesh/scale.h"
+
+namespace cli {
+namespace {
+
+// Checks the option; an empty text: valid.
+std::string check_length(const std::string& text) {
+    if (parse_amount(text)) return {};
+    return "the length is " + text +
+           "; use a number above 0, or a percentage of the diagonal of the mesh (such as 2%)";
+}
+
+// Checks the option; an empty text: valid.
+std::string check_faces(const std::string& text) {
+    const std::optional<Amount> amount = parse_amount(text);
+    if (amount && !amount->is_percent && amount->value >= 1 && amount->value < agvd::no_index) {
+        return {};
+    }
+    return "the number of faces is " + text + "; use a whole number of 1 or more";
+}
+
+std::string check_gradation(const std::string& text) {
+    const std::optional<Amount> amount = parse_amount(text);
+    if (amount && !amount->is_percent && amount->value >= 1) return {};
+    return "the gradation is " + text + "; use a number of 1 or more (such as 1.3)";
+}
+
+CLI::Option* add_length(CLI::App& app, const std::string& flag, const std::string& help,
+                        std::optional<Amount>& length) {
+    return app
+        .add_option_function<std::string>(
+            flag, [&length](const std::string& text) { length = parse_amount(text); }, help)
+        ->check(CLI::Validator(check_length, ""))
+        ->type_name("L|L%");
+}
+
+}  // namespace
+
+void add_sizing_options(CLI::App& app, SizingArguments& arguments) {
+    remesh::Sizing& sizing = arguments.sizing;
+    CLI::Option* const samples = app.get_option("--samples");
+    CLI::Option* const sites = app.get_option("--sites");
+    const auto take_faces = [&sizing](const std::string& text) {
+        sizing.num_faces = static_cast<agvd::Index>(parse_amount(text).value().value);
+    };
+    CLI::Option* const faces =
+        app.add_option_function<std::string>("--faces", take_faces,
+                                             "Number of faces of the result, instead of --samples")
+            ->check(CLI::Validator(check_faces, ""))
+            ->type_name("N")
+            ->excludes(samples)
+            ->excludes(sites);
+    add_length(app, "--edge-length,--hsiz",
+               "Mean edge of the result, in mesh units or percent of the diagonal, instead of "
+               "--samples",
+               arguments.edge)
+        ->excludes(samples)
+        ->excludes(sites)
+        ->excludes(faces);
+    CLI::Option* const adaptive =
+        app.add_flag("--adaptive", sizing.is_adaptive,
+                     "Shorter edges where the surface is curved, longer ones elsewhere");
+    add_length(app, "--min-edge,--hmin", "With --adaptive: no edge is meant to be shorter",
+               arguments.min_edge)
+        ->needs(adaptive);
+    add_length(app, "--max-edge,--hmax", "With --adaptive: no edge is meant to be longer",
+               arguments.max_edge)
+        ->needs(adaptive);
+    const auto take_gradation = [&sizing](const std::string& text) {
+        sizing.gradation = parse_amount(text).value().value;
+    };
+    app.add_option_function<std::string>(
+           "--gradation,--hgrad", take_gradation,
+           "With --adaptive: largest ratio of edges next to each other; more precisely, over a "
+           "distance d edges grow by at most d times its logarithm")
+        ->check(CLI::Validator(check_gradation, ""))
+        ->type_name("G")
+        ->default_str("1.3")
+        ->needs(adaptive);
+}
+
+remesh::Sizing sizing_for(const SizingArguments& arguments, const agvd::MeshView& mesh) {
+    remesh::Sizing sizing = arguments.sizing;
+    const auto [low, high] = agvd::box_of(mesh);
+    const double percent = low.x() > high.x() ? 0 : (high - low).norm() / 100;
+    const auto take = [&](const std::optional<Amount>& amount, double& length) {
+        if (amount) length = amount->value * (amount->is_percent ? percent : 1);
+    };
+    take(arguments.edge, sizing.edge_length);
+    take(arguments.min_edge, sizing.min_edge);
+    take(arguments.max_edge, sizing.max_edge);
+    return sizing;
+}
+
+}  // namespace cli
