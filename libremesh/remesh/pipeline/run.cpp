@@ -43,6 +43,8 @@ void run_attempt(CleanedInput& cleaned, const FoundCurves& found, const KeptCurv
             to_original(built.sites, cleaned.given, {cleaned_mesh, cleaned.face_origin});
         context.result.mesh = std::move(built.mesh);
         context.result.self_intersections = built.self_intersections;
+        // The surface is needed again if the edges are not as long as asked for.
+        if (context.options.sizing.edge_length > 0) give_back(std::move(domain), cleaned, context);
     } catch (const TooFewSamples&) {
         give_back(std::move(domain), cleaned, context);
         throw;
