@@ -451,6 +451,65 @@ TEST_F(Remesh, KeepsBelowTheErrorAskedFor) {
     }
 }
 
+TEST_F(Remesh, TheNumberOfVerticesIsGivenInManyWays) {
+    const std::string in = put("in.off", shapes::sphere(4));  // 2562 vertices.
+    const auto report_with = [&](std::vector<std::string> extra) {
+        extra.insert(extra.begin(), {in, at("out.off"), "-q", "--relax", "10", "--report", "-"});
+        const auto outcome = remesh(extra);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return nlohmann::json::parse(outcome.out);
+    };
+    EXPECT_EQ(report_with({"-n", "2e2"})["output_vertices"], 200);
+    EXPECT_EQ(report_with({"-n", "10%"})["output_vertices"], 256);
+    EXPECT_EQ(report_with({"--faces", "400"})["output_faces"], 400);
+    for (const char* option : {"--edge-length", "--hsiz"}) {
+        const auto report = report_with({option, "5%"});
+        const double length = 0.05 * 2 * std::sqrt(3.);  // The box of the sphere is a cube.
+        EXPECT_NEAR(report["options"]["sizing"]["edge_length_mesh_units"], length, 1e-3);
+        EXPECT_NEAR(report["sizing"]["mean_edge_mesh_units"].get<double>() / length, 1, 0.02);
+        EXPECT_EQ(report["sizing"]["samples"], report["output_vertices"]);
+        EXPECT_TRUE(report["sizing"]["least_target_mesh_units"].is_null());
+    }
+    EXPECT_NEAR(report_with({"--edge-length", ".2"})["sizing"]["mean_edge_mesh_units"], 0.2, 0.004);
+}
+
+TEST_F(Remesh, AdaptiveEdgesKeepTheirBounds) {
+    const std::string in = put("in.off", shapes::torus(80, 40));
+    const auto outcome =
+        remesh({in, at("out.off"), "-n", "500", "--adaptive", "--hmin", ".1", "--hmax", "4%",
+                "--hgrad", "1.2", "--report", "-"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto report = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(report["output_vertices"], 500);
+    EXPECT_EQ(report["options"]["sizing"]["adaptive"], true);
+    EXPECT_EQ(report["options"]["sizing"]["gradation"], 1.2);
+    EXPECT_EQ(report["options"]["sizing"]["min_edge_mesh_units"], 0.1);
+    EXPECT_GE(report["sizing"]["least_target_mesh_units"], 0.099);
+    EXPECT_LE(report["sizing"]["largest_target_mesh_units"],
+              1.01 * report["options"]["sizing"]["max_edge_mesh_units"].get<double>());
+    EXPECT_NE(outcome.err.find("targets from "), std::string::npos) << outcome.err;
+}
+
+TEST_F(Remesh, WrongNumbersAndLengthsAreRefused) {
+    const std::string in = put("in.off", shapes::sphere(2));
+    const std::vector<std::string> wrong[] = {
+        {"-n", "0"},          {"-n", "1.5"},         {"-n", "5e9"},
+        {"-n", "-3"},         {"-n", "ten"},         {"-n", "0%"},
+        {"-n", "1e-5%"},      {"--faces", "0"},      {"--faces", "10%"},
+        {"--edge-length", "0"}, {"--edge-length", "nan"}, {"--edge-length", "1mm"},
+        {"--hmin", ".1"},     {"--hgrad", "2"},      {"--adaptive", "--hgrad", ".9"},
+        {"-n", "100", "--faces", "100"}, {"-n", "100", "--edge-length", ".1"},
+        {"--faces", "100", "--edge-length", ".1"},
+        {"--adaptive", "--hmin", "2", "--hmax", "1"}};
+    for (std::vector<std::string> arguments : wrong) {
+        const std::string first = arguments[0] + ' ' + arguments[1];
+        arguments.insert(arguments.begin(), {in, at("never.off")});
+        const auto outcome = remesh(arguments);
+        EXPECT_EQ(outcome.exit_code, 2) << first << outcome.err;
+        EXPECT_NE(outcome.err, "");
+    }
+}
+
 TEST_F(Remesh, QuietSaysNothing) {
     const std::string in = put("in.off", shapes::sphere(3));
     const auto outcome = remesh({in, at("out.off"), "-n", "50", "-q"});

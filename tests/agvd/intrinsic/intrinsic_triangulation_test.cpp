@@ -430,6 +430,29 @@ TEST(IntrinsicTriangulation, PartsOfMergedFacesMakeUpTheirArea) {
     EXPECT_GE(num_faces, 200u);
 }
 
+TEST(IntrinsicTriangulation, EdgesAreMeasuredInTheirUnit) {
+    const Surface input = build_surface(shapes::grid(6).view());
+    const auto unit_of = [](const Vec3& at) { return 0.05 + 0.2 * at.x(); };
+    const auto unit_at = [&](const SurfacePoint& point) {
+        return unit_of(position(input.mesh.view(), point));
+    };
+    const IntrinsicTriangulation base(input, {.max_length = 0.8, .unit_at = unit_at});
+    const Surface& s = base.surface();
+    Index num_left = 0, num_right = 0;
+    for (const Index h : s.edge_half) {
+        const Vec3 &a = s.mesh.positions[s.tail(h)], &b = s.mesh.positions[s.head(h)];
+        EXPECT_LE(s.length_of(h), 0.8 * (unit_of(a) + unit_of(b)) / 2 + 1e-12);
+        ++(a.x() < 0.3 ? num_left : num_right);
+    }
+    EXPECT_GT(num_left, num_right);
+    // A unit that is the same everywhere is a factor.
+    const auto two = [](const SurfacePoint&) { return 2.0; };
+    const IntrinsicTriangulation by_unit(input, {.max_length = 0.05, .unit_at = two});
+    const IntrinsicTriangulation plain(input, {.max_length = 0.1});
+    EXPECT_EQ(by_unit.surface().mesh.positions, plain.surface().mesh.positions);
+    EXPECT_EQ(by_unit.surface().mesh.triangles, plain.surface().mesh.triangles);
+}
+
 TEST(IntrinsicTriangulation, SplitsEndAtTheirBoundLongestFirst) {
     const Surface input = build_surface(shapes::cube().view());
     const double longest = shapes::longest_edge(input);

@@ -13,6 +13,7 @@
 #include "remesh/sampling/boundary_curves.h"
 #include "remesh/sampling/farthest_points.h"
 #include "remesh/sampling/minimum_samples.h"
+#include "remesh/sizing/size_field.h"
 #include "support/shapes.h"
 
 using agvd::Index;
@@ -325,4 +326,50 @@ TEST(SampleSites, CanBeStopped) {
     const Surface surface = surface_of(shapes::sphere(0));
     EXPECT_THROW((void)sample_sites(surface, {.progress = [](double) { return false; }}),
                  agvd::Cancelled);
+}
+
+namespace {
+
+// Lengths of 1 for x < 1/2 and twice that beyond, with a steep rise in between.
+remesh::SizeField field_on(const Surface& surface) {
+    auto base = std::make_shared<const agvd::IntrinsicTriangulation>(surface);
+    std::vector<double> length;
+    for (const Vec3& p : surface.mesh.positions) length.push_back(p.x() < 0.5 ? 1 : 2);
+    return {std::move(base), std::move(length)};
+}
+
+}  // namespace
+
+TEST(SampleSites, FollowTargetLengths) {
+    const Surface surface = surface_of(shapes::grid(60));
+    const remesh::SizeField field = field_on(surface);
+    Index num_tried = 0;
+    for (const Init init : all_inits) {
+        for (const remesh::Boundary boundary : {remesh::Boundary::Keep, remesh::Boundary::Free}) {
+            const auto sites = sample_sites(
+                surface,
+                {.num_samples = 1000, .init = init, .boundary = boundary, .sizes = &field});
+            EXPECT_EQ(sites.size(), 1000u);
+            std::vector<Vec3> fine, coarse, fine_rim, coarse_rim;
+            for (const SurfacePoint& site : sites) {
+                const Vec3 p = agvd::position(surface.mesh.view(), site);
+                (p.x() < 0.5 ? fine : coarse).push_back(p);
+                if (agvd::is_on_boundary(surface, site)) {
+                    (p.x() < 0.5 ? fine_rim : coarse_rim).push_back(p);
+                }
+            }
+            // Four times as many.
+            EXPECT_NEAR(static_cast<double>(fine.size()) / 1000, 0.8, 0.035) << init_name(init);
+            if (init != Init::Random) {
+                EXPECT_NEAR(least_distance(coarse) / least_distance(fine), 2, 0.6);
+            }
+            if (init != Init::Random && boundary == remesh::Boundary::Keep) {
+                EXPECT_NEAR(static_cast<double>(fine_rim.size()),
+                            2 * static_cast<double>(coarse_rim.size()), 8);
+                EXPECT_GT(coarse_rim.size(), 20u);
+            }
+            ++num_tried;
+        }
+    }
+    EXPECT_EQ(num_tried, 6u);
 }

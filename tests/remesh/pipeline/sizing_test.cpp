@@ -1,0 +1,272 @@
+// Results whose edges follow target lengths.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "agvd/core/error.h"
+#include "agvd/mesh/scale.h"
+#include "remesh/pipeline/remesh.h"
+#include "remesh/quality/surface_distance.h"
+#include "remesh/topology/topology.h"
+#include "support/parts.h"
+#include "support/shapes.h"
+
+using agvd::Index;
+using agvd::TriangleMesh;
+using agvd::Vec3;
+using remesh::RemeshOptions;
+using remesh::RemeshResult;
+
+namespace {
+
+constexpr double tube = 0.35;
+
+// Tenfold from one side of a torus to the other.
+double tenfold(const Vec3& at) {
+    return std::pow(10, (1 - std::cos(std::atan2(at.y(), at.x()))) / 2);
+}
+
+std::vector<double> values_of(const TriangleMesh& mesh) {
+    std::vector<double> values;
+    for (const Vec3& p : mesh.positions) values.push_back(tenfold(p));
+    return values;
+}
+
+// 5th and 95th percentile of the edges over factor times the field at their middles.
+std::pair<double, double> percentiles(const TriangleMesh& mesh, double factor) {
+    std::vector<double> ratios;
+    for (const agvd::Triangle& t : mesh.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 &a = mesh.positions[t[k]], &b = mesh.positions[t[(k + 1) % 3]];
+            ratios.push_back((a - b).norm() / (factor * tenfold((a + b) / 2)));
+        }
+    }
+    std::sort(ratios.begin(), ratios.end());
+    return {ratios[ratios.size() / 20], ratios[ratios.size() * 19 / 20]};
+}
+
+// The factor at which the field needs this number of vertices.
+double factor_for(const TriangleMesh& mesh, double count) {
+    double sum = 0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const Vec3 &p = mesh.positions[a], &q = mesh.positions[b], &r = mesh.positions[c];
+        const double length = tenfold((p + q + r) / 3);
+        sum += (q - p).cross(r - p).norm() / 2 / (length * length);
+    }
+    return std::sqrt(2 / std::sqrt(3.) * sum / count);
+}
+
+double mean_edge(const TriangleMesh& mesh) {  // Closed.
+    double sum = 0;
+    for (const agvd::Triangle& t : mesh.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            sum += (mesh.positions[t[k]] - mesh.positions[t[(k + 1) % 3]]).norm();
+        }
+    }
+    return sum / (3 * static_cast<double>(mesh.triangles.size()));
+}
+
+TriangleMesh soup_of(const TriangleMesh& mesh) {
+    TriangleMesh soup;
+    for (const agvd::Triangle& t : mesh.triangles) {
+        const auto first = static_cast<Index>(soup.positions.size());
+        for (const Index v : t) soup.positions.push_back(mesh.positions[v]);
+        soup.triangles.push_back({first, first + 1, first + 2});
+    }
+    return soup;
+}
+
+}  // namespace
+
+TEST(Sizing, EdgesFollowAFieldThatVariesTenfold) {
+    const TriangleMesh mesh = shapes::torus(160, 64, tube);
+    Index num_tried = 0;
+    for (const bool is_density : {false, true}) {
+        for (const remesh::Init init : {remesh::Init::BlueNoise, remesh::Init::Farthest}) {
+            RemeshOptions options{.num_samples = 2000, .init = init};
+            (is_density ? options.sizing.densities : options.sizing.target_lengths) =
+                values_of(mesh);
+            if (is_density) {
+                for (double& value : options.sizing.densities) value = 7 / (value * value);
+            }
+            const RemeshResult result = remesh::remesh(mesh.view(), options);
+            EXPECT_EQ(result.mesh.positions.size(), 2000u);
+            EXPECT_EQ(remesh::analyze_topology(result.mesh.view()).genus(), 1);
+            const auto [low, high] = percentiles(result.mesh, factor_for(mesh, 2000));
+            EXPECT_GT(low, 0.8);
+            EXPECT_LT(high, 1.28);
+            EXPECT_NEAR(result.sizing.low_ratio, low, 0.05);
+            EXPECT_NEAR(result.sizing.high_ratio, high, 0.05);
+            EXPECT_NEAR(result.sizing.largest_target / result.sizing.least_target, 10, 0.8);
+            ++num_tried;
+        }
+    }
+    EXPECT_EQ(num_tried, 4u);
+}
+
+TEST(Sizing, AFieldOnBoundaryAndCreasesIsFollowedThere) {
+    // One row of triangles along each crease: lengths vary within edges of the input.
+    const TriangleMesh box = parts::open_box({4, 1, 1}, 2);
+    std::vector<double> lengths;
+    for (const Vec3& p : box.positions) lengths.push_back(0.05 + 0.25 * p.x() / 4);
+    const RemeshResult result =
+        remesh::remesh(box.view(), {.num_samples = 900, .sizing = {.target_lengths = lengths}});
+    EXPECT_EQ(result.mesh.positions.size(), 900u);
+    EXPECT_GT(result.sizing.low_ratio, 0.72);
+    EXPECT_LT(result.sizing.high_ratio, 1.33);
+    // Along the edge y = z = 1 there are as many vertices as the field asks for.
+    const double factor = result.sizing.largest_target / 0.3;
+    double count = 0;
+    for (const Vec3& p : result.mesh.positions) {
+        if (std::abs(p.y() - 1) < 1e-9 && std::abs(p.z() - 1) < 1e-9) ++count;
+    }
+    EXPECT_NEAR(count, std::log(6.) / (factor * 0.0625) + 1, 3);
+    EXPECT_NEAR(result.features.dropped_length, 0, 0);
+}
+
+TEST(Sizing, LengthsGiveTheNumber) {
+    const TriangleMesh mesh = shapes::torus(160, 64, tube);
+    RemeshOptions options{.sizing = {.target_lengths = values_of(mesh), .gives_count = true}};
+    for (double& length : options.sizing.target_lengths) length *= 0.04;
+    const RemeshResult result = remesh::remesh(mesh.view(), options);
+    const double factor = factor_for(mesh, static_cast<double>(result.mesh.positions.size()));
+    EXPECT_NEAR(factor, 0.04, 0.0015);
+    EXPECT_EQ(result.sizing.num_samples, result.mesh.positions.size());
+}
+
+TEST(Sizing, EdgesHaveTheMeanLengthAskedFor) {
+    Index num_tried = 0;
+    for (const TriangleMesh& mesh :
+         {shapes::sphere(4), shapes::torus(90, 40), parts::box({1, 1, 1}, 8)}) {
+        for (const bool is_adaptive : {false, true}) {
+            for (const int steps : {0, 60}) {
+                const RemeshOptions options{
+                    .sizing = {.is_adaptive = is_adaptive, .edge_length = 0.09},
+                    .relax_steps = steps};
+                const RemeshResult result = remesh::remesh(mesh.view(), options);
+                EXPECT_NEAR(mean_edge(result.mesh) / 0.09, 1, 0.012);
+                EXPECT_NEAR(result.sizing.mean_edge, mean_edge(result.mesh), 1e-12);
+                EXPECT_EQ(result.sizing.num_samples, result.mesh.positions.size());
+                ++num_tried;
+            }
+        }
+    }
+    EXPECT_EQ(num_tried, 12u);
+}
+
+TEST(Sizing, ANumberOfFacesComesOut) {
+    const auto faces_of = [](const TriangleMesh& mesh, Index num_faces) {
+        return remesh::remesh(mesh.view(), {.sizing = {.num_faces = num_faces}}).mesh.triangles.size();
+    };
+    EXPECT_EQ(faces_of(shapes::sphere(3), 600), 600u);
+    EXPECT_EQ(faces_of(shapes::torus(60, 30), 600), 600u);
+    EXPECT_EQ(faces_of(shapes::join(shapes::sphere(3), shapes::moved(shapes::sphere(3), {3, 0, 0})),
+                       600),
+              600u);
+    EXPECT_NEAR(static_cast<double>(faces_of(shapes::grid(20), 600)), 600, 12);
+    EXPECT_NEAR(static_cast<double>(faces_of(shapes::tube(60, 30), 900)), 900, 18);
+}
+
+TEST(Sizing, AdaptiveEdgesAreShortWhereTheSurfaceIsCurved) {
+    const TriangleMesh mesh = shapes::torus(200, 80, 0.2);
+    TriangleMesh bent = mesh;  // Thicker on the side of x > 0.
+    for (Vec3& p : bent.positions) {
+        const double around = std::hypot(p.x(), p.y());
+        const Vec3 middle = Vec3(p.x(), p.y(), 0) / around;
+        p = middle + (1.8 + 1.4 * middle.x()) * (p - middle);
+    }
+    const RemeshResult uniform = remesh::remesh(bent.view(), {.num_samples = 1200});
+    const RemeshResult adaptive =
+        remesh::remesh(bent.view(), {.num_samples = 1200, .sizing = {.is_adaptive = true}});
+    EXPECT_EQ(adaptive.mesh.positions.size(), 1200u);
+    EXPECT_GT(adaptive.sizing.largest_target, 2 * adaptive.sizing.least_target);
+    const auto num_thin = [](const TriangleMesh& of) {
+        return std::count_if(of.positions.begin(), of.positions.end(),
+                             [](const Vec3& p) { return p.x() < -0.7; });
+    };
+    EXPECT_GT(static_cast<double>(num_thin(adaptive.mesh)),
+              1.5 * static_cast<double>(num_thin(uniform.mesh)));
+    const auto apart = [&](const RemeshResult& result) {
+        return remesh::surface_distance(bent.view(), result.mesh.view(), {.samples = 20'000});
+    };
+    const auto of_uniform = apart(uniform), of_adaptive = apart(adaptive);
+    if (!of_uniform) GTEST_SKIP() << "distances need CGAL";
+    EXPECT_LT(of_adaptive->two_sided().rms, of_uniform->two_sided().rms);
+}
+
+TEST(Sizing, ThreadsChangeNothing) {
+    const TriangleMesh torus = shapes::torus(80, 40, tube);
+    const TriangleMesh box = parts::open_box({2, 1, 1}, 6);
+    Index num_tried = 0;
+    for (const TriangleMesh* mesh : {&torus, &box}) {
+        for (const bool is_adaptive : {false, true}) {
+            for (const remesh::Init init : {remesh::Init::BlueNoise, remesh::Init::Random}) {
+                RemeshOptions options{.num_samples = 500, .init = init};
+                options.sizing.is_adaptive = is_adaptive;
+                if (!is_adaptive) options.sizing.target_lengths = values_of(*mesh);
+                options.num_threads = 1;
+                const RemeshResult one = remesh::remesh(mesh->view(), options);
+                for (const int num_threads : {2, 4}) {
+                    options.num_threads = num_threads;
+                    const RemeshResult more = remesh::remesh(mesh->view(), options);
+                    EXPECT_EQ(more.mesh.positions, one.mesh.positions);
+                    EXPECT_EQ(more.mesh.triangles, one.mesh.triangles);
+                    ++num_tried;
+                }
+            }
+        }
+    }
+    EXPECT_EQ(num_tried, 16u);
+}
+
+TEST(Sizing, LengthsFollowVerticesThatAreWelded) {
+    const TriangleMesh mesh = shapes::torus(80, 40, tube);
+    const TriangleMesh soup = soup_of(mesh);
+    const RemeshResult result =
+        remesh::remesh(soup.view(), {.num_samples = 800, .sizing = {.target_lengths = values_of(soup)}});
+    const auto [low, high] = percentiles(result.mesh, factor_for(mesh, 800));
+    EXPECT_GT(low, 0.75);
+    EXPECT_LT(high, 1.35);
+}
+
+TEST(Sizing, LengthsAreScaledWithTheMesh) {
+    const TriangleMesh mesh = shapes::torus(60, 30, tube);
+    const int exponent = 200;
+    RemeshOptions options{.num_samples = 300};
+    options.sizing = {.target_lengths = values_of(mesh), .min_edge = 0.05, .max_edge = 0.4};
+    const RemeshResult result = remesh::remesh(mesh.view(), options);
+    for (double& length : options.sizing.target_lengths) length = std::ldexp(length, exponent);
+    options.sizing.min_edge = std::ldexp(0.05, exponent);
+    options.sizing.max_edge = std::ldexp(0.4, exponent);
+    const RemeshResult large = remesh::remesh(agvd::scaled(mesh.view(), exponent).view(), options);
+    EXPECT_EQ(large.mesh.positions, agvd::scaled(result.mesh.view(), exponent).positions);
+    EXPECT_EQ(large.sizing.mean_edge, std::ldexp(result.sizing.mean_edge, exponent));
+    EXPECT_EQ(large.sizing.least_target, std::ldexp(result.sizing.least_target, exponent));
+}
+
+TEST(Sizing, WrongOptionsAreRefused) {
+    const TriangleMesh mesh = shapes::sphere(2);
+    const std::vector<double> ones(mesh.positions.size(), 1);
+    std::vector<double> negative = ones, infinite = ones;
+    negative[5] = -1;
+    infinite[3] = std::numeric_limits<double>::infinity();
+    const remesh::Sizing wrong[] = {
+        {.target_lengths = {1, 2}},
+        {.target_lengths = negative},
+        {.densities = infinite},
+        {.is_adaptive = true, .densities = ones},
+        {.target_lengths = ones, .densities = ones},
+        {.max_error = 0.1},
+        {.gives_count = true},
+        {.min_edge = 2, .max_edge = 1},
+        {.gradation = 0.9},
+        {.edge_length = -1},
+        {.edge_length = 1, .num_faces = 100},
+        {.edge_length = 1e-9},
+    };
+    for (const remesh::Sizing& sizing : wrong) {
+        EXPECT_THROW((void)remesh::remesh(mesh.view(), {.sizing = sizing}), agvd::InvalidOption);
+    }
+}
