@@ -246,7 +246,8 @@ void run_job(const Arguments& arguments, cli::Console& console) {
         "sample", least_memory(input.mesh.triangles.size(),
                                options.sites ? options.sites->size() : options.num_samples));
     const remesh::RemeshResult result = cli::naming_file(
-        arguments.input, [&] { return remesh::remesh_moved(std::move(input.mesh), options); });
+        arguments.input, [&] { return remesh::remesh_moved(std::move(input.mesh), options); },
+        arguments.sites);
     judge(result, arguments.strict, console);
     warn_of_junctions(result.junctions, arguments.junctions, console);
     const remesh::RunInfo info{.version = REMESH_VERSION,

@@ -114,8 +114,9 @@ TEST_F(Remesh, ManySitesOnFewSpotsAreAMistake) {
     for (const agvd::TriangleMesh& mesh : {shapes::sphere(2), shapes::cube()}) {
         const auto refused = run(mesh, 200);
         EXPECT_EQ(refused.exit_code, 4) << refused.err;
-        EXPECT_NE(refused.err.find("1600 sites were given, but only at 8 different points"),
-                  std::string::npos)
+        EXPECT_NE(
+            refused.err.find("sites.txt: 1600 sites were given, but only at 8 different points"),
+            std::string::npos)
             << refused.err;
         EXPECT_EQ(run(mesh, 100).exit_code, 0);
     }

@@ -37,7 +37,7 @@ double turn_over(const agvd::Surface& surface, const Curve& curve, double along,
 double place_at(const Curve& curve, const std::vector<double>& spacings, double count) {
     const auto after = std::upper_bound(spacings.begin() + 1, spacings.end() - 1, count);
     const auto i = static_cast<std::size_t>(after - spacings.begin()) - 1;
-    const double share = (count - spacings[i]) / (spacings[i + 1] - spacings[i]);
+    const double share = share_before(count, spacings[i], spacings[i + 1]);
     return curve.up_to[i] + share * (curve.up_to[i + 1] - curve.up_to[i]);
 }
 

@@ -16,8 +16,31 @@ remesh::RemeshResult example_result() {
     result.cleaned.split_edges = 4;
     result.input_topology.components = {{.faces = 8, .euler = 0, .genus = 1, .area = 1.5}};
     result.input_topology.face_component.assign(8, 0);
+    result.components_dropped = 10;
     result.sites_added = 5;
+    result.added_because = {{remesh::SiteReason{}, 11}};
+    result.sites_moved = 12;
+    result.sites_removed = 13;
     result.sites_dropped = 6;
+    result.components_thinned = 14;
+    result.unfitted_vertices = 15;
+    result.self_intersections = 17;
+    result.input_self_intersections = 16;
+    result.features = {.curves = 21,
+                       .nodes = 22,
+                       .vertices = 23,
+                       .length = 2.5,
+                       .dropped_length = 2.75,
+                       .uncarried_curves = 24,
+                       .samples_for_all = 25,
+                       .thinned_patches = 26,
+                       .gave_up = true};
+    result.junctions = {.edges = 31,
+                        .curves = 32,
+                        .vertices = 33,
+                        .apart_edges = 34,
+                        .samples_for_all = 35,
+                        .welded_edges = 36};
     result.repair_rounds = 2;
     result.certified_error = 1.23e-4;
     result.propagation_bytes = 12'300'000;
@@ -43,16 +66,34 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
          .input_path = "in.ply",
          .output_path = "out.obj",
          .options = {.num_samples = 77,
+                     .vertex_count = remesh::VertexCount::Add,
+                     .boundary = remesh::Boundary::Free,
+                     .drop_components = 0.125,
                      .init = remesh::Init::Random,
+                     .features = remesh::Features::Angle,
+                     .feature_angle = 35,
+                     .feature_edges = {{0, 1}, {1, 2}},
+                     .face_labels = {4, 5, 6},
+                     .junctions = remesh::Junctions::Keep,
                      .seed = 9,
                      .relax_steps = 12,
                      .keep_sites = true,
+                     .fit = false,
                      .propagation = {.engine = agvd::Engine::Window, .max_error = 0.25}}}));
     EXPECT_EQ(report["program"], "remesh");
     EXPECT_EQ(report["version"], "1.2");
     EXPECT_EQ(report["input_path"], "in.ply");
     EXPECT_EQ(report["output_path"], "out.obj");
     EXPECT_EQ(report["options"]["samples"], 77);
+    EXPECT_EQ(report["options"]["topology"], "add");
+    EXPECT_EQ(report["options"]["boundary"], "free");
+    EXPECT_EQ(report["options"]["drop_components"], 0.125);
+    EXPECT_EQ(report["options"]["features"], "angle");
+    EXPECT_EQ(report["options"]["feature_angle_degrees"], 35);
+    EXPECT_EQ(report["options"]["given_feature_edges"], 2);
+    EXPECT_EQ(report["options"]["given_face_labels"], 3);
+    EXPECT_EQ(report["options"]["junctions"], "keep");
+    EXPECT_EQ(report["options"]["fit"], false);
     EXPECT_EQ(report["options"]["init"], "random");
     EXPECT_EQ(report["options"]["seed"], 9);
     EXPECT_EQ(report["options"]["given_sites"], nullptr);
@@ -74,7 +115,30 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
     EXPECT_EQ(report["input_topology"]["components"][0]["euler_characteristic"], 0);
     EXPECT_EQ(report["output_vertices"], 3);
     EXPECT_EQ(report["output_faces"], 1);
+    EXPECT_EQ(report["components_dropped"], 10);
     EXPECT_EQ(report["sites_added"], 5);
+    EXPECT_EQ(report["sites_added_because"], json({{remesh::to_text(remesh::SiteReason{}), 11}}));
+    EXPECT_EQ(report["sites_moved"], 12);
+    EXPECT_EQ(report["sites_removed"], 13);
+    EXPECT_EQ(report["components_from_faces"], 14);
+    EXPECT_EQ(report["unfitted_vertices"], 15);
+    EXPECT_EQ(report["input_self_intersecting_pairs"], 16);
+    EXPECT_EQ(report["self_intersecting_pairs"], 17);
+    EXPECT_EQ(report["features"], json({{"curves", 21},
+                                        {"nodes", 22},
+                                        {"vertices", 23},
+                                        {"crease_length_mesh_units", 2.5},
+                                        {"dropped_crease_length_mesh_units", 2.75},
+                                        {"curves_off_given_sites", 24},
+                                        {"samples_for_all", 25},
+                                        {"thinned_patches", 26},
+                                        {"gave_up", true}}));
+    EXPECT_EQ(report["junctions"], json({{"input_edges", 31},
+                                         {"curves", 32},
+                                         {"vertices", 33},
+                                         {"edges_without_common_points", 34},
+                                         {"samples_for_all", 35},
+                                         {"welded_edges", 36}}));
     EXPECT_EQ(report["sites_dropped"], 6);
     EXPECT_EQ(report["repair_rounds"], 2);
     EXPECT_EQ(report["delaunay"]["inner_edges"], 200);
