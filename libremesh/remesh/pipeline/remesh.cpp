@@ -42,9 +42,13 @@ void check_options(const RemeshOptions& options, std::size_t num_faces) {
 // Scales the lengths of a result back: it was computed from the mesh times 2^-exponent.
 void scale_back(RemeshResult& result, int exponent) {
     result.mesh = agvd::scaled(result.mesh.view(), exponent);
-    for (double* length : {&result.features.length, &result.features.dropped_length}) {
+    Verdict& verdict = result.verdict;
+    for (double* length :
+         {&result.features.length, &result.features.dropped_length, &verdict.spacing,
+          &verdict.thinnest_wall, &verdict.largest_distance, &verdict.diagonal}) {
         *length = std::ldexp(*length, exponent);
     }
+    for (double& coordinate : verdict.farthest) coordinate = std::ldexp(coordinate, exponent);
     for (ComponentTopology& component : result.input_topology.components) {
         component.area = std::ldexp(component.area, 2 * exponent);
     }

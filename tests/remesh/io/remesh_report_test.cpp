@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "remesh/io/report.h"
 
@@ -35,6 +36,16 @@ remesh::RemeshResult example_result() {
                        .samples_for_all = 25,
                        .thinned_patches = 26,
                        .gave_up = true};
+    result.verdict = {.spacing = 0.5,
+                      .small_components = 41,
+                      .samples_for_components = 42,
+                      .thin_walls = 43,
+                      .thinnest_wall = 0.25,
+                      .samples_for_walls = 44,
+                      .largest_distance = 3,
+                      .farthest = {5, 6, 7},
+                      .diagonal = 8,
+                      .min_angle = std::numbers::pi / 8};
     result.junctions = {.edges = 31,
                         .curves = 32,
                         .vertices = 33,
@@ -133,6 +144,16 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
                                         {"samples_for_all", 25},
                                         {"thinned_patches", 26},
                                         {"gave_up", true}}));
+    EXPECT_EQ(report["verdict"], json({{"spacing_mesh_units", 0.5},
+                                       {"small_components", 41},
+                                       {"samples_for_components", 42},
+                                       {"thin_walls", 43},
+                                       {"thinnest_wall_mesh_units", 0.25},
+                                       {"samples_for_walls", 44},
+                                       {"largest_distance_mesh_units", 3.0},
+                                       {"largest_distance_percent_of_diagonal", 37.5},
+                                       {"farthest_point", {5.0, 6.0, 7.0}},
+                                       {"min_angle_deg", 22.5}}));
     EXPECT_EQ(report["junctions"], json({{"input_edges", 31},
                                          {"curves", 32},
                                          {"vertices", 33},
@@ -193,8 +214,12 @@ TEST(RemeshReport, TextTellsRepairTopologyTimeAndMemory) {
          {"in.ply", "4 split edges", "1 component, genus 1, 0 boundary loops",
           "distances: window engine, at most 0.0123 %", "3 vertices, 1 face", "5 sites added, ",
           "6 sites", "4.50 % of the edges failed it before 7 flips, 1.50 % after",
-          "reached their limit", "1 edge not proved locally shortest", "fails in 2 faces",
-          "clean 0.25 s, dual 0.50 s", "total 0.75 s", "12.3 MB"}) {
+          "spacing (0.5): creases of length 2.75 (", "43 walls (thinnest 0.25; about 44 samples",
+          "41 components (fewer than 12 vertices; about 42 samples would do)",
+          "largest distance: 37.5 % of the diagonal, from the input's vertex at 5 6 7",
+          "smallest angle: 22.5 degrees", "reached their limit",
+          "1 edge not proved locally shortest", "fails in 2 faces", "clean 0.25 s, dual 0.50 s",
+          "total 0.75 s", "12.3 MB"}) {
         EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
     }
 }
