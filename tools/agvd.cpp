@@ -135,7 +135,8 @@ void run_diagram(const DiagramArguments& arguments, cli::Console& console) {
     agvd::PropagationOptions propagating = arguments.propagation;
     propagating.num_threads = arguments.common.threads;
     const auto [diagram, certified_error] = cli::naming_file(
-        arguments.input, [&] { return build(surface, sites, propagating, console); });
+        arguments.input, [&] { return build(surface, sites, propagating, console); },
+        arguments.sites);
 
     const agvd::Progress writing = console.progress_of("write");
     std::vector<remesh::FileContent> files;

@@ -67,12 +67,16 @@ void check_output(const std::filesystem::path& path,
                   std::initializer_list<std::filesystem::path> inputs,
                   std::optional<bool> force = {});
 
-//! Returns what `work` returns; an error of the mesh or of a constraint that it throws gets the
-//! file's name in front.
+//! Returns what `work` returns; an error of the mesh, of given sites or of a constraint that it
+//! throws gets the file's name in front.
+//! \param sites  the file of the given sites, if there is one.
 template <typename Work>
-auto naming_file(const std::filesystem::path& path, const Work& work) {
+auto naming_file(const std::filesystem::path& path, const Work& work,
+                 const std::filesystem::path& sites = {}) {
     try {
         return work();
+    } catch (const agvd::InvalidSites& error) {
+        throw agvd::InvalidSites((sites.empty() ? path : sites).string() + ": " + error.what());
     } catch (const agvd::InvalidInput& error) {
         throw agvd::InvalidInput(path.string() + ": " + error.what());
     } catch (const agvd::ConstraintUnmet& error) {

@@ -149,7 +149,8 @@ void add_options(CLI::App& app, Arguments& arguments) {
         ->capture_default_str();
     app.add_flag(
         "--strict", arguments.strict,
-        "Fail (exit code 5) if the result has more pairs of intersecting faces than the input");
+        "Fail (exit code 5) if the result has more pairs of intersecting faces than the input, or "
+        "is too coarse for creases, walls or components");
     app.add_option("--relax,--lloyd", arguments.relax_steps,
                    "Number of relaxation steps; 0: the sites stay as sampled")
         ->check(CLI::Range(0, 1'000'000).description(""))
@@ -168,8 +169,25 @@ void add_options(CLI::App& app, Arguments& arguments) {
         ->type_name("FILE|-");
 }
 
+// What the result is too coarse to show; empty: nothing.
+std::string too_small(const remesh::RemeshResult& result) {
+    std::string text;
+    const auto add = [&](bool is_so, const char* what) {
+        if (is_so) text += (text.empty() ? "" : ", ") + std::string(what);
+    };
+    add(result.features.dropped_length > 0, "creases");
+    add(result.verdict.thin_walls > 0, "walls");
+    add(result.verdict.small_components > 0, "components");
+    return text;
+}
+
 // \throw agvd::ConstraintUnmet  with --strict.
 void judge(const remesh::RemeshResult& result, bool strict, cli::Console& console) {
+    if (const std::string small = too_small(result); strict && !small.empty()) {
+        throw agvd::ConstraintUnmet("the result is too coarse for some " + small +
+                                    "; use more --samples (without --strict the report tells how "
+                                    "many), or leave out --strict");
+    }
     const agvd::Index pairs = result.self_intersections.value_or(0);
     if (pairs <= result.input_self_intersections) return;
     const std::string text =
@@ -251,7 +269,8 @@ void run_job(const Arguments& arguments, cli::Console& console) {
         "sample", least_memory(input.mesh.triangles.size(),
                                options.sites ? options.sites->size() : options.num_samples));
     const remesh::RemeshResult result = cli::naming_file(
-        arguments.input, [&] { return remesh::remesh_moved(std::move(input.mesh), options); });
+        arguments.input, [&] { return remesh::remesh_moved(std::move(input.mesh), options); },
+        arguments.sites);
     judge(result, arguments.strict, console);
     warn_of_junctions(result.junctions, arguments.junctions, console);
     const remesh::RunInfo info{.version = REMESH_VERSION,

@@ -153,9 +153,9 @@ void expect_arcs_do_not_cross(const Surface& surface, const Diagram& d) {
     std::stable_sort(segments.begin(), segments.end(),
                      [](const Segment& a, const Segment& b) { return a.face < b.face; });
     for (std::size_t i = 0; i < segments.size(); ++i) {
-        // In barycentric coordinates. Positions are rounded to 2^-53 of the longest side.
+        // In barycentric coordinates. Voronoi vertices are found to some 1e-13 of the longest side.
         const Index f = segments[i].face;
-        const double rounding = 1e-9 + 1e-15 * square_of_sides(surface, f) / face_area(surface, f);
+        const double rounding = 1e-9 + 1e-13 * square_of_sides(surface, f) / face_area(surface, f);
         for (std::size_t j = i + 1; j < segments.size() && segments[j].face == segments[i].face;
              ++j) {
             EXPECT_LE(crossing_depth(segments[i], segments[j]), rounding)

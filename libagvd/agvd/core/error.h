@@ -19,10 +19,16 @@ public:
     using Error::Error;
 };
 
-//! The mesh (or site list) cannot be used: not finite, not orientable, no face left, ...
+//! The mesh (or another input) cannot be used: not finite, not orientable, no face left, ...
 class InvalidInput : public Error {
 public:
     using Error::Error;
+};
+
+//! Given sites cannot be used on this mesh.
+class InvalidSites : public InvalidInput {
+public:
+    using InvalidInput::InvalidInput;
 };
 
 //! A file cannot be read or written.

@@ -13,7 +13,7 @@ constexpr double barycentric_tolerance = 1e-6;
 
 void check_site(const Surface& surface, const SurfacePoint& site, std::size_t index) {
     const auto refuse = [&](const std::string& why) {
-        throw InvalidInput("site " + std::to_string(index) + why);
+        throw InvalidSites("site " + std::to_string(index) + why);
     };
     if (site.face.value() >= surface.num_faces()) {
         refuse(" names a face that does not exist; use one of the " +

@@ -9,7 +9,7 @@
 
 namespace agvd {
 
-//! \throw InvalidInput naming the site when its face does not exist or it is off the face.
+//! \throw InvalidSites naming the site when its face does not exist or it is off the face.
 void check_sites(const Surface& surface, std::span<const SurfacePoint> sites);
 
 }  // namespace agvd

@@ -15,7 +15,7 @@ namespace agvd {
 //! \param sites  t surface points; several may share a face or even a position (the lower index
 //!               then owns it).
 //! \throw InvalidOption    an option is out of range, or the engine cannot do what it asks.
-//! \throw InvalidInput     a site names a face that does not exist or has coordinates off the face.
+//! \throw InvalidSites     a site names a face that does not exist or has coordinates off the face.
 //! \throw ConstraintUnmet  the Steiner engine cannot meet max_error.
 //! \throw Cancelled        the progress callback returned false.
 //! Re-entrant.

@@ -20,7 +20,7 @@ struct PlacedSite {
 class SitePlacement {
 public:
     SitePlacement() = default;
-    //! \throw InvalidInput as check_sites.
+    //! \throw InvalidSites as check_sites.
     SitePlacement(const Surface& surface, std::span<const SurfacePoint> sites);
 
     //! All sites lie at vertices.

@@ -118,14 +118,14 @@ private:
 void check_site(const SurfacePoint& site, std::size_t number, Index num_faces) {
     const std::string name = "site " + std::to_string(number);
     if (!site.face.is_valid() || site.face.value() >= num_faces) {
-        throw agvd::InvalidInput(name + " names a face that does not exist; use one of the " +
+        throw agvd::InvalidSites(name + " names a face that does not exist; use one of the " +
                                  std::to_string(num_faces) + " faces, counted from 0");
     }
     const auto& [a, b, c] = site.barycentric;
     // The accuracy of decimals in a file and of sums in double.
     constexpr double tolerance = 1e-6;
     if (!(a >= 0 && b >= 0 && c >= 0 && std::abs(a + b + c - 1) <= tolerance)) {
-        throw agvd::InvalidInput(name + " on face " + std::to_string(site.face.value()) +
+        throw agvd::InvalidSites(name + " on face " + std::to_string(site.face.value()) +
                                  " has barycentric coordinates that are negative or do not sum "
                                  "to 1; correct them");
     }
@@ -142,7 +142,7 @@ std::vector<SurfacePoint> to_cleaned(const std::vector<SurfacePoint>& sites, con
         check_site(sites[i], i, static_cast<Index>(mesh.triangles.size()));
         const std::optional<SurfacePoint> placed = surface.place(normalized(sites[i]));
         if (!placed) {
-            throw agvd::InvalidInput("site " + std::to_string(i) + " lies on face " +
+            throw agvd::InvalidSites("site " + std::to_string(i) + " lies on face " +
                                      std::to_string(sites[i].face.value()) +
                                      ", which cleaning dropped as degenerate or duplicate; "
                                      "place it on another face");

@@ -11,7 +11,7 @@ namespace remesh {
 //! its corners keeps the coordinates bit for bit, so that sites on vertices and edges stay there; a
 //! site on a face that was split or dropped goes to the closest point. Coordinates whose sum is 1
 //! only to the decimals of a file are divided by it.
-//! \throw agvd::InvalidInput  a site's face does not exist, its coordinates are not barycentric, or
+//! \throw agvd::InvalidSites  a site's face does not exist, its coordinates are not barycentric, or
 //!        its face was dropped and no other surface is there (within 1e-9 of the box diagonal); the
 //!        text names the site.
 //! Cost: O(#F log #F + #sites log #F).

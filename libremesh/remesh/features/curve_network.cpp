@@ -33,7 +33,7 @@ std::pair<std::size_t, double> find_place(const Curve& curve, double along) {
     const auto& up_to = curve.up_to;
     const auto after = std::upper_bound(up_to.begin() + 1, up_to.end() - 1, along);
     const auto i = static_cast<std::size_t>(after - up_to.begin()) - 1;
-    return {i, std::clamp((along - up_to[i]) / (up_to[i + 1] - up_to[i]), 0.0, 1.0)};
+    return {i, share_before(along, up_to[i], up_to[i + 1])};
 }
 
 // A curve as a polyline in space.

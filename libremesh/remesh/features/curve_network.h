@@ -2,6 +2,7 @@
 //! The curves of a surface that its mesh must reproduce: boundary, creases and junctions.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -75,6 +76,12 @@ struct CurveNetwork {
 //! Cost: O(k log k + k c), c = corners.
 [[nodiscard]] std::vector<std::size_t> corners_of_curve(const agvd::Surface& surface,
                                                         const Curve& curve, double spacing);
+
+//! The share of [begin, end] before a place, in [0, 1]; 0 if the interval is empty, such as an edge
+//! that is shorter than the rounding of its curve's length.
+[[nodiscard]] inline double share_before(double place, double begin, double end) {
+    return begin < end ? std::clamp((place - begin) / (end - begin), 0.0, 1.0) : 0;
+}
 
 //! A point of a curve, given in the face on one side of it.
 //!

@@ -67,7 +67,7 @@ double place_at(const CurveMeasure& measure, double count) {
     const std::vector<double>& spacings = measure.count;
     const auto after = std::upper_bound(spacings.begin() + 1, spacings.end() - 1, count);
     const auto i = static_cast<std::size_t>(after - spacings.begin()) - 1;
-    const double share = (count - spacings[i]) / (spacings[i + 1] - spacings[i]);
+    const double share = share_before(count, spacings[i], spacings[i + 1]);
     return measure.place[i] + share * (measure.place[i + 1] - measure.place[i]);
 }
 

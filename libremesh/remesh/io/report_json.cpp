@@ -174,6 +174,20 @@ Json to_json(const SizingResult& sizing) {
             {"edge_over_target_95th_percentile", measured(sizing.high_ratio)}};
 }
 
+Json to_json(const Verdict& verdict) {
+    return {
+        {"spacing_mesh_units", verdict.spacing},
+        {"small_components", verdict.small_components},
+        {"samples_for_components", verdict.samples_for_components},
+        {"thin_walls", verdict.thin_walls},
+        {"thinnest_wall_mesh_units", verdict.thinnest_wall},
+        {"samples_for_walls", verdict.samples_for_walls},
+        {"largest_distance_mesh_units", verdict.largest_distance},
+        {"largest_distance_percent_of_diagonal", 100 * verdict.largest_distance / verdict.diagonal},
+        {"farthest_point", {verdict.farthest.x(), verdict.farthest.y(), verdict.farthest.z()}},
+        {"min_angle_deg", verdict.min_angle * degrees}};
+}
+
 Json to_json(const RemeshOptions& options) {
     Json object;
     object["samples"] = options.num_samples;
@@ -238,6 +252,7 @@ std::string to_json(const RemeshResult& result, const RunInfo& info) {
                           {"steps", level.energy.size() - 1},
                           {"energy_mesh_units_4", level.energy}});
     }
+    object["verdict"] = to_json(result.verdict);
     object["self_intersecting_pairs"] =
         result.self_intersections ? Json(*result.self_intersections) : Json();
     object["input_self_intersecting_pairs"] =

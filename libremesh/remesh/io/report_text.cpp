@@ -220,6 +220,37 @@ std::string describe(const JunctionCounts& junctions) {
     return text + "the sheets have the same points there: " + on_curves;
 }
 
+std::string samples_for(agvd::Index count) {
+    constexpr agvd::Index most_named = 10'000'000;
+    if (count > most_named) return ")";
+    return "; about " + std::to_string(count) + " samples would do)";
+}
+
+std::string describe(const Verdict& verdict, const FeatureCounts& features) {
+    std::string small;
+    const auto add = [&](const std::string& text) { small += (small.empty() ? "" : ", ") + text; };
+    if (features.dropped_length > 0) {
+        add("creases of length " + significant(features.dropped_length) + " (" +
+            why_dropped(features) + ")");
+    }
+    if (verdict.thin_walls > 0) {
+        add(counted(verdict.thin_walls, "wall") + " (thinnest " +
+            significant(verdict.thinnest_wall) + samples_for(verdict.samples_for_walls));
+    }
+    if (verdict.small_components > 0) {
+        add(counted(verdict.small_components, "component") + " (fewer than " +
+            std::to_string(least_component_vertices) + " vertices" +
+            samples_for(verdict.samples_for_components));
+    }
+    const agvd::Vec3& at = verdict.farthest;
+    return "smaller than the spacing (" + significant(verdict.spacing) +
+           "): " + (small.empty() ? "nothing" : small) +
+           "\nlargest distance: " + significant(100 * verdict.largest_distance / verdict.diagonal) +
+           " % of the diagonal, from the input's vertex at " + significant(at.x()) + ' ' +
+           significant(at.y()) + ' ' + significant(at.z()) +
+           "\nsmallest angle: " + fixed(verdict.min_angle * degrees, 1) + " degrees";
+}
+
 }  // namespace
 
 namespace {
@@ -285,6 +316,7 @@ std::string to_text(const RemeshResult& result, const RunInfo& info) {
     if (info.options.delaunay != Delaunay::Off) {
         text += '\n' + describe(result.delaunay, info.options.delaunay);
     }
+    text += '\n' + describe(result.verdict, result.features);
     text += "\ntime:";
     for (const auto& [stage, seconds] : result.seconds) {
         text += std::string(" ") + stage_name(stage) + ' ' + fixed(seconds, 2) + " s,";

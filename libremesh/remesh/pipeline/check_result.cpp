@@ -25,13 +25,14 @@ void weld_junctions(const CurveNetwork& network, std::span<const ChainEdge> chai
 
 }  // namespace
 
-void check_result(const CleanedInput& cleaned, const Domain& domain,
-                  std::span<const ChainEdge> chain, BuiltMesh& built, const StageContext& context) {
+Topology check_result(const CleanedInput& cleaned, const Domain& domain,
+                      std::span<const ChainEdge> chain, BuiltMesh& built,
+                      const StageContext& context) {
     const auto& [options, result] = context;
     const StageClock clock(Stage::Check, result);
     const agvd::Progress progress = progress_of(Stage::Check, options);
     agvd::poll(progress, 1);
-    const Topology topology = analyze_topology(built.mesh.view(), agvd::within(progress, 1, 1));
+    Topology topology = analyze_topology(built.mesh.view(), agvd::within(progress, 1, 1));
     if (!topology.is_manifold || !topology.is_oriented ||
         !same_topology(topology, cleaned.topology)) {
         if (domain.plan) throw NetworkFailed{};
@@ -44,6 +45,7 @@ void check_result(const CleanedInput& cleaned, const Domain& domain,
         built.mesh.positions.size() != built.num_wanted) {
         throw NetworkFailed{};
     }
+    return topology;
 }
 
 }  // namespace remesh::detail

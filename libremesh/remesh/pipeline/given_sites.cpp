@@ -16,7 +16,7 @@ void check_repeats(const agvd::Surface& surface, std::span<const agvd::SurfacePo
     if (sites.size() < least_checked) return;
     const std::size_t distinct = agvd::distinct_points(surface, sites).size();
     if (distinct * 2 >= sites.size()) return;
-    throw agvd::InvalidInput(std::to_string(sites.size()) + " sites were given, but only at " +
+    throw agvd::InvalidSites(std::to_string(sites.size()) + " sites were given, but only at " +
                              std::to_string(distinct) + " different points; give each point once");
 }
 

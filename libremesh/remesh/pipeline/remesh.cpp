@@ -104,11 +104,14 @@ void check_options(const RemeshOptions& options, std::size_t num_vertices, std::
 // Scales the lengths of a result back: it was computed from the mesh times 2^-exponent.
 void scale_back(RemeshResult& result, int exponent) {
     result.mesh = agvd::scaled(result.mesh.view(), exponent);
+    Verdict& verdict = result.verdict;
     for (double* length :
          {&result.features.length, &result.features.dropped_length, &result.sizing.mean_edge,
-          &result.sizing.least_target, &result.sizing.largest_target}) {
+          &result.sizing.least_target, &result.sizing.largest_target, &verdict.spacing,
+          &verdict.thinnest_wall, &verdict.largest_distance, &verdict.diagonal}) {
         *length = std::ldexp(*length, exponent);
     }
+    for (double& coordinate : verdict.farthest) coordinate = std::ldexp(coordinate, exponent);
     for (ComponentTopology& component : result.input_topology.components) {
         component.area = std::ldexp(component.area, 2 * exponent);
     }

@@ -14,6 +14,7 @@
 #include "remesh/dual/delaunay.h"
 #include "remesh/guarantee/site_reason.h"
 #include "remesh/pipeline/remesh_options.h"
+#include "remesh/quality/verdict.h"
 #include "remesh/relax/relax_options.h"
 #include "remesh/topology/topology.h"
 
@@ -86,6 +87,7 @@ struct RemeshResult {
     //! Sheets that touch at a junction with equal points do not count. Unset: without CGAL.
     std::optional<agvd::Index> self_intersections = {};
     agvd::Index input_self_intersections = 0;
+    Verdict verdict = {};  //!< What the result is too coarse to show.
     //! Of the last propagation: see agvd::Propagation. Infinity: nothing is certified.
     double certified_error = std::numeric_limits<double>::infinity();
     std::size_t propagation_bytes = 0;  //!< Peak of the last propagation, beyond the mesh.

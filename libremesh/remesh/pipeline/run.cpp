@@ -25,20 +25,30 @@ double spacing_of(const CleanedInput& cleaned, const RemeshOptions& options) {
                         options.sites ? options.sites->size() : options.num_samples);
 }
 
+Verdict judge(const agvd::MeshView& cleaned, const agvd::MeshView& mesh, const Topology& topology,
+              const StageContext& context) {
+    const StageClock clock(Stage::Check, context.result);
+    const agvd::Progress progress = progress_of(Stage::Check, context.options);
+    return judge_result(cleaned, mesh, topology, context.options.num_threads,
+                        agvd::within(progress, 1, 1));
+}
+
 // All stages after cleaning, in their order: cleaned surface, curves, domain, sites, mesh.
 // \throw TooFewSamples, NetworkFailed; `cleaned` is unchanged then.
 void run_attempt(CleanedInput& cleaned, const FoundCurves& found, const KeptCurves& kept,
                  const SizeField* sizes, int most_mends, const StageContext& context) {
     const double spacing = spacing_of(cleaned, context.options);
-    std::unique_ptr<const CurvePlan> plan = plan_curves(cleaned, found, kept, spacing, sizes, context);
+    std::unique_ptr<const CurvePlan> plan =
+        plan_curves(cleaned, found, kept, spacing, sizes, context);
     Domain domain = prepare_domain(cleaned, std::move(plan), spacing, sizes, context);
     const PlacedSites sites = place_sites(cleaned, domain, context);
     try {
         BuiltMesh built = build_mesh(domain, sites, most_mends, context);
-        check_result(cleaned, domain, sites.chain, built, context);
+        const Topology topology = check_result(cleaned, domain, sites.chain, built, context);
         const agvd::MeshView cleaned_mesh = domain.whole->mesh.view();
         context.result.sizing =
             measure_edges(built.mesh.view(), built.sites, context.options.num_samples, sizes);
+        context.result.verdict = judge(cleaned_mesh, built.mesh.view(), topology, context);
         context.result.sites =
             to_original(built.sites, cleaned.given, {cleaned_mesh, cleaned.face_origin});
         context.result.mesh = std::move(built.mesh);

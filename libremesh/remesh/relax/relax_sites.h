@@ -19,7 +19,7 @@ namespace remesh {
 //! \param surface  prepared for the spacing of the sites.
 //! \param sites    on surface.input(), as are those of the result.
 //! \throw agvd::InvalidOption  an option is out of range.
-//! \throw agvd::InvalidInput   a site is not on the surface.
+//! \throw agvd::InvalidSites   a site is not on the surface.
 //! \throw agvd::Cancelled      the progress callback returned false.
 //! Cost: O(#F) every ten steps, O(#sites) each.
 [[nodiscard]] RelaxResult relax_sites(const PreparedSurface& surface,

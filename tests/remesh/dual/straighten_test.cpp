@@ -181,6 +181,36 @@ TEST(Straighten, BothWaysRoundATubeAreKept) {
     }
 }
 
+// A path around a spike moves up one ring of the spike in each round: on a long spike the crossings
+// of all rounds are bounded.
+TEST(Straighten, WindingAroundASpikeItStopsAtTheBound) {
+    const Index sides = 3, turns = 200;
+    for (const Index rings : {200U, 1000U}) {
+        SCOPED_TRACE(rings);
+        TriangleMesh spike = shapes::tube(sides, rings);
+        for (Index i = 0; i < spike.positions.size(); ++i) {
+            Vec3& p = spike.positions[i];
+            const double width = 1 - 0.99 * (i % (rings + 1)) / rings;
+            p = {width * p.x(), width * p.y(), 1 - width};
+        }
+        const Surface surface = build_surface(spike.view());
+        const auto at_base = [&](Index i) { return i % sides * (rings + 1); };
+        remesh::StripBuilder builder(surface, point_at(surface, 0));
+        for (Index i = 1; i <= turns * sides; ++i) builder.to_vertex(at_base(i));
+        FaceStrip strip = builder.finish(point_at(surface, 1));
+        const std::size_t num_crossed = strip.crossed.size();
+        std::size_t num_polls = 0;
+        const Progress count = [&](double) { return ++num_polls > 0; };
+        Poller poller(count);
+        remesh::PathStraightener straightener(surface, Ticker(poller));
+        const double start = straightener.shortest_in(strip).length;
+        const GeodesicPath path = straightener.straighten(strip);
+        EXPECT_LT(path.length, 0.8 * start);
+        EXPECT_EQ(path.is_locally_shortest, rings == 200);
+        EXPECT_LE(num_polls, 1 + (400 * num_crossed + 200'000) / Ticker::interval);
+    }
+}
+
 // Two corners of a face may be one vertex: the way from one to the other leads around it.
 TEST(Straighten, StripsAreJoinedAtTheCornerNotAtTheVertex) {
     Index num_loops = 0;

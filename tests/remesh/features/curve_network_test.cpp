@@ -7,6 +7,7 @@
 #include <set>
 
 #include "agvd/mesh/connectivity.h"
+#include "remesh/features/curve_sites.h"
 #include "remesh/features/cut_surface.h"
 #include "remesh/topology/topology.h"
 #include "support/flag_edges.h"
@@ -304,6 +305,20 @@ TEST(CurveNetwork, PlacesOfACurveAreTheSameOnBothSides) {
         const Index third = curve.vertex(surface, 2);
         EXPECT_LT((at(2 * edge) - surface.mesh.positions[third]).norm(), eps);
     }
+}
+
+TEST(CurveNetwork, AnEdgeBelowTheRoundingOfItsCurveHasPlacesToo) {
+    const Surface surface = make(parts::box({1, 1, 1}, 4));
+    const CurveNetwork network = find(surface, flag_sharp_edges(surface));
+    auto curve = network.curves[0];
+    const Index before = curve.vertex(surface, static_cast<Index>(curve.num_edges() - 1));
+    curve.up_to[curve.num_edges() - 1] = curve.length();
+    const auto end = remesh::point_on_curve(curve, curve.length());
+    EXPECT_EQ(position(surface.mesh.view(), end), surface.mesh.positions[before]);
+    const std::vector<double> spacings = remesh::spacings_along(surface, curve, .25);
+    EXPECT_NEAR(spacings.back(), 4, 1e-9);
+    EXPECT_EQ(remesh::share_before(3, 2, 6), .25);
+    EXPECT_EQ(remesh::share_before(3, 3, 3), 0);
 }
 
 TEST(CurveNetwork, PlacesBeyondAnOpenCurveAreItsEnds) {

@@ -2,6 +2,7 @@
 
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "remesh/io/report.h"
 
@@ -16,8 +17,41 @@ remesh::RemeshResult example_result() {
     result.cleaned.split_edges = 4;
     result.input_topology.components = {{.faces = 8, .euler = 0, .genus = 1, .area = 1.5}};
     result.input_topology.face_component.assign(8, 0);
+    result.components_dropped = 10;
     result.sites_added = 5;
+    result.added_because = {{remesh::SiteReason{}, 11}};
+    result.sites_moved = 12;
+    result.sites_removed = 13;
     result.sites_dropped = 6;
+    result.components_thinned = 14;
+    result.unfitted_vertices = 15;
+    result.self_intersections = 17;
+    result.input_self_intersections = 16;
+    result.features = {.curves = 21,
+                       .nodes = 22,
+                       .vertices = 23,
+                       .length = 2.5,
+                       .dropped_length = 2.75,
+                       .uncarried_curves = 24,
+                       .samples_for_all = 25,
+                       .thinned_patches = 26,
+                       .gave_up = true};
+    result.verdict = {.spacing = 0.5,
+                      .small_components = 41,
+                      .samples_for_components = 42,
+                      .thin_walls = 43,
+                      .thinnest_wall = 0.25,
+                      .samples_for_walls = 44,
+                      .largest_distance = 3,
+                      .farthest = {5, 6, 7},
+                      .diagonal = 8,
+                      .min_angle = std::numbers::pi / 8};
+    result.junctions = {.edges = 31,
+                        .curves = 32,
+                        .vertices = 33,
+                        .apart_edges = 34,
+                        .samples_for_all = 35,
+                        .welded_edges = 36};
     result.repair_rounds = 2;
     result.certified_error = 1.23e-4;
     result.propagation_bytes = 12'300'000;
@@ -43,16 +77,34 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
          .input_path = "in.ply",
          .output_path = "out.obj",
          .options = {.num_samples = 77,
+                     .vertex_count = remesh::VertexCount::Add,
+                     .boundary = remesh::Boundary::Free,
+                     .drop_components = 0.125,
                      .init = remesh::Init::Random,
+                     .features = remesh::Features::Angle,
+                     .feature_angle = 35,
+                     .feature_edges = {{0, 1}, {1, 2}},
+                     .face_labels = {4, 5, 6},
+                     .junctions = remesh::Junctions::Keep,
                      .seed = 9,
                      .relax_steps = 12,
                      .keep_sites = true,
+                     .fit = false,
                      .propagation = {.engine = agvd::Engine::Window, .max_error = 0.25}}}));
     EXPECT_EQ(report["program"], "remesh");
     EXPECT_EQ(report["version"], "1.2");
     EXPECT_EQ(report["input_path"], "in.ply");
     EXPECT_EQ(report["output_path"], "out.obj");
     EXPECT_EQ(report["options"]["samples"], 77);
+    EXPECT_EQ(report["options"]["topology"], "add");
+    EXPECT_EQ(report["options"]["boundary"], "free");
+    EXPECT_EQ(report["options"]["drop_components"], 0.125);
+    EXPECT_EQ(report["options"]["features"], "angle");
+    EXPECT_EQ(report["options"]["feature_angle_degrees"], 35);
+    EXPECT_EQ(report["options"]["given_feature_edges"], 2);
+    EXPECT_EQ(report["options"]["given_face_labels"], 3);
+    EXPECT_EQ(report["options"]["junctions"], "keep");
+    EXPECT_EQ(report["options"]["fit"], false);
     EXPECT_EQ(report["options"]["init"], "random");
     EXPECT_EQ(report["options"]["seed"], 9);
     EXPECT_EQ(report["options"]["given_sites"], nullptr);
@@ -74,7 +126,40 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
     EXPECT_EQ(report["input_topology"]["components"][0]["euler_characteristic"], 0);
     EXPECT_EQ(report["output_vertices"], 3);
     EXPECT_EQ(report["output_faces"], 1);
+    EXPECT_EQ(report["components_dropped"], 10);
     EXPECT_EQ(report["sites_added"], 5);
+    EXPECT_EQ(report["sites_added_because"], json({{remesh::to_text(remesh::SiteReason{}), 11}}));
+    EXPECT_EQ(report["sites_moved"], 12);
+    EXPECT_EQ(report["sites_removed"], 13);
+    EXPECT_EQ(report["components_from_faces"], 14);
+    EXPECT_EQ(report["unfitted_vertices"], 15);
+    EXPECT_EQ(report["input_self_intersecting_pairs"], 16);
+    EXPECT_EQ(report["self_intersecting_pairs"], 17);
+    EXPECT_EQ(report["features"], json({{"curves", 21},
+                                        {"nodes", 22},
+                                        {"vertices", 23},
+                                        {"crease_length_mesh_units", 2.5},
+                                        {"dropped_crease_length_mesh_units", 2.75},
+                                        {"curves_off_given_sites", 24},
+                                        {"samples_for_all", 25},
+                                        {"thinned_patches", 26},
+                                        {"gave_up", true}}));
+    EXPECT_EQ(report["verdict"], json({{"spacing_mesh_units", 0.5},
+                                       {"small_components", 41},
+                                       {"samples_for_components", 42},
+                                       {"thin_walls", 43},
+                                       {"thinnest_wall_mesh_units", 0.25},
+                                       {"samples_for_walls", 44},
+                                       {"largest_distance_mesh_units", 3.0},
+                                       {"largest_distance_percent_of_diagonal", 37.5},
+                                       {"farthest_point", {5.0, 6.0, 7.0}},
+                                       {"min_angle_deg", 22.5}}));
+    EXPECT_EQ(report["junctions"], json({{"input_edges", 31},
+                                         {"curves", 32},
+                                         {"vertices", 33},
+                                         {"edges_without_common_points", 34},
+                                         {"samples_for_all", 35},
+                                         {"welded_edges", 36}}));
     EXPECT_EQ(report["sites_dropped"], 6);
     EXPECT_EQ(report["repair_rounds"], 2);
     EXPECT_EQ(report["delaunay"]["inner_edges"], 200);
@@ -129,8 +214,12 @@ TEST(RemeshReport, TextTellsRepairTopologyTimeAndMemory) {
          {"in.ply", "4 split edges", "1 component, genus 1, 0 boundary loops",
           "distances: window engine, at most 0.0123 %", "3 vertices, 1 face", "5 sites added, ",
           "6 sites", "4.50 % of the edges failed it before 7 flips, 1.50 % after",
-          "reached their limit", "1 edge not proved locally shortest", "fails in 2 faces",
-          "clean 0.25 s, dual 0.50 s", "total 0.75 s", "12.3 MB"}) {
+          "spacing (0.5): creases of length 2.75 (", "43 walls (thinnest 0.25; about 44 samples",
+          "41 components (fewer than 12 vertices; about 42 samples would do)",
+          "largest distance: 37.5 % of the diagonal, from the input's vertex at 5 6 7",
+          "smallest angle: 22.5 degrees", "reached their limit",
+          "1 edge not proved locally shortest", "fails in 2 faces", "clean 0.25 s, dual 0.50 s",
+          "total 0.75 s", "12.3 MB"}) {
         EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
     }
 }

@@ -1,0 +1,209 @@
+// Walls are found by one query for each vertex of the result: from half an edge length below the
+// surface the nearest point is the vertex itself, unless another sheet lies nearer. If that sheet
+// faces the other way, it is the far side of a wall. Walls of which only one side is in the result
+// are not seen.
+#include "remesh/quality/verdict.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "agvd/core/parallel.h"
+#include "agvd/core/union_find.h"
+#include "agvd/mesh/closest_point.h"
+#include "agvd/mesh/scale.h"
+#include "remesh/quality/triangle_quality.h"
+
+namespace remesh {
+namespace {
+
+using agvd::Index;
+using agvd::Vec3;
+
+// Cosine of the normals on both sides of a wall: at most this.
+constexpr double most_wall_cosine = -0.7;
+// The far side counts if it is nearer than the vertex by this share of the depth.
+constexpr double clearly_nearer = 0.9;
+// Vertices in a chunk of queries.
+constexpr Index query_grain = 512;
+
+// The number of samples in a text: two digits.
+Index rounded_up(double count) {
+    const double unit = std::pow(10, std::floor(std::log10(count)) - 1);
+    constexpr double most = 4e9;
+    return static_cast<Index>(std::min(std::ceil(count / unit) * unit, most));
+}
+
+struct VertexShape {
+    Vec3 normal = Vec3::Zero();  // Unit, weighted by area.
+    double edge_length = 0;      // Mean of its edges.
+};
+
+std::vector<VertexShape> vertex_shapes(const agvd::MeshView& mesh) {
+    std::vector<VertexShape> shapes(mesh.positions.size());
+    std::vector<Index> num_edges(mesh.positions.size(), 0);
+    for (const agvd::Triangle& triangle : mesh.triangles) {
+        const Vec3& a = mesh.positions[triangle[0]];
+        const Vec3& b = mesh.positions[triangle[1]];
+        const Vec3& c = mesh.positions[triangle[2]];
+        const Vec3 area = (b - a).cross(c - a);
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index v = triangle[k];
+            const Vec3& next = mesh.positions[triangle[(k + 1) % 3]];
+            shapes[v].normal += area;
+            shapes[v].edge_length += (next - mesh.positions[v]).norm();
+            ++num_edges[v];
+        }
+    }
+    for (Index v = 0; v < shapes.size(); ++v) {
+        shapes[v].normal.normalize();
+        if (num_edges[v] > 0) shapes[v].edge_length /= num_edges[v];
+    }
+    return shapes;
+}
+
+double mean_edge_length(const agvd::MeshView& mesh) {
+    double sum = 0;
+    for (const agvd::Triangle& triangle : mesh.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            sum += (mesh.positions[triangle[(k + 1) % 3]] - mesh.positions[triangle[k]]).norm();
+        }
+    }
+    return sum / (3 * static_cast<double>(mesh.triangles.size()));
+}
+
+// The wall at a vertex.
+struct Wall {
+    double thickness = std::numeric_limits<double>::infinity();  // Infinity: there is no wall.
+    Index far_face = 0;                                          // On its other side.
+    [[nodiscard]] bool is_thin() const { return std::isfinite(thickness); }
+};
+
+// Walls thinner than the edges there are long.
+std::vector<Wall> find_walls(const agvd::MeshView& mesh, const agvd::ClosestPointTree& tree,
+                             const std::vector<VertexShape>& shapes, int num_threads,
+                             agvd::Poller& poller) {
+    std::vector<Wall> walls(shapes.size());
+    const auto count = static_cast<Index>(shapes.size());
+    agvd::parallel_chunks(
+        count, query_grain, num_threads,
+        [&](Index, Index begin, Index end) {
+            for (Index v = begin; v < end; ++v) {
+                const VertexShape& shape = shapes[v];
+                const double depth = shape.edge_length / 2;
+                const Vec3& place = mesh.positions[v];
+                const agvd::ClosestPoint nearest = tree.query(place - depth * shape.normal);
+                if (!(std::sqrt(nearest.distance_sq) < clearly_nearer * depth)) continue;
+                const Index face = nearest.point.face.value();
+                const agvd::Triangle& triangle = mesh.triangles[face];
+                const Vec3& a = mesh.positions[triangle[0]];
+                const Vec3 normal = (mesh.positions[triangle[1]] - a)
+                                        .cross(mesh.positions[triangle[2]] - a)
+                                        .normalized();
+                if (normal.dot(shape.normal) > most_wall_cosine) continue;
+                const double across = (place - nearest.position).norm();
+                if (across < shape.edge_length) walls[v] = {across, face};
+            }
+        },
+        poller);
+    return walls;
+}
+
+// Vertices are on one wall if an edge joins them, or if one lies behind the other.
+void judge_walls(const agvd::MeshView& mesh, const std::vector<VertexShape>& shapes,
+                 const std::vector<Wall>& walls, Verdict& verdict) {
+    agvd::UnionFind joined(shapes.size());
+    const auto join = [&](Index a, Index b) {
+        if (walls[a].is_thin() && walls[b].is_thin()) joined.unite(a, b);
+    };
+    for (const agvd::Triangle& triangle : mesh.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) join(triangle[k], triangle[(k + 1) % 3]);
+    }
+    for (Index v = 0; v < walls.size(); ++v) {
+        if (!walls[v].is_thin()) continue;
+        for (const Index behind : mesh.triangles[walls[v].far_face]) join(v, behind);
+    }
+    double most_times = 1;  // As many vertices.
+    verdict.thinnest_wall = std::numeric_limits<double>::infinity();
+    for (Index v = 0; v < shapes.size(); ++v) {
+        if (!walls[v].is_thin()) continue;
+        if (joined.is_root(v)) ++verdict.thin_walls;
+        verdict.thinnest_wall = std::min(verdict.thinnest_wall, walls[v].thickness);
+        most_times = std::max(most_times, std::pow(shapes[v].edge_length / walls[v].thickness, 2));
+    }
+    if (verdict.thin_walls == 0) {
+        verdict.thinnest_wall = 0;
+        return;
+    }
+    verdict.samples_for_walls = rounded_up(most_times * static_cast<double>(shapes.size()));
+}
+
+void judge_components(const agvd::MeshView& mesh, const Topology& topology, Verdict& verdict) {
+    std::vector<Index> num_vertices(topology.components.size(), 0);
+    std::vector<std::uint8_t> is_counted(mesh.positions.size(), 0);
+    for (Index f = 0; f < mesh.triangles.size(); ++f) {
+        for (const Index v : mesh.triangles[f]) {
+            if (is_counted[v] != 0) continue;
+            is_counted[v] = 1;
+            ++num_vertices[topology.face_component[f]];
+        }
+    }
+    double most_times = 1;
+    for (const Index count : num_vertices) {
+        if (count >= least_component_vertices) continue;
+        ++verdict.small_components;
+        most_times = std::max(most_times, static_cast<double>(least_component_vertices) / count);
+    }
+    if (verdict.small_components == 0) return;
+    verdict.samples_for_components =
+        rounded_up(most_times * static_cast<double>(mesh.positions.size()));
+}
+
+void judge_distance(const agvd::MeshView& input, const agvd::ClosestPointTree& tree,
+                    int num_threads, agvd::Poller& poller, Verdict& verdict) {
+    const auto num_vertices = static_cast<Index>(input.positions.size());
+    const Index count = std::min(num_vertices, most_compared_vertices);
+    const auto chosen = [&](Index i) {
+        return static_cast<Index>(std::uint64_t{num_vertices} * i / count);
+    };
+    struct Farthest {
+        double distance_sq = -1;
+        Index vertex = 0;
+    };
+    std::vector<Farthest> of_chunk(agvd::num_chunks(count, query_grain));
+    agvd::parallel_chunks(
+        count, query_grain, num_threads,
+        [&](Index chunk, Index begin, Index end) {
+            for (Index i = begin; i < end; ++i) {
+                const Index v = chosen(i);
+                const double distance_sq = tree.query(input.positions[v]).distance_sq;
+                if (distance_sq > of_chunk[chunk].distance_sq) of_chunk[chunk] = {distance_sq, v};
+            }
+        },
+        poller);
+    const auto farthest = std::max_element(
+        of_chunk.begin(), of_chunk.end(),
+        [](const Farthest& a, const Farthest& b) { return a.distance_sq < b.distance_sq; });
+    verdict.largest_distance = std::sqrt(farthest->distance_sq);
+    verdict.farthest = input.positions[farthest->vertex];
+}
+
+}  // namespace
+
+Verdict judge_result(const agvd::MeshView& input, const agvd::MeshView& result,
+                     const Topology& topology, int num_threads, const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    Verdict verdict;
+    verdict.spacing = mean_edge_length(result);
+    const agvd::MeshBox box = agvd::box_of(input, num_threads);
+    verdict.diagonal = (box.high - box.low).norm();
+    verdict.min_angle = measure_triangles(result, poller.progress()).min_angle;
+    judge_components(result, topology, verdict);
+    const agvd::ClosestPointTree tree(result, poller.progress());
+    const std::vector<VertexShape> shapes = vertex_shapes(result);
+    judge_walls(result, shapes, find_walls(result, tree, shapes, num_threads, poller), verdict);
+    judge_distance(input, tree, num_threads, poller, verdict);
+    return verdict;
+}
+
+}  // namespace remesh

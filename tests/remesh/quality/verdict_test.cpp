@@ -1,0 +1,119 @@
+// What a result is too coarse to show, on meshes of known thickness, size and distance.
+#include "remesh/quality/verdict.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "support/parts.h"
+#include "support/shapes.h"
+
+using agvd::Index;
+using agvd::TriangleMesh;
+using agvd::Vec3;
+using remesh::Verdict;
+
+namespace {
+
+Verdict judge(const TriangleMesh& input, const TriangleMesh& result) {
+    return remesh::judge_result(input.view(), result.view(),
+                                remesh::analyze_topology(result.view()), 1);
+}
+
+Verdict judge(const TriangleMesh& mesh) { return judge(mesh, mesh); }
+
+TriangleMesh moved(TriangleMesh mesh, const Vec3& by) {
+    for (Vec3& p : mesh.positions) p += by;
+    return mesh;
+}
+
+// n x n quads of side 1 / n, on both sides of a plate.
+TriangleMesh plate(Index n, double thickness) {
+    TriangleMesh mesh = parts::box({1, 1, 1}, n);
+    for (Vec3& p : mesh.positions) p.z() *= thickness;
+    return mesh;
+}
+
+}  // namespace
+
+TEST(Verdict, ASphereHasNothingThatIsSmall) {
+    const Verdict verdict = judge(shapes::sphere(3));
+    EXPECT_EQ(verdict.thin_walls, 0u);
+    EXPECT_EQ(verdict.thinnest_wall, 0);
+    EXPECT_EQ(verdict.samples_for_walls, 0u);
+    EXPECT_EQ(verdict.small_components, 0u);
+    EXPECT_EQ(verdict.samples_for_components, 0u);
+    EXPECT_EQ(verdict.largest_distance, 0);
+    EXPECT_NEAR(verdict.diagonal, 2 * std::sqrt(3.0), 0.01);
+}
+
+TEST(Verdict, APlateThinnerThanItsEdgesIsOneWall) {
+    const double thickness = 0.02;
+    const Verdict verdict = judge(plate(10, thickness));
+    EXPECT_EQ(verdict.thin_walls, 1u);
+    EXPECT_NEAR(verdict.thinnest_wall, thickness, 1e-12);
+    // Edges are .1 to .14 long: 25 to 50 times the 602 vertices.
+    EXPECT_GT(verdict.samples_for_walls, 25u * 602u);
+    EXPECT_LT(verdict.samples_for_walls, 50u * 602u);
+    EXPECT_EQ(judge(shapes::join(plate(10, thickness), moved(plate(10, 2 * thickness), {5, 0, 0})))
+                  .thin_walls,
+              2u);
+    EXPECT_EQ(judge(plate(10, 0.2)).thin_walls, 0u);
+}
+
+TEST(Verdict, AGapIsNoWall) {
+    const TriangleMesh box = parts::box({1, 1, 1}, 10);
+    EXPECT_EQ(judge(shapes::join(box, moved(box, {1.02, 0, 0}))).thin_walls, 0u);
+}
+
+TEST(Verdict, ComponentsOfFewVerticesAreSmall) {
+    const TriangleMesh large = shapes::sphere(3);
+    TriangleMesh mesh = shapes::join(large, moved(shapes::tetrahedron(), {9, 0, 0}));
+    const Verdict verdict = judge(mesh);
+    EXPECT_EQ(verdict.small_components, 1u);
+    // Three times as many vertices.
+    EXPECT_NEAR(verdict.samples_for_components, 3.0 * static_cast<double>(mesh.positions.size()),
+                100);
+    mesh = shapes::join(large, moved(shapes::icosahedron(), {9, 0, 0}));
+    ASSERT_EQ(shapes::icosahedron().positions.size(), remesh::least_component_vertices);
+    EXPECT_EQ(judge(mesh).small_components, 0u);
+}
+
+TEST(Verdict, TheFarthestVertexOfTheInputIsNamed) {
+    TriangleMesh input = shapes::sphere(3);
+    const TriangleMesh result = input;
+    input.positions[77] *= 1.25;
+    input.positions[78] *= 1.125;
+    const Verdict verdict = judge(input, result);
+    EXPECT_NEAR(verdict.largest_distance, 0.25, 1e-12);
+    EXPECT_EQ(verdict.farthest, input.positions[77]);
+}
+
+TEST(Verdict, OfManyVerticesSomeAreCompared) {
+    TriangleMesh input = shapes::grid(200);
+    ASSERT_GT(input.positions.size(), remesh::most_compared_vertices);
+    ASSERT_LT(input.positions.size(), 2 * remesh::most_compared_vertices);
+    const TriangleMesh result = input;
+    // Of two neighbours by number at least one is looked at.
+    const auto last = input.positions.size() - 1;
+    for (const std::size_t v : {last - 1, last}) input.positions[v].z() = 0.5;
+    EXPECT_NEAR(judge(input, result).largest_distance, 0.5, 1e-12);
+}
+
+TEST(Verdict, TheSmallestAngleAndTheSpacingAreThoseOfTheResult) {
+    const TriangleMesh result = shapes::grid(4);
+    const Verdict verdict = judge(shapes::grid(8), result);
+    EXPECT_NEAR(verdict.min_angle, std::numbers::pi / 4, 1e-12);
+    EXPECT_NEAR(verdict.spacing, (2 + std::sqrt(2.0)) / 3 / 4, 1e-12);
+}
+
+TEST(Verdict, ThreadsDoNotChangeIt) {
+    const TriangleMesh input = shapes::torus(80, 40), result = shapes::torus(40, 20);
+    const auto topology = remesh::analyze_topology(result.view());
+    const Verdict one = remesh::judge_result(input.view(), result.view(), topology, 1);
+    const Verdict four = remesh::judge_result(input.view(), result.view(), topology, 4);
+    EXPECT_GT(one.largest_distance, 0);
+    EXPECT_EQ(one.largest_distance, four.largest_distance);
+    EXPECT_EQ(one.farthest, four.farthest);
+    EXPECT_EQ(one.thin_walls, four.thin_walls);
+}
