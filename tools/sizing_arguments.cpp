@@ -54,13 +54,23 @@ void add_sizing_options(CLI::App& app, SizingArguments& arguments) {
             ->type_name("N")
             ->excludes(samples)
             ->excludes(sites);
-    add_length(app, "--edge-length,--hsiz",
-               "Mean edge of the result, in mesh units or percent of the diagonal, instead of "
-               "--samples",
-               arguments.edge)
+    CLI::Option* const edge =
+        add_length(app, "--edge-length,--hsiz",
+                   "Mean edge of the result, in mesh units or percent of the diagonal, instead of "
+                   "--samples",
+                   arguments.edge)
+            ->excludes(samples)
+            ->excludes(sites)
+            ->excludes(faces);
+    add_length(app, "--max-distance,--hausd",
+               "Largest distance between result and input, in mesh units or percent of the "
+               "diagonal, instead of --samples; edges are adaptive, and the exit code is 5 if it "
+               "cannot be met",
+               arguments.max_distance)
         ->excludes(samples)
         ->excludes(sites)
-        ->excludes(faces);
+        ->excludes(faces)
+        ->excludes(edge);
     CLI::Option* const adaptive =
         app.add_flag("--adaptive", sizing.is_adaptive,
                      "Shorter edges where the surface is curved, longer ones elsewhere");
@@ -91,6 +101,7 @@ remesh::Sizing sizing_for(const SizingArguments& arguments, const agvd::MeshView
         if (amount) length = amount->value * (amount->is_percent ? percent : 1);
     };
     take(arguments.edge, sizing.edge_length);
+    take(arguments.max_distance, sizing.max_distance);
     take(arguments.min_edge, sizing.min_edge);
     take(arguments.max_edge, sizing.max_edge);
     return sizing;

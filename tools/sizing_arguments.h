@@ -8,12 +8,14 @@
 namespace cli {
 
 struct SizingArguments {
-    remesh::Sizing sizing;                           //!< What needs no mesh.
-    std::optional<Amount> edge, min_edge, max_edge;  //!< Mesh units, or percent of the diagonal.
+    remesh::Sizing sizing;  //!< What needs no mesh.
+    std::optional<Amount> edge, max_distance, min_edge,
+        max_edge;  //!< Mesh units, or percent of the diagonal.
     //! Vertices of IN whose property gives target lengths or densities: there is no reader yet.
 };
 
-//! Adds --adaptive, --faces, --edge-length, --min-edge, --max-edge and --gradation, after
+//! Adds --adaptive, --faces, --edge-length, --max-distance, --min-edge, --max-edge and --gradation,
+//! after
 //! --samples and --sites.
 void add_sizing_options(CLI::App& app, SizingArguments& arguments);
 

@@ -36,11 +36,12 @@ void check_sizing(const RemeshOptions& options, std::size_t num_vertices) {
             "several of is_adaptive, target_lengths and densities are given; use one of them");
     }
     const int num_counts = (sizing.max_error > 0 ? 1 : 0) + (sizing.edge_length > 0 ? 1 : 0) +
-                           (sizing.num_faces > 0 ? 1 : 0) + (sizing.gives_count ? 1 : 0);
+                           (sizing.num_faces > 0 ? 1 : 0) + (sizing.gives_count ? 1 : 0) +
+                           (sizing.max_distance > 0 ? 1 : 0);
     if (num_counts > 1) {
         throw agvd::InvalidOption(
-            "several of max_error, edge_length, num_faces and gives_count are given; use one of "
-            "them");
+            "several of max_error, max_distance, edge_length, num_faces and gives_count are given; "
+            "use one of them");
     }
     if (sizing.max_error > 0 && !sizing.is_adaptive) {
         throw agvd::InvalidOption("max_error needs is_adaptive");
@@ -49,8 +50,9 @@ void check_sizing(const RemeshOptions& options, std::size_t num_vertices) {
         throw agvd::InvalidOption("gives_count needs target_lengths");
     }
     const auto is_length = [](double value) { return value >= 0 && std::isfinite(value); };
-    if (!is_length(sizing.max_error) || !is_length(sizing.edge_length)) {
-        throw agvd::InvalidOption("max_error and edge_length must be 0 or more");
+    if (!is_length(sizing.max_error) || !is_length(sizing.edge_length) ||
+        !is_length(sizing.max_distance)) {
+        throw agvd::InvalidOption("max_error, max_distance and edge_length must be 0 or more");
     }
     if (!(sizing.min_edge >= 0 && sizing.max_edge > 0 && sizing.min_edge <= sizing.max_edge)) {
         throw agvd::InvalidOption("min_edge is " + std::to_string(sizing.min_edge) +
@@ -66,8 +68,8 @@ void check_sizing(const RemeshOptions& options, std::size_t num_vertices) {
 // Multiplies all lengths by 2^exponent.
 void scale_lengths(Sizing& sizing, int exponent) {
     for (double& length : sizing.target_lengths) length = std::ldexp(length, exponent);
-    for (double* length :
-         {&sizing.min_edge, &sizing.max_edge, &sizing.edge_length, &sizing.max_error}) {
+    for (double* length : {&sizing.min_edge, &sizing.max_edge, &sizing.edge_length,
+                           &sizing.max_error, &sizing.max_distance}) {
         *length = std::ldexp(*length, exponent);
     }
 }
@@ -107,8 +109,9 @@ void scale_back(RemeshResult& result, int exponent) {
     Verdict& verdict = result.verdict;
     for (double* length :
          {&result.features.length, &result.features.dropped_length, &result.sizing.mean_edge,
-          &result.sizing.least_target, &result.sizing.largest_target, &verdict.spacing,
-          &verdict.thinnest_wall, &verdict.largest_distance, &verdict.diagonal}) {
+          &result.sizing.least_target, &result.sizing.largest_target,
+          &result.sizing.largest_distance, &verdict.spacing, &verdict.thinnest_wall,
+          &verdict.largest_distance, &verdict.diagonal}) {
         *length = std::ldexp(*length, exponent);
     }
     for (double& coordinate : verdict.farthest) coordinate = std::ldexp(coordinate, exponent);

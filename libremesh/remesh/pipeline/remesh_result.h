@@ -55,6 +55,9 @@ struct SizingResult {
     double least_target = 0, largest_target = 0;
     //! Edges over the mean of the targets at their ends: 5th and 95th percentile.
     double low_ratio = 0, high_ratio = 0;
+    //! Both ways between result and input, at all vertices and 100 000 points of each; 0: not
+    //! measured, as Sizing::max_distance is not used.
+    double largest_distance = 0;
 };
 
 //! Plain values owned by the caller; nothing points back into the input.

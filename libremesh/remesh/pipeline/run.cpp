@@ -8,6 +8,7 @@
 
 #include "remesh/clean/carry_sites.h"
 #include "remesh/pipeline/check_result.h"
+#include "remesh/pipeline/meet_distance.h"
 #include "remesh/pipeline/sample_count.h"
 #include "remesh/pipeline/sizes.h"
 #include "remesh/sampling/minimum_samples.h"
@@ -54,7 +55,9 @@ void run_attempt(CleanedInput& cleaned, const FoundCurves& found, const KeptCurv
         context.result.mesh = std::move(built.mesh);
         context.result.self_intersections = built.self_intersections;
         // The surface is needed again if the edges are not as long as asked for.
-        if (context.options.sizing.edge_length > 0) give_back(std::move(domain), cleaned, context);
+        const Sizing& sizing = context.options.sizing;
+        if (sizing.edge_length > 0 || sizing.max_distance > 0)
+            give_back(std::move(domain), cleaned, context);
     } catch (const TooFewSamples&) {
         give_back(std::move(domain), cleaned, context);
         throw;
@@ -70,15 +73,18 @@ Index num_new_crossings(const RemeshResult& result) {
 // Tries all creases, then fewer and fewer, at last none, until a mesh has no new
 // self-intersections. If none of these gives a mesh, tries the same without junctions.
 RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cleaning,
-                             const RemeshOptions& given) {
+                             const RemeshOptions& given,
+                             std::span<const double> most_lengths = {}) {
     RemeshResult first = after_cleaning;
     RemeshOptions options = given;
     FoundCurves found = find_curves(cleaned, spacing_of(cleaned, options), {options, first});
-    RunSizes sizes = find_sizes(cleaned, found, spacing_of(cleaned, options), {options, first});
+    RunSizes sizes =
+        find_sizes(cleaned, found, spacing_of(cleaned, options), most_lengths, {options, first});
     if (sizes.num_samples != options.num_samples) {
         options.num_samples = sizes.num_samples;
         found = find_curves(cleaned, spacing_of(cleaned, options), {options, first});
-        sizes = find_sizes(cleaned, found, spacing_of(cleaned, options), {options, first});
+        sizes = find_sizes(cleaned, found, spacing_of(cleaned, options), most_lengths,
+                           {options, first});
         options.num_samples = sizes.num_samples;
     }
     const std::vector<double> drop_shares =
@@ -157,13 +163,19 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
     try {
         options.num_samples = sample_count(cleaned, options);
         require_least_samples(cleaned.topology, options);
-        const RemeshResult after_cleaning = result;
-        result = run_with_curves(cleaned, after_cleaning, options);
+        RemeshResult after_cleaning = result;
+        const auto run = [&](const RemeshOptions& changed, std::span<const double> most_lengths) {
+            RemeshResult made = run_with_curves(cleaned, after_cleaning, changed, most_lengths);
+            after_cleaning.seconds = made.seconds;
+            return made;
+        };
+        result = options.sizing.max_distance > 0 ? meet_distance(cleaned, options, run)
+                                                 : run(options, {});
         if (const auto length = corrected_edge_length(result.sizing.mean_edge, options)) {
             options.sizing.edge_length = *length;
             options.num_samples = sample_count(cleaned, options);
             require_least_samples(cleaned.topology, options);
-            result = run_with_curves(cleaned, after_cleaning, options);
+            result = run(options, {});
         }
     } catch (const TooFewSamples& failure) {
         const std::string asked = std::to_string(failure.asked);

@@ -27,17 +27,14 @@ constexpr double cells_per_site = 4;
 // With a mean edge given, the number of samples is found in so many rounds.
 constexpr int edge_length_tries = 2;
 
-// The caller's value at each vertex of the base.
-std::vector<double> carry_values(const std::vector<double>& given, const CleanedInput& cleaned,
-                                 std::span<const Index> original,
+// The value at each vertex of the base.
+// \param value_of  of a vertex of the cleaned mesh.
+template <typename ValueOf>
+std::vector<double> carry_values(const ValueOf& value_of, std::span<const Index> original,
                                  const agvd::IntrinsicTriangulation& base) {
     const agvd::Surface& input = base.input();
     std::vector<double> values;
-    for (Index v = 0; v < input.num_vertices(); ++v) {
-        const Index whole = original[v];
-        values.push_back(
-            given[cleaned.vertex_origin.empty() ? whole : cleaned.vertex_origin[whole]]);
-    }
+    for (Index v = 0; v < input.num_vertices(); ++v) values.push_back(value_of(original[v]));
     for (Index v = input.num_vertices(); v < base.surface().num_vertices(); ++v) {
         const SurfacePoint& place = base.place_of_added(v);
         const agvd::Triangle& t = input.mesh.triangles[place.face.value()];
@@ -73,7 +70,7 @@ std::vector<std::uint8_t> edges_to_cut(const FoundCurves& found, Index num_edges
 }  // namespace
 
 RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, double spacing,
-                    const StageContext& context) {
+                    std::span<const double> most_lengths, const StageContext& context) {
     const auto& [options, result] = context;
     const Sizing& sizing = options.sizing;
     if (is_uniform(sizing)) return {nullptr, options.num_samples, 0};
@@ -100,9 +97,16 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
         values = patch_curvature(
             *base, static_cast<Index>(std::clamp(cells_per_site * num_sites, 1.0, 1e9)), ticker);
     } else {
-        values =
-            carry_values(sizing.target_lengths.empty() ? sizing.densities : sizing.target_lengths,
-                         cleaned, cut.original, *base);
+        const std::vector<double>& given =
+            sizing.target_lengths.empty() ? sizing.densities : sizing.target_lengths;
+        const auto value_of = [&](Index v) {
+            return given[cleaned.vertex_origin.empty() ? v : cleaned.vertex_origin[v]];
+        };
+        values = carry_values(value_of, cut.original, *base);
+    }
+    std::vector<double> most;
+    if (!most_lengths.empty()) {
+        most = carry_values([&](Index v) { return most_lengths[v]; }, cut.original, *base);
     }
     std::vector<std::pair<Index, Index>> joined;
     for (Index v = cut.num_original; v < cut.original.size(); ++v) {
@@ -111,11 +115,12 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
     const bool gives_count = !options.sites && (sizing.gives_count || sizing.max_error > 0);
     const bool is_edge_given = sizing.edge_length > 0 && !options.sites;
     double area = gives_count ? 0 : num_sites * std::numbers::sqrt3 / 2;
-    TargetLengths targets = target_lengths(base->surface(), values, joined, sizing, area, ticker);
+    TargetLengths targets =
+        target_lengths(base->surface(), values, most, joined, sizing, area, ticker);
     for (int i = 0; i < edge_length_tries && is_edge_given; ++i) {
         const double ratio = mean_length(base->surface(), targets.length) / sizing.edge_length;
         area *= ratio * ratio;
-        targets = target_lengths(base->surface(), values, joined, sizing, area, ticker);
+        targets = target_lengths(base->surface(), values, most, joined, sizing, area, ticker);
     }
     RunSizes sizes{nullptr, options.num_samples, targets.scale};
     sizes.field = std::make_unique<const SizeField>(base, std::move(targets.length));

@@ -10,8 +10,9 @@
 namespace remesh {
 
 //! Lengths in mesh units. Where: at most one of is_adaptive, target_lengths and densities; none:
-//! all edges are equally long. How many: at most one of max_error, edge_length, num_faces and
-//! gives_count; none: lengths are scaled so that RemeshOptions::num_samples vertices come out.
+//! all edges are equally long. How many: at most one of max_error, max_distance,
+//! edge_length, num_faces and gives_count; none: lengths are scaled so that
+//! RemeshOptions::num_samples vertices come out.
 struct Sizing {
     //! Shorter edges where the surface is curved, as the cubic root of the radius of curvature: the
     //! RMS distance of the result is least.
@@ -19,6 +20,9 @@ struct Sizing {
     //! > 0: lengths of adaptive edges are those of length_for_error instead, and the number of
     //! samples follows. 0: not used.
     double max_error = 0;
+    //! > 0: the result and the input lie no farther from each other; the number of samples follows,
+    //! and edges are adaptive. 0: not used.
+    double max_distance = 0;
     std::vector<double> target_lengths = {};  //!< > 0, for each of the caller's vertices; or empty.
     std::vector<double> densities = {};       //!< Likewise: vertices per area, in any unit.
     double min_edge = 0;                      //!< >= 0: no target is shorter ...

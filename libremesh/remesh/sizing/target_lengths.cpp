@@ -28,10 +28,11 @@ constexpr double path_excess = 1.1;
 class LengthSearch {
 public:
     LengthSearch(const Surface& surface, std::span<const double> values,
-                 std::span<const std::pair<Index, Index>> joined, const Sizing& sizing, double area,
-                 agvd::Ticker& ticker)
+                 std::span<const double> most, std::span<const std::pair<Index, Index>> joined,
+                 const Sizing& sizing, double area, agvd::Ticker& ticker)
         : surface_(surface),
           values_(values),
+          most_(most),
           joined_(joined),
           sizing_(sizing),
           area_(area),
@@ -96,8 +97,9 @@ private:
         result.scale = sizing_.target_lengths.empty() ? 0 : scale;
         result.length.reserve(values_.size());
         for (Index v = 0; v < values_.size(); ++v) {
+            const double longest = most_.empty() ? longest_ : std::min(longest_, most_[v]);
             result.length.push_back(
-                std::max(std::min(wanted(v, scale), longest_), sizing_.min_edge));
+                std::max(std::min(wanted(v, scale), longest), sizing_.min_edge));
         }
         limit_growth(surface_, joined_, slope_, result.length, ticker_);
         return result;
@@ -109,7 +111,7 @@ private:
     }
 
     const Surface& surface_;
-    std::span<const double> values_;
+    std::span<const double> values_, most_;
     std::span<const std::pair<Index, Index>> joined_;
     const Sizing& sizing_;
     double area_;
@@ -127,9 +129,10 @@ double length_for_error(double curvature, double error) {
 }
 
 TargetLengths target_lengths(const Surface& surface, std::span<const double> values,
+                             std::span<const double> most,
                              std::span<const std::pair<Index, Index>> joined, const Sizing& sizing,
                              double area, agvd::Ticker& ticker) {
-    return LengthSearch(surface, values, joined, sizing, area, ticker).run();
+    return LengthSearch(surface, values, most, joined, sizing, area, ticker).run();
 }
 
 }  // namespace remesh

@@ -29,13 +29,14 @@ struct TargetLengths {
 
 //! \param values  #V: curvatures (patch_curvature), lengths or densities, whichever `sizing` asks
 //!        for.
+//! \param most    #V: no target is longer; or empty.
 //! \param joined  see limit_growth.
 //! \param area    in squares of the local length, that the result has; 0: as the lengths give it.
 //!        Bounds and gradation hold in the scaled lengths unless no scale gives this area: then all
 //!        are multiplied by one factor in the end.
 //! Cost: O(n log n) for each scale that is tried, some five.
 [[nodiscard]] TargetLengths target_lengths(
-    const agvd::Surface& surface, std::span<const double> values,
+    const agvd::Surface& surface, std::span<const double> values, std::span<const double> most,
     std::span<const std::pair<agvd::Index, agvd::Index>> joined, const Sizing& sizing, double area,
     agvd::Ticker& ticker);
 

@@ -28,7 +28,7 @@ struct TargetLengthsOfATorus : testing::Test {
     remesh::TargetLengths run(const Sizing& sizing, const std::vector<double>& of,
                               double area) const {
         agvd::Ticker ticker;
-        return remesh::target_lengths(surface, of, {}, sizing, area, ticker);
+        return remesh::target_lengths(surface, of, {}, {}, sizing, area, ticker);
     }
 };
 

@@ -1,0 +1,53 @@
+#include "remesh/pipeline/meet_distance.h"
+
+#include <limits>
+#include <string>
+
+#include "agvd/core/error.h"
+#include "agvd/mesh/scale.h"
+#include "remesh/pipeline/distance_check.h"
+
+namespace remesh::detail {
+namespace {
+
+constexpr int max_rounds = 8;
+// The error that the first edges aim at, as a share of the limit: fitted vertices lie on both sides
+// of the surface, and what is too far is refined.
+constexpr double first_error = 2;
+// Samples miss the farthest point: this share of the limit must be kept at them.
+constexpr double kept_share = 0.98;
+
+}  // namespace
+
+RemeshResult meet_distance(const CleanedInput& cleaned, const RemeshOptions& options,
+                           const RunWithLengths& run) {
+    const double limit = options.sizing.max_distance;
+    RemeshOptions finer = options;
+    finer.vertex_count = VertexCount::Add;
+    finer.sizing.is_adaptive = true;
+    finer.sizing.max_error = first_error * limit;
+    const agvd::MeshView mesh = cleaned.surface.mesh.view();
+    const agvd::Progress progress = progress_of(Stage::Check, options);
+    const DistanceCheck check(mesh, options.num_threads, agvd::within(progress, 1, 1));
+    const agvd::MeshBox box = agvd::box_of(mesh, options.num_threads);
+    std::vector<double> most_lengths(mesh.positions.size(), (box.high - box.low).norm());
+    MeasuredDistance best{std::numeric_limits<double>::infinity(), {}};
+    std::size_t num_vertices = 0;
+    for (int round = 0; round < max_rounds; ++round) {
+        RemeshResult result = run(finer, most_lengths);
+        const MeasuredDistance found = check.measure(result.mesh.view(), limit, most_lengths);
+        result.sizing.largest_distance = found.largest;
+        if (found.largest <= kept_share * limit) return result;
+        if (found.largest < best.largest) {
+            best = found;
+            num_vertices = result.mesh.positions.size();
+        }
+    }
+    throw agvd::ConstraintUnmet(
+        "the largest distance asked for is " + std::to_string(limit) + ", and " +
+        std::to_string(best.largest) + " was reached with " + std::to_string(num_vertices) +
+        " vertices, near " + std::to_string(best.where.x()) + ' ' + std::to_string(best.where.y()) +
+        ' ' + std::to_string(best.where.z()) + "; allow a larger distance");
+}
+
+}  // namespace remesh::detail

@@ -1,0 +1,25 @@
+//! \file
+//! Points spread evenly over the area of a mesh.
+#pragma once
+
+#include <vector>
+
+#include "agvd/mesh/mesh_view.h"
+#include "agvd/mesh/surface_point.h"
+
+namespace remesh::detail {
+
+//! Point i of n is random in the i-th of n strata of equal area. The mesh must outlive this.
+class AreaSamples {
+public:
+    //! \param mesh  at least one face has an area; faces without get no point. Cost: O(#F).
+    explicit AreaSamples(const agvd::MeshView& mesh);
+
+    //! \param i  below n; the same point in each call. Cost: O(log #F).
+    [[nodiscard]] agvd::SurfacePoint at(agvd::Index i, agvd::Index n) const;
+
+private:
+    std::vector<double> area_up_to_;  // #F: of a face and all before it.
+};
+
+}  // namespace remesh::detail
