@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "agvd/core/parallel.h"
 #include "remesh/quality/area_samples.h"
@@ -18,12 +19,16 @@ using agvd::Vec3;
 constexpr Index num_samples = 100'000;  // On each surface.
 constexpr Index query_grain = 1024;
 // Share of the limit from which edges get shorter, and that they aim at.
-constexpr double too_far = 0.9, aim = 0.7;
+constexpr double too_far = 0.75, aim = 0.6;
+// A point beyond this share of the limit counts as too far: nearer to the limit a proof would take
+// ever smaller parts.
+constexpr double provable_share = 0.98;
 
 // A point whose distance is too large.
 struct FarPoint {
     Index input_face;
-    double length;  // That edges there may have.
+    double length;  // Of the edges of the result there.
+    double factor;  // To that length.
 };
 
 struct ChunkOfPoints {
@@ -72,9 +77,139 @@ private:
     std::vector<Index> face_of_vertex_;
 };
 
+// Proves that a triangle lies within a limit of a mesh, or finds a point that does not. Part of it
+// is near enough if its centroid is, with its radius added, or if its corners are near one triangle
+// of the mesh: the distance from a convex set is largest at a corner. Else it is divided.
+class Prover {
+public:
+    Prover(const agvd::MeshView& mesh, const agvd::ClosestPointTree& tree, double limit)
+        : mesh_(mesh), tree_(tree), limit_(limit) {}
+
+    // \return a point beyond provable_share of the limit, if there is one.
+    [[nodiscard]] std::optional<std::pair<Vec3, agvd::ClosestPoint>> find_far(
+        const std::array<Vec3, 3>& corners, agvd::Ticker& ticker) {
+        parts_ = {corners};
+        while (!parts_.empty()) {
+            ticker.tick(query_steps);
+            const std::array<Vec3, 3> part = parts_.back();
+            parts_.pop_back();
+            const Vec3 middle = (part[0] + part[1] + part[2]) / 3;
+            const agvd::ClosestPoint nearest = tree_.query(middle);
+            const double distance = std::sqrt(nearest.distance_sq);
+            if (distance > provable_share * limit_) return std::pair(middle, nearest);
+            double radius = 0;
+            for (const Vec3& corner : part) radius = std::max(radius, (corner - middle).norm());
+            if (distance + radius <= limit_ || is_near(part, nearest.point.face)) continue;
+            const Vec3 a = (part[1] + part[2]) / 2, b = (part[2] + part[0]) / 2,
+                       c = (part[0] + part[1]) / 2;
+            parts_.push_back({part[0], c, b});
+            parts_.push_back({c, part[1], a});
+            parts_.push_back({b, a, part[2]});
+            parts_.push_back({a, b, c});
+        }
+        return std::nullopt;
+    }
+
+private:
+    [[nodiscard]] bool is_near(const std::array<Vec3, 3>& part, agvd::FaceId face) const {
+        const agvd::Triangle& t = mesh_.triangles[face.value()];
+        const std::array corners{mesh_.positions[t[0]], mesh_.positions[t[1]],
+                                 mesh_.positions[t[2]]};
+        return std::all_of(part.begin(), part.end(), [&](const Vec3& p) {
+            return agvd::closest_point_on_triangle(corners, face, p).distance_sq <= limit_ * limit_;
+        });
+    }
+
+    static constexpr std::size_t query_steps = 64;
+
+    agvd::MeshView mesh_;
+    const agvd::ClosestPointTree& tree_;
+    double limit_;
+    std::vector<std::array<Vec3, 3>> parts_;
+};
+
+// The result, the input, and what is known of them.
+class Comparison {
+public:
+    Comparison(const agvd::MeshView& input, const agvd::MeshView& result, double limit,
+               int num_threads, agvd::Poller& poller, std::vector<double>& most_lengths)
+        : input_(input),
+          result_(result),
+          limit_(limit),
+          num_threads_(num_threads),
+          poller_(poller),
+          most_lengths_(most_lengths),
+          before_(most_lengths) {}
+
+    // Looks at the vertices and samples of one surface.
+    void look_at_points(bool is_input, const agvd::ClosestPointTree& other) {
+        const Points points(is_input ? input_ : result_);
+        run(points.size(), [&](Index i, ChunkOfPoints& found, agvd::Ticker&) {
+            const auto [point, face] = points[i];
+            if (face == agvd::no_index) return;
+            take(is_input, point, face, other.query(point), found);
+        });
+    }
+    // Looks at all of one surface.
+    void prove(bool is_input, const agvd::ClosestPointTree& other) {
+        const agvd::MeshView& mesh = is_input ? input_ : result_;
+        run(static_cast<Index>(mesh.triangles.size()),
+            [&](Index f, ChunkOfPoints& found, agvd::Ticker& ticker) {
+                Prover prover(is_input ? result_ : input_, other, limit_);
+                const auto& [a, b, c] = mesh.triangles[f];
+                const auto far = prover.find_far(
+                    {mesh.positions[a], mesh.positions[b], mesh.positions[c]}, ticker);
+                if (far) take(is_input, far->first, f, far->second, found);
+            });
+    }
+    [[nodiscard]] const MeasuredDistance& farthest() const { return farthest_; }
+
+private:
+    void take(bool is_input, const Vec3& point, Index face, const agvd::ClosestPoint& nearest,
+              ChunkOfPoints& found) const {
+        const double distance = std::sqrt(nearest.distance_sq);
+        if (distance > found.distance.largest) found.distance = {distance, false, point};
+        if (distance < too_far * limit_) return;
+        const Index other = nearest.point.face.value();
+        found.far.push_back({is_input ? face : other, mean_side(result_, is_input ? other : face),
+                             std::sqrt(aim * limit_ / distance)});
+    }
+    template <typename Look>
+    void run(Index count, const Look& look) {
+        std::vector<ChunkOfPoints> chunks(agvd::num_chunks(count, query_grain));
+        agvd::parallel_chunks(
+            count, query_grain, num_threads_,
+            [&](Index chunk, Index begin, Index end) {
+                agvd::Ticker ticker(poller_);
+                for (Index i = begin; i < end; ++i) look(i, chunks[chunk], ticker);
+            },
+            poller_);
+        for (const ChunkOfPoints& chunk : chunks) {
+            if (chunk.distance.largest > farthest_.largest) farthest_ = chunk.distance;
+            for (const FarPoint& point : chunk.far) lower(point);
+        }
+    }
+    // Edges may be longer than they were meant to be: the shorter of both counts.
+    void lower(const FarPoint& point) {
+        for (const Index v : input_.triangles[point.input_face]) {
+            const double length = std::min(point.length, before_[v]);
+            most_lengths_[v] = std::min(most_lengths_[v], point.factor * length);
+        }
+    }
+
+    agvd::MeshView input_, result_;
+    double limit_;
+    int num_threads_;
+    agvd::Poller& poller_;
+    std::vector<double>& most_lengths_;
+    std::vector<double> before_;
+    MeasuredDistance farthest_;
+};
+
 }  // namespace
 
-DistanceCheck::DistanceCheck(agvd::MeshView mesh, int num_threads, const agvd::Progress& progress)
+DistanceCheck::DistanceCheck(const agvd::MeshView& mesh, int num_threads,
+                             const agvd::Progress& progress)
     : mesh_{{mesh.positions.begin(), mesh.positions.end()},
             {mesh.triangles.begin(), mesh.triangles.end()}},
       tree_(mesh, progress),
@@ -85,42 +220,16 @@ MeasuredDistance DistanceCheck::measure(const agvd::MeshView& result, double lim
                                         std::vector<double>& most_lengths) const {
     agvd::Poller poller(progress_);
     const agvd::ClosestPointTree result_tree(result, poller.progress());
-    MeasuredDistance largest;
-    // \param faces_of  (face of the point, nearest face) -> (face of the input, of the result).
-    const auto compare = [&](const Points& points, const agvd::ClosestPointTree& other,
-                             const auto& faces_of) {
-        std::vector<ChunkOfPoints> chunks(agvd::num_chunks(points.size(), query_grain));
-        agvd::parallel_chunks(
-            points.size(), query_grain, num_threads_,
-            [&](Index chunk, Index begin, Index end) {
-                ChunkOfPoints& found = chunks[chunk];
-                for (Index i = begin; i < end; ++i) {
-                    const auto [point, face] = points[i];
-                    if (face == agvd::no_index) continue;
-                    const agvd::ClosestPoint nearest = other.query(point);
-                    const double distance = std::sqrt(nearest.distance_sq);
-                    if (distance > found.distance.largest) found.distance = {distance, point};
-                    if (distance < too_far * limit) continue;
-                    const auto [of_input, of_result] = faces_of(face, nearest.point.face.value());
-                    found.far.push_back({of_input, mean_side(result, of_result) *
-                                                       std::sqrt(aim * limit / distance)});
-                }
-            },
-            poller);
-        for (const ChunkOfPoints& chunk : chunks) {
-            if (chunk.distance.largest > largest.largest) largest = chunk.distance;
-            for (const FarPoint& point : chunk.far) {
-                for (const Index v : mesh_.triangles[point.input_face]) {
-                    most_lengths[v] = std::min(most_lengths[v], point.length);
-                }
-            }
-        }
-    };
-    compare(Points(mesh_.view()), result_tree,
-            [](Index face, Index nearest) { return std::pair(face, nearest); });
-    compare(Points(result), tree_,
-            [](Index face, Index nearest) { return std::pair(nearest, face); });
-    return largest;
+    Comparison comparison(mesh_.view(), result, limit, num_threads_, poller, most_lengths);
+    comparison.look_at_points(true, result_tree);
+    comparison.look_at_points(false, tree_);
+    MeasuredDistance found = comparison.farthest();
+    if (found.largest > provable_share * limit) return found;
+    comparison.prove(true, result_tree);
+    comparison.prove(false, tree_);
+    found = comparison.farthest();
+    found.is_within = found.largest <= provable_share * limit;
+    return found;
 }
 
 }  // namespace remesh::detail

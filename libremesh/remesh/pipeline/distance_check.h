@@ -9,7 +9,8 @@ namespace remesh::detail {
 
 //! The distance of a result.
 struct MeasuredDistance {
-    double largest = 0;                     //!< Both ways; mesh units.
+    double largest = 0;                     //!< Both ways, at the points looked at; mesh units.
+    bool is_within = false;                 //!< Proved: no point of either surface is too far.
     agvd::Vec3 where = agvd::Vec3::Zero();  //!< A point of either surface that is so far.
 };
 
@@ -18,14 +19,17 @@ class DistanceCheck {
 public:
     //! \param mesh  the cleaned mesh; copied.
     //! Cost: O(n log n).
-    DistanceCheck(agvd::MeshView mesh, int num_threads, const agvd::Progress& progress);
+    DistanceCheck(const agvd::MeshView& mesh, int num_threads, const agvd::Progress& progress);
 
-    //! The largest distance at all vertices and at 100 000 points of each surface.
+    //! Measures at all vertices and at 100 000 points of each surface. If these are near enough,
+    //! faces are divided until all of both surfaces is proved to be, or a point is found that is
+    //! not.
     //!
-    //! \param limit  where the distance is near it or above, lengths are lowered;
+    //! \param limit  where a point is near it or beyond, lengths are lowered.
     //! \param most_lengths  #V of the cleaned mesh: at most so long are edges there. Edited.
     //! \throw agvd::Cancelled  the progress callback returned false.
-    //! Cost: O((n + 100 000) log n).
+    //! Cost: O((n + 100 000) log n); for the proof about O((n + length of all edges / limit) log
+    //! n).
     [[nodiscard]] MeasuredDistance measure(const agvd::MeshView& result, double limit,
                                            std::vector<double>& most_lengths) const;
 

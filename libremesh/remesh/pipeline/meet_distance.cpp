@@ -10,12 +10,14 @@
 namespace remesh::detail {
 namespace {
 
-constexpr int max_rounds = 8;
+constexpr int max_rounds = 16;
 // The error that the first edges aim at, as a share of the limit: fitted vertices lie on both sides
 // of the surface, and what is too far is refined.
-constexpr double first_error = 2;
-// Samples miss the farthest point: this share of the limit must be kept at them.
-constexpr double kept_share = 0.98;
+constexpr double first_error = 1.7;
+// Each run places its vertices anew, and other points may be too far then. After so many rounds
+// edges get shorter everywhere, too.
+constexpr int local_rounds = 5;
+constexpr double global_factor = 0.8;
 
 }  // namespace
 
@@ -31,13 +33,14 @@ RemeshResult meet_distance(const CleanedInput& cleaned, const RemeshOptions& opt
     const DistanceCheck check(mesh, options.num_threads, agvd::within(progress, 1, 1));
     const agvd::MeshBox box = agvd::box_of(mesh, options.num_threads);
     std::vector<double> most_lengths(mesh.positions.size(), (box.high - box.low).norm());
-    MeasuredDistance best{std::numeric_limits<double>::infinity(), {}};
+    MeasuredDistance best{std::numeric_limits<double>::infinity(), false, {}};
     std::size_t num_vertices = 0;
     for (int round = 0; round < max_rounds; ++round) {
         RemeshResult result = run(finer, most_lengths);
         const MeasuredDistance found = check.measure(result.mesh.view(), limit, most_lengths);
         result.sizing.largest_distance = found.largest;
-        if (found.largest <= kept_share * limit) return result;
+        if (found.is_within) return result;
+        if (round >= local_rounds) finer.sizing.max_error *= global_factor;
         if (found.largest < best.largest) {
             best = found;
             num_vertices = result.mesh.positions.size();
