@@ -228,10 +228,12 @@ void run_job(const Arguments& arguments, cli::Console& console) {
         .propagation = arguments.propagation,
         .delaunay = arguments.delaunay,
         .num_threads = arguments.common.threads,
-        .progress = [&, last = remesh::Stage::Clean](remesh::Stage stage, double fraction) mutable {
+        .progress = [&, last = std::pair(remesh::Stage::Clean, false)](remesh::Stage stage,
+                                                                       double fraction) mutable {
             const bool goes_on = console.progress(remesh::stage_name(stage), fraction);
-            // Otherwise memory that a stage has freed between its results would stay in use.
-            if (std::exchange(last, stage) != stage) ::malloc_trim(0);
+            // Otherwise memory that half a stage has freed between its results would stay in use.
+            const std::pair now(stage, fraction >= 0.5);
+            if (std::exchange(last, now) != now) ::malloc_trim(0);
             return goes_on;
         }};
     if (!arguments.sites.empty()) {

@@ -41,7 +41,7 @@ void fit_on_curves(const Domain& domain, const CurveSites& curves, const JoinedP
 
 }  // namespace
 
-PlacedMesh place_vertices(const Domain& domain, const CurveSites& curves, const ValidDual& dual,
+PlacedMesh place_vertices(Domain& domain, const CurveSites& curves, const ValidDual& dual,
                           std::vector<agvd::SurfacePoint> places, const JoinedPatches* patches,
                           const StageContext& context) {
     const auto& [options, result] = context;
@@ -51,7 +51,11 @@ PlacedMesh place_vertices(const Domain& domain, const CurveSites& curves, const 
     PlacedMesh placed{std::move(places), {}, dual.mesh.triangles};
     placed.offsets.assign(placed.points.size(), Vec3::Zero());
     const std::vector<Index> nearest = nearest_vertices(dual);
-    if (options.fit.value_or(is_relaxed(options))) {
+    const bool is_fitted = options.fit.value_or(is_relaxed(options));
+    if (is_fitted || is_relaxed(options)) {
+        domain.prepared.find_pieces(options.num_threads, agvd::within(progress, 0, 0));
+    }
+    if (is_fitted) {
         if (patches != nullptr) {
             fit_on_curves(domain, curves, *patches, options.boundary, placed);
         }

@@ -134,6 +134,7 @@ private:
         const auto& p = base.mesh.positions;
         const bool is_dense = p.size() >= enough_vertices * mesh_.points.size();
         std::vector<double> area(p.size(), 0);
+        samples_.reserve(p.size() + (is_dense ? 0 : surface.pieces->num_pieces_at_most()));
         for (Index f = 0; f < base.num_faces(); ++f) {
             ticker_.tick();
             const Triangle& t = base.mesh.triangles[f];
@@ -142,7 +143,7 @@ private:
             // functions.
             for (const Index v : t) area[v] += is_dense ? whole / 3 : whole / 12;
             if (is_dense || nearest_vertex[t[0]] == no_index) continue;
-            surface.pieces.for_each(f, [&](const agvd::SurfacePiece& piece) {
+            surface.pieces->for_each(f, [&](const agvd::SurfacePiece& piece) {
                 samples_.push_back(
                     {piece.position, piece.vector.norm() * 3 / 4, nearest_vertex[t[0]]});
             });

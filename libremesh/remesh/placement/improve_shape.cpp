@@ -70,7 +70,7 @@ private:
             agvd::Ticker ticker(poller);
             parts.for_each_face(part, [&](Index f) {
                 ticker.tick();
-                surface.pieces.for_each(f, [&](const agvd::SurfacePiece& piece) {
+                surface.pieces->for_each(f, [&](const agvd::SurfacePiece& piece) {
                     const double area = piece.vector.norm() / 3;
                     if (!(area > 0)) return;
                     for (const Index corner : base.mesh.triangles[f]) {
