@@ -212,30 +212,31 @@ void run_job(const Arguments& arguments, cli::Console& console) {
     remesh::MeshFile input = cli::read_input(arguments, console);
     std::vector<agvd::Index>().swap(input.face_polygon);  // Not used any more.
     console.info(cli::describe(arguments.input, input.mesh.view()));
-    remesh::RemeshOptions options{
-        .num_samples = arguments.sampling.num_samples,
-        .vertex_count = arguments.vertex_count,
-        .boundary = arguments.sampling.boundary,
-        .drop_components = arguments.drop_components / 100,
-        .init = arguments.sampling.init,
-        .features = arguments.features,
-        .feature_angle = arguments.feature_angle,
-        .junctions = arguments.junctions,
-        .seed = arguments.sampling.seed,
-        .relax_steps = arguments.relax_steps,
-        .keep_sites = arguments.keep_sites,
-        .fit = arguments.fit,
-        .propagation = arguments.propagation,
-        .delaunay = arguments.delaunay,
-        .num_threads = arguments.common.threads,
-        .progress = [&, last = std::pair(remesh::Stage::Clean, false)](remesh::Stage stage,
-                                                                       double fraction) mutable {
-            const bool goes_on = console.progress(remesh::stage_name(stage), fraction);
-            // Otherwise memory that half a stage has freed between its results would stay in use.
-            const std::pair now(stage, fraction >= 0.5);
-            if (std::exchange(last, now) != now) ::malloc_trim(0);
-            return goes_on;
-        }};
+    remesh::RemeshOptions options{.num_samples = arguments.sampling.num_samples,
+                                  .vertex_count = arguments.vertex_count,
+                                  .boundary = arguments.sampling.boundary,
+                                  .drop_components = arguments.drop_components / 100,
+                                  .init = arguments.sampling.init,
+                                  .features = arguments.features,
+                                  .feature_angle = arguments.feature_angle,
+                                  .junctions = arguments.junctions,
+                                  .seed = arguments.sampling.seed,
+                                  .relax_steps = arguments.relax_steps,
+                                  .keep_sites = arguments.keep_sites,
+                                  .fit = arguments.fit,
+                                  .propagation = arguments.propagation,
+                                  .delaunay = arguments.delaunay,
+                                  .num_threads = arguments.common.threads,
+                                  .progress = [&, last = std::pair(remesh::Stage::Clean, false)](
+                                                  remesh::Stage stage, double fraction) mutable {
+                                      const bool goes_on =
+                                          console.progress(remesh::stage_name(stage), fraction);
+                                      // Otherwise memory that half a stage has freed between its
+                                      // results would stay in use.
+                                      const std::pair now(stage, fraction >= 0.5);
+                                      if (std::exchange(last, now) != now) ::malloc_trim(0);
+                                      return goes_on;
+                                  }};
     if (!arguments.sites.empty()) {
         options.sites =
             remesh::read_sites(arguments.sites, input.mesh.view(), console.progress_of("read"));
