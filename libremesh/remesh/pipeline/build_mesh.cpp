@@ -101,19 +101,12 @@ private:
         candidate.flips = flip_edges(dual);
         drop_points(dual.diagram);
         if (domain_.plan) candidate.placed.patches = join_patches(dual, placed_.curves);
-        candidate.placed.mesh = place(candidate);
+        candidate.placed.mesh =
+            place_vertices(domain_, placed_.curves, dual, places_of(dual),
+                           domain_.plan ? &*candidate.placed.patches : nullptr, context_);
         candidate.crossings =
             unfit_crossings(finder_, placed_.curves, candidate.placed, context_.result);
         return candidate;
-    }
-
-    PlacedMesh place(const Candidate& candidate) {
-        const ValidDual& dual = candidate.dual;
-        PlacedMesh placed =
-            place_vertices(domain_, placed_.curves, dual, places_of(dual),
-                           domain_.plan ? &*candidate.placed.patches : nullptr, context_);
-        domain_.prepared.pieces.reset();
-        return placed;
     }
 
     ValidDual build_cells() {

@@ -9,7 +9,7 @@ namespace remesh::detail {
 //! Fits the vertices to the surface and moves those of bad triangles, as far as the options ask
 //! for it.
 //!
-//! \param domain   gets its pieces back if they were reset.
+//! \param domain   its pieces are found if they were reset, and reset then.
 //! \param places   #V of the dual: where each vertex lies on the cleaned surface.
 //! \param patches  of the dual; null without a plan.
 //! Cost: that of fit_vertices and improve_shape.
