@@ -39,7 +39,7 @@ TEST(CellPlanes, ACornerOfNoAreaHasNone) {
 TEST(PreparedSurface, FindsThePiecesAgainThatWereReset) {
     const agvd::Surface surface =
         agvd::build_surface(shapes::jitter(shapes::sphere(3), 0.03, 5).view());
-    remesh::PreparedSurface prepared(surface, 0.3, 1);
+    remesh::PreparedSurface prepared(surface, 0.15, 1);
     const auto list = [&] {
         std::vector<Vec3> found;
         for (agvd::Index f = 0; f < prepared.base.surface().num_faces(); ++f) {
@@ -51,7 +51,7 @@ TEST(PreparedSurface, FindsThePiecesAgainThatWereReset) {
         return found;
     };
     const std::vector<Vec3> first = list();
-    ASSERT_GT(prepared.base.counts().flips, 10u);
+    ASSERT_GT(first.size(), 2 * prepared.base.surface().num_faces());  // Some faces have several.
     EXPECT_LE(first.size(), 2 * prepared.pieces->num_pieces_at_most());
     prepared.pieces.reset();
     prepared.find_pieces(2);
