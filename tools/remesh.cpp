@@ -201,8 +201,8 @@ void check_outputs(const Arguments& arguments) {
     }
 }
 
-// Bytes that a run needs at least. Meshes of 4 000 to 100 000 faces with 20 000 and 100 000 samples
-// took 4000 to 6000 bytes a sample beyond 300 a face.
+// Bytes that a run needs at least. Meshes of 1 000 to 100 000 faces with 9 000 to 100 000 samples
+// took 4000 to 7000 bytes a sample beyond 300 a face.
 std::size_t least_memory(std::size_t num_faces, std::size_t num_samples) {
     return 200 * num_faces + 3000 * num_samples;
 }
