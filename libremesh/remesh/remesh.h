@@ -17,3 +17,6 @@
 #include "remesh/quality/self_intersections.h"
 #include "remesh/relax/relax_sites.h"
 #include "remesh/sampling/sample_sites.h"
+#include "remesh/transfer/map_to_input.h"
+#include "remesh/transfer/transfer_values.h"
+#include "remesh/transfer/vertex_normals.h"
