@@ -10,6 +10,7 @@
 #include "remesh/io/read_mesh.h"
 #include "remesh/io/read_sites.h"
 #include "remesh/io/report.h"
+#include "remesh/io/transfer_attributes.h"
 #include "remesh/io/write_diagram.h"
 #include "remesh/io/write_mesh.h"
 #include "remesh/pipeline/remesh.h"

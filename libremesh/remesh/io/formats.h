@@ -21,16 +21,25 @@ inline void add_warning(const std::string& text, MeshFile& file) {
     if (!text.empty()) file.warnings.push_back(text);
 }
 
-//! The whole file's bytes.
-[[nodiscard]] std::string format_ply(const agvd::MeshView& mesh, agvd::Ticker ticker);
-[[nodiscard]] std::string format_obj(const agvd::MeshView& mesh, agvd::Ticker ticker);
-[[nodiscard]] std::string format_off(const agvd::MeshView& mesh, agvd::Ticker ticker);
-[[nodiscard]] std::string format_stl(const agvd::MeshView& mesh, agvd::Ticker ticker);
+//! Gives a file the attributes that were read with it; those of faces belong to polygons yet.
+void attach(MeshAttributes attributes, MeshFile& file);
+
+//! The whole file's bytes. Attributes that the format cannot hold are left out.
+[[nodiscard]] std::string format_ply(const agvd::MeshView& mesh, const MeshAttributes& attributes,
+                                     agvd::Ticker ticker);
+[[nodiscard]] std::string format_obj(const agvd::MeshView& mesh, const MeshAttributes& attributes,
+                                     agvd::Ticker ticker);
+[[nodiscard]] std::string format_off(const agvd::MeshView& mesh, const MeshAttributes& attributes,
+                                     agvd::Ticker ticker);
+[[nodiscard]] std::string format_stl(const agvd::MeshView& mesh, const MeshAttributes& attributes,
+                                     agvd::Ticker ticker);
 
 struct MeshFormat {
     const char* extension;  //!< Lower case, with its dot.
     MeshFile (*read)(SourceFile);
-    std::string (*format)(const agvd::MeshView&, agvd::Ticker);
+    std::string (*format)(const agvd::MeshView&, const MeshAttributes&, agvd::Ticker);
+    //! Whether it can hold an attribute.
+    bool (*holds)(const Attribute&, ElementKind);
     double largest;  //!< Coordinate that it can hold.
 };
 

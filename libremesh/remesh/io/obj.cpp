@@ -57,7 +57,7 @@ MeshFile read_obj(SourceFile file) {
     return std::move(soup).finish();
 }
 
-std::string format_obj(const agvd::MeshView& mesh, agvd::Ticker ticker) {
+std::string format_obj(const agvd::MeshView& mesh, const MeshAttributes&, agvd::Ticker ticker) {
     std::string bytes;
     for (const agvd::Vec3& p : mesh.positions) {
         ticker.tick(4);

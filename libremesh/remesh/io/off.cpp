@@ -83,7 +83,7 @@ MeshFile read_off(SourceFile file) {
     return result;
 }
 
-std::string format_off(const agvd::MeshView& mesh, agvd::Ticker ticker) {
+std::string format_off(const agvd::MeshView& mesh, const MeshAttributes&, agvd::Ticker ticker) {
     std::string bytes = "OFF\n" + std::to_string(mesh.positions.size()) + ' ' +
                         std::to_string(mesh.triangles.size()) + " 0\n";
     for (const agvd::Vec3& p : mesh.positions) {

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include "agvd/core/types.h"
 #include "remesh/io/source_file.h"
@@ -82,6 +83,19 @@ public:
         const auto [last, error] = fast_float::from_chars(first, end_, value);
         if (error != std::errc{} || !is_separator(last)) fail_expecting(what);
         at_ = last;
+        return value;
+    }
+
+    //! The next word of this line as a number; none if it is something else.
+    std::optional<double> number_or_other(const char* what) {
+        if (!has_word()) fail_expecting(what);
+        const std::string_view text = rest_of_word();
+        const char* const end = text.data() + text.size();
+        double value = 0;
+        const auto [last, error] = fast_float::from_chars(
+            text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0), end,
+            value);
+        if (error != std::errc{} || last != end) return std::nullopt;
         return value;
     }
 

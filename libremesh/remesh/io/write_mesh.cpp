@@ -35,14 +35,50 @@ void check(const std::filesystem::path& path, const MeshFormat& format,
     }
 }
 
+void check(const std::filesystem::path& path, const std::vector<Attribute>& attributes,
+           std::size_t count) {
+    for (const Attribute& attribute : attributes) {
+        if (attribute.values.size() == count) continue;
+        throw agvd::InvalidInput(path.string() + ": cannot be written: attribute " +
+                                 attribute.name + " has " +
+                                 std::to_string(attribute.values.size()) + " values instead of " +
+                                 std::to_string(count) + "; give one for each element");
+    }
+}
+
 }  // namespace
 
 std::string format_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
                         const agvd::Progress& progress) {
+    return format_mesh(path, mesh, {}, progress);
+}
+
+std::string format_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
+                        const MeshAttributes& attributes, const agvd::Progress& progress) {
     agvd::Poller poller(progress);
     const MeshFormat& format = require_format(path);
     check(path, format, mesh);
-    return format.format(mesh, agvd::Ticker(poller));
+    check(path, attributes.of_vertices, mesh.positions.size());
+    check(path, attributes.of_faces, mesh.triangles.size());
+    return format.format(mesh, attributes, agvd::Ticker(poller));
+}
+
+std::vector<std::string> remove_unwritable(const std::filesystem::path& path,
+                                           MeshAttributes& attributes) {
+    const MeshFormat& format = require_format(path);
+    std::vector<std::string> removed;
+    const auto keep_writable = [&](std::vector<Attribute>& all, ElementKind kind) {
+        const auto begin = std::stable_partition(
+            all.begin(), all.end(),
+            [&](const Attribute& attribute) { return format.holds(attribute, kind); });
+        for (auto gone = begin; gone != all.end(); ++gone) {
+            removed.push_back((kind == ElementKind::Vertex ? "vertex " : "face ") + gone->name);
+        }
+        all.erase(begin, all.end());
+    };
+    keep_writable(attributes.of_vertices, ElementKind::Vertex);
+    keep_writable(attributes.of_faces, ElementKind::Face);
+    return removed;
 }
 
 void write_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
