@@ -36,7 +36,7 @@ struct InputMap {
 //! \throw agvd::InvalidOption  num_threads < 0, or there is not one site for each vertex.
 //! \throw agvd::Cancelled      the progress callback returned false.
 //! Cost: O(#F of the input); for each vertex the faces of the input between it and its site, for
-//! each face of the result 16 times those in a circle of half its width.
+//! each face of the result 16 times those along a quarter of its width.
 [[nodiscard]] InputMap map_to_input(const agvd::MeshView& input, const agvd::MeshView& result,
                                     std::span<const agvd::SurfacePoint> sites,
                                     const MapOptions& options = {});

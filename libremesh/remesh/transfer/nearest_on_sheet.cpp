@@ -92,6 +92,32 @@ void NearestOnSheet::for_each_neighbor(Index a, Index b, const Visit& visit) con
     }
 }
 
+agvd::ClosestPoint NearestOnSheet::closest(Index face, const Vec3& point) const {
+    const auto& [a, b, c] = mesh_.triangles[face];
+    return agvd::closest_point_on_triangle(
+        {mesh_.positions[a], mesh_.positions[b], mesh_.positions[c]}, agvd::FaceId(face), point);
+}
+
+agvd::SurfacePoint NearestOnSheet::walk(const Vec3& point, const agvd::SurfacePoint& start) const {
+    agvd::ClosestPoint best = closest(start.face.value(), point);
+    for (bool is_nearer = true; is_nearer;) {
+        is_nearer = false;
+        const agvd::SurfacePoint from = best.point;
+        const agvd::Triangle& t = mesh_.triangles[from.face.value()];
+        for (std::size_t k = 0; k < 3; ++k) {  // Across the edges that the point lies on.
+            if (from.barycentric[(k + 2) % 3] != 0) continue;
+            for_each_neighbor(t[k], t[(k + 1) % 3], [&](Index neighbor) {
+                if (neighbor == from.face.value()) return;
+                const agvd::ClosestPoint beyond = closest(neighbor, point);
+                if (!(beyond.distance_sq < best.distance_sq)) return;
+                best = beyond;
+                is_nearer = true;
+            });
+        }
+    }
+    return best.point;
+}
+
 agvd::ClosestPoint NearestOnSheet::query(const Vec3& point, const agvd::SurfacePoint& start,
                                          Seen& seen) const {
     agvd::ClosestPoint best{start, position(mesh_, start), 0};
@@ -107,8 +133,7 @@ agvd::ClosestPoint NearestOnSheet::query(const Vec3& point, const agvd::SurfaceP
         const agvd::Triangle& t = mesh_.triangles[face];
         const std::array<Vec3, 3> corners{mesh_.positions[t[0]], mesh_.positions[t[1]],
                                           mesh_.positions[t[2]]};
-        const agvd::ClosestPoint here =
-            agvd::closest_point_on_triangle(corners, agvd::FaceId(face), point);
+        const agvd::ClosestPoint here = closest(face, point);
         if (here.distance_sq < best.distance_sq) best = here;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::size_t next = (k + 1) % 3;

@@ -47,9 +47,15 @@ public:
     [[nodiscard]] agvd::ClosestPoint query(const agvd::Vec3& point, const agvd::SurfacePoint& start,
                                            Seen& seen) const;
 
+    //! Walks from face to face while `point` comes nearer: a start for query() from which the ball
+    //! holds few faces. Cost: O(faces passed).
+    [[nodiscard]] agvd::SurfacePoint walk(const agvd::Vec3& point,
+                                          const agvd::SurfacePoint& start) const;
+
     [[nodiscard]] const agvd::MeshView& mesh() const { return mesh_; }
 
 private:
+    [[nodiscard]] agvd::ClosestPoint closest(agvd::Index face, const agvd::Vec3& point) const;
     template <typename Visit>
     void for_each_neighbor(agvd::Index a, agvd::Index b, const Visit& visit) const;
 
