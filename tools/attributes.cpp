@@ -79,6 +79,19 @@ std::vector<std::string> names_in(const remesh::MeshAttributes& attributes) {
     return names;
 }
 
+// Names of files beside the input as they are seen from the output's folder.
+void move_material_files(const std::filesystem::path& input, const std::filesystem::path& output,
+                         std::vector<std::string>& files) {
+    namespace fs = std::filesystem;
+    for (std::string& file : files) {
+        const fs::path path = fs::absolute(input).parent_path() / file;
+        std::error_code error;
+        const bool is_there = fs::exists(path, error);
+        const fs::path seen = fs::proximate(path, fs::absolute(output).parent_path(), error);
+        if (is_there && !error) file = seen.string();
+    }
+}
+
 // One warning for each reason.
 void warn_of(const std::vector<remesh::DeclinedAttribute>& declined, Console& console) {
     std::map<std::string, std::string> names;
@@ -129,10 +142,11 @@ remesh::AttributeReport select_attributes(const AttributeArguments& arguments,
         keep_named(split(arguments.transfer), input, attributes);
     }
     const std::string reason =
-        output.extension().string() + " files cannot hold it; write .ply to keep it";
+        output.extension().string() + " files have no place for it; write .ply to keep it";
     for (const std::string& name : remesh::remove_unwritable(output, attributes)) {
         attributes.declined.push_back({name, reason});
     }
+    move_material_files(input, output, attributes.material_files);
     warn_of(attributes.declined, console);
     return {names_in(attributes), attributes.declined, arguments.map.string()};
 }

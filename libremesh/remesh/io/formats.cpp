@@ -12,13 +12,13 @@ namespace {
 constexpr double any_double = std::numeric_limits<double>::max();
 constexpr double any_float = std::numeric_limits<float>::max();
 
-bool holds_any(const Attribute&, ElementKind) { return true; }
-bool holds_none(const Attribute&, ElementKind) { return false; }
+bool ply_holds(const Attribute&, ElementKind, const MeshAttributes&) { return true; }
+bool stl_holds(const Attribute&, ElementKind, const MeshAttributes&) { return false; }
 
-constexpr MeshFormat formats[] = {{".ply", read_ply, format_ply, holds_any, any_double},
-                                  {".obj", read_obj, format_obj, holds_none, any_double},
-                                  {".off", read_off, format_off, holds_none, any_double},
-                                  {".stl", read_stl, format_stl, holds_none, any_float}};
+constexpr MeshFormat formats[] = {{".ply", read_ply, format_ply, ply_holds, true, any_double},
+                                  {".obj", read_obj, format_obj, obj_holds, true, any_double},
+                                  {".off", read_off, format_off, off_holds, true, any_double},
+                                  {".stl", read_stl, format_stl, stl_holds, false, any_float}};
 
 }  // namespace
 

@@ -34,13 +34,20 @@ void attach(MeshAttributes attributes, MeshFile& file);
 [[nodiscard]] std::string format_stl(const agvd::MeshView& mesh, const MeshAttributes& attributes,
                                      agvd::Ticker ticker);
 
+//! See MeshFormat::holds.
+[[nodiscard]] bool obj_holds(const Attribute& attribute, ElementKind kind,
+                             const MeshAttributes& all);
+[[nodiscard]] bool off_holds(const Attribute& attribute, ElementKind kind,
+                             const MeshAttributes& all);
+
 struct MeshFormat {
     const char* extension;  //!< Lower case, with its dot.
     MeshFile (*read)(SourceFile);
     std::string (*format)(const agvd::MeshView&, const MeshAttributes&, agvd::Ticker);
-    //! Whether it can hold an attribute.
-    bool (*holds)(const Attribute&, ElementKind);
-    double largest;  //!< Coordinate that it can hold.
+    //! Whether it can hold an attribute, one of `all`.
+    bool (*holds)(const Attribute&, ElementKind, const MeshAttributes& all);
+    bool has_normals;  //!< At vertices.
+    double largest;    //!< Coordinate that it can hold.
 };
 
 //! With its dot, in lower case; empty if there is none.

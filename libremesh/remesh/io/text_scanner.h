@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "agvd/core/types.h"
 #include "remesh/io/source_file.h"
@@ -57,6 +58,16 @@ public:
 
     //! The next word of this line; empty if there is none.
     std::string_view word() { return has_word() ? rest_of_word() : std::string_view(); }
+
+    //! The remaining words of this line with one blank between them.
+    std::string words() {
+        std::string text;
+        while (has_word()) {
+            if (!text.empty()) text += ' ';
+            text += rest_of_word();
+        }
+        return text;
+    }
 
     //! What comes before the next blank, comment or line end.
     std::string_view rest_of_word() {

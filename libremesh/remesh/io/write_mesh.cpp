@@ -46,6 +46,15 @@ void check(const std::filesystem::path& path, const std::vector<Attribute>& attr
     }
 }
 
+MeshAttributes names_only(const MeshAttributes& attributes) {
+    MeshAttributes names;
+    for (const Attribute& one : attributes.of_vertices) {
+        names.of_vertices.push_back({.name = one.name});
+    }
+    for (const Attribute& one : attributes.of_faces) names.of_faces.push_back({.name = one.name});
+    return names;
+}
+
 }  // namespace
 
 std::string format_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
@@ -66,15 +75,15 @@ std::string format_mesh(const std::filesystem::path& path, const agvd::MeshView&
 std::vector<std::string> remove_unwritable(const std::filesystem::path& path,
                                            MeshAttributes& attributes) {
     const MeshFormat& format = require_format(path);
+    if (!format.has_normals) attributes.normals.reset();
+    const MeshAttributes all = names_only(attributes);
     std::vector<std::string> removed;
-    const auto keep_writable = [&](std::vector<Attribute>& all, ElementKind kind) {
-        const auto begin = std::stable_partition(
-            all.begin(), all.end(),
-            [&](const Attribute& attribute) { return format.holds(attribute, kind); });
-        for (auto gone = begin; gone != all.end(); ++gone) {
-            removed.push_back((kind == ElementKind::Vertex ? "vertex " : "face ") + gone->name);
-        }
-        all.erase(begin, all.end());
+    const auto keep_writable = [&](std::vector<Attribute>& some, ElementKind kind) {
+        std::erase_if(some, [&](const Attribute& attribute) {
+            if (format.holds(attribute, kind, all)) return false;
+            removed.push_back((kind == ElementKind::Vertex ? "vertex " : "face ") + attribute.name);
+            return true;
+        });
     };
     keep_writable(attributes.of_vertices, ElementKind::Vertex);
     keep_writable(attributes.of_faces, ElementKind::Face);
