@@ -3,6 +3,17 @@
 #include <utility>
 
 namespace remesh {
+namespace {
+
+// A name may have several words. A backslash at its end would join the line with the next one when
+// it is written.
+std::string name_on(TextScanner& scan) {
+    std::string name = scan.words();
+    while (name.ends_with('\\') || name.ends_with(' ')) name.pop_back();
+    return name;
+}
+
+}  // namespace
 
 void ObjAttributes::take_color(std::size_t vertex, TextScanner& scan) {
     std::array<double, 4> numbers{};
@@ -23,9 +34,9 @@ void ObjAttributes::take(std::string_view statement, std::size_t num_polygons, T
     if (!is_wanted_) return;
     has_texture_ = has_texture_ || statement == "vt";
     has_normals_ = has_normals_ || statement == "vn";
-    if (statement == "mtllib") material_files_.push_back(scan.words());
+    if (statement == "mtllib") material_files_.push_back(name_on(scan));
     for (Labels& labels : labels_) {
-        if (statement == labels.statement) labels.begin(scan.words(), num_polygons);
+        if (statement == labels.statement) labels.begin(name_on(scan), num_polygons);
     }
 }
 

@@ -38,11 +38,19 @@ void check(const std::filesystem::path& path, const MeshFormat& format,
 void check(const std::filesystem::path& path, const std::vector<Attribute>& attributes,
            std::size_t count) {
     for (const Attribute& attribute : attributes) {
-        if (attribute.values.size() == count) continue;
-        throw agvd::InvalidInput(path.string() + ": cannot be written: attribute " +
-                                 attribute.name + " has " +
-                                 std::to_string(attribute.values.size()) + " values instead of " +
-                                 std::to_string(count) + "; give one for each element");
+        const std::string begin =
+            path.string() + ": cannot be written: attribute " + attribute.name;
+        if (attribute.values.size() != count) {
+            throw agvd::InvalidInput(begin + " has " + std::to_string(attribute.values.size()) +
+                                     " values instead of " + std::to_string(count) +
+                                     "; give one for each element");
+        }
+        const auto num_names = static_cast<double>(attribute.names.size());
+        const auto has_name = [&](double value) { return value >= 0 && value < num_names; };
+        if (num_names > 0 &&
+            !std::all_of(attribute.values.begin(), attribute.values.end(), has_name)) {
+            throw agvd::InvalidInput(begin + " has a value without a name; add the name");
+        }
     }
 }
 

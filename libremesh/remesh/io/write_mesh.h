@@ -31,7 +31,8 @@ void write_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
 
 //! The same with attributes. PLY holds all, under their names and types. Normals are those of the
 //! mesh. What the format cannot hold is left out: see remove_unwritable.
-//! \throw agvd::InvalidInput  also: an attribute does not have one value for each vertex or face.
+//! \throw agvd::InvalidInput  also: an attribute does not have one value for each vertex or face,
+//!        or one of its values has no name while others have.
 [[nodiscard]] std::string format_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
                                       const MeshAttributes& attributes,
                                       const agvd::Progress& progress = {});

@@ -251,6 +251,12 @@ TEST(Attributes, ObjKeepsColoursMaterialsGroupsAndObjects) {
     EXPECT_EQ(values_of(again.attributes.of_faces, "material"), (Values{0, 1, 1, 2, 1}));
     EXPECT_EQ(values_of(again.attributes.of_faces, "group"), (Values{0, 1, 1, 1, 1}));
 
+    // A backslash at the end of a name would join lines.
+    const std::string joined = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\\ b\\\\";
+    const MeshFile slashed = read_all("a.obj", joined + " \\\n\nf 1 2 3\n");
+    EXPECT_EQ(find_attribute(slashed.attributes.of_faces, "material")->names,
+              std::vector<std::string>{"a\\ b"});
+
     // PLY has colours in 255 steps, and the names in comments.
     const std::string in_ply = remesh::format_mesh("b.ply", file.mesh.view(), found);
     EXPECT_NE(in_ply.find("comment material 1 old brass\n"), std::string::npos);
@@ -318,6 +324,13 @@ TEST(Attributes, WhatAFormatCannotHoldIsRemovedAndNamed) {
     MeshAttributes wrong = all();
     EXPECT_THROW(static_cast<void>(remesh::format_mesh("a.ply", shapes::cube().view(), wrong)),
                  agvd::InvalidInput);
+    const auto write = [](double label) {
+        const Attribute material{.name = "material", .values = Values(12, label), .names = {"a"}};
+        return remesh::format_mesh("a.obj", shapes::cube().view(), {.of_faces = {material}});
+    };
+    EXPECT_NE(write(0).find("f 1"), std::string::npos);
+    EXPECT_THROW(static_cast<void>(write(1)), agvd::InvalidInput);
+    EXPECT_THROW(static_cast<void>(write(std::nan(""))), agvd::InvalidInput);
 }
 
 TEST(Attributes, LabelsGetConsecutiveNumbers) {
