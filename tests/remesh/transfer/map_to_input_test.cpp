@@ -88,18 +88,23 @@ TEST(MapToInput, MovedVerticesGetTheNearestPoint) {
 }
 
 TEST(MapToInput, TheOtherSideOfAThinWallIsNotNearer) {
-    const TriangleMesh front = shapes::grid(20);
-    const TriangleMesh wall = shapes::join(front, shapes::moved(front, {0, 0, -1e-3}));
-    const auto num_front = static_cast<Index>(front.triangles.size());
-    const auto sites = inner_points(num_front);
-    const TriangleMesh result = moved_points(wall, sites, [](std::size_t i) {
-        return Vec3(random_shift(i, 0.05).x(), random_shift(i, 0.05).y(), -9e-4);
-    });
-    const auto map = remesh::map_to_input(wall.view(), result.view(), sites);
+    // A closed slab, so that both sides are connected around its rim.
+    TriangleMesh slab = shapes::cube();
+    for (int i = 0; i < 4; ++i) slab = shapes::subdivide(slab);
+    for (Vec3& p : slab.positions) p.z() *= 1e-3;
+    double top = 0;
+    for (const Vec3& p : slab.positions) top = std::max(top, p.z());
+    std::vector<SurfacePoint> sites;
+    for (const SurfacePoint& point : inner_points(static_cast<Index>(slab.triangles.size()))) {
+        if (position(slab.view(), point).z() > top - 1e-9) sites.push_back(point);
+    }
+    ASSERT_GT(sites.size(), 400u);
+    const TriangleMesh result =
+        moved_points(slab, sites, [](std::size_t) { return Vec3(1e-5, -1e-5, -9e-4); });
+    const auto map = remesh::map_to_input(slab.view(), result.view(), sites);
     for (Index v = 0; v < sites.size(); ++v) {
-        EXPECT_LT(map.vertices[v].face.value(), num_front);
-        const Vec3 inside = result.positions[v].cwiseMax(Vec3(0, 0, 0)).cwiseMin(Vec3(1, 1, 0));
-        EXPECT_NEAR((position(wall.view(), map.vertices[v]) - inside).norm(), 0, 1e-14);
+        const Vec3 above(result.positions[v].x(), result.positions[v].y(), top);
+        EXPECT_NEAR((position(slab.view(), map.vertices[v]) - above).norm(), 0, 1e-14);
     }
 }
 
