@@ -77,7 +77,7 @@ std::string format_obj(const agvd::MeshView& mesh, const MeshAttributes& attribu
         bytes += 'f';
         for (const agvd::Index v : mesh.triangles[f]) {
             const std::string number = std::to_string(v + 1ull);
-            bytes += ' ' + number + "//" + number;
+            bytes.append(" ").append(number).append("//").append(number);
         }
         bytes += '\n';
     }

@@ -37,6 +37,7 @@ std::int64_t read_corner(TextScanner& scan, const SourceFile& file, std::size_t 
 
 }  // namespace
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): all readers have this type.
 MeshFile read_obj(SourceFile file) {
     TextScanner scan(file, 0, {.comment = '#', .continues = true});
     PolygonSoup soup(file, 1);

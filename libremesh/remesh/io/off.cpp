@@ -68,6 +68,7 @@ void find_element(TextScanner& scan, const char* kind, std::uint64_t index, std:
 
 }  // namespace
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): all readers have this type.
 MeshFile read_off(SourceFile file) {
     TextScanner scan(file, 0, {.comment = '#'});
     const Extras extras = read_keyword(scan);

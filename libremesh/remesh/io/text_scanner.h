@@ -59,13 +59,18 @@ public:
     //! The next word of this line; empty if there is none.
     std::string_view word() { return has_word() ? rest_of_word() : std::string_view(); }
 
-    //! The remaining words of this line with one blank between them.
+    //! The remaining words of this line with one blank between them. As skip_line() does, it ends
+    //! where the line ends, even if that is joined with the next one.
     std::string words() {
         std::string text;
-        while (has_word()) {
-            if (!text.empty()) text += ' ';
-            text += rest_of_word();
+        for (; at_ != end_ && !is_line_end(*at_) && *at_ != rules_.comment; ++at_) {
+            if (!is_blank(*at_)) {
+                text += *at_;
+            } else if (!text.empty() && text.back() != ' ') {
+                text += ' ';
+            }
         }
+        if (text.ends_with(' ')) text.pop_back();
         return text;
     }
 

@@ -257,6 +257,11 @@ TEST(Attributes, ObjKeepsColoursMaterialsGroupsAndObjects) {
     EXPECT_EQ(find_attribute(slashed.attributes.of_faces, "material")->names,
               std::vector<std::string>{"a\\ b"});
 
+    // Reading names does not change which lines are read.
+    const std::string bare = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nusemtl a \\\nf 3 2 1\n";
+    EXPECT_EQ(texts::read_bytes("a.obj", bare).mesh.triangles.size(), 2u);
+    EXPECT_EQ(read_all("a.obj", bare).mesh.triangles.size(), 2u);
+
     // PLY has colours in 255 steps, and the names in comments.
     const std::string in_ply = remesh::format_mesh("b.ply", file.mesh.view(), found);
     EXPECT_NE(in_ply.find("comment material 1 old brass\n"), std::string::npos);
