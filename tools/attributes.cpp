@@ -99,7 +99,10 @@ void warn_of(const std::vector<remesh::DeclinedAttribute>& declined, Console& co
         std::string& list = names[one.reason];
         list += (list.empty() ? "" : ", ") + one.name;
     }
-    for (const auto& [reason, list] : names) console.warn(list + ": " + reason);
+    for (const auto& [reason, list] : names) {
+        std::string text = list;
+        console.warn(text.append(": ").append(reason));
+    }
 }
 
 }  // namespace

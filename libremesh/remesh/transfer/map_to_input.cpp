@@ -27,7 +27,8 @@ std::array<std::array<double, 3>, 16> part_centers() {
         for (int i = 0; i < parts; ++i) {
             const int part = row % 2 == 0 ? i : parts - 1 - i;
             const double third = part % 2 == 0 ? 1.0 / 3 : 2.0 / 3;  // Upright, upside down.
-            const double v = (row + third) / n, u = (part / 2 + third) / n;
+            const int column = part / 2;
+            const double v = (row + third) / n, u = (column + third) / n;
             centers[count++] = {1 - u - v, u, v};
         }
     }
