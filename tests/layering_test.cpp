@@ -23,7 +23,7 @@ constexpr const char* folders[] = {
     "agvd/diagram",     "agvd/update",     "agvd/metrics",    "remesh/topology",
     "remesh/clean",     "remesh/features", "remesh/sampling", "remesh/simplify",
     "remesh/guarantee", "remesh/dual",     "remesh/relax",    "remesh/placement",
-    "remesh/quality",   "remesh/pipeline", "remesh/io",
+    "remesh/quality",   "remesh/transfer", "remesh/pipeline", "remesh/io",
 };
 
 struct Package {
