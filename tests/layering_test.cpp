@@ -22,7 +22,8 @@ constexpr const char* folders[] = {
     "agvd/core",     "agvd/mesh",        "agvd/intrinsic",  "agvd/propagation", "agvd/diagram",
     "agvd/update",   "agvd/metrics",     "remesh/topology", "remesh/clean",     "remesh/features",
     "remesh/sizing", "remesh/sampling",  "remesh/simplify", "remesh/guarantee", "remesh/dual",
-    "remesh/relax",  "remesh/placement", "remesh/quality",  "remesh/pipeline",  "remesh/io",
+    "remesh/relax",  "remesh/placement", "remesh/quality",  "remesh/transfer",  "remesh/pipeline",
+    "remesh/io",
 };
 
 struct Package {

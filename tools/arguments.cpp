@@ -182,12 +182,14 @@ MemoryLimit limit_of(const DiagramArguments& arguments) {
     return {.bytes = arguments.memory_limit, .engine = arguments.propagation.engine};
 }
 
-remesh::MeshFile read_input(const DiagramArguments& arguments, Console& console) {
+remesh::MeshFile read_input(const DiagramArguments& arguments, Console& console,
+                            WithAttributes attributes) {
     std::error_code none;  // Reading will tell what is wrong.
     const std::uintmax_t size = std::filesystem::file_size(arguments.input, none);
     console.require_memory("read", none ? 0 : static_cast<std::size_t>(size));
     remesh::MeshFile file = remesh::read_mesh(
         arguments.input, remesh::ReadOptions{.is_lenient = arguments.is_lenient,
+                                             .with_attributes = attributes == WithAttributes::Yes,
                                              .progress = console.progress_of("read")});
     for (const std::string& warning : file.warnings) console.warn(warning);
     return file;

@@ -85,9 +85,13 @@ CLI::Option* add_choice(CLI::App& app, const Choice& choice,
 //! The limit for a Console.
 [[nodiscard]] MemoryLimit limit_of(const DiagramArguments& arguments);
 
+enum class WithAttributes { No, Yes };
+
 //! Reads IN; the file must fit into the memory allowed.
 //! \throw OutOfMemory  it does not.
-[[nodiscard]] remesh::MeshFile read_input(const DiagramArguments& arguments, Console& console);
+//! \param attributes  whether to read them as well.
+[[nodiscard]] remesh::MeshFile read_input(const DiagramArguments& arguments, Console& console,
+                                          WithAttributes attributes = WithAttributes::No);
 
 //! "FILE: N vertices, M faces", for the log.
 [[nodiscard]] std::string describe(const std::filesystem::path& path, const agvd::MeshView& mesh);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "arguments.h"
+#include "attributes.h"
 #include "remesh/io/atomic_file.h"
 #include "remesh/io/read_edges.h"
 #include "remesh/io/read_mesh.h"
@@ -43,6 +44,7 @@ struct Arguments : cli::DiagramArguments {
     fs::path feature_edges;  // Empty: none.
     remesh::Junctions junctions = remesh::RemeshOptions{}.junctions;
     cli::SizingArguments sizing;
+    cli::AttributeArguments attributes;
 };
 
 std::map<std::string, remesh::Delaunay> delaunay_by_name() {
@@ -142,6 +144,7 @@ void add_options(CLI::App& app, Arguments& arguments) {
     add_result_options(app, arguments);
     add_feature_options(app, arguments);
     cli::add_sizing_options(app, arguments.sizing);
+    cli::add_attribute_options(app, arguments.attributes);
     app.add_option("--drop-components", arguments.drop_components,
                    "Drop components with less than this percentage of the area")
         ->check(CLI::Range(0.0, 100.0).description(""))
@@ -212,51 +215,74 @@ void check_outputs(const Arguments& arguments) {
                             arguments.output.extension().string() +
                             "'; use .ply, .obj, .off or .stl");
     }
-    cli::check_output(arguments.output, {arguments.input, arguments.sites, arguments.feature_edges},
-                      arguments.force);
-    if (arguments.report.empty() || arguments.report == "-") return;
-    cli::check_output(arguments.report, {arguments.input, arguments.sites, arguments.feature_edges},
-                      arguments.force);
-    if (cli::is_same_file(arguments.report, arguments.output)) {
-        throw agvd::InvalidOption("--report and the output name the same file, " +
-                                  arguments.report.string() + "; choose another file");
+    struct Output {
+        const char* name;
+        const fs::path& path;
+    };
+    std::vector<Output> checked;
+    for (const Output& output :
+         {Output{"the output", arguments.output}, Output{"--report", arguments.report},
+          Output{"--map", arguments.attributes.map}}) {
+        if (output.path.empty() || (&output.path == &arguments.report && output.path == "-")) {
+            continue;
+        }
+        cli::check_output(output.path, {arguments.input, arguments.sites, arguments.feature_edges},
+                          arguments.force);
+        for (const Output& other : checked) {
+            if (!cli::is_same_file(output.path, other.path)) continue;
+            throw agvd::InvalidOption(std::string(output.name) + " and " + other.name +
+                                      " name the same file, " + output.path.string() +
+                                      "; choose another file");
+        }
+        checked.push_back(output);
     }
 }
 
-// Bytes that a run needs at least. Six faces to 1.4 M, with 2000 to 100 000 samples, took 300 bytes
-// a face and some 6000 a sample.
+// Bytes that a run needs at least. Meshes of 1 000 to 100 000 faces with 9 000 to 100 000 samples
+// took 4000 to 7000 bytes a sample beyond 300 a face.
 std::size_t least_memory(std::size_t num_faces, std::size_t num_samples) {
-    return 200 * num_faces + 4000 * num_samples;
+    return 200 * num_faces + 3000 * num_samples;
 }
 
 void run_job(const Arguments& arguments, cli::Console& console) {
     check_outputs(arguments);
-    remesh::MeshFile input = cli::read_input(arguments, console);
-    std::vector<agvd::Index>().swap(input.face_polygon);  // Not used any more.
+    const bool wants_attributes = cli::wants_attributes(arguments.attributes);
+    remesh::MeshFile input = cli::read_input(
+        arguments, console, wants_attributes ? cli::WithAttributes::Yes : cli::WithAttributes::No);
+    // Of the file, before those that are not carried over are removed.
+    std::vector<agvd::Index> labels =
+        cli::labels_to_keep(arguments.attributes, arguments.input, input.attributes);
+    const remesh::AttributeReport attributes = cli::select_attributes(
+        arguments.attributes, arguments.input, arguments.output, input.attributes, console);
+    const bool needs_input = cli::needs_map(arguments.attributes, input.attributes);
+    if (!needs_input) std::vector<agvd::Index>().swap(input.face_polygon);  // Not used any more.
     console.info(cli::describe(arguments.input, input.mesh.view()));
-    remesh::RemeshOptions options{
-        .num_samples = cli::num_samples_for(arguments, input.mesh.view()),
-        .sizing = cli::sizing_for(arguments.sizing, input.mesh.view()),
-        .vertex_count = arguments.vertex_count,
-        .boundary = arguments.sampling.boundary,
-        .drop_components = arguments.drop_components / 100,
-        .init = arguments.sampling.init,
-        .features = arguments.features,
-        .feature_angle = arguments.feature_angle,
-        .junctions = arguments.junctions,
-        .seed = arguments.sampling.seed,
-        .relax_steps = arguments.relax_steps,
-        .keep_sites = arguments.keep_sites,
-        .fit = arguments.fit,
-        .propagation = arguments.propagation,
-        .delaunay = arguments.delaunay,
-        .num_threads = arguments.common.threads,
-        .progress = [&, last = remesh::Stage::Clean](remesh::Stage stage, double fraction) mutable {
-            const bool goes_on = console.progress(remesh::stage_name(stage), fraction);
-            // Otherwise memory that a stage has freed between its results would stay in use.
-            if (std::exchange(last, stage) != stage) ::malloc_trim(0);
-            return goes_on;
-        }};
+    // Otherwise memory that half a stage has freed between its results would stay in use.
+    const auto progress = [&, last = std::pair(remesh::Stage::Clean, false)](
+                              remesh::Stage stage, double fraction) mutable {
+        const bool goes_on = console.progress(remesh::stage_name(stage), fraction);
+        const std::pair now(stage, fraction >= 0.5);
+        if (std::exchange(last, now) != now) ::malloc_trim(0);
+        return goes_on;
+    };
+    remesh::RemeshOptions options{.num_samples = cli::num_samples_for(arguments, input.mesh.view()),
+                                  .sizing = cli::sizing_for(arguments.sizing, input.mesh.view()),
+                                  .vertex_count = arguments.vertex_count,
+                                  .boundary = arguments.sampling.boundary,
+                                  .drop_components = arguments.drop_components / 100,
+                                  .init = arguments.sampling.init,
+                                  .features = arguments.features,
+                                  .feature_angle = arguments.feature_angle,
+                                  .face_labels = std::move(labels),
+                                  .junctions = arguments.junctions,
+                                  .seed = arguments.sampling.seed,
+                                  .relax_steps = arguments.relax_steps,
+                                  .keep_sites = arguments.keep_sites,
+                                  .fit = arguments.fit,
+                                  .propagation = arguments.propagation,
+                                  .delaunay = arguments.delaunay,
+                                  .num_threads = arguments.common.threads,
+                                  .progress = progress};
     if (!arguments.sites.empty()) {
         options.sites =
             remesh::read_sites(arguments.sites, input.mesh.view(), console.progress_of("read"));
@@ -269,18 +295,26 @@ void run_job(const Arguments& arguments, cli::Console& console) {
         "sample", least_memory(input.mesh.triangles.size(),
                                options.sites ? options.sites->size() : options.num_samples));
     const remesh::RemeshResult result = cli::naming_file(
-        arguments.input, [&] { return remesh::remesh_moved(std::move(input.mesh), options); },
+        arguments.input,
+        [&] {
+            return needs_input ? remesh::remesh(input.mesh.view(), options)
+                               : remesh::remesh_moved(std::move(input.mesh), options);
+        },
         arguments.sites);
     judge(result, arguments.strict, console);
     warn_of_junctions(result.junctions, arguments.junctions, console);
     const remesh::RunInfo info{.version = REMESH_VERSION,
                                .input_path = arguments.input.string(),
                                .output_path = arguments.output.string(),
-                               .options = options};
+                               .options = options,
+                               .attributes = attributes};
     const agvd::Progress writing = console.progress_of("write");
     std::vector<remesh::FileContent> files;
-    files.push_back(
-        {arguments.output, remesh::format_mesh(arguments.output, result.mesh.view(), writing)});
+    const remesh::MeshAttributes carried =
+        cli::carry_attributes(arguments.attributes, input, result, arguments.common.threads,
+                              console.progress_of("transfer"), files);
+    files.push_back({arguments.output,
+                     remesh::format_mesh(arguments.output, result.mesh.view(), carried, writing)});
     if (arguments.report == "-") {
         cli::print(remesh::to_json(result, info));
     } else if (!arguments.report.empty()) {

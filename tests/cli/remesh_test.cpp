@@ -365,11 +365,29 @@ TEST_F(Remesh, RefusesMoreSamplesThanFitAndTellsWhatTheyNeed) {
     const std::string in = put("in.off", shapes::sphere(2));
     const auto outcome = remesh({in, at("out.ply"), "-n", "1000000", "--memory-limit", "2G"});
     EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_NE(outcome.err.find("the program needs some 3.7"), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("the program needs some 2.8"), std::string::npos) << outcome.err;
     EXPECT_NE(outcome.err.find("more than the 2G of --memory-limit"), std::string::npos)
         << outcome.err;
     EXPECT_NE(outcome.err.find("use fewer --samples"), std::string::npos) << outcome.err;
     EXPECT_FALSE(fs::exists(at("out.ply")));
+}
+
+// A bound for larger counts as well. The difference between two counts is free of what every run
+// needs. Sanitizers need more.
+TEST_F(Remesh, TakesABoundedAmountOfMemoryForASample) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "not with sanitizers";
+#endif
+    const std::string in = put("in.off", shapes::sphere(3));
+    const auto peak = [&](int num_samples) {
+        const auto outcome =
+            remesh({in, at("out.ply"), "-q", "-t", "1", "-n", std::to_string(num_samples)});
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return static_cast<double>(outcome.peak_bytes);
+    };
+    const double bytes_per_sample = (peak(9000) - peak(1000)) / 8000;
+    EXPECT_LT(bytes_per_sample, 7500);
+    EXPECT_GT(bytes_per_sample, 1000);  // It is measured.
 }
 
 TEST_F(Remesh, TakesMemoryLimitsWithSuffixesAndRefusesGarbage) {

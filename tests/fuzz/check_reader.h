@@ -18,7 +18,8 @@ inline std::optional<remesh::MeshFile> read_bytes(const remesh::MeshFormat& form
     try {
         return format.read({.path = std::string("fuzzed") + format.extension,
                             .bytes = std::move(bytes),
-                            .is_lenient = is_lenient});
+                            .is_lenient = is_lenient,
+                            .with_attributes = !is_lenient});
     } catch (const agvd::IoError&) {
     } catch (const agvd::InvalidInput&) {
     }
@@ -40,6 +41,12 @@ inline void check_mesh_file(const remesh::MeshFile& file) {
     for (const agvd::Triangle& t : triangles) {
         require(std::ranges::max(t) < positions.size(), "corners are in range");
     }
+    for (const remesh::Attribute& attribute : file.attributes.of_vertices) {
+        require(attribute.values.size() == positions.size(), "each vertex has its value");
+    }
+    for (const remesh::Attribute& attribute : file.attributes.of_faces) {
+        require(attribute.values.size() == triangles.size(), "each face has its value");
+    }
     require(file.face_polygon.size() == triangles.size(), "each face has its polygon");
     require(std::ranges::is_sorted(file.face_polygon), "polygons are in order");
 }
@@ -54,11 +61,13 @@ inline int check_reader(const char* extension, const std::uint8_t* data, std::si
     if (lenient) check_mesh_file(*lenient);
     const auto strict = read_bytes(format, bytes, false);
     if (!strict) return 0;
+    check_mesh_file(*strict);
     require(lenient && has_same_bits(strict->mesh, lenient->mesh), "leniency only adds");
     for (const agvd::Vec3& p : strict->mesh.positions) {
         if ((p.array().abs() > format.largest).any()) return 0;  // Only STL has such a limit.
     }
-    const auto again = read_bytes(format, format.format(strict->mesh.view(), {}), false);
+    const auto again =
+        read_bytes(format, format.format(strict->mesh.view(), strict->attributes, {}), false);
     require(again.has_value(), "what was written can be read");
     const bool is_stl = std::string_view(extension) == ".stl";  // Rounds and welds.
     require(is_stl ? again->mesh.triangles.size() == strict->mesh.triangles.size()

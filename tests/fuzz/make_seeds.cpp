@@ -106,6 +106,16 @@ void put_meshes(Seeds& seeds) {
     seeds.put("read_off",
               "STNOFF 6 1 0\n1 0 0 0 0 1 0 0\n2 0 0 0 0 1 0 0\n2 1 0 0 0 1 0 0\n"
               "1.5 .5 0 0 0 1 0 0\n1 2 0 0 0 1 0 0\n0 1 0 0 0 1 0 0\n6 0 1 2 3 4 5\n");
+    seeds.put("read_ply",
+              "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+              "property float z\nproperty float nx\nproperty short id\nproperty float s\n"
+              "property float t\nproperty list uchar int near\nelement face 2\n"
+              "property uint label\nproperty list uchar int vertex_indices\n"
+              "property double heat\nend_header\n0 0 0 1 7 0 0 0\n1 0 0 1 -7 0 1 1 2\n"
+              "1 1 0 1 8 1 1 0\n0 1 0 1 9 1 0 0\n5 4 0 1 2 3 nan\n9 3 0 1 2 -1e9\n");
+    seeds.put("read_obj",
+              "mtllib a.mtl\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\nusemtl a b\n"
+              "g x\nf 3 2 1\nusemtl c\\\\\no y\nf 1 3 2\n");
     seeds.put("read_obj",
               "# a seed\no part\nv 0 0 0\r\nv 1 0 0 1 .5 .5\r\nv 1 1 0\r\nv 0 1e0 0\r\nvt 0 0\n"
               "vn 0 0 1\nusemtl m\nf 1/1/1 2//1 \\\n 3/1 4\nf -4 -2 -1\nl 1 2\nv +.5 2 -0\n"

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -69,7 +70,9 @@ Outcome run(const std::vector<std::string>& command, const Options& options) {
     }
     close(pipe[0]);
     int status = 0;
-    waitpid(pid, &status, 0);
+    rusage usage{};
+    wait4(pid, &status, 0, &usage);
+    outcome.peak_bytes = static_cast<std::size_t>(usage.ru_maxrss) * 1024;
     outcome.killed = WIFSIGNALED(status);
     outcome.exit_code = outcome.killed ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
     std::ostringstream text;

@@ -9,9 +9,10 @@
 namespace process {
 
 struct Outcome {
-    int exit_code = -1;    //!< 128 + signal if a signal killed it.
-    bool killed = false;   //!< True: it did not exit by itself.
-    std::string out, err;  //!< All it wrote.
+    int exit_code = -1;          //!< 128 + signal if a signal killed it.
+    bool killed = false;         //!< True: it did not exit by itself.
+    std::string out, err;        //!< All it wrote.
+    std::size_t peak_bytes = 0;  //!< The most memory that it had at a time.
 };
 
 struct Options {

@@ -12,8 +12,7 @@ namespace {
 
 void trace_again(const StageInput& input, std::span<const Index> faces, DiagramParts& parts) {
     for (const Index face : faces) remove_arcs(face, parts);
-    trace_faces(input, group_relays_around(input, parts.labels, faces),
-                positions_of(parts.labels, faces), parts);
+    trace_faces(input, positions_of(parts.labels, faces), parts);
     join_arcs(parts.labels, parts.arcs, faces, Ticker(input.poller), parts.joined);
 }
 

@@ -7,8 +7,13 @@
 
 namespace agvd {
 
-Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> sites,
-                      const Propagation& propagation, const DiagramOptions& options) {
+namespace {
+
+// \param free_relays  called when the relays have been read for the last time.
+template <typename FreeRelays>
+Diagram build(const Surface& surface, std::span<const SurfacePoint> sites,
+              const Propagation& propagation, const DiagramOptions& options,
+              const FreeRelays& free_relays) {
     Poller poller(options.progress);
     poller.poll();
     const SitePlacement placement(surface, sites);
@@ -17,9 +22,23 @@ Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> site
         poller};
     DiagramParts parts = build_parts(input);
     absorb_islands(input, find_displaced(input, parts.labels), CellSet(), parts);
+    free_relays();
     Diagram diagram = draw_diagram(surface, parts, propagation.mixed_faces, Ticker(poller));
     poll(options.progress, 1);
     return diagram;
+}
+
+}  // namespace
+
+Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> sites,
+                      const Propagation& propagation, const DiagramOptions& options) {
+    return build(surface, sites, propagation, options, [] {});
+}
+
+Diagram build_diagram(const Surface& surface, std::span<const SurfacePoint> sites,
+                      Propagation&& propagation, const DiagramOptions& options) {
+    return build(surface, sites, propagation, options,
+                 [&] { std::vector<Relay>().swap(propagation.relays); });
 }
 
 }  // namespace agvd

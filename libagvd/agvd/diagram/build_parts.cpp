@@ -29,11 +29,10 @@ DiagramParts build_parts(const StageInput& input) {
     list_mixed_faces(input.propagation, input.surface.num_faces(), parts.labels);
     label_vertices(input, parts.labels);
     count_unlisted(input, parts);
-    const RelayGroups groups(input.propagation, mixed, input.num_threads, input.poller);
-    label_edges(input, groups, parts);
-    cut_faces(input, groups, mixed, parts);
+    label_edges(input, parts);
+    cut_faces(input, mixed, parts);
     input.poller.tell(0.5);
-    trace_faces(input, groups, mixed, parts);
+    trace_faces(input, mixed, parts);
     input.poller.tell(0.9);
     join_arcs(parts.labels, parts.arcs, input.propagation.mixed_faces, Ticker(input.poller),
               parts.joined);

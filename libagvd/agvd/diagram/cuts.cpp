@@ -27,12 +27,12 @@ struct FoundCuts {
 
 class FaceCutter {
 public:
-    FaceCutter(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
-               const EdgeLabels& labels, FoundCuts& out)
+    FaceCutter(const Surface& surface, const Propagation& propagation, const EdgeLabels& labels,
+               FoundCuts& out)
         : surface_(surface),
           propagation_(propagation),
           labels_(labels),
-          inside_relays_(surface, propagation, groups, labels),
+          inside_relays_(surface, propagation, labels),
           out_(out) {}
 
     void cut(Index mixed_index, std::span<const PlacedSite> placed) {
@@ -211,15 +211,14 @@ void count_cuts(const CutFace& face, int sign, DiagramParts& parts) {
 
 }  // namespace
 
-void cut_faces(const StageInput& input, const RelayGroups& groups, std::span<const Index> mixed,
-               DiagramParts& parts) {
+void cut_faces(const StageInput& input, std::span<const Index> mixed, DiagramParts& parts) {
     if (input.placement.is_empty()) return;
     constexpr Index grain = 512;
     EdgeLabels& labels = parts.labels;
     const auto count = static_cast<Index>(mixed.size());
     std::vector<FoundCuts> found(num_chunks(count, grain));
     const auto cut_chunk = [&](Index chunk, Index begin, Index end) {
-        FaceCutter cutter(input.surface, input.propagation, groups, labels, found[chunk]);
+        FaceCutter cutter(input.surface, input.propagation, labels, found[chunk]);
         Ticker ticker(input.poller);
         for (Index i = begin; i < end; ++i) {
             const auto placed = input.placement.in_face(input.propagation.mixed_faces[mixed[i]]);

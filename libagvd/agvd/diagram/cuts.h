@@ -3,18 +3,15 @@
 #pragma once
 
 #include "agvd/diagram/diagram_parts.h"
-#include "agvd/diagram/relay_groups.h"
 #include "agvd/diagram/stage_input.h"
 
 namespace agvd {
 
 //! Adds inner points, cuts, cut triangles and the rows of the cuts to the labels. Sites that lie on
 //! edges reach the boundary by themselves; a site that owns nothing at its own place is left out.
-//! \param groups  of these faces and their neighbours.
 //! \param mixed   faces that are not cut so far.
 //! Parallel. Cost: the relays near it, a site inside a mixed face, and sorting the face's relays.
-void cut_faces(const StageInput& input, const RelayGroups& groups, std::span<const Index> mixed,
-               DiagramParts& parts);
+void cut_faces(const StageInput& input, std::span<const Index> mixed, DiagramParts& parts);
 
 //! Takes out all that belongs to a cut face, but for its entry in cut_faces.
 void remove_cut(const CutFace& cut, DiagramParts& parts);

@@ -47,15 +47,30 @@ Motion between_half_edges(const Surface& surface, Index from, Index h) {
     return {-apex / length, apex};
 }
 
+// The three places of an image.
+bool is_across(const Relay& r, Index half_edge) { return r.y < 0 && r.half_edge == half_edge; }
+bool is_corner(const Relay& r) { return r.x == 0 && r.y == 0; }  // The tail of its half-edge.
+bool is_inside(const Relay& r) { return r.y >= 0 && !is_corner(r); }
+
 }  // namespace
+
+// Most faces have three or four relays, so that sorting them first would not pay.
+template <typename IsInQuestion, typename Each>
+void EdgeRelays::for_each_relay(Index half_edge, const IsInQuestion& is_in_question,
+                                const Each& each) const {
+    const auto [begin, end] =
+        propagation_.relay_ranges[labels_.mixed_index[Surface::face(half_edge)]];
+    for (Index i = begin; i < end; ++i) {
+        if (is_in_question(propagation_.relays[i])) each(i);
+    }
+}
 
 // The relays of one face whose image lies across the edge, with their slopes, and those in the
 // face. The ends of the edge stand for themselves.
 void EdgeRelays::scan_across(Index edge, Index half_edge) {
     const bool forward = surface_.edge_half[edge] == half_edge;
-    const Index mixed = labels_.mixed_index[Surface::face(half_edge)];
     const double length = surface_.length[edge];
-    for (const Index i : groups_.across(mixed, half_edge)) {
+    const auto add_across = [&](Index i) {
         const Relay& r = propagation_.relays[i];
         const double begin = root(r.begin - r.x, r.y);
         const double end = root(r.end - r.x, r.y);
@@ -74,21 +89,23 @@ void EdgeRelays::scan_across(Index edge, Index half_edge) {
             candidates_.push_back(
                 {head, tail, -slope_head, -slope_tail, i, r.site.value(), half_edge});
         }
-    }
-    for (const Index i : groups_.inside(mixed)) add_distances(edge, half_edge, i);
+    };
+    for_each_relay(
+        half_edge, [&](const Relay& r) { return is_across(r, half_edge); }, add_across);
+    for_each_relay(half_edge, is_inside, [&](Index i) { add_distances(edge, half_edge, i); });
 }
 
 // The others, and the corner opposite.
 void EdgeRelays::scan_others(Index edge, Index half_edge) {
-    const Index mixed = labels_.mixed_index[Surface::face(half_edge)];
     const Index next = Surface::next(half_edge);
     const Index previous = Surface::previous(half_edge);
+    const auto add = [&](Index i) { add_distances(edge, half_edge, i); };
     for (const Index other : {next, previous}) {
-        for (const Index i : groups_.across(mixed, other)) add_distances(edge, half_edge, i);
+        for_each_relay(
+            half_edge, [&](const Relay& r) { return is_across(r, other); }, add);
     }
-    for (const Index i : groups_.corners(mixed)) {
-        if (propagation_.relays[i].half_edge == previous) add_distances(edge, half_edge, i);
-    }
+    for_each_relay(
+        half_edge, [&](const Relay& r) { return is_corner(r) && r.half_edge == previous; }, add);
 }
 
 // Of a relay of the face that may belong to another half-edge.

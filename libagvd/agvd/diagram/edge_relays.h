@@ -4,7 +4,6 @@
 
 #include "agvd/diagram/edge_labels.h"
 #include "agvd/diagram/envelope.h"
-#include "agvd/diagram/relay_groups.h"
 
 namespace agvd {
 
@@ -12,9 +11,8 @@ namespace agvd {
 //! references; one for each thread.
 class EdgeRelays {
 public:
-    EdgeRelays(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
-               const EdgeLabels& labels)
-        : surface_(surface), propagation_(propagation), groups_(groups), labels_(labels) {}
+    EdgeRelays(const Surface& surface, const Propagation& propagation, const EdgeLabels& labels)
+        : surface_(surface), propagation_(propagation), labels_(labels) {}
 
     //! Whether labels may change on an edge, all of whose faces are listed. Then `relays` holds
     //! those that could be the nearest somewhere on it. Distances grow no faster than the point
@@ -36,13 +34,16 @@ private:
     void scan(Index edge);
     void scan_across(Index edge, Index half_edge);
     void scan_others(Index edge, Index half_edge);
+    // Calls each(index) for those of a face's relays that are in question, in their order.
+    template <typename IsInQuestion, typename Each>
+    void for_each_relay(Index half_edge, const IsInQuestion& is_in_question,
+                        const Each& each) const;
     void add_distances(Index edge, Index half_edge, Index relay);
     [[nodiscard]] LineRelay through_face(Index base, const Relay& relay) const;
     void append_all(Index edge, std::vector<LineRelay>& relays) const;
 
     const Surface& surface_;
     const Propagation& propagation_;
-    const RelayGroups& groups_;
     const EdgeLabels& labels_;
     std::vector<Candidate> candidates_;
     // The end itself is nearer to its site than any relay says.

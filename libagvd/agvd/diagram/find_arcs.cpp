@@ -17,12 +17,11 @@ namespace {
 // Traces faces one after the other. One for each thread.
 class FaceTracer {
 public:
-    FaceTracer(const StageInput& input, const RelayGroups& groups, const EdgeLabels& labels,
-               FaceArcs& out)
+    FaceTracer(const StageInput& input, const EdgeLabels& labels, FaceArcs& out)
         : surface_(input.surface),
           propagation_(input.propagation),
           labels_(labels),
-          inside_relays_(input.surface, input.propagation, groups, labels),
+          inside_relays_(input.surface, input.propagation, labels),
           chord_tolerance_(input.chord_tolerance),
           solver_(input.chord_tolerance, out.local),
           out_(out) {}
@@ -185,10 +184,10 @@ private:
 
 }  // namespace
 
-void find_arcs(const StageInput& input, const RelayGroups& groups, const EdgeLabels& labels,
-               std::span<const Index> mixed, FaceArcs& out) {
+void find_arcs(const StageInput& input, const EdgeLabels& labels, std::span<const Index> mixed,
+               FaceArcs& out) {
     out.clear();
-    FaceTracer tracer(input, groups, labels, out);
+    FaceTracer tracer(input, labels, out);
     Ticker ticker(input.poller);
     const auto comes_before = [](const CutFace& cut, Index face) { return cut.face < face; };
     auto cut = labels.cut_faces.begin();

@@ -4,7 +4,6 @@
 
 #include "agvd/diagram/edge_labels.h"
 #include "agvd/diagram/face_arcs.h"
-#include "agvd/diagram/relay_groups.h"
 #include "agvd/diagram/stage_input.h"
 
 namespace agvd {
@@ -13,7 +12,7 @@ namespace agvd {
 //! suffice. Where these contradict the labels on the edges or each other, the relays that are the
 //! nearest on the edges are used instead.
 //! \param out  replaced, face after face; its memory is used again.
-void find_arcs(const StageInput& input, const RelayGroups& groups, const EdgeLabels& labels,
-               std::span<const Index> mixed, FaceArcs& out);
+void find_arcs(const StageInput& input, const EdgeLabels& labels, std::span<const Index> mixed,
+               FaceArcs& out);
 
 }  // namespace agvd

@@ -9,12 +9,11 @@ namespace agvd {
 //! Gathers relays in a face's own frame, by ascending site. Keeps references; one for each thread.
 class InsideRelays {
 public:
-    InsideRelays(const Surface& surface, const Propagation& propagation, const RelayGroups& groups,
-                 const EdgeLabels& labels)
+    InsideRelays(const Surface& surface, const Propagation& propagation, const EdgeLabels& labels)
         : surface_(surface),
           propagation_(propagation),
           labels_(labels),
-          edge_relays_(surface, propagation, groups, labels) {}
+          edge_relays_(surface, propagation, labels) {}
 
     //! The face's own relays.
     void gather_own(Index mixed_index, std::vector<PlanarRelay>& out);

@@ -16,9 +16,8 @@ namespace {
 // Fetches what labelling an edge reads of the face across it: first where its relays are, then,
 // with `relays_too`, the relays. Always inline: g++ drops calls of functions that do nothing but
 // prefetch.
-[[gnu::always_inline]] inline void prefetch_across(const StageInput& in, const RelayGroups& groups,
-                                                   const EdgeLabels& labels, Index half_edge,
-                                                   bool relays_too) {
+[[gnu::always_inline]] inline void prefetch_across(const StageInput& in, const EdgeLabels& labels,
+                                                   Index half_edge, bool relays_too) {
     const Index twin = in.surface.twin[half_edge];
     if (twin == no_index) return;
     const Index* const neighbour = &labels.mixed_index[Surface::face(twin)];
@@ -27,7 +26,6 @@ namespace {
         __builtin_prefetch(&in.surface.length[in.surface.edge[half_edge]]);
         __builtin_prefetch(&in.surface.edge_half[in.surface.edge[half_edge]]);
     } else {
-        groups.prefetch(*neighbour);
         for (const Relay& r : relays_of(in.propagation, *neighbour)) __builtin_prefetch(&r);
     }
 }
@@ -35,11 +33,10 @@ namespace {
 // Labels edges one after the other. One for each thread.
 class EdgeLabeller {
 public:
-    EdgeLabeller(const StageInput& in, const RelayGroups& groups, const EdgeLabels& labels,
-                 FoundRows& out)
+    EdgeLabeller(const StageInput& in, const EdgeLabels& labels, FoundRows& out)
         : surface_(in.surface),
           labels_(labels),
-          edge_relays_(in.surface, in.propagation, groups, labels),
+          edge_relays_(in.surface, in.propagation, labels),
           out_(out) {}
 
     void label(Index half_edge) {
@@ -84,21 +81,20 @@ bool is_labelled(const Surface& surface, const EdgeLabels& labels, Index half_ed
            (half_edge < twin && labels.mixed_index[Surface::face(twin)] != no_index);
 }
 
-std::vector<FoundRows> find_rows(const StageInput& input, const RelayGroups& groups,
-                                 std::span<const Index> half_edges, const EdgeLabels& labels) {
+std::vector<FoundRows> find_rows(const StageInput& input, std::span<const Index> half_edges,
+                                 const EdgeLabels& labels) {
     constexpr Index grain = 512;
     const auto count = static_cast<Index>(half_edges.size());
     std::vector<FoundRows> found(num_chunks(count, grain));
     const auto label_chunk = [&](Index chunk, Index begin, Index end) {
-        EdgeLabeller labeller(input, groups, labels, found[chunk]);
+        EdgeLabeller labeller(input, labels, found[chunk]);
         Ticker ticker(input.poller);
         for (Index i = begin; i < end; ++i) {
             constexpr Index ahead = 3;
             if (i + 2 * ahead < end) {
-                prefetch_across(input, groups, labels, half_edges[i + 2 * ahead], false);
+                prefetch_across(input, labels, half_edges[i + 2 * ahead], false);
             }
-            if (i + ahead < end)
-                prefetch_across(input, groups, labels, half_edges[i + ahead], true);
+            if (i + ahead < end) prefetch_across(input, labels, half_edges[i + ahead], true);
             labeller.label(half_edges[i]);
             const Index mixed = labels.mixed_index[Surface::face(half_edges[i])];
             ticker.tick(1 + relays_of(input.propagation, mixed).size());
@@ -108,11 +104,10 @@ std::vector<FoundRows> find_rows(const StageInput& input, const RelayGroups& gro
     return found;
 }
 
-void label_edges(const StageInput& input, const RelayGroups& groups, DiagramParts& parts) {
+void label_edges(const StageInput& input, DiagramParts& parts) {
     EdgeLabels& labels = parts.labels;
     labels.edge_rows.assign(input.surface.num_edges(), {});
-    const std::vector<FoundRows> found =
-        find_rows(input, groups, labelled_edges(input, labels), labels);
+    const std::vector<FoundRows> found = find_rows(input, labelled_edges(input, labels), labels);
     std::size_t num_crossings = 0;
     for (const FoundRows& chunk : found) num_crossings += chunk.crossings.size();
     labels.crossings.reserve(num_crossings + num_crossings / 8);  // And those of cuts.

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "agvd/diagram/diagram_parts.h"
-#include "agvd/diagram/relay_groups.h"
 #include "agvd/diagram/stage_input.h"
 
 namespace agvd {
@@ -27,16 +26,14 @@ struct FoundRows {
 };
 
 //! Finds the lower envelope along edges of the relays of both sides and of the edge's ends.
-//! \param groups      of all faces of these edges.
 //! \param half_edges  is_labelled().
 //! \return chunk after chunk of the half-edges.
 //! Parallel. Cost: O(relays) an edge, O(relays) and a few square roots a crossing.
-[[nodiscard]] std::vector<FoundRows> find_rows(const StageInput& input, const RelayGroups& groups,
+[[nodiscard]] std::vector<FoundRows> find_rows(const StageInput& input,
                                                std::span<const Index> half_edges,
                                                const EdgeLabels& labels);
 
 //! Stores the label changes on all edges, none of which has any so far.
-//! \param groups  of all mixed faces.
-void label_edges(const StageInput& input, const RelayGroups& groups, DiagramParts& parts);
+void label_edges(const StageInput& input, DiagramParts& parts);
 
 }  // namespace agvd

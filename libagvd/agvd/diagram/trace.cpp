@@ -25,8 +25,7 @@ void store(std::span<const Index> faces, std::span<const FaceArcs> chunks, Index
 
 }  // namespace
 
-void trace_faces(const StageInput& input, const RelayGroups& groups, std::span<const Index> mixed,
-                 DiagramParts& parts) {
+void trace_faces(const StageInput& input, std::span<const Index> mixed, DiagramParts& parts) {
     // Some chunks at a time, so that arcs are stored while they are in the cache.
     constexpr Index most = 64 * faces_per_task;
     std::vector<FaceArcs> chunks(num_chunks(most, faces_per_task));
@@ -34,8 +33,7 @@ void trace_faces(const StageInput& input, const RelayGroups& groups, std::span<c
     for (std::size_t begin = 0; begin < mixed.size(); begin += most) {
         const auto some = mixed.subspan(begin, std::min<std::size_t>(most, mixed.size() - begin));
         const auto trace_chunk = [&](Index chunk, Index first, Index last) {
-            find_arcs(input, groups, parts.labels, some.subspan(first, last - first),
-                      chunks[chunk]);
+            find_arcs(input, parts.labels, some.subspan(first, last - first), chunks[chunk]);
         };
         parallel_chunks(static_cast<Index>(some.size()), faces_per_task, input.num_threads,
                         trace_chunk, input.poller);

@@ -3,17 +3,14 @@
 #pragma once
 
 #include "agvd/diagram/diagram_parts.h"
-#include "agvd/diagram/relay_groups.h"
 #include "agvd/diagram/stage_input.h"
 
 namespace agvd {
 
 //! Gives mixed faces their arcs, which are not joined yet.
-//! \param groups  of these faces and their neighbours.
 //! \param mixed   faces that have no arcs.
 //! Parallel.
-void trace_faces(const StageInput& input, const RelayGroups& groups, std::span<const Index> mixed,
-                 DiagramParts& parts);
+void trace_faces(const StageInput& input, std::span<const Index> mixed, DiagramParts& parts);
 
 //! Takes the arcs of a face away, if it has any, and the edges through them apart.
 void remove_arcs(Index face, DiagramParts& parts);

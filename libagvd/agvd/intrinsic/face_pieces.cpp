@@ -99,7 +99,7 @@ void add_pieces(const IntrinsicTriangulation& base, Index face, double piece_are
 
 FacePieces::FacePieces(const IntrinsicTriangulation& base, double piece_area, int num_threads,
                        const Progress& progress)
-    : input_(base.input()) {
+    : input_(base.input()), num_faces_(base.surface().num_faces()) {
     assert(piece_area > 0);
     constexpr Index grain = 1 << 12;        // Faces.
     constexpr std::size_t piece_work = 16;  // Ticks of a piece.

@@ -42,10 +42,14 @@ public:
         } while (is_last_[i++] == 0);
     }
 
+    //! At least the number of pieces of all faces together.
+    [[nodiscard]] std::size_t num_pieces_at_most() const { return num_faces_ + pieces_.size(); }
+
 private:
     [[nodiscard]] static SurfacePiece whole(const Surface& surface, Index face);
 
     const Surface& input_;
+    std::size_t num_faces_;
     std::vector<Index> begin_;           // By face, if any is changed; no_index: the input's own.
     std::vector<SurfacePiece> pieces_;   // Of changed faces.
     std::vector<std::uint8_t> is_last_;  // By piece: of its face.

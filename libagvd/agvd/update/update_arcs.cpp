@@ -26,8 +26,8 @@ void remove_stale_arcs(std::span<const Index> faces, DiagramParts& parts) {
 
 }  // namespace
 
-std::vector<Index> update_arcs(const StageInput& input, const RelayGroups& groups,
-                               const TouchedParts& touched, DiagramParts& parts) {
+std::vector<Index> update_arcs(const StageInput& input, const TouchedParts& touched,
+                               DiagramParts& parts) {
     std::vector<Index> stale;
     for (const Index face : touched.faces()) {
         if (!holds_in_face(touched, parts.arcs, face)) stale.push_back(face);
@@ -39,9 +39,9 @@ std::vector<Index> update_arcs(const StageInput& input, const RelayGroups& group
         return true;
     });
     const std::vector<Index> mixed = positions_of(parts.labels, stale);
-    cut_faces(input, groups, mixed, parts);
+    cut_faces(input, mixed, parts);
     input.poller.tell(0.5);
-    trace_faces(input, groups, mixed, parts);
+    trace_faces(input, mixed, parts);
     input.poller.tell(0.9);
     join_arcs(parts.labels, parts.arcs, faces_at(input.propagation, mixed), Ticker(input.poller),
               parts.joined);

@@ -2,7 +2,6 @@
 //! Traces and joins the arcs of the faces that a change touches.
 #pragma once
 
-#include "agvd/diagram/relay_groups.h"
 #include "agvd/update/kept_diagram.h"
 #include "agvd/update/touched_parts.h"
 
@@ -10,10 +9,9 @@ namespace agvd {
 
 //! Replaces the cuts and arcs that do not hold, and joins the new arcs.
 //! \param touched  its edges are settled.
-//! \param groups   of the faces whose arcs do not hold and their neighbours.
 //! \return ascending: the faces whose arcs were taken away, some of which have none now.
-std::vector<Index> update_arcs(const StageInput& input, const RelayGroups& groups,
-                               const TouchedParts& touched, DiagramParts& parts);
+std::vector<Index> update_arcs(const StageInput& input, const TouchedParts& touched,
+                               DiagramParts& parts);
 
 //! Brings the list of Voronoi vertices up to date.
 //! \param faces  in any order: all that lost or got arcs.

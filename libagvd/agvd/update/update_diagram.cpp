@@ -70,9 +70,8 @@ void update_diagram(const StageInput& input, std::span<const Index> changed_face
     const std::vector<Index> restored = restore_labels(input.surface, kept);
     update_vertices(input, touched, parts);
     const std::vector<Index> stale = faces_with_stale_edges(touched, parts.labels);
-    const RelayGroups groups = group_relays_around(input, parts.labels, stale);
-    update_edges(input, groups, stale, touched, parts);
-    std::vector<Index> traced = update_arcs(input, groups, touched, parts);
+    update_edges(input, stale, touched, parts);
+    std::vector<Index> traced = update_arcs(input, touched, parts);
     update_displaced(input, touched, kept);
     kept.absorbed = absorb_islands(input, kept.displaced, kept.absorbed.in_doubt, parts);
 

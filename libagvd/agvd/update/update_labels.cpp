@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "agvd/diagram/face_relays.h"
 #include "agvd/diagram/label_vertices.h"
 #include "agvd/mesh/one_ring.h"
 
@@ -125,8 +126,8 @@ std::vector<Index> faces_with_stale_edges(const TouchedParts& touched, const Edg
     return faces;
 }
 
-void update_edges(const StageInput& input, const RelayGroups& groups, std::span<const Index> faces,
-                  TouchedParts& touched, DiagramParts& parts) {
+void update_edges(const StageInput& input, std::span<const Index> faces, TouchedParts& touched,
+                  DiagramParts& parts) {
     std::vector<Index> half_edges;
     for (const Index face : faces) {
         for (Index h = 3 * face; h < 3 * face + 3; ++h) {
@@ -135,7 +136,7 @@ void update_edges(const StageInput& input, const RelayGroups& groups, std::span<
             }
         }
     }
-    for (const FoundRows& chunk : find_rows(input, groups, half_edges, parts.labels)) {
+    for (const FoundRows& chunk : find_rows(input, half_edges, parts.labels)) {
         input.poller.poll();
         for (const FoundRows::Row& row : chunk.rows) {
             replace_row(row.edge, chunk.of(row), touched, parts);

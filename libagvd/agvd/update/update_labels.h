@@ -18,9 +18,8 @@ void update_vertices(const StageInput& input, TouchedParts& touched, DiagramPart
 
 //! Replaces the labels on the edges on which they need not hold, and settles these in `touched`.
 //! \param faces   faces_with_stale_edges().
-//! \param groups  of these faces and their neighbours.
-void update_edges(const StageInput& input, const RelayGroups& groups, std::span<const Index> faces,
-                  TouchedParts& touched, DiagramParts& parts);
+void update_edges(const StageInput& input, std::span<const Index> faces, TouchedParts& touched,
+                  DiagramParts& parts);
 
 //! Ascending: the mixed faces that have edges on which labels need not hold.
 [[nodiscard]] std::vector<Index> faces_with_stale_edges(const TouchedParts& touched,

@@ -21,17 +21,33 @@ inline void add_warning(const std::string& text, MeshFile& file) {
     if (!text.empty()) file.warnings.push_back(text);
 }
 
-//! The whole file's bytes.
-[[nodiscard]] std::string format_ply(const agvd::MeshView& mesh, agvd::Ticker ticker);
-[[nodiscard]] std::string format_obj(const agvd::MeshView& mesh, agvd::Ticker ticker);
-[[nodiscard]] std::string format_off(const agvd::MeshView& mesh, agvd::Ticker ticker);
-[[nodiscard]] std::string format_stl(const agvd::MeshView& mesh, agvd::Ticker ticker);
+//! Gives a file the attributes that were read with it; those of faces belong to polygons yet.
+void attach(MeshAttributes attributes, MeshFile& file);
+
+//! The whole file's bytes. Attributes that the format cannot hold are left out.
+[[nodiscard]] std::string format_ply(const agvd::MeshView& mesh, const MeshAttributes& attributes,
+                                     agvd::Ticker ticker);
+[[nodiscard]] std::string format_obj(const agvd::MeshView& mesh, const MeshAttributes& attributes,
+                                     agvd::Ticker ticker);
+[[nodiscard]] std::string format_off(const agvd::MeshView& mesh, const MeshAttributes& attributes,
+                                     agvd::Ticker ticker);
+[[nodiscard]] std::string format_stl(const agvd::MeshView& mesh, const MeshAttributes& attributes,
+                                     agvd::Ticker ticker);
+
+//! See MeshFormat::holds.
+[[nodiscard]] bool obj_holds(const Attribute& attribute, ElementKind kind,
+                             const MeshAttributes& all);
+[[nodiscard]] bool off_holds(const Attribute& attribute, ElementKind kind,
+                             const MeshAttributes& all);
 
 struct MeshFormat {
     const char* extension;  //!< Lower case, with its dot.
     MeshFile (*read)(SourceFile);
-    std::string (*format)(const agvd::MeshView&, agvd::Ticker);
-    double largest;  //!< Coordinate that it can hold.
+    std::string (*format)(const agvd::MeshView&, const MeshAttributes&, agvd::Ticker);
+    //! Whether it can hold an attribute, one of `all`.
+    bool (*holds)(const Attribute&, ElementKind, const MeshAttributes& all);
+    bool has_normals;  //!< At vertices.
+    double largest;    //!< Coordinate that it can hold.
 };
 
 //! With its dot, in lower case; empty if there is none.

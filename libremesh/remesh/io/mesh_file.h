@@ -7,6 +7,7 @@
 
 #include "agvd/core/progress.h"
 #include "agvd/mesh/mesh_view.h"
+#include "remesh/io/mesh_attributes.h"
 
 namespace remesh {
 
@@ -17,12 +18,15 @@ struct MeshFile {
     agvd::Index welded_vertices = 0;   //!< STL only: corners merged at equal positions.
     //! #F: the polygon (face of the file, from 0) each triangle came from.
     std::vector<agvd::Index> face_polygon;
+    MeshAttributes attributes;          //!< With ReadOptions::with_attributes.
     std::vector<std::string> warnings;  //!< What was skipped, with the file's name.
 };
 
 struct ReadOptions {
     //! Whole elements beyond those that the header announces are a warning, not an error.
     bool is_lenient = false;
+    //! Also read colours, labels and other properties. They take 8 bytes for each value.
+    bool with_attributes = false;
     agvd::Progress progress = {};
 };
 

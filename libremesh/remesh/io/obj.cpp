@@ -1,10 +1,11 @@
-// Wavefront OBJ: vertices (v) and faces (f); every other statement is skipped, and so are texture
-// coordinates and normals of a corner: vertices are never split along their seams (format:
-// Wavefront, Advanced Visualizer Manual, appendix B1).
+// Wavefront OBJ: vertices (v, also with colours) and faces (f), materials, groups and objects;
+// every other statement is skipped, and so are texture coordinates and normals of a corner:
+// vertices are never split along their seams (format: Wavefront, Advanced Visualizer Manual,
+// appendix B1).
 
 #include "remesh/io/formats.h"
+#include "remesh/io/obj_attributes.h"
 #include "remesh/io/polygon_soup.h"
-#include "remesh/io/text_format.h"
 #include "remesh/io/text_scanner.h"
 
 namespace remesh {
@@ -36,38 +37,32 @@ std::int64_t read_corner(TextScanner& scan, const SourceFile& file, std::size_t 
 
 }  // namespace
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): all readers have this type.
 MeshFile read_obj(SourceFile file) {
     TextScanner scan(file, 0, {.comment = '#', .continues = true});
     PolygonSoup soup(file, 1);
+    ObjAttributes attributes(file.with_attributes);
     while (scan.find_word()) {
         soup.ticker.tick();
         const std::string_view statement = scan.word();
         if (statement == "v") {
             soup.positions.push_back(scan.point());
-            while (scan.has_word()) scan.word();  // Weight or colour, over joined lines too.
+            if (scan.has_word()) attributes.take_color(soup.positions.size() - 1, scan);
         } else if (statement == "f") {
             while (scan.has_word()) {
                 const std::size_t start = scan.offset();
                 soup.add_corner(read_corner(scan, file, soup.positions.size()), start);
             }
             soup.end_polygon();
+        } else {
+            attributes.take(statement, soup.num_polygons(), scan);
         }
         scan.skip_line();
     }
-    return std::move(soup).finish();
-}
-
-std::string format_obj(const agvd::MeshView& mesh, agvd::Ticker ticker) {
-    std::string bytes;
-    for (const agvd::Vec3& p : mesh.positions) {
-        ticker.tick(4);
-        append_line(bytes, "v ", p);
-    }
-    for (const auto& [a, b, c] : mesh.triangles) {
-        ticker.tick();
-        append_line(bytes, "f ", std::array<std::uint64_t, 3>{a + 1ull, b + 1ull, c + 1ull});
-    }
-    return bytes;
+    const std::size_t num_vertices = soup.positions.size(), num_polygons = soup.num_polygons();
+    MeshFile result = std::move(soup).finish();
+    attach(std::move(attributes).finish(num_vertices, num_polygons), result);
+    return result;
 }
 
 }  // namespace remesh

@@ -1,23 +1,29 @@
-// OFF, and COFF, NOFF, STOFF, whose colours, normals and texture coordinates are skipped (format:
-// Geomview manual, "OFF Files").
+// OFF, and COFF, NOFF, STOFF: coordinates, corners, and colours of both; normals and texture
+// coordinates are skipped (format: Geomview manual, "OFF Files").
 //
 // Reads one element from each line, as every writer does it; the rest of a line after a vertex's
 // coordinates or a face's corners is optional. A file with another layout runs out of lines, which
 // is an error.
 
+#include <array>
+#include <utility>
+
 #include "remesh/io/formats.h"
 #include "remesh/io/polygon_soup.h"
-#include "remesh/io/text_format.h"
+#include "remesh/io/text_colors.h"
 #include "remesh/io/text_scanner.h"
 
 namespace remesh {
 namespace {
 
-void read_keyword(TextScanner& scan) {
+// What stands behind the coordinates of each vertex: a normal, a colour, texture coordinates.
+struct Extras {
+    bool texture, color, normal;
+};
+
+Extras read_keyword(TextScanner& scan) {
     if (!scan.find_word()) scan.fail_expecting("the keyword OFF");
-    scan.take("ST");
-    scan.take("C");
-    scan.take("N");
+    const bool texture = scan.take("ST"), color = scan.take("C"), normal = scan.take("N");
     if (scan.take("4") || scan.take("n")) {
         scan.fail_malformed(
             "4OFF and nOFF hold points that do not have three dimensions; export the file as OFF");
@@ -27,6 +33,22 @@ void read_keyword(TextScanner& scan) {
     }
     if (scan.has_word() && scan.take("BINARY")) {
         scan.fail_malformed("binary OFF is not supported; export the file as ascii OFF or as PLY");
+    }
+    return {texture, color, normal};
+}
+
+// The color among the numbers on the rest of a line.
+void take_color(TextScanner& scan, std::size_t index, const Extras& extras, TextColors& colors) {
+    std::array<double, 9> numbers{};
+    std::size_t count = 0;
+    for (; scan.has_word() && count < numbers.size(); ++count) {
+        const std::optional<double> number = scan.number_or_other("a number");
+        if (!number) colors.spoil();
+        numbers[count] = number.value_or(0);
+    }
+    const std::size_t before = extras.normal ? 3 : 0, after = extras.texture ? 2 : 0;
+    if (count > before + after) {
+        colors.take(index, std::span(numbers).subspan(before, count - before - after));
     }
 }
 
@@ -46,9 +68,10 @@ void find_element(TextScanner& scan, const char* kind, std::uint64_t index, std:
 
 }  // namespace
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): all readers have this type.
 MeshFile read_off(SourceFile file) {
     TextScanner scan(file, 0, {.comment = '#'});
-    read_keyword(scan);
+    const Extras extras = read_keyword(scan);
     if (!scan.find_word()) scan.fail_expecting("the number of vertices");
     const std::uint64_t num_vertices = read_count(scan, "the number of vertices");
     const std::uint64_t num_faces = read_count(scan, "the number of faces");
@@ -56,10 +79,12 @@ MeshFile read_off(SourceFile file) {
 
     PolygonSoup soup(file, 0);
     soup.reserve(num_vertices, num_faces);
+    TextColors vertex_colors, face_colors;
     for (std::uint64_t v = 0; v < num_vertices; ++v) {
         find_element(scan, "vertex", v, num_vertices);
         soup.ticker.tick(2);
         soup.positions.push_back(scan.point());
+        if (file.with_attributes && extras.color) take_color(scan, v, extras, vertex_colors);
         scan.skip_line();
     }
     for (std::uint64_t f = 0; f < num_faces; ++f) {
@@ -74,27 +99,24 @@ MeshFile read_off(SourceFile file) {
             soup.add_corner(scan.integer("a corner"), start);
         }
         soup.end_polygon();
+        if (file.with_attributes && scan.has_word()) take_color(scan, f, {}, face_colors);
         scan.skip_line();
     }
     (void)scan.find_word();  // Skips comments: they do not count as a rest.
     const std::string rest = file.judge_rest(scan.offset(), "faces", num_faces);
     MeshFile result = std::move(soup).finish();
+    if (file.with_attributes) {
+        MeshAttributes attributes;
+        if (extras.normal) attributes.normals = NumberType::Float32;
+        if (extras.texture) {
+            attributes.declined.push_back({"ST", "texture coordinates are not carried over"});
+        }
+        std::move(vertex_colors).finish(num_vertices, ElementKind::Vertex, attributes);
+        std::move(face_colors).finish(num_faces, ElementKind::Face, attributes);
+        attach(std::move(attributes), result);
+    }
     add_warning(rest, result);
     return result;
-}
-
-std::string format_off(const agvd::MeshView& mesh, agvd::Ticker ticker) {
-    std::string bytes = "OFF\n" + std::to_string(mesh.positions.size()) + ' ' +
-                        std::to_string(mesh.triangles.size()) + " 0\n";
-    for (const agvd::Vec3& p : mesh.positions) {
-        ticker.tick(4);
-        append_line(bytes, "", p);
-    }
-    for (const auto& [a, b, c] : mesh.triangles) {
-        ticker.tick();
-        append_line(bytes, "3 ", std::array{a, b, c});
-    }
-    return bytes;
 }
 
 }  // namespace remesh

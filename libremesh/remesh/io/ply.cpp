@@ -1,14 +1,13 @@
-// PLY, ascii and both binaries: the coordinates of element "vertex", the corners of element "face";
-// every other property and element is skipped (format: Greg Turk, "The PLY Polygon File Format",
-// 1994).
+// PLY, ascii and both binaries: the coordinates of element "vertex", the corners of element "face",
+// and their other properties as attributes; every other element is skipped (format: Greg Turk, "The
+// PLY Polygon File Format", 1994).
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
-#include "remesh/io/byte_order.h"
 #include "remesh/io/formats.h"
-#include "remesh/io/ply_values.h"
+#include "remesh/io/ply_attributes.h"
 #include "remesh/io/polygon_soup.h"
 
 namespace remesh {
@@ -16,7 +15,7 @@ namespace {
 
 template <typename Values>
 void read_vertices(Values& values, const PlyElement& element, const SourceFile& file,
-                   PolygonSoup& soup) {
+                   PolygonSoup& soup, MeshAttributes& attributes) {
     const std::array axes = {element.find("x"), element.find("y"), element.find("z")};
     for (const PlyProperty* axis : axes) {
         if (axis == nullptr || axis->size_type) {
@@ -24,17 +23,23 @@ void read_vertices(Values& values, const PlyElement& element, const SourceFile& 
                 0, "element vertex lacks the numbers x, y and z; export the file again");
         }
     }
+    // By property: the axis it is, or 3.
+    std::vector<Eigen::Index> axis_of;
+    for (const PlyProperty& property : element.properties) {
+        axis_of.push_back(std::find(axes.begin(), axes.end(), &property) - axes.begin());
+    }
+    PlyAttributes others(element, ElementKind::Vertex, {axes.begin(), axes.end()}, file,
+                         attributes);
     for (std::uint64_t v = 0; v < element.count; ++v) {
         soup.ticker.tick(2);
         values.begin(element, v);
         const std::size_t start = values.offset();
         agvd::Vec3 p;
-        for (const PlyProperty& property : element.properties) {
-            const auto axis = std::find(axes.begin(), axes.end(), &property) - axes.begin();
-            if (axis < 3) {
-                p[axis] = values.real(property.type);
+        for (std::size_t i = 0; i < axis_of.size(); ++i) {
+            if (axis_of[i] < 3) {
+                p[axis_of[i]] = values.real(element.properties[i].type);
             } else {
-                skip_property(values, property, file);
+                others.take(values, i);
             }
         }
         if (!p.allFinite()) {
@@ -45,11 +50,12 @@ void read_vertices(Values& values, const PlyElement& element, const SourceFile& 
         values.end();
         soup.positions.push_back(p);
     }
+    std::move(others).finish(attributes);
 }
 
 template <typename Values>
 void read_faces(Values& values, const PlyElement& element, const SourceFile& file,
-                PolygonSoup& soup) {
+                PolygonSoup& soup, MeshAttributes& attributes) {
     const PlyProperty* corners = element.find("vertex_indices");
     if (corners == nullptr) corners = element.find("vertex_index");
     if (corners == nullptr || !corners->size_type || corners->type == PlyType::Float32 ||
@@ -58,11 +64,13 @@ void read_faces(Values& values, const PlyElement& element, const SourceFile& fil
                             "element face lacks a list of whole numbers named vertex_indices; "
                             "export the file again");
     }
+    PlyAttributes others(element, ElementKind::Face, {corners}, file, attributes);
     for (std::uint64_t f = 0; f < element.count; ++f) {
         values.begin(element, f);
-        for (const PlyProperty& property : element.properties) {
+        for (std::size_t i = 0; i < element.properties.size(); ++i) {
+            const PlyProperty& property = element.properties[i];
             if (&property != corners) {
-                skip_property(values, property, file);
+                others.take(values, i);
                 continue;
             }
             for (std::int64_t k = read_length(values, property, file); k > 0; --k) {
@@ -73,26 +81,32 @@ void read_faces(Values& values, const PlyElement& element, const SourceFile& fil
         }
         values.end();
     }
+    std::move(others).finish(attributes);
 }
 
 template <typename Values>
 MeshFile read_body(Values values, const PlyHeader& header, const SourceFile& file) {
     PolygonSoup soup(file, 0);
+    MeshAttributes attributes;
     bool has_vertices = false, has_faces = false;
     std::size_t begin = values.offset();  // Of the last element.
     for (const PlyElement& element : header.elements) {
         begin = values.offset();
         if (element.name == "vertex" && !std::exchange(has_vertices, true)) {
             soup.reserve(element.count, 0);
-            read_vertices(values, element, file, soup);
+            read_vertices(values, element, file, soup, attributes);
         } else if (element.name == "face" && !std::exchange(has_faces, true)) {
             soup.reserve(0, element.count);
-            read_faces(values, element, file, soup);
+            read_faces(values, element, file, soup, attributes);
         } else if (element.name == "tristrips") {
             file.fail_malformed(0,
                                 "triangle strips are not supported; export the file with a list of "
                                 "faces");
         } else if (!element.properties.empty()) {
+            if (file.with_attributes) {
+                attributes.declined.push_back(
+                    {"element " + element.name, "only vertices and faces are carried over"});
+            }
             for (std::uint64_t i = 0; i < element.count; ++i) {
                 soup.ticker.tick(element.properties.size());
                 skip_element(values, element, i, file);
@@ -100,6 +114,7 @@ MeshFile read_body(Values values, const PlyHeader& header, const SourceFile& fil
         }
     }
     MeshFile result = std::move(soup).finish();
+    attach(std::move(attributes), result);
     if (header.elements.empty()) return result;
     const PlyElement& last = header.elements.back();
     const std::size_t end = values.offset();
@@ -118,26 +133,6 @@ MeshFile read_ply(SourceFile file) {
     if (!header.byte_order) return read_body(AsciiValues(file, header), header, file);
     file.is_binary = true;
     return read_body(BinaryValues(file, header), header, file);
-}
-
-std::string format_ply(const agvd::MeshView& mesh, agvd::Ticker ticker) {
-    // "int" is what every reader knows; it does for all but the largest meshes.
-    const char* const index_type = mesh.positions.size() <= INT32_MAX ? "int" : "uint";
-    std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " +
-                        std::to_string(mesh.positions.size()) +
-                        "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
-                        std::to_string(mesh.triangles.size()) + "\nproperty list uchar " +
-                        index_type + " vertex_indices\nend_header\n";
-    for (const agvd::Vec3& p : mesh.positions) {
-        ticker.tick();
-        for (const double x : p) append(bytes, x);
-    }
-    for (const agvd::Triangle& triangle : mesh.triangles) {
-        ticker.tick();
-        append(bytes, std::uint8_t{3});
-        for (const agvd::Index v : triangle) append(bytes, v);
-    }
-    return bytes;
 }
 
 }  // namespace remesh

@@ -79,6 +79,12 @@ std::size_t end_of_header(const SourceFile& file, std::size_t offset) {
 
 }  // namespace
 
+const char* name_of(PlyType type) {
+    return std::find_if(std::begin(type_names), std::end(type_names),
+                        [&](const auto& known) { return known.type == type; })
+        ->name;
+}
+
 const PlyProperty* PlyElement::find(std::string_view property) const {
     const auto found =
         std::find_if(properties.begin(), properties.end(),

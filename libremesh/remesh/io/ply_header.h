@@ -6,11 +6,12 @@
 #include <optional>
 #include <vector>
 
+#include "remesh/io/mesh_attributes.h"
 #include "remesh/io/source_file.h"
 
 namespace remesh {
 
-enum class PlyType { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float32, Float64 };
+using PlyType = NumberType;
 
 struct PlyProperty {
     std::string name;
@@ -26,6 +27,9 @@ struct PlyElement {
     //! The property of that name, or nullptr.
     [[nodiscard]] const PlyProperty* find(std::string_view property) const;
 };
+
+//! The name of a type in a header.
+[[nodiscard]] const char* name_of(PlyType type);
 
 struct PlyHeader {
     std::optional<std::endian> byte_order;  //!< None: ascii.

@@ -26,6 +26,11 @@ public:
                              "; it is truncated: export the file again");
     }
     double real(PlyType) { return scan_.number("a number"); }
+    //! None if the word is no value of the type.
+    std::optional<double> attribute(PlyType type) {
+        const std::optional<double> value = scan_.number_or_other("a number");
+        return value && is_value_of(type, *value) ? value : std::nullopt;
+    }
     std::int64_t integer(PlyType) { return scan_.integer("a whole number"); }
     void skip(PlyType, std::int64_t count) {
         for (; count > 0; --count) {
@@ -56,6 +61,7 @@ public:
         index_ = index;
     }
     double real(PlyType type) { return next<double>(type); }
+    std::optional<double> attribute(PlyType type) { return next<double>(type); }
     std::int64_t integer(PlyType type) { return next<std::int64_t>(type); }
     void skip(PlyType type, std::int64_t count) {
         constexpr std::array<std::size_t, 8> sizes = {1, 1, 2, 2, 4, 4, 4, 8};

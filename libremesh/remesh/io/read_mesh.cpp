@@ -10,6 +10,7 @@ MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options
     const MeshFormat& format = require_format(path);
     SourceFile file = load_file(path, poller);
     file.is_lenient = options.is_lenient;
+    file.with_attributes = options.with_attributes;
     return format.read(std::move(file));
 }
 

@@ -4,12 +4,21 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "agvd/metrics/compare_diagrams.h"
+#include "remesh/io/mesh_attributes.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/quality/evaluate.h"
 
 namespace remesh {
+
+//! What became of the attributes of the input file.
+struct AttributeReport {
+    std::vector<std::string> carried = {};         //!< "vertex red", "face material", ...
+    std::vector<DeclinedAttribute> declined = {};  //!< The file has them, the result does not.
+    std::string map_path = {};                     //!< Of the map to the input; empty: none.
+};
 
 //! What the caller of remesh() knows about a run.
 struct RunInfo {
@@ -17,6 +26,7 @@ struct RunInfo {
     std::string input_path = {};   //!< Empty: not a file.
     std::string output_path = {};  //!< Likewise.
     RemeshOptions options = {};    //!< As passed to remesh().
+    AttributeReport attributes = {};
 };
 
 //! What the caller of evaluate() knows about its meshes.

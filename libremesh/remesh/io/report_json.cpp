@@ -188,6 +188,16 @@ Json to_json(const Verdict& verdict) {
         {"min_angle_deg", verdict.min_angle * degrees}};
 }
 
+Json to_json(const AttributeReport& attributes) {
+    Json declined = Json::array();
+    for (const DeclinedAttribute& one : attributes.declined) {
+        declined.push_back({{"name", one.name}, {"reason", one.reason}});
+    }
+    return {{"carried", attributes.carried},
+            {"declined", declined},
+            {"map_path", text_or_null(attributes.map_path)}};
+}
+
 Json to_json(const RemeshOptions& options) {
     Json object;
     object["samples"] = options.num_samples;
@@ -226,6 +236,7 @@ std::string to_json(const RemeshResult& result, const RunInfo& info) {
     object["input_path"] = text_or_null(info.input_path);
     object["output_path"] = text_or_null(info.output_path);
     object["options"] = to_json(info.options);
+    object["attributes"] = to_json(info.attributes);
     object["input_repair"] = to_json(result.cleaned);
     object["input_faces"] = result.input_topology.face_component.size();
     add_topology(object["input_topology"], result.input_topology);

@@ -251,6 +251,19 @@ std::string describe(const Verdict& verdict, const FeatureCounts& features) {
            "\nsmallest angle: " + fixed(verdict.min_angle * degrees, 1) + " degrees";
 }
 
+// Empty if the file has no attributes.
+std::string describe(const AttributeReport& attributes) {
+    const auto list = [](const char* title, const auto& items, const auto& name_of) {
+        std::string text;
+        for (const auto& item : items) text += (text.empty() ? title : ", ") + name_of(item);
+        return text;
+    };
+    return list("\nattributes carried over: ", attributes.carried,
+                [](const std::string& name) { return name; }) +
+           list("\nattributes not carried over: ", attributes.declined,
+                [](const DeclinedAttribute& declined) { return declined.name; });
+}
+
 }  // namespace
 
 namespace {
@@ -323,6 +336,7 @@ std::string to_text(const RemeshResult& result, const RunInfo& info) {
     }
     text += " total " + fixed(detail::total_seconds(result), 2) + " s; propagation memory " +
             fixed(static_cast<double>(result.propagation_bytes) * 1e-6, 1) + " MB";
+    text += describe(info.attributes);
     if (!info.output_path.empty()) text += "\nwritten: " + info.output_path;
     return text;
 }

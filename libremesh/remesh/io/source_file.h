@@ -14,9 +14,10 @@ namespace remesh {
 struct SourceFile {
     std::filesystem::path path;
     std::string bytes;
-    bool is_binary = false;    //!< Errors name bytes instead of lines.
-    bool is_lenient = false;   //!< See ReadOptions.
-    agvd::Ticker ticker = {};  //!< Of the call that reads it; readers tick copies.
+    bool is_binary = false;        //!< Errors name bytes instead of lines.
+    bool is_lenient = false;       //!< See ReadOptions.
+    bool with_attributes = false;  //!< Likewise.
+    agvd::Ticker ticker = {};      //!< Of the call that reads it; readers tick copies.
 
     //! "mesh.off: line 12: ". Lines are counted here and not while reading, so that valid files
     //! cost nothing.

@@ -152,7 +152,7 @@ MeshFile read_stl(SourceFile file) {
     return file.is_binary ? read_binary(file) : read_ascii(file);
 }
 
-std::string format_stl(const agvd::MeshView& mesh, agvd::Ticker ticker) {
+std::string format_stl(const agvd::MeshView& mesh, const MeshAttributes&, agvd::Ticker ticker) {
     std::string bytes = "binary STL";
     bytes.resize(80, ' ');
     append(bytes, static_cast<std::uint32_t>(mesh.triangles.size()));

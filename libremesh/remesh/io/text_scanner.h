@@ -8,6 +8,8 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <optional>
+#include <string>
 
 #include "agvd/core/types.h"
 #include "remesh/io/source_file.h"
@@ -57,6 +59,21 @@ public:
     //! The next word of this line; empty if there is none.
     std::string_view word() { return has_word() ? rest_of_word() : std::string_view(); }
 
+    //! The remaining words of this line with one blank between them. As skip_line() does, it ends
+    //! where the line ends, even if that is joined with the next one.
+    std::string words() {
+        std::string text;
+        for (; at_ != end_ && !is_line_end(*at_) && *at_ != rules_.comment; ++at_) {
+            if (!is_blank(*at_)) {
+                text += *at_;
+            } else if (!text.empty() && text.back() != ' ') {
+                text += ' ';
+            }
+        }
+        if (text.ends_with(' ')) text.pop_back();
+        return text;
+    }
+
     //! What comes before the next blank, comment or line end.
     std::string_view rest_of_word() {
         const char* const first = at_;
@@ -82,6 +99,19 @@ public:
         const auto [last, error] = fast_float::from_chars(first, end_, value);
         if (error != std::errc{} || !is_separator(last)) fail_expecting(what);
         at_ = last;
+        return value;
+    }
+
+    //! The next word of this line as a number; none if it is something else.
+    std::optional<double> number_or_other(const char* what) {
+        if (!has_word()) fail_expecting(what);
+        const std::string_view text = rest_of_word();
+        const char* const end = text.data() + text.size();
+        double value = 0;
+        const auto [last, error] = fast_float::from_chars(
+            text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0), end,
+            value);
+        if (error != std::errc{} || last != end) return std::nullopt;
         return value;
     }
 

@@ -35,14 +35,67 @@ void check(const std::filesystem::path& path, const MeshFormat& format,
     }
 }
 
+void check(const std::filesystem::path& path, const std::vector<Attribute>& attributes,
+           std::size_t count) {
+    for (const Attribute& attribute : attributes) {
+        const std::string begin =
+            path.string() + ": cannot be written: attribute " + attribute.name;
+        if (attribute.values.size() != count) {
+            throw agvd::InvalidInput(begin + " has " + std::to_string(attribute.values.size()) +
+                                     " values instead of " + std::to_string(count) +
+                                     "; give one for each element");
+        }
+        const auto num_names = static_cast<double>(attribute.names.size());
+        const auto has_name = [&](double value) { return value >= 0 && value < num_names; };
+        if (num_names > 0 &&
+            !std::all_of(attribute.values.begin(), attribute.values.end(), has_name)) {
+            throw agvd::InvalidInput(begin + " has a value without a name; add the name");
+        }
+    }
+}
+
+MeshAttributes names_only(const MeshAttributes& attributes) {
+    MeshAttributes names;
+    for (const Attribute& one : attributes.of_vertices) {
+        names.of_vertices.push_back({.name = one.name});
+    }
+    for (const Attribute& one : attributes.of_faces) names.of_faces.push_back({.name = one.name});
+    return names;
+}
+
 }  // namespace
 
 std::string format_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
                         const agvd::Progress& progress) {
+    return format_mesh(path, mesh, {}, progress);
+}
+
+std::string format_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
+                        const MeshAttributes& attributes, const agvd::Progress& progress) {
     agvd::Poller poller(progress);
     const MeshFormat& format = require_format(path);
     check(path, format, mesh);
-    return format.format(mesh, agvd::Ticker(poller));
+    check(path, attributes.of_vertices, mesh.positions.size());
+    check(path, attributes.of_faces, mesh.triangles.size());
+    return format.format(mesh, attributes, agvd::Ticker(poller));
+}
+
+std::vector<std::string> remove_unwritable(const std::filesystem::path& path,
+                                           MeshAttributes& attributes) {
+    const MeshFormat& format = require_format(path);
+    if (!format.has_normals) attributes.normals.reset();
+    const MeshAttributes all = names_only(attributes);
+    std::vector<std::string> removed;
+    const auto keep_writable = [&](std::vector<Attribute>& some, ElementKind kind) {
+        std::erase_if(some, [&](const Attribute& attribute) {
+            if (format.holds(attribute, kind, all)) return false;
+            removed.push_back((kind == ElementKind::Vertex ? "vertex " : "face ") + attribute.name);
+            return true;
+        });
+    };
+    keep_writable(attributes.of_vertices, ElementKind::Vertex);
+    keep_writable(attributes.of_faces, ElementKind::Face);
+    return removed;
 }
 
 void write_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,

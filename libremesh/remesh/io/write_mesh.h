@@ -6,6 +6,7 @@
 
 #include "agvd/core/progress.h"
 #include "agvd/mesh/mesh_view.h"
+#include "remesh/io/mesh_attributes.h"
 
 namespace remesh {
 
@@ -27,6 +28,20 @@ void write_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
 //! \throw agvd::IoError, agvd::InvalidInput, agvd::Cancelled  as write_mesh.
 [[nodiscard]] std::string format_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
                                       const agvd::Progress& progress = {});
+
+//! The same with attributes. PLY holds all, under their names and types. Normals are those of the
+//! mesh. What the format cannot hold is left out: see remove_unwritable.
+//! \throw agvd::InvalidInput  also: an attribute does not have one value for each vertex or face,
+//!        or one of its values has no name while others have.
+[[nodiscard]] std::string format_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
+                                      const MeshAttributes& attributes,
+                                      const agvd::Progress& progress = {});
+
+//! Removes the attributes that the format of the path's extension cannot hold.
+//! \return what they were: "vertex quality", "face label", ...
+//! \throw agvd::IoError  the extension is unknown.
+std::vector<std::string> remove_unwritable(const std::filesystem::path& path,
+                                           MeshAttributes& attributes);
 
 //! The extensions read_mesh and write_mesh know: true for "out.ply", "out.OBJ", ...
 [[nodiscard]] bool is_known_mesh_extension(const std::filesystem::path& path);

@@ -28,6 +28,14 @@ struct RoundSites {
     std::vector<bool> is_wanted;           // By site: its vertex is removed last; may be shorter.
 };
 
+// Frees what only the Delaunay stage and those before read: after it Voronoi vertices suffice.
+void drop_points(agvd::Diagram& diagram) {
+    diagram.points = {};
+    diagram.point_distance = {};
+    diagram.passages = {};
+    diagram.edge_points = {};
+}
+
 enum class Fault { None, WrongCurves, TooManyVertices };
 
 // The mesh of one round.
@@ -53,6 +61,7 @@ public:
         sites_.on_surface = placed_.sites;
         first_on_base_ = domain.prepared.base.to_intrinsic(placed_.sites);
         sites_.on_base = first_on_base_;
+        domain.prepared.pieces.reset();  // Not needed until vertices are placed.
     }
 
     BuiltMesh run(int most_mends) {
@@ -90,6 +99,7 @@ private:
             return candidate;
         }
         candidate.flips = flip_edges(dual);
+        drop_points(dual.diagram);
         if (domain_.plan) candidate.placed.patches = join_patches(dual, placed_.curves);
         candidate.placed.mesh =
             place_vertices(domain_, placed_.curves, dual, places_of(dual),

@@ -41,7 +41,7 @@ void fit_on_curves(const Domain& domain, const CurveSites& curves, const JoinedP
 
 }  // namespace
 
-PlacedMesh place_vertices(const Domain& domain, const CurveSites& curves, const ValidDual& dual,
+PlacedMesh place_vertices(Domain& domain, const CurveSites& curves, const ValidDual& dual,
                           std::vector<agvd::SurfacePoint> places, const JoinedPatches* patches,
                           const StageContext& context) {
     const auto& [options, result] = context;
@@ -51,16 +51,30 @@ PlacedMesh place_vertices(const Domain& domain, const CurveSites& curves, const 
     PlacedMesh placed{std::move(places), {}, dual.mesh.triangles};
     placed.offsets.assign(placed.points.size(), Vec3::Zero());
     const std::vector<Index> nearest = nearest_vertices(dual);
-    if (options.fit.value_or(is_relaxed(options))) {
+    const bool is_fitted = options.fit.value_or(is_relaxed(options));
+    // The pieces are large: they are freed before the fit.
+    std::vector<CellSample> samples;
+    std::vector<CellPlanes> planes;
+    if (is_fitted || is_relaxed(options)) {
+        const agvd::Progress start = agvd::within(progress, 0, 0);
+        const auto num_vertices = static_cast<Index>(placed.points.size());
+        PreparedSurface& prepared = domain.prepared;
+        prepared.find_pieces(options.num_threads, start);
+        if (is_relaxed(options)) {
+            planes = planes_of_cells(prepared, nearest, num_vertices, options.num_threads, start);
+        }
+        if (is_fitted) samples = sample_cells(prepared, nearest, num_vertices, start);
+        prepared.pieces.reset();
+    }
+    if (is_fitted) {
         if (patches != nullptr) {
             fit_on_curves(domain, curves, *patches, options.boundary, placed);
         }
-        fit_vertices(domain.prepared, nearest, placed, options.num_threads,
+        fit_vertices(domain.prepared.base, nearest, std::move(samples), placed, options.num_threads,
                      agvd::within(progress, 0, 0), domain.plan ? rounding * domain.spacing : 0);
     }
     if (is_relaxed(options)) {
-        improve_shape(domain.prepared, nearest, placed, options.num_threads,
-                      agvd::within(progress, 0.5, 0.5));
+        improve_shape(domain.prepared.input(), planes, placed, agvd::within(progress, 0.5, 0.5));
     }
     agvd::poll(progress, 1);
     return placed;

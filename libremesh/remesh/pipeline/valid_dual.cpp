@@ -160,7 +160,7 @@ private:
             result_.propagation_bytes = propagation.peak_bytes;
         }
         const StageClock clock(Stage::Diagram, result_);
-        dual_.diagram = agvd::build_diagram(surface_, sites_, propagation,
+        dual_.diagram = agvd::build_diagram(surface_, sites_, std::move(propagation),
                                             {.num_threads = options_.num_threads,
                                              .progress = progress_of(Stage::Diagram, options_)});
     }

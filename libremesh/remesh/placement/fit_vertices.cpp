@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/closest_point.h"
@@ -59,14 +60,6 @@ constexpr int most_iterations = 40;
 constexpr std::size_t samples_per_block = std::size_t{1} << 15;  // 2 MB: fits into a cache.
 constexpr Index rows_per_task = 256;                             // Samples or triangles.
 
-// A point of the surface and the area that it stands for.
-struct Sample {
-    Vec3 position;
-    double area;
-    Index vertex;  // Of the mesh.
-    Index triangle = no_index;
-};
-
 // The distance of a point of the surface from its triangle.
 struct Gap {
     std::array<double, 3> barycentric{};  // Of the triangle's nearest point.
@@ -96,21 +89,22 @@ double dot(const Field& a, const Field& b) {
 
 class Fit {
 public:
-    Fit(const PreparedSurface& surface, std::span<const Index> nearest_vertex, PlacedMesh& mesh,
-        double least_way, int num_threads, agvd::Poller& poller)
-        : surface_(surface.input()),
+    Fit(const agvd::IntrinsicTriangulation& base, std::span<const Index> nearest_vertex,
+        std::vector<CellSample> samples, PlacedMesh& mesh, double least_way, int num_threads,
+        agvd::Poller& poller)
+        : surface_(base.input()),
           least_way_(least_way),
           num_threads_(num_threads),
           poller_(poller),
           ticker_(poller),
           mesh_(mesh),
           around_(mesh.triangles, mesh.points.size()),
-          ground_(surface.base, nearest_vertex, num_vertices()) {
+          ground_(base, nearest_vertex, num_vertices()),
+          samples_(std::move(samples)) {
         for (Index v = 0; v < num_vertices(); ++v) {
             at_.push_back(mesh.position(surface_.mesh.view(), v));
             stays_.push_back(agvd::is_on_boundary(surface_, mesh.points[v]) ? 1 : 0);
         }
-        take_samples(surface, nearest_vertex);
     }
 
     void run() {
@@ -128,31 +122,6 @@ public:
 
 private:
     [[nodiscard]] Index num_vertices() const { return static_cast<Index>(mesh_.points.size()); }
-
-    void take_samples(const PreparedSurface& surface, std::span<const Index> nearest_vertex) {
-        const agvd::Surface& base = surface.base.surface();
-        const auto& p = base.mesh.positions;
-        const bool is_dense = p.size() >= enough_vertices * mesh_.points.size();
-        std::vector<double> area(p.size(), 0);
-        for (Index f = 0; f < base.num_faces(); ++f) {
-            ticker_.tick();
-            const Triangle& t = base.mesh.triangles[f];
-            const double whole = agvd::face_area(base, f);
-            // Points inside faces stand for three quarters of the area: exact for quadratic
-            // functions.
-            for (const Index v : t) area[v] += is_dense ? whole / 3 : whole / 12;
-            if (is_dense || nearest_vertex[t[0]] == no_index) continue;
-            surface.pieces.for_each(f, [&](const agvd::SurfacePiece& piece) {
-                samples_.push_back(
-                    {piece.position, piece.vector.norm() * 3 / 4, nearest_vertex[t[0]]});
-            });
-        }
-        for (Index v = 0; v < p.size(); ++v) {
-            ticker_.tick();
-            if (nearest_vertex[v] != no_index)
-                samples_.push_back({p[v], area[v], nearest_vertex[v]});
-        }
-    }
 
     void measure() {
         normal_.resize(mesh_.triangles.size());
@@ -173,7 +142,7 @@ private:
 
     // The nearest point on the triangles around the sample's vertex. A sample over the middle of
     // its triangle keeps it: moves in a round are small.
-    [[nodiscard]] agvd::ClosestPoint find_nearest(Sample& sample) const {
+    [[nodiscard]] agvd::ClosestPoint find_nearest(CellSample& sample) const {
         agvd::ClosestPoint nearest;
         nearest.distance_sq = std::numeric_limits<double>::infinity();
         if (sample.triangle != no_index) {
@@ -250,7 +219,7 @@ private:
             }
         }
     }
-    [[nodiscard]] Gap measure_gap(Sample& sample) const {
+    [[nodiscard]] Gap measure_gap(CellSample& sample) const {
         const agvd::ClosestPoint nearest = find_nearest(sample);
         if (sample.triangle == no_index) return {};
         const Index i = sample.triangle;
@@ -263,7 +232,7 @@ private:
         }
         return gap;
     }
-    void add_gap(const Sample& sample, const Gap& gap) {
+    void add_gap(const CellSample& sample, const Gap& gap) {
         if (sample.triangle == no_index) return;
         const std::array<double, 3>& b = gap.barycentric;
         if (gap.from_end > 0) {
@@ -278,8 +247,8 @@ private:
         }
     }
     // Draws each corner towards the sample by itself: an upper bound of the square of their sum.
-    void add_overhang(const Sample& sample, const std::array<double, 3>& b, const Vec3& direction,
-                      double distance) {
+    void add_overhang(const CellSample& sample, const std::array<double, 3>& b,
+                      const Vec3& direction, double distance) {
         for (std::size_t k = 0; k < 3; ++k) {
             const Index v = mesh_.triangles[sample.triangle][k];
             diagonal_[v] += sample.area * b[k] * direction * direction.transpose();
@@ -429,7 +398,7 @@ private:
     PlacedMesh& mesh_;
     detail::VertexTriangles around_;
     detail::NearestInCells ground_;
-    std::vector<Sample> samples_;
+    std::vector<CellSample> samples_;
     Field at_;                         // #V
     std::vector<std::uint8_t> stays_;  // #V
     std::vector<double> area_;         // #V: a third of the triangles around.
@@ -444,12 +413,50 @@ private:
 
 }  // namespace
 
+std::vector<CellSample> sample_cells(const PreparedSurface& surface,
+                                     std::span<const Index> nearest_vertex, Index num_vertices,
+                                     const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    agvd::Ticker ticker(poller);
+    const agvd::Surface& base = surface.base.surface();
+    const auto& p = base.mesh.positions;
+    const bool is_dense = p.size() >= enough_vertices * num_vertices;
+    std::vector<CellSample> samples;
+    samples.reserve(p.size() + (is_dense ? 0 : surface.pieces->num_pieces_at_most()));
+    std::vector<double> area(p.size(), 0);
+    for (Index f = 0; f < base.num_faces(); ++f) {
+        ticker.tick();
+        const Triangle& t = base.mesh.triangles[f];
+        const double whole = agvd::face_area(base, f);
+        // Points inside faces stand for three quarters of the area: exact for quadratic functions.
+        for (const Index v : t) area[v] += is_dense ? whole / 3 : whole / 12;
+        if (is_dense || nearest_vertex[t[0]] == no_index) continue;
+        surface.pieces->for_each(f, [&](const agvd::SurfacePiece& piece) {
+            samples.push_back({piece.position, piece.vector.norm() * 3 / 4, nearest_vertex[t[0]]});
+        });
+    }
+    for (Index v = 0; v < p.size(); ++v) {
+        ticker.tick();
+        if (nearest_vertex[v] != no_index) samples.push_back({p[v], area[v], nearest_vertex[v]});
+    }
+    return samples;
+}
+
+void fit_vertices(const agvd::IntrinsicTriangulation& base, std::span<const Index> nearest_vertex,
+                  std::vector<CellSample> samples, PlacedMesh& mesh, int num_threads,
+                  const agvd::Progress& progress, double least_way) {
+    agvd::Poller poller(progress);
+    mesh.offsets.resize(mesh.points.size(), Vec3::Zero());
+    Fit(base, nearest_vertex, std::move(samples), mesh, least_way, num_threads, poller).run();
+}
+
 void fit_vertices(const PreparedSurface& surface, std::span<const Index> nearest_vertex,
                   PlacedMesh& mesh, int num_threads, const agvd::Progress& progress,
                   double least_way) {
-    agvd::Poller poller(progress);
-    mesh.offsets.resize(mesh.points.size(), Vec3::Zero());
-    Fit(surface, nearest_vertex, mesh, least_way, num_threads, poller).run();
+    const auto num_vertices = static_cast<Index>(mesh.points.size());
+    fit_vertices(surface.base, nearest_vertex,
+                 sample_cells(surface, nearest_vertex, num_vertices, progress), mesh, num_threads,
+                 progress, least_way);
 }
 
 }  // namespace remesh

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "agvd/core/progress.h"
 #include "remesh/placement/placed_mesh.h"
@@ -25,6 +26,27 @@ namespace remesh {
 //! \throw agvd::Cancelled  the progress callback returned false; `mesh` is unspecified then.
 //! Cost: O(#base + #mesh), about 2 us for each vertex of the base.
 void fit_vertices(const PreparedSurface& surface, std::span<const agvd::Index> nearest_vertex,
+                  PlacedMesh& mesh, int num_threads = 0, const agvd::Progress& progress = {},
+                  double least_way = 0);
+
+//! A point of the surface and the area that it stands for.
+struct CellSample {
+    agvd::Vec3 position;
+    double area;
+    agvd::Index vertex;                     //!< Of the mesh: in whose cell it lies.
+    agvd::Index triangle = agvd::no_index;  //!< Set by fit_vertices(): the nearest.
+};
+
+//! The points by which fit_vertices() measures distances: all that it reads of the pieces.
+//! Cost: O(#base).
+[[nodiscard]] std::vector<CellSample> sample_cells(const PreparedSurface& surface,
+                                                   std::span<const agvd::Index> nearest_vertex,
+                                                   agvd::Index num_vertices,
+                                                   const agvd::Progress& progress = {});
+
+//! The same as fit_vertices() above, with these points.
+void fit_vertices(const agvd::IntrinsicTriangulation& base,
+                  std::span<const agvd::Index> nearest_vertex, std::vector<CellSample> samples,
                   PlacedMesh& mesh, int num_threads = 0, const agvd::Progress& progress = {},
                   double least_way = 0);
 

@@ -42,18 +42,17 @@ constexpr double least_gain = 1e-4;
 
 class Improvement {
 public:
-    Improvement(const PreparedSurface& surface, std::span<const Index> nearest_vertex,
-                int num_threads, agvd::Poller& poller, PlacedMesh& mesh)
-        : surface_(surface.input()),
+    Improvement(const agvd::Surface& input, std::span<const detail::CellPlanes> planes,
+                agvd::Poller& poller, PlacedMesh& mesh)
+        : surface_(input),
           ticker_(poller),
           mesh_(mesh),
           around_(mesh.triangles, mesh.points.size()),
           at_(mesh.points.size()),
           facing_(mesh.points.size()),
-          planes_(mesh.points.size()) {
+          planes_(planes) {
         for (Index v = 0; v < at_.size(); ++v) locate(v);
         find_slim();
-        add_planes(surface, nearest_vertex, num_threads, poller);
     }
 
     void run() {
@@ -62,28 +61,6 @@ public:
     }
 
 private:
-    void add_planes(const PreparedSurface& surface, std::span<const Index> nearest_vertex,
-                    int num_threads, agvd::Poller& poller) {
-        const agvd::Surface& base = surface.base.surface();
-        const detail::FaceParts parts(base, nearest_vertex, num_threads, poller);
-        const auto add_part = [&](Index part, Index, Index) {
-            agvd::Ticker ticker(poller);
-            parts.for_each_face(part, [&](Index f) {
-                ticker.tick();
-                surface.pieces.for_each(f, [&](const agvd::SurfacePiece& piece) {
-                    const double area = piece.vector.norm() / 3;
-                    if (!(area > 0)) return;
-                    for (const Index corner : base.mesh.triangles[f]) {
-                        const Index v = nearest_vertex[corner];
-                        if (!parts.has(part, v)) continue;
-                        planes_[v].add(piece.vector / 3, area, piece.position);
-                    }
-                });
-            });
-        };
-        agvd::parallel_chunks(parts.count(), 1, num_threads, add_part, poller);
-    }
-
     void work_below(double least_quality, double cost) {
         plane_cost_ = cost;
         may_improve_.assign(at_.size(), 1);
@@ -211,10 +188,10 @@ private:
     agvd::Ticker ticker_;
     PlacedMesh& mesh_;
     detail::VertexTriangles around_;
-    std::vector<Vec3> directions_;            // Of the vertex at hand.
-    std::vector<Vec3> at_, facing_;           // #V: positions, and normals of the surface.
-    std::vector<detail::CellPlanes> planes_;  // #V
-    std::vector<std::uint8_t> is_slim_;       // By triangle: see short_side.
+    std::vector<Vec3> directions_;                // Of the vertex at hand.
+    std::vector<Vec3> at_, facing_;               // #V: positions, and normals of the surface.
+    std::span<const detail::CellPlanes> planes_;  // #V
+    std::vector<std::uint8_t> is_slim_;           // By triangle: see short_side.
     double plane_cost_ = 0;
     // #V: 0 if the last try changed nothing, nor moved a neighbour since.
     std::vector<std::uint8_t> may_improve_;
@@ -222,10 +199,45 @@ private:
 
 }  // namespace
 
+std::vector<detail::CellPlanes> planes_of_cells(const PreparedSurface& surface,
+                                                std::span<const Index> nearest_vertex,
+                                                Index num_vertices, int num_threads,
+                                                const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    std::vector<detail::CellPlanes> planes(num_vertices);
+    const agvd::Surface& base = surface.base.surface();
+    const detail::FaceParts parts(base, nearest_vertex, num_threads, poller);
+    const auto add_part = [&](Index part, Index, Index) {
+        agvd::Ticker ticker(poller);
+        parts.for_each_face(part, [&](Index f) {
+            ticker.tick();
+            surface.pieces->for_each(f, [&](const agvd::SurfacePiece& piece) {
+                const double area = piece.vector.norm() / 3;
+                if (!(area > 0)) return;
+                for (const Index corner : base.mesh.triangles[f]) {
+                    const Index v = nearest_vertex[corner];
+                    if (!parts.has(part, v)) continue;
+                    planes[v].add(piece.vector / 3, area, piece.position);
+                }
+            });
+        });
+    };
+    agvd::parallel_chunks(parts.count(), 1, num_threads, add_part, poller);
+    return planes;
+}
+
+void improve_shape(const agvd::Surface& input, std::span<const detail::CellPlanes> planes,
+                   PlacedMesh& mesh, const agvd::Progress& progress) {
+    agvd::Poller poller(progress);
+    Improvement(input, planes, poller, mesh).run();
+}
+
 void improve_shape(const PreparedSurface& surface, std::span<const Index> nearest_vertex,
                    PlacedMesh& mesh, int num_threads, const agvd::Progress& progress) {
-    agvd::Poller poller(progress);
-    Improvement(surface, nearest_vertex, num_threads, poller, mesh).run();
+    const auto num_vertices = static_cast<Index>(mesh.points.size());
+    improve_shape(surface.input(),
+                  planes_of_cells(surface, nearest_vertex, num_vertices, num_threads, progress),
+                  mesh, progress);
 }
 
 }  // namespace remesh

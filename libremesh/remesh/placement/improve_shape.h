@@ -3,9 +3,11 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "agvd/core/progress.h"
 #include "remesh/placement/placed_mesh.h"
+#include "remesh/relax/cell_planes.h"
 #include "remesh/relax/prepared_surface.h"
 
 namespace remesh {
@@ -22,5 +24,17 @@ namespace remesh {
 //! Cost: O(#surface + #triangles), and about 20 us for each vertex at such a triangle.
 void improve_shape(const PreparedSurface& surface, std::span<const agvd::Index> nearest_vertex,
                    PlacedMesh& mesh, int num_threads = 0, const agvd::Progress& progress = {});
+
+//! The planes of the surface in the cell of each vertex: what improve_shape() reads of the pieces.
+//! They are smaller than these.
+//! Cost: O(#surface).
+[[nodiscard]] std::vector<detail::CellPlanes> planes_of_cells(
+    const PreparedSurface& surface, std::span<const agvd::Index> nearest_vertex,
+    agvd::Index num_vertices, int num_threads = 0, const agvd::Progress& progress = {});
+
+//! The same as improve_shape() above, with these planes.
+//! \param input  PreparedSurface::input().
+void improve_shape(const agvd::Surface& input, std::span<const detail::CellPlanes> planes,
+                   PlacedMesh& mesh, const agvd::Progress& progress = {});
 
 }  // namespace remesh

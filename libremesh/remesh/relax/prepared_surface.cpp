@@ -57,14 +57,20 @@ agvd::IntrinsicOptions options_for(const agvd::Surface& input, double spacing,
 PreparedSurface::PreparedSurface(const agvd::Surface& input, double spacing, int num_threads,
                                  const agvd::Progress& progress, const SizeField* sizes)
     : base(input, options_for(input, spacing, sizes, num_threads, progress)),
-      pieces(base, piece_share * spacing * spacing, num_threads, progress),
+      piece_area(piece_share * spacing * spacing),
+      pieces(std::in_place, base, piece_area, num_threads, progress),
       layout(base.surface(), num_threads, progress) {}
 
 PreparedSurface::PreparedSurface(agvd::Surface&& input, double spacing, int num_threads,
                                  const agvd::Progress& progress, const SizeField* sizes)
     : base(std::move(input), options_for(input, spacing, sizes, num_threads, progress)),
-      pieces(base, piece_share * spacing * spacing, num_threads, progress),
+      piece_area(piece_share * spacing * spacing),
+      pieces(std::in_place, base, piece_area, num_threads, progress),
       layout(base.surface(), num_threads, progress) {}
+
+void PreparedSurface::find_pieces(int num_threads, const agvd::Progress& progress) {
+    if (!pieces) pieces.emplace(base, piece_area, num_threads, progress);
+}
 
 double mean_spacing(const agvd::Surface& surface, std::size_t num_sites) {
     const double area = agvd::surface_area(surface);

@@ -2,6 +2,8 @@
 //! A surface with the data derived from it once, for sites of a given spacing.
 #pragma once
 
+#include <optional>
+
 #include "agvd/intrinsic/face_pieces.h"
 #include "agvd/propagation/surface_layout.h"
 #include "remesh/sizing/size_field.h"
@@ -24,10 +26,15 @@ struct PreparedSurface {
                     const agvd::Progress& progress = {}, const SizeField* sizes = nullptr);
 
     agvd::IntrinsicTriangulation base;
-    agvd::FacePieces pieces;     //!< Of the base's faces.
+    double piece_area;  //!< As FacePieces takes it.
+    //! Of the base's faces. May be reset where they are not needed for long: some 70 bytes a face.
+    std::optional<agvd::FacePieces> pieces;
     agvd::SurfaceLayout layout;  //!< Of base.surface(). May be moved from when sites are final.
 
     [[nodiscard]] const agvd::Surface& input() const { return base.input(); }
+    //! Sets `pieces` if they were reset.
+    //! \throw agvd::Cancelled  the progress callback returned false.
+    void find_pieces(int num_threads, const agvd::Progress& progress = {});
 };
 
 //! The square root of the area for each site, mesh units.

@@ -49,7 +49,7 @@ void add_part(const PreparedSurface& prepared, const agvd::DistanceBounds& label
         const std::array<Index, 3> site{labels.site[t[0]], labels.site[t[1]], labels.site[t[2]]};
         const auto add = [&](Index s, double share) {
             if (!parts.has(part, s)) return;
-            prepared.pieces.for_each(f, [&](const agvd::SurfacePiece& piece) {
+            prepared.pieces->for_each(f, [&](const agvd::SurfacePiece& piece) {
                 const double area = piece.vector.norm();
                 result.area[s] += share * area;
                 shadow[s] += share * piece.vector;

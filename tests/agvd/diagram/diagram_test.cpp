@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 #include "agvd/core/random.h"
 #include "agvd/diagram/build_diagram.h"
@@ -101,6 +102,18 @@ TEST(Diagram, SameBytesForAnyThreadCountAndLambda) {
         const auto other = build_diagram(surface, sites, propagation, {.num_threads = threads});
         checks::expect_same(diagram, other);
     }
+}
+
+TEST(Diagram, APropagationThatIsGivenAwayGivesTheSameDiagramAndLosesItsRelays) {
+    const TriangleMesh mesh = shapes::jitter(shapes::sphere(3), 0.05, 3);
+    const Surface surface = build_surface(mesh.view());
+    const auto sites = random_sites(mesh, 40, 4);
+    auto propagation = propagate(surface, sites);
+    ASSERT_GT(propagation.relays.size(), 100u);
+    const auto diagram = build_diagram(surface, sites, propagation);
+    ASSERT_GT(propagation.relays.size(), 100u);
+    checks::expect_same(diagram, build_diagram(surface, sites, std::move(propagation)));
+    EXPECT_EQ(propagation.relays.capacity(), 0u);  // NOLINT(bugprone-use-after-move)
 }
 
 TEST(Diagram, SmallerLambdaHoldsFewerSteinerPoints) {

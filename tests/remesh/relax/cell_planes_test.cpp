@@ -35,3 +35,25 @@ TEST(CellPlanes, ACornerOfNoAreaHasNone) {
     EXPECT_EQ(cells.planes[0].lift, Vec3(Vec3::Zero()));
     EXPECT_NEAR(cells.planes[1].spread.norm(), cells.area[1], 1e-12);
 }
+
+TEST(PreparedSurface, FindsThePiecesAgainThatWereReset) {
+    const agvd::Surface surface =
+        agvd::build_surface(shapes::jitter(shapes::sphere(3), 0.03, 5).view());
+    remesh::PreparedSurface prepared(surface, 0.15, 1);
+    const auto list = [&] {
+        std::vector<Vec3> found;
+        for (agvd::Index f = 0; f < prepared.base.surface().num_faces(); ++f) {
+            prepared.pieces->for_each(f, [&](const agvd::SurfacePiece& piece) {
+                found.push_back(piece.position);
+                found.push_back(piece.vector);
+            });
+        }
+        return found;
+    };
+    const std::vector<Vec3> first = list();
+    ASSERT_GT(first.size(), 2 * prepared.base.surface().num_faces());  // Some faces have several.
+    EXPECT_LE(first.size(), 2 * prepared.pieces->num_pieces_at_most());
+    prepared.pieces.reset();
+    prepared.find_pieces(2);
+    EXPECT_EQ(list(), first);
+}

@@ -1,0 +1,115 @@
+// Writes PLY: coordinates in double, attributes under their names and types.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "remesh/io/byte_order.h"
+#include "remesh/io/formats.h"
+#include "remesh/io/ply_header.h"
+#include "remesh/transfer/vertex_normals.h"
+
+namespace remesh {
+namespace {
+
+NumberType stored_type(const Attribute& attribute) {
+    return attribute.is_intensity ? NumberType::UInt8 : attribute.type;
+}
+
+std::string properties_of(const std::vector<Attribute>& attributes) {
+    std::string text;
+    for (const Attribute& attribute : attributes) {
+        text += std::string("property ") + name_of(stored_type(attribute)) + ' ' + attribute.name +
+                '\n';
+    }
+    return text;
+}
+
+std::string normal_properties(const MeshAttributes& attributes) {
+    std::string text;
+    if (!attributes.normals) return text;
+    for (const char* name : {"nx", "ny", "nz"}) {
+        text += std::string("property ") + name_of(*attributes.normals) + ' ' + name + '\n';
+    }
+    return text;
+}
+
+// What the labels are called: "comment material 0 brass".
+std::string label_comments(const MeshAttributes& attributes) {
+    std::string text;
+    for (const Attribute& attribute : attributes.of_faces) {
+        for (std::size_t i = 0; i < attribute.names.size(); ++i) {
+            text += "comment " + attribute.name + ' ' + std::to_string(i) + ' ' +
+                    attribute.names[i] + '\n';
+        }
+    }
+    return text;
+}
+
+template <typename T>
+void append_rounded(std::string& bytes, double value) {
+    constexpr double low = std::numeric_limits<T>::min(), high = std::numeric_limits<T>::max();
+    append(bytes, static_cast<T>(std::isnan(value) ? 0 : std::clamp(std::round(value), low, high)));
+}
+
+void append_as(std::string& bytes, NumberType type, double value) {
+    switch (type) {
+        case NumberType::Int8:
+            return append_rounded<std::int8_t>(bytes, value);
+        case NumberType::UInt8:
+            return append_rounded<std::uint8_t>(bytes, value);
+        case NumberType::Int16:
+            return append_rounded<std::int16_t>(bytes, value);
+        case NumberType::UInt16:
+            return append_rounded<std::uint16_t>(bytes, value);
+        case NumberType::Int32:
+            return append_rounded<std::int32_t>(bytes, value);
+        case NumberType::UInt32:
+            return append_rounded<std::uint32_t>(bytes, value);
+        case NumberType::Float32:
+            return append(bytes, static_cast<float>(value));
+        case NumberType::Float64:
+            return append(bytes, value);
+    }
+}
+
+void append_values(std::string& bytes, const std::vector<Attribute>& attributes, std::size_t i) {
+    for (const Attribute& attribute : attributes) {
+        const double value = attribute.values[i];
+        append_as(bytes, stored_type(attribute), attribute.is_intensity ? 255 * value : value);
+    }
+}
+
+}  // namespace
+
+std::string format_ply(const agvd::MeshView& mesh, const MeshAttributes& attributes,
+                       agvd::Ticker ticker) {
+    // "int" is what every reader knows; it does for all but the largest meshes.
+    const char* const index_type = mesh.positions.size() <= INT32_MAX ? "int" : "uint";
+    std::string bytes = "ply\nformat binary_little_endian 1.0\n" + label_comments(attributes) +
+                        "element vertex " + std::to_string(mesh.positions.size()) +
+                        "\nproperty double x\nproperty double y\nproperty double z\n" +
+                        normal_properties(attributes) + properties_of(attributes.of_vertices) +
+                        "element face " + std::to_string(mesh.triangles.size()) +
+                        "\nproperty list uchar " + index_type + " vertex_indices\n" +
+                        properties_of(attributes.of_faces) + "end_header\n";
+    std::vector<agvd::Vec3> normals;
+    if (attributes.normals) normals = vertex_normals(mesh);
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        ticker.tick();
+        for (const double x : mesh.positions[v]) append(bytes, x);
+        if (attributes.normals) {
+            for (const double x : normals[v]) append_as(bytes, *attributes.normals, x);
+        }
+        append_values(bytes, attributes.of_vertices, v);
+    }
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        ticker.tick();
+        append(bytes, std::uint8_t{3});
+        for (const agvd::Index v : mesh.triangles[f]) append(bytes, v);
+        append_values(bytes, attributes.of_faces, f);
+    }
+    return bytes;
+}
+
+}  // namespace remesh

@@ -1,0 +1,73 @@
+//! \file
+//! What a mesh file holds besides coordinates and corners.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "agvd/core/types.h"
+
+namespace remesh {
+
+enum class NumberType { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float32, Float64 };
+
+[[nodiscard]] constexpr bool is_integer(NumberType type) { return type < NumberType::Float32; }
+
+enum class ElementKind { Vertex, Face };
+
+//! A number for each vertex or each face. What has several components, such as a colour, is one
+//! attribute for each.
+struct Attribute {
+    std::string name;                       //!< That of PLY: "quality", "red", "material", ...
+    NumberType type = NumberType::Float64;  //!< That of the file.
+    std::vector<double> values = {};        //!< All types fit; NaN and infinity may occur.
+    //! Of labels that have names, such as materials: value i is called names[i].
+    std::vector<std::string> names = {};
+    //! A part of a colour, from 0 to 1, of a text format. PLY stores it as uchar.
+    bool is_intensity = false;
+};
+
+//! What a file holds and cannot be carried over.
+struct DeclinedAttribute {
+    std::string name;
+    std::string reason;
+};
+
+struct MeshAttributes {
+    std::vector<Attribute> of_vertices = {};  //!< #V values each.
+    std::vector<Attribute> of_faces = {};     //!< #F values each: one for each triangle.
+    //! The type of the file's normals at vertices, which are not stored: those of a result are
+    //! computed anew.
+    std::optional<NumberType> normals = {};
+    std::vector<std::string> material_files = {};  //!< OBJ: the names behind each mtllib.
+    std::vector<DeclinedAttribute> declined = {};
+
+    //! Whether nothing is stored.
+    [[nodiscard]] bool empty() const { return of_vertices.empty() && of_faces.empty(); }
+};
+
+//! The attribute of that name, or nullptr.
+[[nodiscard]] const Attribute* find_attribute(const std::vector<Attribute>& attributes,
+                                              std::string_view name);
+
+//! Their names, with commas; "none" if there are none.
+[[nodiscard]] std::string names_of(const std::vector<Attribute>& attributes);
+
+//! Whether the name is that of a part of a colour: red, green, blue or alpha.
+[[nodiscard]] bool is_color(std::string_view name);
+
+//! Whether values between two values make no sense: integers that are no colours.
+[[nodiscard]] bool is_label(const Attribute& attribute);
+
+//! Whether the number can be stored in the type without a change but that of precision.
+[[nodiscard]] bool is_value_of(NumberType type, double value);
+
+//! Turns values of polygons into those of the triangles that they were cut into.
+//! \param face_polygon  see MeshFile.
+void spread_to_triangles(const std::vector<agvd::Index>& face_polygon,
+                         std::vector<Attribute>& of_faces);
+
+}  // namespace remesh

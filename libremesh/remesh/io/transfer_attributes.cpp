@@ -1,0 +1,93 @@
+#include "remesh/io/transfer_attributes.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "agvd/core/error.h"
+#include "remesh/transfer/transfer_values.h"
+
+namespace remesh {
+namespace {
+
+using agvd::Index;
+
+ValueKind kind_of(const Attribute& attribute) {
+    return is_label(attribute) ? ValueKind::Label : ValueKind::Number;
+}
+
+Attribute with_values(const Attribute& given, std::vector<double> values) {
+    if (is_integer(given.type)) {
+        for (double& value : values) value = std::round(value);
+    }
+    return {given.name, given.type, std::move(values), given.names, given.is_intensity};
+}
+
+template <typename Number>
+void append_number(std::string& text, Number value) {
+    char digits[32];  // The longest double takes 24.
+    const auto [last, error] = std::to_chars(std::begin(digits), std::end(digits), value);
+    text.append(digits, last);
+    text += ' ';
+}
+
+// Whether the triangle is a part of a larger polygon, whose triangles follow each other.
+bool is_part(const std::vector<Index>& face_polygon, Index face) {
+    const Index polygon = face_polygon[face];
+    return (face > 0 && face_polygon[face - 1] == polygon) ||
+           (face + 1 < face_polygon.size() && face_polygon[face + 1] == polygon);
+}
+
+}  // namespace
+
+MeshAttributes transfer_attributes(const MeshFile& input, const InputMap& map) {
+    const MeshAttributes& given = input.attributes;
+    MeshAttributes result{.normals = given.normals,
+                          .material_files = given.material_files,
+                          .declined = given.declined};
+    for (const Attribute& attribute : given.of_vertices) {
+        result.of_vertices.push_back(
+            with_values(attribute, transfer_vertex_values(attribute.values, input.mesh.view(),
+                                                          map.vertices, kind_of(attribute))));
+    }
+    for (const Attribute& attribute : given.of_faces) {
+        result.of_faces.push_back(with_values(
+            attribute, transfer_face_values(attribute.values, map.faces, kind_of(attribute))));
+    }
+    return result;
+}
+
+const Attribute& require_attribute(const std::vector<Attribute>& attributes, std::string_view name,
+                                   const std::string& what) {
+    if (const Attribute* const found = find_attribute(attributes, name)) return *found;
+    throw agvd::InvalidOption(what + " '" + std::string(name) + "'; use " + names_of(attributes));
+}
+
+std::vector<Index> face_labels_of(const Attribute& attribute) {
+    std::vector<double> distinct = attribute.values;
+    std::sort(distinct.begin(), distinct.end());
+    distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+    std::vector<Index> labels;
+    labels.reserve(attribute.values.size());
+    for (const double value : attribute.values) {
+        const auto found = std::lower_bound(distinct.begin(), distinct.end(), value);
+        labels.push_back(static_cast<Index>(found - distinct.begin()));
+    }
+    return labels;
+}
+
+std::string format_map(const MeshFile& input, std::span<const agvd::SurfacePoint> places) {
+    std::string text;
+    for (const agvd::SurfacePoint& place : places) {
+        const Index face = place.face.value();
+        append_number(text, input.face_polygon[face]);
+        for (const double b : place.barycentric) append_number(text, b);
+        if (is_part(input.face_polygon, face)) {
+            for (const Index v : input.mesh.triangles[face]) append_number(text, v);
+        }
+        text.back() = '\n';
+    }
+    return text;
+}
+
+}  // namespace remesh

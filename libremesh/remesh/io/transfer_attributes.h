@@ -1,0 +1,39 @@
+//! \file
+//! The attributes of a file for its remesh.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "remesh/io/mesh_file.h"
+#include "remesh/transfer/map_to_input.h"
+
+namespace remesh {
+
+//! The same attributes for the result: numbers and colours are interpolated (faces: means), labels
+//! are chosen (transfer_vertex_values, transfer_face_values).
+//!
+//! \param input  as read from the file.
+//! \param map    of the result; `faces` are needed only if there are attributes of faces.
+//! Cost: O(result) for each attribute.
+[[nodiscard]] MeshAttributes transfer_attributes(const MeshFile& input, const InputMap& map);
+
+//! The attribute of that name.
+//! \param what  such as "bunny.ply has no vertex property", for the error.
+//! \throw agvd::InvalidOption  there is none; the text lists those that exist.
+[[nodiscard]] const Attribute& require_attribute(const std::vector<Attribute>& attributes,
+                                                 std::string_view name, const std::string& what);
+
+//! Labels of faces for RemeshOptions::face_labels: equal for equal values, numbered from 0.
+[[nodiscard]] std::vector<agvd::Index> face_labels_of(const Attribute& attribute);
+
+//! A text with a line for each vertex of a result: where it lies on the input, as `FACE B0 B1 B2`.
+//! FACE counts the faces of the file from 0; the barycentric coordinates belong to its corners in
+//! the file's order. A face with more than three corners was cut into triangles; there the line has
+//! also the three vertices of the file (from 0) to which the coordinates belong:
+//! `FACE B0 B1 B2 V0 V1 V2`. Numbers have the shortest decimals that read back as the same double.
+//! \param input  needs mesh.triangles and face_polygon.
+[[nodiscard]] std::string format_map(const MeshFile& input,
+                                     std::span<const agvd::SurfacePoint> places);
+
+}  // namespace remesh

@@ -1,0 +1,44 @@
+//! \file
+//! Where the vertices and faces of a result lie on its input.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "agvd/core/progress.h"
+#include "agvd/mesh/surface_point.h"
+
+namespace remesh {
+
+struct MapOptions {
+    bool with_faces = false;  //!< Also map the faces.
+    int num_threads = 0;      //!< >= 0; 0: all cores.
+    agvd::Progress progress = {};
+};
+
+//! Faces of the input at points that are spread evenly over a face of the result.
+using FaceSamples = std::array<agvd::Index, 16>;
+
+struct InputMap {
+    std::vector<agvd::SurfacePoint> vertices;  //!< #V of the result: points of the input.
+    std::vector<FaceSamples> faces;            //!< #F of the result; empty without with_faces.
+};
+
+//! For each vertex of a result the point of the input that is nearest to it, on the sheet where the
+//! vertex belongs: of the input within the distance of its site only the part counts that is
+//! connected with the site there. So walls may be as thin as they like. A vertex that lies at its
+//! site up to rounding stays there bit for bit, as those on boundaries and curves do that were not
+//! moved. The samples of faces are found in the same way, from their corners.
+//!
+//! \param input   what remesh() got: any triangles, also dirty ones.
+//! \param sites   of the result's vertices, on `input`: RemeshResult::sites.
+//! \throw agvd::InvalidOption  num_threads < 0, or there is not one site for each vertex.
+//! \throw agvd::Cancelled      the progress callback returned false.
+//! Cost: O(#F of the input); for each vertex the faces of the input between it and its site, for
+//! each face of the result 16 times those along a quarter of its width.
+[[nodiscard]] InputMap map_to_input(const agvd::MeshView& input, const agvd::MeshView& result,
+                                    std::span<const agvd::SurfacePoint> sites,
+                                    const MapOptions& options = {});
+
+}  // namespace remesh

@@ -1,0 +1,149 @@
+// The search floods from face to face across the edges that meet the ball: what it visits is the
+// connected part of the surface in the ball, and nothing else.
+#include "remesh/transfer/nearest_on_sheet.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "agvd/core/position_hash.h"
+
+namespace remesh::detail {
+
+using agvd::Index;
+using agvd::no_index;
+using agvd::Vec3;
+
+namespace {
+
+// As a share of the largest coordinate: a sum of three products of corners and barycentric
+// coordinates, on the caller's mesh and on the cleaned one, differs by less.
+constexpr double rounding_share = 16 * std::numeric_limits<double>::epsilon();
+// The ball reaches farther than the start by this share, so that edges through the start meet it.
+constexpr double margin = 1e-9;
+
+std::vector<Index> first_at_position(std::span<const Vec3> positions, agvd::Ticker& ticker) {
+    std::vector<Index> slots(std::bit_ceil(2 * positions.size() + 1), no_index);
+    const std::size_t mask = slots.size() - 1;
+    std::vector<Index> first;
+    first.reserve(positions.size());
+    for (Index v = 0; v < positions.size(); ++v) {
+        ticker.tick(2);
+        std::size_t i = agvd::PositionHash{}(positions[v]) & mask;
+        while (slots[i] != no_index && positions[slots[i]] != positions[v]) i = (i + 1) & mask;
+        if (slots[i] == no_index) slots[i] = v;
+        first.push_back(slots[i]);
+    }
+    return first;
+}
+
+}  // namespace
+
+bool NearestOnSheet::Seen::insert(Index face) {
+    if (2 * count_ >= slots_.size()) grow();
+    const std::size_t mask = slots_.size() - 1;
+    std::size_t i = (face * std::size_t{0x9E3779B1}) & mask;
+    while (slots_[i].round == round_) {
+        if (slots_[i].face == face) return false;
+        i = (i + 1) & mask;
+    }
+    slots_[i] = {face, round_};
+    ++count_;
+    return true;
+}
+
+void NearestOnSheet::Seen::grow() {
+    const std::vector<Slot> old = std::exchange(slots_, std::vector<Slot>(2 * slots_.size()));
+    count_ = 0;
+    for (const Slot& slot : old) {
+        if (slot.round == round_) insert(slot.face);
+    }
+}
+
+NearestOnSheet::NearestOnSheet(const agvd::MeshView& mesh, agvd::Ticker ticker)
+    : mesh_(mesh),
+      point_(first_at_position(mesh.positions, ticker)),
+      begin_(mesh.positions.size() + 1, 0) {
+    double largest = 0;
+    for (const Vec3& p : mesh.positions) largest = std::max(largest, p.cwiseAbs().maxCoeff());
+    rounding_ = rounding_share * largest;
+    agvd::for_each_ticked(mesh.triangles, ticker, [&](const agvd::Triangle& t) {
+        for (const Index v : t) ++begin_[point_[v] + 1];
+    });
+    for (std::size_t v = 0; v + 1 < begin_.size(); ++v) begin_[v + 1] += begin_[v];
+    faces_.resize(begin_.back());
+    std::vector<Index> next(begin_.begin(), begin_.end() - 1);
+    for (Index f = 0; f < mesh.triangles.size(); ++f) {
+        ticker.tick();
+        for (const Index v : mesh.triangles[f]) faces_[next[point_[v]]++] = f;
+    }
+}
+
+// The faces of an edge.
+template <typename Visit>
+void NearestOnSheet::for_each_neighbor(Index a, Index b, const Visit& visit) const {
+    a = point_[a];
+    b = point_[b];
+    for (Index i = begin_[a]; i < begin_[a + 1]; ++i) {
+        const auto& [p, q, r] = mesh_.triangles[faces_[i]];
+        if (point_[p] == b || point_[q] == b || point_[r] == b) visit(faces_[i]);
+    }
+}
+
+agvd::ClosestPoint NearestOnSheet::closest(Index face, const Vec3& point) const {
+    const auto& [a, b, c] = mesh_.triangles[face];
+    return agvd::closest_point_on_triangle(
+        {mesh_.positions[a], mesh_.positions[b], mesh_.positions[c]}, agvd::FaceId(face), point);
+}
+
+agvd::SurfacePoint NearestOnSheet::walk(const Vec3& point, const agvd::SurfacePoint& start) const {
+    agvd::ClosestPoint best = closest(start.face.value(), point);
+    for (bool is_nearer = true; is_nearer;) {
+        is_nearer = false;
+        const agvd::SurfacePoint from = best.point;
+        const agvd::Triangle& t = mesh_.triangles[from.face.value()];
+        for (std::size_t k = 0; k < 3; ++k) {  // Across the edges that the point lies on.
+            if (from.barycentric[(k + 2) % 3] != 0) continue;
+            for_each_neighbor(t[k], t[(k + 1) % 3], [&](Index neighbor) {
+                if (neighbor == from.face.value()) return;
+                const agvd::ClosestPoint beyond = closest(neighbor, point);
+                if (!(beyond.distance_sq < best.distance_sq)) return;
+                best = beyond;
+                is_nearer = true;
+            });
+        }
+    }
+    return best.point;
+}
+
+agvd::ClosestPoint NearestOnSheet::query(const Vec3& point, const agvd::SurfacePoint& start,
+                                         Seen& seen) const {
+    agvd::ClosestPoint best{start, position(mesh_, start), 0};
+    best.distance_sq = (best.position - point).squaredNorm();
+    if (best.distance_sq <= rounding_ * rounding_) return best;
+    const double reach = (1 + margin) * std::sqrt(best.distance_sq);
+    seen.clear();
+    std::vector<Index> waiting{start.face.value()};
+    seen.insert(start.face.value());
+    while (!waiting.empty()) {
+        const Index face = waiting.back();
+        waiting.pop_back();
+        const agvd::Triangle& t = mesh_.triangles[face];
+        const std::array<Vec3, 3> corners{mesh_.positions[t[0]], mesh_.positions[t[1]],
+                                          mesh_.positions[t[2]]};
+        const agvd::ClosestPoint here = closest(face, point);
+        if (here.distance_sq < best.distance_sq) best = here;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t next = (k + 1) % 3;
+            if (agvd::distance_to_segment(point, corners[k], corners[next]) > reach) continue;
+            for_each_neighbor(t[k], t[next], [&](Index neighbor) {
+                if (seen.insert(neighbor)) waiting.push_back(neighbor);
+            });
+        }
+    }
+    return best;
+}
+
+}  // namespace remesh::detail

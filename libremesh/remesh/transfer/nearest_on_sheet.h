@@ -1,0 +1,69 @@
+//! \file
+//! Nearest points of a mesh on the sheet that a point belongs to.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "agvd/core/poller.h"
+#include "agvd/mesh/closest_point.h"
+
+namespace remesh::detail {
+
+//! Searches the part of the mesh that lies in the ball around a point and is connected, within the
+//! ball, with a given start. So the other side of a thin wall is never found, however near it is.
+//! Works on any triangles: vertices at equal positions count as one, and edges may have any number
+//! of faces.
+class NearestOnSheet {
+public:
+    //! Faces that a search has seen. Searches on one thread share it, so that it is allocated once.
+    class Seen {
+    public:
+        void clear() {
+            ++round_;
+            count_ = 0;
+        }
+        //! False if it was there before.
+        bool insert(agvd::Index face);
+
+    private:
+        struct Slot {
+            agvd::Index face = agvd::no_index;
+            std::uint64_t round = 0;  // Taken in this round; otherwise free.
+        };
+        void grow();
+
+        std::vector<Slot> slots_ = std::vector<Slot>(64);  // Open addressing, 2^k slots.
+        std::uint64_t round_ = 1;
+        std::size_t count_ = 0;
+    };
+
+    //! \param mesh  outlives this; finite, indices in range. Cost: O(n).
+    NearestOnSheet(const agvd::MeshView& mesh, agvd::Ticker ticker);
+
+    //! The point of the sheet that is nearest to `point`. It is `start` itself, bit for bit, if
+    //! `point` lies there up to rounding.
+    //! Cost: that of the faces in the ball around `point` that reaches to `start`.
+    [[nodiscard]] agvd::ClosestPoint query(const agvd::Vec3& point, const agvd::SurfacePoint& start,
+                                           Seen& seen) const;
+
+    //! Walks from face to face while `point` comes nearer: a start for query() from which the ball
+    //! holds few faces. Cost: O(faces passed).
+    [[nodiscard]] agvd::SurfacePoint walk(const agvd::Vec3& point,
+                                          const agvd::SurfacePoint& start) const;
+
+    [[nodiscard]] const agvd::MeshView& mesh() const { return mesh_; }
+
+private:
+    [[nodiscard]] agvd::ClosestPoint closest(agvd::Index face, const agvd::Vec3& point) const;
+    template <typename Visit>
+    void for_each_neighbor(agvd::Index a, agvd::Index b, const Visit& visit) const;
+
+    agvd::MeshView mesh_;
+    std::vector<agvd::Index> point_;  // #V: the first vertex at the same position.
+    std::vector<agvd::Index> begin_;  // #V + 1: of the faces at each such vertex.
+    std::vector<agvd::Index> faces_;
+    double rounding_ = 0;  // Lengths up to this are rounding.
+};
+
+}  // namespace remesh::detail

@@ -1,0 +1,178 @@
+#include "attributes.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <map>
+
+#include "remesh/io/transfer_attributes.h"
+#include "remesh/io/write_mesh.h"
+
+namespace cli {
+namespace {
+
+constexpr const char* any_labels = "*";
+
+std::vector<std::string> split(const std::string& names) {
+    std::vector<std::string> result;
+    for (std::size_t begin = 0; begin <= names.size();) {
+        const std::size_t end = std::min(names.find(',', begin), names.size());
+        if (end > begin) result.push_back(names.substr(begin, end - begin));
+        begin = end + 1;
+    }
+    return result;
+}
+
+std::vector<remesh::Attribute> labels_of(const remesh::MeshAttributes& attributes) {
+    std::vector<remesh::Attribute> labels;
+    for (const remesh::Attribute& attribute : attributes.of_faces) {
+        if (remesh::is_label(attribute)) {
+            labels.push_back({.name = attribute.name, .type = attribute.type});
+        }
+    }
+    return labels;
+}
+
+// The name of the labels to keep: materials if there are any, else the only ones.
+std::string name_of_labels(const std::string& wanted, const std::string& input,
+                           const std::vector<remesh::Attribute>& labels) {
+    if (wanted != any_labels) return wanted;
+    if (labels.empty()) {
+        throw agvd::InvalidOption(input +
+                                  " has no labels of faces, which --keep-labels needs: a face "
+                                  "property of PLY of an integer type, or materials (usemtl), "
+                                  "groups (g) or objects (o) of OBJ; leave out --keep-labels");
+    }
+    if (remesh::find_attribute(labels, "material") != nullptr) return "material";
+    if (labels.size() == 1) return labels.front().name;
+    throw agvd::InvalidOption(input +
+                              " has several labels of faces; choose with --keep-labels=NAME: " +
+                              remesh::names_of(labels));
+}
+
+void keep_named(const std::vector<std::string>& names, const std::filesystem::path& input,
+                remesh::MeshAttributes& attributes) {
+    std::vector<remesh::Attribute> all;
+    for (const auto* kind : {&attributes.of_vertices, &attributes.of_faces}) {
+        for (const remesh::Attribute& attribute : *kind) all.push_back({.name = attribute.name});
+    }
+    if (attributes.normals) all.push_back({.name = "normals"});
+    const auto is_named = [&](const std::string& name) {
+        return std::find(names.begin(), names.end(), name) != names.end();
+    };
+    for (const std::string& name : names) {
+        static_cast<void>(remesh::require_attribute(
+            all, name, "--transfer: " + input.string() + " has no property"));
+    }
+    for (auto* kind : {&attributes.of_vertices, &attributes.of_faces}) {
+        std::erase_if(*kind, [&](const auto& attribute) { return !is_named(attribute.name); });
+    }
+    if (!is_named("normals")) attributes.normals.reset();
+    attributes.declined.clear();
+}
+
+std::vector<std::string> names_in(const remesh::MeshAttributes& attributes) {
+    std::vector<std::string> names;
+    for (const auto& attribute : attributes.of_vertices)
+        names.push_back("vertex " + attribute.name);
+    if (attributes.normals) names.emplace_back("vertex normals");
+    for (const auto& attribute : attributes.of_faces) names.push_back("face " + attribute.name);
+    return names;
+}
+
+// Names of files beside the input as they are seen from the output's folder.
+void move_material_files(const std::filesystem::path& input, const std::filesystem::path& output,
+                         std::vector<std::string>& files) {
+    namespace fs = std::filesystem;
+    for (std::string& file : files) {
+        const fs::path path = fs::absolute(input).parent_path() / file;
+        std::error_code error;
+        const bool is_there = fs::exists(path, error);
+        const fs::path seen = fs::proximate(path, fs::absolute(output).parent_path(), error);
+        if (is_there && !error) file = seen.string();
+    }
+}
+
+// One warning for each reason.
+void warn_of(const std::vector<remesh::DeclinedAttribute>& declined, Console& console) {
+    std::map<std::string, std::string> names;
+    for (const remesh::DeclinedAttribute& one : declined) {
+        std::string& list = names[one.reason];
+        list += (list.empty() ? "" : ", ") + one.name;
+    }
+    for (const auto& [reason, list] : names) {
+        std::string text = list;
+        console.warn(text.append(": ").append(reason));
+    }
+}
+
+}  // namespace
+
+void add_attribute_options(CLI::App& app, AttributeArguments& arguments) {
+    app.add_option("--transfer", arguments.transfer,
+                   "What the output gets of the input's colours, labels and other properties of "
+                   "vertices and faces: all, none, or names such as quality,material")
+        ->type_name("all|none|NAMES")
+        ->capture_default_str();
+    app.add_option("--map", arguments.map,
+                   "Write where each output vertex lies on the input: lines FACE B0 B1 B2")
+        ->type_name("FILE");
+    app.add_flag(std::string("--keep-labels{") + any_labels + "}", arguments.keep_labels,
+                 "Borders between faces with different labels or materials become chains of "
+                 "edges; --keep-labels=NAME: those of this property");
+}
+
+bool wants_attributes(const AttributeArguments& arguments) {
+    return arguments.transfer != "none" || !arguments.keep_labels.empty();
+}
+
+std::vector<agvd::Index> labels_to_keep(const AttributeArguments& arguments,
+                                        const std::filesystem::path& input,
+                                        const remesh::MeshAttributes& attributes) {
+    if (arguments.keep_labels.empty()) return {};
+    const std::vector<remesh::Attribute> labels = labels_of(attributes);
+    const std::string name = name_of_labels(arguments.keep_labels, input.string(), labels);
+    const std::string complaint = "--keep-labels: " + input.string() + " has no labels of faces";
+    static_cast<void>(remesh::require_attribute(labels, name, complaint));
+    return remesh::face_labels_of(remesh::require_attribute(attributes.of_faces, name, complaint));
+}
+
+remesh::AttributeReport select_attributes(const AttributeArguments& arguments,
+                                          const std::filesystem::path& input,
+                                          const std::filesystem::path& output,
+                                          remesh::MeshAttributes& attributes, Console& console) {
+    if (arguments.transfer == "none") attributes = {};
+    if (arguments.transfer != "all" && arguments.transfer != "none") {
+        keep_named(split(arguments.transfer), input, attributes);
+    }
+    const std::string reason =
+        output.extension().string() + " files have no place for it; write .ply to keep it";
+    for (const std::string& name : remesh::remove_unwritable(output, attributes)) {
+        attributes.declined.push_back({name, reason});
+    }
+    move_material_files(input, output, attributes.material_files);
+    warn_of(attributes.declined, console);
+    return {names_in(attributes), attributes.declined, arguments.map.string()};
+}
+
+bool needs_map(const AttributeArguments& arguments, const remesh::MeshAttributes& attributes) {
+    return !arguments.map.empty() || !attributes.empty();
+}
+
+remesh::MeshAttributes carry_attributes(const AttributeArguments& arguments,
+                                        const remesh::MeshFile& input,
+                                        const remesh::RemeshResult& result, int num_threads,
+                                        const agvd::Progress& progress,
+                                        std::vector<remesh::FileContent>& files) {
+    if (!needs_map(arguments, input.attributes)) return input.attributes;
+    const remesh::InputMap map =
+        remesh::map_to_input(input.mesh.view(), result.mesh.view(), result.sites,
+                             {.with_faces = !input.attributes.of_faces.empty(),
+                              .num_threads = num_threads,
+                              .progress = progress});
+    if (!arguments.map.empty()) {
+        files.push_back({arguments.map, remesh::format_map(input, map.vertices)});
+    }
+    return remesh::transfer_attributes(input, map);
+}
+
+}  // namespace cli
