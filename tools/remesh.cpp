@@ -188,6 +188,19 @@ void warn_of_junctions(const remesh::JunctionCounts& counts, remesh::Junctions w
                  "leave out --sites and --boundary free");
 }
 
+// Warns of bounds of the edges that give way to the number of vertices.
+void warn_of_bounds(const remesh::SizingResult& sizes, const remesh::Sizing& wanted,
+                    cli::Console& console) {
+    constexpr double tolerance = 0.02;
+    const std::string count = std::to_string(sizes.num_samples) + " vertices are too ";
+    if (sizes.largest_target > (1 + tolerance) * wanted.max_edge) {
+        console.warn(count + "few for --max-edge; use more, or longer edges");
+    }
+    if (sizes.largest_target > 0 && sizes.least_target < (1 - tolerance) * wanted.min_edge) {
+        console.warn(count + "many for --min-edge; use fewer, or shorter edges");
+    }
+}
+
 void check_outputs(const Arguments& arguments) {
     if (!remesh::is_known_mesh_extension(arguments.output)) {
         throw agvd::IoError(arguments.output.string() + ": unknown extension '" +
@@ -254,6 +267,7 @@ void run_job(const Arguments& arguments, cli::Console& console) {
         arguments.input, [&] { return remesh::remesh_moved(std::move(input.mesh), options); });
     judge(result, arguments.strict, console);
     warn_of_junctions(result.junctions, arguments.junctions, console);
+    warn_of_bounds(result.sizing, options.sizing, console);
     const remesh::RunInfo info{.version = REMESH_VERSION,
                                .input_path = arguments.input.string(),
                                .output_path = arguments.output.string(),
