@@ -60,7 +60,7 @@ PlacedMesh place_vertices(const Domain& domain, const CurveSites& curves, const 
     }
     if (is_relaxed(options)) {
         improve_shape(domain.prepared, nearest, placed, options.num_threads,
-                      agvd::within(progress, 0.5, 0.5));
+                      agvd::within(progress, 0.5, 0.5), domain.sizes);
     }
     agvd::poll(progress, 1);
     return placed;

