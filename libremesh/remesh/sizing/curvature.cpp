@@ -106,7 +106,7 @@ private:
         }
     }
 
-    // Gives each vertex the cell that is nearest by lines: rounds over the vertices that have
+    // Gives each vertex the cell that is nearest along edges: rounds over the vertices that have
     // come nearer.
     void spread() {
         std::vector<double> distance(cell_.size(), std::numeric_limits<double>::infinity());
@@ -118,7 +118,7 @@ private:
             for (const Index v : now) {
                 ticker_.tick(4);
                 waits[v] = 0;
-                for_each_line(surface_, v, [&](Index other, double length) {
+                for_each_edge(surface_, v, [&](Index other, double length) {
                     const double way = distance[v] + length;
                     if (!(way < distance[other])) return;
                     distance[other] = way;

@@ -10,15 +10,16 @@
 
 using agvd::Index;
 using agvd::Surface;
+using remesh::Paths;
 
 namespace {
 
 using Pairs = std::vector<std::pair<Index, Index>>;
 
 std::vector<double> limited(const Surface& surface, std::vector<double> length, double slope,
-                            const Pairs& joined = {}) {
+                            const Pairs& joined = {}, Paths paths = Paths::Lines) {
     agvd::Ticker ticker;
-    remesh::limit_growth(surface, joined, slope, length, ticker);
+    remesh::limit_growth(surface, joined, slope, paths, length, ticker);
     return length;
 }
 
@@ -30,12 +31,12 @@ std::vector<double> random_lengths(Index count, std::uint64_t seed) {
 
 }  // namespace
 
-TEST(Gradation, LeavesNoEdgeAlongWhichLengthsGrowFaster) {
+TEST(Gradation, IsTheLargestFieldThatGrowsNoFaster) {
     for (const agvd::TriangleMesh& mesh : {shapes::torus(30, 15), shapes::grid(12)}) {
         const Surface surface = agvd::build_surface(mesh.view());
         for (const double slope : {0.1, 0.5, 3.0}) {
             const std::vector<double> before = random_lengths(surface.num_vertices(), 7);
-            const std::vector<double> after = limited(surface, before, slope);
+            const std::vector<double> after = limited(surface, before, slope, {}, Paths::Edges);
             // The least that any edge allows at each vertex.
             std::vector<double> most(before);
             for (Index e = 0; e < surface.num_edges(); ++e) {
@@ -46,9 +47,13 @@ TEST(Gradation, LeavesNoEdgeAlongWhichLengthsGrowFaster) {
                 most[a] = std::min(most[a], after[b] + rise);
                 most[b] = std::min(most[b], after[a] + rise);
             }
-            for (Index v = 0; v < most.size(); ++v) EXPECT_LE(after[v], most[v] * (1 + 1e-12));
+            // So each length is as before, or as long as a neighbour allows.
+            EXPECT_EQ(most, after);
             EXPECT_NE(before, after);
-            EXPECT_EQ(limited(surface, after, slope), after);
+            EXPECT_EQ(limited(surface, after, slope, {}, Paths::Edges), after);
+            const std::vector<double> by_lines = limited(surface, before, slope);
+            for (Index v = 0; v < most.size(); ++v) EXPECT_LE(by_lines[v], after[v]);
+            EXPECT_EQ(limited(surface, by_lines, slope), by_lines);
         }
     }
 }
