@@ -8,7 +8,7 @@
 namespace cli {
 
 struct SizingArguments {
-    remesh::Sizing sizing;                       //!< What needs no mesh.
+    remesh::Sizing sizing;                           //!< What needs no mesh.
     std::optional<Amount> edge, min_edge, max_edge;  //!< Mesh units, or percent of the diagonal.
     //! Vertices of IN whose property gives target lengths or densities: there is no reader yet.
 };

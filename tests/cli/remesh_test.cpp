@@ -475,9 +475,8 @@ TEST_F(Remesh, TheNumberOfVerticesIsGivenInManyWays) {
 
 TEST_F(Remesh, AdaptiveEdgesKeepTheirBounds) {
     const std::string in = put("in.off", shapes::torus(80, 40));
-    const auto outcome =
-        remesh({in, at("out.off"), "-n", "500", "--adaptive", "--hmin", ".1", "--hmax", "6%",
-                "--hgrad", "1.2", "--report", "-"});
+    const auto outcome = remesh({in, at("out.off"), "-n", "500", "--adaptive", "--hmin", ".1",
+                                 "--hmax", "6%", "--hgrad", "1.2", "--report", "-"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     const auto report = nlohmann::json::parse(outcome.out);
     EXPECT_EQ(report["output_vertices"], 500);
@@ -499,15 +498,25 @@ TEST_F(Remesh, AdaptiveEdgesKeepTheirBounds) {
 
 TEST_F(Remesh, WrongNumbersAndLengthsAreRefused) {
     const std::string in = put("in.off", shapes::sphere(2));
-    const std::vector<std::string> wrong[] = {
-        {"-n", "0"},          {"-n", "1.5"},         {"-n", "5e9"},
-        {"-n", "-3"},         {"-n", "ten"},         {"-n", "0%"},
-        {"-n", "1e-5%"},      {"--faces", "0"},      {"--faces", "10%"},
-        {"--edge-length", "0"}, {"--edge-length", "nan"}, {"--edge-length", "1mm"},
-        {"--hmin", ".1"},     {"--hgrad", "2"},      {"--adaptive", "--hgrad", ".9"},
-        {"-n", "100", "--faces", "100"}, {"-n", "100", "--edge-length", ".1"},
-        {"--faces", "100", "--edge-length", ".1"},
-        {"--adaptive", "--hmin", "2", "--hmax", "1"}};
+    const std::vector<std::string> wrong[] = {{"-n", "0"},
+                                              {"-n", "1.5"},
+                                              {"-n", "5e9"},
+                                              {"-n", "-3"},
+                                              {"-n", "ten"},
+                                              {"-n", "0%"},
+                                              {"-n", "1e-5%"},
+                                              {"--faces", "0"},
+                                              {"--faces", "10%"},
+                                              {"--edge-length", "0"},
+                                              {"--edge-length", "nan"},
+                                              {"--edge-length", "1mm"},
+                                              {"--hmin", ".1"},
+                                              {"--hgrad", "2"},
+                                              {"--adaptive", "--hgrad", ".9"},
+                                              {"-n", "100", "--faces", "100"},
+                                              {"-n", "100", "--edge-length", ".1"},
+                                              {"--faces", "100", "--edge-length", ".1"},
+                                              {"--adaptive", "--hmin", "2", "--hmax", "1"}};
     for (std::vector<std::string> arguments : wrong) {
         const std::string first = arguments[0] + ' ' + arguments[1];
         arguments.insert(arguments.begin(), {in, at("never.off")});

@@ -25,8 +25,8 @@ struct IntrinsicOptions {
     //! At most so many edges are split, the longest first: surfaces thinner than max_length would
     //! get any number of vertices.
     Index most_splits = no_index;
-    //! The unit of max_length at a point of the input, > 0; empty: 1 everywhere. An edge is measured
-    //! in the mean of its ends; called once for each vertex.
+    //! The unit of max_length at a point of the input, > 0; empty: 1 everywhere. An edge is
+    //! measured in the mean of its ends; called once for each vertex.
     std::function<double(const SurfacePoint& on_input)> unit_at = {};
     //! #E of the input: 1 for edges that stay, as those of the boundary always do (they may be
     //! split); or empty.

@@ -27,7 +27,8 @@ struct CurveSites {
     [[nodiscard]] agvd::Index num_nodes() const { return first_of_curve[0]; }
 };
 
-//! The unit of spacings at a point of the surface, mesh units > 0; empty: spacings are in mesh units.
+//! The unit of spacings at a point of the surface, mesh units > 0; empty: spacings are in mesh
+//! units.
 using UnitAt = std::function<double(const agvd::SurfacePoint&)>;
 
 //! Measures a curve in spacings. Its sites belong at even distances in this measure.

@@ -126,8 +126,7 @@ FoundCurves find_curves(const CleanedInput& cleaned, double spacing, const Stage
 
 std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const FoundCurves& found,
                                              const KeptCurves& kept, double spacing,
-                                             const SizeField* sizes,
-                                             const StageContext& context) {
+                                             const SizeField* sizes, const StageContext& context) {
     const auto& [options, result] = context;
     const StageClock clock(Stage::Clean, result);
     const agvd::Progress progress = progress_of(Stage::Clean, options);

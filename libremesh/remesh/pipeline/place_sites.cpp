@@ -49,9 +49,8 @@ PlacedSites place_uncut(const CleanedInput& cleaned, const Domain& domain,
                         const StageContext& context) {
     const auto& [options, result] = context;
     // Surplus vertices are removed later, as far as the topology allows.
-    const SamplingOptions sampling =
-        sampling_of(options, std::max(options.num_samples, minimum_samples(cleaned.topology)),
-                    domain.sizes);
+    const SamplingOptions sampling = sampling_of(
+        options, std::max(options.num_samples, minimum_samples(cleaned.topology)), domain.sizes);
     PlacedSites placed;
     {
         const StageClock clock(Stage::Sample, result);
@@ -93,10 +92,10 @@ PlacedSites place_on_network(const Domain& domain, const StageContext& context) 
                              .sizes = domain.sizes};
     const auto& [network, patches, given] = *domain.plan;
     NetworkSites made =
-        given ? relax_network_sites(domain.prepared, network, given->on_curves, given->inner, relax)
-              : sample_network_sites(domain.prepared, network,
-                                     sampling_of(options, options.num_samples, domain.sizes),
-                                     relax);
+        given
+            ? relax_network_sites(domain.prepared, network, given->on_curves, given->inner, relax)
+            : sample_network_sites(domain.prepared, network,
+                                   sampling_of(options, options.num_samples, domain.sizes), relax);
     PlacedSites placed{.sites = std::move(made.sites), .curves = std::move(made.curves)};
     placed.chain = chain_edges(network.network, network.cut, placed.curves);
     result.relaxation = std::move(made.levels);

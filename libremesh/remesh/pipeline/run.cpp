@@ -30,7 +30,8 @@ double spacing_of(const CleanedInput& cleaned, const RemeshOptions& options) {
 void run_attempt(CleanedInput& cleaned, const FoundCurves& found, const KeptCurves& kept,
                  const SizeField* sizes, int most_mends, const StageContext& context) {
     const double spacing = spacing_of(cleaned, context.options);
-    std::unique_ptr<const CurvePlan> plan = plan_curves(cleaned, found, kept, spacing, sizes, context);
+    std::unique_ptr<const CurvePlan> plan =
+        plan_curves(cleaned, found, kept, spacing, sizes, context);
     Domain domain = prepare_domain(cleaned, std::move(plan), spacing, sizes, context);
     const PlacedSites sites = place_sites(cleaned, domain, context);
     try {

@@ -35,7 +35,8 @@ std::vector<double> carry_values(const std::vector<double>& given, const Cleaned
     std::vector<double> values;
     for (Index v = 0; v < input.num_vertices(); ++v) {
         const Index whole = original[v];
-        values.push_back(given[cleaned.vertex_origin.empty() ? whole : cleaned.vertex_origin[whole]]);
+        values.push_back(
+            given[cleaned.vertex_origin.empty() ? whole : cleaned.vertex_origin[whole]]);
     }
     for (Index v = input.num_vertices(); v < base.surface().num_vertices(); ++v) {
         const SurfacePoint& place = base.place_of_added(v);
@@ -81,9 +82,8 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
     const agvd::Progress progress = agvd::within(all, 1, 1);
     agvd::Poller poller(progress);
     agvd::Ticker ticker(poller);
-    CutSurface cut =
-        cut_surface(cleaned.surface, edges_to_cut(found, cleaned.surface.num_edges()),
-                    options.num_threads, progress);
+    CutSurface cut = cut_surface(cleaned.surface, edges_to_cut(found, cleaned.surface.num_edges()),
+                                 options.num_threads, progress);
     const double num_sites =
         options.sites ? static_cast<double>(options.sites->size()) : options.num_samples;
     const auto base = std::make_shared<const agvd::IntrinsicTriangulation>(
@@ -100,9 +100,9 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
         values = patch_curvature(
             *base, static_cast<Index>(std::clamp(cells_per_site * num_sites, 1.0, 1e9)), ticker);
     } else {
-        values = carry_values(
-            sizing.target_lengths.empty() ? sizing.densities : sizing.target_lengths, cleaned,
-            cut.original, *base);
+        values =
+            carry_values(sizing.target_lengths.empty() ? sizing.densities : sizing.target_lengths,
+                         cleaned, cut.original, *base);
     }
     std::vector<std::pair<Index, Index>> joined;
     for (Index v = cut.num_original; v < cut.original.size(); ++v) {

@@ -30,11 +30,11 @@ constexpr double poor_quality = 0.62;
 // around the vertex; at other distances in proportion to the square.
 constexpr double plane_cost = 30;
 constexpr int most_rounds = 8;
-// A fixed side shorter than short_side times the mean edge length, or the target length, makes its triangle slim wherever
-// the third corner is. Vertices within three spacings would crowd around it, so the quality of its
-// triangle is divided by slim_quality. Bunny with five given edges of .2 spacings: mean quality
-// .908 to .923 (without them .927), RMS distance .069 to .061 % (.060), smallest angle 28 to 9
-// degrees.
+// A fixed side shorter than short_side times the mean edge length, or the target length, makes its
+// triangle slim wherever the third corner is. Vertices within three spacings would crowd around it,
+// so the quality of its triangle is divided by slim_quality. Bunny with five given edges of .2
+// spacings: mean quality .908 to .923 (without them .927), RMS distance .069 to .061 % (.060),
+// smallest angle 28 to 9 degrees.
 constexpr double short_side = 0.25;
 constexpr double slim_quality = 0.3;
 // Least gain in quality of a move.

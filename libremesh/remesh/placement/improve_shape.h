@@ -22,6 +22,7 @@ namespace remesh {
 //! \throw agvd::Cancelled  the progress callback returned false; `mesh` is unspecified then.
 //! Cost: O(#surface + #triangles), and about 20 us for each vertex at such a triangle.
 void improve_shape(const PreparedSurface& surface, std::span<const agvd::Index> nearest_vertex,
-                   PlacedMesh& mesh, int num_threads = 0, const agvd::Progress& progress = {}, const SizeField* sizes = nullptr);
+                   PlacedMesh& mesh, int num_threads = 0, const agvd::Progress& progress = {},
+                   const SizeField* sizes = nullptr);
 
 }  // namespace remesh

@@ -297,8 +297,8 @@ private:
     std::vector<double> area_of_face_;      // #F
     std::vector<Index> component_of_face_;  // #F
     double area_ = 0;                       // Square mesh units.
-    std::vector<std::uint8_t> may_move_;  // #sites
-    std::vector<std::uint8_t> is_moved_;  // #sites
+    std::vector<std::uint8_t> may_move_;    // #sites
+    std::vector<std::uint8_t> is_moved_;    // #sites
     std::vector<Index> surplus_;
 };
 

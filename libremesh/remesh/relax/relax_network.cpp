@@ -309,11 +309,10 @@ private:
     // Relaxes a coarse level and divides it; null if it would have too few sites.
     std::unique_ptr<Relaxation> start_coarse() {
         const std::vector<Index> intervals = coarse_intervals(plan_);
-        const CurveSites coarse =
-            curve_sites_at(plan_.network, plan_.cut,
-                           even_places(plan_.cut.surface, plan_.network, plan_.spacing, intervals,
-                                       options_.sizes != nullptr ? options_.sizes->function()
-                                                                 : UnitAt{}));
+        const CurveSites coarse = curve_sites_at(
+            plan_.network, plan_.cut,
+            even_places(plan_.cut.surface, plan_.network, plan_.spacing, intervals,
+                        options_.sizes != nullptr ? options_.sizes->function() : UnitAt{}));
         const double euler = detail::euler_of(plan_.cut.surface);
         const double wanted =
             (num_inner_ - static_cast<double>(coarse.sites.size()) + 3 * euler) / 4 + 1;
@@ -361,10 +360,9 @@ private:
             return std::pair(a.low, a.high) < std::pair(b.low, b.high);
         });
         const auto count = static_cast<Index>(fine_.sites.size()) + num_inner_;
-        std::optional<detail::TriangulatedSites> divided =
-            detail::subdivide(plan_.cut.surface, sites, weights, dual, count,
-                              options_.sizes != nullptr ? options_.sizes->at(sites)
-                                                        : std::vector<double>{});
+        std::optional<detail::TriangulatedSites> divided = detail::subdivide(
+            plan_.cut.surface, sites, weights, dual, count,
+            options_.sizes != nullptr ? options_.sizes->at(sites) : std::vector<double>{});
         if (!divided) return nullptr;
         auto last = std::make_unique<Relaxation>(
             surface_.input(), std::move(divided->sites), std::move(divided->triangles),

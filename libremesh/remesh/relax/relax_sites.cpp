@@ -110,11 +110,10 @@ RelaxResult sample_relaxed_sites(const PreparedSurface& surface, const SamplingO
     if (is_hopeless(relaxation)) return one_after_the_other();
 
     labels = levels.label(relaxation.sites());
-    std::optional<detail::TriangulatedSites> fine =
-        detail::subdivide(input, relaxation.sites(), relaxation.weights(),
-                          detail::label_dual(surface.base, labels), sampling.num_samples,
-                          options.sizes != nullptr ? options.sizes->at(relaxation.sites())
-                                                   : std::vector<double>{});
+    std::optional<detail::TriangulatedSites> fine = detail::subdivide(
+        input, relaxation.sites(), relaxation.weights(), detail::label_dual(surface.base, labels),
+        sampling.num_samples,
+        options.sizes != nullptr ? options.sizes->at(relaxation.sites()) : std::vector<double>{});
     if (!fine) return one_after_the_other();
     Relaxation last(input, std::move(fine->sites), std::move(fine->triangles), {},
                     std::move(fine->weights), options.num_threads, levels.progress());

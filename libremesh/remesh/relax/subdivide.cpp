@@ -141,7 +141,7 @@ private:
     const agvd::Surface& surface_;
     const SiteDual& dual_;
     TriangulatedSites result_;
-    std::vector<double> unit_;      // By site.
+    std::vector<double> unit_;     // By site.
     std::vector<Index> new_site_;  // By middle; no_index: not added.
 };
 

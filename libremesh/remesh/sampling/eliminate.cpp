@@ -124,9 +124,9 @@ Neighbours find_neighbours(const Grid& grid, double reach, int num_threads, agvd
                 ticker.tick(1 + (last - first) / 8);
                 for (Index other = first; other < last; ++other) {
                     const Vec3 apart = grid.position[place] - grid.position[other];
-                    const double most =
-                        grid.unit.empty() ? reach
-                                          : reach * (grid.unit[place] + grid.unit[other]) / 2;
+                    const double most = grid.unit.empty()
+                                            ? reach
+                                            : reach * (grid.unit[place] + grid.unit[other]) / 2;
                     if (other != place && apart.squaredNorm() < most * most &&
                         grid.normal[place].dot(grid.normal[other]) > least_crowd_cosine) {
                         found[chunk].push_back(other);

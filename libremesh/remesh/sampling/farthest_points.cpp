@@ -74,9 +74,8 @@ struct RefinedComponent {
         if (sizes == nullptr) return;
         const agvd::IntrinsicOptions options{.unit_at = unit_of(sizes)};
         for (Index v = 0; v < surface().num_vertices(); ++v) {
-            unit.push_back(options.unit_at(v < input.num_vertices()
-                                               ? agvd::point_at(input, v)
-                                               : base.place_of_added(v)));
+            unit.push_back(options.unit_at(v < input.num_vertices() ? agvd::point_at(input, v)
+                                                                    : base.place_of_added(v)));
         }
     }
     RefinedComponent(const RefinedComponent&) = delete;
@@ -200,12 +199,13 @@ std::vector<SurfacePoint> farthest_points(const Surface& surface, const Componen
     if (count == 0) return {};
     const Index most_splits =
         splits_per_point * (count + 1) + static_cast<Index>(component.faces.size());
-    const RefinedComponent refined(surface, component, longest_edge * spacing, most_splits,
-                                   sizes, num_threads, progress);
+    const RefinedComponent refined(surface, component, longest_edge * spacing, most_splits, sizes,
+                                   num_threads, progress);
     FarthestPoints points(surface, refined, seed, stream, num_threads, progress);
     for (const SurfacePoint& point : fixed) points.add(point);
     if (!fixed.empty()) return points.run(count);
-    const SurfacePoint first = scatter(surface, component, 1, seed, stream, {}, sizes).front().point;
+    const SurfacePoint first =
+        scatter(surface, component, 1, seed, stream, {}, sizes).front().point;
     points.add(first);
     std::vector<SurfacePoint> result = points.run(count - 1);
     result.insert(result.begin(), first);

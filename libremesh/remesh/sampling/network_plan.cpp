@@ -41,11 +41,9 @@ std::vector<Patch> find_patches(const Surface& surface, const SizeField* sizes, 
 UnitAt unit_of(const SizeField* sizes) { return sizes != nullptr ? sizes->function() : UnitAt{}; }
 
 std::vector<std::vector<double>> places_at(const Surface& surface, const CurveNetwork& network,
-                                           double spacing, const UnitAt& unit_at,
-                                           bool has_guards) {
-    std::vector<std::vector<double>> along =
-        even_places(surface, network, spacing,
-                    curve_intervals(surface, network, spacing, unit_at), unit_at);
+                                           double spacing, const UnitAt& unit_at, bool has_guards) {
+    std::vector<std::vector<double>> along = even_places(
+        surface, network, spacing, curve_intervals(surface, network, spacing, unit_at), unit_at);
     if (has_guards) guard_corners(surface, network, along);
     return along;
 }
@@ -167,10 +165,9 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
         }
         plan.cut =
             cut_surface(surface, edges_to_cut(plan.junctions, is_crease), num_threads, progress);
-        Division division =
-            divide(surface, plan.network,
-                   find_patches(plan.cut.surface, sizes, num_threads, progress), unit_of(sizes),
-                   num_vertices);
+        Division division = divide(surface, plan.network,
+                                   find_patches(plan.cut.surface, sizes, num_threads, progress),
+                                   unit_of(sizes), num_vertices);
         plan.spacing = division.spacing;
         plan.along = std::move(division.along);
         plan.intervals = intervals_between(plan.network, plan.along);

@@ -14,11 +14,11 @@ struct NetworkPlan {
     std::vector<std::vector<double>> along;  //!< By curve: places of its sites, mesh units.
     std::vector<agvd::Index> intervals;      //!< By curve: number of intervals between them.
     JunctionSet junctions;                   //!< The given ones; none if the sites are too few.
-    double spacing = 0;                      //!< Of neighbouring sites: mesh units, or local lengths.
-    double length = 0;                       //!< Of the creases kept, mesh units.
-    double dropped_length = 0;               //!< Of the creases dropped, mesh units.
-    agvd::Index sites_for_junctions = 0;     //!< Fewest vertices that keep the junctions.
-    agvd::Index sites_for_all = 0;           //!< Fewest vertices that keep all curves.
+    double spacing = 0;                   //!< Of neighbouring sites: mesh units, or local lengths.
+    double length = 0;                    //!< Of the creases kept, mesh units.
+    double dropped_length = 0;            //!< Of the creases dropped, mesh units.
+    agvd::Index sites_for_junctions = 0;  //!< Fewest vertices that keep the junctions.
+    agvd::Index sites_for_all = 0;        //!< Fewest vertices that keep all curves.
 };
 
 //! Finds the network of boundary, creases and junctions, and the spacing at which curves and

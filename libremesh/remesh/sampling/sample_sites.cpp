@@ -204,8 +204,7 @@ std::vector<agvd::SurfacePoint> sample_inner_sites(const agvd::Surface& surface,
     std::vector<double> lacking;
     for (Index i = 0; i < components.size(); ++i) {
         for (const Index f : components[i].faces) component_of[f] = i;
-        const double length =
-            detail::sized_boundary_length(surface, components[i], options.sizes);
+        const double length = detail::sized_boundary_length(surface, components[i], options.sizes);
         lacking.push_back(
             std::max(detail::inner_sites(components[i].area(), length, spacing), 0.0));
     }

@@ -52,9 +52,8 @@ std::vector<ScatteredPoint> scatter(const agvd::Surface& surface, const Componen
     taken.reserve(count);
     // Usually one each.
     const std::uint64_t most_draws = (sizes != nullptr ? 1000 : 4) * std::uint64_t{count} + 64;
-    const std::vector<double> weights = sizes != nullptr
-                                            ? highest_weights(surface, component, *sizes)
-                                            : component.area_up_to;
+    const std::vector<double> weights =
+        sizes != nullptr ? highest_weights(surface, component, *sizes) : component.area_up_to;
     for (std::uint64_t i = 0; points.size() < count && i < most_draws; ++i) {
         ticker.tick(4);
         const auto unit = [&](std::uint64_t k) {

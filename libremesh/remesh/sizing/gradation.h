@@ -14,7 +14,7 @@ namespace remesh {
 //! Paths that lengths are measured along.
 enum class Paths {
     Edges,  //!< Up to twice as long as geodesics.
-    Lines   //!< Along for_each_line, too: a few per cent longer in most directions, at most a fifth.
+    Lines  //!< Along for_each_line, too: a few per cent longer in most directions, at most a fifth.
 };
 
 //! Lowers lengths until length[u] <= length[v] + slope * d for all vertices u and v, where d is the

@@ -50,8 +50,7 @@ SizeField::SizeField(std::shared_ptr<const agvd::IntrinsicTriangulation> base,
         for (const Index v : input.mesh.triangles[f]) {
             // Vertices that the base has removed have no length of their own.
             const bool is_removed = surface.outgoing[v] == no_index;
-            const double here =
-                is_removed ? at(agvd::point_at(input, v)) : length_[v];
+            const double here = is_removed ? at(agvd::point_at(input, v)) : length_[v];
             least_[f] = std::min(least_[f], here);
         }
     }

@@ -30,8 +30,8 @@ constexpr double path_excess = 1.25;
 class LengthSearch {
 public:
     LengthSearch(const Surface& surface, std::span<const double> values,
-                 std::span<const std::pair<Index, Index>> joined, const Sizing& sizing,
-                 double area, agvd::Ticker& ticker)
+                 std::span<const std::pair<Index, Index>> joined, const Sizing& sizing, double area,
+                 agvd::Ticker& ticker)
         : surface_(surface),
           values_(values),
           joined_(joined),
@@ -55,8 +55,8 @@ public:
         double previous_scale = 0, previous_error = 0;
         for (int i = 1; i < most_tries && std::abs(error) > area_tolerance; ++i) {
             if (i > 1 && scale != previous_scale) {
-                slope = std::clamp((error - previous_error) / std::log(scale / previous_scale), -4.0,
-                                   -0.2);
+                slope = std::clamp((error - previous_error) / std::log(scale / previous_scale),
+                                   -4.0, -0.2);
             }
             previous_scale = scale;
             previous_error = error;

@@ -34,10 +34,9 @@ struct TargetLengths {
 //!        Bounds and gradation hold in the scaled lengths unless no scale gives this area: then all
 //!        are multiplied by one factor in the end.
 //! Cost: O(n log n) for each scale that is tried, some five.
-[[nodiscard]] TargetLengths target_lengths(const agvd::Surface& surface,
-                                           std::span<const double> values,
-                                           std::span<const std::pair<agvd::Index, agvd::Index>> joined,
-                                           const Sizing& sizing, double area,
-                                           agvd::Ticker& ticker);
+[[nodiscard]] TargetLengths target_lengths(
+    const agvd::Surface& surface, std::span<const double> values,
+    std::span<const std::pair<agvd::Index, agvd::Index>> joined, const Sizing& sizing, double area,
+    agvd::Ticker& ticker);
 
 }  // namespace remesh

@@ -26,8 +26,7 @@ void for_each_outgoing(const agvd::Surface& surface, agvd::Index vertex, const E
 template <typename Each>
 void for_each_edge(const agvd::Surface& surface, agvd::Index vertex, const Each& each) {
     for_each_outgoing(
-        surface, vertex,
-        [&](agvd::Index h) { each(surface.head(h), surface.length_of(h)); },
+        surface, vertex, [&](agvd::Index h) { each(surface.head(h), surface.length_of(h)); },
         [&](agvd::Index in) { each(surface.tail(in), surface.length_of(in)); });
 }
 

@@ -158,13 +158,14 @@ TEST(Sizing, EdgesHaveTheMeanLengthAskedFor) {
 
 TEST(Sizing, ANumberOfFacesComesOut) {
     const auto faces_of = [](const TriangleMesh& mesh, Index num_faces) {
-        return remesh::remesh(mesh.view(), {.sizing = {.num_faces = num_faces}}).mesh.triangles.size();
+        return remesh::remesh(mesh.view(), {.sizing = {.num_faces = num_faces}})
+            .mesh.triangles.size();
     };
     EXPECT_EQ(faces_of(shapes::sphere(3), 600), 600u);
     EXPECT_EQ(faces_of(shapes::torus(60, 30), 600), 600u);
-    EXPECT_EQ(faces_of(shapes::join(shapes::sphere(3), shapes::moved(shapes::sphere(3), {3, 0, 0})),
-                       600),
-              600u);
+    EXPECT_EQ(
+        faces_of(shapes::join(shapes::sphere(3), shapes::moved(shapes::sphere(3), {3, 0, 0})), 600),
+        600u);
     EXPECT_NEAR(static_cast<double>(faces_of(shapes::grid(20), 600)), 600, 12);
     EXPECT_NEAR(static_cast<double>(faces_of(shapes::tube(60, 30), 900)), 900, 18);
 }
@@ -224,8 +225,8 @@ TEST(Sizing, ThreadsChangeNothing) {
 TEST(Sizing, LengthsFollowVerticesThatAreWelded) {
     const TriangleMesh mesh = shapes::torus(80, 40, tube);
     const TriangleMesh soup = soup_of(mesh);
-    const RemeshResult result =
-        remesh::remesh(soup.view(), {.num_samples = 800, .sizing = {.target_lengths = values_of(soup)}});
+    const RemeshResult result = remesh::remesh(
+        soup.view(), {.num_samples = 800, .sizing = {.target_lengths = values_of(soup)}});
     const auto [low, high] = percentiles(result.mesh, factor_for(mesh, 800));
     EXPECT_GT(low, 0.75);
     EXPECT_LT(high, 1.35);

@@ -54,8 +54,8 @@ TEST_F(SizeFieldOnAPlane, MeasuresAreasInSquaresOfTheLength) {
     EXPECT_NEAR(sum, field.area(), 1e-9 * field.area());
     // The integral of (a + b x + c y)^-2 over the unit square by its formula.
     const auto part = [](double a) { return std::log(a); };
-    const double exact = (part(0.1 + 0.2) + part(0.1 + 0.05) - part(0.1) - part(0.1 + 0.25)) /
-                         (0.2 * 0.05);
+    const double exact =
+        (part(0.1 + 0.2) + part(0.1 + 0.05) - part(0.1) - part(0.1 + 0.25)) / (0.2 * 0.05);
     EXPECT_NEAR(field.area() / exact, 1, 0.03);
 }
 

@@ -93,16 +93,16 @@ TEST_F(TargetLengthsOfATorus, KeepTheirBounds) {
     const std::vector<double> wanted = values(30);
     const double mean = std::sqrt(agvd::surface_area(surface) / 1000);
     const auto free = range(run({.target_lengths = wanted}, wanted, 1000).length);
-    const auto bounded = run(
-        {.target_lengths = wanted, .min_edge = mean / 2, .max_edge = 1.6 * mean}, wanted, 1000);
+    const auto bounded =
+        run({.target_lengths = wanted, .min_edge = mean / 2, .max_edge = 1.6 * mean}, wanted, 1000);
     const auto [least, most] = range(bounded.length);
     EXPECT_LT(free.first, 0.45 * mean);
     EXPECT_GT(free.second, 1.7 * mean);
     EXPECT_NEAR(least / (mean / 2), 1, 0.01);
     EXPECT_NEAR(most / (1.6 * mean), 1, 0.01);
     // Bounds that exclude the number give way: the lengths are equal then.
-    const auto forced = range(run({.target_lengths = wanted, .max_edge = mean / 3}, wanted, 1000)
-                                  .length);
+    const auto forced =
+        range(run({.target_lengths = wanted, .max_edge = mean / 3}, wanted, 1000).length);
     EXPECT_NEAR(forced.first, mean, 1e-9);
     EXPECT_NEAR(forced.second, mean, 1e-9);
 }
@@ -122,8 +122,7 @@ TEST_F(TargetLengthsOfATorus, GrowNoFasterThanTheGradationAlongGeodesics) {
             remesh::target_lengths(base.surface(), wanted, {}, sizing, 3000, ticker).length;
         for (Index site = 0; site < base.surface().num_vertices(); site += 731) {
             const auto distance =
-                agvd::propagate(base.surface(),
-                                std::vector{agvd::point_at(base.surface(), site)},
+                agvd::propagate(base.surface(), std::vector{agvd::point_at(base.surface(), site)},
                                 {.max_error = 0.0})
                     .vertex_distance;
             for (Index v = 0; v < distance.size(); ++v) {
@@ -137,8 +136,7 @@ TEST_F(TargetLengthsOfATorus, GrowNoFasterThanTheGradationAlongGeodesics) {
 
 TEST_F(TargetLengthsOfATorus, AreThoseOfTheErrorWhereOneIsGiven) {
     const std::vector<double> curvature(surface.num_vertices(), 2);
-    const auto targets =
-        run({.is_adaptive = true, .max_error = 1e-3}, curvature, 0);
+    const auto targets = run({.is_adaptive = true, .max_error = 1e-3}, curvature, 0);
     for (const double length : targets.length) {
         EXPECT_DOUBLE_EQ(length, remesh::length_for_error(2 * std::sqrt(2), 1e-3));
     }
