@@ -214,6 +214,7 @@ std::vector<agvd::SurfacePoint> sample_inner_sites(const agvd::Surface& surface,
     std::vector<Index> quota = detail::apportion(lacking, count);
     // Closed components have no sites on curves.
     std::vector<Index> wanted;
+    wanted.reserve(components.size());
     for (const Component& c : components) {
         wanted.push_back(c.boundary_loops == 0 ? detail::recognisable_samples(c) : 0);
     }

@@ -98,6 +98,7 @@ std::vector<Index> share_out(const std::vector<Component>& components,
     }
     if (components.size() > 1) {
         std::vector<Index> wanted;
+        wanted.reserve(components.size());
         for (const Component& c : components) wanted.push_back(recognisable_samples(c));
         lift_small(wanted, quota);
     }

@@ -154,7 +154,8 @@ private:
             for (int j = 0; j < 2 * (n - i) - 1; ++j) {
                 ticker_.tick();
                 const double third = (j % 2 + 1) / 3.0;
-                const double b1 = (i + third) / n, b2 = (j / 2 + third) / n;
+                const int column = j / 2;
+                const double b1 = (i + third) / n, b2 = (column + third) / n;
                 const SurfacePoint point{agvd::FaceId(f), {1 - b1 - b2, b1, b2}};
                 add(nearest_corner(base_, point), 1.0 / (n * n),
                     agvd::position(input.mesh.view(), point));
