@@ -209,6 +209,19 @@ void warn_of_junctions(const remesh::JunctionCounts& counts, remesh::Junctions w
                  "leave out --sites and --boundary free");
 }
 
+// Warns of bounds of the edges that give way to the number of vertices.
+void warn_of_bounds(const remesh::SizingResult& sizes, const remesh::Sizing& wanted,
+                    cli::Console& console) {
+    constexpr double tolerance = 0.02;
+    const std::string count = std::to_string(sizes.num_samples) + " vertices are too ";
+    if (sizes.largest_target > (1 + tolerance) * wanted.max_edge) {
+        console.warn(count + "few for --max-edge; use more, or longer edges");
+    }
+    if (sizes.largest_target > 0 && sizes.least_target < (1 - tolerance) * wanted.min_edge) {
+        console.warn(count + "many for --min-edge; use fewer, or shorter edges");
+    }
+}
+
 void check_outputs(const Arguments& arguments) {
     if (!remesh::is_known_mesh_extension(arguments.output)) {
         throw agvd::IoError(arguments.output.string() + ": unknown extension '" +
@@ -246,12 +259,14 @@ std::size_t least_memory(std::size_t num_faces, std::size_t num_samples) {
 
 void run_job(const Arguments& arguments, cli::Console& console) {
     check_outputs(arguments);
-    const bool wants_attributes = cli::wants_attributes(arguments.attributes);
+    const bool wants_attributes =
+        cli::wants_attributes(arguments.attributes) || cli::wants_attributes(arguments.sizing);
     remesh::MeshFile input = cli::read_input(
         arguments, console, wants_attributes ? cli::WithAttributes::Yes : cli::WithAttributes::No);
     // Of the file, before those that are not carried over are removed.
     std::vector<agvd::Index> labels =
         cli::labels_to_keep(arguments.attributes, arguments.input, input.attributes);
+    remesh::Sizing sizing = cli::sizing_for(arguments.sizing, arguments.input, input);
     const remesh::AttributeReport attributes = cli::select_attributes(
         arguments.attributes, arguments.input, arguments.output, input.attributes, console);
     const bool needs_input = cli::needs_map(arguments.attributes, input.attributes);
@@ -266,7 +281,7 @@ void run_job(const Arguments& arguments, cli::Console& console) {
         return goes_on;
     };
     remesh::RemeshOptions options{.num_samples = cli::num_samples_for(arguments, input.mesh.view()),
-                                  .sizing = cli::sizing_for(arguments.sizing, input.mesh.view()),
+                                  .sizing = std::move(sizing),
                                   .vertex_count = arguments.vertex_count,
                                   .boundary = arguments.sampling.boundary,
                                   .drop_components = arguments.drop_components / 100,
@@ -303,6 +318,7 @@ void run_job(const Arguments& arguments, cli::Console& console) {
         arguments.sites);
     judge(result, arguments.strict, console);
     warn_of_junctions(result.junctions, arguments.junctions, console);
+    warn_of_bounds(result.sizing, options.sizing, console);
     const remesh::RunInfo info{.version = REMESH_VERSION,
                                .input_path = arguments.input.string(),
                                .output_path = arguments.output.string(),

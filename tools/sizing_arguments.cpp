@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "agvd/mesh/scale.h"
+#include "remesh/io/transfer_attributes.h"
 
 namespace cli {
 namespace {
@@ -44,6 +45,7 @@ void add_sizing_options(CLI::App& app, SizingArguments& arguments) {
     remesh::Sizing& sizing = arguments.sizing;
     CLI::Option* const samples = app.get_option("--samples");
     CLI::Option* const sites = app.get_option("--sites");
+    arguments.samples = samples;
     const auto take_faces = [&sizing](const std::string& text) {
         sizing.num_faces = static_cast<agvd::Index>(parse_amount(text).value().value);
     };
@@ -74,28 +76,50 @@ void add_sizing_options(CLI::App& app, SizingArguments& arguments) {
     CLI::Option* const adaptive =
         app.add_flag("--adaptive", sizing.is_adaptive,
                      "Shorter edges where the surface is curved, longer ones elsewhere");
-    add_length(app, "--min-edge,--hmin", "With --adaptive: no edge is meant to be shorter",
-               arguments.min_edge)
-        ->needs(adaptive);
-    add_length(app, "--max-edge,--hmax", "With --adaptive: no edge is meant to be longer",
-               arguments.max_edge)
-        ->needs(adaptive);
+    CLI::Option* const lengths =
+        app.add_option("--sizing", arguments.target_lengths,
+                       "Vertex property of IN (PLY) that gives the length of the edges there; with "
+                       "--samples or the like only relative to each other")
+            ->type_name("NAME")
+            ->excludes(adaptive);
+    app.add_option("--density", arguments.densities,
+                   "Vertex property of IN (PLY) that gives vertices per area, in any unit")
+        ->type_name("NAME")
+        ->excludes(adaptive)
+        ->excludes(lengths);
+    add_length(app, "--min-edge,--hmin", "No edge is meant to be shorter", arguments.min_edge);
+    add_length(app, "--max-edge,--hmax", "No edge is meant to be longer", arguments.max_edge);
     const auto take_gradation = [&sizing](const std::string& text) {
         sizing.gradation = parse_amount(text).value().value;
     };
     app.add_option_function<std::string>(
            "--gradation,--hgrad", take_gradation,
-           "With --adaptive: largest ratio of edges next to each other; more precisely, over a "
+           "Largest ratio of edges next to each other; more precisely, over a "
            "distance d edges grow by at most d times its logarithm")
         ->check(CLI::Validator(check_gradation, ""))
         ->type_name("G")
-        ->default_str("1.3")
-        ->needs(adaptive);
+        ->default_str("1.3");
 }
 
-remesh::Sizing sizing_for(const SizingArguments& arguments, const agvd::MeshView& mesh) {
+bool wants_attributes(const SizingArguments& arguments) {
+    return !arguments.target_lengths.empty() || !arguments.densities.empty();
+}
+
+remesh::Sizing sizing_for(const SizingArguments& arguments, const std::filesystem::path& path,
+                          const remesh::MeshFile& mesh) {
     remesh::Sizing sizing = arguments.sizing;
-    const auto [low, high] = agvd::box_of(mesh);
+    const auto values_of = [&](const std::string& name) {
+        if (name.empty()) return std::vector<double>();
+        return remesh::require_attribute(mesh.attributes.of_vertices, name,
+                                         path.string() + " has no vertex property")
+            .values;
+    };
+    sizing.target_lengths = values_of(arguments.target_lengths);
+    sizing.densities = values_of(arguments.densities);
+    const bool has_count = arguments.samples->count() > 0 || arguments.edge ||
+                           arguments.max_distance || sizing.num_faces > 0;
+    sizing.gives_count = !sizing.target_lengths.empty() && !has_count;
+    const auto [low, high] = agvd::box_of(mesh.mesh.view());
     const double percent = low.x() > high.x() ? 0 : (high - low).norm() / 100;
     const auto take = [&](const std::optional<Amount>& amount, double& length) {
         if (amount) length = amount->value * (amount->is_percent ? percent : 1);

@@ -2,25 +2,40 @@
 //! Command-line options of `remesh` that say how many vertices the result has, and where.
 #pragma once
 
+#include <filesystem>
+#include <string>
+
 #include "arguments.h"
+#include "remesh/io/mesh_file.h"
 #include "remesh/sizing/sizing.h"
+
+namespace CLI {
+class Option;
+}
 
 namespace cli {
 
 struct SizingArguments {
     remesh::Sizing sizing;  //!< What needs no mesh.
-    std::optional<Amount> edge, max_distance, min_edge,
-        max_edge;  //!< Mesh units, or percent of the diagonal.
-    //! Vertices of IN whose property gives target lengths or densities: there is no reader yet.
+    //! Mesh units, or percent of the diagonal.
+    std::optional<Amount> edge, max_distance, min_edge, max_edge;
+    std::string target_lengths, densities;  //!< Names of vertex properties; empty: none.
+    //! --samples: if it is not given, target lengths give the number.
+    const CLI::Option* samples = nullptr;
 };
 
-//! Adds --adaptive, --faces, --edge-length, --max-distance, --min-edge, --max-edge and --gradation,
-//! after
-//! --samples and --sites.
+//! Adds --adaptive, --sizing, --density, --faces, --edge-length, --max-distance, --min-edge,
+//! --max-edge and --gradation, after --samples and --sites.
 void add_sizing_options(CLI::App& app, SizingArguments& arguments);
 
+//! Whether the input must be read with its attributes.
+[[nodiscard]] bool wants_attributes(const SizingArguments& arguments);
+
 //! The options for a mesh. Cost: O(#F) for the diagonal.
+//! \param path  of the mesh, for errors.
+//! \throw agvd::InvalidOption  it has no vertex property of that name; the text lists those it has.
 [[nodiscard]] remesh::Sizing sizing_for(const SizingArguments& arguments,
-                                        const agvd::MeshView& mesh);
+                                        const std::filesystem::path& path,
+                                        const remesh::MeshFile& mesh);
 
 }  // namespace cli

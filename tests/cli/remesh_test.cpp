@@ -495,7 +495,7 @@ TEST_F(Remesh, TheNumberOfVerticesIsGivenInManyWays) {
 TEST_F(Remesh, AdaptiveEdgesKeepTheirBounds) {
     const std::string in = put("in.off", shapes::torus(80, 40));
     const auto outcome = remesh({in, at("out.off"), "-n", "500", "--adaptive", "--hmin", ".1",
-                                 "--hmax", "4%", "--hgrad", "1.2", "--report", "-"});
+                                 "--hmax", "6%", "--hgrad", "1.2", "--report", "-"});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     const auto report = nlohmann::json::parse(outcome.out);
     EXPECT_EQ(report["output_vertices"], 500);
@@ -506,6 +506,13 @@ TEST_F(Remesh, AdaptiveEdgesKeepTheirBounds) {
     EXPECT_LE(report["sizing"]["largest_target_mesh_units"],
               1.01 * report["options"]["sizing"]["max_edge_mesh_units"].get<double>());
     EXPECT_NE(outcome.err.find("targets from "), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err.find("warning"), std::string::npos) << outcome.err;
+    const auto narrow = remesh({in, at("out.off"), "-n", "500", "--adaptive", "--hmax", ".05"});
+    EXPECT_EQ(narrow.exit_code, 0) << narrow.err;
+    EXPECT_NE(narrow.err.find("too few for --max-edge"), std::string::npos) << narrow.err;
+    const auto wide = remesh({in, at("out.off"), "-n", "500", "--adaptive", "--hmin", ".5"});
+    EXPECT_EQ(wide.exit_code, 0) << wide.err;
+    EXPECT_NE(wide.err.find("too many for --min-edge"), std::string::npos) << wide.err;
 }
 
 TEST_F(Remesh, WrongNumbersAndLengthsAreRefused) {

@@ -74,7 +74,8 @@ PlacedMesh place_vertices(Domain& domain, const CurveSites& curves, const ValidD
                      agvd::within(progress, 0, 0), domain.plan ? rounding * domain.spacing : 0);
     }
     if (is_relaxed(options)) {
-        improve_shape(domain.prepared.input(), planes, placed, agvd::within(progress, 0.5, 0.5));
+        improve_shape(domain.prepared.input(), planes, placed, agvd::within(progress, 0.5, 0.5),
+                      domain.sizes);
     }
     agvd::poll(progress, 1);
     return placed;

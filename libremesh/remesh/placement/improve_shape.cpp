@@ -30,11 +30,11 @@ constexpr double poor_quality = 0.62;
 // around the vertex; at other distances in proportion to the square.
 constexpr double plane_cost = 30;
 constexpr int most_rounds = 8;
-// A fixed side shorter than short_side times the mean edge length makes its triangle slim wherever
-// the third corner is. Vertices within three spacings would crowd around it, so the quality of its
-// triangle is divided by slim_quality. Bunny with five given edges of .2 spacings: mean quality
-// .908 to .923 (without them .927), RMS distance .069 to .061 % (.060), smallest angle 28 to 9
-// degrees.
+// A fixed side shorter than short_side times the mean edge length, or the target length, makes its
+// triangle slim wherever the third corner is. Vertices within three spacings would crowd around it,
+// so the quality of its triangle is divided by slim_quality. Bunny with five given edges of .2
+// spacings: mean quality .908 to .923 (without them .927), RMS distance .069 to .061 % (.060),
+// smallest angle 28 to 9 degrees.
 constexpr double short_side = 0.25;
 constexpr double slim_quality = 0.3;
 // Least gain in quality of a move.
@@ -43,7 +43,7 @@ constexpr double least_gain = 1e-4;
 class Improvement {
 public:
     Improvement(const agvd::Surface& input, std::span<const detail::CellPlanes> planes,
-                agvd::Poller& poller, PlacedMesh& mesh)
+                const SizeField* sizes, agvd::Poller& poller, PlacedMesh& mesh)
         : surface_(input),
           ticker_(poller),
           mesh_(mesh),
@@ -52,7 +52,7 @@ public:
           facing_(mesh.points.size()),
           planes_(planes) {
         for (Index v = 0; v < at_.size(); ++v) locate(v);
-        find_slim();
+        find_slim(sizes);
     }
 
     void run() {
@@ -88,7 +88,7 @@ private:
     }
 
     // Marks triangles on a short side between two fixed vertices.
-    void find_slim() {
+    void find_slim(const SizeField* sizes) {
         std::vector<std::uint8_t> stays;
         for (const SurfacePoint& point : mesh_.points) {
             stays.push_back(agvd::is_on_boundary(surface_, point) ? 1 : 0);
@@ -102,7 +102,8 @@ private:
             bool is_slim = false;
             for (std::size_t k = 0; k < 3; ++k) {
                 const Index a = t[k], b = t[(k + 1) % 3];
-                const bool is_short = (at_[b] - at_[a]).norm() < short_side * mean;
+                const double usual = sizes != nullptr ? sizes->at(mesh_.points[a]) : mean;
+                const bool is_short = (at_[b] - at_[a]).norm() < short_side * usual;
                 is_slim = is_slim || (is_short && stays[a] != 0 && stays[b] != 0);
             }
             is_slim_.push_back(is_slim ? 1 : 0);
@@ -227,17 +228,18 @@ std::vector<detail::CellPlanes> planes_of_cells(const PreparedSurface& surface,
 }
 
 void improve_shape(const agvd::Surface& input, std::span<const detail::CellPlanes> planes,
-                   PlacedMesh& mesh, const agvd::Progress& progress) {
+                   PlacedMesh& mesh, const agvd::Progress& progress, const SizeField* sizes) {
     agvd::Poller poller(progress);
-    Improvement(input, planes, poller, mesh).run();
+    Improvement(input, planes, sizes, poller, mesh).run();
 }
 
 void improve_shape(const PreparedSurface& surface, std::span<const Index> nearest_vertex,
-                   PlacedMesh& mesh, int num_threads, const agvd::Progress& progress) {
+                   PlacedMesh& mesh, int num_threads, const agvd::Progress& progress,
+                   const SizeField* sizes) {
     const auto num_vertices = static_cast<Index>(mesh.points.size());
     improve_shape(surface.input(),
                   planes_of_cells(surface, nearest_vertex, num_vertices, num_threads, progress),
-                  mesh, progress);
+                  mesh, progress, sizes);
 }
 
 }  // namespace remesh

@@ -20,10 +20,12 @@ namespace remesh {
 //! \param nearest_vertex  per vertex of surface.base: the vertex of the mesh in whose cell it lies;
 //!                        agvd::no_index: none.
 //! \param num_threads     >= 0; 0: all cores. The result is the same for any number.
+//! \param sizes  target lengths of the edges; null: all are equal.
 //! \throw agvd::Cancelled  the progress callback returned false; `mesh` is unspecified then.
 //! Cost: O(#surface + #triangles), and about 20 us for each vertex at such a triangle.
 void improve_shape(const PreparedSurface& surface, std::span<const agvd::Index> nearest_vertex,
-                   PlacedMesh& mesh, int num_threads = 0, const agvd::Progress& progress = {});
+                   PlacedMesh& mesh, int num_threads = 0, const agvd::Progress& progress = {},
+                   const SizeField* sizes = nullptr);
 
 //! The planes of the surface in the cell of each vertex: what improve_shape() reads of the pieces.
 //! They are smaller than these.
@@ -35,6 +37,7 @@ void improve_shape(const PreparedSurface& surface, std::span<const agvd::Index> 
 //! The same as improve_shape() above, with these planes.
 //! \param input  PreparedSurface::input().
 void improve_shape(const agvd::Surface& input, std::span<const detail::CellPlanes> planes,
-                   PlacedMesh& mesh, const agvd::Progress& progress = {});
+                   PlacedMesh& mesh, const agvd::Progress& progress = {},
+                   const SizeField* sizes = nullptr);
 
 }  // namespace remesh

@@ -61,7 +61,7 @@ Grid build_grid(const agvd::Surface& surface, std::span<const ScatteredPoint> po
         high = high.cwiseMax(p.position);
     }
     // Cells are at least as wide as the reach, and wider if an axis would run out of bits.
-    cell_size = std::max(cell_size, (high - low).maxCoeff() / static_cast<double>(row / 2));
+    cell_size = std::max(cell_size, (high - low).maxCoeff() / static_cast<double>(row) / 2);
     std::vector<std::pair<std::uint64_t, Index>> keys(points.size());
     for (Index i = 0; i < keys.size(); ++i) {
         const Vec3 at = (points[i].position - low) / cell_size;
@@ -240,6 +240,7 @@ std::vector<agvd::SurfacePoint> eliminate(const agvd::Surface& surface,
     }
     agvd::sort_ticked(kept, ticker, std::less<>());
     std::vector<agvd::SurfacePoint> result;
+    result.reserve(kept.size());
     for (const Index i : kept) result.push_back(points[i].point);
     return result;
 }

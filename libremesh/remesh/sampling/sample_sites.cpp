@@ -211,7 +211,14 @@ std::vector<agvd::SurfacePoint> sample_inner_sites(const agvd::Surface& surface,
     if (std::all_of(lacking.begin(), lacking.end(), [](double n) { return n == 0; })) {
         for (Index i = 0; i < components.size(); ++i) lacking[i] = components[i].area();
     }
-    const std::vector<Index> quota = detail::apportion(lacking, count);
+    std::vector<Index> quota = detail::apportion(lacking, count);
+    // Closed components have no sites on curves.
+    std::vector<Index> wanted;
+    wanted.reserve(components.size());
+    for (const Component& c : components) {
+        wanted.push_back(c.boundary_loops == 0 ? detail::recognisable_samples(c) : 0);
+    }
+    if (components.size() > 1) detail::lift_small(wanted, quota);
     std::vector<std::vector<agvd::SurfacePoint>> rim_of(components.size());
     for (const agvd::SurfacePoint& site : rim) {
         rim_of[component_of[site.face.value()]].push_back(site);

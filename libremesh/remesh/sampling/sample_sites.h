@@ -40,11 +40,13 @@ struct SamplingOptions {
 
 //! Places exactly num_samples points, no two at one position, component by component (by lowest
 //! face). Every connected component first gets what its topology needs (minimum_samples); the rest
-//! is shared by area, and by length of boundary if sites lie on it. Points lie strictly inside
-//! faces, except those of Boundary::Keep, which come first: corners (find_corners), and points at
-//! equal distances between them. Blue noise is chosen from five times as many area-uniform points
-//! by weighted sample elimination ([yuksel2015]); points on opposite walls of a thin part do not
-//! repel each other. Farthest points use distances on the surface, along edges and across them
+//! is shared by area, and by length of boundary if sites lie on it. Of several components small
+//! ones get up to four times what their topology needs, so that they can be recognised. Points lie
+//! strictly inside faces, except those of Boundary::Keep, which come first: corners (find_corners),
+//! and points at equal distances between them. Blue noise is chosen from five times as many
+//! area-uniform points by weighted sample elimination ([yuksel2015]); points on opposite walls of a
+//! thin part do not repel each other. Farthest points use distances on the surface, along edges and
+//! across them
 //! ([eldar1997], [moenning2003]). They begin from the points on the boundary, or from a random one
 //! if there are none, and leave the smallest gaps of the three.
 //!

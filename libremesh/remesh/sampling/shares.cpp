@@ -11,6 +11,15 @@ namespace remesh::detail {
 
 using agvd::Index;
 
+namespace {
+
+// With fewer sites than so many times those that its topology needs, a part looks like another one.
+constexpr Index times_minimum = 4;
+// Share of all sites that large parts may give to small ones.
+constexpr double most_given_away = 0.25;
+
+}  // namespace
+
 // A mesh with N vertices, boundary length L and spacing h has 2 N - L / h triangles, each of area
 // sqrt(3) / 4 h^2.
 double spacing_of(double num_vertices, double area, double boundary_length) {
@@ -42,6 +51,27 @@ std::vector<Index> apportion(std::span<const double> weights, Index total) {
     return result;
 }
 
+Index recognisable_samples(const Component& component) {
+    return times_minimum * minimum_samples(component.genus(), component.boundary_loops);
+}
+
+void lift_small(std::span<const Index> wanted, std::vector<Index>& quota) {
+    std::vector<double> lacking, spare;
+    double all_lacking = 0, all_spare = 0, all = 0;
+    for (std::size_t i = 0; i < quota.size(); ++i) {
+        lacking.push_back(wanted[i] > quota[i] ? wanted[i] - quota[i] : 0);
+        spare.push_back(quota[i] > wanted[i] ? quota[i] - wanted[i] : 0);
+        all_lacking += lacking.back();
+        all_spare += spare.back();
+        all += quota[i];
+    }
+    const auto given =
+        static_cast<Index>(std::min({all_lacking, all_spare, most_given_away * all}));
+    if (given == 0) return;
+    const std::vector<Index> gets = apportion(lacking, given), gives = apportion(spare, given);
+    for (std::size_t i = 0; i < quota.size(); ++i) quota[i] = quota[i] + gets[i] - gives[i];
+}
+
 std::uint64_t needed_samples(const std::vector<Component>& components) {
     std::uint64_t needed = 0;
     for (const Component& c : components) needed += minimum_samples(c.genus(), c.boundary_loops);
@@ -65,6 +95,12 @@ std::vector<Index> share_out(const std::vector<Component>& components,
     std::vector<Index> quota = apportion(vertices, num_samples - static_cast<Index>(needed));
     for (Index i = 0; i < components.size(); ++i) {
         quota[i] += minimum_samples(components[i].genus(), components[i].boundary_loops);
+    }
+    if (components.size() > 1) {
+        std::vector<Index> wanted;
+        wanted.reserve(components.size());
+        for (const Component& c : components) wanted.push_back(recognisable_samples(c));
+        lift_small(wanted, quota);
     }
     return quota;
 }

@@ -22,11 +22,24 @@ namespace remesh::detail {
 [[nodiscard]] std::vector<agvd::Index> apportion(std::span<const double> weights,
                                                  agvd::Index total);
 
+//! The number of sites with which a component can be recognised: some times minimum_samples, 16 for
+//! a sphere and 28 for a torus.
+[[nodiscard]] agvd::Index recognisable_samples(const Component& component);
+
+//! Gives parts that have less than they want as much, from what others have beyond that. At most a
+//! quarter of all is given away; if that is not enough, every part gets the same share of what it
+//! lacks.
+//!
+//! \param wanted  by part.
+//! \param quota   by part; edited in place, the sum stays.
+void lift_small(std::span<const agvd::Index> wanted, std::vector<agvd::Index>& quota);
+
 //! The sum of minimum_samples over the components.
 [[nodiscard]] std::uint64_t needed_samples(const std::vector<Component>& components);
 
 //! The sites of each component: what its topology needs, and a share of the rest in proportion to
-//! the vertices that a mesh of equilateral triangles would have there.
+//! the vertices that a mesh of equilateral triangles would have there. Of several components small
+//! ones get up to recognisable_samples.
 //!
 //! \param boundary_length  #components, mesh units: of the boundary on which sites lie.
 //! \pre num_samples is at least needed_samples.

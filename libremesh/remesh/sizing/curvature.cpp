@@ -12,7 +12,7 @@
 #include "agvd/core/edge_key.h"
 #include "agvd/mesh/face_area.h"
 #include "agvd/mesh/uniform_points.h"
-#include "remesh/sizing/vertex_edges.h"
+#include "remesh/sizing/vertex_lines.h"
 
 namespace remesh {
 namespace {
@@ -118,8 +118,8 @@ private:
             for (const Index v : now) {
                 ticker_.tick(4);
                 waits[v] = 0;
-                for_each_edge(surface_, v, [&](Index other, Index edge) {
-                    const double way = distance[v] + surface_.length[edge];
+                for_each_edge(surface_, v, [&](Index other, double length) {
+                    const double way = distance[v] + length;
                     if (!(way < distance[other])) return;
                     distance[other] = way;
                     cell_[other] = cell_[v];
@@ -154,7 +154,8 @@ private:
             for (int j = 0; j < 2 * (n - i) - 1; ++j) {
                 ticker_.tick();
                 const double third = (j % 2 + 1) / 3.0;
-                const double b1 = (i + third) / n, b2 = (j / 2 + third) / n;
+                const int column = j / 2;
+                const double b1 = (i + third) / n, b2 = (column + third) / n;
                 const SurfacePoint point{agvd::FaceId(f), {1 - b1 - b2, b1, b2}};
                 add(nearest_corner(base_, point), 1.0 / (n * n),
                     agvd::position(input.mesh.view(), point));

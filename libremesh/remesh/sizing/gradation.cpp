@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "remesh/sizing/vertex_edges.h"
+#include "remesh/sizing/vertex_lines.h"
 
 namespace remesh {
 namespace {
@@ -15,9 +15,10 @@ using agvd::Surface;
 class GrowthLimit {
 public:
     GrowthLimit(const Surface& surface, std::span<const std::pair<Index, Index>> joined,
-                double slope, std::span<double> length, agvd::Ticker& ticker)
+                double slope, Paths paths, std::span<double> length, agvd::Ticker& ticker)
         : surface_(surface),
           slope_(slope),
+          paths_(paths),
           length_(length),
           ticker_(ticker),
           waits_(length.size(), 0) {
@@ -30,19 +31,15 @@ public:
 
     void run() {
         for (const auto& [a, b] : copies_) lower(a, length_[b]);
-        for (Index e = 0; e < surface_.num_edges(); ++e) {
-            ticker_.tick();
-            const Index h = surface_.edge_half[e];
-            const Index a = surface_.tail(h), b = surface_.head(h);
-            const double rise = slope_ * surface_.length[e];
-            lower(b, length_[a] + rise);
-            lower(a, length_[b] + rise);
+        if (paths_ == Paths::Edges) {
+            for (Index e = 0; e < surface_.num_edges(); ++e) check_edge(e);
+        } else {
+            for (Index v = 0; v < length_.size(); ++v) spread(v);
         }
         while (!lowered_.empty()) {
             now_.swap(lowered_);
             lowered_.clear();
             for (const Index v : now_) {
-                ticker_.tick(4);
                 waits_[v] = 0;
                 spread(v);
             }
@@ -58,19 +55,33 @@ private:
         lowered_.push_back(vertex);
     }
 
+    void check_edge(Index e) {
+        ticker_.tick();
+        const Index h = surface_.edge_half[e];
+        const Index a = surface_.tail(h), b = surface_.head(h);
+        const double rise = slope_ * surface_.length[e];
+        lower(b, length_[a] + rise);
+        lower(a, length_[b] + rise);
+    }
+
     void spread(Index v) {
+        ticker_.tick(4);
         const double length = length_[v];
         for (auto copy = std::lower_bound(copies_.begin(), copies_.end(), std::pair(v, Index{0}));
              copy != copies_.end() && copy->first == v; ++copy) {
             lower(copy->second, length);
         }
-        for_each_edge(surface_, v, [&](Index other, Index edge) {
-            lower(other, length + slope_ * surface_.length[edge]);
-        });
+        const auto reach = [&](Index other, double way) { lower(other, length + slope_ * way); };
+        if (paths_ == Paths::Edges) {
+            for_each_edge(surface_, v, reach);
+        } else {
+            for_each_line(surface_, v, reach);
+        }
     }
 
     const Surface& surface_;
     double slope_;
+    Paths paths_;
     std::span<double> length_;
     agvd::Ticker& ticker_;
     std::vector<std::uint8_t> waits_;              // #V: is in lowered_.
@@ -81,8 +92,8 @@ private:
 }  // namespace
 
 void limit_growth(const Surface& surface, std::span<const std::pair<Index, Index>> joined,
-                  double slope, std::span<double> length, agvd::Ticker& ticker) {
-    GrowthLimit(surface, joined, slope, length, ticker).run();
+                  double slope, Paths paths, std::span<double> length, agvd::Ticker& ticker) {
+    GrowthLimit(surface, joined, slope, paths, length, ticker).run();
 }
 
 }  // namespace remesh

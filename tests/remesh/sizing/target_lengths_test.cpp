@@ -5,7 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/mesh/face_area.h"
+#include "agvd/mesh/point_faces.h"
+#include "agvd/propagation/propagate.h"
 #include "remesh/sizing/size_field.h"
 #include "support/shapes.h"
 
@@ -102,6 +105,33 @@ TEST_F(TargetLengthsOfATorus, KeepTheirBounds) {
         range(run({.target_lengths = wanted, .max_edge = mean / 3}, wanted, 1000).length);
     EXPECT_NEAR(forced.first, mean, 1e-9);
     EXPECT_NEAR(forced.second, mean, 1e-9);
+}
+
+TEST_F(TargetLengthsOfATorus, GrowNoFasterThanTheGradationAlongGeodesics) {
+    // A base as runs have it: paths along its edges are not much longer than geodesics.
+    const agvd::IntrinsicTriangulation base(surface, {.max_length = 0.1});
+    std::vector<double> wanted;
+    for (Index v = 0; v < base.surface().num_vertices(); ++v) {
+        wanted.push_back(v % 97 == 0 ? 0.02 : 1);
+    }
+    Index num_tried = 0;
+    for (const double gradation : {1.1, 1.3}) {
+        agvd::Ticker ticker;
+        const Sizing sizing{.target_lengths = wanted, .gradation = gradation};
+        const auto length =
+            remesh::target_lengths(base.surface(), wanted, {}, sizing, 3000, ticker).length;
+        for (Index site = 0; site < base.surface().num_vertices(); site += 731) {
+            const auto distance =
+                agvd::propagate(base.surface(), std::vector{agvd::point_at(base.surface(), site)},
+                                {.max_error = 0.0})
+                    .vertex_distance;
+            for (Index v = 0; v < distance.size(); ++v) {
+                EXPECT_LE(length[v] - length[site], std::log(gradation) * distance[v] + 1e-12);
+                ++num_tried;
+            }
+        }
+    }
+    EXPECT_GT(num_tried, 50'000u);
 }
 
 TEST_F(TargetLengthsOfATorus, AreThoseOfTheErrorWhereOneIsGiven) {
