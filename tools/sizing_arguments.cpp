@@ -89,13 +89,14 @@ void add_sizing_options(CLI::App& app, SizingArguments& arguments) {
         ->excludes(lengths);
     add_length(app, "--min-edge,--hmin", "No edge is meant to be shorter", arguments.min_edge);
     add_length(app, "--max-edge,--hmax", "No edge is meant to be longer", arguments.max_edge);
-    const auto take_gradation = [&sizing](const std::string& text) {
-        sizing.gradation = parse_amount(text).value().value;
+    const auto take_gradation = [&arguments](const std::string& text) {
+        arguments.sizing.gradation = parse_amount(text).value().value;
+        arguments.has_gradation = true;
     };
     app.add_option_function<std::string>(
            "--gradation,--hgrad", take_gradation,
-           "Largest ratio of edges next to each other; more precisely, over a "
-           "distance d edges grow by at most d times its logarithm")
+           "Largest ratio of edges next to each other; more precisely, over a distance "
+           "d edges grow by at most d times its logarithm")
         ->check(CLI::Validator(check_gradation, ""))
         ->type_name("G")
         ->default_str("1.3");
@@ -114,6 +115,13 @@ remesh::Sizing sizing_for(const SizingArguments& arguments, const std::filesyste
                                          path.string() + " has no vertex property")
             .values;
     };
+    const bool is_even = !sizing.is_adaptive && !arguments.max_distance &&
+                         arguments.target_lengths.empty() && arguments.densities.empty();
+    if (is_even && (arguments.min_edge || arguments.max_edge || arguments.has_gradation)) {
+        throw agvd::InvalidOption(
+            "--min-edge, --max-edge and --gradation bound edges that differ; add --adaptive, "
+            "--max-distance, --sizing or --density, or leave them out");
+    }
     sizing.target_lengths = values_of(arguments.target_lengths);
     sizing.densities = values_of(arguments.densities);
     const bool has_count = arguments.samples->count() > 0 || arguments.edge ||

@@ -20,6 +20,7 @@ struct SizingArguments {
     //! Mesh units, or percent of the diagonal.
     std::optional<Amount> edge, max_distance, min_edge, max_edge;
     std::string target_lengths, densities;  //!< Names of vertex properties; empty: none.
+    bool has_gradation = false;             //!< --gradation is given.
     //! --samples: if it is not given, target lengths give the number.
     const CLI::Option* samples = nullptr;
 };

@@ -59,6 +59,8 @@ double vertices_for_targets(const CleanedInput& cleaned, const std::vector<doubl
     return 2 / std::numbers::sqrt3 * sum;
 }
 
+}  // namespace
+
 Index to_count(double vertices) {
     if (!(vertices <= most_samples)) {
         throw agvd::InvalidOption("the lengths asked for need more than " +
@@ -67,8 +69,6 @@ Index to_count(double vertices) {
     }
     return static_cast<Index>(std::max(1.0, std::round(vertices)));
 }
-
-}  // namespace
 
 Index sample_count(const CleanedInput& cleaned, const RemeshOptions& options) {
     const Sizing& sizing = options.sizing;

@@ -6,6 +6,10 @@
 
 namespace remesh::detail {
 
+//! The nearest number of samples, at least 1.
+//! \throw agvd::InvalidOption  it is above 8e8.
+[[nodiscard]] agvd::Index to_count(double vertices);
+
 //! The number of samples by which the options' edge length, number of faces or target lengths come
 //! out; num_samples if they have none of these. Creases and junctions do not count yet.
 //!

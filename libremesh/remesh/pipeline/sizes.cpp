@@ -125,8 +125,7 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
     RunSizes sizes{nullptr, options.num_samples, targets.scale};
     sizes.field = std::make_unique<const SizeField>(base, std::move(targets.length));
     if (gives_count || is_edge_given) {
-        sizes.num_samples = static_cast<Index>(
-            std::max(1.0, std::round(sizes.field->area() * 2 / std::numbers::sqrt3)));
+        sizes.num_samples = to_count(sizes.field->area() * 2 / std::numbers::sqrt3);
     }
     return sizes;
 }

@@ -1,0 +1,138 @@
+// Results that keep a distance, and the proof that they do.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "agvd/core/error.h"
+#include "agvd/mesh/closest_point.h"
+#include "remesh/pipeline/distance_check.h"
+#include "remesh/pipeline/remesh.h"
+#include "support/shapes.h"
+
+using agvd::Index;
+using agvd::TriangleMesh;
+using agvd::Vec3;
+using remesh::RemeshOptions;
+using remesh::RemeshResult;
+using remesh::detail::DistanceCheck;
+using remesh::detail::MeasuredDistance;
+
+namespace {
+
+// The largest distance from `from` to `to` at points of a lattice in each face.
+double one_sided(const TriangleMesh& from, const TriangleMesh& to) {
+    const agvd::ClosestPointTree tree(to.view());
+    constexpr int n = 6;
+    double largest = 0;
+    for (const agvd::Triangle& t : from.triangles) {
+        for (int i = 0; i <= n; ++i) {
+            for (int j = 0; i + j <= n; ++j) {
+                const Vec3 p = (i * from.positions[t[0]] + j * from.positions[t[1]] +
+                                (n - i - j) * from.positions[t[2]]) /
+                               n;
+                largest = std::max(largest, std::sqrt(tree.query(p).distance_sq));
+            }
+        }
+    }
+    return largest;
+}
+
+RemeshResult remeshed(const TriangleMesh& mesh, double distance, int threads = 1) {
+    return remesh::remesh(mesh.view(),
+                          {.sizing = {.max_distance = distance}, .num_threads = threads});
+}
+
+MeasuredDistance measure(const TriangleMesh& input, const TriangleMesh& result, double limit,
+                         std::vector<double>& most) {
+    return DistanceCheck(input.view(), 1, {}).measure(result.view(), limit, most);
+}
+
+// A plate of two triangles, 2 x 2, that is 1 deep along its middle if it is a valley.
+TriangleMesh plate(bool is_valley) {
+    const double z = is_valley ? -1 : 0;
+    return {{{-1, -1, 0}, {0, -1, z}, {1, -1, 0}, {-1, 1, 0}, {0, 1, z}, {1, 1, 0}},
+            {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4}}};
+}
+
+}  // namespace
+
+TEST(MaxDistance, IsKeptBothWaysWithFewVertices) {
+    const TriangleMesh input = shapes::torus(120, 60);
+    Index before = 0;
+    for (const double limit : {0.04, 0.01, 0.003}) {
+        SCOPED_TRACE(limit);
+        const RemeshResult result = remeshed(input, limit);
+        EXPECT_LE(one_sided(input, result.mesh), limit);
+        EXPECT_LE(one_sided(result.mesh, input), limit);
+        EXPECT_LE(result.sizing.largest_distance, limit);
+        EXPECT_GT(result.sizing.largest_distance, limit / 4);
+        const auto num_vertices = static_cast<Index>(result.mesh.positions.size());
+        EXPECT_GT(num_vertices, before);
+        // An edge of length h on the tube of radius .35 is h^2 / (8 * .35) deep.
+        EXPECT_LT(num_vertices, 40 / limit);
+        before = num_vertices;
+    }
+}
+
+TEST(MaxDistance, OfAnyScaleAndThreadsIsTheSame) {
+    const TriangleMesh input = shapes::torus(60, 30);
+    const RemeshResult one = remeshed(input, 0.02);
+    const RemeshResult four = remeshed(input, 0.02, 4);
+    EXPECT_EQ(one.mesh.positions, four.mesh.positions);
+    TriangleMesh huge = input;
+    for (Vec3& p : huge.positions) p *= std::ldexp(1.0, 100);
+    const RemeshResult scaled = remeshed(huge, std::ldexp(0.02, 100));
+    EXPECT_EQ(scaled.mesh.triangles, one.mesh.triangles);
+    EXPECT_EQ(scaled.sizing.largest_distance, std::ldexp(one.sizing.largest_distance, 100));
+}
+
+TEST(MaxDistance, TooManyVerticesAreRefused) {
+    EXPECT_THROW((void)remeshed(shapes::sphere(2), 1e-12), agvd::InvalidOption);
+    EXPECT_THROW((void)remeshed(shapes::sphere(2), -1), agvd::InvalidOption);
+    const RemeshOptions both{.sizing = {.max_distance = 0.1, .edge_length = 0.1}};
+    EXPECT_THROW((void)remesh::remesh(shapes::sphere(2).view(), both), agvd::InvalidOption);
+}
+
+TEST(DistanceCheck, EqualSurfacesAreProvedWhateverTheirTriangles) {
+    std::vector<double> most(shapes::grid(7).positions.size(), 9);
+    const auto found = measure(shapes::grid(7), shapes::grid(4), 1e-3, most);
+    EXPECT_TRUE(found.is_within);
+    EXPECT_LT(found.largest, 1e-12);
+    EXPECT_EQ(most, std::vector<double>(most.size(), 9));
+}
+
+TEST(DistanceCheck, WhereItIsTooFarEdgesGetShorter) {
+    const TriangleMesh input = plate(true), result = plate(false);
+    std::vector<double> most(6, 9);
+    const auto found = measure(input, result, 0.5, most);
+    EXPECT_FALSE(found.is_within);
+    EXPECT_DOUBLE_EQ(found.largest, 1);
+    EXPECT_NEAR(found.where.z(), -1, 1e-12);
+    for (const double length : most) {
+        // Edges of the result are 1 to 2.3 long.
+        EXPECT_GT(length, 0.5);
+        EXPECT_LT(length, 1.5);
+    }
+    // The limit is above all distances.
+    EXPECT_TRUE(measure(input, result, 1.1, most).is_within);
+}
+
+// A fin across the valley: its corners lie on the other surface, and no sample meets it.
+TEST(DistanceCheck, WhatLiesBetweenTheSamplesIsFoundToo) {
+    const TriangleMesh valley = plate(true);
+    TriangleMesh with_fin = valley;
+    with_fin.positions.emplace_back(1, 0, 0);
+    with_fin.positions.emplace_back(-1, 0, 0);
+    with_fin.positions.emplace_back(1, 1e-8, 0);
+    with_fin.triangles.push_back({6, 7, 8});
+    std::vector<double> most(9, 9);
+    // The fin's middle is 1 / sqrt(2) above the slopes.
+    const auto found = measure(with_fin, valley, 0.5, most);
+    EXPECT_FALSE(found.is_within);
+    EXPECT_GT(found.largest, 0.49);
+    EXPECT_LT(most[6], 9);
+    EXPECT_TRUE(measure(with_fin, valley, 0.75, most).is_within);
+    std::vector<double> most_of_valley(6, 9);
+    EXPECT_FALSE(measure(valley, with_fin, 0.5, most_of_valley).is_within);
+    EXPECT_TRUE(measure(valley, with_fin, 0.75, most_of_valley).is_within);
+}
