@@ -43,8 +43,14 @@ CurveMeasure measure_curve(const agvd::Surface& surface, const Curve& curve, dou
                            const UnitAt& unit_at) {
     if (!unit_at) return {curve.up_to, spacings_along(surface, curve, spacing)};
     CurveMeasure result{{0}, {0}};
+    // Asked for at ascending places; the unit is looked up four times for each spacing.
+    double last = 0, until = 0;
     const auto spacing_at = [&](double along) {
-        return spacing * unit_at(point_on_curve(curve, along));
+        if (last == 0 || along >= until) {
+            last = spacing * unit_at(point_on_curve(curve, along));
+            until = along + last / 4;
+        }
+        return last;
     };
     for (std::size_t i = 0; i < curve.num_edges(); ++i) {
         const double end = curve.up_to[i + 1];
