@@ -64,15 +64,13 @@ void add_sizing_options(CLI::App& app, SizingArguments& arguments) {
             ->excludes(samples)
             ->excludes(sites)
             ->excludes(faces);
-    add_length(app, "--max-distance,--hausd",
-               "Largest distance between result and input, in mesh units or percent of the "
-               "diagonal, instead of --samples; edges are adaptive, and the exit code is 5 if it "
-               "cannot be met",
-               arguments.max_distance)
-        ->excludes(samples)
-        ->excludes(sites)
-        ->excludes(faces)
-        ->excludes(edge);
+    CLI::Option* const distance = add_length(
+        app, "--max-distance,--hausd",
+        "Largest distance between result and input, in mesh units or percent of the "
+        "diagonal, instead of --samples; edges are adaptive, and the exit code is 5 if it "
+        "cannot be met",
+        arguments.max_distance);
+    distance->excludes(samples)->excludes(sites)->excludes(faces)->excludes(edge);
     CLI::Option* const adaptive =
         app.add_flag("--adaptive", sizing.is_adaptive,
                      "Shorter edges where the surface is curved, longer ones elsewhere");
@@ -81,11 +79,13 @@ void add_sizing_options(CLI::App& app, SizingArguments& arguments) {
                        "Vertex property of IN (PLY) that gives the length of the edges there; with "
                        "--samples or the like only relative to each other")
             ->type_name("NAME")
-            ->excludes(adaptive);
+            ->excludes(adaptive)
+            ->excludes(distance);
     app.add_option("--density", arguments.densities,
                    "Vertex property of IN (PLY) that gives vertices per area, in any unit")
         ->type_name("NAME")
         ->excludes(adaptive)
+        ->excludes(distance)
         ->excludes(lengths);
     add_length(app, "--min-edge,--hmin", "No edge is meant to be shorter", arguments.min_edge);
     add_length(app, "--max-edge,--hmax", "No edge is meant to be longer", arguments.max_edge);

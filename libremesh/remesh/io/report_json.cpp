@@ -159,6 +159,8 @@ Json to_json(const Sizing& sizing) {
     object["gradation"] = sizing.gradation;
     object["edge_length_mesh_units"] = sizing.edge_length > 0 ? Json(sizing.edge_length) : Json();
     object["faces"] = sizing.num_faces > 0 ? Json(sizing.num_faces) : Json();
+    object["max_distance_mesh_units"] =
+        sizing.max_distance > 0 ? Json(sizing.max_distance) : Json();
     object["max_error_mesh_units"] = sizing.max_error > 0 ? Json(sizing.max_error) : Json();
     return object;
 }
@@ -171,7 +173,9 @@ Json to_json(const SizingResult& sizing) {
             {"least_target_mesh_units", measured(sizing.least_target)},
             {"largest_target_mesh_units", measured(sizing.largest_target)},
             {"edge_over_target_5th_percentile", measured(sizing.low_ratio)},
-            {"edge_over_target_95th_percentile", measured(sizing.high_ratio)}};
+            {"edge_over_target_95th_percentile", measured(sizing.high_ratio)},
+            {"largest_distance_mesh_units",
+             sizing.largest_distance > 0 ? Json(sizing.largest_distance) : Json()}};
 }
 
 Json to_json(const Verdict& verdict) {

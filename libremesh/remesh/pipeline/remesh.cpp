@@ -46,6 +46,9 @@ void check_sizing(const RemeshOptions& options, std::size_t num_vertices) {
     if (sizing.max_error > 0 && !sizing.is_adaptive) {
         throw agvd::InvalidOption("max_error needs is_adaptive");
     }
+    if (sizing.max_distance > 0 && num_fields > (sizing.is_adaptive ? 1 : 0)) {
+        throw agvd::InvalidOption("max_distance excludes target_lengths and densities");
+    }
     if (sizing.gives_count && sizing.target_lengths.empty()) {
         throw agvd::InvalidOption("gives_count needs target_lengths");
     }

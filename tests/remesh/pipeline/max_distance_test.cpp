@@ -89,6 +89,9 @@ TEST(MaxDistance, OfAnyScaleAndThreadsIsTheSame) {
 TEST(MaxDistance, TooManyVerticesAreRefused) {
     EXPECT_THROW((void)remeshed(shapes::sphere(2), 1e-12), agvd::InvalidOption);
     EXPECT_THROW((void)remeshed(shapes::sphere(2), -1), agvd::InvalidOption);
+    RemeshOptions with_lengths{.sizing = {.max_distance = 0.1}};
+    with_lengths.sizing.target_lengths.assign(shapes::sphere(2).positions.size(), 0.1);
+    EXPECT_THROW((void)remesh::remesh(shapes::sphere(2).view(), with_lengths), agvd::InvalidOption);
     const RemeshOptions both{.sizing = {.max_distance = 0.1, .edge_length = 0.1}};
     EXPECT_THROW((void)remesh::remesh(shapes::sphere(2).view(), both), agvd::InvalidOption);
 }

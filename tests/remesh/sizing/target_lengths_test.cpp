@@ -119,7 +119,7 @@ TEST_F(TargetLengthsOfATorus, GrowNoFasterThanTheGradationAlongGeodesics) {
         agvd::Ticker ticker;
         const Sizing sizing{.target_lengths = wanted, .gradation = gradation};
         const auto length =
-            remesh::target_lengths(base.surface(), wanted, {}, sizing, 3000, ticker).length;
+            remesh::target_lengths(base.surface(), wanted, {}, {}, sizing, 3000, ticker).length;
         for (Index site = 0; site < base.surface().num_vertices(); site += 731) {
             const auto distance =
                 agvd::propagate(base.surface(), std::vector{agvd::point_at(base.surface(), site)},
