@@ -306,9 +306,9 @@ void run_job(const Arguments& arguments, cli::Console& console) {
         options.feature_edges =
             remesh::read_edges(arguments.feature_edges, console.progress_of("read"));
     }
-    console.require_memory(
-        "sample", least_memory(input.mesh.triangles.size(),
-                               options.sites ? options.sites->size() : options.num_samples));
+    console.require_memory("sample",
+                           least_memory(input.mesh.triangles.size(),
+                                        cli::estimated_samples(options, input.mesh.view())));
     const remesh::RemeshResult result = cli::naming_file(
         arguments.input,
         [&] {

@@ -7,6 +7,7 @@
 
 #include "arguments.h"
 #include "remesh/io/mesh_file.h"
+#include "remesh/pipeline/remesh_options.h"
 #include "remesh/sizing/sizing.h"
 
 namespace CLI {
@@ -38,5 +39,11 @@ void add_sizing_options(CLI::App& app, SizingArguments& arguments);
 [[nodiscard]] remesh::Sizing sizing_for(const SizingArguments& arguments,
                                         const std::filesystem::path& path,
                                         const remesh::MeshFile& mesh);
+
+//! About how many samples a run places, before the surface is known well. Curvature does not
+//! count: with a distance it is the least number.
+//! Cost: O(#F).
+[[nodiscard]] std::size_t estimated_samples(const remesh::RemeshOptions& options,
+                                            const agvd::MeshView& mesh);
 
 }  // namespace cli

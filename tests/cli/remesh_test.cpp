@@ -366,12 +366,17 @@ TEST_F(Remesh, RefusesAFileThatCannotFit) {
 
 TEST_F(Remesh, RefusesMoreSamplesThanFitAndTellsWhatTheyNeed) {
     const std::string in = put("in.off", shapes::sphere(2));
-    const auto outcome = remesh({in, at("out.ply"), "-n", "1000000", "--memory-limit", "2G"});
-    EXPECT_EQ(outcome.exit_code, 1);
-    EXPECT_NE(outcome.err.find("the program needs some 2.8"), std::string::npos) << outcome.err;
-    EXPECT_NE(outcome.err.find("more than the 2G of --memory-limit"), std::string::npos)
-        << outcome.err;
-    EXPECT_NE(outcome.err.find("use fewer --samples"), std::string::npos) << outcome.err;
+    // All three are about a million vertices.
+    for (const auto& [option, value] :
+         {std::pair("-n", "1000000"), {"--faces", "2e6"}, {"--edge-length", ".00376"}}) {
+        SCOPED_TRACE(option);
+        const auto outcome = remesh({in, at("out.ply"), option, value, "--memory-limit", "2G"});
+        EXPECT_EQ(outcome.exit_code, 1);
+        EXPECT_NE(outcome.err.find("the program needs some 2.8"), std::string::npos) << outcome.err;
+        EXPECT_NE(outcome.err.find("more than the 2G of --memory-limit"), std::string::npos)
+            << outcome.err;
+        EXPECT_NE(outcome.err.find("use fewer --samples"), std::string::npos) << outcome.err;
+    }
     EXPECT_FALSE(fs::exists(at("out.ply")));
 }
 

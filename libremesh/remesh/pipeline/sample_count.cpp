@@ -65,7 +65,7 @@ Index to_count(double vertices) {
     if (!(vertices <= most_samples)) {
         throw agvd::InvalidOption("the lengths asked for need more than " +
                                   std::to_string(static_cast<Index>(most_samples)) +
-                                  " vertices; use longer ones");
+                                  " vertices; use longer ones, or a larger distance");
     }
     return static_cast<Index>(std::max(1.0, std::round(vertices)));
 }
