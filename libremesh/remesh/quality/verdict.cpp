@@ -1,5 +1,5 @@
-// Walls are found by one query for each vertex of the result: from half an edge length below the
-// surface the nearest point is the vertex itself, unless another sheet lies nearer. If that sheet
+// Walls are found by a few queries for each vertex of the result: from a point below the surface
+// the nearest point is the vertex itself, unless another sheet lies nearer. If that sheet
 // faces the other way, it is the far side of a wall. Walls of which only one side is in the result
 // are not seen.
 #include "remesh/quality/verdict.h"
@@ -24,13 +24,17 @@ using agvd::Vec3;
 constexpr double most_wall_cosine = -0.7;
 // The far side counts if it is nearer than the vertex by this share of the depth.
 constexpr double clearly_nearer = 0.9;
+// Depths at which a wall is looked for, each an eighth of the one before: a far side much nearer
+// than the depth is as far from the point as the vertex.
+constexpr int num_depths = 4;
 // Vertices in a chunk of queries.
 constexpr Index query_grain = 512;
 
 // The number of samples in a text: two digits.
 Index rounded_up(double count) {
-    const double unit = std::pow(10, std::floor(std::log10(count)) - 1);
     constexpr double most = 4e9;
+    if (!(count < most)) return static_cast<Index>(most);  // Infinite where sides touch.
+    const double unit = std::pow(10, std::floor(std::log10(count)) - 1);
     return static_cast<Index>(std::min(std::ceil(count / unit) * unit, most));
 }
 
@@ -79,7 +83,21 @@ struct Wall {
     [[nodiscard]] bool is_thin() const { return std::isfinite(thickness); }
 };
 
-// Walls thinner than the edges there are long: `across` is at most 1.9 times the depth.
+// Finds walls of .1 to 1.9 times the depth.
+Wall wall_at_depth(const agvd::MeshView& mesh, const agvd::ClosestPointTree& tree,
+                   const Vec3& place, const Vec3& outward, double depth) {
+    const agvd::ClosestPoint nearest = tree.query(place - depth * outward);
+    if (!(std::sqrt(nearest.distance_sq) < clearly_nearer * depth)) return {};
+    const Index face = nearest.point.face.value();
+    const agvd::Triangle& triangle = mesh.triangles[face];
+    const Vec3& a = mesh.positions[triangle[0]];
+    const Vec3 normal =
+        (mesh.positions[triangle[1]] - a).cross(mesh.positions[triangle[2]] - a).normalized();
+    if (normal.dot(outward) > most_wall_cosine) return {};
+    return {(place - nearest.position).norm(), face};
+}
+
+// Walls thinner than the edges there are long.
 std::vector<Wall> find_walls(const agvd::MeshView& mesh, const agvd::ClosestPointTree& tree,
                              const std::vector<VertexShape>& shapes, int num_threads,
                              agvd::Poller& poller) {
@@ -89,20 +107,11 @@ std::vector<Wall> find_walls(const agvd::MeshView& mesh, const agvd::ClosestPoin
         count, query_grain, num_threads,
         [&](Index, Index begin, Index end) {
             for (Index v = begin; v < end; ++v) {
-                const VertexShape& shape = shapes[v];
-                const double depth = shape.edge_length / 2;
-                const Vec3& place = mesh.positions[v];
-                const agvd::ClosestPoint nearest = tree.query(place - depth * shape.normal);
-                if (!(std::sqrt(nearest.distance_sq) < clearly_nearer * depth)) continue;
-                const Index face = nearest.point.face.value();
-                const agvd::Triangle& triangle = mesh.triangles[face];
-                const Vec3& a = mesh.positions[triangle[0]];
-                const Vec3 normal = (mesh.positions[triangle[1]] - a)
-                                        .cross(mesh.positions[triangle[2]] - a)
-                                        .normalized();
-                if (normal.dot(shape.normal) > most_wall_cosine) continue;
-                const double across = (place - nearest.position).norm();
-                walls[v] = {across, face};
+                double depth = shapes[v].edge_length / 2;
+                for (int i = 0; i < num_depths && !walls[v].is_thin(); ++i, depth /= 8) {
+                    walls[v] =
+                        wall_at_depth(mesh, tree, mesh.positions[v], shapes[v].normal, depth);
+                }
             }
         },
         poller);

@@ -61,6 +61,17 @@ TEST(Verdict, APlateThinnerThanItsEdgesIsOneWall) {
     EXPECT_EQ(judge(plate(10, 0.2)).thin_walls, 0u);
 }
 
+TEST(Verdict, WallsOfAnyThicknessAreFound) {
+    for (const double thickness : {0.09, 0.01, 1e-3, 1e-4}) {
+        SCOPED_TRACE(thickness);
+        const Verdict verdict = judge(plate(10, thickness));
+        EXPECT_EQ(verdict.thin_walls, 1u);
+        EXPECT_NEAR(verdict.thinnest_wall, thickness, 1e-12);
+        EXPECT_GT(verdict.samples_for_walls, 602u);
+        EXPECT_LE(verdict.samples_for_walls, 4'000'000'000u);
+    }
+}
+
 TEST(Verdict, AGapIsNoWall) {
     const TriangleMesh box = parts::box({1, 1, 1}, 10);
     EXPECT_EQ(judge(shapes::join(box, moved(box, {1.02, 0, 0}))).thin_walls, 0u);
