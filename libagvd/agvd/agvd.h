@@ -4,6 +4,7 @@
 #pragma once
 
 #include "agvd/core/error.h"
+#include "agvd/core/version.h"
 #include "agvd/diagram/build_diagram.h"
 #include "agvd/diagram/cells.h"
 #include "agvd/diagram/diagram_on_input.h"
