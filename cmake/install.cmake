@@ -30,14 +30,21 @@ function(agvd_install_package name)
         DESTINATION ${folder} COMPONENT development)
 endfunction()
 
-# agvd_install_pkg_config(target name text REQUIRES packages... PRIVATE packages... LIBS flags...):
-# NAME.pc. What a shared library has loaded itself, a program with the static one has to link.
+# agvd_install_pkg_config(target name text REQUIRES packages... [PRIVATE packages...] [LIBS flags...]):
+# NAME.pc. PRIVATE and LIBS are what a shared library loads itself; with a static one the program links them.
 function(agvd_install_pkg_config target name description)
     cmake_parse_arguments(ARG "" "" "REQUIRES;PRIVATE;LIBS" ${ARGN})
-    if(NOT BUILD_SHARED_LIBS)
-        list(APPEND ARG_REQUIRES ${ARG_PRIVATE})
-        list(JOIN ARG_LIBS " " libs)
+    get_target_property(type ${target} TYPE)
+    if(type STREQUAL INTERFACE_LIBRARY)
+        set(libs ${ARG_LIBS})
+    else()
+        set(libs -L\${prefix}/${CMAKE_INSTALL_LIBDIR} -l${target})
+        if(type STREQUAL STATIC_LIBRARY)
+            list(APPEND ARG_REQUIRES ${ARG_PRIVATE})
+            list(APPEND libs ${ARG_LIBS})
+        endif()
     endif()
+    list(JOIN libs " " libs)
     list(JOIN ARG_REQUIRES ", " requires)
     set(folder ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
     file(RELATIVE_PATH to_prefix /prefix/${folder} /prefix)
@@ -48,7 +55,7 @@ Description: @description@
 Version: @PROJECT_VERSION@
 Requires: @requires@
 Cflags: -I\${prefix}/@CMAKE_INSTALL_INCLUDEDIR@
-Libs: -L\${prefix}/@CMAKE_INSTALL_LIBDIR@ -l@target@ @libs@
+Libs: @libs@
 ")
     install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${folder} COMPONENT development)
 endfunction()
