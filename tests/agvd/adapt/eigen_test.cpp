@@ -70,6 +70,7 @@ TEST(EigenAdapter, RowsOfDoublesAnd32BitIntegersAreNotCopied) {
     expect_adapted<Rows<double, RowMajor>, Rows<int, ColMajor>>(true, false);
     expect_adapted<Rows<float, RowMajor>, Rows<std::int64_t, RowMajor>>(false, false);
     expect_adapted<Rows<int, RowMajor>, Rows<short, ColMajor>>(false, false);
+    expect_adapted<Rows<double, RowMajor>, Rows<float, RowMajor>>(true, false);
     expect_adapted<Eigen::MatrixXd, Eigen::MatrixXi>(false, false);
     expect_adapted<Eigen::MatrixXf, Eigen::Matrix<std::size_t, -1, -1, RowMajor>>(false, false);
     expect_adapted<Rows<long double, ColMajor>, Rows<double, RowMajor>>(false, false);
@@ -93,6 +94,15 @@ TEST(EigenAdapter, TransposesBlocksAndExpressionsAreAsGood) {
                                                        Eigen::MatrixXi::Constant(12, 3, 1));
     expect_equal(copied, mesh);
     EXPECT_EQ(copied.copied.positions.size(), 8u) << "rows with gaps must be copied";
+}
+
+TEST(EigenAdapter, ColumnsOfThreeAreNoRows) {
+    Eigen::Matrix3d v;
+    v << 0, 0, 0, 1, 0, 0, 0, 2, 0;
+    Eigen::Matrix3i f;
+    f << 0, 1, 2, 1, 0, 2, 2, 1, 0;
+    const TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}}, {{0, 1, 2}, {1, 0, 2}, {2, 1, 0}}};
+    expect_equal(agvd::from_matrices(v, f), mesh);
 }
 
 TEST(EigenAdapter, MatricesOfResultsAreTheirArrays) {
