@@ -1,6 +1,6 @@
 //! \file
-//! All of libagvd that users need, but for the oracle (agvd/metrics/oracle.h,
-//! agvd/metrics/compare.h).
+//! All of libagvd that users need, but for meshes in arrays of other programs (agvd/adapt) and the
+//! oracle (agvd/metrics/oracle.h, agvd/metrics/compare.h).
 #pragma once
 
 #include "agvd/core/error.h"
