@@ -1,4 +1,3 @@
-cmake_policy(VERSION 3.20)
 # cmake -D BUILD_DIR=... -D SOURCE_DIR=... -D WORK_DIR=... -D COMPONENTS=... [-D CXX=...] -P run.cmake
 # Installs the build to a fresh prefix, builds the examples of the documents against it, runs them.
 function(run)
@@ -38,10 +37,10 @@ if(NOT output MATCHES "v [^\n]+\nf [0-9]+ [0-9]+ [0-9]+\n")
     message(FATAL_ERROR "no mesh came out:\n${output}")
 endif()
 set(examples eigen spans)
-if("openmesh" IN_LIST COMPONENTS)
+if(COMPONENTS MATCHES openmesh)
     list(APPEND examples openmesh)
 endif()
-if("oracle" IN_LIST COMPONENTS)
+if(COMPONENTS MATCHES oracle)
     list(APPEND examples cgal)
 endif()
 foreach(name IN LISTS examples)
