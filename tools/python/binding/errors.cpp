@@ -31,6 +31,7 @@ PyObject* add_class(py::module_& module, const char* name, const char* text,
     return made;
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): the type that pybind11 asks for.
 void translate(std::exception_ptr thrown) {
     const auto raise = [](PyObject* type, const std::exception& error) {
         PyErr_SetString(type, error.what());
