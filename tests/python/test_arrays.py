@@ -57,6 +57,15 @@ def test_arrays_of_the_right_type_are_not_copied(sphere, int_type):
     assert not result.F.flags.owndata and result.F.flags.writeable
 
 
+def test_all_else_is_converted_to_aligned_arrays_in_c_order():
+    V, F = remesh.examples.sphere(1)
+    for positions in orders(V):
+        for faces in orders(F.astype(np.uint32)):
+            mesh = _kinds.take(positions, faces)
+            for array in (mesh.V, mesh.F):
+                assert array.flags.aligned and array.flags.c_contiguous
+
+
 def test_results_outlive_all_else(sphere):
     V = remesh.remesh(*sphere, 100).V
     V[0] = 7

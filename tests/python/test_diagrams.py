@@ -85,11 +85,29 @@ def test_vertices_of_a_soup_have_the_values_of_their_places(sphere):
     assert (diagram.labels == 0).all() and np.allclose(diagram.distances, expected[F.ravel()])
 
 
+@pytest.mark.parametrize("source", [1, 3])
+def test_a_vertex_between_two_fans_has_the_values_of_the_nearer_one(source):
+    V = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]]
+    F = [[0, 1, 2], [0, 3, 4]]
+    assert remesh.geodesic_distance(V, F, [source], 0)[0] == pytest.approx(1)
+    assert remesh.voronoi(V, F, [source], 0).labels[0] == 0
+
+
 @pytest.mark.parametrize("engine", ["window", "steiner", "vertex"])
 def test_engines_agree(sphere, engine):
     exact = remesh.geodesic_distance(*sphere, [0], 0)
     found = remesh.geodesic_distance(*sphere, [0], engine=engine)
     assert (found >= exact - 1e-12).all() and np.allclose(found, exact, rtol=0.03)
+
+
+def test_engines_refuse_what_they_cannot_do(sphere):
+    for call in (remesh.voronoi, remesh.geodesic_distance):
+        with pytest.raises(remesh.InvalidOption, match="the vertex engine has no error bound"):
+            call(*sphere, [0], 0.1, engine="vertex")
+        with pytest.raises(remesh.InvalidOption, match="the maximal error is 2"):
+            call(*sphere, [0], 2)
+        with pytest.raises(remesh.InvalidOption, match="threads is -1"):
+            call(*sphere, [0], threads=-1)
 
 
 WRONG_SITES = [

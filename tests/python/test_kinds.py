@@ -77,7 +77,7 @@ def test_values_of_objects_are_carried_over(torus):
     poly = poly_data(V, F)
     poly.point_data = {"z": V[:, 2], "name": np.where(V[:, 2] > 0, "up", "down"),
                        "Normals": V.astype(np.float32)}
-    poly.cell_data = {"side": (V[F, 0].mean(axis=1) > 0).astype(np.int16)}
+    poly.cell_data = {"Normals": np.zeros((len(F), 3)), "side": (V[F, 0].mean(axis=1) > 0).astype(np.int16)}
     result = remesh.remesh(poly, 800)
     carried = result.mesh
     assert set(carried.point_data) == {"z", "name", "Normals"} and set(carried.cell_data) == {"side"}
@@ -108,7 +108,7 @@ def test_arrays_are_carried_over_by_kind(torus):
     V, F = torus
     colours = np.rint(255 * (V - V.min(axis=0)) / np.ptp(V, axis=0)).astype(np.uint8)
     big = np.int64(2**60) + np.arange(len(F)) // (len(F) // 2)
-    values = {"xyz": V.astype(np.float32), "rgb": colours, "pairs": np.rint(4 * V).astype(int),
+    values = {"float": colours.astype(float), "xyz": V.astype(np.float32), "rgb": colours, "pairs": np.rint(4 * V).astype(int),
               "flag": V[:, 2] > 0, "big": big}
     result = remesh.remesh(V, F, 500, transfer=values)
     assert result.vertex_data["xyz"].dtype == np.float32
@@ -116,6 +116,7 @@ def test_arrays_are_carried_over_by_kind(torus):
     expected = 255 * (result.V - V.min(axis=0)) / np.ptp(V, axis=0)
     assert result.vertex_data["rgb"].dtype == np.uint8
     assert np.abs(result.vertex_data["rgb"] - expected).max() < 4
+    assert np.array_equal(result.vertex_data["rgb"], np.rint(result.vertex_data["float"]))
     rows = {tuple(row) for row in values["pairs"]}
     assert all(tuple(row) in rows for row in result.vertex_data["pairs"])
     assert result.vertex_data["flag"].dtype == bool

@@ -55,6 +55,7 @@ def test_sizing_gives_lengths_and_number(sphere):
                                                                                0.3)).V)
     front = result.F[(result.V[result.F, 0] > 0.5).all(axis=1)]
     back = result.F[(result.V[result.F, 0] < -0.5).all(axis=1)]
+    assert mean_edge(result.V, front) == pytest.approx(0.1, rel=0.1)
     assert mean_edge(result.V, back) > 1.8 * mean_edge(result.V, front)
     scaled = remesh.remesh(V, F, 400, sizing=wanted)
     assert len(scaled.V) == 400
@@ -107,6 +108,7 @@ def test_features_are_kept_as_asked_for():
 
 def test_the_same_bytes_for_any_number_of_threads(organic):
     results = [remesh.remesh(*organic, 800, threads=t) for t in (1, 2, 8)]
+    assert [result.report["options"]["threads"] for result in results] == [1, 2, 8]
     for other in results[1:]:
         assert other.V.tobytes() == results[0].V.tobytes()
         assert other.F.tobytes() == results[0].F.tobytes()
