@@ -19,10 +19,12 @@ import zipfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
+BUILD = ROOT / "build" / "pip"
 NAME = "remesh"
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
+    _configure()
     with tempfile.TemporaryDirectory() as folder:
         staging = Path(folder)
         _install(staging)
@@ -33,19 +35,39 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
 
 
 def prepare_metadata_for_build_wheel(metadata_directory, config_settings=None):
+    _configure()
     return _write_metadata(Path(metadata_directory)).name
 
 
 def build_sdist(sdist_directory, config_settings=None):
+    _configure()
     archive = Path(sdist_directory) / f"{_full_name()}.tar.gz"
     subprocess.run(["git", "archive", "--format=tar.gz", f"--prefix={_full_name()}/",
                     f"--output={archive.resolve()}", "HEAD"], cwd=ROOT, check=True)
     return archive.name
 
 
+def _configure():
+    generator = ["-G", "Ninja"] if shutil.which("ninja") else []
+    # The same as release, but for what the module does not need.
+    subprocess.run(["cmake", *generator, "-S", ROOT, "-B", BUILD, "-DCMAKE_BUILD_TYPE=Release",
+                    "-DAGVD_BUILD_PYTHON=ON", "-DAGVD_BUILD_TOOLS=OFF", "-DAGVD_BUILD_TESTS=OFF",
+                    "-DAGVD_INSTALL=OFF", f"-DPython_EXECUTABLE={sys.executable}",
+                    *shlex.split(os.environ.get("REMESH_CMAKE_ARGS", ""))], check=True)
+
+
+def _install(staging):
+    """Builds the libraries and the module, and puts the package into a folder."""
+    jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count() or 1))
+    subprocess.run(["cmake", "--build", BUILD, "--target", "remesh_python", "-j", jobs], check=True)
+    subprocess.run(["cmake", "--install", BUILD, "--component", "python", "--strip",
+                    "--prefix", staging], check=True)
+
+
 def _version():
-    text = (ROOT / "CMakeLists.txt").read_text()
-    return re.search(r"project\(remesh VERSION ([\d.]+)", text)[1]
+    """That of the project, from the configured build."""
+    cache = (BUILD / "CMakeCache.txt").read_text()
+    return re.search(r"^CMAKE_PROJECT_VERSION:STATIC=(.+)$", cache, re.MULTILINE)[1]
 
 
 def _full_name():
@@ -55,21 +77,6 @@ def _full_name():
 def _tag():
     python = f"cp{sys.version_info.major}{sys.version_info.minor}"
     return f"{python}-{python}-" + re.sub(r"[-.]", "_", sysconfig.get_platform())
-
-
-def _install(staging):
-    """Builds the libraries and the module, and puts the package into a folder."""
-    build = ROOT / "build" / "pip"
-    generator = ["-G", "Ninja"] if shutil.which("ninja") else []
-    # The same as release, but for what the module does not need.
-    subprocess.run(["cmake", *generator, "-S", ROOT, "-B", build, "-DCMAKE_BUILD_TYPE=Release",
-                    "-DAGVD_BUILD_PYTHON=ON", "-DAGVD_BUILD_TOOLS=OFF", "-DAGVD_BUILD_TESTS=OFF",
-                    "-DAGVD_INSTALL=OFF", f"-DPython_EXECUTABLE={sys.executable}",
-                    *shlex.split(os.environ.get("REMESH_CMAKE_ARGS", ""))], check=True)
-    jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count() or 1))
-    subprocess.run(["cmake", "--build", build, "--target", "remesh_python", "-j", jobs], check=True)
-    subprocess.run(["cmake", "--install", build, "--component", "python", "--strip",
-                    "--prefix", staging], check=True)
 
 
 def _write_metadata(folder):
