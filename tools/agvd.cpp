@@ -1,14 +1,11 @@
 // `agvd diagram` writes geodesic Voronoi diagrams to files, `agvd compare` measures their
-// difference. Diagrams are built on the intrinsic base, whose edges are short for the spacing of
-// the sites, and drawn on the cleaned input.
+// difference. Diagrams are drawn on the cleaned input.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "agvd/diagram/build_diagram.h"
-#include "agvd/diagram/diagram_on_input.h"
 #include "agvd/metrics/compare_diagrams.h"
-#include "agvd/propagation/propagate.h"
 #include "arguments.h"
+#include "based_diagram.h"
 #include "remesh/clean/carry_sites.h"
 #include "remesh/io/atomic_file.h"
 #include "remesh/io/read_diagram.h"
@@ -16,51 +13,15 @@
 #include "remesh/io/read_sites.h"
 #include "remesh/io/report.h"
 #include "remesh/io/write_diagram.h"
-#include "remesh/relax/prepared_surface.h"
 
 namespace fs = std::filesystem;
 
 namespace {
 
-// The base of a small input may have this many vertices.
-constexpr agvd::Index few_vertices = 10'000;
-
-// Longest edge of the base, a quarter of the sites' spacing: points on longer edges lie too far
-// apart for the Steiner engine, and long arcs in one face are drawn less accurately. It is longer
-// if the base would have many more vertices than the input, or than few_vertices.
-double longest_edge(const agvd::Surface& surface, std::size_t num_sites) {
-    const agvd::Index num_vertices = std::max(surface.num_vertices(), few_vertices);
-    return std::max(remesh::mean_spacing(surface, num_sites) / 4,
-                    2 * remesh::mean_spacing(surface, num_vertices));
-}
-
-// Limits the splits on thin surfaces, which otherwise grow with their length.
-agvd::Index most_splits(const agvd::Surface& surface) {
-    return 4 * std::max(surface.num_vertices(), few_vertices);
-}
-
-struct BuiltDiagram {
-    agvd::Diagram diagram;  // On the surface.
-    double certified_error = 0;
-};
-
-// \param options  for the propagation; all steps use its num_threads.
-BuiltDiagram build(const agvd::Surface& surface, const std::vector<agvd::SurfacePoint>& sites,
-                   agvd::PropagationOptions options, cli::Console& console) {
-    const agvd::IntrinsicTriangulation base(surface,
-                                            {.max_length = longest_edge(surface, sites.size()),
-                                             .most_splits = most_splits(surface),
-                                             .progress = console.progress_of("clean")});
-    const std::vector<agvd::SurfacePoint> on_base = base.to_intrinsic(sites);
-    options.progress = console.progress_of("propagate");
-    const agvd::Propagation propagation = agvd::propagate(base.surface(), on_base, options);
-    const agvd::Progress drawing = console.progress_of("diagram");
-    return {agvd::diagram_on_input(
-                base,
-                agvd::build_diagram(base.surface(), on_base, propagation,
-                                    {.num_threads = options.num_threads, .progress = drawing}),
-                drawing),
-            propagation.certified_error};
+cli::BasedDiagram build(const agvd::Surface& surface, const std::vector<agvd::SurfacePoint>& sites,
+                        const agvd::PropagationOptions& options, cli::Console& console) {
+    return cli::based_diagram(surface, sites, options,
+                              [&](const char* stage) { return console.progress_of(stage); });
 }
 
 constexpr const char* diagram_footer =

@@ -105,6 +105,7 @@ void Levels::run(Relaxation& relaxation, const agvd::DistanceBounds* labels,
         level.energy.push_back(relaxation.energy().energy);
         ++steps_done_;
         agvd::poll(options_.progress, fraction());
+        if (options_.goes_on && !options_.goes_on(level)) break;
         if (step % steps_per_sweep != 0 || step == options_.steps) continue;
         if (last - relaxation.objective() < options_.tolerance * last) break;
         sweep(relaxation, corners, chain);

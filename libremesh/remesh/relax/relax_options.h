@@ -2,6 +2,7 @@
 //! Options and results of relaxation.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "agvd/core/progress.h"
@@ -10,10 +11,21 @@
 
 namespace remesh {
 
+//! One level of relaxation.
+struct RelaxLevel {
+    agvd::Index num_sites = 0;
+    //! Before the first step and after each: the sum over the cells of the integral of the squared
+    //! distance from the site, on the triangulation of the sites; mesh units to the fourth.
+    std::vector<double> energy;
+};
+
 struct RelaxOptions {
     int steps = 60;  //!< >= 0; on each level.
     //! Stops when ten steps lower the energy by less than this share, >= 0.
     double tolerance = 1e-4;
+    //! The caller's own rule besides these two: asked after each step, on the caller's thread, with
+    //! the level so far. False ends the level; its sites stay where they are now. May be empty.
+    std::function<bool(const RelaxLevel&)> goes_on = {};
     std::vector<std::uint8_t> is_fixed = {};  //!< #sites: 1 for sites that stay; or empty.
     Boundary boundary = Boundary::Keep;       //!< Keep: inner sites whose cells meet it move to it.
     std::vector<agvd::Index> corners = {};    //!< Boundary vertices: with Keep, sites move there.
@@ -22,14 +34,6 @@ struct RelaxOptions {
     //! Target lengths: cells get areas in proportion to their squares. Outlives the call; null: all
     //! are equal, and cells are smaller where they are bent.
     const SizeField* sizes = nullptr;
-};
-
-//! One level of relaxation.
-struct RelaxLevel {
-    agvd::Index num_sites = 0;
-    //! Before the first step and after each: the sum over the cells of the integral of the squared
-    //! distance from the site, on the triangulation of the sites; mesh units to the fourth.
-    std::vector<double> energy;
 };
 
 struct RelaxResult {

@@ -1,9 +1,11 @@
 // The whole job keeps the topology, whatever the surface and the number of samples.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <set>
+#include <thread>
 
 #include "remesh/io/read_mesh.h"
 #include "remesh/pipeline/remesh.h"
@@ -146,6 +148,33 @@ TEST(Remesh, SameBytesForAnyThreadCount) {
             remesh::remesh(mesh.view(), {.num_samples = 300, .num_threads = threads});
         EXPECT_EQ(one.mesh.positions, other.mesh.positions);
         EXPECT_EQ(one.mesh.triangles, other.mesh.triangles);
+    }
+}
+
+TEST(Remesh, RunsInTwoThreadsAtOnceEqualRunsInTurn) {
+    struct Job {
+        TriangleMesh mesh;
+        Index num_samples;
+    };
+    const std::array jobs{Job{shapes::torus(40, 20), 300}, Job{shapes::sphere(4), 200}};
+    const auto run = [](const Job& job) {
+        return remesh::remesh(job.mesh.view(), {.num_samples = job.num_samples, .num_threads = 2});
+    };
+    constexpr std::size_t rounds = 3;
+    std::array<std::vector<remesh::RemeshResult>, jobs.size()> results;
+    const auto run_all = [&](std::size_t i) {
+        for (std::size_t round = 0; round < rounds; ++round) results[i].push_back(run(jobs[i]));
+    };
+    std::thread other(run_all, 1);
+    run_all(0);
+    other.join();
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        const remesh::RemeshResult expected = run(jobs[i]);
+        ASSERT_EQ(results[i].size(), rounds);
+        for (const remesh::RemeshResult& result : results[i]) {
+            EXPECT_EQ(result.mesh.positions, expected.mesh.positions);
+            EXPECT_EQ(result.mesh.triangles, expected.mesh.triangles);
+        }
     }
 }
 

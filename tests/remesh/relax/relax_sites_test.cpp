@@ -104,6 +104,25 @@ TEST(RelaxSites, TheEnergyFallsAndHardlyEverRises) {
     }
 }
 
+TEST(RelaxSites, TheCallersRuleEndsALevel) {
+    const Surface surface = agvd::build_surface(shapes::sphere(4).view());
+    const PreparedSurface prepared(surface, unrefined);
+    const auto start = sample_sites(surface, {.num_samples = 180, .init = Init::Random});
+    std::vector<std::vector<double>> told;
+    const auto goes_on = [&](const remesh::RelaxLevel& level) {
+        EXPECT_EQ(level.num_sites, 180u);
+        told.push_back(level.energy);
+        return told.size() < 4;
+    };
+    const RelaxResult ended = relax_sites(prepared, start, {.steps = 60, .goes_on = goes_on});
+    const RelaxResult four = relax_sites(prepared, start, {.steps = 4});
+    EXPECT_EQ(ended.sites, four.sites);
+    EXPECT_EQ(ended.levels.at(0).energy, four.levels.at(0).energy);
+    ASSERT_EQ(told.size(), 4u);
+    for (std::size_t i = 0; i < told.size(); ++i) EXPECT_EQ(told[i].size(), i + 2);
+    EXPECT_EQ(told.back(), ended.levels[0].energy);
+}
+
 TEST(RelaxSites, SitesStayOnTheirComponent) {
     const agvd::TriangleMesh mesh = shapes::join(shapes::sphere(3), shapes::torus(40, 20));
     const Surface surface = agvd::build_surface(mesh.view());

@@ -1,0 +1,141 @@
+"""Diagrams and distances against values that are known."""
+
+import numpy as np
+import pytest
+import remesh
+
+
+def flat_square(k):
+    """The unit square of k x k pairs of triangles."""
+    x, y = np.meshgrid(np.linspace(0, 1, k + 1), np.linspace(0, 1, k + 1), indexing="ij")
+    V = np.stack([x.ravel(), y.ravel(), 0 * x.ravel()], axis=1)
+    a = (np.arange(k)[:, None] * (k + 1) + np.arange(k)).ravel()
+    F = np.vstack([np.stack([a, a + k + 1, a + k + 2], axis=1),
+                   np.stack([a, a + k + 2, a + 1], axis=1)])
+    return V, F
+
+
+def test_distances_in_the_plane_are_straight():
+    V, F = flat_square(10)
+    points = np.array([[0.21, 0.33, 0], [0.84, 0.7, 0], [0.1, 0.95, 0]])
+    straight = np.linalg.norm(V[:, None] - points, axis=2)
+    assert np.allclose(remesh.geodesic_distance(V, F, points, 0), straight.min(axis=1), atol=1e-12)
+    diagram = remesh.voronoi(V, F, points, 0)
+    assert np.allclose(diagram.distances, straight.min(axis=1), atol=1e-12)
+    assert np.array_equal(diagram.labels, straight.argmin(axis=1))
+    assert np.allclose(diagram.site_positions, points)
+    assert diagram.cell_area.sum() == pytest.approx(1)
+    assert (diagram.cell_euler == 1).all()
+    assert len(diagram.bisectors) == len(diagram.bisector_sites) > 0
+    for line, (left, right) in zip(diagram.bisectors, diagram.bisector_sites):
+        assert np.allclose(np.linalg.norm(line - points[left], axis=1),
+                           np.linalg.norm(line - points[right], axis=1), atol=1e-9)
+        assert right in diagram.neighbours_of(left) and left in diagram.neighbours_of(right)
+    far = np.linalg.norm(diagram.points[:, None] - points, axis=2).min(axis=1)
+    assert np.allclose(diagram.point_distances, far, atol=1e-9)
+    assert (diagram.line_sites[:, 1] == -1).sum() > 0  # The square's boundary.
+
+
+def test_sites_may_be_vertices_points_or_places(sphere):
+    V, F = sphere
+    vertices = np.array([3, 77, 500])
+    expected = remesh.voronoi(V, F, vertices)
+    corner = [int(np.flatnonzero((F == v).any(axis=1))[0]) for v in vertices]
+    barycentric = (F[corner] == vertices[:, None]).astype(float)
+    for sites in (vertices.tolist(), V[vertices], V[vertices].astype(np.float32),
+                  (corner, barycentric), remesh.Sites(np.array(corner), barycentric)):
+        found = remesh.voronoi(V, F, sites)
+        assert np.allclose(found.distances, expected.distances, atol=1e-6)
+        assert (found.labels == expected.labels).mean() > 0.99
+
+
+def test_the_dual_is_a_closed_surface(sphere):
+    V, F = sphere
+    diagram = remesh.voronoi(V, F, remesh.sample_sites(V, F, 100))
+    edges = np.unique(np.sort(diagram.dual[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1),
+                      axis=0)
+    assert 100 - len(edges) + len(diagram.dual) == 2
+    assert diagram.certified_error <= 1e-4
+    assert remesh.voronoi(V, F, [0, 1], 0).certified_error == 0
+
+
+def test_closed_bisectors_end_where_they_begin(sphere):
+    diagram = remesh.voronoi(*sphere, [0, 1], 0)
+    (line,) = diagram.bisectors
+    assert np.array_equal(line[0], line[-1]) and len(line) > 10
+    assert np.shares_memory(line, diagram.points)
+
+
+def test_vertices_that_no_site_reaches(sphere):
+    V, F = sphere
+    both = np.vstack([V, V + 10, [[50, 50, 50]]])
+    diagram = remesh.voronoi(both, np.vstack([F, F + len(V)]), [0])
+    assert (diagram.labels[:len(V)] == 0).all() and (diagram.labels[len(V):] == -1).all()
+    assert np.isinf(diagram.distances[len(V):]).all()
+
+
+def test_vertices_of_a_soup_have_the_values_of_their_places(sphere):
+    V, F = sphere
+    soup = V[F].reshape(-1, 3)
+    faces = np.arange(len(soup)).reshape(-1, 3)
+    expected = remesh.geodesic_distance(V, F, [0], 0)
+    at = int(np.flatnonzero(F.ravel() == 0)[0])
+    assert np.allclose(remesh.geodesic_distance(soup, faces, [at], 0), expected[F.ravel()])
+    diagram = remesh.voronoi(soup, faces, [at], 0)
+    assert (diagram.labels == 0).all() and np.allclose(diagram.distances, expected[F.ravel()])
+
+
+@pytest.mark.parametrize("source", [1, 3])
+def test_a_vertex_between_two_fans_has_the_values_of_the_nearer_one(source):
+    V = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]]
+    F = [[0, 1, 2], [0, 3, 4]]
+    assert remesh.geodesic_distance(V, F, [source], 0)[0] == pytest.approx(1)
+    assert remesh.voronoi(V, F, [source], 0).labels[0] == 0
+
+
+@pytest.mark.parametrize("engine", ["window", "steiner", "vertex"])
+def test_engines_agree(sphere, engine):
+    exact = remesh.geodesic_distance(*sphere, [0], 0)
+    found = remesh.geodesic_distance(*sphere, [0], engine=engine)
+    assert (found >= exact - 1e-12).all() and np.allclose(found, exact, rtol=0.03)
+
+
+def test_engines_refuse_what_they_cannot_do(sphere):
+    for call in (remesh.voronoi, remesh.geodesic_distance):
+        with pytest.raises(remesh.InvalidOption, match="the vertex engine has no error bound"):
+            call(*sphere, [0], 0.1, engine="vertex")
+        with pytest.raises(remesh.InvalidOption, match="the maximal error is 2"):
+            call(*sphere, [0], 2)
+        with pytest.raises(remesh.InvalidOption, match="threads is -1"):
+            call(*sphere, [0], threads=-1)
+
+
+WRONG_SITES = [
+    ([], "there is no site"),
+    ([-1], "site 0 names vertex -1, but the mesh has only 1026 vertices, counted from 0"),
+    ([0, 1026], "site 1 names vertex 1026"),
+    ([[0, 1]], r"sites have the shape \(1, 2\)"),
+    ([0.5], r"sites have the shape \(1,\) and hold float64"),
+    ([[np.nan, 0, 0]], "site 0 has a coordinate that is not finite"),
+    (([2048], [[1, 0, 0]]), "site 0 names face 2048, but the mesh has only 2048 faces"),
+    (([0], [[1, 0]]), r"faces have the shape \(1,\) and their coordinates \(1, 2\)"),
+    (([0], [[1, 1, 0]]), "site 0"),
+    (([0], [[2, -1, 0]]), "site 0"),
+    (([], np.zeros((0, 3))), "there is no site"),
+    (None, "sites have the shape"),
+]
+
+
+@pytest.mark.parametrize("number", range(len(WRONG_SITES)))
+def test_wrong_sites_are_refused_with_a_reason(sphere, number):
+    sites, text = WRONG_SITES[number]
+    for call in (remesh.voronoi, remesh.geodesic_distance, remesh.relax_sites):
+        with pytest.raises(remesh.InvalidSites, match=text) as caught:
+            call(*sphere, sites)
+        assert isinstance(caught.value, remesh.InvalidInput)
+
+
+def test_sites_at_vertices_without_a_face_are_refused(sphere):
+    V, F = sphere
+    with pytest.raises(remesh.InvalidSites, match="vertex 1026 is in no face"):
+        remesh.voronoi(np.vstack([V, [[5, 5, 5]]]), F, [1026])

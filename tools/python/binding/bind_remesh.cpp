@@ -1,0 +1,159 @@
+// RemeshOptions as a class of properties, and remesh() on arrays.
+#include <pybind11/stl.h>
+
+#include "binding/arrays.h"
+#include "binding/bindings.h"
+#include "binding/option_names.h"
+#include "binding/python_progress.h"
+#include "remesh/io/report.h"
+#include "remesh/pipeline/remesh.h"
+#include "remesh/transfer/map_to_input.h"
+
+namespace python {
+namespace {
+
+using remesh::RemeshOptions;
+using remesh::Sizing;
+using OptionsClass = py::class_<RemeshOptions>;
+
+const char* vertex_count_name(remesh::VertexCount count) {
+    return count == remesh::VertexCount::Exact ? "exact" : "add";
+}
+
+// Adds a property that takes the name of a choice.
+template <typename Choice>
+void add_choice(OptionsClass& options, const char* name, Choice RemeshOptions::*field,
+                const std::vector<Choice>& choices, const char* (*name_of)(Choice)) {
+    options.def_property(
+        name, [=](const RemeshOptions& self) { return std::string(name_of(self.*field)); },
+        [=](RemeshOptions& self, const std::string& value) {
+            self.*field = choose(name, value, choices, name_of);
+        });
+}
+
+// Adds a property for a field of sizing.
+template <typename Value>
+void add_sizing(OptionsClass& options, const char* name, Value Sizing::*field) {
+    options.def_property(
+        name, [=](const RemeshOptions& self) { return self.sizing.*field; },
+        [=](RemeshOptions& self, Value value) { self.sizing.*field = std::move(value); });
+}
+
+void add_choices(OptionsClass& options) {
+    using remesh::Boundary;
+    using remesh::Delaunay;
+    using remesh::Features;
+    using remesh::Init;
+    using remesh::Junctions;
+    using remesh::VertexCount;
+    add_choice(options, "topology", &RemeshOptions::vertex_count,
+               {VertexCount::Exact, VertexCount::Add}, vertex_count_name);
+    add_choice(options, "boundary", &RemeshOptions::boundary, {Boundary::Keep, Boundary::Free},
+               boundary_name);
+    add_choice(options, "init", &RemeshOptions::init,
+               {Init::BlueNoise, Init::Farthest, Init::Random}, remesh::init_name);
+    add_choice(options, "features", &RemeshOptions::features,
+               {Features::Auto, Features::Angle, Features::Off}, remesh::features_name);
+    add_choice(options, "junctions", &RemeshOptions::junctions, {Junctions::Apart, Junctions::Keep},
+               remesh::junctions_name);
+    add_choice(options, "delaunay", &RemeshOptions::delaunay,
+               {Delaunay::Intrinsic, Delaunay::Extrinsic, Delaunay::Off}, remesh::delaunay_name);
+}
+
+void add_propagation(OptionsClass& options) {
+    options.def_property(
+        "engine",
+        [](const RemeshOptions& self) {
+            return std::string(agvd::engine_name(self.propagation.engine));
+        },
+        [](RemeshOptions& self, const std::string& name) {
+            self.propagation.engine = engine_of(name);
+        });
+    options.def_property(
+        "max_error", [](const RemeshOptions& self) { return self.propagation.max_error; },
+        [](RemeshOptions& self, std::optional<double> error) {
+            self.propagation.max_error = error;
+        });
+    options.def_property(
+        "steiner_points", [](const RemeshOptions& self) { return self.propagation.steiner_points; },
+        [](RemeshOptions& self, int count) { self.propagation.steiner_points = count; });
+}
+
+// \return positions, triangles, faces and coordinates of the vertices on the input, the samples of
+// faces on the input (#F x 16, or none), the report.
+py::tuple run_remesh(const Doubles& positions, const Indices& triangles, RemeshOptions options,
+                     bool with_faces, const py::object& function) {
+    const agvd::MeshView mesh = view_of(positions, triangles);
+    PythonProgress progress(function);
+    options.progress = [&](remesh::Stage stage, double fraction) {
+        return progress.goes_on(remesh::stage_name(stage), fraction);
+    };
+    remesh::InputMap map;
+    std::string report;
+    remesh::RemeshResult result = progress.run([&] {
+        remesh::RemeshResult made = remesh::remesh(mesh, options);
+        map = remesh::map_to_input(mesh, made.mesh.view(), made.sites,
+                                   {.with_faces = with_faces,
+                                    .num_threads = options.num_threads,
+                                    .progress = progress.of("transfer")});
+        report = remesh::to_json(made, {.version = REMESH_VERSION, .options = options});
+        return made;
+    });
+    const py::tuple places = to_arrays(map.vertices);
+    return py::make_tuple(to_array<double>(std::move(result.mesh.positions), 3),
+                          to_array<agvd::Index>(std::move(result.mesh.triangles), 3), places[0],
+                          places[1], to_array<agvd::Index>(std::move(map.faces), 16), report);
+}
+
+}  // namespace
+
+void bind_remesh(py::module_& module) {
+    OptionsClass options(module, "Options");
+    options.def(py::init<>());
+    options.def_readwrite("num_samples", &RemeshOptions::num_samples);
+    options.def_readwrite("drop_components", &RemeshOptions::drop_components);
+    options.def_readwrite("feature_angle", &RemeshOptions::feature_angle);
+    options.def_readwrite("feature_edges", &RemeshOptions::feature_edges);
+    options.def_readwrite("seed", &RemeshOptions::seed);
+    options.def_readwrite("relax_steps", &RemeshOptions::relax_steps);
+    options.def_readwrite("keep_sites", &RemeshOptions::keep_sites);
+    options.def_readwrite("fit", &RemeshOptions::fit);
+    options.def_readwrite("num_threads", &RemeshOptions::num_threads);
+    options.def(
+        "set_sites",
+        [](RemeshOptions& self, const Indices& faces, const Doubles& places) {
+            self.sites = points_of(faces, places);
+        },
+        py::arg("faces").noconvert(), py::arg("barycentric").noconvert());
+    options.def(
+        "set_face_labels",
+        [](RemeshOptions& self, const Indices& labels) { self.face_labels = vector_of(labels); },
+        py::arg("labels").noconvert());
+    options.def(
+        "set_target_lengths",
+        [](RemeshOptions& self, const Doubles& values) {
+            self.sizing.target_lengths = vector_of(values);
+        },
+        py::arg("values").noconvert());
+    options.def(
+        "set_densities",
+        [](RemeshOptions& self, const Doubles& values) {
+            self.sizing.densities = vector_of(values);
+        },
+        py::arg("values").noconvert());
+    add_choices(options);
+    add_propagation(options);
+    add_sizing(options, "is_adaptive", &Sizing::is_adaptive);
+    add_sizing(options, "max_distance", &Sizing::max_distance);
+    add_sizing(options, "min_edge", &Sizing::min_edge);
+    add_sizing(options, "max_edge", &Sizing::max_edge);
+    add_sizing(options, "gradation", &Sizing::gradation);
+    add_sizing(options, "edge_length", &Sizing::edge_length);
+    add_sizing(options, "num_faces", &Sizing::num_faces);
+    add_sizing(options, "gives_count", &Sizing::gives_count);
+    module.def("remesh", &run_remesh, py::arg("positions").noconvert(),
+               py::arg("triangles").noconvert(), py::arg("options"), py::arg("with_faces"),
+               py::arg("progress"));
+}
+
+}  // namespace python

@@ -1,0 +1,15 @@
+//! \file
+//! What the files bind_*.cpp add to the module.
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+namespace python {
+
+void bind_remesh(pybind11::module_& module);    //!< Options and remesh.
+void bind_diagram(pybind11::module_& module);   //!< Diagrams and distances.
+void bind_stages(pybind11::module_& module);    //!< Cleaning, sampling, relaxation.
+void bind_transfer(pybind11::module_& module);  //!< Values of the input for the result.
+void bind_evaluate(pybind11::module_& module);  //!< Measures.
+
+}  // namespace python

@@ -1,0 +1,37 @@
+//! \file
+//! The caller's mesh, cleaned, as a surface.
+#pragma once
+
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_point.h"
+#include "binding/python_progress.h"
+#include "remesh/clean/clean_input.h"
+
+namespace python {
+
+//! What all stages but remesh() work on. Points are carried between the caller's faces and those of
+//! the surface.
+class GivenSurface {
+public:
+    //! \param mesh  outlives this.
+    //! \throw as remesh::clean_input.
+    GivenSurface(const agvd::MeshView& mesh, int num_threads, PythonProgress& progress);
+
+    [[nodiscard]] const agvd::Surface& surface() const { return surface_; }
+    [[nodiscard]] std::vector<agvd::SurfacePoint> to_surface(
+        const std::vector<agvd::SurfacePoint>& points) const;
+    [[nodiscard]] std::vector<agvd::SurfacePoint> to_given(
+        const std::vector<agvd::SurfacePoint>& points) const;
+
+    //! For each of the caller's vertices the vertex of the surface at its place: of several the one
+    //! with the least value. no_index: it is in no face of the surface.
+    //! \param value  by vertex of the surface.
+    [[nodiscard]] std::vector<agvd::Index> vertices_of_least(std::span<const double> value) const;
+
+private:
+    agvd::MeshView mesh_;
+    remesh::CleanResult clean_;
+    agvd::Surface surface_;
+};
+
+}  // namespace python

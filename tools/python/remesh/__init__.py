@@ -1,0 +1,52 @@
+"""Clean triangle meshes out of dense or dirty ones, by geodesic Voronoi diagrams.
+
+    >>> import remesh
+    >>> V, F = remesh.examples.sphere(3)
+    >>> result = remesh.remesh(V, F, 500)
+    >>> result.V.shape, result.F.shape
+    ((500, 3), (996, 3))
+
+A mesh is two arrays: ``V`` (#V x 3, any floating-point or integer type) and ``F`` (#F x 3, any
+integer type, counted from 0), or one object with ``.points`` and ``.faces`` (PyVista) or with
+``.vertices`` and ``.faces`` (trimesh). Inputs are never changed, and must not be changed by other
+threads during a call. Every function releases the interpreter, may run in several threads at
+once, and gives the same bytes for any number of threads. Ctrl-C ends a call in the main thread.
+"""
+
+from . import examples
+from ._diagrams import Voronoi, geodesic_distance, voronoi
+from ._evaluation import evaluate
+from ._remesh import (
+    Cancelled,
+    ConstraintUnmet,
+    Error,
+    InvalidInput,
+    InvalidOption,
+    InvalidSites,
+)
+from ._remesh import version as __version__
+from ._remeshing import Result, remesh
+from ._stages import Cleaned, Relaxed, Sites, clean, relax_sites, sample_sites
+
+__all__ = [
+    "Cancelled",
+    "Cleaned",
+    "ConstraintUnmet",
+    "Error",
+    "InvalidInput",
+    "InvalidOption",
+    "InvalidSites",
+    "Relaxed",
+    "Result",
+    "Sites",
+    "Voronoi",
+    "__version__",
+    "clean",
+    "evaluate",
+    "examples",
+    "geodesic_distance",
+    "relax_sites",
+    "remesh",
+    "sample_sites",
+    "voronoi",
+]

@@ -1,0 +1,106 @@
+"""Geodesic Voronoi diagrams and distances."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _arrays, _kinds, _remesh
+from ._stages import Progress, take_sites
+
+
+@dataclass(frozen=True)
+class Voronoi:
+    """A geodesic Voronoi diagram of k sites. Lengths are in mesh units."""
+
+    #: #V, int64: the nearest site of each vertex of the input; -1: no site reaches it.
+    labels: NDArray[np.int64]
+    #: #V: its distance along the surface; infinity: no site reaches it.
+    distances: NDArray[np.float64]
+    #: k x 3
+    site_positions: NDArray[np.float64]
+    #: k: area of each cell; 0 for a site that owns nothing, such as one of two at one place.
+    cell_area: NDArray[np.float64]
+    #: k: Euler characteristic of each cell; 1: a disc.
+    cell_euler: NDArray[np.int32]
+    #: k + 1: site s has the neighbours ``neighbours[neighbour_offsets[s]:neighbour_offsets[s+1]]``.
+    neighbour_offsets: NDArray[np.int64]
+    neighbours: NDArray[np.int64]
+    #: Points of all polylines, one after the other.
+    points: NDArray[np.float64]
+    #: The distance of each of these from its sites.
+    point_distances: NDArray[np.float64]
+    #: #polylines + 1: polyline i is ``points[line_offsets[i]:line_offsets[i+1]]``. A closed one
+    #: ends with its first point.
+    line_offsets: NDArray[np.int64]
+    #: #polylines x 2: the sites on its left and right; -1 on the right: the surface's boundary.
+    line_sites: NDArray[np.int64]
+    #: Triangles of sites: one for each point where three cells meet.
+    dual: NDArray[np.uint32]
+    #: No distance is longer than the exact one by more than this share of it.
+    certified_error: float
+
+    @property
+    def bisectors(self) -> list[NDArray[np.float64]]:
+        """The polylines between two cells, each m x 3: views of ``points``."""
+        return [self.points[self.line_offsets[i]:self.line_offsets[i + 1]]
+                for i in np.flatnonzero(self.line_sites[:, 1] >= 0)]
+
+    @property
+    def bisector_sites(self) -> NDArray[np.int64]:
+        """#bisectors x 2: the sites on the left and on the right of each."""
+        return np.asarray(self.line_sites[self.line_sites[:, 1] >= 0])
+
+    def neighbours_of(self, site: int) -> NDArray[np.int64]:
+        """The sites whose cells have an edge in common with that of ``site``, ascending."""
+        return self.neighbours[self.neighbour_offsets[site]:self.neighbour_offsets[site + 1]]
+
+
+def _common(engine: str, max_error: float | None, threads: int) -> tuple[str, float | None, int]:
+    return (engine, None if max_error is None else _arrays.number(max_error, "max_error"),
+            _arrays.whole(threads, "threads", 0, 2**31 - 1))
+
+
+def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = None, *,
+            engine: str = "window", threads: int = 0,
+            progress: Progress | None = None) -> Voronoi:
+    """The geodesic Voronoi diagram of sites on a surface.
+
+    sites: vertices (k integers), points (k x 3 numbers: the nearest point of the surface counts),
+    or a pair of faces (k integers) and barycentric coordinates (k x 3), such as Sites.
+    max_error: distances are at most this share above exact; 0: exact; None: 0.0001.
+    engine: ``"window"``, ``"steiner"`` or ``"vertex"``: see the README.
+
+    >>> V, F = remesh.examples.sphere(3)
+    >>> diagram = remesh.voronoi(V, F, [0, 1], max_error=0)  # the two poles of the x axis
+    >>> bool((V[diagram.labels == 0, 0] >= 0).all())
+    True
+    >>> len(diagram.bisectors), diagram.neighbours_of(0)
+    (1, array([1]))
+    """
+    mesh = _kinds.take(V, F)
+    faces, barycentric = take_sites(mesh, sites)
+    return Voronoi(**_remesh.voronoi(mesh.V, mesh.F, faces, barycentric,
+                                     *_common(engine, max_error, threads), progress))
+
+
+def geodesic_distance(V: Any, F: Any = None, sources: Any = None, max_error: float | None = None, *,
+                      engine: str = "window", threads: int = 0,
+                      progress: Progress | None = None) -> NDArray[np.float64]:
+    """#V: the distance along the surface of each vertex from the nearest of the sources; infinity
+    where there is none on the same component.
+
+    sources: as ``sites`` of voronoi(). max_error: likewise.
+
+    >>> V, F = remesh.examples.sphere(4)
+    >>> d = remesh.geodesic_distance(V, F, [0], max_error=0)
+    >>> bool(abs(d[1] - np.pi) < 0.01)  # half around
+    True
+    """
+    mesh = _kinds.take(V, F)
+    faces, barycentric = take_sites(mesh, sources)
+    return _remesh.geodesic_distance(mesh.V, mesh.F, faces, barycentric,
+                                     *_common(engine, max_error, threads), progress)

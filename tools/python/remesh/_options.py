@@ -1,0 +1,124 @@
+"""Turns the keywords of remesh() into the options of the extension."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from . import _arrays, _kinds, _remesh, _stages
+from ._remesh import InvalidOption
+
+
+def count(mesh: _kinds.Mesh, value: Any, name: str) -> int:
+    """A number of vertices: 2000, or "10%" of the input's."""
+    if not isinstance(value, str):
+        return _arrays.whole(value, name, 1)
+    percent = _percent(value)
+    if percent is None or percent <= 0:
+        raise InvalidOption(f"{name} is {value!r}; use a whole number of 1 or more, or a percentage "
+                            "of the input's vertices (such as '10%')")
+    return max(1, round(len(mesh.V) * percent / 100))
+
+
+def length(mesh: _kinds.Mesh, value: Any, name: str) -> float:
+    """Mesh units: 0.5, or "2%" of the diagonal of the mesh."""
+    share = _percent(value) if isinstance(value, str) else None
+    try:
+        result = float(value) if share is None else (
+            share / 100 * _remesh.diagonal(mesh.V, mesh.F))
+    except (TypeError, ValueError):
+        result = np.nan
+    if not 0 < result < np.inf:
+        raise InvalidOption(f"{name} is {value!r}; use a number above 0, or a percentage of the "
+                            "diagonal of the mesh (such as '2%')")
+    return result
+
+
+def _percent(text: str) -> float | None:
+    try:
+        return float(text.rstrip()[:-1]) if text.rstrip().endswith("%") else None
+    except ValueError:
+        return None
+
+
+def only_one(**given: Any) -> None:
+    """Refuses several ways to say how many vertices there are."""
+    names = [name for name, value in given.items() if value is not None]
+    if len(names) > 1:
+        raise InvalidOption(f"{' and '.join(names)} each give the number of vertices; use one of "
+                            "them")
+
+
+def set_sizing(options: _remesh.Options, mesh: _kinds.Mesh, *, has_count: bool, adaptive: bool,
+               sizing: Any, density: Any, max_distance: Any, min_edge: Any, max_edge: Any,
+               gradation: Any) -> None:
+    """Says where edges are how long."""
+    differs = adaptive or any(v is not None for v in (sizing, density, max_distance))
+    if not differs and any(v is not None for v in (min_edge, max_edge, gradation)):
+        raise InvalidOption("min_edge, max_edge and gradation bound edges that differ; add "
+                            "adaptive, max_distance, sizing or density, or leave them out")
+    options.is_adaptive = bool(adaptive)
+    if sizing is not None:
+        options.set_target_lengths(_at_vertices(mesh, sizing, "sizing"))
+        options.gives_count = not has_count
+    if density is not None:
+        options.set_densities(_at_vertices(mesh, density, "density"))
+    if min_edge is not None:
+        options.min_edge = length(mesh, min_edge, "min_edge")
+    if max_edge is not None:
+        options.max_edge = length(mesh, max_edge, "max_edge")
+    if gradation is not None:
+        options.gradation = _arrays.number(gradation, "gradation")
+
+
+def _at_vertices(mesh: _kinds.Mesh, given: Any, name: str) -> _arrays.Floats:
+    """Numbers for the vertices: an array, a function of the positions, or a name of the mesh."""
+    if callable(given):
+        given = given(mesh.V.copy())
+    elif isinstance(given, str):
+        of_vertices = mesh.data()[0]
+        if given not in of_vertices:
+            raise InvalidOption(f"{name}: the mesh has no values {given!r} of vertices; it has: "
+                                f"{', '.join(of_vertices) or 'none'}")
+        given = of_vertices[given]
+    return _arrays.one_each(given, len(mesh.V), name, "vertices")
+
+
+def set_features(options: _remesh.Options, mesh: _kinds.Mesh, features: Any, feature_edges: Any,
+                 face_labels: Any) -> None:
+    """Says which creases are kept."""
+    if isinstance(features, str):
+        options.features = features if features != "angle" else "a name"
+    elif features is None or isinstance(features, bool):
+        raise InvalidOption(f"features is {features!r}; use 'auto', 'off' or an angle in degrees")
+    else:
+        options.features = "angle"
+        options.feature_angle = _arrays.number(features, "features")
+    if feature_edges is not None:
+        edges = _arrays.integers(feature_edges, "feature_edges")
+        if edges.size > 0 and (edges.ndim != 2 or edges.shape[1] != 2):
+            raise InvalidOption(f"feature_edges has the shape {edges.shape}; give a row of two "
+                                "vertices for each edge")
+        wrong = _arrays.first_outside(edges, len(mesh.V))
+        if wrong is not None:
+            raise InvalidOption(f"feature edge {wrong // 2} names vertex {edges.ravel()[wrong]}, "
+                                f"but the mesh has only {len(mesh.V)} vertices, counted from 0; "
+                                "correct or delete the edge")
+        options.feature_edges = edges.reshape(-1, 2).tolist()
+    if face_labels is not None:
+        labels = np.asarray(face_labels)
+        if labels.shape != (len(mesh.F),):
+            raise InvalidOption(f"face_labels has the shape {labels.shape}, but the mesh has "
+                                f"{len(mesh.F)} faces; give one for each")
+        numbers = np.unique(labels, return_inverse=True)[1]
+        options.set_face_labels(numbers.reshape(-1).astype(np.uint32))
+
+
+def set_sites(options: _remesh.Options, mesh: _kinds.Mesh, sites: Any, keep_sites: bool) -> None:
+    """Says where vertices start."""
+    if sites is not None:
+        options.set_sites(*_stages.take_sites(mesh, sites))
+    elif keep_sites:
+        raise InvalidOption("keep_sites needs sites")
+    options.keep_sites = bool(keep_sites)

@@ -1,0 +1,193 @@
+"""The whole pipeline: from a mesh to the dual of its geodesic Voronoi diagram."""
+
+from __future__ import annotations
+
+import json
+import operator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from . import _arrays, _kinds, _options, _remesh, _transfer
+from ._remesh import InvalidOption
+from ._stages import Progress
+
+
+@dataclass(frozen=True)
+class Result:
+    """The result of remesh()."""
+
+    #: #V x 3: float32 if the input's is, else float64.
+    V: NDArray[Any]
+    #: #F x 3: of the input's type if that has 32 bits or more, else int64.
+    F: NDArray[Any]
+    #: #V, int64: the face of the input on which each vertex lies: the nearest point of the sheet
+    #: to which it belongs.
+    source_face: NDArray[np.int64]
+    #: #V x 3: the coordinates in that face, 0 or more with the sum 1.
+    barycentric: NDArray[np.float64]
+    #: What was done and found: the keys of the program's ``--report``.
+    report: dict[str, Any]
+    #: Values of the input that were carried over, by name.
+    vertex_data: dict[str, NDArray[Any]]
+    face_data: dict[str, NDArray[Any]]
+    #: The result as what was given: an object of the same type with its data, or ``(V, F)``.
+    mesh: Any
+
+
+def remesh(
+    V: Any,
+    F: Any = None,
+    n: Any = None,
+    *,
+    edge_length: Any = None,
+    max_distance: Any = None,
+    faces: Any = None,
+    n_clusters: Any = None,
+    adaptive: bool = False,
+    sizing: Any = None,
+    density: Any = None,
+    min_edge: Any = None,
+    max_edge: Any = None,
+    gradation: Any = None,
+    features: Any = "auto",
+    feature_edges: Any = None,
+    face_labels: Any = None,
+    junctions: str = "apart",
+    boundary: str = "keep",
+    topology: str = "exact",
+    drop_components: float = 0,
+    transfer: Any = "all",
+    sites: Any = None,
+    keep_sites: bool = False,
+    init: str = "blue-noise",
+    relax: int = 60,
+    fit: bool | None = None,
+    engine: str = "window",
+    max_error: float | None = None,
+    steiner_points: int = 8,
+    delaunay: str = "intrinsic",
+    seed: int = 1,
+    threads: int = 0,
+    progress: Progress | None = None,
+) -> Result:
+    """Replaces a mesh by a clean one whose vertices are distributed as asked for.
+
+    The result is an oriented 2-manifold with the topology of the repaired input. The options are
+    those of the program ``remesh``, with its defaults.
+
+    How many vertices, at most one of these:
+
+    - ``n`` (or ``n_clusters``): so many, or a percentage of the input's (``"10%"``); 2000 if
+      nothing else is given. ``remesh(mesh, 2000)`` works where the mesh is one object.
+    - ``faces``: so many faces, up to a few where there is a boundary.
+    - ``edge_length``: the mean edge, in mesh units or percent of the diagonal (``"2%"``).
+    - ``max_distance``: no point of the result lies farther from the input, and none of the input
+      from the result; proved. Edges are adaptive. ConstraintUnmet if it cannot be met.
+    - ``sites``: these, as in voronoi(); with ``keep_sites`` they are not relaxed.
+
+    Where:
+
+    - ``adaptive``: shorter edges where the surface is curved.
+    - ``sizing``: the length of edges at each vertex (#V numbers, a function of V, or the name of
+      values of the mesh). It gives the number of vertices, too, if nothing else does; otherwise
+      lengths count only relative to each other.
+    - ``density``: likewise, vertices per area in any unit.
+    - ``min_edge``, ``max_edge``, ``gradation`` (1.3): bounds of edges that differ.
+
+    What is kept:
+
+    - ``features``: creases that become chains of edges: ``"auto"``, ``"off"``, or all above an
+      angle in degrees. ``feature_edges``: pairs of vertices that are creases as well.
+      ``face_labels``: borders between faces of different labels are creases as well.
+    - ``junctions``: ``"apart"`` or ``"keep"``; ``boundary``: ``"keep"`` or ``"free"``;
+      ``topology``: ``"exact"``, or ``"add"`` to add vertices that the topology needs.
+    - ``drop_components``: smaller components are dropped; a share of the area from 0 to 1.
+    - ``transfer``: values of the input for the result: ``"all"`` that the mesh object has,
+      ``"none"``, names of them, or arrays by name with a row for each vertex or each face. Floats
+      are interpolated, and so are colours (uint8, 3 or 4 columns); anything else is a label.
+      Vertex values called ``Normals`` are computed anew.
+
+    How: ``init`` (``"blue-noise"``, ``"farthest"``, ``"random"``), ``relax`` steps, ``fit``,
+    ``engine`` (``"window"``, ``"steiner"``, ``"vertex"``), ``max_error``, ``steiner_points``,
+    ``delaunay`` (``"intrinsic"``, ``"extrinsic"``, ``"off"``), ``seed``, ``threads`` (0: all
+    cores; the same bytes for any number).
+
+    progress: ``progress(fraction, stage)`` is called some twenty times a second, and ends the call
+    with Cancelled if it returns something false other than None. What it raises passes through.
+
+    Raises InvalidOption, InvalidInput, InvalidSites, ConstraintUnmet, Cancelled, and
+    KeyboardInterrupt after Ctrl-C in the main thread; all but the last are remesh.Error.
+
+    >>> V, F = remesh.examples.torus()
+    >>> result = remesh.remesh(V, F, 600, transfer={"height": V[:, 2]})
+    >>> result.V.shape, result.report["input_topology"]["genus"]
+    ((600, 3), 1)
+    >>> bool(abs(result.vertex_data["height"] - result.V[:, 2]).max() < 0.01)
+    True
+    >>> corners = V[F[result.source_face]]  # where the vertices lie on the input
+    >>> places = np.einsum("ij,ijk->ik", result.barycentric, corners)
+    >>> bool(abs(places - result.V).max() < 0.01)
+    True
+    """
+    if _kinds.is_mesh(V) and n is None and _is_count(F):
+        F, n = None, F
+    mesh = _kinds.take(V, F)
+    _options.only_one(n=n, n_clusters=n_clusters, faces=faces, edge_length=edge_length,
+                      max_distance=max_distance, sites=sites)
+    options = _remesh.Options()
+    for name, value in (("n", n), ("n_clusters", n_clusters)):
+        if value is not None:
+            options.num_samples = _options.count(mesh, value, name)
+    if faces is not None:
+        options.num_faces = _arrays.whole(faces, "faces", 1)
+    if edge_length is not None:
+        options.edge_length = _options.length(mesh, edge_length, "edge_length")
+    if max_distance is not None:
+        options.max_distance = _options.length(mesh, max_distance, "max_distance")
+    has_count = any(v is not None for v in (n, n_clusters, faces, edge_length, max_distance, sites))
+    _options.set_sizing(options, mesh, has_count=has_count, adaptive=adaptive, sizing=sizing,
+                        density=density, max_distance=max_distance, min_edge=min_edge,
+                        max_edge=max_edge, gradation=gradation)
+    _options.set_features(options, mesh, features, feature_edges, face_labels)
+    _options.set_sites(options, mesh, sites, keep_sites)
+    options.junctions = junctions
+    options.boundary = boundary
+    options.topology = topology
+    options.drop_components = _arrays.number(drop_components, "drop_components")
+    options.init = init
+    options.relax_steps = _arrays.whole(relax, "relax", 0, 1_000_000)
+    options.fit = None if fit is None else bool(fit)
+    options.engine = engine
+    options.max_error = None if max_error is None else _arrays.number(max_error, "max_error")
+    options.steiner_points = _arrays.whole(steiner_points, "steiner_points", 0, 1000)
+    options.delaunay = delaunay
+    options.seed = _arrays.whole(seed, "seed", 0, 2**64 - 1)
+    options.num_threads = _arrays.whole(threads, "threads", 0, 2**31 - 1)
+    wanted = _transfer.wanted(mesh, transfer)
+    return _run(mesh, options, wanted, progress)
+
+
+def _is_count(value: Any) -> bool:
+    if isinstance(value, str):
+        return True
+    try:
+        operator.index(value)
+    except TypeError:
+        return isinstance(value, float)
+    return True
+
+
+def _run(mesh: _kinds.Mesh, options: _remesh.Options, wanted: _transfer.Wanted,
+         progress: Progress | None) -> Result:
+    if progress is not None and not callable(progress):
+        raise InvalidOption(f"progress is {progress!r}; give a function of a fraction and a stage")
+    new_V, new_F, source_face, barycentric, samples, report = _remesh.remesh(
+        mesh.V, mesh.F, options, bool(wanted.of_faces), progress)
+    of_vertices, of_faces = _transfer.carry(wanted, mesh, new_V, new_F, source_face, barycentric,
+                                            samples)
+    like_V, like_F = mesh.like_given(new_V, new_F)
+    return Result(like_V, like_F, source_face, barycentric, json.loads(report), of_vertices,
+                  of_faces, mesh.build(like_V, like_F, of_vertices, of_faces))
