@@ -10,6 +10,7 @@
 #include "agvd/core/edge_key.h"
 #include "agvd/core/poller.h"
 #include "agvd/mesh/face_area.h"
+#include "agvd/mesh/scale.h"
 #include "remesh/pipeline/sample_count.h"
 #include "remesh/sizing/curvature.h"
 #include "remesh/sizing/target_lengths.h"
@@ -43,6 +44,44 @@ std::vector<double> carry_values(const ValueOf& value_of, std::span<const Index>
         values.push_back(value);
     }
     return values;
+}
+
+// The same limits, and where edges are locked also their mean length at each vertex.
+std::vector<double> limit_at_locked(const CleanedInput& cleaned, std::span<const double> limits,
+                                    int num_threads) {
+    std::vector<double> result(limits.begin(), limits.end());
+    const agvd::Surface& surface = cleaned.surface;
+    if (cleaned.locked.is_edge.empty()) return result;
+    if (result.empty()) {
+        const agvd::MeshBox box = agvd::box_of(surface.mesh.view(), num_threads);
+        result.assign(surface.num_vertices(), (box.high - box.low).norm());
+    }
+    std::vector<std::pair<Index, double>> at_vertex;
+    for (Index e = 0; e < surface.num_edges(); ++e) {
+        if (!cleaned.locked.has_edge(e)) continue;
+        const Index h = surface.edge_half[e];
+        at_vertex.emplace_back(surface.tail(h), surface.length[e]);
+        at_vertex.emplace_back(surface.head(h), surface.length[e]);
+    }
+    std::sort(at_vertex.begin(), at_vertex.end());
+    for (std::size_t first = 0, last = 0; first < at_vertex.size(); first = last) {
+        const Index v = at_vertex[first].first;
+        double sum = 0;
+        for (; last < at_vertex.size() && at_vertex[last].first == v; ++last) {
+            sum += at_vertex[last].second;
+        }
+        result[v] = std::min(result[v], sum / static_cast<double>(last - first));
+    }
+    return result;
+}
+
+// The number of vertices of a mesh that follows the lengths. Vertices of locked edges on the
+// boundary count half in the area, and what is locked needs a least number.
+Index count_for(const SizeField& field, const CleanedInput& cleaned, double spacing) {
+    const double inside = field.area() * 2 / std::numbers::sqrt3;
+    if (cleaned.locked.empty()) return to_count(inside);
+    return std::max(to_count(inside + num_locked_on_boundary(cleaned) / 2.0),
+                    least_samples(cleaned, spacing));
 }
 
 // The mean over the vertices of a mesh that follows these lengths.
@@ -105,8 +144,9 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
         values = carry_values(value_of, cut.original, *base);
     }
     std::vector<double> most;
-    if (!most_lengths.empty()) {
-        most = carry_values([&](Index v) { return most_lengths[v]; }, cut.original, *base);
+    const std::vector<double> limits = limit_at_locked(cleaned, most_lengths, options.num_threads);
+    if (!limits.empty()) {
+        most = carry_values([&](Index v) { return limits[v]; }, cut.original, *base);
     }
     std::vector<std::pair<Index, Index>> joined;
     for (Index v = cut.num_original; v < cut.original.size(); ++v) {
@@ -125,7 +165,7 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
     RunSizes sizes{nullptr, options.num_samples, targets.scale};
     sizes.field = std::make_unique<const SizeField>(base, std::move(targets.length));
     if (gives_count || is_edge_given) {
-        sizes.num_samples = to_count(sizes.field->area() * 2 / std::numbers::sqrt3);
+        sizes.num_samples = count_for(*sizes.field, cleaned, spacing);
     }
     return sizes;
 }
