@@ -7,6 +7,7 @@
 #include "agvd/core/edge_key.h"
 #include "agvd/core/error.h"
 #include "remesh/pipeline/glue_region.h"
+#include "remesh/pipeline/region_crossings.h"
 #include "remesh/pipeline/stage_context.h"
 #include "remesh/pipeline/whole_mesh.h"
 
@@ -136,6 +137,24 @@ std::vector<agvd::SurfacePoint> sites_of(const Region& region, const GluedRegion
     return sites;
 }
 
+// Replaces the numbers for the region alone: now faces that stay count as well.
+void count_crossings(const agvd::MeshView& mesh, const Region& region, const RemeshOptions& options,
+                     RemeshResult& result) {
+    const StageClock clock(Stage::Check, result);
+    const agvd::Progress progress = progress_of(Stage::Check, options);
+    const agvd::Progress last = agvd::within(progress, 1, 1);
+    std::vector<std::uint8_t> is_new(result.mesh.triangles.size(), 1);
+    std::fill_n(is_new.begin(), region.kept.size(), 0);
+    result.self_intersections =
+        count_crossings_at(result.mesh.view(), is_new, options.num_threads, last);
+    result.input_self_intersections = 0;
+    if (result.self_intersections.value_or(0) == 0) return;
+    std::vector<std::uint8_t> is_inside(mesh.triangles.size(), 0);
+    for (const Index f : region.faces) is_inside[f] = 1;
+    result.input_self_intersections =
+        *count_crossings_at(mesh, is_inside, options.num_threads, last);
+}
+
 }  // namespace
 
 RemeshResult remesh_region(const agvd::MeshView& mesh, const RemeshOptions& options,
@@ -158,6 +177,7 @@ RemeshResult remesh_region(const agvd::MeshView& mesh, const RemeshOptions& opti
     result.mesh = std::move(glued.mesh);
     result.kept = {std::move(glued.kept_vertices), region.kept,
                    static_cast<Index>(region.seam_edges.size())};
+    count_crossings(mesh, region, options, result);
     return result;
 }
 

@@ -72,7 +72,7 @@ struct KeptPart {
 struct RemeshResult {
     //! Oriented 2-manifold with the topology of the cleaned input; Junctions::Keep welds its sheets
     //! at junctions. With a region the other faces are as they were, and what follows is about the
-    //! region alone, but for `sites`, `kept` and the numbers of intersecting pairs.
+    //! region, but for `sites`; its intersections with other faces count.
     agvd::TriangleMesh mesh;
     KeptPart kept = {};                     //!< With a region.
     std::vector<agvd::SurfacePoint> sites;  //!< One per output vertex: where it lies on the input
