@@ -10,6 +10,7 @@
 #include "agvd/core/edge_key.h"
 #include "agvd/core/poller.h"
 #include "agvd/mesh/face_area.h"
+#include "agvd/mesh/point_faces.h"
 #include "agvd/mesh/scale.h"
 #include "remesh/pipeline/sample_count.h"
 #include "remesh/sizing/curvature.h"
@@ -46,16 +47,11 @@ std::vector<double> carry_values(const ValueOf& value_of, std::span<const Index>
     return values;
 }
 
-// The same limits, and where edges are locked also their mean length at each vertex.
-std::vector<double> limit_at_locked(const CleanedInput& cleaned, std::span<const double> limits,
-                                    int num_threads) {
-    std::vector<double> result(limits.begin(), limits.end());
+// #V: the mean length of the locked edges at each vertex; 0: there are none. Empty: nowhere.
+std::vector<double> locked_lengths(const CleanedInput& cleaned) {
     const agvd::Surface& surface = cleaned.surface;
-    if (cleaned.locked.is_edge.empty()) return result;
-    if (result.empty()) {
-        const agvd::MeshBox box = agvd::box_of(surface.mesh.view(), num_threads);
-        result.assign(surface.num_vertices(), (box.high - box.low).norm());
-    }
+    if (cleaned.locked.is_edge.empty()) return {};
+    std::vector<double> result(surface.num_vertices(), 0);
     std::vector<std::pair<Index, double>> at_vertex;
     for (Index e = 0; e < surface.num_edges(); ++e) {
         if (!cleaned.locked.has_edge(e)) continue;
@@ -70,7 +66,33 @@ std::vector<double> limit_at_locked(const CleanedInput& cleaned, std::span<const
         for (; last < at_vertex.size() && at_vertex[last].first == v; ++last) {
             sum += at_vertex[last].second;
         }
-        result[v] = std::min(result[v], sum / static_cast<double>(last - first));
+        result[v] = sum / static_cast<double>(last - first);
+    }
+    return result;
+}
+
+// The same limits, and the lengths of locked edges as well.
+std::vector<double> limit_at_locked(const agvd::Surface& surface, std::span<const double> limits,
+                                    std::span<const double> locked, int num_threads) {
+    std::vector<double> result(limits.begin(), limits.end());
+    if (locked.empty()) return result;
+    if (result.empty()) {
+        const agvd::MeshBox box = agvd::box_of(surface.mesh.view(), num_threads);
+        result.assign(surface.num_vertices(), (box.high - box.low).norm());
+    }
+    for (std::size_t v = 0; v < locked.size(); ++v) {
+        if (locked[v] > 0) result[v] = std::min(result[v], locked[v]);
+    }
+    return result;
+}
+
+// The lengths of locked edges on the base. Vertices that it added inside faces have none.
+std::vector<double> carry_locked(std::span<const double> locked, std::span<const Index> original,
+                                 const agvd::IntrinsicTriangulation& base) {
+    if (locked.empty()) return {};
+    std::vector<double> result = carry_values([&](Index v) { return locked[v]; }, original, base);
+    for (Index v = base.input().num_vertices(); v < result.size(); ++v) {
+        if (!agvd::is_on_boundary(base.input(), base.place_of_added(v))) result[v] = 0;
     }
     return result;
 }
@@ -144,7 +166,10 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
         values = carry_values(value_of, cut.original, *base);
     }
     std::vector<double> most;
-    const std::vector<double> limits = limit_at_locked(cleaned, most_lengths, options.num_threads);
+    const std::vector<double> locked = locked_lengths(cleaned);
+    const std::vector<double> least = carry_locked(locked, cut.original, *base);
+    const std::vector<double> limits =
+        limit_at_locked(cleaned.surface, most_lengths, locked, options.num_threads);
     if (!limits.empty()) {
         most = carry_values([&](Index v) { return limits[v]; }, cut.original, *base);
     }
@@ -156,11 +181,11 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
     const bool is_edge_given = sizing.edge_length > 0 && !options.sites;
     double area = gives_count ? 0 : num_sites * std::numbers::sqrt3 / 2;
     TargetLengths targets =
-        target_lengths(base->surface(), values, most, joined, sizing, area, ticker);
+        target_lengths(base->surface(), values, most, joined, sizing, area, ticker, least);
     for (int i = 0; i < edge_length_tries && is_edge_given; ++i) {
         const double ratio = mean_length(base->surface(), targets.length) / sizing.edge_length;
         area *= ratio * ratio;
-        targets = target_lengths(base->surface(), values, most, joined, sizing, area, ticker);
+        targets = target_lengths(base->surface(), values, most, joined, sizing, area, ticker, least);
     }
     RunSizes sizes{nullptr, options.num_samples, targets.scale};
     sizes.field = std::make_unique<const SizeField>(base, std::move(targets.length));
