@@ -148,9 +148,13 @@ private:
         std::stable_sort(sides.begin(), sides.end());
         for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
             while (last < sides.size() && sides[last].edge == sides[first].edge) ++last;
-            if (sides[first].is_inside == sides[last - 1].is_inside) continue;
             const auto low = static_cast<Index>(sides[first].edge >> 32);
             const auto high = static_cast<Index>(sides[first].edge);
+            if (sides[first].is_inside == sides[last - 1].is_inside) {
+                if (!sides[first].is_inside || last - first <= 2) continue;
+                region.branched_edges.push_back({number[inner[low]], number[inner[high]]});
+                continue;
+            }
             region.seam_edges.push_back({number[inner[low]], number[inner[high]]});
             // A crack: cleaning would weld it.
             if (last - first == 2) {

@@ -27,6 +27,8 @@ struct Region {
     std::vector<SeamVertex> seam;       //!< By position; ascending.
     //! Edges between remeshed and kept faces, as vertices of mesh.
     std::vector<std::array<agvd::Index, 2>> seam_edges;
+    //! Edges between vertices of the seam that have more than two faces, all of them remeshed.
+    std::vector<std::array<agvd::Index, 2>> branched_edges;
 };
 
 //! Vertices at equal positions count as one, so that the seam is found in meshes that are not

@@ -52,10 +52,11 @@ bool has_edge(const std::vector<EdgeOfFace>& edges, std::uint64_t edge) {
 // Flips edges of the region that gluing would give other faces than those beside them.
 class Parting {
 public:
-    // \param kept  edges of the kept faces. \param seam  ascending.
-    Parting(const std::vector<EdgeOfFace>& kept, const std::vector<std::uint64_t>& seam,
+    // \param kept   edges of the kept faces.
+    // \param alone  edges that are left as they are, ascending.
+    Parting(const std::vector<EdgeOfFace>& kept, const std::vector<std::uint64_t>& alone,
             std::span<const Index> vertex, std::vector<Triangle>& triangles)
-        : kept_(kept), seam_(seam), vertex_(vertex), triangles_(triangles) {}
+        : kept_(kept), alone_(alone), vertex_(vertex), triangles_(triangles) {}
 
     // \return whether no such edge is left.
     bool run() {
@@ -84,7 +85,7 @@ private:
     // Whether the sides of an edge of the glued mesh come from different edges.
     [[nodiscard]] bool is_repeated(std::size_t first, std::size_t last) const {
         const std::uint64_t edge = edges_[first].edge;
-        if (std::binary_search(seam_.begin(), seam_.end(), edge)) return false;
+        if (std::binary_search(alone_.begin(), alone_.end(), edge)) return false;
         if (has_edge(kept_, edge)) return true;
         const auto ends_of = [&](std::size_t i) {
             return agvd::edge_key(tail(edges_[i].half_edge), head(edges_[i].half_edge));
@@ -119,7 +120,7 @@ private:
     }
 
     const std::vector<EdgeOfFace>& kept_;
-    const std::vector<std::uint64_t>& seam_;
+    const std::vector<std::uint64_t>& alone_;
     std::span<const Index> vertex_;
     std::vector<Triangle>& triangles_;
     std::vector<EdgeOfFace> edges_;
@@ -127,15 +128,18 @@ private:
     std::vector<bool> is_changed_;      // By triangle: in this round.
 };
 
-// The seam in the glued mesh, ascending.
+// Edges of the glued mesh that may have more than two faces, ascending: the seam and what was so
+// before.
 // \param shared  vertex of the glued mesh by position.
-std::vector<std::uint64_t> seam_edges(const Region& region, const SharedVertices& shared) {
+std::vector<std::uint64_t> edges_left_alone(const Region& region, const SharedVertices& shared) {
     std::vector<std::uint64_t> edges;
-    for (const auto& [a, b] : region.seam_edges) {
-        const auto at_a = shared.find(region.mesh.positions[a]);
-        const auto at_b = shared.find(region.mesh.positions[b]);
-        if (at_a == shared.end() || at_b == shared.end()) continue;
-        edges.push_back(agvd::edge_key(at_a->second, at_b->second));
+    for (const auto* some : {&region.seam_edges, &region.branched_edges}) {
+        for (const auto& [a, b] : *some) {
+            const auto at_a = shared.find(region.mesh.positions[a]);
+            const auto at_b = shared.find(region.mesh.positions[b]);
+            if (at_a == shared.end() || at_b == shared.end()) continue;
+            edges.push_back(agvd::edge_key(at_a->second, at_b->second));
+        }
     }
     std::sort(edges.begin(), edges.end());
     return edges;
@@ -180,8 +184,8 @@ GluedRegion glue_region(const agvd::MeshView& mesh, const Region& region,
     std::iota(itself.begin(), itself.end(), Index{0});
     std::vector<Triangle> triangles = remeshed.triangles;
     const std::vector<EdgeOfFace> kept = sorted_edges(result.mesh.triangles, itself);
-    const std::vector<std::uint64_t> seam = seam_edges(region, shared);
-    result.is_joined = Parting(kept, seam, result.vertex, triangles).run();
+    const std::vector<std::uint64_t> alone = edges_left_alone(region, shared);
+    result.is_joined = Parting(kept, alone, result.vertex, triangles).run();
     for (const auto& [a, b, c] : triangles) {
         result.mesh.triangles.push_back({result.vertex[a], result.vertex[b], result.vertex[c]});
     }

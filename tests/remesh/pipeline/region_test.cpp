@@ -270,7 +270,7 @@ TEST(Region, PartsThatTouchAtAVertexStayJoinedThere) {
     ASSERT_EQ(std::count(mask.begin(), mask.end(), 1), 16);
     const RemeshResult result =
         expect_manifold_region(mesh, mask, {.sizing = {.edge_length = 0.05}});
-    EXPECT_GT(new_part(result).triangles.size(), 60u);
+    EXPECT_GT(new_part(result).triangles.size(), 16u);
 }
 
 TEST(Region, TooFewVerticesAreAnErrorThatNamesEnough) {
@@ -382,7 +382,7 @@ TEST(Region, MeshesThatAreNotWeldedHaveASeamToo) {
 
 TEST(Region, FacesWithoutAreaBesideTheSeamStay) {
     const TriangleMesh mesh = shapes::filled_slit(5);
-    Mask mask = mask_of(mesh, [](const Vec3& p) { return p.y() > 0.5; });
+    Mask mask = mask_of(mesh, [](const Vec3& p) { return p.y() > 0.1; });
     const auto num_upper = std::count(mask.begin(), mask.end(), 1);
     for (Index f = 0; f < mask.size(); ++f) {
         const auto& [a, b, c] = mesh.triangles[f];
@@ -404,7 +404,7 @@ TEST(Region, EdgesWithMoreThanTwoFacesKeepTheirFaces) {
         for (const std::uint64_t seed : {1u, 2u, 3u}) {
             SCOPED_TRACE(shape.name);
             const Mask mask = seed == 1 ? half_of(shape.mesh) : random_mask(shape.mesh, 0.5, seed);
-            expect_region(shape.mesh, mask, {.num_samples = 3000});
+            expect_region(shape.mesh, mask, {.sizing = {.edge_length = 0.3}});
             ++num_tried;
         }
     }
