@@ -194,7 +194,10 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
         const std::string who = options.sites
                                     ? "the given sites, of which " + asked + " have a cell,"
                                     : asked + " samples";
-        throw agvd::ConstraintUnmet(who + " are too few for the topology of the mesh; " +
+        const std::string what = cleaned.locked.empty()
+                                     ? "the topology of the mesh; "
+                                     : "the topology and the vertices that stay; ";
+        throw agvd::ConstraintUnmet(who + " are too few for " + what +
                                     describe_enough(cleaned, result, options, failure.reached));
     }
     result.input_topology = std::move(cleaned.topology);

@@ -93,15 +93,6 @@ void leave_out(const JunctionSet& junctions, std::vector<std::uint8_t>& is_creas
     }
 }
 
-// Creases and the inner edges of junctions.
-std::vector<std::uint8_t> edges_to_cut(const JunctionSet& junctions,
-                                       std::vector<std::uint8_t> is_crease) {
-    for (const std::vector<Index>& copies : junctions.edges) {
-        for (const Index e : copies) is_crease[e] = 1;
-    }
-    return is_crease;
-}
-
 bool is_free_crease(const Curve& curve) { return curve.is_crease() && !curve.is_locked; }
 
 // Marks locked edges inside the surface as creases.
