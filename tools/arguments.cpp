@@ -151,8 +151,8 @@ agvd::Index num_samples_for(const DiagramArguments& arguments, std::size_t num_v
     const double count = std::round(share * static_cast<double>(num_vertices));
     if (count >= 1 && count < agvd::no_index) return static_cast<agvd::Index>(count);
     throw agvd::InvalidOption("--samples is " + std::to_string(arguments.sample_percent) +
-                              " % of " + std::to_string(num_vertices) +
-                              " vertices, which is " + (count < 1 ? "none" : "too many") +
+                              " % of " + std::to_string(num_vertices) + " vertices, which is " +
+                              (count < 1 ? "none" : "too many") +
                               "; use another percentage or a number");
 }
 

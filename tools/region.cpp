@@ -31,9 +31,9 @@ std::vector<std::uint8_t> region_for(const RegionArguments& arguments,
     region.reserve(property.values.size());
     for (const double value : property.values) region.push_back(value != 0 ? 1 : 0);
     if (std::find(region.begin(), region.end(), 1) == region.end()) {
-        throw agvd::InvalidOption("--region: '" + arguments.region + "' is 0 for all faces of " +
-                                  path.string() +
-                                  "; give the faces to remesh another value, or leave out --region");
+        throw agvd::InvalidOption(
+            "--region: '" + arguments.region + "' is 0 for all faces of " + path.string() +
+            "; give the faces to remesh another value, or leave out --region");
     }
     return region;
 }

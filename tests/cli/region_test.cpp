@@ -103,16 +103,16 @@ TEST_F(RemeshRegion, PercentagesCountInTheRegion) {
 }
 
 TEST_F(RemeshRegion, WorksWithLengthsAndMaps) {
-    for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
-             {"--edge-length", "5%"},
-             {"--max-distance", "1%"},
-             {"--adaptive", "-n", "400"},
-             {"--faces", "500"},
-             {"--relax", "0", "-n", "400"},
-             {"--engine", "steiner", "-n", "400"},
-             {"--keep-labels=mark", "-n", "400"},
-             {"--transfer", "none", "-n", "400"},
-             {"--map", at("map.txt"), "-n", "400"}}) {
+    for (const std::vector<std::string>& options :
+         std::vector<std::vector<std::string>>{{"--edge-length", "5%"},
+                                               {"--max-distance", "1%"},
+                                               {"--adaptive", "-n", "400"},
+                                               {"--faces", "500"},
+                                               {"--relax", "0", "-n", "400"},
+                                               {"--engine", "steiner", "-n", "400"},
+                                               {"--keep-labels=mark", "-n", "400"},
+                                               {"--transfer", "none", "-n", "400"},
+                                               {"--map", at("map.txt"), "-n", "400"}}) {
         std::vector<std::string> arguments{"--region", "mark"};
         arguments.insert(arguments.end(), options.begin(), options.end());
         const auto outcome = remesh(arguments);

@@ -146,10 +146,9 @@ std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const 
         plan->network = std::move(network);
         plan->given = std::move(given);
     } else {
-        plan->network =
-            plan_network(cleaned.surface, std::move(is_crease), options.num_samples,
-                         std::move(junctions), kept.drop_share, options.num_threads, done, sizes,
-                         cleaned.locked);
+        plan->network = plan_network(cleaned.surface, std::move(is_crease), options.num_samples,
+                                     std::move(junctions), kept.drop_share, options.num_threads,
+                                     done, sizes, cleaned.locked);
     }
     count_plan(plan->network, result);
     if (plan->network.sites_for_locked > 0) {

@@ -125,9 +125,7 @@ private:
             if (inner[place_[v]] == no_index) inner[place_[v]] = v;
         }
         std::vector<Index> shared(mesh_.positions.size(), no_index);  // By place.
-        const auto share = [&](Index v) {
-            shared[place_[v]] = std::min(shared[place_[v]], v);
-        };
+        const auto share = [&](Index v) { shared[place_[v]] = std::min(shared[place_[v]], v); };
         std::vector<Side> sides;
         for (Index f = 0; f < is_inside_.size(); ++f) {
             ticker_.tick();
@@ -141,8 +139,7 @@ private:
                 if (place_[a] == place_[b] || !is_on_seam(place_[a]) || !is_on_seam(place_[b])) {
                     continue;
                 }
-                sides.push_back(
-                    {agvd::edge_key(place_[a], place_[b]), is_inside_[f] != 0, a, b});
+                sides.push_back({agvd::edge_key(place_[a], place_[b]), is_inside_[f] != 0, a, b});
             }
         }
         std::stable_sort(sides.begin(), sides.end());
@@ -172,9 +169,9 @@ private:
 
     const agvd::MeshView& mesh_;
     agvd::Ticker& ticker_;
-    const std::vector<Index> place_;         // #V
-    std::vector<std::uint8_t> is_inside_;    // #F
-    std::vector<bool> is_outer_place_;       // By place: a corner of a kept face.
+    const std::vector<Index> place_;       // #V
+    std::vector<std::uint8_t> is_inside_;  // #F
+    std::vector<bool> is_outer_place_;     // By place: a corner of a kept face.
 };
 
 }  // namespace

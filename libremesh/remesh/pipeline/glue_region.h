@@ -11,7 +11,7 @@ struct GluedRegion {
     //! The caller's vertices that come first in mesh, ascending.
     std::vector<agvd::Index> kept_vertices;
     std::vector<agvd::Index> vertex;  //!< #V of the remeshed region: its vertex in mesh.
-    bool is_joined = true;  //!< No edge has more faces than in the input.
+    bool is_joined = true;            //!< No edge has more faces than in the input.
 };
 
 //! An inner edge of the region between two vertices that a kept edge joins as well is flipped; if

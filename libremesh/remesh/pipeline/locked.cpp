@@ -44,10 +44,9 @@ bool contains(const std::vector<std::uint64_t>& edges, std::uint64_t edge) {
 
 void require_vertex(const agvd::MeshView& given, Index vertex) {
     if (vertex < given.positions.size()) return;
-    throw agvd::InvalidInput("vertex " + std::to_string(vertex) +
-                             " is to stay, but the mesh has only " +
-                             std::to_string(given.positions.size()) +
-                             " vertices, counted from 0; name one of these");
+    throw agvd::InvalidInput(
+        "vertex " + std::to_string(vertex) + " is to stay, but the mesh has only " +
+        std::to_string(given.positions.size()) + " vertices, counted from 0; name one of these");
 }
 
 }  // namespace

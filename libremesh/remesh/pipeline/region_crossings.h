@@ -17,8 +17,9 @@ namespace remesh::detail {
 //! \param is_marked  #F: other than 0 for marked faces, of which there is one.
 //! \return unset without CGAL.
 //! Cost: O(#F), and that of find_self_intersections for the faces near the marked ones.
-[[nodiscard]] std::optional<agvd::Index> count_crossings_at(
-    const agvd::MeshView& mesh, std::span<const std::uint8_t> is_marked, int num_threads,
-    const agvd::Progress& progress);
+[[nodiscard]] std::optional<agvd::Index> count_crossings_at(const agvd::MeshView& mesh,
+                                                            std::span<const std::uint8_t> is_marked,
+                                                            int num_threads,
+                                                            const agvd::Progress& progress);
 
 }  // namespace remesh::detail

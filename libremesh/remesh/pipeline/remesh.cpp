@@ -137,10 +137,9 @@ bool is_part(const agvd::MeshView& mesh, const RemeshOptions& options) {
     const std::vector<std::uint8_t>& region = options.region;
     if (region.empty()) return false;
     if (region.size() != mesh.triangles.size()) {
-        throw agvd::InvalidOption("region has " + std::to_string(region.size()) +
-                                  " values, but the mesh has " +
-                                  std::to_string(mesh.triangles.size()) +
-                                  " faces; give one for each, or none");
+        throw agvd::InvalidOption(
+            "region has " + std::to_string(region.size()) + " values, but the mesh has " +
+            std::to_string(mesh.triangles.size()) + " faces; give one for each, or none");
     }
     if (options.sites || options.drop_components > 0) {
         throw agvd::InvalidOption(

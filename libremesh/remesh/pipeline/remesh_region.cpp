@@ -94,7 +94,8 @@ private:
 Sizing sizing_of_region(const Sizing& given, const Region& region) {
     Sizing sizing = given;
     const auto num_vertices = region.vertices.size();
-    if (!given.target_lengths.empty()) sizing.target_lengths = take(given.target_lengths, region.vertices);
+    if (!given.target_lengths.empty())
+        sizing.target_lengths = take(given.target_lengths, region.vertices);
     if (!given.densities.empty()) sizing.densities = take(given.densities, region.vertices);
     if (!is_uniform(given) || given.max_distance > 0) return sizing;
     sizing.target_lengths.assign(num_vertices, given.edge_length > 0 ? given.edge_length : 1);
@@ -164,8 +165,7 @@ RemeshResult remesh_region(const agvd::MeshView& mesh, const RemeshOptions& opti
     agvd::Poller poller(start);
     agvd::Ticker ticker(poller);
     const Region region = cut_region(mesh, options.region, ticker);
-    RemeshResult result =
-        run(region.mesh.view(), options_of_region(mesh, options, region));
+    RemeshResult result = run(region.mesh.view(), options_of_region(mesh, options, region));
     GluedRegion glued = glue_region(mesh, region, result.mesh, ticker);
     if (!glued.is_joined) {
         throw agvd::ConstraintUnmet(

@@ -178,7 +178,8 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
     for (int i = 0; i < edge_length_tries && is_edge_given; ++i) {
         const double ratio = mean_length(base->surface(), targets.length) / sizing.edge_length;
         area *= ratio * ratio;
-        targets = target_lengths(base->surface(), values, most, joined, sizing, area, ticker, least);
+        targets =
+            target_lengths(base->surface(), values, most, joined, sizing, area, ticker, least);
     }
     RunSizes sizes{nullptr, options.num_samples};
     sizes.field = std::make_unique<const SizeField>(base, std::move(targets.length));

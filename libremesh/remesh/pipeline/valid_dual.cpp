@@ -379,7 +379,7 @@ private:
             dual_.site.push_back(s);
         }
         agvd::ThinnedMesh part = input_.chain.empty() ? agvd::thin(surface_, faces, points)
-                                                            : thin_patch(surface_, faces, points);
+                                                      : thin_patch(surface_, faces, points);
         if (input_.has_locked) free_rim(surface_, points, part);
         points.insert(points.end(), part.extra.begin(), part.extra.end());
         dual_.mesh.points.insert(dual_.mesh.points.end(), points.begin(), points.end());

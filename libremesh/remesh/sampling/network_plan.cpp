@@ -124,8 +124,7 @@ void drop_shortest(const Surface& surface, const CurveNetwork& network, double s
     }
 }
 
-Index fewest_locked_vertices(const Surface& surface, double spacing,
-                             const LockedElements& locked) {
+Index fewest_locked_vertices(const Surface& surface, double spacing, const LockedElements& locked) {
     std::vector<std::uint8_t> is_crease(surface.num_edges(), 0);
     mark_locked(surface, locked, is_crease);
     return fewest_vertices(find_network(surface, is_crease, spacing, {}, locked));

@@ -95,9 +95,9 @@ TEST(Locked, VerticesOfCreasesAndBoundariesStay) {
     EXPECT_NEAR(shapes::signed_volume(creases.mesh), 1, 1e-9);
     const TriangleMesh grid = shapes::grid(15);
     for (const remesh::Boundary boundary : {remesh::Boundary::Keep, remesh::Boundary::Free}) {
-        expect_locked(grid, {.num_samples = 300,
-                             .boundary = boundary,
-                             .locked = random_vertices(grid, 40, 3)});
+        expect_locked(
+            grid,
+            {.num_samples = 300, .boundary = boundary, .locked = random_vertices(grid, 40, 3)});
     }
     for (const remesh::Init init : {remesh::Init::Random, remesh::Init::Farthest}) {
         expect_locked(grid, {.num_samples = 300,
@@ -138,8 +138,7 @@ TEST(Locked, EdgesStay) {
         }
     }
     for (const auto& [a, b] : options.locked_edges) {
-        EXPECT_TRUE(
-            edges.contains(std::minmax(bits(mesh.positions[a]), bits(mesh.positions[b]))));
+        EXPECT_TRUE(edges.contains(std::minmax(bits(mesh.positions[a]), bits(mesh.positions[b]))));
     }
 }
 
@@ -197,8 +196,8 @@ TEST(Locked, WhatIsNotThereIsRefused) {
         }
         return std::string("accepted");
     };
-    EXPECT_NE(text_of({.num_samples = 50, .locked = {count}}).find(
-                  "vertex " + std::to_string(count) + " is to stay, but the mesh has only"),
+    EXPECT_NE(text_of({.num_samples = 50, .locked = {count}})
+                  .find("vertex " + std::to_string(count) + " is to stay, but the mesh has only"),
               std::string::npos);
     mesh.positions.emplace_back(5, 5, 5);
     EXPECT_NE(text_of({.num_samples = 50, .locked = {count}}).find("no face"), std::string::npos);

@@ -81,9 +81,8 @@ FacesAtEdge seam_of(const TriangleMesh& mesh, const std::function<bool(Index)>& 
             ++(is_inside(f) ? inside : outside);
         }
     }
-    std::erase_if(at, [](const auto& entry) {
-        return entry.second.first == 0 || entry.second.second == 0;
-    });
+    std::erase_if(
+        at, [](const auto& entry) { return entry.second.first == 0 || entry.second.second == 0; });
     return at;
 }
 
@@ -100,8 +99,7 @@ RemeshResult expect_region(const TriangleMesh& mesh, const Mask& mask, RemeshOpt
         for (const Index v : mesh.triangles[f]) kept_vertices.insert(v);
     }
     EXPECT_EQ(result.kept.faces, kept);
-    EXPECT_EQ(result.kept.vertices,
-              std::vector<Index>(kept_vertices.begin(), kept_vertices.end()));
+    EXPECT_EQ(result.kept.vertices, std::vector<Index>(kept_vertices.begin(), kept_vertices.end()));
     EXPECT_EQ(result.sites.size(), result.mesh.positions.size());
     bool is_same = true;
     for (Index i = 0; i < kept.size(); ++i) {
@@ -175,8 +173,7 @@ TEST(Region, HalfOfAShapeIsRemeshedAndTheSeamCloses) {
         const Mask mask = half_of(mesh);
         for (const Index count : {300u, 800u}) {
             SCOPED_TRACE(std::string(name) + ' ' + std::to_string(count));
-            const RemeshResult result =
-                expect_manifold_region(mesh, mask, {.num_samples = count});
+            const RemeshResult result = expect_manifold_region(mesh, mask, {.num_samples = count});
             EXPECT_EQ(num_vertices_of(new_part(result)), count);
             ++num_tried;
         }
@@ -216,8 +213,7 @@ TEST(Region, AWholeComponentComesOutAsAlone) {
     Mask mask(two.triangles.size(), 0);
     std::fill(mask.begin() + static_cast<std::ptrdiff_t>(one.triangles.size()), mask.end(), 1);
     const RemeshResult part = expect_manifold_region(two, mask, {.num_samples = 200});
-    const RemeshResult alone =
-        remesh::remesh(one.view(), {.num_samples = 200, .num_threads = 1});
+    const RemeshResult alone = remesh::remesh(one.view(), {.num_samples = 200, .num_threads = 1});
     EXPECT_EQ(part.kept.seam_edges, 0u);
     for (Index v = 0; v < 200; ++v) {
         const Index moved = v + static_cast<Index>(one.positions.size());
@@ -228,8 +224,8 @@ TEST(Region, AWholeComponentComesOutAsAlone) {
 TEST(Region, AllFacesAreNoRegion) {
     const TriangleMesh mesh = shapes::torus(24, 12);
     const RemeshResult whole = remesh::remesh(mesh.view(), {.num_samples = 300});
-    const RemeshResult all = remesh::remesh(
-        mesh.view(), {.num_samples = 300, .region = Mask(mesh.triangles.size(), 7)});
+    const RemeshResult all =
+        remesh::remesh(mesh.view(), {.num_samples = 300, .region = Mask(mesh.triangles.size(), 7)});
     EXPECT_EQ(all.mesh.positions, whole.mesh.positions);
     EXPECT_EQ(all.mesh.triangles, whole.mesh.triangles);
     EXPECT_TRUE(all.kept.faces.empty());
@@ -264,9 +260,8 @@ TEST(Region, PartsThatTouchAtAVertexStayJoinedThere) {
     const auto in_square = [](const Vec3& p, double low, double high) {
         return p.x() > low && p.x() < high && p.y() > low && p.y() < high;
     };
-    const Mask mask = mask_of(mesh, [&](const Vec3& p) {
-        return in_square(p, 0.25, 0.5) || in_square(p, 0.5, 0.75);
-    });
+    const Mask mask = mask_of(
+        mesh, [&](const Vec3& p) { return in_square(p, 0.25, 0.5) || in_square(p, 0.5, 0.75); });
     ASSERT_EQ(std::count(mask.begin(), mask.end(), 1), 16);
     const RemeshResult result =
         expect_manifold_region(mesh, mask, {.sizing = {.edge_length = 0.05}});
@@ -367,8 +362,7 @@ TEST(Region, WhatIsGivenForElementsIsCarriedOver) {
 
 TEST(Region, MeshesThatAreNotWeldedHaveASeamToo) {
     const TriangleMesh mesh = shapes::unweld(shapes::sphere(3));
-    const RemeshResult result =
-        expect_region(mesh, upper_half(mesh), {.num_samples = 300});
+    const RemeshResult result = expect_region(mesh, upper_half(mesh), {.num_samples = 300});
     EXPECT_GT(result.kept.seam_edges, 30u);
     EXPECT_EQ(num_vertices_of(new_part(result)), 300u);
     // Each vertex of the seam is one of those that stay.
@@ -392,7 +386,8 @@ TEST(Region, FacesWithoutAreaBesideTheSeamStay) {
     ASSERT_EQ(std::count(mask.begin(), mask.end(), 1), num_upper + 4);
     RemeshOptions options{.num_samples = 60, .region = mask};
     const RemeshResult result = remesh::remesh(mesh.view(), options);
-    EXPECT_EQ(result.kept.faces.size(), mesh.triangles.size() - static_cast<std::size_t>(num_upper));
+    EXPECT_EQ(result.kept.faces.size(),
+              mesh.triangles.size() - static_cast<std::size_t>(num_upper));
     const remesh::Topology topology = remesh::analyze_topology(result.mesh.view());
     EXPECT_TRUE(topology.is_manifold);
     EXPECT_TRUE(remesh::same_topology(topology, remesh::analyze_topology(mesh.view())));
@@ -449,8 +444,7 @@ TEST_P(RegionOfRealMesh, HalfIsRemeshed) {
         GTEST_SKIP() << path << " is absent; set AGVD_MESHES to the folder that has it";
     }
     const TriangleMesh mesh = remesh::read_mesh(path).mesh;
-    const RemeshResult result =
-        expect_manifold_region(mesh, half_of(mesh), {.num_samples = 3000});
+    const RemeshResult result = expect_manifold_region(mesh, half_of(mesh), {.num_samples = 3000});
     const TriangleMesh part = new_part(result);
     EXPECT_EQ(num_vertices_of(part), 3000u);
     EXPECT_GT(remesh::measure_triangles(part.view()).mean_quality, 0.8);
