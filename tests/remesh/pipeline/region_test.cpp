@@ -350,10 +350,9 @@ TEST(Region, WhatIsGivenForElementsIsCarriedOver) {
     int num_low = 0, num_high = 0;
     for (const Vec3& p : result.mesh.positions) ++(p.y() < 0.5 ? num_low : num_high);
     EXPECT_GT(num_low, 1.5 * num_high);
-    const auto on_line = [](double x) { return static_cast<Index>(x * 24 + 0.5); };
     // Edges of the other part are no mistake, other pairs are.
     options.face_labels.clear();
-    options.feature_edges = {{on_line(0) + 25, on_line(0) + 26}};
+    options.feature_edges = {{25, 26}};
     expect_manifold_region(mesh, mask, options);
     options.feature_edges = {{0, 100}};
     options.region = mask;
