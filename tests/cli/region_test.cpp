@@ -17,9 +17,15 @@ namespace {
 
 class RemeshRegion : public Scratch {
 protected:
-    // A sphere with a mark on the faces of its upper half; `none` is 0 everywhere. Values that do
-    // not survive an average, such as NaN, are there to see that they are kept.
+    // A sphere with a mark on the faces of its upper half; `none` is 0 everywhere. One of the other
+    // faces is there twice, with different values.
     RemeshRegion() {
+        const auto is_low = [&](const agvd::Triangle& t) {
+            return std::all_of(t.begin(), t.end(),
+                               [&](Index v) { return sphere_.positions[v].z() < -0.5; });
+        };
+        auto& faces = sphere_.triangles;
+        faces.push_back(agvd::Triangle(*std::find_if(faces.begin(), faces.end(), is_low)));
         remesh::MeshAttributes attributes;
         Attribute mark{"mark", NumberType::UInt8}, none{"none", NumberType::Float32};
         Attribute value{"value", NumberType::Float64}, heat{"heat", NumberType::Float64};
