@@ -8,6 +8,11 @@ function(agvd_flags target)
         -ffp-contract=off -fno-math-errno -fno-trapping-math -Wall -Wextra -Wshadow -Wconversion $<$<BOOL:${AGVD_WERROR}>:-Werror>)
     # Some hot loops have & and | in place of branches that could not be predicted.
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:Clang>:-Wno-bitwise-instead-of-logical>)
+    # In a shared library, too, calls of its own functions are direct and may be inlined.
+    if(BUILD_SHARED_LIBS)
+        set_target_properties(${target} PROPERTIES VISIBILITY_INLINES_HIDDEN ON)
+        target_compile_options(${target} PRIVATE -fno-semantic-interposition)
+    endif()
     if(AGVD_SANITIZE)
         # gcc sees uninitialised temporaries in instrumented code of the standard library.
         target_compile_options(${target} PRIVATE

@@ -19,11 +19,11 @@ namespace {
 
 // The folders in the order in which the data passes through them.
 constexpr const char* folders[] = {
-    "agvd/core",     "agvd/mesh",        "agvd/intrinsic",  "agvd/propagation", "agvd/diagram",
-    "agvd/update",   "agvd/metrics",     "remesh/topology", "remesh/clean",     "remesh/features",
-    "remesh/sizing", "remesh/sampling",  "remesh/simplify", "remesh/guarantee", "remesh/dual",
-    "remesh/relax",  "remesh/placement", "remesh/quality",  "remesh/transfer",  "remesh/pipeline",
-    "remesh/io",
+    "agvd/core",       "agvd/mesh",     "agvd/adapt",       "agvd/intrinsic",  "agvd/propagation",
+    "agvd/diagram",    "agvd/update",   "agvd/metrics",     "remesh/topology", "remesh/clean",
+    "remesh/features", "remesh/sizing", "remesh/sampling",  "remesh/simplify", "remesh/guarantee",
+    "remesh/dual",     "remesh/relax",  "remesh/placement", "remesh/quality",  "remesh/transfer",
+    "remesh/pipeline", "remesh/io",     "remesh/adapt",
 };
 
 struct Package {

@@ -130,7 +130,7 @@ CLI::Option* add_choice(CLI::App& app, const Choice& choice,
                         const std::function<void(const std::string& name)>& take) {
     return app.add_option_function<std::string>(choice.flag, take, choice.help)
         ->check(CLI::IsMember(choice.names).description(""))
-        ->type_name("NAME")
+        ->type_name(CLI::detail::join(choice.names, "|"))
         ->default_str(choice.default_name);
 }
 

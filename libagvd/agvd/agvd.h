@@ -1,9 +1,10 @@
 //! \file
-//! All of libagvd that users need, but for the oracle (agvd/metrics/oracle.h,
-//! agvd/metrics/compare.h).
+//! All of libagvd that users need, but for meshes in arrays of other programs (agvd/adapt) and the
+//! oracle (agvd/metrics/oracle.h, agvd/metrics/compare.h).
 #pragma once
 
 #include "agvd/core/error.h"
+#include "agvd/core/version.h"
 #include "agvd/diagram/build_diagram.h"
 #include "agvd/diagram/cells.h"
 #include "agvd/diagram/diagram_on_input.h"

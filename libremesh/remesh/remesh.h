@@ -1,6 +1,6 @@
 //! \file
-//! All of libremesh that users need, but for the exchange with OpenMesh
-//! (remesh/io/openmesh_exchange.h).
+//! All of libremesh that users need, but for meshes of OpenMesh (remesh/io/openmesh_exchange.h) and
+//! CGAL (remesh/adapt/face_graph.h).
 #pragma once
 
 #include "remesh/clean/clean_input.h"

@@ -1,9 +1,23 @@
-# cmake -D BUILD_DIR=... -D SOURCE_DIR=... -D WORK_DIR=... [-D CXX=...] -P run.cmake
-# Installs the build to a fresh prefix, builds the README's library example against it, runs it.
+# cmake -D BUILD_DIR=... -D SOURCE_DIR=... -D WORK_DIR=... -D COMPONENTS=... [-D CXX=...] -P run.cmake
+# Installs the build to a fresh prefix, builds the examples of the documents against it, runs them.
 function(run)
     execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY OUTPUT_VARIABLE output)
     set(output "${output}" PARENT_SCOPE)
 endfunction()
+
+# The documents show the sources as they are.
+function(check_document document source)
+    file(READ ${CMAKE_CURRENT_LIST_DIR}/${source} example)
+    file(READ ${SOURCE_DIR}/${document} text)
+    string(FIND "${text}" "```cpp\n${example}```" position)
+    if(position EQUAL -1)
+        message(FATAL_ERROR "${document} does not show tests/consumer/${source} as it is")
+    endif()
+endfunction()
+check_document(README.md main.cpp)
+foreach(name IN ITEMS eigen spans openmesh cgal)
+    check_document(docs/library.md ${name}.cpp)
+endforeach()
 
 file(REMOVE_RECURSE ${WORK_DIR})
 run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/prefix)
@@ -16,20 +30,24 @@ file(WRITE ${WORK_DIR}/headers.cpp "${includes}\n")
 
 run(${CMAKE_COMMAND} -G Ninja -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK_DIR}/build
     -D CMAKE_PREFIX_PATH=${WORK_DIR}/prefix -D CMAKE_CXX_COMPILER=${CXX}
-    -D EXTRA_SOURCES=${WORK_DIR}/headers.cpp)
+    -D CONSUMER_COMPONENTS=${COMPONENTS} -D EXTRA_SOURCES=${WORK_DIR}/headers.cpp)
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
 run(${WORK_DIR}/build/consumer)
 if(NOT output MATCHES "v [^\n]+\nf [0-9]+ [0-9]+ [0-9]+\n")
     message(FATAL_ERROR "no mesh came out:\n${output}")
 endif()
-
-file(READ ${CMAKE_CURRENT_LIST_DIR}/main.cpp example)
-file(READ ${SOURCE_DIR}/README.md readme)
-string(FIND "${readme}" "```cpp\n${example}```" position)
-if(position EQUAL -1)
-    message(FATAL_ERROR "README.md does not show tests/consumer/main.cpp as it is")
+set(examples eigen spans)
+if(COMPONENTS MATCHES openmesh)
+    list(APPEND examples openmesh)
 endif()
+if(COMPONENTS MATCHES oracle)
+    list(APPEND examples cgal)
+endif()
+foreach(name IN LISTS examples)
+    run(${WORK_DIR}/build/${name})
+endforeach()
 
-# The same project with the sources inside it; that it configures is enough.
+# The same project with the sources inside it; that it configures is enough. scripts/check-install
+# builds it.
 run(${CMAKE_COMMAND} -G Ninja -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK_DIR}/embedded
     -D CMAKE_CXX_COMPILER=${CXX} -D REMESH_SOURCE_DIR=${SOURCE_DIR})

@@ -21,6 +21,8 @@ struct TriangleMesh {
     std::vector<Triangle> triangles;
 
     [[nodiscard]] MeshView view() const { return {positions, triangles}; }
+    //! Every function of a MeshView takes a TriangleMesh. The view must not outlive the mesh.
+    operator MeshView() const { return view(); }
 };
 
 }  // namespace agvd

@@ -1,8 +1,9 @@
 //! \file
-//! Cuts polygons into triangles. Private to the readers.
+//! Cuts polygons into triangles.
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "agvd/core/poller.h"
 

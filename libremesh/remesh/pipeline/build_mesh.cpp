@@ -212,6 +212,8 @@ private:
             return std::move(candidate.dual);
         }
         const PlacedDual& placed = candidate.placed;
+        if (is_first)
+            best_.thin_places = domain_.prepared.base.to_input(candidate.dual.thin_places);
         best_.num_wanted = *target_ - placed_.num_other_copies(domain_);
         best_.mesh = whole_mesh(*domain_.whole, placed);
         best_.sites = placed.mesh.points;

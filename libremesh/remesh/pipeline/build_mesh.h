@@ -15,6 +15,8 @@ struct BuiltMesh {
     std::vector<agvd::Index> first_of_group;        //!< #V: see GluedMesh; empty without junctions.
     agvd::Index num_wanted = 0;                     //!< Vertices that were asked for.
     std::optional<agvd::Index> self_intersections;  //!< Pairs of faces; unset without CGAL.
+    //! On the surface of the domain: see ValidDual; of the first round.
+    std::vector<agvd::SurfacePoint> thin_places;
 };
 
 //! Builds the mesh of the sites. While it self-intersects more often than the input, builds it

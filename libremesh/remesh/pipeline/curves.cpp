@@ -91,9 +91,8 @@ std::pair<NetworkPlan, GivenSites> plan_with_given(const CleanedInput& cleaned,
 void count_plan(const NetworkPlan& plan, RemeshResult& result) {
     FeatureCounts& counts = result.features;
     const auto& curves = plan.network.curves;
-    counts.curves = static_cast<Index>(
-        curves.size() - std::count_if(curves.begin(), curves.end(),
-                                      [](const Curve& curve) { return curve.is_locked; }));
+    counts.curves = static_cast<Index>(std::count_if(
+        curves.begin(), curves.end(), [](const Curve& curve) { return !curve.is_locked; }));
     counts.nodes = static_cast<Index>(plan.network.nodes.size());
     counts.length = plan.length;
     counts.dropped_length = plan.dropped_length;

@@ -35,9 +35,11 @@ Verdict judge(const agvd::MeshView& cleaned, const agvd::MeshView& mesh, const T
 }
 
 // All stages after cleaning, in their order: cleaned surface, curves, domain, sites, mesh.
+// \return where cells wrapped around thin parts (ValidDual).
 // \throw TooFewSamples, NetworkFailed; `cleaned` is unchanged then.
-void run_attempt(CleanedInput& cleaned, const FoundCurves& found, const KeptCurves& kept,
-                 const SizeField* sizes, int most_mends, const StageContext& context) {
+std::vector<agvd::SurfacePoint> run_attempt(CleanedInput& cleaned, const FoundCurves& found,
+                                            const KeptCurves& kept, const SizeField* sizes,
+                                            int most_mends, const StageContext& context) {
     const double spacing = spacing_of(cleaned, context.options);
     std::unique_ptr<const CurvePlan> plan =
         plan_curves(cleaned, found, kept, spacing, sizes, context);
@@ -54,10 +56,12 @@ void run_attempt(CleanedInput& cleaned, const FoundCurves& found, const KeptCurv
             to_original(built.sites, cleaned.given, {cleaned_mesh, cleaned.face_origin});
         context.result.mesh = std::move(built.mesh);
         context.result.self_intersections = built.self_intersections;
-        // The surface is needed again if the edges are not as long as asked for.
+        // The surface is needed again if the edges are not as long as asked for, or as parts are
+        // thin.
         const Sizing& sizing = context.options.sizing;
-        if (sizing.edge_length > 0 || sizing.max_distance > 0)
+        if (sizing.edge_length > 0 || sizing.max_distance > 0 || !built.thin_places.empty())
             give_back(std::move(domain), cleaned, context);
+        return std::move(built.thin_places);
     } catch (const TooFewSamples&) {
         give_back(std::move(domain), cleaned, context);
         throw;
@@ -70,6 +74,39 @@ Index num_new_crossings(const RemeshResult& result) {
     return pairs - std::min(pairs, result.input_self_intersections);
 }
 
+// Whether lengths are ours to choose, for a number of samples that is given.
+bool may_shorten(const RemeshOptions& options) {
+    const Sizing& sizing = options.sizing;
+    return !options.sites && sizing.target_lengths.empty() && sizing.densities.empty() &&
+           sizing.edge_length == 0 && sizing.max_error == 0 && sizing.max_distance == 0;
+}
+
+// A rod that is thinner than the spacing gets shorter by some edges.
+bool has_lost_part(const Verdict& verdict) { return verdict.largest_distance > verdict.spacing; }
+
+// Runs an attempt again with shorter edges on thin parts, where cells wrapped around them, and
+// keeps the better result.
+void shorten_thin(CleanedInput& cleaned, const FoundCurves& found, const KeptCurves& kept,
+                  std::span<const agvd::SurfacePoint> thin_places, const RemeshOptions& options,
+                  RemeshResult again, RemeshResult& best) {
+    try {
+        const RunSizes sizes = find_sizes(cleaned, found, spacing_of(cleaned, options), {},
+                                          thin_places, {options, again});
+        run_attempt(cleaned, found, kept, sizes.field.get(), max_mends, {options, again});
+    } catch (const TooFewSamples&) {
+        return;
+    } catch (const NetworkFailed&) {
+        return;
+    }
+    best.seconds = again.seconds;
+    if (num_new_crossings(again) > num_new_crossings(best) ||
+        again.verdict.largest_distance >= best.verdict.largest_distance) {
+        return;
+    }
+    again.features.gave_up = best.features.gave_up;
+    best = std::move(again);
+}
+
 // Tries all creases, then fewer and fewer, at last none, until a mesh has no new
 // self-intersections. If none of these gives a mesh, tries the same without junctions.
 RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cleaning,
@@ -78,24 +115,28 @@ RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cl
     RemeshResult first = after_cleaning;
     RemeshOptions options = given;
     FoundCurves found = find_curves(cleaned, spacing_of(cleaned, options), {options, first});
-    RunSizes sizes =
-        find_sizes(cleaned, found, spacing_of(cleaned, options), most_lengths, {options, first});
+    RunSizes sizes = find_sizes(cleaned, found, spacing_of(cleaned, options), most_lengths, {},
+                                {options, first});
     if (sizes.num_samples != options.num_samples) {
         options.num_samples = sizes.num_samples;
         found = find_curves(cleaned, spacing_of(cleaned, options), {options, first});
-        sizes = find_sizes(cleaned, found, spacing_of(cleaned, options), most_lengths,
+        sizes = find_sizes(cleaned, found, spacing_of(cleaned, options), most_lengths, {},
                            {options, first});
         options.num_samples = sizes.num_samples;
     }
     const std::vector<double> drop_shares =
         found.is_crease.empty() ? std::vector{0.0} : std::vector{0.0, 0.3, 0.6, 1.0};
     std::optional<RemeshResult> best;
+    KeptCurves kept_of_best;
+    std::vector<agvd::SurfacePoint> thin_places;  // Of the best.
     for (const bool has_junctions : {true, false}) {
         for (const double drop_share : drop_shares) {
             RemeshResult result = first;
+            const KeptCurves kept{has_junctions, drop_share};
+            std::vector<agvd::SurfacePoint> thin;
             try {
-                run_attempt(cleaned, found, {has_junctions, drop_share}, sizes.field.get(),
-                            max_mends, {options, result});
+                thin = run_attempt(cleaned, found, kept, sizes.field.get(), max_mends,
+                                   {options, result});
                 result.features.gave_up = drop_share > 0;
             } catch (const NetworkFailed&) {
                 first.seconds = result.seconds;
@@ -105,6 +146,8 @@ RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cl
             const bool has_curves = result.features.curves > 0;
             if (!best || num_new_crossings(result) < num_new_crossings(*best)) {
                 best = std::move(result);
+                kept_of_best = kept;
+                thin_places = std::move(thin);
             }
             if (num_new_crossings(*best) == 0 || !has_curves) break;
         }
@@ -113,6 +156,9 @@ RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cl
     // Only what is locked can make all attempts fail.
     if (!best) throw TooFewSamples{options.num_samples, options.num_samples + 1};
     best->seconds = first.seconds;
+    if (!thin_places.empty() && may_shorten(options) && has_lost_part(best->verdict)) {
+        shorten_thin(cleaned, found, kept_of_best, thin_places, options, first, *best);
+    }
     return *std::move(best);
 }
 
@@ -144,7 +190,7 @@ std::string describe_enough(CleanedInput& cleaned, const RemeshResult& after_cle
             RemeshResult result = after_cleaning;
             RunSizes sizes;
             if (!cleaned.locked.empty()) {
-                sizes = find_sizes(cleaned, {}, spacing_of(cleaned, more), {}, {more, result});
+                sizes = find_sizes(cleaned, {}, spacing_of(cleaned, more), {}, {}, {more, result});
             }
             run_attempt(cleaned, {}, {}, sizes.field.get(), 0, {more, result});
             return "use " + std::to_string(reached) + " samples, which were tried and work";

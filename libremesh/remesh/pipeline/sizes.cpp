@@ -12,6 +12,7 @@
 #include "agvd/mesh/point_faces.h"
 #include "agvd/mesh/scale.h"
 #include "remesh/pipeline/sample_count.h"
+#include "remesh/pipeline/thin_lengths.h"
 #include "remesh/sizing/curvature.h"
 #include "remesh/sizing/target_lengths.h"
 
@@ -121,10 +122,11 @@ double mean_length(const agvd::Surface& surface, std::span<const double> length)
 }  // namespace
 
 RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, double spacing,
-                    std::span<const double> most_lengths, const StageContext& context) {
+                    std::span<const double> most_lengths, std::span<const SurfacePoint> thin_places,
+                    const StageContext& context) {
     const auto& [options, result] = context;
     const Sizing& sizing = options.sizing;
-    if (is_uniform(sizing)) return {nullptr, options.num_samples};
+    if (is_uniform(sizing) && thin_places.empty()) return {nullptr, options.num_samples};
     const StageClock clock(Stage::Clean, result);
     const agvd::Progress all = progress_of(Stage::Clean, options);
     const agvd::Progress progress = agvd::within(all, 1, 1);
@@ -141,7 +143,7 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
         std::move(cut.surface),
         agvd::IntrinsicOptions{
             .max_length = longest_edge * spacing,
-            .min_length = sizing.is_adaptive ? shortest_edge * spacing : 0,
+            .min_length = sizing.is_adaptive || !thin_places.empty() ? shortest_edge * spacing : 0,
             .most_splits = static_cast<Index>(std::min(
                 most_splits_per_site * (num_sites + 1) + cleaned.surface.num_vertices(), 1e9)),
             .num_threads = options.num_threads,
@@ -150,6 +152,8 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
     if (sizing.is_adaptive) {
         values = patch_curvature(
             *base, static_cast<Index>(std::clamp(cells_per_site * num_sites, 1.0, 1e9)), ticker);
+    } else if (is_uniform(sizing)) {
+        values.assign(base->surface().num_vertices(), 1);
     } else {
         const std::vector<double>& given =
             sizing.target_lengths.empty() ? sizing.densities : sizing.target_lengths;
@@ -157,6 +161,10 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
             return given[cleaned.vertex_origin.empty() ? v : cleaned.vertex_origin[v]];
         };
         values = carry_values(value_of, cut.original, *base);
+    }
+    std::vector<std::pair<Index, Index>> joined;
+    for (Index v = cut.num_original; v < cut.original.size(); ++v) {
+        joined.emplace_back(cut.original[v], v);
     }
     std::vector<double> most;
     const std::vector<double> locked = locked_lengths(cleaned);
@@ -166,9 +174,8 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
     if (!limits.empty()) {
         most = carry_values([&](Index v) { return limits[v]; }, cut.original, *base);
     }
-    std::vector<std::pair<Index, Index>> joined;
-    for (Index v = cut.num_original; v < cut.original.size(); ++v) {
-        joined.emplace_back(cut.original[v], v);
+    if (!thin_places.empty()) {
+        most = thin_lengths(*base, thin_places, joined, spacing, num_sites, ticker);
     }
     const bool gives_count = !options.sites && (sizing.gives_count || sizing.max_error > 0);
     const bool is_edge_given = sizing.edge_length > 0 && !options.sites;

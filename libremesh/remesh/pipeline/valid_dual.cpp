@@ -55,6 +55,7 @@ public:
           result_(result),
           given_(sites),
           most_sites_(max_growth * sites.size() + always_allowed),
+          first_round_(result.repair_rounds),
           progress_(input.components.size()),
           has_failed_(is_thinned) {
         has_failed_.resize(input.components.size(), false);
@@ -90,6 +91,7 @@ private:
             std::vector<ClosedBallViolation> violations = find_violations();
             move_empty_sites(fixes);
             leave_failed_components(fixes, violations);
+            if (result_.repair_rounds == first_round_) find_thin_places(violations);
             count_faults(fixes, violations);
             leave_failed_components(fixes, violations);
             if (violations.empty() && fixes.moved.empty() && fixes.added.empty()) {
@@ -98,6 +100,14 @@ private:
             }
             ++result_.repair_rounds;
             apply(fixes, violations);
+        }
+    }
+
+    void find_thin_places(const std::vector<ClosedBallViolation>& violations) {
+        dual_.thin_places.clear();
+        for (const ClosedBallViolation& v : violations) {
+            if (v.is_at_boundary || !v.site.is_valid()) continue;
+            dual_.thin_places.push_back(sites_[v.site.value()]);
         }
     }
 
@@ -396,6 +406,7 @@ private:
     RemeshResult& result_;
     const std::vector<SurfacePoint> given_;  // The sites before repair.
     const std::size_t most_sites_;
+    const int first_round_;            // Of result_.repair_rounds.
     std::vector<SiteReason> reasons_;  // Of the added sites.
     std::vector<Progress> progress_;   // By component.
     std::vector<bool>& has_failed_;    // By component.

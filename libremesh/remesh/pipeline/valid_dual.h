@@ -37,6 +37,8 @@ struct ValidDual {
     SurfaceMesh mesh;               //!< Points of the intrinsic triangulation.
     std::vector<agvd::Index> site;  //!< Per vertex: its site; no_index: it has none.
     agvd::Diagram diagram;          //!< Of `sites`.
+    //! Where cells of the first round wrapped around a thin part.
+    std::vector<agvd::SurfacePoint> thin_places;
 };
 
 //! Propagates, checks cells on the boundary (Boundary::Keep) and the closed-ball property, and adds

@@ -1,0 +1,7 @@
+#include "agvd/core/version.h"
+
+namespace agvd {
+
+const char* library_version() { return version; }
+
+}  // namespace agvd

@@ -1,0 +1,16 @@
+//! \file
+//! The version of these libraries. CMake reads it from here.
+#pragma once
+
+namespace agvd {
+
+inline constexpr int version_major = 0;
+inline constexpr int version_minor = 1;
+inline constexpr int version_patch = 0;
+inline constexpr const char* version = "0.1.0";  //!< Of the headers.
+
+//! The version of the library that is linked or loaded. It should be that of the headers; a
+//! program that finds another one was compiled for another library.
+[[nodiscard]] const char* library_version();
+
+}  // namespace agvd

@@ -1,0 +1,148 @@
+// Rods thinner than the spacing get edges that are short enough to go around them.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "remesh/pipeline/remesh.h"
+#include "remesh/pipeline/thin_lengths.h"
+#include "support/parts.h"
+#include "support/shapes.h"
+
+using agvd::Index;
+using agvd::TriangleMesh;
+using agvd::Vec3;
+using remesh::RemeshResult;
+
+namespace {
+
+// A unit ball with a rod of length 2 on top.
+TriangleMesh ball_with_rod(double radius) {
+    constexpr Index sides = 24, rings_of_ball = 60, rings_of_rod = 120;
+    std::vector<std::pair<double, double>> profile;  // Distance from the axis, height.
+    const double end = std::numbers::pi - std::asin(radius);
+    for (Index i = 1; i <= rings_of_ball; ++i) {
+        const double angle = end * i / rings_of_ball;
+        profile.emplace_back(std::sin(angle), -std::cos(angle));
+    }
+    for (Index i = 1; i <= rings_of_rod; ++i) {
+        profile.emplace_back(radius, -std::cos(end) + 2.0 * i / rings_of_rod);
+    }
+    TriangleMesh mesh;
+    mesh.positions.emplace_back(0, 0, -1);
+    for (const auto& [r, z] : profile) {
+        for (Index k = 0; k < sides; ++k) {
+            const double angle = 2 * std::numbers::pi * k / sides;
+            mesh.positions.emplace_back(r * std::cos(angle), r * std::sin(angle), z);
+        }
+    }
+    const auto top = static_cast<Index>(mesh.positions.size());
+    mesh.positions.emplace_back(0, 0, profile.back().second + radius);
+    for (Index k = 0; k < sides; ++k) {
+        const Index next = (k + 1) % sides, last = top - sides;
+        mesh.triangles.push_back({0, 1 + next, 1 + k});
+        mesh.triangles.push_back({last + k, last + next, top});
+        for (Index ring = 1; ring < last; ring += sides) {
+            const Index above = ring + sides;
+            mesh.triangles.push_back({ring + k, ring + next, above + next});
+            mesh.triangles.push_back({ring + k, above + next, above + k});
+        }
+    }
+    return mesh;
+}
+
+double distance_in_diagonals(const RemeshResult& result) {
+    return result.verdict.largest_distance / result.verdict.diagonal;
+}
+
+}  // namespace
+
+TEST(ThinParts, ARodKeepsItsLength) {
+    for (const double radius : {0.03, 0.015}) {
+        for (const bool is_adaptive : {false, true}) {
+            const RemeshResult result =
+                remesh::remesh(ball_with_rod(radius).view(),
+                               {.num_samples = 1000, .sizing = {.is_adaptive = is_adaptive}});
+            EXPECT_EQ(result.mesh.positions.size(), 1000u);
+            EXPECT_EQ(result.components_thinned, 0u);
+            // With equal edges: 8 to 12 %.
+            EXPECT_LT(distance_in_diagonals(result), 0.01) << radius << ' ' << is_adaptive;
+            EXPECT_GT(result.verdict.min_angle, 15 * std::numbers::pi / 180);
+            EXPECT_LT(result.sizing.least_target, 0.6 * result.sizing.largest_target);
+        }
+    }
+}
+
+TEST(ThinParts, OthersHaveEqualEdges) {
+    const RemeshResult result = remesh::remesh(ball_with_rod(0.2).view(), {.num_samples = 1000});
+    EXPECT_EQ(result.sizing.least_target, 0);
+}
+
+TEST(ThinParts, LengthsThatTheCallerGivesStay) {
+    const TriangleMesh mesh = ball_with_rod(0.03);
+    const RemeshResult result = remesh::remesh(
+        mesh.view(), {.num_samples = 1000,
+                      .sizing = {.target_lengths = std::vector(mesh.positions.size(), 1.0)}});
+    EXPECT_NEAR(result.sizing.least_target, result.sizing.largest_target,
+                1e-9 * result.sizing.largest_target);
+}
+
+TEST(ThinParts, FiveVerticesLieAroundACylinder) {
+    constexpr double spacing = 0.8;
+    // Radius 1; scaled to a radius, and as long as ten spacings.
+    for (const double radius : {0.15, 0.04}) {
+        TriangleMesh mesh = shapes::tube(60, 30);
+        double low = std::numeric_limits<double>::infinity(), high = -low, around = 0;
+        for (const Vec3& p : mesh.positions) {
+            low = std::min(low, p.z());
+            high = std::max(high, p.z());
+            around = std::max(around, std::hypot(p.x(), p.y()));
+        }
+        for (Vec3& p : mesh.positions) {
+            p = {p.x() * radius / around, p.y() * radius / around,
+                 (p.z() - low) / (high - low) * 10 * spacing};
+        }
+        const agvd::Surface surface = agvd::build_surface(mesh.view());
+        const agvd::IntrinsicTriangulation base(surface, {.max_length = radius / 3});
+        Index lowest = 0;
+        for (Index f = 0; f < surface.num_faces(); ++f) {
+            if (mesh.positions[mesh.triangles[f][0]].z() <
+                mesh.positions[mesh.triangles[lowest][0]].z()) {
+                lowest = f;
+            }
+        }
+        const agvd::SurfacePoint place{agvd::FaceId(lowest), {1, 0, 0}};
+        agvd::Ticker ticker;
+        const std::vector<double> length =
+            remesh::detail::thin_lengths(base, {&place, 1}, {}, spacing, 4000, ticker);
+        Index near = 0, far = 0;
+        for (Index v = 0; v < length.size(); ++v) {
+            const double z = base.surface().mesh.positions[v].z();
+            // Not at the end, where patches are cut off.
+            if (z > 0.5 * spacing && z < 2 * spacing) {
+                ++near;
+                const double wanted = std::max(2 * std::numbers::pi / 5 * radius, spacing / 8);
+                EXPECT_GE(length[v], 0.75 * wanted);
+                EXPECT_LE(length[v], 1.8 * wanted);
+            } else if (z > 4 * spacing) {
+                ++far;
+                EXPECT_EQ(length[v], std::numeric_limits<double>::infinity());
+            }
+        }
+        EXPECT_GT(near, 50u);
+        EXPECT_GT(far, 50u);
+        // At most a quarter of the sites.
+        const std::vector<double> of_few =
+            remesh::detail::thin_lengths(base, {&place, 1}, {}, spacing, 40, ticker);
+        double thin = 0;
+        for (Index f = 0; f < base.surface().num_faces(); ++f) {
+            const Index h = 3 * f;
+            const double area = base.surface().length_of(h) * base.surface().apex_of(h).y() / 2;
+            for (const Index v : base.surface().mesh.triangles[f]) {
+                thin += area / 3 / (of_few[v] * of_few[v]);
+            }
+        }
+        EXPECT_LE(thin * 2 / std::numbers::sqrt3, 10.001);
+    }
+}
