@@ -1,9 +1,8 @@
 #include "remesh/pipeline/region_crossings.h"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
-
-#include <Eigen/Geometry>
 
 #include "agvd/core/poller.h"
 #include "remesh/quality/self_intersections.h"
@@ -12,14 +11,24 @@ namespace remesh::detail {
 namespace {
 
 using agvd::Index;
-using Box = Eigen::AlignedBox3d;
+using agvd::Vec3;
 
-Box box_of_face(const agvd::MeshView& mesh, const agvd::Triangle& t) {
-    Box box(mesh.positions[t[0]]);
-    box.extend(mesh.positions[t[1]]);
-    box.extend(mesh.positions[t[2]]);
-    return box;
-}
+// Axis-aligned; empty at first.
+struct Box {
+    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
+    Vec3 high = -low;
+
+    void extend(const agvd::MeshView& mesh, const agvd::Triangle& t) {
+        for (const Index v : t) {
+            low = low.cwiseMin(mesh.positions[v]);
+            high = high.cwiseMax(mesh.positions[v]);
+        }
+    }
+    [[nodiscard]] bool meets(const Box& other) const {
+        return (low.array() <= other.high.array()).all() &&
+               (other.low.array() <= high.array()).all();
+    }
+};
 
 }  // namespace
 
@@ -31,13 +40,15 @@ std::optional<Index> count_crossings_at(const agvd::MeshView& mesh,
     Box marked;
     for (Index f = 0; f < mesh.triangles.size(); ++f) {
         ticker.tick();
-        if (is_marked[f] != 0) marked.extend(box_of_face(mesh, mesh.triangles[f]));
+        if (is_marked[f] != 0) marked.extend(mesh, mesh.triangles[f]);
     }
     std::vector<Index> faces;
     std::vector<agvd::Triangle> near;
     for (Index f = 0; f < mesh.triangles.size(); ++f) {
         ticker.tick();
-        if (!marked.intersects(box_of_face(mesh, mesh.triangles[f]))) continue;
+        Box box;
+        box.extend(mesh, mesh.triangles[f]);
+        if (!marked.meets(box)) continue;
         faces.push_back(f);
         near.push_back(mesh.triangles[f]);
     }
