@@ -60,7 +60,7 @@ void check_outputs(const DiagramArguments& arguments) {
 std::vector<agvd::SurfacePoint> sample(const DiagramArguments& arguments,
                                        const agvd::Surface& surface, cli::Console& console) {
     remesh::SamplingOptions sampling = arguments.sampling;
-    sampling.num_samples = cli::num_samples_for(arguments, surface.mesh.view());
+    sampling.num_samples = cli::num_samples_for(arguments, surface.num_vertices());
     sampling.num_threads = arguments.common.threads;
     sampling.progress = console.progress_of("sample");
     return cli::naming_file(arguments.input,

@@ -145,14 +145,14 @@ std::optional<Amount> parse_amount(std::string_view text) {
     return amount;
 }
 
-agvd::Index num_samples_for(const DiagramArguments& arguments, const agvd::MeshView& mesh) {
+agvd::Index num_samples_for(const DiagramArguments& arguments, std::size_t num_vertices) {
     if (arguments.sample_percent == 0) return arguments.sampling.num_samples;
     const double share = arguments.sample_percent / 100;
-    const double count = std::round(share * static_cast<double>(mesh.positions.size()));
+    const double count = std::round(share * static_cast<double>(num_vertices));
     if (count >= 1 && count < agvd::no_index) return static_cast<agvd::Index>(count);
     throw agvd::InvalidOption("--samples is " + std::to_string(arguments.sample_percent) +
-                              " % of " + std::to_string(mesh.positions.size()) +
-                              " vertices, which is " + (count < 1 ? "none" : "too many") +
+                              " % of " + std::to_string(num_vertices) + " vertices, which is " +
+                              (count < 1 ? "none" : "too many") +
                               "; use another percentage or a number");
 }
 

@@ -37,9 +37,10 @@ struct DiagramArguments {
 //! Every engine by its name on the command line.
 [[nodiscard]] std::map<std::string, agvd::Engine> engines_by_name();
 
-//! The number of sites for a mesh. \throw agvd::InvalidOption  a percentage gives none.
+//! The number of sites for a mesh, or a part of one.
+//! \param num_vertices  of which a percentage is taken. \throw agvd::InvalidOption  it gives none.
 [[nodiscard]] agvd::Index num_samples_for(const DiagramArguments& arguments,
-                                          const agvd::MeshView& mesh);
+                                          std::size_t num_vertices);
 
 //! A number, or a percentage: 12, 1e4, .5, 20%.
 struct Amount {

@@ -172,7 +172,9 @@ remesh::MeshAttributes carry_attributes(const AttributeArguments& arguments,
     if (!arguments.map.empty()) {
         files.push_back({arguments.map, remesh::format_map(input, map.vertices)});
     }
-    return remesh::transfer_attributes(input, map);
+    remesh::MeshAttributes carried = remesh::transfer_attributes(input, map);
+    remesh::keep_attributes(input.attributes, result.kept.vertices, result.kept.faces, carried);
+    return carried;
 }
 
 }  // namespace cli

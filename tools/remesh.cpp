@@ -9,10 +9,12 @@
 
 #include "arguments.h"
 #include "attributes.h"
+#include "region.h"
 #include "remesh/io/atomic_file.h"
 #include "remesh/io/read_edges.h"
 #include "remesh/io/read_mesh.h"
 #include "remesh/io/read_sites.h"
+#include "remesh/io/read_vertices.h"
 #include "remesh/io/report.h"
 #include "remesh/io/write_mesh.h"
 #include "remesh/pipeline/remesh.h"
@@ -45,6 +47,7 @@ struct Arguments : cli::DiagramArguments {
     remesh::Junctions junctions = remesh::RemeshOptions{}.junctions;
     cli::SizingArguments sizing;
     cli::AttributeArguments attributes;
+    cli::RegionArguments region;
 };
 
 std::map<std::string, remesh::Delaunay> delaunay_by_name() {
@@ -150,6 +153,7 @@ void add_options(CLI::App& app, Arguments& arguments) {
         ->check(CLI::Range(0.0, 100.0).description(""))
         ->type_name("PERCENT")
         ->capture_default_str();
+    cli::add_region_options(app, arguments.region);
     app.add_flag(
         "--strict", arguments.strict,
         "Fail (exit code 5) if the result has more pairs of intersecting faces than the input, or "
@@ -239,8 +243,10 @@ void check_outputs(const Arguments& arguments) {
         if (output.path.empty() || (&output.path == &arguments.report && output.path == "-")) {
             continue;
         }
-        cli::check_output(output.path, {arguments.input, arguments.sites, arguments.feature_edges},
-                          arguments.force);
+        cli::check_output(
+            output.path,
+            {arguments.input, arguments.sites, arguments.feature_edges, arguments.region.lock},
+            arguments.force);
         for (const Output& other : checked) {
             if (!cli::is_same_file(output.path, other.path)) continue;
             throw agvd::InvalidOption(std::string(output.name) + " and " + other.name +
@@ -259,14 +265,16 @@ std::size_t least_memory(std::size_t num_faces, std::size_t num_samples) {
 
 void run_job(const Arguments& arguments, cli::Console& console) {
     check_outputs(arguments);
-    const bool wants_attributes =
-        cli::wants_attributes(arguments.attributes) || cli::wants_attributes(arguments.sizing);
+    const bool wants_attributes = cli::wants_attributes(arguments.attributes) ||
+                                  cli::wants_attributes(arguments.sizing) ||
+                                  !arguments.region.region.empty();
     remesh::MeshFile input = cli::read_input(
         arguments, console, wants_attributes ? cli::WithAttributes::Yes : cli::WithAttributes::No);
     // Of the file, before those that are not carried over are removed.
     std::vector<agvd::Index> labels =
         cli::labels_to_keep(arguments.attributes, arguments.input, input.attributes);
     remesh::Sizing sizing = cli::sizing_for(arguments.sizing, arguments.input, input);
+    std::vector<std::uint8_t> region = cli::region_for(arguments.region, arguments.input, input);
     const remesh::AttributeReport attributes = cli::select_attributes(
         arguments.attributes, arguments.input, arguments.output, input.attributes, console);
     const bool needs_input = cli::needs_map(arguments.attributes, input.attributes);
@@ -280,7 +288,8 @@ void run_job(const Arguments& arguments, cli::Console& console) {
         if (std::exchange(last, now) != now) ::malloc_trim(0);
         return goes_on;
     };
-    remesh::RemeshOptions options{.num_samples = cli::num_samples_for(arguments, input.mesh.view()),
+    const std::size_t num_vertices = cli::num_vertices_in(region, input.mesh.view());
+    remesh::RemeshOptions options{.num_samples = cli::num_samples_for(arguments, num_vertices),
                                   .sizing = std::move(sizing),
                                   .vertex_count = arguments.vertex_count,
                                   .boundary = arguments.sampling.boundary,
@@ -290,6 +299,7 @@ void run_job(const Arguments& arguments, cli::Console& console) {
                                   .feature_angle = arguments.feature_angle,
                                   .face_labels = std::move(labels),
                                   .junctions = arguments.junctions,
+                                  .region = std::move(region),
                                   .seed = arguments.sampling.seed,
                                   .relax_steps = arguments.relax_steps,
                                   .keep_sites = arguments.keep_sites,
@@ -305,6 +315,10 @@ void run_job(const Arguments& arguments, cli::Console& console) {
     if (!arguments.feature_edges.empty()) {
         options.feature_edges =
             remesh::read_edges(arguments.feature_edges, console.progress_of("read"));
+    }
+    if (!arguments.region.lock.empty()) {
+        options.locked = remesh::read_vertices(arguments.region.lock, input.mesh.view(),
+                                               console.progress_of("read"));
     }
     console.require_memory("sample",
                            least_memory(input.mesh.triangles.size(),

@@ -9,6 +9,7 @@
 #include "remesh/io/read_edges.h"
 #include "remesh/io/read_mesh.h"
 #include "remesh/io/read_sites.h"
+#include "remesh/io/read_vertices.h"
 #include "remesh/io/report.h"
 #include "remesh/io/transfer_attributes.h"
 #include "remesh/io/write_diagram.h"

@@ -24,27 +24,6 @@ using agvd::InvalidInput;
 using agvd::no_index;
 using agvd::Triangle;
 
-void check_elements(const agvd::MeshView& mesh, agvd::Ticker& ticker) {
-    if (mesh.triangles.size() > no_index / 3 || mesh.positions.size() >= no_index) {
-        throw InvalidInput("the mesh has more than 2^32 / 3 faces; split it into parts");
-    }
-    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-        ticker.tick();
-        if (mesh.positions[v].allFinite()) continue;
-        throw InvalidInput("vertex " + std::to_string(v) +
-                           " has a coordinate that is not finite; correct or delete the vertex");
-    }
-    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-        ticker.tick();
-        for (const Index v : mesh.triangles[f]) {
-            if (v < mesh.positions.size()) continue;
-            throw InvalidInput("face " + std::to_string(f) + " names vertex " + std::to_string(v) +
-                               ", but the mesh has only " + std::to_string(mesh.positions.size()) +
-                               " vertices, counted from 0; correct or delete the face");
-        }
-    }
-}
-
 Soup as_soup(const agvd::MeshView& mesh, agvd::Ticker ticker) {
     Soup soup;
     soup.ticker = ticker;
@@ -130,6 +109,27 @@ void check_not_empty(const Soup& soup) {
 }
 
 }  // namespace
+
+void check_elements(const agvd::MeshView& mesh, agvd::Ticker& ticker) {
+    if (mesh.triangles.size() > no_index / 3 || mesh.positions.size() >= no_index) {
+        throw InvalidInput("the mesh has more than 2^32 / 3 faces; split it into parts");
+    }
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        ticker.tick();
+        if (mesh.positions[v].allFinite()) continue;
+        throw InvalidInput("vertex " + std::to_string(v) +
+                           " has a coordinate that is not finite; correct or delete the vertex");
+    }
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        ticker.tick();
+        for (const Index v : mesh.triangles[f]) {
+            if (v < mesh.positions.size()) continue;
+            throw InvalidInput("face " + std::to_string(f) + " names vertex " + std::to_string(v) +
+                               ", but the mesh has only " + std::to_string(mesh.positions.size()) +
+                               " vertices, counted from 0; correct or delete the face");
+        }
+    }
+}
 
 bool drop_repeated_corners(Soup& soup) {
     std::vector<bool> is_dead(soup.triangles.size());

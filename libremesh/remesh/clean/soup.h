@@ -34,6 +34,10 @@ struct Soup {
     [[nodiscard]] bool runs_up(agvd::Index h) const { return tail(h) < head(h); }
 };
 
+//! \throw agvd::InvalidInput  the mesh has too many faces, a coordinate that is not finite, or an
+//!        index out of range.
+void check_elements(const agvd::MeshView& mesh, agvd::Ticker& ticker);
+
 //! Removes the marked faces and updates `twin` (may be empty).
 void erase_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<agvd::Index>& twin);
 

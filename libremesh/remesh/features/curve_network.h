@@ -11,6 +11,7 @@
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_point.h"
 #include "remesh/features/junctions.h"
+#include "remesh/features/locked_elements.h"
 
 namespace remesh {
 
@@ -29,6 +30,7 @@ struct Curve {
     agvd::Index begin = agvd::no_index;  //!< Index into CurveNetwork::nodes; no_index: closed.
     agvd::Index end = agvd::no_index;    //!< Likewise.
     agvd::Index num_sheets = 1;          //!< Above 1: a junction.
+    bool is_locked = false;              //!< A locked edge: it is not divided.
 
     [[nodiscard]] std::size_t num_edges() const { return up_to.size() - 1; }
     [[nodiscard]] double length() const { return up_to.back(); }
@@ -44,7 +46,8 @@ struct Curve {
 //! Every edge belongs to at most one curve. Nodes are vertices where the number of edges of the
 //! network is not two, where boundary and crease meet, or where a junction connects its sheets
 //! differently on both sides of the vertex. Corners are nodes too: the network turns there by at
-//! least 45 degrees and keeps that turn over half a spacing.
+//! least 45 degrees and keeps that turn over half a spacing. So are locked vertices; those that lie
+//! inside faces of the result are nodes without a curve.
 struct CurveNetwork {
     std::vector<agvd::Index> nodes;  //!< Vertices of the surface, ascending; of copies the first.
     std::vector<Curve> curves;       //!< By lowest edge.
@@ -60,10 +63,12 @@ struct CurveNetwork {
 //! \param is_crease  #E: 1 for the edges of creases. Boundary edges and junctions always belong to
 //!                   the network.
 //! \param spacing    > 0, mesh units: of the sites.
+//! \param locked     its edges that are neither boundary nor junctions must be marked as creases.
 //! Cost: O(#V + #E).
 [[nodiscard]] CurveNetwork find_network(const agvd::Surface& surface,
                                         std::span<const std::uint8_t> is_crease, double spacing,
-                                        const JunctionSet& junctions = {});
+                                        const JunctionSet& junctions = {},
+                                        const LockedElements& locked = {});
 
 //! A loop of agvd::boundary_loops as a closed curve that begins at its first vertex. Cost: O(n).
 [[nodiscard]] Curve curve_of_loop(const agvd::Surface& surface, std::vector<agvd::Index> loop);

@@ -160,6 +160,10 @@ std::vector<Index> fewest_intervals(const CurveNetwork& network) {
     }
     std::vector<Index> intervals;
     for (const Curve& curve : network.curves) {
+        if (curve.is_locked) {
+            intervals.push_back(1);
+            continue;
+        }
         if (curve.begin == curve.end) {
             intervals.push_back(3);
             continue;
@@ -175,6 +179,7 @@ std::vector<Index> curve_intervals(const agvd::Surface& surface, const CurveNetw
                                    double spacing, const UnitAt& unit_at) {
     std::vector<Index> intervals = fewest_intervals(network);
     for (std::size_t c = 0; c < intervals.size(); ++c) {
+        if (network.curves[c].is_locked) continue;
         const double spacings =
             measure_curve(surface, network.curves[c], spacing, unit_at).count.back();
         intervals[c] = std::max(intervals[c], static_cast<Index>(std::round(spacings)));
@@ -218,8 +223,9 @@ std::vector<std::vector<double>> even_places(const agvd::Surface& surface,
     std::vector<std::vector<double>> along;
     for (std::size_t c = 0; c < network.curves.size(); ++c) {
         const Curve& curve = network.curves[c];
-        const CurveMeasure measure = measure_curve(surface, curve, spacing, unit_at);
         std::vector<double>& places = along.emplace_back();
+        if (curve.is_locked) continue;
+        const CurveMeasure measure = measure_curve(surface, curve, spacing, unit_at);
         for (Index i = curve.is_closed() ? 0 : 1; i < intervals[c]; ++i) {
             const double count = start_of(curve, measure) + measure.count.back() * i / intervals[c];
             places.push_back(place_at(measure, count));

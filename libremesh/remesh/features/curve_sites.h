@@ -48,7 +48,7 @@ using UnitAt = std::function<double(const agvd::SurfacePoint&)>;
 
 //! The fewest intervals that can be triangulated: three on a curve that returns to its start; two
 //! on a junction, on a curve with the same ends as another, and on one whose ends belong to no
-//! other curve; one otherwise.
+//! other curve; one otherwise, and on locked edges.
 [[nodiscard]] std::vector<agvd::Index> fewest_intervals(const CurveNetwork& network);
 
 //! The number of vertices of the result on a network with these intervals. Vertices of junctions

@@ -18,9 +18,10 @@ using agvd::Surface;
 class NetworkFinder {
 public:
     NetworkFinder(const Surface& surface, std::span<const std::uint8_t> is_crease,
-                  const JunctionSet& junctions)
+                  const JunctionSet& junctions, const LockedElements& locked)
         : surface_(surface),
           junctions_(junctions),
+          locked_(locked),
           first_copy_(first_copies(junctions, surface.num_vertices())),
           first_edge_(surface.num_edges()),
           is_outside_(surface.num_edges(), 1),
@@ -47,7 +48,7 @@ public:
         const std::vector<bool> is_seam = find_seams();
         node_.assign(surface_.num_vertices(), no_index);
         for (Index v = 0; v < surface_.num_vertices(); ++v) {
-            if (degree_[v] == 0 || (is_node[v] == 0 && degree_[v] == 2 && !is_seam[v])) continue;
+            if (is_node[v] == 0 && (degree_[v] == 0 || (degree_[v] == 2 && !is_seam[v]))) continue;
             node_[v] = static_cast<Index>(network.nodes.size());
             network.nodes.push_back(v);
         }
@@ -194,6 +195,7 @@ private:
         curve.up_to.push_back(0);
         curve.sides = sides_at(edge, from);
         curve.num_sheets = static_cast<Index>(copies_of(edge).size());
+        curve.is_locked = locked_.has_edge(edge);
         for (Index at = from;;) {
             for (const Index e : copies_of(edge)) is_done[e] = 1;
             curve.up_to.push_back(curve.up_to.back() + surface_.length[edge]);
@@ -214,6 +216,7 @@ private:
 
     const Surface& surface_;
     const JunctionSet& junctions_;
+    const LockedElements& locked_;
     const std::vector<Index> first_copy_;   // #V
     std::vector<Index> first_edge_;         // #E
     std::vector<std::uint8_t> is_outside_;  // #E: 0 for the network's edges.
@@ -225,9 +228,11 @@ private:
 }  // namespace
 
 CurveNetwork find_network(const Surface& surface, std::span<const std::uint8_t> is_crease,
-                          double spacing, const JunctionSet& junctions) {
-    NetworkFinder finder(surface, is_crease, junctions);
+                          double spacing, const JunctionSet& junctions,
+                          const LockedElements& locked) {
+    NetworkFinder finder(surface, is_crease, junctions, locked);
     std::vector<std::uint8_t> is_node(surface.num_vertices(), 0);
+    for (const Index v : locked.vertices) is_node[finder.first_copy(v)] = 1;
     const CurveNetwork smooth = finder.run(is_node);
     for (const Curve& curve : smooth.curves) {
         for (const std::size_t i : corners_of_curve(surface, curve, spacing)) {

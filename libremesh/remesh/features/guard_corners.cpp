@@ -65,6 +65,7 @@ public:
                 [](const CurveEnd& a, const CurveEnd& b) { return a.length < b.length; });
             if (shortest == ends.end() || ends_strip(ends, *shortest)) continue;
             for (const CurveEnd& end : ends) {
+                if (network_.curves[end.curve].is_locked) continue;
                 if (is_much_longer(end, *shortest)) divide(end, shortest->length);
             }
         }

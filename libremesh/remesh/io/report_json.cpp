@@ -149,6 +149,14 @@ Json to_json(const JunctionCounts& counts) {
             {"welded_edges", counts.welded_edges}};
 }
 
+// Null: the whole mesh was remeshed.
+Json to_json(const KeptPart& kept) {
+    if (kept.faces.empty()) return {};
+    return {{"kept_vertices", kept.vertices.size()},
+            {"kept_faces", kept.faces.size()},
+            {"seam_edges", kept.seam_edges}};
+}
+
 Json to_json(const Sizing& sizing) {
     Json object;
     object["adaptive"] = sizing.is_adaptive;
@@ -216,6 +224,8 @@ Json to_json(const RemeshOptions& options) {
     object["junctions"] = junctions_name(options.junctions);
     object["init"] = init_name(options.init);
     object["seed"] = options.seed;
+    object["region"] = !options.region.empty();
+    object["locked_vertices"] = options.locked.size();
     object["given_sites"] = options.sites ? Json(options.sites->size()) : Json();
     object["relax_steps"] = options.relax_steps;
     object["keep_sites"] = options.keep_sites;
@@ -246,6 +256,7 @@ std::string to_json(const RemeshResult& result, const RunInfo& info) {
     add_topology(object["input_topology"], result.input_topology);
     object["output_vertices"] = result.mesh.positions.size();
     object["output_faces"] = result.mesh.triangles.size();
+    object["kept"] = to_json(result.kept);
     object["refined_faces"] = result.refined_faces;
     object["components_dropped"] = result.components_dropped;
     object["sites_added"] = result.sites_added;

@@ -198,6 +198,14 @@ std::string describe(const FeatureCounts& features) {
     return text;
 }
 
+// Empty if the whole mesh was remeshed.
+std::string describe(const KeptPart& kept, std::size_t num_faces) {
+    if (kept.faces.empty()) return "";
+    return "\nregion: " + counted(num_faces - kept.faces.size(), "face") + " of the result, " +
+           counted(kept.faces.size(), "face") + " stayed as they were; " +
+           counted(kept.seam_edges, "edge") + " between them";
+}
+
 // Empty for manifolds.
 std::string describe(const JunctionCounts& junctions) {
     if (junctions.edges == 0) return "";
@@ -294,6 +302,7 @@ std::string to_text(const RemeshResult& result, const RunInfo& info) {
             counted(result.mesh.triangles.size(), "face") +
             (result.junctions.welded_edges > 0 ? "; same topology before the sheets were welded"
                                                : "; same topology");
+    text += describe(result.kept, result.mesh.triangles.size());
     if (result.repair_rounds > 0 || result.sites_removed > 0) {
         text += "\ntopology repair: " + counted(result.sites_added, "site") + " added, " +
                 counted(result.sites_moved, "site") + " moved, " +

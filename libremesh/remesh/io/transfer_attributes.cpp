@@ -57,6 +57,20 @@ MeshAttributes transfer_attributes(const MeshFile& input, const InputMap& map) {
     return result;
 }
 
+void keep_attributes(const MeshAttributes& input, std::span<const Index> vertices,
+                     std::span<const Index> faces, MeshAttributes& result) {
+    const auto keep = [](const std::vector<Attribute>& from, std::span<const Index> elements,
+                         std::vector<Attribute>& to) {
+        for (std::size_t a = 0; a < from.size(); ++a) {
+            for (std::size_t i = 0; i < elements.size(); ++i) {
+                to[a].values[i] = from[a].values[elements[i]];
+            }
+        }
+    };
+    keep(input.of_vertices, vertices, result.of_vertices);
+    keep(input.of_faces, faces, result.of_faces);
+}
+
 const Attribute& require_attribute(const std::vector<Attribute>& attributes, std::string_view name,
                                    const std::string& what) {
     if (const Attribute* const found = find_attribute(attributes, name)) return *found;

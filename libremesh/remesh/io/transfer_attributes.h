@@ -18,6 +18,14 @@ namespace remesh {
 //! Cost: O(result) for each attribute.
 [[nodiscard]] MeshAttributes transfer_attributes(const MeshFile& input, const InputMap& map);
 
+//! Gives the first vertices and faces of a result the values of the input's that they are.
+//!
+//! \param vertices, faces  of the input, for the first ones of the result: see KeptPart.
+//! \param result  of transfer_attributes(input, ...).
+//! Cost: O(kept) for each attribute.
+void keep_attributes(const MeshAttributes& input, std::span<const agvd::Index> vertices,
+                     std::span<const agvd::Index> faces, MeshAttributes& result);
+
 //! The attribute of that name.
 //! \param what  such as "bunny.ply has no vertex property", for the error.
 //! \throw agvd::InvalidOption  there is none; the text lists those that exist.

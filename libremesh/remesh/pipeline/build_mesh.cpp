@@ -112,8 +112,8 @@ private:
     ValidDual build_cells() {
         RemeshResult& result = context_.result;
         const DualInput input{
-            domain_.base(),           layout_,      domain_.parts->components, domain_.component,
-            placed_.boundary_corners, placed_.chain};
+            domain_.base(),           layout_,       domain_.parts->components, domain_.component,
+            placed_.boundary_corners, placed_.chain, domain_.has_locked()};
         ValidDual dual =
             build_valid_dual(input, sites_.on_base, is_thinned_, cell_options(), context_.result);
         carry_sites_back();

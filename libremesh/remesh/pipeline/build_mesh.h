@@ -6,12 +6,6 @@
 
 namespace remesh::detail {
 
-//! Thrown if no further vertex can be removed without changing the topology.
-struct TooFewSamples {
-    agvd::Index asked;
-    agvd::Index reached;  //!< Vertices that are left.
-};
-
 //! Thrown if not all curves of the network could be reproduced.
 struct NetworkFailed {};
 

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "remesh/features/weld_sheets.h"
+#include "remesh/pipeline/locked.h"
 
 namespace remesh::detail {
 namespace {
@@ -38,6 +39,7 @@ Topology check_result(const CleanedInput& cleaned, const Domain& domain,
         if (domain.plan) throw NetworkFailed{};
         throw std::logic_error("the result does not have the topology of the input");
     }
+    if (!has_locked(*domain.whole, cleaned.locked, built.mesh)) throw NetworkFailed{};
     if (domain.has_junctions() && options.junctions == Junctions::Keep) {
         weld_junctions(domain.plan->network.network, chain, built, result);
     }

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "remesh/clean/drop_components.h"
+#include "remesh/pipeline/locked.h"
 
 namespace remesh::detail {
 namespace {
@@ -10,7 +11,8 @@ namespace {
 // Sites, edges and labels refer to the caller's mesh; later stages carry them to the cleaned one.
 bool refers_to_input(const RemeshOptions& options) {
     return options.sites || !options.feature_edges.empty() || !options.face_labels.empty() ||
-           !options.sizing.target_lengths.empty() || !options.sizing.densities.empty();
+           !options.sizing.target_lengths.empty() || !options.sizing.densities.empty() ||
+           !options.locked.empty() || !options.locked_edges.empty();
 }
 
 Topology topology_of(const CleanResult& clean, int num_threads, const agvd::Progress& progress) {
@@ -55,6 +57,8 @@ CleanedInput clean_stage(const InputMesh& input, const StageContext& context) {
         is_unchanged ? agvd::build_surface(std::move(clean.mesh), std::move(clean.connectivity),
                                            options.num_threads, done)
                      : agvd::build_surface(clean.mesh.view(), options.num_threads, done);
+    cleaned.locked =
+        find_locked(cleaned.given, options.locked, options.locked_edges, cleaned.surface);
     return cleaned;
 }
 

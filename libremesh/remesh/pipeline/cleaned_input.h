@@ -3,6 +3,7 @@
 #pragma once
 
 #include "remesh/clean/clean_input.h"
+#include "remesh/features/locked_elements.h"
 #include "remesh/pipeline/stage_context.h"
 
 namespace remesh::detail {
@@ -21,12 +22,13 @@ struct CleanedInput {
     std::vector<agvd::Index> vertex_origin = {};  //!< See CleanResult; empty: nothing was changed.
     std::vector<agvd::Index> face_origin = {};    //!< Likewise.
     Topology topology = {};                       //!< Of the surface.
+    LockedElements locked = {};                   //!< Of the surface.
 };
 
 //! Cleans the mesh, and drops small components if the options ask for it. Empties an owned mesh as
 //! soon as nothing refers to it, so that a large mesh is in memory only once.
 //!
-//! \throw as clean_input, drop_components and agvd::build_surface.
+//! \throw as clean_input, drop_components, agvd::build_surface and find_locked.
 //! Cost: that of clean_input.
 [[nodiscard]] CleanedInput clean_stage(const InputMesh& input, const StageContext& context);
 

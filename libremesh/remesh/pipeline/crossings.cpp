@@ -39,11 +39,13 @@ CrossingFaces CrossingFinder::find(const PlacedDual& placed) {
 void CrossingFinder::count_in_input() {
     const agvd::TriangleMesh& input = domain_.whole->mesh;
     std::vector<agvd::Triangle> welded;
-    if (domain_.has_junctions()) {
+    if (domain_.has_locked()) {
+        welded = join_positions(input.positions, input.triangles);
+    } else if (domain_.has_junctions()) {
         welded = rename_vertices(input.triangles, first_copies(domain_.plan->network.junctions,
                                                                domain_.whole->num_vertices()));
     }
-    const agvd::MeshView mesh{input.positions, domain_.has_junctions() ? welded : input.triangles};
+    const agvd::MeshView mesh{input.positions, welded.empty() ? input.triangles : welded};
     context_.result.input_self_intersections =
         static_cast<Index>(find_in(mesh, context_.options)->size());
     has_counted_input_ = true;

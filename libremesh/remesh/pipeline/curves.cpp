@@ -90,7 +90,9 @@ std::pair<NetworkPlan, GivenSites> plan_with_given(const CleanedInput& cleaned,
 
 void count_plan(const NetworkPlan& plan, RemeshResult& result) {
     FeatureCounts& counts = result.features;
-    counts.curves = static_cast<Index>(plan.network.curves.size());
+    const auto& curves = plan.network.curves;
+    counts.curves = static_cast<Index>(std::count_if(
+        curves.begin(), curves.end(), [](const Curve& curve) { return !curve.is_locked; }));
     counts.nodes = static_cast<Index>(plan.network.nodes.size());
     counts.length = plan.length;
     counts.dropped_length = plan.dropped_length;
@@ -133,7 +135,7 @@ std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const 
     const agvd::Progress done = agvd::within(progress, 1, 1);
     result.junctions.apart_edges = result.junctions.edges;
     JunctionSet junctions = kept.has_junctions ? found.junctions : JunctionSet{};
-    if (found.is_crease.empty() && junctions.empty()) return nullptr;
+    if (found.is_crease.empty() && junctions.empty() && cleaned.locked.empty()) return nullptr;
     std::vector<std::uint8_t> is_crease = found.is_crease;
     is_crease.resize(cleaned.surface.num_edges(), 0);
     auto plan = std::make_unique<CurvePlan>();
@@ -143,12 +145,15 @@ std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const 
         plan->network = std::move(network);
         plan->given = std::move(given);
     } else {
-        plan->network =
-            plan_network(cleaned.surface, std::move(is_crease), options.num_samples,
-                         std::move(junctions), kept.drop_share, options.num_threads, done, sizes);
+        plan->network = plan_network(cleaned.surface, std::move(is_crease), options.num_samples,
+                                     std::move(junctions), kept.drop_share, options.num_threads,
+                                     done, sizes, cleaned.locked);
     }
     count_plan(plan->network, result);
-    if (plan->network.network.curves.empty()) return nullptr;
+    if (plan->network.sites_for_locked > 0) {
+        throw TooFewSamples{options.num_samples, plan->network.sites_for_locked};
+    }
+    if (plan->network.empty()) return nullptr;
     // Pass the twins: vertex indices do not show a cut along a single edge, whose two sides have
     // the same ends.
     const Surface& cut = plan->network.cut.surface;

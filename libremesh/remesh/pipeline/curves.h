@@ -46,7 +46,8 @@ struct CurvePlan {
                                       const StageContext& context);
 
 //! \param sizes  target lengths; null: all equal.
-//! \return null if the boundary is the only curve to reproduce. Cost: see plan_network and
+//! \return null if the boundary is all that is to be reproduced.
+//! \throw TooFewSamples  more vertices are locked. Cost: see plan_network and
 //! plan_given_network.
 [[nodiscard]] std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned,
                                                            const FoundCurves& found,

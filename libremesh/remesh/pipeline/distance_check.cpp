@@ -16,7 +16,7 @@ namespace {
 using agvd::Index;
 using agvd::Vec3;
 
-constexpr Index num_samples = 100'000;  // On each surface.
+constexpr Index samples_per_surface = 100'000;  // On each surface.
 constexpr Index query_grain = 1024;
 // Share of the limit from which edges get shorter, and that they aim at.
 constexpr double too_far = 0.75, aim = 0.6;
@@ -61,13 +61,13 @@ public:
         : mesh_(mesh), samples_(mesh), face_of_vertex_(face_of_vertex(mesh)) {}
 
     [[nodiscard]] Index size() const {
-        return static_cast<Index>(mesh_.positions.size()) + num_samples;
+        return static_cast<Index>(mesh_.positions.size()) + samples_per_surface;
     }
     // Position and face.
     [[nodiscard]] std::pair<Vec3, Index> operator[](Index i) const {
         if (i < mesh_.positions.size()) return {mesh_.positions[i], face_of_vertex_[i]};
         const auto first = static_cast<Index>(mesh_.positions.size());
-        const agvd::SurfacePoint point = samples_.at(i - first, num_samples);
+        const agvd::SurfacePoint point = samples_.at(i - first, samples_per_surface);
         return {position(mesh_, point), point.face.value()};
     }
 

@@ -20,6 +20,7 @@ struct Domain {
     //! The surface on which propagation runs.
     [[nodiscard]] const agvd::Surface& base() const { return prepared.base.surface(); }
     [[nodiscard]] bool has_junctions() const { return plan && plan->has_junctions(); }
+    [[nodiscard]] bool has_locked() const { return plan && !plan->network.locked.empty(); }
 };
 
 //! \param cleaned  outlives the domain. Without a plan its surface moves into the domain (see

@@ -30,6 +30,15 @@ std::vector<Index> nearest_vertices(const ValidDual& dual) {
     return nearest;
 }
 
+// #V of the dual: 1 for vertices at nodes of the network.
+std::vector<std::uint8_t> find_nodes(const CurveSites& curves, const ValidDual& dual) {
+    std::vector<std::uint8_t> is_node;
+    for (const Index site : dual.site) {
+        is_node.push_back(site < curves.first_copy[curves.num_nodes()] ? 1 : 0);
+    }
+    return is_node;
+}
+
 void fit_on_curves(const Domain& domain, const CurveSites& curves, const JoinedPatches& patches,
                    Boundary boundary, PlacedMesh& placed) {
     const std::vector<Vec3> offsets =
@@ -51,6 +60,9 @@ PlacedMesh place_vertices(Domain& domain, const CurveSites& curves, const ValidD
     PlacedMesh placed{std::move(places), {}, dual.mesh.triangles};
     placed.offsets.assign(placed.points.size(), Vec3::Zero());
     const std::vector<Index> nearest = nearest_vertices(dual);
+    // Those inside faces of the surface are locked; all others are on its boundary.
+    std::vector<std::uint8_t> stays;
+    if (domain.plan) stays = find_nodes(curves, dual);
     const bool is_fitted = options.fit.value_or(is_relaxed(options));
     // The pieces are large: they are freed before the fit.
     std::vector<CellSample> samples;
@@ -71,11 +83,12 @@ PlacedMesh place_vertices(Domain& domain, const CurveSites& curves, const ValidD
             fit_on_curves(domain, curves, *patches, options.boundary, placed);
         }
         fit_vertices(domain.prepared.base, nearest, std::move(samples), placed, options.num_threads,
-                     agvd::within(progress, 0, 0), domain.plan ? rounding * domain.spacing : 0);
+                     agvd::within(progress, 0, 0), domain.plan ? rounding * domain.spacing : 0,
+                     stays);
     }
     if (is_relaxed(options)) {
         improve_shape(domain.prepared.input(), planes, placed, agvd::within(progress, 0.5, 0.5),
-                      domain.sizes);
+                      domain.sizes, stays);
     }
     agvd::poll(progress, 1);
     return placed;

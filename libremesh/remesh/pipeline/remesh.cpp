@@ -6,6 +6,7 @@
 
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/scale.h"
+#include "remesh/pipeline/remesh_region.h"
 #include "remesh/pipeline/run.h"
 
 namespace remesh {
@@ -102,6 +103,10 @@ void check_options(const RemeshOptions& options, std::size_t num_vertices, std::
                                   " labels, but the mesh has " + std::to_string(num_faces) +
                                   " faces; give one for each, or none");
     }
+    if (options.sites && !(options.locked.empty() && options.locked_edges.empty())) {
+        throw agvd::InvalidOption(
+            "sites are given, and vertices or edges are locked; use one of them");
+    }
     check_sizing(options, num_vertices);
     agvd::check_num_threads(options.num_threads);
 }
@@ -126,6 +131,25 @@ void scale_back(RemeshResult& result, int exponent) {
     }
 }
 
+// Whether some faces are to stay.
+// \throw agvd::InvalidOption  the region does not fit to the mesh or to other options.
+bool is_part(const agvd::MeshView& mesh, const RemeshOptions& options) {
+    const std::vector<std::uint8_t>& region = options.region;
+    if (region.empty()) return false;
+    if (region.size() != mesh.triangles.size()) {
+        throw agvd::InvalidOption(
+            "region has " + std::to_string(region.size()) + " values, but the mesh has " +
+            std::to_string(mesh.triangles.size()) + " faces; give one for each, or none");
+    }
+    if (options.sites || options.drop_components > 0) {
+        throw agvd::InvalidOption(
+            "a region is given, and sites or drop_components as well; leave out one of them");
+    }
+    if (std::find(region.begin(), region.end(), 0) == region.end()) return false;
+    check_options(options, mesh.positions.size(), mesh.triangles.size());
+    return true;
+}
+
 RemeshResult run(const detail::InputMesh& input, const RemeshOptions& options) {
     check_options(options, input.view.positions.size(), input.view.triangles.size());
     const double size = agvd::box_of(input.view, options.num_threads).longest_side();
@@ -142,10 +166,12 @@ RemeshResult run(const detail::InputMesh& input, const RemeshOptions& options) {
 }  // namespace
 
 RemeshResult remesh(const agvd::MeshView& mesh, const RemeshOptions& options) {
+    if (is_part(mesh, options)) return detail::remesh_region(mesh, options, remesh);
     return run({mesh, nullptr}, options);
 }
 
 RemeshResult remesh_moved(agvd::TriangleMesh mesh, const RemeshOptions& options) {
+    if (is_part(mesh.view(), options)) return remesh(mesh.view(), options);
     return run({mesh.view(), &mesh}, options);
 }
 

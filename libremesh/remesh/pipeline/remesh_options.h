@@ -64,6 +64,16 @@ struct RemeshOptions {
     //! Whether the sheets of the input's non-manifold edges are welded in the result. Either way
     //! the sheets have equal points there, except with given sites or Boundary::Free.
     Junctions junctions = Junctions::Apart;
+    //! Vertices of the caller that stay where they are, bit for bit, as vertices of the result. Not
+    //! with `sites`.
+    std::vector<agvd::Index> locked = {};
+    //! Edges that stay edges of the result, as pairs of the caller's vertices; their ends stay too.
+    std::vector<std::array<agvd::Index, 2>> locked_edges = {};
+    //! Faces to remesh: other than 0 for each of the caller's faces that is to change, or empty for
+    //! all. The others stay, see KeptPart; what joins them to the changed ones is locked.
+    //! num_samples, edge lengths and numbers of faces count in the region, its seam included. Not
+    //! with `sites` or drop_components.
+    std::vector<std::uint8_t> region = {};
     std::uint64_t seed = 1;  //!< Same seed, same bytes, any num_threads.
     //! Sites on the caller's mesh, instead of sampling; num_samples, init and seed are ignored.
     //! Faces are the caller's.

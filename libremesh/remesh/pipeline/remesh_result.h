@@ -60,11 +60,21 @@ struct SizingResult {
     double largest_distance = 0;
 };
 
+//! What a run with RemeshOptions::region left as it was. Vertices and faces of the result that are
+//! not listed come after those that are. Empty: the whole mesh was remeshed.
+struct KeptPart {
+    std::vector<agvd::Index> vertices;  //!< The caller's, ascending: the first ones of the result.
+    std::vector<agvd::Index> faces;     //!< Likewise.
+    agvd::Index seam_edges = 0;         //!< Edges between kept and remeshed faces.
+};
+
 //! Plain values owned by the caller; nothing points back into the input.
 struct RemeshResult {
     //! Oriented 2-manifold with the topology of the cleaned input; Junctions::Keep welds its sheets
-    //! at junctions.
+    //! at junctions. With a region the other faces are as they were, and what follows is about the
+    //! region, but for `sites`; its intersections with other faces count.
     agvd::TriangleMesh mesh;
+    KeptPart kept = {};                     //!< With a region.
     std::vector<agvd::SurfacePoint> sites;  //!< One per output vertex: where it lies on the input
                                             //!< (faces are the caller's).
     CleanCounts cleaned;                    //!< What cleaning repaired.

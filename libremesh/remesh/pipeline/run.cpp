@@ -153,6 +153,8 @@ RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cl
         }
         if (best) break;
     }
+    // Only what is locked can make all attempts fail.
+    if (!best) throw TooFewSamples{options.num_samples, options.num_samples + 1};
     best->seconds = first.seconds;
     if (!thin_places.empty() && may_shorten(options) && has_lost_part(best->verdict)) {
         shorten_thin(cleaned, found, kept_of_best, thin_places, options, first, *best);
@@ -186,10 +188,16 @@ std::string describe_enough(CleanedInput& cleaned, const RemeshResult& after_cle
         more.num_samples = reached;
         try {
             RemeshResult result = after_cleaning;
-            run_attempt(cleaned, {}, {}, nullptr, 0, {more, result});
+            RunSizes sizes;
+            if (!cleaned.locked.empty()) {
+                sizes = find_sizes(cleaned, {}, spacing_of(cleaned, more), {}, {}, {more, result});
+            }
+            run_attempt(cleaned, {}, {}, sizes.field.get(), 0, {more, result});
             return "use " + std::to_string(reached) + " samples, which were tried and work";
         } catch (const TooFewSamples& failure) {
             reached = std::max(failure.reached, reached + reached / 4 + 1);
+        } catch (const NetworkFailed&) {
+            reached += reached / 4 + 1;
         }
     }
     return "use more than " + std::to_string(more.num_samples) + " samples";
@@ -206,6 +214,10 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
         result.seconds.emplace_back(stage, 0.0);
     }
     CleanedInput cleaned = clean_stage(input, {options, result});
+    // Nobody asked for a number that what is locked could contradict.
+    if (!cleaned.locked.empty() && gives_num_samples(options.sizing)) {
+        options.vertex_count = VertexCount::Add;
+    }
     try {
         options.num_samples = sample_count(cleaned, options);
         require_least_samples(cleaned.topology, options);
@@ -228,7 +240,10 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
         const std::string who = options.sites
                                     ? "the given sites, of which " + asked + " have a cell,"
                                     : asked + " samples";
-        throw agvd::ConstraintUnmet(who + " are too few for the topology of the mesh; " +
+        const std::string what = cleaned.locked.empty()
+                                     ? "the topology of the mesh; "
+                                     : "the topology and the vertices that stay; ";
+        throw agvd::ConstraintUnmet(who + " are too few for " + what +
                                     describe_enough(cleaned, result, options, failure.reached));
     }
     result.input_topology = std::move(cleaned.topology);

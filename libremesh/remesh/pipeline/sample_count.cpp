@@ -7,6 +7,9 @@
 
 #include "agvd/core/edge_key.h"
 #include "agvd/mesh/face_area.h"
+#include "remesh/relax/prepared_surface.h"
+#include "remesh/sampling/minimum_samples.h"
+#include "remesh/sampling/network_plan.h"
 
 namespace remesh::detail {
 namespace {
@@ -20,29 +23,43 @@ constexpr double relaxed_excess = 1.003, unrelaxed_excess = 1.025;
 // Largest relative error of the mean edge that is not corrected, and largest correction.
 constexpr double near_enough = 0.008, most_correction = 1.5;
 
-double boundary_length(const Surface& surface) {
+// The boundary, but for locked edges, and the number of these.
+struct BoundarySize {
     double length = 0;
+    Index locked_edges = 0;
+};
+
+BoundarySize measure_boundary(const CleanedInput& cleaned) {
+    const Surface& surface = cleaned.surface;
+    BoundarySize size;
     for (Index h = 0; h < surface.twin.size(); ++h) {
-        if (surface.twin[h] == agvd::no_index) length += surface.length_of(h);
+        if (surface.twin[h] != agvd::no_index) continue;
+        if (cleaned.locked.has_edge(surface.edge[h])) {
+            ++size.locked_edges;
+        } else {
+            size.length += surface.length_of(h);
+        }
     }
-    return length;
+    return size;
 }
 
 // Vertices of a mesh of equilateral triangles.
-double vertices_for(double edge, double area, double boundary) {
-    return 2 / std::numbers::sqrt3 * area / (edge * edge) + boundary / (2 * edge);
+double vertices_for(double edge, double area, const BoundarySize& boundary) {
+    return 2 / std::numbers::sqrt3 * area / (edge * edge) + boundary.length / (2 * edge) +
+           boundary.locked_edges / 2.0;
 }
 
-// By Euler's formula F = 2 (V - X) - B, where B edges of the boundary are as long as the others.
+// By Euler's formula F = 2 (V - X) - B, where B edges of the boundary are as long as the others, or
+// locked.
 double vertices_for_faces(double faces, const CleanedInput& cleaned) {
     const double area = agvd::surface_area(cleaned.surface);
-    const double boundary = boundary_length(cleaned.surface);
+    const BoundarySize boundary = measure_boundary(cleaned);
     double euler = 0;
     for (const ComponentTopology& c : cleaned.topology.components) {
         euler += 2 - 2 * c.genus - c.boundary_loops;
     }
     const double edge = std::sqrt(4 / std::numbers::sqrt3 * area / faces);
-    return (faces + boundary / edge) / 2 + euler;
+    return (faces + boundary.length / edge + boundary.locked_edges) / 2 + euler;
 }
 
 // The integral of the density over the faces of the input.
@@ -59,6 +76,22 @@ double vertices_for_targets(const CleanedInput& cleaned, const std::vector<doubl
     return 2 / std::numbers::sqrt3 * sum;
 }
 
+// As the sizing asks for it, whatever is locked.
+Index count_by_sizing(const CleanedInput& cleaned, const RemeshOptions& options) {
+    const Sizing& sizing = options.sizing;
+    if (sizing.edge_length > 0) {
+        const double excess = options.relax_steps > 0 ? relaxed_excess : unrelaxed_excess;
+        return to_count(vertices_for(sizing.edge_length / excess,
+                                     agvd::surface_area(cleaned.surface),
+                                     measure_boundary(cleaned)));
+    }
+    if (sizing.num_faces > 0) return to_count(vertices_for_faces(sizing.num_faces, cleaned));
+    if (sizing.gives_count) {
+        return to_count(vertices_for_targets(cleaned, sizing.target_lengths));
+    }
+    return options.num_samples;
+}
+
 }  // namespace
 
 Index to_count(double vertices) {
@@ -70,20 +103,20 @@ Index to_count(double vertices) {
     return static_cast<Index>(std::max(1.0, std::round(vertices)));
 }
 
+Index num_locked_on_boundary(const CleanedInput& cleaned) {
+    return measure_boundary(cleaned).locked_edges;
+}
+
+Index least_samples(const CleanedInput& cleaned, double spacing) {
+    if (cleaned.locked.empty()) return 1;
+    return std::max(minimum_samples(cleaned.topology),
+                    fewest_locked_vertices(cleaned.surface, spacing, cleaned.locked));
+}
+
 Index sample_count(const CleanedInput& cleaned, const RemeshOptions& options) {
-    const Sizing& sizing = options.sizing;
-    if (options.sites) return options.num_samples;
-    if (sizing.edge_length > 0) {
-        const double excess = options.relax_steps > 0 ? relaxed_excess : unrelaxed_excess;
-        return to_count(vertices_for(sizing.edge_length / excess,
-                                     agvd::surface_area(cleaned.surface),
-                                     boundary_length(cleaned.surface)));
-    }
-    if (sizing.num_faces > 0) return to_count(vertices_for_faces(sizing.num_faces, cleaned));
-    if (sizing.gives_count) {
-        return to_count(vertices_for_targets(cleaned, sizing.target_lengths));
-    }
-    return options.num_samples;
+    if (options.sites || !gives_num_samples(options.sizing)) return options.num_samples;
+    const Index count = count_by_sizing(cleaned, options);
+    return std::max(count, least_samples(cleaned, mean_spacing(cleaned.surface, count)));
 }
 
 std::optional<double> corrected_edge_length(double mean_edge, const RemeshOptions& options) {

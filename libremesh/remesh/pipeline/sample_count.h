@@ -17,6 +17,19 @@ namespace remesh::detail {
 //! Cost: O(#F).
 [[nodiscard]] agvd::Index sample_count(const CleanedInput& cleaned, const RemeshOptions& options);
 
+//! Whether the number of samples follows from lengths or faces.
+[[nodiscard]] inline bool gives_num_samples(const Sizing& sizing) {
+    return sizing.edge_length > 0 || sizing.num_faces > 0 || sizing.gives_count ||
+           sizing.max_error > 0 || sizing.max_distance > 0;
+}
+
+//! The number of locked edges on the boundary. Cost: O(n).
+[[nodiscard]] agvd::Index num_locked_on_boundary(const CleanedInput& cleaned);
+
+//! The fewest samples that topology and what is locked allow; 1 if nothing is locked.
+//! Cost: O(n).
+[[nodiscard]] agvd::Index least_samples(const CleanedInput& cleaned, double spacing);
+
 //! The edge length to ask for so that the mean edge comes nearer to options.sizing.edge_length;
 //! nothing if it is near enough.
 //!

@@ -9,6 +9,8 @@
 
 #include "agvd/core/poller.h"
 #include "agvd/mesh/face_area.h"
+#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/scale.h"
 #include "remesh/pipeline/sample_count.h"
 #include "remesh/pipeline/thin_lengths.h"
 #include "remesh/sizing/curvature.h"
@@ -43,6 +45,65 @@ std::vector<double> carry_values(const ValueOf& value_of, std::span<const Index>
         values.push_back(value);
     }
     return values;
+}
+
+// #V: the mean length of the locked edges at each vertex; 0: there are none. Empty: nowhere.
+std::vector<double> locked_lengths(const CleanedInput& cleaned) {
+    const agvd::Surface& surface = cleaned.surface;
+    if (cleaned.locked.is_edge.empty()) return {};
+    std::vector<double> result(surface.num_vertices(), 0);
+    std::vector<std::pair<Index, double>> at_vertex;
+    for (Index e = 0; e < surface.num_edges(); ++e) {
+        if (!cleaned.locked.has_edge(e)) continue;
+        const Index h = surface.edge_half[e];
+        at_vertex.emplace_back(surface.tail(h), surface.length[e]);
+        at_vertex.emplace_back(surface.head(h), surface.length[e]);
+    }
+    std::sort(at_vertex.begin(), at_vertex.end());
+    for (std::size_t first = 0, last = 0; first < at_vertex.size(); first = last) {
+        const Index v = at_vertex[first].first;
+        double sum = 0;
+        for (; last < at_vertex.size() && at_vertex[last].first == v; ++last) {
+            sum += at_vertex[last].second;
+        }
+        result[v] = sum / static_cast<double>(last - first);
+    }
+    return result;
+}
+
+// The same limits, and the lengths of locked edges as well.
+std::vector<double> limit_at_locked(const agvd::Surface& surface, std::span<const double> limits,
+                                    std::span<const double> locked, int num_threads) {
+    std::vector<double> result(limits.begin(), limits.end());
+    if (locked.empty()) return result;
+    if (result.empty()) {
+        const agvd::MeshBox box = agvd::box_of(surface.mesh.view(), num_threads);
+        result.assign(surface.num_vertices(), (box.high - box.low).norm());
+    }
+    for (std::size_t v = 0; v < locked.size(); ++v) {
+        if (locked[v] > 0) result[v] = std::min(result[v], locked[v]);
+    }
+    return result;
+}
+
+// The lengths of locked edges on the base. Vertices that it added inside faces have none.
+std::vector<double> carry_locked(std::span<const double> locked, std::span<const Index> original,
+                                 const agvd::IntrinsicTriangulation& base) {
+    if (locked.empty()) return {};
+    std::vector<double> result = carry_values([&](Index v) { return locked[v]; }, original, base);
+    for (Index v = base.input().num_vertices(); v < result.size(); ++v) {
+        if (!agvd::is_on_boundary(base.input(), base.place_of_added(v))) result[v] = 0;
+    }
+    return result;
+}
+
+// The number of vertices of a mesh that follows the lengths. Vertices of locked edges on the
+// boundary count half in the area, and what is locked needs a least number.
+Index count_for(const SizeField& field, const CleanedInput& cleaned, double spacing) {
+    const double inside = field.area() * 2 / std::numbers::sqrt3;
+    if (cleaned.locked.empty()) return to_count(inside);
+    return std::max(to_count(inside + num_locked_on_boundary(cleaned) / 2.0),
+                    least_samples(cleaned, spacing));
 }
 
 // The mean over the vertices of a mesh that follows these lengths.
@@ -106,8 +167,12 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
         joined.emplace_back(cut.original[v], v);
     }
     std::vector<double> most;
-    if (!most_lengths.empty()) {
-        most = carry_values([&](Index v) { return most_lengths[v]; }, cut.original, *base);
+    const std::vector<double> locked = locked_lengths(cleaned);
+    const std::vector<double> least = carry_locked(locked, cut.original, *base);
+    const std::vector<double> limits =
+        limit_at_locked(cleaned.surface, most_lengths, locked, options.num_threads);
+    if (!limits.empty()) {
+        most = carry_values([&](Index v) { return limits[v]; }, cut.original, *base);
     }
     if (!thin_places.empty()) {
         most = thin_lengths(*base, thin_places, joined, spacing, num_sites, ticker);
@@ -116,16 +181,17 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
     const bool is_edge_given = sizing.edge_length > 0 && !options.sites;
     double area = gives_count ? 0 : num_sites * std::numbers::sqrt3 / 2;
     TargetLengths targets =
-        target_lengths(base->surface(), values, most, joined, sizing, area, ticker);
+        target_lengths(base->surface(), values, most, joined, sizing, area, ticker, least);
     for (int i = 0; i < edge_length_tries && is_edge_given; ++i) {
         const double ratio = mean_length(base->surface(), targets.length) / sizing.edge_length;
         area *= ratio * ratio;
-        targets = target_lengths(base->surface(), values, most, joined, sizing, area, ticker);
+        targets =
+            target_lengths(base->surface(), values, most, joined, sizing, area, ticker, least);
     }
     RunSizes sizes{nullptr, options.num_samples};
     sizes.field = std::make_unique<const SizeField>(base, std::move(targets.length));
     if (gives_count || is_edge_given) {
-        sizes.num_samples = to_count(sizes.field->area() * 2 / std::numbers::sqrt3);
+        sizes.num_samples = count_for(*sizes.field, cleaned, spacing);
     }
     return sizes;
 }

@@ -14,7 +14,8 @@ struct RunSizes {
 
 //! \param found    creases and junctions: curvature does not count across them.
 //! \param spacing  mesh units: of the sites in the mean.
-//! \param most_lengths  #V of the cleaned mesh: no target is longer; or empty.
+//! \param most_lengths  #V of the cleaned mesh: no target is longer; or empty. Nor is one longer
+//!                      than the locked edges beside it.
 //! \param thin_places   on the cleaned surface: where edges have to be shorter (thin_lengths).
 //! Cost: that of a base, and a few sweeps over the edges.
 [[nodiscard]] RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found,

@@ -16,6 +16,13 @@ struct StageContext {
     RemeshResult& result;          //!< The stage adds its counts and times.
 };
 
+//! Thrown if no further vertex can be removed without changing the topology, or there are more
+//! locked vertices.
+struct TooFewSamples {
+    agvd::Index asked;
+    agvd::Index reached;  //!< Vertices that are left.
+};
+
 //! Adds the time from construction to destruction to a stage of the result.
 class StageClock {
 public:

@@ -17,6 +17,7 @@
 #include "remesh/guarantee/closed_ball.h"
 #include "remesh/guarantee/farthest_voronoi_vertices.h"
 #include "remesh/pipeline/stage_context.h"
+#include "remesh/simplify/free_rim.h"
 #include "remesh/simplify/thin_patch.h"
 #include "remesh/topology/topology.h"
 
@@ -387,8 +388,9 @@ private:
             points.push_back(sites_[s]);
             dual_.site.push_back(s);
         }
-        const agvd::ThinnedMesh part = input_.chain.empty() ? agvd::thin(surface_, faces, points)
-                                                            : thin_patch(surface_, faces, points);
+        agvd::ThinnedMesh part = input_.chain.empty() ? agvd::thin(surface_, faces, points)
+                                                      : thin_patch(surface_, faces, points);
+        if (input_.has_locked) free_rim(surface_, points, part);
         points.insert(points.end(), part.extra.begin(), part.extra.end());
         dual_.mesh.points.insert(dual_.mesh.points.end(), points.begin(), points.end());
         dual_.site.resize(dual_.mesh.points.size(), no_index);

@@ -24,6 +24,7 @@ struct DualInput {
     //! If the surface is cut along a network: the boundary that the mesh must have. Components
     //! whose cells do not give it are thinned.
     std::span<const ChainEdge> chain = {};
+    bool has_locked = false;  //!< Edges of the chain are locked: all else gives way to them.
 };
 
 //! A triangle mesh whose vertices are points of the surface.

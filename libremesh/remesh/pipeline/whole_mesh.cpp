@@ -1,7 +1,9 @@
 #include "remesh/pipeline/whole_mesh.h"
 
 #include <algorithm>
+#include <unordered_map>
 
+#include "agvd/core/position_hash.h"
 #include "remesh/features/weld_sheets.h"
 
 namespace remesh::detail {
@@ -57,10 +59,27 @@ agvd::TriangleMesh whole_mesh(const agvd::Surface& whole, const PlacedDual& plac
 }
 
 agvd::TriangleMesh welded_mesh(const Domain& domain, const PlacedDual& placed) {
-    if (!domain.has_junctions()) return whole_mesh(*domain.whole, placed);
-    const GluedMesh& glued = placed.patches->glued;
-    return {positions_of(*domain.whole, placed.mesh),
-            rename_vertices(glued.triangles, glued.first_of_group)};
+    agvd::TriangleMesh mesh;
+    if (domain.has_junctions()) {
+        const GluedMesh& glued = placed.patches->glued;
+        mesh = {positions_of(*domain.whole, placed.mesh),
+                rename_vertices(glued.triangles, glued.first_of_group)};
+    } else {
+        mesh = whole_mesh(*domain.whole, placed);
+    }
+    if (domain.has_locked()) mesh.triangles = join_positions(mesh.positions, mesh.triangles);
+    return mesh;
+}
+
+std::vector<agvd::Triangle> join_positions(std::span<const agvd::Vec3> positions,
+                                           std::span<const agvd::Triangle> triangles) {
+    std::unordered_map<agvd::Vec3, Index, agvd::PositionHash> first_at;
+    std::vector<Index> first;
+    first.reserve(positions.size());
+    for (Index v = 0; v < positions.size(); ++v) {
+        first.push_back(first_at.try_emplace(positions[v], v).first->second);
+    }
+    return rename_vertices(triangles, first);
 }
 
 }  // namespace remesh::detail

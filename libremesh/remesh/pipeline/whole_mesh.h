@@ -44,8 +44,12 @@ template <typename T>
 //! The result: copies of a vertex are joined, and sheets have equal points where they meet.
 [[nodiscard]] agvd::TriangleMesh whole_mesh(const agvd::Surface& whole, const PlacedDual& placed);
 
-//! The same to search for self-intersections: sheets share vertices where they meet. Some vertices
-//! may be in no triangle.
+//! The same to search for self-intersections: sheets share vertices where they meet, and so do
+//! parts that touch at locked places. Some vertices may be in no triangle.
 [[nodiscard]] agvd::TriangleMesh welded_mesh(const Domain& domain, const PlacedDual& placed);
+
+//! The triangles with the first vertex at its position in place of each vertex. Cost: O(n).
+[[nodiscard]] std::vector<agvd::Triangle> join_positions(std::span<const agvd::Vec3> positions,
+                                                         std::span<const agvd::Triangle> triangles);
 
 }  // namespace remesh::detail

@@ -90,8 +90,8 @@ double dot(const Field& a, const Field& b) {
 class Fit {
 public:
     Fit(const agvd::IntrinsicTriangulation& base, std::span<const Index> nearest_vertex,
-        std::vector<CellSample> samples, PlacedMesh& mesh, double least_way, int num_threads,
-        agvd::Poller& poller)
+        std::vector<CellSample> samples, PlacedMesh& mesh, double least_way,
+        std::span<const std::uint8_t> stays, int num_threads, agvd::Poller& poller)
         : surface_(base.input()),
           least_way_(least_way),
           num_threads_(num_threads),
@@ -103,7 +103,8 @@ public:
           samples_(std::move(samples)) {
         for (Index v = 0; v < num_vertices(); ++v) {
             at_.push_back(mesh.position(surface_.mesh.view(), v));
-            stays_.push_back(agvd::is_on_boundary(surface_, mesh.points[v]) ? 1 : 0);
+            const bool is_marked = !stays.empty() && stays[v] != 0;
+            stays_.push_back(is_marked || agvd::is_on_boundary(surface_, mesh.points[v]) ? 1 : 0);
         }
     }
 
@@ -444,10 +445,12 @@ std::vector<CellSample> sample_cells(const PreparedSurface& surface,
 
 void fit_vertices(const agvd::IntrinsicTriangulation& base, std::span<const Index> nearest_vertex,
                   std::vector<CellSample> samples, PlacedMesh& mesh, int num_threads,
-                  const agvd::Progress& progress, double least_way) {
+                  const agvd::Progress& progress, double least_way,
+                  std::span<const std::uint8_t> stays) {
     agvd::Poller poller(progress);
     mesh.offsets.resize(mesh.points.size(), Vec3::Zero());
-    Fit(base, nearest_vertex, std::move(samples), mesh, least_way, num_threads, poller).run();
+    Fit(base, nearest_vertex, std::move(samples), mesh, least_way, stays, num_threads, poller)
+        .run();
 }
 
 void fit_vertices(const PreparedSurface& surface, std::span<const Index> nearest_vertex,

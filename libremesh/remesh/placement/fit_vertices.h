@@ -16,7 +16,7 @@ namespace remesh {
 //! faces) from the planes of their triangles, and of vertices and middles of triangles from the
 //! surface. Planes do not restrict moves along them: there a vertex is drawn to where its triangles
 //! are equilateral. Where planes meet at an angle the vertex slides to their edge. Vertices on the
-//! boundary stay, and no triangle turns over.
+//! boundary and those marked in `stays` stay, and no triangle turns over.
 //!
 //! \param nearest_vertex  per vertex of surface.base: the vertex of the mesh in whose cell it lies;
 //!                        agvd::no_index: none.
@@ -45,9 +45,10 @@ struct CellSample {
                                                    const agvd::Progress& progress = {});
 
 //! The same as fit_vertices() above, with these points.
+//! \param stays  #V of the mesh: 1 for vertices that stay; or empty.
 void fit_vertices(const agvd::IntrinsicTriangulation& base,
                   std::span<const agvd::Index> nearest_vertex, std::vector<CellSample> samples,
                   PlacedMesh& mesh, int num_threads = 0, const agvd::Progress& progress = {},
-                  double least_way = 0);
+                  double least_way = 0, std::span<const std::uint8_t> stays = {});
 
 }  // namespace remesh

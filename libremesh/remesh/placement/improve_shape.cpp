@@ -43,7 +43,8 @@ constexpr double least_gain = 1e-4;
 class Improvement {
 public:
     Improvement(const agvd::Surface& input, std::span<const detail::CellPlanes> planes,
-                const SizeField* sizes, agvd::Poller& poller, PlacedMesh& mesh)
+                const SizeField* sizes, std::span<const std::uint8_t> stays, agvd::Poller& poller,
+                PlacedMesh& mesh)
         : surface_(input),
           ticker_(poller),
           mesh_(mesh),
@@ -51,7 +52,13 @@ public:
           at_(mesh.points.size()),
           facing_(mesh.points.size()),
           planes_(planes) {
-        for (Index v = 0; v < at_.size(); ++v) locate(v);
+        for (Index v = 0; v < at_.size(); ++v) {
+            locate(v);
+            stays_.push_back(agvd::is_on_boundary(surface_, mesh.points[v]) ||
+                                     (!stays.empty() && stays[v] != 0)
+                                 ? 1
+                                 : 0);
+        }
         find_slim(sizes);
     }
 
@@ -89,10 +96,6 @@ private:
 
     // Marks triangles on a short side between two fixed vertices.
     void find_slim(const SizeField* sizes) {
-        std::vector<std::uint8_t> stays;
-        for (const SurfacePoint& point : mesh_.points) {
-            stays.push_back(agvd::is_on_boundary(surface_, point) ? 1 : 0);
-        }
         double sum = 0;
         for (const auto& [a, b, c] : mesh_.triangles) {
             sum += (at_[b] - at_[a]).norm() + (at_[c] - at_[b]).norm() + (at_[a] - at_[c]).norm();
@@ -104,7 +107,7 @@ private:
                 const Index a = t[k], b = t[(k + 1) % 3];
                 const double usual = sizes != nullptr ? sizes->at(mesh_.points[a]) : mean;
                 const bool is_short = (at_[b] - at_[a]).norm() < short_side * usual;
-                is_slim = is_slim || (is_short && stays[a] != 0 && stays[b] != 0);
+                is_slim = is_slim || (is_short && stays_[a] != 0 && stays_[b] != 0);
             }
             is_slim_.push_back(is_slim ? 1 : 0);
         }
@@ -160,7 +163,7 @@ private:
     }
 
     bool improve(Index v) {
-        if (agvd::is_on_boundary(surface_, mesh_.points[v])) return false;
+        if (stays_[v] != 0) return false;
         Vec3 normal = Vec3::Zero(), mean = Vec3::Zero();
         double length = 0;
         const std::span<const Index> around = around_.of(v);
@@ -192,6 +195,7 @@ private:
     std::vector<Vec3> directions_;                // Of the vertex at hand.
     std::vector<Vec3> at_, facing_;               // #V: positions, and normals of the surface.
     std::span<const detail::CellPlanes> planes_;  // #V
+    std::vector<std::uint8_t> stays_;             // #V
     std::vector<std::uint8_t> is_slim_;           // By triangle: see short_side.
     double plane_cost_ = 0;
     // #V: 0 if the last try changed nothing, nor moved a neighbour since.
@@ -228,9 +232,10 @@ std::vector<detail::CellPlanes> planes_of_cells(const PreparedSurface& surface,
 }
 
 void improve_shape(const agvd::Surface& input, std::span<const detail::CellPlanes> planes,
-                   PlacedMesh& mesh, const agvd::Progress& progress, const SizeField* sizes) {
+                   PlacedMesh& mesh, const agvd::Progress& progress, const SizeField* sizes,
+                   std::span<const std::uint8_t> stays) {
     agvd::Poller poller(progress);
-    Improvement(input, planes, sizes, poller, mesh).run();
+    Improvement(input, planes, sizes, stays, poller, mesh).run();
 }
 
 void improve_shape(const PreparedSurface& surface, std::span<const Index> nearest_vertex,

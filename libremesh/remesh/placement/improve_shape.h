@@ -36,8 +36,9 @@ void improve_shape(const PreparedSurface& surface, std::span<const agvd::Index> 
 
 //! The same as improve_shape() above, with these planes.
 //! \param input  PreparedSurface::input().
+//! \param stays  #V of the mesh: 1 for vertices that stay; or empty.
 void improve_shape(const agvd::Surface& input, std::span<const detail::CellPlanes> planes,
                    PlacedMesh& mesh, const agvd::Progress& progress = {},
-                   const SizeField* sizes = nullptr);
+                   const SizeField* sizes = nullptr, std::span<const std::uint8_t> stays = {});
 
 }  // namespace remesh

@@ -93,6 +93,18 @@ void leave_out(const JunctionSet& junctions, std::vector<std::uint8_t>& is_creas
     }
 }
 
+bool is_free_crease(const Curve& curve) { return curve.is_crease() && !curve.is_locked; }
+
+// Marks locked edges inside the surface as creases.
+void mark_locked(const Surface& surface, const LockedElements& locked,
+                 std::vector<std::uint8_t>& is_crease) {
+    for (Index e = 0; e < locked.is_edge.size(); ++e) {
+        if (locked.is_edge[e] != 0 && surface.twin[surface.edge_half[e]] != agvd::no_index) {
+            is_crease[e] = 1;
+        }
+    }
+}
+
 Index fewest_vertices(const CurveNetwork& network) {
     return static_cast<Index>(num_curve_vertices(network, fewest_intervals(network)));
 }
@@ -103,13 +115,19 @@ void drop_shortest(const Surface& surface, const CurveNetwork& network, double s
                    std::vector<std::uint8_t>& is_crease) {
     std::vector<std::pair<double, Index>> order;
     for (Index c = 0; c < network.curves.size(); ++c) {
-        if (network.curves[c].is_crease()) order.emplace_back(network.curves[c].length(), c);
+        if (is_free_crease(network.curves[c])) order.emplace_back(network.curves[c].length(), c);
     }
     std::sort(order.begin(), order.end());
     order.resize(static_cast<std::size_t>(std::ceil(share * static_cast<double>(order.size()))));
     for (const auto& [length, c] : order) {
         for (const Index h : network.curves[c].sides[0].half_edges) is_crease[surface.edge[h]] = 0;
     }
+}
+
+Index fewest_locked_vertices(const Surface& surface, double spacing, const LockedElements& locked) {
+    std::vector<std::uint8_t> is_crease(surface.num_edges(), 0);
+    mark_locked(surface, locked, is_crease);
+    return fewest_vertices(find_network(surface, is_crease, spacing, {}, locked));
 }
 
 double length_of(const Surface& surface, std::span<const std::uint8_t> is_crease) {
@@ -122,19 +140,24 @@ double length_of(const Surface& surface, std::span<const std::uint8_t> is_crease
 
 NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_crease,
                          Index num_vertices, JunctionSet junctions, double drop_share,
-                         int num_threads, const agvd::Progress& progress, const SizeField* sizes) {
+                         int num_threads, const agvd::Progress& progress, const SizeField* sizes,
+                         LockedElements locked) {
     const double spacing = detail::spacing_of(num_vertices, agvd::surface_area(surface), 0);
     NetworkPlan plan;
     plan.junctions = std::move(junctions);
+    plan.locked = std::move(locked);
+    mark_locked(surface, plan.locked, is_crease);
     const auto find = [&] {
-        plan.network = find_network(surface, is_crease, spacing, plan.junctions);
+        plan.network = find_network(surface, is_crease, spacing, plan.junctions, plan.locked);
         const Index needed = fewest_vertices(plan.network);
         if (plan.sites_for_all == 0) plan.sites_for_all = needed;
         return needed;
     };
     if (!plan.junctions.empty()) {
-        const std::vector<std::uint8_t> no_crease(surface.num_edges(), 0);
-        const CurveNetwork bare = find_network(surface, no_crease, spacing, plan.junctions);
+        std::vector<std::uint8_t> no_crease(surface.num_edges(), 0);
+        mark_locked(surface, plan.locked, no_crease);
+        const CurveNetwork bare =
+            find_network(surface, no_crease, spacing, plan.junctions, plan.locked);
         plan.sites_for_junctions = fewest_vertices(bare);
         if (plan.sites_for_junctions > num_vertices) plan.junctions = {};
         leave_out(plan.junctions, is_crease);
@@ -147,10 +170,10 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
     const auto has_creases = [&] {
         return std::any_of(is_crease.begin(), is_crease.end(), [](auto c) { return c != 0; });
     };
-    while (has_creases() || !plan.junctions.empty()) {
+    while (has_creases() || !plan.junctions.empty() || !plan.locked.empty()) {
         if (find() > num_vertices) {
             // Marked edges of the boundary are no creases: nothing is left that could be dropped.
-            if (!std::ranges::any_of(plan.network.curves, &Curve::is_crease)) break;
+            if (!std::ranges::any_of(plan.network.curves, is_free_crease)) break;
             drop_shortest(surface, plan.network, drop_at_once, is_crease);
             continue;
         }
@@ -166,8 +189,12 @@ NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_cr
         plan.dropped_length = length_at_first - plan.length;
         return plan;
     }
+    if (!plan.locked.empty()) {
+        plan.sites_for_locked = fewest_locked_vertices(surface, spacing, plan.locked);
+    }
     plan.network = {};
     plan.junctions = {};
+    plan.locked = {};
     plan.dropped_length = length_at_first;
     return plan;
 }

@@ -26,12 +26,16 @@ constexpr double longest_of_mean = 4;
 // Paths in a Delaunay triangulation (Paths::Lines) are up to 1.17 times as long as geodesics on
 // tori; the rest is for the factor at the end.
 constexpr double path_excess = 1.25;
+// How fast targets may fall beside long edges that stay: by half from one row of triangles to the
+// next.
+constexpr double fall_near_least = 0.5;
 
 class LengthSearch {
 public:
     LengthSearch(const Surface& surface, std::span<const double> values,
                  std::span<const double> most, std::span<const std::pair<Index, Index>> joined,
-                 const Sizing& sizing, double area, agvd::Ticker& ticker)
+                 const Sizing& sizing, double area, std::span<const double> least,
+                 agvd::Ticker& ticker)
         : surface_(surface),
           values_(values),
           most_(most),
@@ -46,6 +50,7 @@ public:
         if (sizing.is_adaptive && area > 0) {
             longest_ = std::min(longest_, std::max(longest_of_mean * mean_, sizing.min_edge));
         }
+        if (!least.empty()) find_bounds(least);
     }
 
     TargetLengths run() {
@@ -72,6 +77,32 @@ public:
     }
 
 private:
+    // What targets must not fall below, and what they must not exceed even so.
+    void find_bounds(std::span<const double> least) {
+        // The growth of the difference from a length above all is limited.
+        double most = *std::max_element(least.begin(), least.end());
+        // Beside edges much longer than the others hardly any vertex would be left for these.
+        if (area_ > 0) most = std::min(most, longest_of_mean * mean_);
+        const double above = 2 * most;
+        for (const double length : least) lower_.push_back(above - std::min(length, most));
+        limit_growth(surface_, joined_, fall_near_least, Paths::Lines, lower_, ticker_);
+        for (double& length : lower_) length = above - length;
+        upper_.assign(most_.begin(), most_.end());
+        if (!upper_.empty()) {
+            limit_growth(surface_, joined_, slope_, Paths::Lines, upper_, ticker_);
+        }
+    }
+
+    // The lengths within these bounds.
+    [[nodiscard]] std::vector<double> bounded(const std::vector<double>& lengths) const {
+        std::vector<double> result = lengths;
+        for (std::size_t v = 0; v < lower_.size(); ++v) {
+            result[v] = std::max(result[v], lower_[v]);
+            if (!upper_.empty()) result[v] = std::min(result[v], upper_[v]);
+        }
+        return result;
+    }
+
     // Without bounds and gradation the area is in proportion to 1 / scale^2.
     [[nodiscard]] double first_scale() const {
         double sum = 0, whole = 0;
@@ -110,12 +141,13 @@ private:
     // The search measures along edges only, which is quicker and changes the area little.
     [[nodiscard]] TargetLengths finished(TargetLengths targets) const {
         limit_growth(surface_, joined_, slope_, Paths::Lines, targets.length, ticker_);
+        targets.length = bounded(targets.length);
         return targets;
     }
 
     // The logarithm of the area over that wanted.
     [[nodiscard]] double error_of(const TargetLengths& lengths) const {
-        return std::log(area_in_lengths(surface_, lengths.length) / area_);
+        return std::log(area_in_lengths(surface_, bounded(lengths.length)) / area_);
     }
 
     const Surface& surface_;
@@ -126,6 +158,7 @@ private:
     agvd::Ticker& ticker_;
     double slope_;
     double mean_ = 0, longest_ = 0;
+    std::vector<double> lower_, upper_;  // #V; empty: there are no such bounds.
 };
 
 }  // namespace
@@ -139,8 +172,8 @@ double length_for_error(double curvature, double error) {
 TargetLengths target_lengths(const Surface& surface, std::span<const double> values,
                              std::span<const double> most,
                              std::span<const std::pair<Index, Index>> joined, const Sizing& sizing,
-                             double area, agvd::Ticker& ticker) {
-    return LengthSearch(surface, values, most, joined, sizing, area, ticker).run();
+                             double area, agvd::Ticker& ticker, std::span<const double> least) {
+    return LengthSearch(surface, values, most, joined, sizing, area, least, ticker).run();
 }
 
 }  // namespace remesh

@@ -28,6 +28,8 @@ struct TargetLengths {
 //! \param values  #V: curvatures (patch_curvature), lengths or densities, whichever `sizing` asks
 //!        for.
 //! \param most    #V: no target is longer; or empty.
+//! \param least   #V: edges that stay are so long there; 0: none. Targets fall from there by at most
+//!        half the distance, except below `most`. Or empty.
 //! \param joined  see limit_growth.
 //! \param area    in squares of the local length, that the result has; 0: as the lengths give it.
 //!        Bounds and gradation hold in the scaled lengths unless no scale gives this area: then all
@@ -36,6 +38,6 @@ struct TargetLengths {
 [[nodiscard]] TargetLengths target_lengths(
     const agvd::Surface& surface, std::span<const double> values, std::span<const double> most,
     std::span<const std::pair<agvd::Index, agvd::Index>> joined, const Sizing& sizing, double area,
-    agvd::Ticker& ticker);
+    agvd::Ticker& ticker, std::span<const double> least = {});
 
 }  // namespace remesh

@@ -1,0 +1,185 @@
+// A place is a position: the number of its first vertex.
+#include "remesh/pipeline/cut_region.h"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "agvd/core/edge_key.h"
+#include "agvd/core/error.h"
+#include "agvd/core/position_hash.h"
+#include "remesh/clean/soup.h"
+
+namespace remesh::detail {
+namespace {
+
+using agvd::Index;
+using agvd::no_index;
+using agvd::Triangle;
+
+// #V: the first vertex at the same position.
+std::vector<Index> find_places(const agvd::MeshView& mesh, agvd::Ticker& ticker) {
+    std::unordered_map<agvd::Vec3, Index, agvd::PositionHash> first;
+    first.reserve(mesh.positions.size());
+    std::vector<Index> place(mesh.positions.size());
+    for (Index v = 0; v < place.size(); ++v) {
+        ticker.tick();
+        place[v] = first.try_emplace(mesh.positions[v], v).first->second;
+    }
+    return place;
+}
+
+class RegionCutter {
+public:
+    RegionCutter(const agvd::MeshView& mesh, std::span<const std::uint8_t> is_marked,
+                 agvd::Ticker& ticker)
+        : mesh_(mesh),
+          ticker_(ticker),
+          place_(find_places(mesh, ticker)),
+          is_inside_(is_marked.begin(), is_marked.end()),
+          is_outer_place_(mesh.positions.size(), false) {
+        keep_flat_faces();
+    }
+
+    Region run() {
+        Region region;
+        std::vector<Index> number(mesh_.positions.size(), no_index);
+        for (Index f = 0; f < is_inside_.size(); ++f) {
+            ticker_.tick();
+            (is_inside_[f] != 0 ? region.faces : region.kept).push_back(f);
+            if (is_inside_[f] == 0) continue;
+            for (const Index v : mesh_.triangles[f]) number[v] = 0;
+        }
+        if (region.faces.empty()) {
+            throw agvd::InvalidOption(
+                "the region has no face with an area; mark the faces to remesh with other values "
+                "than 0");
+        }
+        for (Index v = 0; v < number.size(); ++v) {
+            if (number[v] == no_index) continue;
+            number[v] = static_cast<Index>(region.vertices.size());
+            region.vertices.push_back(v);
+            region.mesh.positions.push_back(mesh_.positions[v]);
+        }
+        for (const Index f : region.faces) {
+            const auto& [a, b, c] = mesh_.triangles[f];
+            region.mesh.triangles.push_back({number[a], number[b], number[c]});
+        }
+        find_seam(number, region);
+        return region;
+    }
+
+private:
+    [[nodiscard]] Triangle places_of(Index face) const {
+        const auto& [a, b, c] = mesh_.triangles[face];
+        return {place_[a], place_[b], place_[c]};
+    }
+
+    // Marked faces without area that touch a kept one are not remeshed either.
+    void keep_flat_faces() {
+        std::vector<std::pair<Index, Index>> flat;  // (place, marked face without area there)
+        std::vector<Index> reached;
+        for (Index f = 0; f < is_inside_.size(); ++f) {
+            ticker_.tick();
+            const Triangle t = places_of(f);
+            if (is_inside_[f] == 0) {
+                for (const Index p : t) reach(p, reached);
+            } else if (!(smallest_doubled_area(mesh_.positions, mesh_.triangles[f]) > 0)) {
+                for (const Index p : t) flat.emplace_back(p, f);
+            }
+        }
+        if (flat.empty()) return;
+        std::sort(flat.begin(), flat.end());
+        while (!reached.empty()) {
+            ticker_.tick();
+            const Index p = reached.back();
+            reached.pop_back();
+            auto here = std::lower_bound(flat.begin(), flat.end(), std::pair(p, Index{0}));
+            for (; here != flat.end() && here->first == p; ++here) {
+                if (is_inside_[here->second] == 0) continue;
+                is_inside_[here->second] = 0;
+                for (const Index other : places_of(here->second)) reach(other, reached);
+            }
+        }
+    }
+    void reach(Index place, std::vector<Index>& reached) {
+        if (is_outer_place_[place]) return;
+        is_outer_place_[place] = true;
+        reached.push_back(place);
+    }
+
+    // An edge between two places of the seam.
+    struct Side {
+        std::uint64_t edge;
+        bool is_inside;
+        Index tail, head;  // Vertices of the caller.
+
+        [[nodiscard]] bool operator<(const Side& other) const {
+            return edge != other.edge ? edge < other.edge : is_inside < other.is_inside;
+        }
+    };
+
+    // \param number  #V of the caller: vertex of the region's mesh.
+    void find_seam(std::span<const Index> number, Region& region) {
+        std::vector<Index> inner(mesh_.positions.size(), no_index);  // By place: a vertex inside.
+        for (const Index v : region.vertices) {
+            if (inner[place_[v]] == no_index) inner[place_[v]] = v;
+        }
+        std::vector<Index> shared(mesh_.positions.size(), no_index);  // By place.
+        const auto share = [&](Index v) { shared[place_[v]] = std::min(shared[place_[v]], v); };
+        std::vector<Side> sides;
+        for (Index f = 0; f < is_inside_.size(); ++f) {
+            ticker_.tick();
+            const Triangle& t = mesh_.triangles[f];
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Index a = t[k], b = t[(k + 1) % 3];
+                if (is_inside_[f] == 0 && number[a] != no_index) share(a);
+                const auto is_on_seam = [&](Index p) {
+                    return is_outer_place_[p] && inner[p] != no_index;
+                };
+                if (place_[a] == place_[b] || !is_on_seam(place_[a]) || !is_on_seam(place_[b])) {
+                    continue;
+                }
+                sides.push_back({agvd::edge_key(place_[a], place_[b]), is_inside_[f] != 0, a, b});
+            }
+        }
+        std::stable_sort(sides.begin(), sides.end());
+        for (std::size_t first = 0, last = 0; first < sides.size(); first = last) {
+            while (last < sides.size() && sides[last].edge == sides[first].edge) ++last;
+            const auto low = static_cast<Index>(sides[first].edge >> 32);
+            const auto high = static_cast<Index>(sides[first].edge);
+            if (sides[first].is_inside == sides[last - 1].is_inside) {
+                if (!sides[first].is_inside || last - first <= 2) continue;
+                region.branched_edges.push_back({number[inner[low]], number[inner[high]]});
+                continue;
+            }
+            region.seam_edges.push_back({number[inner[low]], number[inner[high]]});
+            // A crack: cleaning would weld it.
+            if (last - first == 2) {
+                share(sides[first].tail);
+                share(sides[first].head);
+            }
+        }
+        for (Index p = 0; p < inner.size(); ++p) {
+            if (inner[p] == no_index || !is_outer_place_[p]) continue;
+            region.seam.push_back({number[inner[p]], shared[p]});
+        }
+        std::sort(region.seam.begin(), region.seam.end(),
+                  [](const SeamVertex& a, const SeamVertex& b) { return a.vertex < b.vertex; });
+    }
+
+    const agvd::MeshView& mesh_;
+    agvd::Ticker& ticker_;
+    const std::vector<Index> place_;       // #V
+    std::vector<std::uint8_t> is_inside_;  // #F
+    std::vector<bool> is_outer_place_;     // By place: a corner of a kept face.
+};
+
+}  // namespace
+
+Region cut_region(const agvd::MeshView& mesh, std::span<const std::uint8_t> is_marked,
+                  agvd::Ticker& ticker) {
+    check_elements(mesh, ticker);
+    return RegionCutter(mesh, is_marked, ticker).run();
+}
+
+}  // namespace remesh::detail

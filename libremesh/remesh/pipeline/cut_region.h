@@ -1,0 +1,45 @@
+//! \file
+//! Divides a mesh into the faces to remesh and those that stay.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "agvd/core/poller.h"
+#include "agvd/mesh/mesh_view.h"
+
+namespace remesh::detail {
+
+//! A vertex at the position of a kept face's corner and of a remeshed face's.
+struct SeamVertex {
+    agvd::Index vertex;  //!< Of the region's mesh: the first one there.
+    //! The caller's vertex that kept and remeshed faces share; agvd::no_index: they only touch.
+    agvd::Index shared;
+};
+
+struct Region {
+    agvd::TriangleMesh mesh;            //!< The faces to remesh.
+    std::vector<agvd::Index> vertices;  //!< #V of mesh: the caller's, ascending.
+    std::vector<agvd::Index> faces;     //!< #F of mesh: likewise.
+    std::vector<agvd::Index> kept;      //!< All other faces of the caller, ascending.
+    std::vector<SeamVertex> seam;       //!< By position; ascending.
+    //! Edges between remeshed and kept faces, as vertices of mesh.
+    std::vector<std::array<agvd::Index, 2>> seam_edges;
+    //! Edges between vertices of the seam that have more than two faces, all of them remeshed.
+    std::vector<std::array<agvd::Index, 2>> branched_edges;
+};
+
+//! Vertices at equal positions count as one, so that the seam is found in meshes that are not
+//! welded as well. Marked faces without area stay where they touch kept faces, even over other such
+//! faces: cleaning would remove them and with them edges of the seam.
+//!
+//! \param is_marked  #F: other than 0 for the faces to remesh.
+//! \throw agvd::InvalidOption  no face is left to remesh.
+//! \throw agvd::InvalidInput   an index is out of range, or a coordinate is not finite.
+//! Cost: O(n log n).
+[[nodiscard]] Region cut_region(const agvd::MeshView& mesh, std::span<const std::uint8_t> is_marked,
+                                agvd::Ticker& ticker);
+
+}  // namespace remesh::detail

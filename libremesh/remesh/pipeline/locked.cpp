@@ -1,0 +1,147 @@
+#include "remesh/pipeline/locked.h"
+
+#include <algorithm>
+#include <string>
+#include <unordered_map>
+
+#include "agvd/core/edge_key.h"
+#include "agvd/core/error.h"
+#include "agvd/core/position_hash.h"
+
+namespace remesh::detail {
+namespace {
+
+using agvd::Index;
+using agvd::no_index;
+using agvd::Vec3;
+
+// Numbers of different positions.
+class Places {
+public:
+    void add(const Vec3& position) {
+        number_.try_emplace(position, static_cast<Index>(number_.size()));
+    }
+    [[nodiscard]] Index find(const Vec3& position) const {
+        const auto found = number_.find(position);
+        return found == number_.end() ? no_index : found->second;
+    }
+    [[nodiscard]] Index size() const { return static_cast<Index>(number_.size()); }
+
+private:
+    std::unordered_map<Vec3, Index, agvd::PositionHash> number_;
+};
+
+// Edges between places, ascending.
+std::vector<std::uint64_t> sorted(std::vector<std::uint64_t> edges) {
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
+}
+
+bool contains(const std::vector<std::uint64_t>& edges, std::uint64_t edge) {
+    return std::binary_search(edges.begin(), edges.end(), edge);
+}
+
+void require_vertex(const agvd::MeshView& given, Index vertex) {
+    if (vertex < given.positions.size()) return;
+    throw agvd::InvalidInput(
+        "vertex " + std::to_string(vertex) + " is to stay, but the mesh has only " +
+        std::to_string(given.positions.size()) + " vertices, counted from 0; name one of these");
+}
+
+}  // namespace
+
+LockedElements find_locked(const agvd::MeshView& given, std::span<const Index> vertices,
+                           std::span<const std::array<Index, 2>> edges,
+                           const agvd::Surface& surface) {
+    LockedElements locked;
+    if (vertices.empty() && edges.empty()) return locked;
+    Places places;
+    const auto place_of = [&](Index v) { return places.find(given.positions[v]); };
+    for (const Index v : vertices) {
+        require_vertex(given, v);
+        places.add(given.positions[v]);
+    }
+    std::vector<std::uint64_t> wanted;
+    for (const auto& ends : edges) {
+        for (const Index v : ends) {
+            require_vertex(given, v);
+            places.add(given.positions[v]);
+        }
+        wanted.push_back(agvd::edge_key(place_of(ends[0]), place_of(ends[1])));
+    }
+    wanted = sorted(std::move(wanted));
+    std::vector<Index> place(surface.num_vertices());
+    std::vector<bool> is_found(places.size(), false);
+    for (Index v = 0; v < surface.num_vertices(); ++v) {
+        place[v] = places.find(surface.mesh.positions[v]);
+        if (place[v] == no_index) continue;
+        locked.vertices.push_back(v);
+        is_found[place[v]] = true;
+    }
+    for (const Index v : vertices) {
+        if (is_found[place_of(v)]) continue;
+        throw agvd::InvalidInput("vertex " + std::to_string(v) +
+                                 " is to stay, but no face with an area has it as a corner; name "
+                                 "another vertex");
+    }
+    if (edges.empty()) return locked;
+    locked.is_edge.assign(surface.num_edges(), 0);
+    std::vector<std::uint64_t> found;
+    for (Index e = 0; e < surface.num_edges(); ++e) {
+        const Index h = surface.edge_half[e];
+        const Index a = place[surface.tail(h)], b = place[surface.head(h)];
+        if (a == no_index || b == no_index || !contains(wanted, agvd::edge_key(a, b))) continue;
+        locked.is_edge[e] = 1;
+        found.push_back(agvd::edge_key(a, b));
+    }
+    found = sorted(std::move(found));
+    for (const auto& [a, b] : edges) {
+        if (contains(found, agvd::edge_key(place_of(a), place_of(b)))) continue;
+        throw agvd::InvalidInput("the edge between vertices " + std::to_string(a) + " and " +
+                                 std::to_string(b) +
+                                 " is to stay, but is no edge of the cleaned mesh; leave out the "
+                                 "faces there");
+    }
+    return locked;
+}
+
+bool has_locked(const agvd::Surface& surface, const LockedElements& locked,
+                agvd::TriangleMesh& mesh) {
+    if (locked.empty()) return true;
+    Places places;
+    std::vector<Vec3> position;
+    for (const Index v : locked.vertices) {
+        const Vec3& p = surface.mesh.positions[v];
+        if (places.find(p) == no_index) position.push_back(p);
+        places.add(p);
+    }
+    std::vector<Index> place(mesh.positions.size());
+    std::vector<bool> is_found(places.size(), false);
+    for (std::size_t v = 0; v < place.size(); ++v) {
+        place[v] = places.find(mesh.positions[v]);
+        if (place[v] == no_index) continue;
+        is_found[place[v]] = true;
+        mesh.positions[v] = position[place[v]];
+    }
+    if (std::find(is_found.begin(), is_found.end(), false) != is_found.end()) return false;
+    if (locked.is_edge.empty()) return true;
+    std::vector<std::uint64_t> edges;
+    for (const agvd::Triangle& t : mesh.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index a = place[t[k]], b = place[t[(k + 1) % 3]];
+            if (a != no_index && b != no_index) edges.push_back(agvd::edge_key(a, b));
+        }
+    }
+    edges = sorted(std::move(edges));
+    for (Index e = 0; e < surface.num_edges(); ++e) {
+        if (!locked.has_edge(e)) continue;
+        const Index h = surface.edge_half[e];
+        const Index a = places.find(surface.mesh.positions[surface.tail(h)]);
+        const Index b = places.find(surface.mesh.positions[surface.head(h)]);
+        if (!contains(edges, agvd::edge_key(a, b))) return false;
+    }
+    return true;
+}
+
+}  // namespace remesh::detail

@@ -1,0 +1,25 @@
+//! \file
+//! Self-intersections of a part of a mesh.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "agvd/core/progress.h"
+#include "agvd/mesh/mesh_view.h"
+
+namespace remesh::detail {
+
+//! The number of intersecting pairs of faces of which at least one is marked: see
+//! find_self_intersections.
+//!
+//! \param is_marked  #F: other than 0 for marked faces, of which there is one.
+//! \return unset without CGAL.
+//! Cost: O(#F), and that of find_self_intersections for the faces near the marked ones.
+[[nodiscard]] std::optional<agvd::Index> count_crossings_at(const agvd::MeshView& mesh,
+                                                            std::span<const std::uint8_t> is_marked,
+                                                            int num_threads,
+                                                            const agvd::Progress& progress);
+
+}  // namespace remesh::detail

@@ -1,0 +1,184 @@
+#include "remesh/pipeline/remesh_region.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "agvd/core/edge_key.h"
+#include "agvd/core/error.h"
+#include "remesh/pipeline/glue_region.h"
+#include "remesh/pipeline/region_crossings.h"
+#include "remesh/pipeline/stage_context.h"
+#include "remesh/pipeline/whole_mesh.h"
+
+namespace remesh::detail {
+namespace {
+
+using agvd::Index;
+using agvd::no_index;
+
+// The same elements as numbered in the region.
+class RegionNumbers {
+public:
+    RegionNumbers(const agvd::MeshView& mesh, const Region& region)
+        : mesh_(mesh), region_(region) {}
+
+    // The vertex of the region; no_index: it is not in the region.
+    [[nodiscard]] Index of(Index vertex) const {
+        const auto found =
+            std::lower_bound(region_.vertices.begin(), region_.vertices.end(), vertex);
+        if (found == region_.vertices.end() || *found != vertex) return no_index;
+        return static_cast<Index>(found - region_.vertices.begin());
+    }
+
+    // Vertices outside the region stay anyway.
+    [[nodiscard]] std::vector<Index> locked(const std::vector<Index>& vertices) const {
+        std::vector<Index> result;
+        for (const SeamVertex& seam : region_.seam) result.push_back(seam.vertex);
+        for (const Index v : vertices) {
+            require_vertex(v, "locked");
+            if (of(v) != no_index) result.push_back(of(v));
+        }
+        return result;
+    }
+
+    // Edges of the region among pairs of vertices.
+    // \param what  they are, for an error.
+    [[nodiscard]] std::vector<std::array<Index, 2>> edges(
+        const std::vector<std::array<Index, 2>>& pairs, const std::string& what) const {
+        if (pairs.empty()) return {};
+        const std::vector<std::uint64_t> inside = edges_of(region_.faces);
+        const std::vector<std::uint64_t> outside = edges_of(region_.kept);
+        std::vector<std::array<Index, 2>> result;
+        for (const auto& [a, b] : pairs) {
+            const std::uint64_t edge = agvd::edge_key(a, b);
+            if (std::binary_search(inside.begin(), inside.end(), edge)) {
+                result.push_back({of(a), of(b)});
+            } else if (!std::binary_search(outside.begin(), outside.end(), edge)) {
+                throw agvd::InvalidInput("the " + what + " edge between vertices " +
+                                         std::to_string(a) + " and " + std::to_string(b) +
+                                         " is no edge of the mesh; name the two ends of an edge, "
+                                         "counted from 0");
+            }
+        }
+        return result;
+    }
+
+private:
+    void require_vertex(Index vertex, const std::string& what) const {
+        if (vertex < mesh_.positions.size()) return;
+        throw agvd::InvalidInput("vertex " + std::to_string(vertex) + " is " + what +
+                                 ", but the mesh has only " +
+                                 std::to_string(mesh_.positions.size()) +
+                                 " vertices, counted from 0; name one of these");
+    }
+
+    [[nodiscard]] std::vector<std::uint64_t> edges_of(const std::vector<Index>& faces) const {
+        std::vector<std::uint64_t> edges;
+        for (const Index f : faces) {
+            const agvd::Triangle& t = mesh_.triangles[f];
+            for (std::size_t k = 0; k < 3; ++k) {
+                edges.push_back(agvd::edge_key(t[k], t[(k + 1) % 3]));
+            }
+        }
+        std::sort(edges.begin(), edges.end());
+        return edges;
+    }
+
+    const agvd::MeshView& mesh_;
+    const Region& region_;
+};
+
+// Target lengths let edges grow from those of the seam. Where all are to be equally long, they are
+// given: the mean of all edges would count those near the seam, too.
+Sizing sizing_of_region(const Sizing& given, const Region& region) {
+    Sizing sizing = given;
+    const auto num_vertices = region.vertices.size();
+    if (!given.target_lengths.empty())
+        sizing.target_lengths = take(given.target_lengths, region.vertices);
+    if (!given.densities.empty()) sizing.densities = take(given.densities, region.vertices);
+    if (!is_uniform(given) || given.max_distance > 0) return sizing;
+    sizing.target_lengths.assign(num_vertices, given.edge_length > 0 ? given.edge_length : 1);
+    sizing.gives_count = given.edge_length > 0;
+    sizing.edge_length = 0;
+    return sizing;
+}
+
+RemeshOptions options_of_region(const agvd::MeshView& mesh, const RemeshOptions& given,
+                                const Region& region) {
+    const RegionNumbers numbers(mesh, region);
+    RemeshOptions options = given;
+    options.region.clear();
+    options.locked = numbers.locked(given.locked);
+    options.locked_edges = numbers.edges(given.locked_edges, "locked");
+    options.locked_edges.insert(options.locked_edges.end(), region.seam_edges.begin(),
+                                region.seam_edges.end());
+    options.feature_edges = numbers.edges(given.feature_edges, "feature");
+    if (!given.face_labels.empty()) options.face_labels = take(given.face_labels, region.faces);
+    if (!region.seam_edges.empty()) options.sizing = sizing_of_region(given.sizing, region);
+    return options;
+}
+
+// For each kept vertex a corner of a kept face; then those of the region's own vertices.
+std::vector<agvd::SurfacePoint> sites_of(const Region& region, const GluedRegion& glued,
+                                         const std::vector<agvd::SurfacePoint>& remeshed) {
+    std::vector<agvd::SurfacePoint> sites(glued.mesh.positions.size());
+    for (Index v = 0; v < remeshed.size(); ++v) {
+        agvd::SurfacePoint& site = sites[glued.vertex[v]];
+        site = remeshed[v];
+        site.face = agvd::FaceId(region.faces[site.face.value()]);
+    }
+    for (Index i = 0; i < region.kept.size(); ++i) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            agvd::SurfacePoint corner{agvd::FaceId(region.kept[i]), {0, 0, 0}};
+            corner.barycentric[k] = 1;
+            sites[glued.mesh.triangles[i][k]] = corner;
+        }
+    }
+    return sites;
+}
+
+// Replaces the numbers for the region alone: now faces that stay count as well.
+void count_crossings(const agvd::MeshView& mesh, const Region& region, const RemeshOptions& options,
+                     RemeshResult& result) {
+    const StageClock clock(Stage::Check, result);
+    const agvd::Progress progress = progress_of(Stage::Check, options);
+    const agvd::Progress last = agvd::within(progress, 1, 1);
+    std::vector<std::uint8_t> is_new(result.mesh.triangles.size(), 1);
+    std::fill_n(is_new.begin(), region.kept.size(), 0);
+    result.self_intersections =
+        count_crossings_at(result.mesh.view(), is_new, options.num_threads, last);
+    result.input_self_intersections = 0;
+    if (result.self_intersections.value_or(0) == 0) return;
+    std::vector<std::uint8_t> is_inside(mesh.triangles.size(), 0);
+    for (const Index f : region.faces) is_inside[f] = 1;
+    result.input_self_intersections =
+        *count_crossings_at(mesh, is_inside, options.num_threads, last);
+}
+
+}  // namespace
+
+RemeshResult remesh_region(const agvd::MeshView& mesh, const RemeshOptions& options,
+                           const RemeshWhole& run) {
+    const agvd::Progress progress = progress_of(Stage::Clean, options);
+    const agvd::Progress start = agvd::within(progress, 0, 0);
+    agvd::Poller poller(start);
+    agvd::Ticker ticker(poller);
+    const Region region = cut_region(mesh, options.region, ticker);
+    RemeshResult result = run(region.mesh.view(), options_of_region(mesh, options, region));
+    GluedRegion glued = glue_region(mesh, region, result.mesh, ticker);
+    if (!glued.is_joined) {
+        throw agvd::ConstraintUnmet(
+            std::to_string(result.mesh.positions.size()) +
+            " samples are too few for the region: an edge of its mesh would join two vertices of "
+            "the seam that another edge joins already; use more samples, or a larger region");
+    }
+    result.sites = sites_of(region, glued, result.sites);
+    result.mesh = std::move(glued.mesh);
+    result.kept = {std::move(glued.kept_vertices), region.kept,
+                   static_cast<Index>(region.seam_edges.size())};
+    count_crossings(mesh, region, options, result);
+    return result;
+}
+
+}  // namespace remesh::detail
