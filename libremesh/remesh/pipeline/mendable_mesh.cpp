@@ -58,7 +58,8 @@ std::optional<MendableMesh> find_mendable(const Domain& domain, const ValidDual&
     for (Index i = 0; i < placed.points.size(); ++i) {
         const agvd::SurfacePoint& point = dual.mesh.points[i];
         const auto v = agvd::vertex_of(domain.base(), point);
-        if ((v && *v < is_corner.size() && is_corner[*v]) || !is_mendable[domain.component[point.face.value()]]) {
+        if ((v && *v < is_corner.size() && is_corner[*v]) ||
+            !is_mendable[domain.component[point.face.value()]]) {
             result.mobility[i] = Mobility::Fixed;
         }
     }

@@ -473,13 +473,32 @@ private:
 
 }  // namespace
 
+namespace {
+
+// Whether the first goal finds a triangle to mend: cheaper to tell without an EditedMesh.
+bool has_bad_triangle(const agvd::Surface& surface, std::span<const Mobility> mobility,
+                      const PlacedMesh& mesh, agvd::Ticker& ticker) {
+    const agvd::MeshView view = surface.mesh.view();
+    return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
+        ticker.tick();
+        const auto& [a, b, c] = t;
+        return detail::shape_quality(mesh.position(view, a), mesh.position(view, b),
+                                     mesh.position(view, c)) < goals.front().quality &&
+               std::any_of(t.begin(), t.end(),
+                           [&](Index v) { return mobility[v] != Mobility::Fixed; });
+    });
+}
+
+}  // namespace
+
 std::vector<Index> mend_shape(const agvd::Surface& surface, std::span<const Mobility> mobility,
                               std::span<const DirectedEdge> hard, PlacedMesh& mesh,
                               const agvd::Progress& progress) {
     agvd::Poller poller(progress);
-    EditedMesh edited(surface, mesh, mobility, hard);
-    std::vector<Index> numbers;
     agvd::Ticker ticker(poller);
+    std::vector<Index> numbers;
+    if (!has_bad_triangle(surface, mobility, mesh, ticker)) return numbers;
+    EditedMesh edited(surface, mesh, mobility, hard);
     for (const Goal& goal : goals) {
         const std::optional<bool> is_changed =
             Mender(edited, surface.num_faces(), goal, ticker).run();

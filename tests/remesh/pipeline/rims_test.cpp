@@ -66,12 +66,32 @@ TriangleMesh sphere_with_holes(int levels, std::size_t count) {
     return compact(mesh);
 }
 
-struct Shape {
+// A flat sector with a tip of 20 degrees at the origin, radius 1.
+TriangleMesh wedge(Index rows) {
+    const double angle = std::numbers::pi / 9;
+    TriangleMesh mesh;
+    for (Index row = 0; row <= rows; ++row) {
+        for (Index i = 0; i <= row; ++i) {
+            const double u = row == 0 ? 0 : angle * i / row;
+            mesh.positions.push_back(Vec3(std::cos(u), std::sin(u), 0) * row / rows);
+        }
+    }
+    for (Index row = 0; row < rows; ++row) {
+        const Index here = row * (row + 1) / 2, next = here + row + 1;
+        for (Index i = 0; i <= row; ++i) {
+            mesh.triangles.push_back({here + i, next + i, next + i + 1});
+            if (i < row) mesh.triangles.push_back({here + i, next + i + 1, here + i + 1});
+        }
+    }
+    return mesh;
+}
+
+struct RimShape {
     double smallest_angle = 0;  // Degrees.
     double least_quality = 0;
 };
 
-Shape shape_of(const TriangleMesh& mesh) {
+RimShape shape_of(const TriangleMesh& mesh) {
     const auto measures = remesh::measure_triangles(mesh.view());
     return {measures.min_angle * 180 / std::numbers::pi, measures.min_quality};
 }
@@ -98,10 +118,9 @@ TEST(Rims, TeethOfAScanMakeNoThinTriangles) {
             SCOPED_TRACE(std::to_string(n) + " vertices, x of the normal " +
                          std::to_string(normal.x()));
             expect_valid(mesh, options, result);
-            const Shape shape = shape_of(result.mesh);
+            const RimShape shape = shape_of(result.mesh);
             EXPECT_GT(shape.smallest_angle, 28);
             EXPECT_GT(shape.least_quality, 0.5);
-            std::printf("%u %f %f\n", n, shape.smallest_angle, shape.least_quality);
             ++num_cases;
         }
     }
@@ -115,9 +134,58 @@ TEST(Rims, HolesSmallerThanTheSpacingHaveNoThinTrianglesAroundThem) {
         const RemeshResult result = remesh::remesh(mesh.view(), options);
         SCOPED_TRACE(std::to_string(n) + " vertices");
         expect_valid(mesh, options, result);
-        const Shape shape = shape_of(result.mesh);
+        const RimShape shape = shape_of(result.mesh);
         EXPECT_GT(shape.smallest_angle, 25);
         EXPECT_GT(shape.least_quality, 0.45);
-        std::printf("%u %f %f\n", n, shape.smallest_angle, shape.least_quality);
     }
+}
+
+// The loops need more sites than the coarse level has.
+TEST(Rims, SamplesThatAreEnoughForManyHolesAreNotRefused) {
+    const TriangleMesh mesh = sphere_with_holes(5, 40);
+    const RemeshOptions options{.num_samples = 400};
+    expect_valid(mesh, options, remesh::remesh(mesh.view(), options));
+}
+
+TEST(Rims, ASharpCornerThatLastsStaysAndItsNeighboursAreGood) {
+    const TriangleMesh mesh = wedge(40);
+    for (const Index n : {60u, 200u, 600u}) {
+        SCOPED_TRACE(std::to_string(n) + " vertices");
+        const RemeshOptions options{.num_samples = n};
+        const RemeshResult result = remesh::remesh(mesh.view(), options);
+        expect_valid(mesh, options, result);
+        const std::vector<Vec3>& p = result.mesh.positions;
+        EXPECT_NE(std::find(p.begin(), p.end(), Vec3(0, 0, 0)), p.end());
+        Index num_thin = 0;
+        for (const Triangle& t : result.mesh.triangles) {
+            const TriangleMesh alone{{p[t[0]], p[t[1]], p[t[2]]}, {{0, 1, 2}}};
+            if (shape_of(alone).smallest_angle < 28) ++num_thin;
+        }
+        EXPECT_LE(num_thin, 2u);
+    }
+}
+
+// With a quarter of the vertices half of them would lie at holes.
+TEST(Rims, ManySmallHolesTakeNoCoarseLevel) {
+    for (const auto& [count, levels] : {std::pair{1u, 2u}, {40u, 1u}}) {
+        const TriangleMesh mesh = sphere_with_holes(5, count);
+        EXPECT_EQ(remesh::remesh(mesh.view(), {.num_samples = 800}).relaxation.size(), levels);
+    }
+}
+
+// Mending takes vertices away and adds others.
+TEST(Rims, VerticesOfGivenSitesStayNearTheirSites) {
+    const TriangleMesh mesh = sphere_with_teeth(4, Vec3(1, 0.3, 0.2));
+    const RemeshResult plain = remesh::remesh(mesh.view(), {.num_samples = 800, .relax_steps = 0});
+    const RemeshResult relaxed =
+        remesh::remesh(mesh.view(), {.sites = plain.sites, .relax_steps = 3});
+    ASSERT_EQ(relaxed.sites.size(), plain.sites.size());
+    double farthest = 0;
+    for (std::size_t i = 0; i < plain.sites.size(); ++i) {
+        farthest = std::max(farthest, (position(mesh.view(), relaxed.sites[i]) -
+                                       position(mesh.view(), plain.sites[i]))
+                                          .norm());
+    }
+    EXPECT_LT(farthest, 0.3);
+    EXPECT_GT(farthest, 0);
 }
