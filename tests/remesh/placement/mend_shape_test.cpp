@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -103,26 +102,6 @@ TEST(MendShape, FixedVerticesStay) {
         ++num_fixed;
     }
     EXPECT_EQ(num_fixed, (mesh.positions.size() + 1) / 2);
-}
-
-// Only the faces around vertex 0 are thin.
-TEST(MendShape, WellShapedFacesThatPointAgainstTheSurfaceStay) {
-    const TriangleMesh mesh = shapes::sphere(3);
-    MovableMesh placed(mesh);
-    for (Triangle& t : placed.placed.triangles) std::swap(t[1], t[2]);
-    const auto around = std::find_if(mesh.triangles.begin(), mesh.triangles.end(), [](auto& t) {
-        return std::find(t.begin(), t.end(), 0u) != t.end();
-    });
-    const Index other = (*around)[0] != 0 ? (*around)[0] : (*around)[1];
-    placed.placed.offsets[0] = 0.8 * (mesh.positions[other] - mesh.positions[0]);
-    (void)mend_shape(placed.surface, placed.mobility, placed.hard, placed.placed);
-    const TriangleMesh mended = placed.mesh_of(placed.placed);
-    Index num_kept = 0;
-    for (const Vec3& p : mesh.positions) {
-        const auto& all = mended.positions;
-        if (std::find(all.begin(), all.end(), p) != all.end()) ++num_kept;
-    }
-    EXPECT_GT(num_kept, mesh.positions.size() - 40);
 }
 
 }  // namespace
