@@ -26,9 +26,9 @@ struct Goal {
     // Least quality of triangles, before and after, where a vertex is removed to balance the count.
     double elsewhere;
 };
-// Tried one after the other until the count can be kept. As qualities, angles of 30.8 and 21.3
-// degrees count as .6 and .425.
-constexpr std::array goals{Goal{0.6, 0.65}, Goal{0.425, 0.6}};
+// Met one after the other: the worst triangles first have all the vertices that can be spared. As
+// qualities, angles of 21.3 and 30.8 degrees count as .425 and .6.
+constexpr std::array goals{Goal{0.425, 0.6}, Goal{0.6, 0.65}};
 // Least gain of a step, and of a trial of several steps.
 constexpr double least_step_gain = 1e-3, least_trial_gain = 0.02;
 // At most one of so many vertices may be missing: a surface that is thinner than the spacing
@@ -66,8 +66,8 @@ public:
     // below the number of splits. If that fails, starts again and removes a vertex after each
     // split.
     //
-    // \return whether the mesh has changed; nothing if the count cannot be kept.
-    std::optional<bool> run() {
+    // \return whether the mesh has changed; it does not if the count cannot be kept.
+    bool run() {
         const EditedMesh::Mark start = mesh_.mark();
         const std::size_t num_bad = bad_faces().size();
         const std::size_t num_paid =
@@ -90,7 +90,7 @@ public:
             if (num_spare_ == 0) return is_changed;
             mesh_.take_back(start);
         }
-        return std::nullopt;
+        return false;
     }
 
 private:
@@ -475,7 +475,7 @@ private:
 
 namespace {
 
-// Whether the first goal finds a triangle to mend: cheaper to tell without an EditedMesh.
+// Whether a goal finds a triangle to mend: cheaper to tell without an EditedMesh.
 bool has_bad_triangle(const agvd::Surface& surface, std::span<const Mobility> mobility,
                       const PlacedMesh& mesh, agvd::Ticker& ticker) {
     const agvd::MeshView view = surface.mesh.view();
@@ -483,7 +483,7 @@ bool has_bad_triangle(const agvd::Surface& surface, std::span<const Mobility> mo
         ticker.tick();
         const auto& [a, b, c] = t;
         return detail::shape_quality(mesh.position(view, a), mesh.position(view, b),
-                                     mesh.position(view, c)) < goals.front().quality &&
+                                     mesh.position(view, c)) < goals.back().quality &&
                std::any_of(t.begin(), t.end(),
                            [&](Index v) { return mobility[v] != Mobility::Fixed; });
     });
@@ -499,13 +499,11 @@ std::vector<Index> mend_shape(const agvd::Surface& surface, std::span<const Mobi
     std::vector<Index> numbers;
     if (!has_bad_triangle(surface, mobility, mesh, ticker)) return numbers;
     EditedMesh edited(surface, mesh, mobility, hard);
+    bool is_changed = false;
     for (const Goal& goal : goals) {
-        const std::optional<bool> is_changed =
-            Mender(edited, surface.num_faces(), goal, ticker).run();
-        if (!is_changed) continue;
-        if (*is_changed) mesh = edited.result(numbers);
-        break;
+        is_changed = Mender(edited, surface.num_faces(), goal, ticker).run() || is_changed;
     }
+    if (is_changed) mesh = edited.result(numbers);
     return numbers;
 }
 

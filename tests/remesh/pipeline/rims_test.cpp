@@ -173,6 +173,21 @@ TEST(Rims, ManySmallHolesTakeNoCoarseLevel) {
     }
 }
 
+// Its loop is shorter than three spacings of the whole mesh, and its triangles are thin.
+TEST(Rims, ASmallSheetKeepsItsCorners) {
+    TriangleMesh sheet = shapes::grid(4);
+    for (Vec3& p : sheet.positions) p = Vec3(3 + 0.25 * p.x(), 0.04 * p.y(), 0);
+    const TriangleMesh mesh = shapes::join(shapes::sphere(4), sheet);
+    const RemeshOptions options{.num_samples = 300};
+    const RemeshResult result = remesh::remesh(mesh.view(), options);
+    expect_valid(mesh, options, result);
+    const std::vector<Vec3>& p = result.mesh.positions;
+    for (const Vec3& corner :
+         {Vec3(3, 0, 0), Vec3(3.25, 0, 0), Vec3(3, 0.04, 0), Vec3(3.25, 0.04, 0)}) {
+        EXPECT_NE(std::find(p.begin(), p.end(), corner), p.end());
+    }
+}
+
 // Mending takes vertices away and adds others.
 TEST(Rims, VerticesOfGivenSitesStayNearTheirSites) {
     const TriangleMesh mesh = sphere_with_teeth(4, Vec3(1, 0.3, 0.2));
