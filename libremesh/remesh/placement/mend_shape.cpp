@@ -27,8 +27,8 @@ struct Goal {
     double elsewhere;
 };
 // Met one after the other: the worst triangles first have all the vertices that can be spared. As
-// qualities, angles of 21.3 and 30.8 degrees count as .425 and .6.
-constexpr std::array goals{Goal{0.425, 0.6}, Goal{0.6, 0.65}};
+// qualities, angles of 21.3 and 29.1 degrees count as .425 and .57.
+constexpr std::array goals{Goal{0.425, 0.6}, Goal{0.57, 0.63}};
 // Least gain of a step, and of a trial of several steps.
 constexpr double least_step_gain = 1e-3, least_trial_gain = 0.02;
 // At most one of so many vertices may be missing: a surface that is thinner than the spacing
