@@ -16,6 +16,9 @@ constexpr int least_bits = 10;
 // With 10^12 runs of 96 faces took more than 20 s. Scans have such vertices where a program wrote
 // memory that it had not set.
 constexpr double most_spread = 1e10;
+// A tube of 12 needles 10^10 times longer than wide takes 1 s with 200 sites; with 10^12 times that
+// it took minutes, as thousands of paths around it are equally long up to rounding.
+constexpr double least_width = 3e-11;
 
 }  // namespace
 
@@ -105,6 +108,32 @@ void check_spread(const MeshView& mesh, const MeshBox& box) {
     text << "vertex " << farthest << " is " << distance(mesh.positions[farthest]) / most
          << " times as far from the middle of the mesh as three quarters of its vertices; correct "
             "its coordinates, or remove its faces";
+    throw InvalidInput(text.str());
+}
+
+void check_width(const MeshView& mesh, Ticker& ticker) {
+    double area = 0, area_of_needles = 0;
+    std::size_t longest_needle = 0;
+    double longest = 0;
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        ticker.tick();
+        const auto& [a, b, c] = mesh.triangles[f];
+        const Vec3 u = mesh.positions[b] - mesh.positions[a];
+        const Vec3 v = mesh.positions[c] - mesh.positions[a];
+        const double doubled = u.cross(v).norm();
+        const double length = std::max({u.norm(), v.norm(), (u - v).norm()});
+        area += doubled / 2;
+        if (!(doubled < least_width * length * length)) continue;
+        area_of_needles += doubled / 2;
+        if (length <= longest) continue;
+        longest = length;
+        longest_needle = f;
+    }
+    if (!(area_of_needles > area / 2)) return;
+    std::ostringstream text;
+    text << "most of the surface consists of needles, such as face " << longest_needle
+         << ", which is narrower than " << least_width
+         << " of its length; correct the coordinates of its corners, or remove such faces";
     throw InvalidInput(text.str());
 }
 

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "agvd/core/poller.h"
 #include "agvd/mesh/mesh_view.h"
 
 namespace agvd {
@@ -46,6 +47,13 @@ void check_digits(const MeshBox& box);
 //!        quarters of its vertices: a mistake. The text names the vertex.
 //! Cost: O(1), as it looks at up to 1000 vertices; O(#F) if it throws.
 void check_spread(const MeshView& mesh, const MeshBox& box);
+
+//! \throw InvalidInput  more than half of the area lies in faces that are narrower than 3e-11 of their
+//!        length: nothing about such a surface can be told in double precision. The text names the
+//!        longest.
+//! \throw Cancelled     the ticker's progress callback returned false.
+//! Cost: O(#F).
+void check_width(const MeshView& mesh, Ticker& ticker);
 
 //! The mesh times 2^exponent. Exact, unless a coordinate becomes subnormal. Cost: O(n).
 [[nodiscard]] TriangleMesh scaled(const MeshView& mesh, int exponent);

@@ -202,6 +202,7 @@ CleanResult clean_input(const agvd::MeshView& mesh, int num_threads,
     agvd::check_scale(box);
     agvd::check_digits(box);
     agvd::check_spread(mesh, box);
+    agvd::check_width(mesh, ticker);
     if (std::optional<CleanResult> clean = take_clean(mesh, num_threads, progress)) {
         return *std::move(clean);
     }

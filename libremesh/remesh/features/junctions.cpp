@@ -118,6 +118,14 @@ void drop_short_junctions(const Surface& surface, double least_length, JunctionS
                   [&](const std::vector<Index>& copies) { return is_short(copies.front()); });
 }
 
+std::vector<std::uint8_t> edges_to_cut(const JunctionSet& junctions,
+                                       std::vector<std::uint8_t> is_crease) {
+    for (const std::vector<Index>& copies : junctions.edges) {
+        for (const Index e : copies) is_crease[e] = 1;
+    }
+    return is_crease;
+}
+
 std::vector<Index> first_copies(const JunctionSet& junctions, Index num_vertices) {
     std::vector<Index> first(num_vertices);
     std::iota(first.begin(), first.end(), Index{0});

@@ -2,6 +2,7 @@
 //! Junctions: where sheets met in the input before cleaning cut them apart.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -40,6 +41,11 @@ struct JunctionSet {
 //! of junctions.
 void drop_short_junctions(const agvd::Surface& surface, double least_length,
                           JunctionSet& junctions);
+
+//! Creases and the edges of junctions: the surface is cut along those with two faces.
+//! \param is_crease  #E. Cost: O(#edges of junctions).
+[[nodiscard]] std::vector<std::uint8_t> edges_to_cut(const JunctionSet& junctions,
+                                                     std::vector<std::uint8_t> is_crease);
 
 //! #V: the first copy of a vertex at a junction; any other vertex itself.
 [[nodiscard]] std::vector<agvd::Index> first_copies(const JunctionSet& junctions,

@@ -264,10 +264,6 @@ std::string describe(const AttributeReport& attributes) {
                 [](const DeclinedAttribute& declined) { return declined.name; });
 }
 
-}  // namespace
-
-namespace {
-
 std::string to_text(const SizingResult& sizing) {
     std::string text = "edges: " + counted(sizing.num_samples, "sample") + ", mean edge " +
                        significant(sizing.mean_edge);

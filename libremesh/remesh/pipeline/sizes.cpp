@@ -7,7 +7,6 @@
 #include <numbers>
 #include <utility>
 
-#include "agvd/core/edge_key.h"
 #include "agvd/core/poller.h"
 #include "agvd/mesh/face_area.h"
 #include "remesh/pipeline/sample_count.h"
@@ -58,29 +57,23 @@ double mean_length(const agvd::Surface& surface, std::span<const double> length)
     return lengths / vertices;
 }
 
-std::vector<std::uint8_t> edges_to_cut(const FoundCurves& found, Index num_edges) {
-    std::vector<std::uint8_t> is_cut = found.is_crease;
-    is_cut.resize(num_edges, 0);
-    for (const std::vector<Index>& copies : found.junctions.edges) {
-        for (const Index e : copies) is_cut[e] = 1;
-    }
-    return is_cut;
-}
-
 }  // namespace
 
 RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, double spacing,
                     std::span<const double> most_lengths, const StageContext& context) {
     const auto& [options, result] = context;
     const Sizing& sizing = options.sizing;
-    if (is_uniform(sizing)) return {nullptr, options.num_samples, 0};
+    if (is_uniform(sizing)) return {nullptr, options.num_samples};
     const StageClock clock(Stage::Clean, result);
     const agvd::Progress all = progress_of(Stage::Clean, options);
     const agvd::Progress progress = agvd::within(all, 1, 1);
     agvd::Poller poller(progress);
     agvd::Ticker ticker(poller);
-    CutSurface cut = cut_surface(cleaned.surface, edges_to_cut(found, cleaned.surface.num_edges()),
-                                 options.num_threads, progress);
+    std::vector<std::uint8_t> is_crease = found.is_crease;
+    is_crease.resize(cleaned.surface.num_edges(), 0);  // Empty: there are none.
+    CutSurface cut =
+        cut_surface(cleaned.surface, edges_to_cut(found.junctions, std::move(is_crease)),
+                    options.num_threads, progress);
     const double num_sites =
         options.sites ? static_cast<double>(options.sites->size()) : options.num_samples;
     const auto base = std::make_shared<const agvd::IntrinsicTriangulation>(
@@ -122,7 +115,7 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
         area *= ratio * ratio;
         targets = target_lengths(base->surface(), values, most, joined, sizing, area, ticker);
     }
-    RunSizes sizes{nullptr, options.num_samples, targets.scale};
+    RunSizes sizes{nullptr, options.num_samples};
     sizes.field = std::make_unique<const SizeField>(base, std::move(targets.length));
     if (gives_count || is_edge_given) {
         sizes.num_samples = to_count(sizes.field->area() * 2 / std::numbers::sqrt3);

@@ -10,7 +10,6 @@ namespace remesh::detail {
 struct RunSizes {
     std::unique_ptr<const SizeField> field;  //!< Null: all edges are equally long.
     agvd::Index num_samples = 0;             //!< To place; as given, or as the lengths give it.
-    double scale = 0;                        //!< See TargetLengths.
 };
 
 //! \param found    creases and junctions: curvature does not count across them.

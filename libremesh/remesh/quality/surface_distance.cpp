@@ -14,8 +14,7 @@
 
 #include "agvd/core/error.h"
 #include "agvd/core/parallel.h"
-#include "agvd/core/random.h"
-#include "agvd/mesh/uniform_points.h"
+#include "remesh/quality/area_samples.h"
 
 namespace remesh {
 namespace {
@@ -42,18 +41,15 @@ Vec3 normal_of(const DistanceKernel::Triangle_3& t) {
 // The faces with area of one mesh: draws samples and finds closest points.
 class Faces {
 public:
-    Faces(const agvd::MeshView& mesh, const char* name, agvd::Poller& poller) {
+    // \param mesh  outlives this.
+    Faces(const agvd::MeshView& mesh, const char* name, agvd::Poller& poller)
+        : mesh_(mesh), samples_(mesh) {
         agvd::Ticker ticker(poller);
-        double area = 0;
         for (const auto& [a, b, c] : mesh.triangles) {
             ticker.tick();
             const DistanceKernel::Triangle_3 triangle(
                 to_cgal(mesh.positions[a]), to_cgal(mesh.positions[b]), to_cgal(mesh.positions[c]));
-            const double doubled_area = normal_of(triangle).norm();
-            if (!(doubled_area > 0)) continue;
-            area += doubled_area / 2;
-            triangles_.push_back(triangle);
-            area_up_to_.push_back(area);
+            if (normal_of(triangle).norm() > 0) triangles_.push_back(triangle);
         }
         if (triangles_.empty()) {
             throw agvd::InvalidInput(std::string("no face of the ") + name +
@@ -75,18 +71,12 @@ public:
     [[nodiscard]] const Tree& tree() const { return tree_; }
 
     // A point in the i-th of n strata of equal area.
-    [[nodiscard]] Vec3 sample(Index i, Index n) const {
-        const double area = (i + agvd::random_unit(0, 0, i)) / n * area_up_to_.back();
-        const auto at = std::upper_bound(area_up_to_.begin(), area_up_to_.end() - 1, area);
-        const DistanceKernel::Triangle_3& t = *(triangles_.begin() + (at - area_up_to_.begin()));
-        const auto [a, b, c] =
-            agvd::uniform_barycentric(agvd::random_unit(0, 1, i), agvd::random_unit(0, 2, i));
-        return a * from_cgal(t[0]) + b * from_cgal(t[1]) + c * from_cgal(t[2]);
-    }
+    [[nodiscard]] Vec3 sample(Index i, Index n) const { return position(mesh_, samples_.at(i, n)); }
 
 private:
+    agvd::MeshView mesh_;
+    detail::AreaSamples samples_;
     Triangles triangles_;
-    std::vector<double> area_up_to_;  // Per triangle: its own area and that of all before it.
     Tree tree_;
 };
 

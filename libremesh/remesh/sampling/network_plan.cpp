@@ -93,15 +93,6 @@ void leave_out(const JunctionSet& junctions, std::vector<std::uint8_t>& is_creas
     }
 }
 
-// Creases and the inner edges of junctions.
-std::vector<std::uint8_t> edges_to_cut(const JunctionSet& junctions,
-                                       std::vector<std::uint8_t> is_crease) {
-    for (const std::vector<Index>& copies : junctions.edges) {
-        for (const Index e : copies) is_crease[e] = 1;
-    }
-    return is_crease;
-}
-
 Index fewest_vertices(const CurveNetwork& network) {
     return static_cast<Index>(num_curve_vertices(network, fewest_intervals(network)));
 }

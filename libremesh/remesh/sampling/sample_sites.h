@@ -46,9 +46,8 @@ struct SamplingOptions {
 //! and points at equal distances between them. Blue noise is chosen from five times as many
 //! area-uniform points by weighted sample elimination ([yuksel2015]); points on opposite walls of a
 //! thin part do not repel each other. Farthest points use distances on the surface, along edges and
-//! across them
-//! ([eldar1997], [moenning2003]). They begin from the points on the boundary, or from a random one
-//! if there are none, and leave the smallest gaps of the three.
+//! across them ([eldar1997], [moenning2003]). They begin from the points on the boundary, or from a
+//! random one if there are none, and leave the smallest gaps of the three.
 //!
 //! \throw agvd::InvalidOption    num_samples < 1 or > 8e8, or num_threads < 0.
 //! \throw agvd::InvalidInput     the surface has no face.

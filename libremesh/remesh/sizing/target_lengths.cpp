@@ -97,7 +97,6 @@ private:
 
     [[nodiscard]] TargetLengths at(double scale) {
         TargetLengths result;
-        result.scale = sizing_.target_lengths.empty() ? 0 : scale;
         result.length.reserve(values_.size());
         for (Index v = 0; v < values_.size(); ++v) {
             const double longest = most_.empty() ? longest_ : std::min(longest_, most_[v]);

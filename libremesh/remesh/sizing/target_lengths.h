@@ -23,8 +23,6 @@ namespace remesh {
 
 struct TargetLengths {
     std::vector<double> length;  //!< #V; mesh units.
-    //! The factor to the given lengths; 0 if none are given.
-    double scale = 0;
 };
 
 //! \param values  #V: curvatures (patch_curvature), lengths or densities, whichever `sizing` asks

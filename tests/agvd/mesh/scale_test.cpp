@@ -42,6 +42,39 @@ TEST(Scale, AVertexFarFromAllOthersIsNamed) {
     EXPECT_NO_THROW(check_spread(parts.view(), box_of(parts.view())));
 }
 
+TEST(Scale, ASurfaceOfNeedlesIsRefused) {
+    const agvd::Progress none;
+    agvd::Poller poller(none);
+    agvd::Ticker ticker(poller);
+    // Its sides are needles, its ends are not.
+    const auto prism = [](double length) {
+        TriangleMesh mesh;
+        mesh.positions = {{0, 0, 0},      {1, 0, 0},      {0, 1, 0},
+                          {0, 0, length}, {1, 0, length}, {0, 1, length}};
+        mesh.triangles = {{0, 2, 1}, {0, 1, 4}, {0, 4, 3}, {1, 2, 5},
+                          {1, 5, 4}, {2, 0, 3}, {2, 3, 5}, {3, 4, 5}};
+        return mesh;
+    };
+    for (const double length : {1e3, 1e10, 1e12, 1e30}) {
+        std::string text;
+        try {
+            check_width(prism(length).view(), ticker);
+        } catch (const InvalidInput& error) {
+            text = error.what();
+        }
+        EXPECT_EQ(text.starts_with("most of the surface consists of needles, such as face "),
+                  length > 1e11)
+            << text;
+    }
+    // A needle of a small share of the area is for cleaning and for the intrinsic triangulation.
+    TriangleMesh mesh = shapes::sphere(3);
+    const auto first = static_cast<Index>(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), {{0, 0, 0}, {1, 0, 0}, {0, 1e-12, 0}});
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    EXPECT_NO_THROW(check_width(mesh.view(), ticker));
+    EXPECT_NO_THROW(check_width({}, ticker));
+}
+
 TEST(Scale, ExtentIsThatOfTheFaces) {
     TriangleMesh mesh = cube_of(3);
     mesh.positions.emplace_back(100, 0, 0);  // In no face.

@@ -10,6 +10,7 @@
 #include "remesh/pipeline/remesh.h"
 #include "remesh/quality/surface_distance.h"
 #include "remesh/topology/topology.h"
+#include "support/dirty_shapes.h"
 #include "support/parts.h"
 #include "support/shapes.h"
 
@@ -66,16 +67,6 @@ double mean_edge(const TriangleMesh& mesh) {  // Closed.
         }
     }
     return sum / (3 * static_cast<double>(mesh.triangles.size()));
-}
-
-TriangleMesh soup_of(const TriangleMesh& mesh) {
-    TriangleMesh soup;
-    for (const agvd::Triangle& t : mesh.triangles) {
-        const auto first = static_cast<Index>(soup.positions.size());
-        for (const Index v : t) soup.positions.push_back(mesh.positions[v]);
-        soup.triangles.push_back({first, first + 1, first + 2});
-    }
-    return soup;
 }
 
 }  // namespace
@@ -224,7 +215,7 @@ TEST(Sizing, ThreadsChangeNothing) {
 
 TEST(Sizing, LengthsFollowVerticesThatAreWelded) {
     const TriangleMesh mesh = shapes::torus(80, 40, tube);
-    const TriangleMesh soup = soup_of(mesh);
+    const TriangleMesh soup = shapes::unweld(mesh);
     const RemeshResult result = remesh::remesh(
         soup.view(), {.num_samples = 800, .sizing = {.target_lengths = values_of(soup)}});
     const auto [low, high] = percentiles(result.mesh, factor_for(mesh, 800));

@@ -22,11 +22,6 @@ Verdict judge(const TriangleMesh& input, const TriangleMesh& result) {
 
 Verdict judge(const TriangleMesh& mesh) { return judge(mesh, mesh); }
 
-TriangleMesh moved(TriangleMesh mesh, const Vec3& by) {
-    for (Vec3& p : mesh.positions) p += by;
-    return mesh;
-}
-
 // n x n quads of side 1 / n, on both sides of a plate.
 TriangleMesh plate(Index n, double thickness) {
     TriangleMesh mesh = parts::box({1, 1, 1}, n);
@@ -55,7 +50,8 @@ TEST(Verdict, APlateThinnerThanItsEdgesIsOneWall) {
     // Edges are .1 to .14 long: 25 to 50 times the 602 vertices.
     EXPECT_GT(verdict.samples_for_walls, 25u * 602u);
     EXPECT_LT(verdict.samples_for_walls, 50u * 602u);
-    EXPECT_EQ(judge(shapes::join(plate(10, thickness), moved(plate(10, 2 * thickness), {5, 0, 0})))
+    EXPECT_EQ(judge(shapes::join(plate(10, thickness),
+                                 shapes::moved(plate(10, 2 * thickness), {5, 0, 0})))
                   .thin_walls,
               2u);
     EXPECT_EQ(judge(plate(10, 0.2)).thin_walls, 0u);
@@ -74,18 +70,18 @@ TEST(Verdict, WallsOfAnyThicknessAreFound) {
 
 TEST(Verdict, AGapIsNoWall) {
     const TriangleMesh box = parts::box({1, 1, 1}, 10);
-    EXPECT_EQ(judge(shapes::join(box, moved(box, {1.02, 0, 0}))).thin_walls, 0u);
+    EXPECT_EQ(judge(shapes::join(box, shapes::moved(box, {1.02, 0, 0}))).thin_walls, 0u);
 }
 
 TEST(Verdict, ComponentsOfFewVerticesAreSmall) {
     const TriangleMesh large = shapes::sphere(3);
-    TriangleMesh mesh = shapes::join(large, moved(shapes::tetrahedron(), {9, 0, 0}));
+    TriangleMesh mesh = shapes::join(large, shapes::moved(shapes::tetrahedron(), {9, 0, 0}));
     const Verdict verdict = judge(mesh);
     EXPECT_EQ(verdict.small_components, 1u);
     // Three times as many vertices.
     EXPECT_NEAR(verdict.samples_for_components, 3.0 * static_cast<double>(mesh.positions.size()),
                 100);
-    mesh = shapes::join(large, moved(shapes::icosahedron(), {9, 0, 0}));
+    mesh = shapes::join(large, shapes::moved(shapes::icosahedron(), {9, 0, 0}));
     ASSERT_EQ(shapes::icosahedron().positions.size(), remesh::least_component_vertices);
     EXPECT_EQ(judge(mesh).small_components, 0u);
 }

@@ -8,6 +8,7 @@
 #include "agvd/core/random.h"
 #include "agvd/mesh/closest_point.h"
 #include "remesh/pipeline/remesh.h"
+#include "support/dirty_shapes.h"
 #include "support/shapes.h"
 
 using agvd::FaceId;
@@ -41,17 +42,6 @@ TriangleMesh moved_points(const TriangleMesh& mesh, const std::vector<SurfacePoi
     return result;
 }
 
-// Every face has corners of its own.
-TriangleMesh soup_of(const TriangleMesh& mesh) {
-    TriangleMesh soup;
-    for (const agvd::Triangle& t : mesh.triangles) {
-        const auto first = static_cast<Index>(soup.positions.size());
-        for (const Index v : t) soup.positions.push_back(mesh.positions[v]);
-        soup.triangles.push_back({first, first + 1, first + 2});
-    }
-    return soup;
-}
-
 Vec3 random_shift(std::uint64_t i, double size) {
     return size * Vec3(agvd::random_unit(7, i, 0) - 0.5, agvd::random_unit(7, i, 1) - 0.5,
                        agvd::random_unit(7, i, 2) - 0.5);
@@ -70,7 +60,7 @@ TEST(MapToInput, VerticesAtTheirSitesStayBitForBit) {
 }
 
 TEST(MapToInput, MovedVerticesGetTheNearestPoint) {
-    for (const TriangleMesh& mesh : {shapes::sphere(4), soup_of(shapes::sphere(4))}) {
+    for (const TriangleMesh& mesh : {shapes::sphere(4), shapes::unweld(shapes::sphere(4))}) {
         const auto sites = inner_points(static_cast<Index>(mesh.triangles.size()));
         const TriangleMesh result =
             moved_points(mesh, sites, [](std::size_t i) { return random_shift(i, 0.4); });
