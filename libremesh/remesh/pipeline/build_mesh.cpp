@@ -1,7 +1,7 @@
 // Builds cells, dual, the exact vertex count, Delaunay flips and positions in rounds. If the mesh
 // of a round self-intersects more often than the input, sites are added there and another round
-// follows. The mesh with the fewest intersecting pairs of faces wins. Thinned components are
-// mended last.
+// follows. The mesh with the fewest intersecting pairs of faces wins. Its thin triangles are mended
+// last.
 #include "remesh/pipeline/build_mesh.h"
 
 #include <algorithm>
@@ -78,7 +78,7 @@ public:
                 break;
             }
         }
-        mend();
+        mend_best();
         return std::move(best_);
     }
 
@@ -227,7 +227,7 @@ private:
         if (crossings) best_.self_intersections = static_cast<Index>(crossings->size());
         context_.result.sites_removed = candidate.num_removed;
         context_.result.delaunay = candidate.flips;
-        keep_thinned(candidate.dual, std::move(candidate.placed.mesh));
+        keep_mendable(candidate.dual, std::move(candidate.placed.mesh));
         return std::move(candidate.dual);
     }
 
@@ -251,13 +251,10 @@ private:
         best_.sites = take(best_.sites, before);
     }
 
-    void keep_thinned(const ValidDual& dual, PlacedMesh placed) {
-        thinned_.reset();
-        if (domain_.plan || context_.result.components_thinned == 0 ||
-            !is_relaxed(context_.options)) {
-            return;
-        }
-        thinned_ = find_thinned_parts(domain_, dual, std::move(placed), is_thinned_, is_corner_);
+    void keep_mendable(const ValidDual& dual, PlacedMesh placed) {
+        mendable_.reset();
+        if (domain_.plan || !is_relaxed(context_.options)) return;
+        mendable_ = find_mendable(domain_, dual, std::move(placed), is_thinned_, context_.options);
     }
 
     // Adds a site at the farthest Voronoi vertex of the cell of each corner of these faces, and
@@ -284,10 +281,10 @@ private:
         return true;
     }
 
-    void mend() {
-        if (!thinned_) return;
-        std::optional<MendedMesh> mended = mend_thinned(
-            domain_, *std::move(thinned_), best_.self_intersections, finder_, context_);
+    void mend_best() {
+        if (!mendable_) return;
+        std::optional<MendedMesh> mended =
+            mend(domain_, *std::move(mendable_), best_.self_intersections, finder_, context_);
         if (!mended) return;
         best_.mesh = whole_mesh(*domain_.whole, {mended->mesh, {}});
         best_.sites = std::move(mended->mesh.points);
@@ -305,7 +302,7 @@ private:
     std::vector<bool> is_thinned_;  // By component.
     std::optional<Index> target_;   // Vertices of the dual.
     BuiltMesh best_;
-    std::optional<ThinnedParts> thinned_;  // Of best_.
+    std::optional<MendableMesh> mendable_;  // Of best_.
 };
 
 }  // namespace

@@ -2,7 +2,7 @@
 //! From sites to a mesh: cells, dual, the exact count, flips to Delaunay, positions.
 #pragma once
 
-#include "remesh/pipeline/thinned_parts.h"
+#include "remesh/pipeline/mendable_mesh.h"
 
 namespace remesh::detail {
 
@@ -20,7 +20,7 @@ struct BuiltMesh {
 };
 
 //! Builds the mesh of the sites. While it self-intersects more often than the input, builds it
-//! again with more sites there, and returns the best mesh. Mends thinned components last.
+//! again with more sites there, and returns the best mesh. Mends thin triangles last.
 //!
 //! \param domain      its layout is consumed.
 //! \param most_mends  most rounds that add sites at self-intersections.

@@ -21,10 +21,14 @@ using agvd::Vec3;
 using detail::EditedMesh;
 using detail::Mobility;
 
-// Triangles of lower quality are mended; a smallest angle of 21.3 degrees counts as this.
-constexpr double wanted_quality = 0.425;
-// Least quality of triangles, before and after, where a vertex is removed to balance the count.
-constexpr double good_elsewhere = 0.6;
+struct Goal {
+    double quality;  // Triangles below it are mended.
+    // Least quality of triangles, before and after, where a vertex is removed to balance the count.
+    double elsewhere;
+};
+// Met one after the other: the worst triangles first have all the vertices that can be spared. As
+// qualities, angles of 21.3 and 29.1 degrees count as .425 and .57.
+constexpr std::array goals{Goal{0.425, 0.6}, Goal{0.57, 0.63}};
 // Least gain of a step, and of a trial of several steps.
 constexpr double least_step_gain = 1e-3, least_trial_gain = 0.02;
 // At most one of so many vertices may be missing: a surface that is thinner than the spacing
@@ -48,9 +52,10 @@ constexpr int most_mend_rounds = 6, most_sweeps = 3;
 class Mender {
 public:
     // \param num_faces  of the surface.
-    Mender(EditedMesh& mesh, Index num_faces, agvd::Ticker ticker)
+    Mender(EditedMesh& mesh, Index num_faces, const Goal& goal, agvd::Ticker& ticker)
         : mesh_(mesh),
           ticker_(ticker),
+          goal_(goal),
           crossings_of_slide_(std::max(
               least_crossings,
               static_cast<std::size_t>(steps_of_slide * std::sqrt(static_cast<double>(num_faces) /
@@ -60,6 +65,8 @@ public:
     // First balances the count at the end, when the number of missing vertices is known: it is
     // below the number of splits. If that fails, starts again and removes a vertex after each
     // split.
+    //
+    // \return whether the mesh has changed; it does not if the count cannot be kept.
     bool run() {
         const EditedMesh::Mark start = mesh_.mark();
         const std::size_t num_bad = bad_faces().size();
@@ -72,7 +79,7 @@ public:
             num_spare_ = 0;
             edits_left_ = edits_for_each * num_paid;
             slides_left_ = slides_for_each * num_paid;
-            elsewhere_ = pays_at_once ? wanted_quality + least_trial_gain : good_elsewhere;
+            elsewhere_ = pays_at_once ? goal_.quality + least_trial_gain : goal_.elsewhere;
             const bool is_changed = work();
             slides_left_ = slides_for_each * num_paid;
             if (num_spare_ < 0) prune();
@@ -101,19 +108,19 @@ private:
         return is_changed;
     }
 
-    // Removes boundary vertices whose worst triangle lies between wanted_quality and elsewhere_, if
-    // all triangles keep wanted_quality.
+    // Removes boundary vertices whose worst triangle lies between goal_.quality and elsewhere_, if
+    // all triangles keep goal_.quality.
     void prune() {
         for (Index v = 0; v < mesh_.num_vertices() && num_spare_ < 0; ++v) {
             if (mesh_.mobility(v) != Mobility::Boundary || mesh_.faces_at(v).empty()) continue;
             const double worst = mesh_.worst_at(v);
-            if (worst < wanted_quality || worst >= elsewhere_) continue;
+            if (worst < goal_.quality || worst >= elsewhere_) continue;
             for (const Index into : mesh_.hard_neighbours(v)) {
                 if (into == no_index) continue;
                 const EditedMesh::Mark before = mesh_.mark();
                 if (mesh_.collapse(v, into)) {
                     relax(before);
-                    if (worst_since(before) >= wanted_quality) {
+                    if (worst_since(before) >= goal_.quality) {
                         ++num_spare_;
                         break;
                     }
@@ -130,7 +137,9 @@ private:
 
     [[nodiscard]] bool is_bad(Index f) const {
         const EditedMesh::Face& face = mesh_.face(f);
-        return face.is_there && face.quality < wanted_quality &&
+        // A well-shaped face that points against the surface is none.
+        const double shape = face.quality < 0 ? face.quality + 1 : face.quality;
+        return face.is_there && shape < goal_.quality &&
                std::any_of(face.corner.begin(), face.corner.end(),
                            [&](Index v) { return mesh_.mobility(v) != Mobility::Fixed; });
     }
@@ -174,26 +183,26 @@ private:
         return false;
     }
 
-    // The gain of the triangles touched since, each counted up to wanted_quality.
+    // The gain of the triangles touched since, each counted up to goal_.quality.
     struct Gain {
         double worst = 0, sum = 0;
-        bool is_all = false;  // All have wanted_quality.
+        bool is_all = false;  // All have goal_.quality.
     };
 
     [[nodiscard]] Gain gain_since(const EditedMesh::Mark& mark) {
         mesh_.changed_since(mark, changed_, before_);
         Gain gain;
-        double worst_before = wanted_quality, worst_now = wanted_quality;
+        double worst_before = goal_.quality, worst_now = goal_.quality;
         for (const double quality : before_) {
-            gain.sum += std::max(wanted_quality - quality, 0.0);
+            gain.sum += std::max(goal_.quality - quality, 0.0);
             worst_before = std::min(worst_before, quality);
         }
         for (const Index f : changed_) {
-            gain.sum -= std::max(wanted_quality - mesh_.face(f).quality, 0.0);
+            gain.sum -= std::max(goal_.quality - mesh_.face(f).quality, 0.0);
             worst_now = std::min(worst_now, mesh_.face(f).quality);
         }
         gain.worst = worst_now - worst_before;
-        gain.is_all = worst_now >= wanted_quality;
+        gain.is_all = worst_now >= goal_.quality;
         return gain;
     }
 
@@ -394,7 +403,7 @@ private:
                     continue;
                 }
                 const double quality = quality_of_middle(a, b);
-                if (quality >= wanted_quality) collapses_.push_back({quality, a, b});
+                if (quality >= goal_.quality) collapses_.push_back({quality, a, b});
             }
         }
         std::sort(collapses_.begin(), collapses_.end());
@@ -438,7 +447,7 @@ private:
         for (const auto& [length, edge] : longest) {
             const EditedMesh::Mark before = mesh_.mark();
             if (edit({edge.first, edge.second, true, false}) &&
-                worst_since(before) >= wanted_quality) {
+                worst_since(before) >= goal_.quality) {
                 --num_spare_;
                 return true;
             }
@@ -448,7 +457,8 @@ private:
     }
 
     EditedMesh& mesh_;
-    agvd::Ticker ticker_;
+    agvd::Ticker& ticker_;
+    const Goal goal_;
     const std::size_t crossings_of_slide_;
     const int least_spare_;
     bool pays_at_once_ = false;
@@ -463,14 +473,37 @@ private:
 
 }  // namespace
 
+namespace {
+
+// Whether a goal finds a triangle to mend: cheaper to tell without an EditedMesh.
+bool has_bad_triangle(const agvd::Surface& surface, std::span<const Mobility> mobility,
+                      const PlacedMesh& mesh, agvd::Ticker& ticker) {
+    const agvd::MeshView view = surface.mesh.view();
+    return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
+        ticker.tick();
+        const auto& [a, b, c] = t;
+        return detail::shape_quality(mesh.position(view, a), mesh.position(view, b),
+                                     mesh.position(view, c)) < goals.back().quality &&
+               std::any_of(t.begin(), t.end(),
+                           [&](Index v) { return mobility[v] != Mobility::Fixed; });
+    });
+}
+
+}  // namespace
+
 std::vector<Index> mend_shape(const agvd::Surface& surface, std::span<const Mobility> mobility,
                               std::span<const DirectedEdge> hard, PlacedMesh& mesh,
                               const agvd::Progress& progress) {
     agvd::Poller poller(progress);
-    EditedMesh edited(surface, mesh, mobility, hard);
+    agvd::Ticker ticker(poller);
     std::vector<Index> numbers;
-    if (Mender(edited, surface.num_faces(), agvd::Ticker(poller)).run())
-        mesh = edited.result(numbers);
+    if (!has_bad_triangle(surface, mobility, mesh, ticker)) return numbers;
+    EditedMesh edited(surface, mesh, mobility, hard);
+    bool is_changed = false;
+    for (const Goal& goal : goals) {
+        is_changed = Mender(edited, surface.num_faces(), goal, ticker).run() || is_changed;
+    }
+    if (is_changed) mesh = edited.result(numbers);
     return numbers;
 }
 

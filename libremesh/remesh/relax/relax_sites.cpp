@@ -32,6 +32,12 @@ using detail::Relaxation;
 constexpr std::size_t least_coarse_sites = 32;
 // Slightly more coarse sites than a quarter, as some pairs may lack a middle.
 constexpr double coarse_margin = 1.002;
+// A loop of the boundary needs three sites even if it is shorter than three spacings. Where this
+// takes more than this share of the coarse sites, middles between them would crowd at small holes
+// and leave too few sites elsewhere. Bunny with 60 holes of 3 to 12 edges, N = 2000: RMS distance
+// .103 to .092 %.
+constexpr double most_crowded = 0.05;
+constexpr double least_sites_of_loop = 3;
 
 void check_options(const RelaxOptions& options, std::size_t num_sites) {
     if (options.steps < 0) {
@@ -49,6 +55,18 @@ void check_options(const RelaxOptions& options, std::size_t num_sites) {
     }
 }
 
+// Sites that loops of the boundary need beyond those that fit onto them at the mean spacing.
+double num_crowded(const Surface& surface, Index num_sites) {
+    const double spacing = mean_spacing(surface, num_sites);
+    double sum = 0;
+    for (const std::vector<Index>& loop : agvd::boundary_loops(surface)) {
+        double length = 0;
+        for (const Index h : loop) length += surface.length_of(h);
+        sum += std::max(least_sites_of_loop - length / spacing, 0.0);
+    }
+    return sum;
+}
+
 // The number of coarse sites that gives `count` sites together with the middles between them;
 // nothing if it is too small.
 std::optional<Index> coarse_count(const Surface& surface, Index count, int num_threads,
@@ -61,6 +79,7 @@ std::optional<Index> coarse_count(const Surface& surface, Index count, int num_t
     if (coarse < static_cast<double>(least_coarse_sites * num_components)) return std::nullopt;
     const auto result = static_cast<Index>(coarse);
     if (result > count || !gives_neighbours(surface, result)) return std::nullopt;
+    if (num_crowded(surface, result) > most_crowded * coarse) return std::nullopt;
     return result;
 }
 

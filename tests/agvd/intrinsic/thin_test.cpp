@@ -163,7 +163,7 @@ TEST(Thin, LipsNarrowerThanTheSpacingGetNoThinTriangles) {
     EXPECT_EQ(result.mesh.positions.size(), 2000u);
     EXPECT_EQ(result.sites.size(), 2000u);
     EXPECT_TRUE(same_topology(remesh::analyze_topology(result.mesh.view()), result.input_topology));
-    EXPECT_GT(smallest_angle(result.mesh), 15);
+    EXPECT_GT(smallest_angle(result.mesh), 26);
     EXPECT_EQ(result.self_intersections.value_or(0), 0u);
     options.num_threads = 3;
     const remesh::RemeshResult threads = remesh::remesh(mesh.view(), options);
