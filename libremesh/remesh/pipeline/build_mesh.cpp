@@ -74,7 +74,8 @@ public:
             const CrossingFaces crossings = std::move(candidate.crossings);
             const ValidDual dual = keep_if_better(std::move(candidate), crossings);
             if (!crossings || crossings->size() <= context_.result.input_self_intersections ||
-                mends == most_mends || !add_sites_at(*crossings, dual)) {
+                mends == most_mends || is_hopeless(crossings->size(), context_) ||
+                !add_sites_at(*crossings, dual)) {
                 break;
             }
         }

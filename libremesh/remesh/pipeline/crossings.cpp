@@ -10,6 +10,8 @@ using agvd::Index;
 
 // Most rounds that move vertices back onto the surface.
 constexpr int max_unfits = 4;
+// Fewer samples than this for each new pair are hopeless.
+constexpr std::size_t samples_per_pair = 4;
 
 CrossingFaces find_in(const agvd::MeshView& mesh, const RemeshOptions& options) {
     return find_self_intersections(mesh, options.num_threads, progress_of(Stage::Check, options));
@@ -49,6 +51,11 @@ void CrossingFinder::count_in_input() {
     context_.result.input_self_intersections =
         static_cast<Index>(find_in(mesh, context_.options)->size());
     has_counted_input_ = true;
+}
+
+bool is_hopeless(std::size_t num_pairs, const StageContext& context) {
+    const std::size_t most = context.options.num_samples / samples_per_pair;
+    return num_pairs > context.result.input_self_intersections + most;
 }
 
 CrossingFaces unfit_crossings(CrossingFinder& finder, const CurveSites& curves, PlacedDual& placed,

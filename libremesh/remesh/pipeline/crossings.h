@@ -39,6 +39,13 @@ private:
     bool has_counted_input_ = false;
 };
 
+//! Whether a result has so many more intersecting pairs of faces than the input that more sites
+//! would not help: more than one for four samples. Meshes with spikes are of this kind; all rounds
+//! and attempts took an armadillo with spikes minutes, and it still had a pair for each sample.
+//!
+//! \param num_pairs  of the result.
+[[nodiscard]] bool is_hopeless(std::size_t num_pairs, const StageContext& context);
+
 //! Moves vertices of intersecting triangles back onto the surface, in a few rounds.
 //! \return the pairs that still intersect.
 CrossingFaces unfit_crossings(CrossingFinder& finder, const CurveSites& curves, PlacedDual& placed,

@@ -8,6 +8,7 @@
 
 #include "remesh/clean/carry_sites.h"
 #include "remesh/pipeline/check_result.h"
+#include "remesh/pipeline/crossings.h"
 #include "remesh/pipeline/meet_distance.h"
 #include "remesh/pipeline/sample_count.h"
 #include "remesh/pipeline/sizes.h"
@@ -130,7 +131,9 @@ RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cl
     KeptCurves kept_of_best;
     std::vector<agvd::SurfacePoint> thin_places;  // Of the best.
     for (const bool has_junctions : {true, false}) {
+        bool needs_none = false;  // Dropping some curves would not help.
         for (const double drop_share : drop_shares) {
+            if (needs_none && drop_share < drop_shares.back()) continue;
             RemeshResult result = first;
             const KeptCurves kept{has_junctions, drop_share};
             std::vector<agvd::SurfacePoint> thin;
@@ -143,6 +146,7 @@ RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cl
                 continue;
             }
             first.seconds = result.seconds;
+            needs_none = is_hopeless(result.self_intersections.value_or(0), {options, result});
             const bool has_curves = result.features.curves > 0;
             if (!best || num_new_crossings(result) < num_new_crossings(*best)) {
                 best = std::move(result);
@@ -156,7 +160,8 @@ RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cl
     // Only what is locked can make all attempts fail.
     if (!best) throw TooFewSamples{options.num_samples, options.num_samples + 1};
     best->seconds = first.seconds;
-    if (!thin_places.empty() && may_shorten(options) && has_lost_part(best->verdict)) {
+    if (!thin_places.empty() && may_shorten(options) && has_lost_part(best->verdict) &&
+        !is_hopeless(best->self_intersections.value_or(0), {options, *best})) {
         shorten_thin(cleaned, found, kept_of_best, thin_places, options, first, *best);
     }
     return *std::move(best);

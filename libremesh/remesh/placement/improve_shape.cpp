@@ -39,6 +39,11 @@ constexpr double short_side = 0.25;
 constexpr double slim_quality = 0.3;
 // Least gain in quality of a move.
 constexpr double least_gain = 1e-4;
+// The walks of all steps cross at most so many faces, per face of the surface and vertex of the
+// mesh. Around long spikes a walk circles through thousands of faces: an armadillo with spikes took
+// minutes; meshes without spikes take at most 2 a face or 370 a vertex.
+constexpr std::size_t most_crossings_per_face = 20;
+constexpr std::size_t most_crossings_per_vertex = 600;
 
 class Improvement {
 public:
@@ -51,7 +56,9 @@ public:
           around_(mesh.triangles, mesh.points.size()),
           at_(mesh.points.size()),
           facing_(mesh.points.size()),
-          planes_(planes) {
+          planes_(planes),
+          most_crossings_(most_crossings_per_face * input.num_faces() +
+                          most_crossings_per_vertex * mesh.points.size()) {
         for (Index v = 0; v < at_.size(); ++v) {
             locate(v);
             stays_.push_back(agvd::is_on_boundary(surface_, mesh.points[v]) ||
@@ -83,6 +90,7 @@ private:
             bool is_better = false;
             for (const auto& [q, v] : bad) {
                 if (may_improve_[v] == 0) continue;
+                if (num_crossings_ > most_crossings_) return;
                 may_improve_[v] = 0;
                 if (!improve(v)) continue;
                 is_better = true;
@@ -146,7 +154,10 @@ private:
     bool try_step(Index v, const Vec3& step, double length, double& worst) {
         const SurfacePoint before = mesh_.points[v];
         const Vec3 at_before = at_[v];
-        mesh_.points[v] = detail::walk_straight(surface_, before, step).end;
+        const detail::Walk walk = detail::walk_straight(surface_, before, step);
+        num_crossings_ += static_cast<std::size_t>(walk.num_crossings);
+        ticker_.tick(static_cast<std::size_t>(walk.num_crossings));
+        mesh_.points[v] = walk.end;
         locate(v);
         const double now = worst_around(v);
         const double area = planes_[v].spread.trace();
@@ -198,6 +209,8 @@ private:
     std::vector<std::uint8_t> stays_;             // #V
     std::vector<std::uint8_t> is_slim_;           // By triangle: see short_side.
     double plane_cost_ = 0;
+    std::size_t num_crossings_ = 0;  // Of all walks so far.
+    std::size_t most_crossings_;
     // #V: 0 if the last try changed nothing, nor moved a neighbour since.
     std::vector<std::uint8_t> may_improve_;
 };
