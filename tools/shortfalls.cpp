@@ -17,6 +17,25 @@ std::string too_small(const remesh::RemeshResult& result) {
     return text;
 }
 
+// More samples help where the input does not intersect itself; elsewhere the result has the more
+// pairs the more samples there are.
+std::string describe_crossings(const remesh::RemeshResult& result) {
+    const agvd::Index in_input = result.input_self_intersections;
+    const agvd::Index fresh = result.new_self_intersections;
+    const std::string text = "the result has " + std::to_string(*result.self_intersections) +
+                             " pairs of intersecting faces, the input has " +
+                             std::to_string(in_input);
+    if (in_input == 0) return text + "; use more --samples";
+    if (fresh == 0) {
+        return text +
+               "; they follow from those of the input, so that no sites were added for them; "
+               "mend the input";
+    }
+    return text + "; " + std::to_string(fresh) +
+           " are not where the input intersects itself: for these use more --samples, for the "
+           "others mend the input";
+}
+
 // \throw agvd::ConstraintUnmet  with --strict.
 void judge(const remesh::RemeshResult& result, bool strict, Console& console) {
     if (const std::string small = too_small(result); strict && !small.empty()) {
@@ -24,11 +43,8 @@ void judge(const remesh::RemeshResult& result, bool strict, Console& console) {
                                     "; use more --samples (without --strict the report tells how "
                                     "many), or leave out --strict");
     }
-    const agvd::Index pairs = result.self_intersections.value_or(0);
-    if (pairs <= result.input_self_intersections) return;
-    const std::string text =
-        "the result has " + std::to_string(pairs) + " pairs of intersecting faces, the input has " +
-        std::to_string(result.input_self_intersections) + "; use more --samples";
+    if (result.self_intersections.value_or(0) <= result.input_self_intersections) return;
+    const std::string text = describe_crossings(result);
     if (strict) throw agvd::ConstraintUnmet(text + ", or leave out --strict");
     console.warn(text);
 }

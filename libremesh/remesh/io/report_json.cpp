@@ -317,6 +317,8 @@ std::string to_json(const RemeshResult& result, const RunInfo& info) {
         result.self_intersections ? Json(*result.self_intersections) : Json();
     object["input_self_intersecting_pairs"] =
         result.self_intersections.value_or(0) > 0 ? Json(result.input_self_intersections) : Json();
+    object["new_self_intersecting_pairs"] =
+        result.self_intersections ? Json(result.new_self_intersections) : Json();
     object["certified_error"] = result.certified_error;
     object["propagation_bytes"] = result.propagation_bytes;
     Json& stages = object["stage_seconds"] = Json::object();

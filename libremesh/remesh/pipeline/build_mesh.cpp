@@ -1,7 +1,7 @@
 // Builds cells, dual, the exact vertex count, Delaunay flips and positions in rounds. If the mesh
-// of a round self-intersects more often than the input, sites are added there and another round
-// follows. The mesh with the fewest intersecting pairs of faces wins. Its thin triangles are mended
-// last.
+// of a round self-intersects where the input does not, and more often, sites are added there and
+// another round follows. The mesh with the fewest such pairs of faces wins. Its thin triangles are
+// mended last.
 #include "remesh/pipeline/build_mesh.h"
 
 #include <algorithm>
@@ -43,7 +43,7 @@ struct Candidate {
     Fault fault = Fault::None;
     ValidDual dual;
     PlacedDual placed;
-    CrossingFaces crossings;
+    std::optional<CrossingFaces> crossings;
     Index num_removed = 0;
     DelaunayCounts flips;
 };
@@ -71,10 +71,10 @@ public:
                 if (mends == 0) fail(candidate);
                 break;
             }
-            const CrossingFaces crossings = std::move(candidate.crossings);
+            const std::optional<CrossingFaces> crossings = std::move(candidate.crossings);
             const ValidDual dual = keep_if_better(std::move(candidate), crossings);
-            if (!crossings || crossings->size() <= context_.result.input_self_intersections ||
-                mends == most_mends || !add_sites_at(*crossings, dual)) {
+            if (!crossings || crossings->fresh.empty() || mends == most_mends ||
+                !add_sites_at(crossings->fresh, dual)) {
                 break;
             }
         }
@@ -206,9 +206,10 @@ private:
     }
 
     // \return the candidate's dual.
-    ValidDual keep_if_better(Candidate candidate, const CrossingFaces& crossings) {
+    ValidDual keep_if_better(Candidate candidate, const std::optional<CrossingFaces>& crossings) {
         const bool is_first = best_.mesh.triangles.empty();
-        if (!is_first && crossings && crossings->size() >= *best_.self_intersections) {
+        if (!is_first && crossings &&
+            crossings->counts().fresh >= best_.self_intersections->fresh) {
             return std::move(candidate.dual);
         }
         const PlacedDual& placed = candidate.placed;
@@ -224,7 +225,7 @@ private:
             }
             if (domain_.plan->given) order_as_given(candidate.dual, placed.patches->glued);
         }
-        if (crossings) best_.self_intersections = static_cast<Index>(crossings->size());
+        if (crossings) best_.self_intersections = crossings->counts();
         context_.result.sites_removed = candidate.num_removed;
         context_.result.delaunay = candidate.flips;
         keep_mendable(candidate.dual, std::move(candidate.placed.mesh));
@@ -259,8 +260,7 @@ private:
 
     // Adds a site at the farthest Voronoi vertex of the cell of each corner of these faces, and
     // marks the sites of the cells as wanted. False if there is no such place.
-    bool add_sites_at(const std::vector<std::pair<Index, Index>>& crossings,
-                      const ValidDual& dual) {
+    bool add_sites_at(const FacePairs& crossings, const ValidDual& dual) {
         const std::vector<Index> farthest = farthest_voronoi_vertices(dual.diagram);
         std::vector<Index> places;
         sites_.is_wanted.resize(sites_.on_base.size(), false);
@@ -283,8 +283,10 @@ private:
 
     void mend_best() {
         if (!mendable_) return;
+        std::optional<Index> most_crossings;
+        if (best_.self_intersections) most_crossings = best_.self_intersections->all;
         std::optional<MendedMesh> mended =
-            mend(domain_, *std::move(mendable_), best_.self_intersections, finder_, context_);
+            mend(domain_, *std::move(mendable_), most_crossings, finder_, context_);
         if (!mended) return;
         best_.mesh = whole_mesh(*domain_.whole, {mended->mesh, {}});
         best_.sites = std::move(mended->mesh.points);

@@ -29,6 +29,7 @@ remesh::RemeshResult example_result() {
     result.unfitted_vertices = 15;
     result.self_intersections = 17;
     result.input_self_intersections = 16;
+    result.new_self_intersections = 3;
     result.features = {.curves = 21,
                        .nodes = 22,
                        .vertices = 23,
@@ -138,6 +139,7 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
     EXPECT_EQ(report["unfitted_vertices"], 15);
     EXPECT_EQ(report["input_self_intersecting_pairs"], 16);
     EXPECT_EQ(report["self_intersecting_pairs"], 17);
+    EXPECT_EQ(report["new_self_intersecting_pairs"], 3);
     EXPECT_EQ(report["features"], json({{"curves", 21},
                                         {"nodes", 22},
                                         {"vertices", 23},
