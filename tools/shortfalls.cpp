@@ -27,9 +27,9 @@ std::string describe_crossings(const remesh::RemeshResult& result) {
                              std::to_string(in_input);
     if (in_input == 0) return text + "; use more --samples";
     if (fresh == 0) {
-        return text +
-               "; they follow from those of the input, so that no sites were added for them; "
-               "mend the input";
+        const bool has_sites = result.added_because.contains(remesh::SiteReason::SelfIntersection);
+        return text + "; they are where the input intersects itself, and more --samples give more" +
+               (has_sites ? "" : ", so that no sites were added there") + "; mend the input";
     }
     return text + "; " + std::to_string(fresh) +
            " are not where the input intersects itself: for these use more --samples, for the "

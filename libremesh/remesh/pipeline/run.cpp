@@ -77,11 +77,12 @@ Index num_more_crossings(const RemeshResult& result) {
     return pairs - std::min(pairs, result.input_self_intersections);
 }
 
-// Fewer creases are worth it if this makes a mesh without more self-intersections than the input,
-// or with fewer that do not follow from the input's.
+// Fewer creases are worth fewer self-intersections, if none remain beyond the number of the input
+// or if fewer are new.
 bool is_better(const RemeshResult& result, const RemeshResult& best) {
-    return num_more_crossings(result) == 0 ||
-           result.new_self_intersections < best.new_self_intersections;
+    const Index more = num_more_crossings(result);
+    return more < num_more_crossings(best) &&
+           (more == 0 || result.new_self_intersections < best.new_self_intersections);
 }
 
 // Whether lengths are ours to choose, for a number of samples that is given.

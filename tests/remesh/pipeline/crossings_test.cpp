@@ -13,11 +13,6 @@ namespace {
 
 using Corners = std::array<Vec3, 3>;
 
-agvd::TriangleMesh moved(agvd::TriangleMesh mesh, const Vec3& by) {
-    for (Vec3& p : mesh.positions) p += by;
-    return mesh;
-}
-
 bool has_cgal() { return remesh::find_self_intersections(shapes::cube().view()).has_value(); }
 
 void expect_segment(const Corners& place, const Vec3& a, const Vec3& b) {
@@ -67,7 +62,7 @@ TEST(CrossingPlaces, PairsFartherThanTheirLongestEdgeAreElsewhere) {
 TEST(Crossings, ThatFollowFromTheInputAddNoSitesAndDropNoCreases) {
     if (!has_cgal()) GTEST_SKIP() << "without CGAL";
     const agvd::TriangleMesh cube = shapes::cube();
-    const agvd::TriangleMesh cubes = shapes::join(cube, moved(cube, Vec3(.3, .35, .4)));
+    const agvd::TriangleMesh cubes = shapes::join(cube, shapes::moved(cube, Vec3(.3, .35, .4)));
     const auto result = remesh::remesh(cubes.view(), {.num_samples = 400});
     EXPECT_GT(*result.self_intersections, result.input_self_intersections);
     EXPECT_GT(result.input_self_intersections, 0u);
@@ -88,9 +83,9 @@ TEST(Crossings, ThatTheInputDoesNotHaveAreNew) {
     EXPECT_EQ(result.new_self_intersections, result.self_intersections);
     EXPECT_GT(result.new_self_intersections, 0u);
     // Far away two more spheres cross.
-    const agvd::TriangleMesh far = moved(shapes::sphere(2), Vec3(9, 0, 0));
+    const agvd::TriangleMesh far = shapes::moved(shapes::sphere(2), Vec3(9, 0, 0));
     const agvd::TriangleMesh all =
-        shapes::join(shells, shapes::join(far, moved(far, Vec3(1.2, 0, 0))));
+        shapes::join(shells, shapes::join(far, shapes::moved(far, Vec3(1.2, 0, 0))));
     const auto both = remesh::remesh(all.view(), {.num_samples = 80});
     EXPECT_GT(both.input_self_intersections, 0u);
     EXPECT_GT(both.new_self_intersections, 0u);
