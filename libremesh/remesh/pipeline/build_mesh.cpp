@@ -1,7 +1,7 @@
 // Builds cells, dual, the exact vertex count, Delaunay flips and positions in rounds. If the mesh
 // of a round self-intersects where the input does not, and more often, sites are added there and
-// another round follows. The mesh with the fewest such pairs of faces wins. Its thin triangles are
-// mended last.
+// another round follows. The mesh with the fewest intersecting pairs of faces wins. Its thin
+// triangles are mended last.
 #include "remesh/pipeline/build_mesh.h"
 
 #include <algorithm>
