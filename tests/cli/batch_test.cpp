@@ -102,6 +102,7 @@ TEST_F(RemeshBatch, NamesThatCannotAllBeWrittenAreFoundBeforeAnyWork) {
     const std::string twin = put("other/a.off", shapes::sphere(2));
     fs::create_directory(at("links"));
     fs::create_symlink(a, at("links/b.off"));
+    fs::create_hard_link(a, at("links/c.off"));
     const std::string out = at("out"), both = "would be written to the same file";
     struct Case {
         std::vector<std::string> arguments;
@@ -115,6 +116,7 @@ TEST_F(RemeshBatch, NamesThatCannotAllBeWrittenAreFoundBeforeAnyWork) {
                            {{a, "--out-dir", at("")}, "would be overwritten"},
                            {{twin, a, "--out-dir", at("")}, both},
                            {{at("b.off"), a, "--out-dir", at("links")}, "would be overwritten"},
+                           {{at("c.off"), a, "--out-dir", at("links")}, "would be overwritten"},
                            {{a, "--out-dir", out, "--report", a}, "would be overwritten"},
                            {{"-", "--out-dir", out}, "name a file"},
                            {{at(""), "--out-dir", out}, "name a file"},
@@ -260,6 +262,8 @@ TEST_F(RemeshBatch, WarningsAreInTheReportOfTheirMesh) {
     ASSERT_EQ(reports[0]["warnings"].size(), 1u);
     expect_told(outcome, "warning: " + reports[0]["warnings"][0].get<std::string>() + "\n");
     EXPECT_TRUE(reports[1]["warnings"].empty());
+    EXPECT_EQ(remesh({textured, at("out.off"), "-n", "1", "--report", at("f.json")}).exit_code, 5);
+    EXPECT_EQ(report_at("f.json")["warnings"], reports[0]["warnings"]);
 }
 
 }  // namespace
