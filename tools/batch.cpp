@@ -4,7 +4,6 @@
 
 #include <sys/stat.h>
 
-#include <algorithm>
 #include <map>
 #include <system_error>
 
@@ -50,8 +49,8 @@ void make_folder(const fs::path& folder) {
 // One line that begins with the name of the file.
 std::string describe(const BatchMesh& mesh, const Failure& failure) {
     const std::string name = mesh.input.string();
-    std::string text = failure.text.starts_with(name) ? failure.text : name + ": " + failure.text;
-    std::replace(text.begin(), text.end(), '\n', ' ');
+    const std::string text =
+        failure.text.starts_with(name) ? failure.text : name + ": " + failure.text;
     return text + " (exit code " + std::to_string(failure.exit_code) + ")";
 }
 

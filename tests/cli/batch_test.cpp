@@ -139,7 +139,7 @@ TEST_F(RemeshBatch, NamesThatCannotAllBeWrittenAreFoundBeforeAnyWork) {
 TEST_F(RemeshBatch, AFolderOrReportThatCannotBeWrittenIsThree) {
     const std::string a = put("a.off", shapes::sphere(2));
     put("file", "");
-    for (const std::string& folder : {at("file"), at("file/inside"), std::string("/proc/none")}) {
+    for (const std::string& folder : {at("file"), at("file/inside"), std::string("/proc")}) {
         const auto outcome = remesh({a, "--out-dir", folder});
         EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
         expect_told(outcome, folder);
