@@ -121,7 +121,7 @@ constexpr const char* compare_footer =
     "Examples:\n"
     "  agvd diagram bunny.ply -n 100 --engine steiner -o a.ply\n"
     "  agvd compare a.ply exact\n"
-    "  agvd compare a.ply b.ply --json - | jq .frechet.delta\n\n"
+    "  agvd compare a.ply b.ply --report - | jq .frechet.delta\n\n"
     "Both diagrams must be of the same mesh and sites: write them with the same IN and --sites "
     "(or\n"
     "--samples, --init, --seed). `exact` builds the exact diagram of A's mesh and sites; a file "
@@ -139,8 +139,8 @@ constexpr const char* compare_footer =
 
 struct CompareArguments {
     fs::path a;
-    std::string b;  // Path, or "exact".
-    fs::path json;  // Empty: none; "-": stdout, and no text.
+    std::string b;    // Path, or "exact".
+    fs::path report;  // Empty: none; "-": stdout, and no text.
     agvd::DiagramCompareOptions options;
     agvd::Index points = agvd::BisectorErrorOptions().max_points;
     cli::CommonOptions common;
@@ -168,10 +168,10 @@ void check_same_input(const CompareArguments& arguments, const remesh::DiagramFi
 }
 
 void run_compare(const CompareArguments& arguments, cli::Console& console) {
-    const bool is_json_on_stdout = arguments.json == "-";
+    const bool is_json_on_stdout = arguments.report == "-";
     const bool is_exact = arguments.b == "exact";
-    if (!arguments.json.empty() && !is_json_on_stdout) {
-        cli::check_output(arguments.json,
+    if (!arguments.report.empty() && !is_json_on_stdout) {
+        cli::check_output(arguments.report,
                           {arguments.a, is_exact ? fs::path() : fs::path(arguments.b)});
     }
     const remesh::DiagramFile a = remesh::read_diagram(arguments.a, console.progress_of("read"));
@@ -207,7 +207,7 @@ void run_compare(const CompareArguments& arguments, cli::Console& console) {
     }
     const remesh::ComparisonInfo info{
         .version = REMESH_VERSION, .a = arguments.a.string(), .b = arguments.b};
-    if (!arguments.json.empty()) cli::write_text(arguments.json, to_json(comparison, info));
+    if (!arguments.report.empty()) cli::write_text(arguments.report, to_json(comparison, info));
     if (!is_json_on_stdout) cli::print(to_text(comparison, info) + '\n');
 }
 
@@ -233,7 +233,8 @@ void add_compare(CLI::App& app, CompareArguments& arguments) {
     command->add_option("B", arguments.b, "Diagram to compare A with: a .ply file, or `exact`")
         ->required();
     command
-        ->add_option("--json", arguments.json, "Write the figures as JSON; - writes them to stdout")
+        ->add_option("--report,--json", arguments.report,
+                     "Write the figures as JSON; - writes them to stdout")
         ->type_name("FILE|-");
     command
         ->add_option(

@@ -82,44 +82,57 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
     app.add_flag("--verbose", options.verbose, "Write more to stderr")->excludes(quiet);
 }
 
+Failure failure_of(const std::exception_ptr& thrown) {
+    const auto failure = [](ExitCode code, const std::string& text) {
+        return Failure{static_cast<int>(code), text};
+    };
+    try {
+        std::rethrow_exception(thrown);
+    } catch (const agvd::InvalidOption& error) {
+        return failure(ExitCode::Usage, error.what());
+    } catch (const agvd::IoError& error) {
+        return failure(ExitCode::File, error.what());
+    } catch (const fs::filesystem_error& error) {
+        return failure(ExitCode::File, error.what());
+    } catch (const agvd::InvalidInput& error) {
+        return failure(ExitCode::Mesh, error.what());
+    } catch (const agvd::ConstraintUnmet& error) {
+        return failure(ExitCode::Constraint, error.what());
+    } catch (const PartlyDone& error) {
+        return {error.exit_code(), error.what()};
+    } catch (const agvd::Cancelled&) {
+        return {interruption_code(), "interrupted, nothing was written"};
+    } catch (const OutOfMemory& error) {
+        return failure(ExitCode::Internal, error.what());
+    } catch (const std::bad_alloc&) {
+        return failure(ExitCode::Internal, "not enough memory; use a smaller mesh");
+    } catch (const std::exception& error) {
+        return failure(ExitCode::Internal,
+                       std::string("internal error: ") + error.what() +
+                           "; please report it with the input and the command line");
+    }
+}
+
 int run(CLI::App& app, int argc, const char* const* argv, const std::function<void()>& job) {
     const std::string name = app.get_name();
     app.set_version_flag("--version", name + " " REMESH_VERSION, "Print the version and exit");
     app.failure_message([&](const CLI::App*, const CLI::Error& error) {
         return name + ": error: " + error.what() + "; see " + name + " --help\n";
     });
-    const auto fail = [&](ExitCode code, const std::string& text) {
-        std::fprintf(stderr, "%s: error: %s\n", name.c_str(), text.c_str());
-        return static_cast<int>(code);
-    };
     catch_signals();
     try {
         return static_cast<int>(parse_and_run(app, argc, argv, job));
-    } catch (const agvd::InvalidOption& error) {
-        return fail(ExitCode::Usage, error.what());
-    } catch (const agvd::IoError& error) {
-        return fail(ExitCode::File, error.what());
-    } catch (const fs::filesystem_error& error) {
-        return fail(ExitCode::File, error.what());
-    } catch (const agvd::InvalidInput& error) {
-        return fail(ExitCode::Mesh, error.what());
-    } catch (const agvd::ConstraintUnmet& error) {
-        return fail(ExitCode::Constraint, error.what());
-    } catch (const agvd::Cancelled&) {
-        std::fprintf(stderr, "%s: interrupted, nothing was written\n", name.c_str());
-        return 128 + caught_signal;
-    } catch (const OutOfMemory& error) {
-        return fail(ExitCode::Internal, error.what());
-    } catch (const std::bad_alloc&) {
-        return fail(ExitCode::Internal, "not enough memory; use a smaller mesh");
-    } catch (const std::exception& error) {
-        return fail(ExitCode::Internal,
-                    std::string("internal error: ") + error.what() +
-                        "; please report it with the input and the command line");
+    } catch (...) {
+        const auto [code, text] = failure_of(std::current_exception());
+        const char* const kind = interrupted() && code == interruption_code() ? "" : "error: ";
+        std::fprintf(stderr, "%s: %s%s\n", name.c_str(), kind, text.c_str());
+        return code;
     }
 }
 
 bool interrupted() { return caught_signal != 0; }
+
+int interruption_code() { return 128 + caught_signal; }
 
 void stop_if_interrupted() {
     if (interrupted()) throw agvd::Cancelled();
@@ -141,6 +154,12 @@ void check_output(const fs::path& path, std::initializer_list<fs::path> inputs,
         }
     }
     remesh::require_writable(path);
+}
+
+void require_new(const fs::path& path) {
+    if (!fs::is_regular_file(path)) return;
+    throw agvd::IoError(path.string() +
+                        ": exists already; choose another file, or leave out --no-clobber");
 }
 
 void print(std::string_view text) {
@@ -165,14 +184,19 @@ void Console::detail(std::string_view text) {
 }
 
 void Console::info(std::string_view text) {
-    if (options_.quiet) return;
-    clear_bar();
-    std::fprintf(stderr, "%.*s\n", static_cast<int>(text.size()), text.data());
+    if (!options_.quiet) write_line("", text);
 }
 
 void Console::warn(std::string_view text) {
+    write_line("warning: ", text);
+    warnings_.emplace_back(text);
+}
+
+void Console::error(std::string_view text) { write_line("error: ", text); }
+
+void Console::write_line(const char* kind, std::string_view text) {
     clear_bar();
-    std::fprintf(stderr, "warning: %.*s\n", static_cast<int>(text.size()), text.data());
+    std::fprintf(stderr, "%s%.*s\n", kind, static_cast<int>(text.size()), text.data());
 }
 
 bool Console::progress(std::string_view stage, double fraction) {

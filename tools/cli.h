@@ -4,13 +4,16 @@
 #pragma once
 
 #include <chrono>
+#include <exception>
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "agvd/core/error.h"
 #include "agvd/core/progress.h"
 #include "memory_limit.h"
 
@@ -20,7 +23,8 @@ class App;
 
 namespace cli {
 
-//! Also 130 after SIGINT and 143 after SIGTERM; then nothing was written.
+//! Also 130 after SIGINT and 143 after SIGTERM; then nothing was written, but for the meshes of a
+//! batch that were finished before.
 enum class ExitCode {
     Done = 0,
     Internal = 1,    //!< Our bug, or not enough memory: see OutOfMemory.
@@ -28,6 +32,7 @@ enum class ExitCode {
     File = 3,        //!< agvd::IoError.
     Mesh = 4,        //!< agvd::InvalidInput.
     Constraint = 5,  //!< agvd::ConstraintUnmet; nothing written.
+    Batch = 6,       //!< Some meshes of a batch failed; the others are written.
 };
 
 //! The exit codes as text for the end of --help.
@@ -42,6 +47,26 @@ struct CommonOptions {
 //! Adds -t/--threads, -q/--quiet and --verbose; they are valid once run() calls the job.
 void add_common_options(CLI::App& app, CommonOptions& options);
 
+//! Why a job ended without a result.
+struct Failure {
+    int exit_code = 0;
+    std::string text;
+};
+
+//! A job has done only a part of its work.
+class PartlyDone : public agvd::Error {
+public:
+    explicit PartlyDone(const Failure& failure)
+        : Error(failure.text), exit_code_(failure.exit_code) {}
+    [[nodiscard]] int exit_code() const { return exit_code_; }
+
+private:
+    int exit_code_;
+};
+
+//! The exit code and the text for what a job has thrown.
+[[nodiscard]] Failure failure_of(const std::exception_ptr& thrown);
+
 //! main() of every program: parses the command line (adding --version), runs the job, and turns
 //! what either throws into a text on stderr and an exit code. While the job runs, the first SIGINT
 //! or SIGTERM makes interrupted() true; a second one kills the program at once.
@@ -50,6 +75,9 @@ void add_common_options(CLI::App& app, CommonOptions& options);
 
 //! True once SIGINT or SIGTERM has come.
 [[nodiscard]] bool interrupted();
+
+//! The exit code once interrupted().
+[[nodiscard]] int interruption_code();
 
 //! Call before writing.
 //! \throw agvd::Cancelled if interrupted().
@@ -66,6 +94,11 @@ void stop_if_interrupted();
 void check_output(const std::filesystem::path& path,
                   std::initializer_list<std::filesystem::path> inputs,
                   std::optional<bool> force = {});
+
+//! For --no-clobber.
+//! \throw agvd::IoError  there is such a file. Devices and pipes do not count: they are not
+//!        replaced.
+void require_new(const std::filesystem::path& path);
 
 //! Returns what `work` returns; an error of the mesh, of given sites or of a constraint that it
 //! throws gets the file's name in front.
@@ -111,6 +144,12 @@ public:
     void detail(std::string_view text);  //!< With --verbose only.
     void info(std::string_view text);    //!< Unless --quiet.
     void warn(std::string_view text);    //!< Always.
+    void error(std::string_view text);   //!< Always.
+
+    //! The texts of warn(), in their order.
+    [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+    //! The last stage that was reported; empty: none.
+    [[nodiscard]] const std::string& stage() const { return stage_; }
 
     //! A progress callback: draws the bar, and returns false once interrupted() or above the memory
     //! limit. Cheap: it checks memory and terminal only every few milliseconds.
@@ -128,6 +167,7 @@ public:
 private:
     void look(std::string_view stage, double fraction);
     void clear_bar();
+    void write_line(const char* kind, std::string_view text);
     // \param needed  how much, if it is known: "some 3.7G, ".
     [[nodiscard]] OutOfMemory out_of_memory(const std::string& needed = {}) const;
 
@@ -136,6 +176,7 @@ private:
     std::string stage_;  // The last one reported.
     std::chrono::steady_clock::time_point next_look_;
     bool is_over_limit_ = false;
+    std::vector<std::string> warnings_;
     std::string bar_;  // As on the screen now; empty: none.
 };
 

@@ -1,6 +1,6 @@
 // The main program: reads a mesh and writes the dual of its geodesic Voronoi diagram. It checks all
 // output paths before the long work, runs remesh::remesh(), and writes mesh and report together,
-// so that either both are new or none is.
+// so that either both are new or none is. With --out-dir it does so for many meshes (batch.h).
 #include <malloc.h>
 
 #include <CLI/CLI.hpp>
@@ -9,8 +9,9 @@
 
 #include "arguments.h"
 #include "attributes.h"
+#include "batch.h"
+#include "mesh_run.h"
 #include "region.h"
-#include "remesh/io/atomic_file.h"
 #include "remesh/io/read_edges.h"
 #include "remesh/io/read_mesh.h"
 #include "remesh/io/read_sites.h"
@@ -18,6 +19,7 @@
 #include "remesh/io/report.h"
 #include "remesh/io/write_mesh.h"
 #include "remesh/pipeline/remesh.h"
+#include "shortfalls.h"
 #include "sizing_arguments.h"
 
 namespace fs = std::filesystem;
@@ -29,10 +31,22 @@ constexpr const char* footer =
     "  remesh bunny.ply --samples 2000 out.obj\n"
     "  remesh scan.stl -n 5000 -o scan.ply --report scan.json\n"
     "  remesh part.stl --edge-length 2% --adaptive part.obj\n"
-    "  remesh part.off --sites sites.txt part.obj --report - | jq .\n\n";
+    "  remesh part.off --sites sites.txt part.obj --report - | jq .\n"
+    "  remesh *.obj --out-dir out -n 2000 --report out.json\n\n"
+    "With --out-dir each mesh becomes DIR/NAME, NAME being that of the input; .ply replaces an\n"
+    "extension that cannot be written. A mesh that fails does not stop the rest; the failures are\n"
+    "listed at the end. An interruption keeps the meshes that are finished. --report gets a JSON\n"
+    "array with the report of each mesh.\n\n";
+
+// Of remesh only: see cli::exit_code_help.
+constexpr const char* batch_exit_code_help =
+    "\n  6  some meshes of --out-dir failed, all others are done";
 
 struct Arguments : cli::DiagramArguments {
+    std::vector<fs::path> further;  // Positional arguments after IN.
     fs::path output;
+    fs::path folder;  // Of many outputs; empty: there is one.
+    bool no_clobber = false;
     int relax_steps = remesh::RemeshOptions{}.relax_steps;
     bool keep_sites = false;
     std::optional<bool> fit;
@@ -169,61 +183,26 @@ void add_options(CLI::App& app, Arguments& arguments) {
         "--fit,!--no-fit", [&arguments](std::int64_t count) { arguments.fit = count > 0; },
         "Let vertices leave the surface so that the triangles lie nearer to it; the default if "
         "sites are relaxed");
-    app.add_option("OUT,-o,--output", arguments.output,
-                   "Mesh to write: .ply, .obj, .off or .stl; an existing file is replaced")
-        ->required();
-    app.add_option("--report", arguments.report, "Write a JSON report; - writes it to stdout")
+}
+
+void add_output_options(CLI::App& app, Arguments& arguments) {
+    app.add_option("OUT", arguments.further,
+                   "Mesh to write: .ply, .obj, .off or .stl; an existing file is replaced. With "
+                   "--out-dir: more meshes to read");
+    CLI::Option* const output =
+        app.add_option("-o,--output", arguments.output, "The same as OUT")->type_name("FILE");
+    app.add_option("--out-dir", arguments.folder,
+                   "Read many meshes, and write each to a file of its name in this folder")
+        ->excludes(output)
+        ->excludes("--map")
+        ->type_name("DIR");
+    app.add_flag("--no-clobber", arguments.no_clobber,
+                 "Never replace a file: exit code 3 if an output exists; with --out-dir the mesh "
+                 "is skipped")
+        ->excludes("--force");
+    app.add_option("--report", arguments.report,
+                   "Write a JSON report, also of a run that fails; - writes it to stdout")
         ->type_name("FILE|-");
-}
-
-// What the result is too coarse to show; empty: nothing.
-std::string too_small(const remesh::RemeshResult& result) {
-    std::string text;
-    const auto add = [&](bool is_so, const char* what) {
-        if (is_so) text += (text.empty() ? "" : ", ") + std::string(what);
-    };
-    add(result.features.dropped_length > 0, "creases");
-    add(result.verdict.thin_walls > 0, "walls");
-    add(result.verdict.small_components > 0, "components");
-    return text;
-}
-
-// \throw agvd::ConstraintUnmet  with --strict.
-void judge(const remesh::RemeshResult& result, bool strict, cli::Console& console) {
-    if (const std::string small = too_small(result); strict && !small.empty()) {
-        throw agvd::ConstraintUnmet("the result is too coarse for some " + small +
-                                    "; use more --samples (without --strict the report tells how "
-                                    "many), or leave out --strict");
-    }
-    const agvd::Index pairs = result.self_intersections.value_or(0);
-    if (pairs <= result.input_self_intersections) return;
-    const std::string text =
-        "the result has " + std::to_string(pairs) + " pairs of intersecting faces, the input has " +
-        std::to_string(result.input_self_intersections) + "; use more --samples";
-    if (strict) throw agvd::ConstraintUnmet(text + ", or leave out --strict");
-    console.warn(text);
-}
-
-// Warns of sheets that should be welded but could not be.
-void warn_of_junctions(const remesh::JunctionCounts& counts, remesh::Junctions wanted,
-                       cli::Console& console) {
-    if (counts.apart_edges == 0 || wanted == remesh::Junctions::Apart) return;
-    console.warn("the sheets at " + std::to_string(counts.apart_edges) +
-                 " non-manifold edges of the input could not be welded; use more --samples, and "
-                 "leave out --sites and --boundary free");
-}
-
-// Warns of bounds of the edges that give way to the number of vertices.
-void warn_of_bounds(const remesh::SizingResult& sizes, const remesh::Sizing& wanted,
-                    cli::Console& console) {
-    constexpr double tolerance = 0.02;
-    const std::string count = std::to_string(sizes.num_samples) + " vertices are too ";
-    if (sizes.largest_target > (1 + tolerance) * wanted.max_edge) {
-        console.warn(count + "few for --max-edge; use more, or longer edges");
-    }
-    if (sizes.largest_target > 0 && sizes.least_target < (1 - tolerance) * wanted.min_edge) {
-        console.warn(count + "many for --min-edge; use fewer, or shorter edges");
-    }
 }
 
 void check_outputs(const Arguments& arguments) {
@@ -243,6 +222,7 @@ void check_outputs(const Arguments& arguments) {
         if (output.path.empty() || (&output.path == &arguments.report && output.path == "-")) {
             continue;
         }
+        if (arguments.no_clobber) cli::require_new(output.path);
         cli::check_output(
             output.path,
             {arguments.input, arguments.sites, arguments.feature_edges, arguments.region.lock},
@@ -263,8 +243,7 @@ std::size_t least_memory(std::size_t num_faces, std::size_t num_samples) {
     return 200 * num_faces + 3000 * num_samples;
 }
 
-void run_job(const Arguments& arguments, cli::Console& console) {
-    check_outputs(arguments);
+cli::Products make_products(const Arguments& arguments, cli::Console& console) {
     const bool wants_attributes = cli::wants_attributes(arguments.attributes) ||
                                   cli::wants_attributes(arguments.sizing) ||
                                   !arguments.region.region.empty();
@@ -330,28 +309,63 @@ void run_job(const Arguments& arguments, cli::Console& console) {
                                : remesh::remesh_moved(std::move(input.mesh), options);
         },
         arguments.sites);
-    judge(result, arguments.strict, console);
-    warn_of_junctions(result.junctions, arguments.junctions, console);
-    warn_of_bounds(result.sizing, options.sizing, console);
-    const remesh::RunInfo info{.version = REMESH_VERSION,
-                               .input_path = arguments.input.string(),
-                               .output_path = arguments.output.string(),
-                               .options = options,
-                               .attributes = attributes};
-    const agvd::Progress writing = console.progress_of("write");
-    std::vector<remesh::FileContent> files;
+    cli::warn_of_shortfalls(result, options, arguments.strict, console);
+    remesh::RunInfo info{.version = REMESH_VERSION,
+                         .input_path = arguments.input.string(),
+                         .output_path = arguments.output.string(),
+                         .options = options,
+                         .attributes = attributes};
+    cli::Products products;
     const remesh::MeshAttributes carried =
         cli::carry_attributes(arguments.attributes, input, result, arguments.common.threads,
-                              console.progress_of("transfer"), files);
-    files.push_back({arguments.output,
-                     remesh::format_mesh(arguments.output, result.mesh.view(), carried, writing)});
-    if (arguments.report == "-") {
-        cli::print(remesh::to_json(result, info));
-    } else if (!arguments.report.empty()) {
-        files.push_back({arguments.report, remesh::to_json(result, info)});
+                              console.progress_of("transfer"), products.files);
+    products.files.push_back(
+        {arguments.output, remesh::format_mesh(arguments.output, result.mesh.view(), carried,
+                                               console.progress_of("write"))});
+    if (!arguments.report.empty()) {
+        info.output = remesh::measure_figures(result.mesh.view(), console.progress_of("write"));
+        info.warnings = console.warnings();
+        products.report = remesh::to_json(result, info);
     }
-    remesh::write_files_atomically(files, writing);
-    console.info(remesh::to_text(result, info));
+    products.text = remesh::to_text(result, info);
+    return products;
+}
+
+// \param arguments, console  outlive the run.
+cli::MeshRun run_of(const Arguments& arguments, cli::Console& console) {
+    return {.input = arguments.input,
+            .output = arguments.output,
+            .report = arguments.report,
+            .no_clobber = arguments.no_clobber,
+            .check_outputs = [&] { check_outputs(arguments); },
+            .make = [&] { return make_products(arguments, console); }};
+}
+
+void run_one(Arguments arguments) {
+    // OUT or --output.
+    if (!arguments.output.empty()) arguments.further.push_back(arguments.output);
+    arguments.output = cli::only_output(arguments.further);
+    cli::Console console(arguments.common, cli::limit_of(arguments));
+    cli::run_alone(run_of(arguments, console), console);
+}
+
+void run_many(const Arguments& arguments) {
+    cli::BatchArguments batch{.inputs = {arguments.input},
+                              .folder = arguments.folder,
+                              .report = arguments.report,
+                              .force = arguments.force};
+    batch.inputs.insert(batch.inputs.end(), arguments.further.begin(), arguments.further.end());
+    const std::vector<cli::BatchMesh> meshes = cli::plan_batch(batch);
+    if (arguments.no_clobber && arguments.report != "-") cli::require_new(arguments.report);
+    const auto run_mesh = [&](const cli::BatchMesh& mesh) {
+        Arguments of_mesh = arguments;
+        of_mesh.input = mesh.input;
+        of_mesh.output = mesh.output;
+        cli::Console console(of_mesh.common, cli::limit_of(of_mesh));
+        return cli::run_in_batch(run_of(of_mesh, console), console);
+    };
+    cli::Console console(arguments.common);
+    cli::run_batch(batch, meshes, run_mesh, console);
 }
 
 }  // namespace
@@ -369,9 +383,13 @@ int main(int argc, char** argv) {
     CLI::App app("Replaces a mesh by the dual of its geodesic Voronoi diagram.", "remesh");
     Arguments arguments;
     add_options(app, arguments);
-    app.footer(std::string(footer) + cli::exit_code_help);
+    add_output_options(app, arguments);
+    app.footer(std::string(footer) + cli::exit_code_help + batch_exit_code_help);
     return cli::run(app, argc, argv, [&] {
-        cli::Console console(arguments.common, cli::limit_of(arguments));
-        console.run([&] { run_job(arguments, console); });
+        if (arguments.folder.empty()) {
+            run_one(arguments);
+        } else {
+            run_many(arguments);
+        }
     });
 }

@@ -12,7 +12,7 @@ namespace {
 constexpr const char* footer =
     "Examples:\n"
     "  remesh-eval bunny.ply out.obj\n"
-    "  remesh-eval bunny.ply out.obj --json - | jq .distance.two_sided\n\n"
+    "  remesh-eval bunny.ply out.obj --report - | jq .distance.two_sided\n\n"
     "ORIGINAL is cleaned first, as remesh does; the report counts the repairs. RESULT is measured\n"
     "as it is.\n"
     "Distances are in percent of the diagonal of ORIGINAL's bounding box; two-sided is the larger\n"
@@ -24,14 +24,14 @@ constexpr const char* footer =
 struct Arguments {
     fs::path original;
     fs::path result;
-    fs::path json;  // Empty: none; "-": stdout, and no text.
+    fs::path report;  // Empty: none; "-": stdout, and no text.
     remesh::EvaluationOptions options;
 };
 
 void run_job(Arguments& arguments, cli::Console& console) {
-    const bool is_json_on_stdout = arguments.json == "-";
-    if (!arguments.json.empty() && !is_json_on_stdout) {
-        cli::check_output(arguments.json, {arguments.original, arguments.result});
+    const bool is_json_on_stdout = arguments.report == "-";
+    if (!arguments.report.empty() && !is_json_on_stdout) {
+        cli::check_output(arguments.report, {arguments.original, arguments.result});
     }
     const remesh::MeshFile original =
         remesh::read_mesh(arguments.original, console.progress_of("read"));
@@ -46,7 +46,7 @@ void run_job(Arguments& arguments, cli::Console& console) {
     const remesh::EvaluationInfo info{.version = REMESH_VERSION,
                                       .original_path = arguments.original.string(),
                                       .result_path = arguments.result.string()};
-    if (!arguments.json.empty()) cli::write_text(arguments.json, to_json(evaluation, info));
+    if (!arguments.report.empty()) cli::write_text(arguments.report, to_json(evaluation, info));
     if (!is_json_on_stdout) cli::print(to_text(evaluation, info) + '\n');
 }
 
@@ -57,7 +57,8 @@ int main(int argc, char** argv) {
     Arguments arguments;
     app.add_option("ORIGINAL", arguments.original, "Mesh that was remeshed")->required();
     app.add_option("RESULT", arguments.result, "Mesh to measure")->required();
-    app.add_option("--json", arguments.json, "Write the figures as JSON; - writes them to stdout")
+    app.add_option("--report,--json", arguments.report,
+                   "Write the figures as JSON; - writes them to stdout")
         ->type_name("FILE|-");
     app.add_option("--samples", arguments.options.samples,
                    "Number of points to measure on each surface")

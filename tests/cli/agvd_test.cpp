@@ -109,7 +109,7 @@ protected:
         return at(name);
     }
     [[nodiscard]] static nlohmann::json figures(const std::string& a, const std::string& b) {
-        const auto outcome = compare({a, b, "--json", "-", "-q"});
+        const auto outcome = compare({a, b, "--report", "-", "-q"});
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
         EXPECT_EQ(outcome.err, "");
         return nlohmann::json::parse(outcome.out);
@@ -186,7 +186,7 @@ TEST_F(AgvdCompare, ExitCodes) {
     EXPECT_EQ(compare({a, "exact", "--samples", "0"}).exit_code, 2);
     EXPECT_EQ(compare({at("missing.ply"), "exact"}).exit_code, 3);
     EXPECT_EQ(compare({a, at("missing.ply")}).exit_code, 3);
-    EXPECT_EQ(compare({a, "exact", "--json", at("no/out.json")}).exit_code, 3);
+    EXPECT_EQ(compare({a, "exact", "--report", at("no/out.json")}).exit_code, 3);
     // A mesh without a diagram, and what is no PLY at all.
     const auto outcome = compare({put("mesh.ply", shapes::sphere(1)), "exact"});
     EXPECT_EQ(outcome.exit_code, 3);

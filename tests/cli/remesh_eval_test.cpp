@@ -20,7 +20,7 @@ TEST_F(RemeshEval, PrintsFiguresAsTextOrJson) {
     EXPECT_EQ(text.exit_code, 0) << text.err;
     EXPECT_NE(text.out.find("topology"), std::string::npos) << text.out;
     EXPECT_EQ(text.err, "");
-    const auto json = eval({original, result, "--samples", "1000", "--json", "-"});
+    const auto json = eval({original, result, "--samples", "1000", "--report", "-"});
     EXPECT_TRUE(nlohmann::json::parse(json.out).is_object());
     EXPECT_EQ(eval({original, result, "--samples", "1000", "--json", at("r.json")}).out, text.out);
     EXPECT_EQ(nlohmann::json::parse(bytes("r.json")), nlohmann::json::parse(json.out));

@@ -243,6 +243,8 @@ TEST_F(Remesh, IntersectionsAreToldAndWithStrictNothingIsWritten) {
     const auto told = remesh({in, at("out.off"), "-n", "20", "-q"});
     EXPECT_EQ(told.exit_code, 0) << told.err;
     EXPECT_NE(told.err.find("warning: the result has "), std::string::npos) << told.err;
+    EXPECT_NE(told.err.find("the input has 0; use more --samples\n"), std::string::npos)
+        << told.err;
     put("out.off", "old");
     const auto refused = remesh({in, at("out.off"), "-n", "20", "--strict"});
     EXPECT_EQ(refused.exit_code, 5) << refused.err;
@@ -251,6 +253,40 @@ TEST_F(Remesh, IntersectionsAreToldAndWithStrictNothingIsWritten) {
     EXPECT_EQ(num_files(), 2u);
     const std::string sphere = put("sphere.off", shapes::sphere(2));
     EXPECT_EQ(remesh({sphere, at("out.off"), "-n", "50", "--strict"}).exit_code, 0);
+}
+
+TEST_F(Remesh, WhereTheInputIntersectsItselfMoreSamplesAreNoAdvice) {
+    if (!remesh::find_self_intersections(shapes::cube().view())) GTEST_SKIP() << "without CGAL";
+    const agvd::TriangleMesh cubes =
+        shapes::join(shapes::cube(), shapes::moved(shapes::cube(), {0.3, 0.35, 0.4}));
+    const std::string in = put("in.off", cubes);
+    const auto told = remesh({in, at("out.off"), "-n", "400", "-q"});
+    EXPECT_EQ(told.exit_code, 0) << told.err;
+    EXPECT_NE(told.err.find("where the input intersects itself, and more --samples give more, so "
+                            "that no sites were added there; mend the input\n"),
+              std::string::npos)
+        << told.err;
+    EXPECT_EQ(told.err.find("use more"), std::string::npos) << told.err;
+    EXPECT_EQ(remesh({in, at("out.off"), "-n", "400", "--strict"}).exit_code, 5);
+    // Less than twice the pairs of the input: sites are tried.
+    const agvd::TriangleMesh spheres =
+        shapes::join(shapes::sphere(2), shapes::moved(shapes::sphere(2), {1.2, 0.1, 0}));
+    const auto tried = remesh({put("few.off", spheres), at("out.off"), "-n", "400", "-q"});
+    EXPECT_NE(tried.err.find("more --samples give more; mend the input\n"), std::string::npos)
+        << tried.err;
+    // Two shells run through each other besides.
+    agvd::TriangleMesh inner = shapes::sphere(2);
+    for (agvd::Vec3& p : inner.positions) p *= 0.98;
+    for (agvd::Triangle& t : inner.triangles) std::swap(t[1], t[2]);
+    const agvd::TriangleMesh shells = shapes::join(shapes::sphere(2), inner);
+    const auto both =
+        remesh({put("both.off", shapes::join(shapes::moved(shells, {9, 0, 0}), cubes)),
+                at("out.off"), "-n", "60", "-q"});
+    EXPECT_EQ(both.exit_code, 0) << both.err;
+    EXPECT_NE(both.err.find(" are not where the input intersects itself: for these use more "
+                            "--samples, for the others mend the input\n"),
+              std::string::npos)
+        << both.err;
 }
 
 TEST_F(Remesh, AnOutputThatCannotBeWrittenIsThreeAndSaidBeforeTheWork) {

@@ -27,6 +27,15 @@ struct RunInfo {
     std::string output_path = {};  //!< Likewise.
     RemeshOptions options = {};    //!< As passed to remesh().
     AttributeReport attributes = {};
+    std::optional<MeshFigures> output = {};  //!< Of the result (measure_figures), if measured.
+    std::vector<std::string> warnings = {};  //!< All texts that the caller warned with.
+};
+
+//! Why a run has no result.
+struct RunFailure {
+    int exit_code = 0;       //!< 0: the run was not needed, and the mesh was skipped.
+    std::string error = {};  //!< The text for people.
+    std::string stage = {};  //!< The last one that began; empty: none.
 };
 
 //! What the caller of evaluate() knows about its meshes.
@@ -55,7 +64,11 @@ struct ComparisonInfo {
 //! (_s, _bytes, _deg, _percent, _percent_of_diagonal). A number that is not finite and a value that
 //! was not measured (e.g. without CGAL) are null; the self-intersecting pairs and the components
 //! are listed in full.
+//! docs/report.md lists all keys.
 [[nodiscard]] std::string to_json(const RemeshResult& result, const RunInfo& info = {});
+//! The report of a run without a result: the first keys of the above. Reads of `info` version,
+//! paths and warnings.
+[[nodiscard]] std::string to_json(const RunFailure& failure, const RunInfo& info = {});
 [[nodiscard]] std::string to_json(const Evaluation& evaluation, const EvaluationInfo& info = {});
 [[nodiscard]] std::string to_json(const Comparison& comparison, const ComparisonInfo& info = {});
 

@@ -7,6 +7,7 @@
 
 #include "remesh/io/report.h"
 #include "remesh/io/report_common.h"
+#include "remesh/pipeline/stage_context.h"
 
 namespace remesh {
 namespace {
@@ -14,6 +15,7 @@ namespace {
 // Keeps the keys in the order in which they were set.
 using Json = nlohmann::ordered_json;
 
+using agvd::Index;
 using detail::degrees;
 
 Json text_or_null(const std::string& text) { return text.empty() ? Json() : Json(text); }
@@ -32,6 +34,9 @@ Json to_json(const CleanCounts& counts) {
 void add_topology(Json& object, const Topology& topology) {
     object["manifold"] = topology.is_manifold;
     object["oriented"] = topology.is_oriented;
+    object["euler_characteristic"] =
+        std::accumulate(topology.components.begin(), topology.components.end(), 0,
+                        [](int sum, const ComponentTopology& c) { return sum + c.euler; });
     object["genus"] = topology.genus();
     object["boundary_loops"] = topology.boundary_loops();
     object["component_count"] = topology.components.size();
@@ -45,7 +50,8 @@ void add_topology(Json& object, const Topology& topology) {
     }
 }
 
-Json to_json(const MeshFigures& mesh) {
+// Without self-intersections.
+Json figures_of(const MeshFigures& mesh) {
     const TriangleQuality& quality = mesh.triangles;
     Json object;
     object["vertices"] = mesh.vertices;
@@ -62,6 +68,11 @@ Json to_json(const MeshFigures& mesh) {
     object["edge_length_variation"] = quality.edge_length_variation;
     object["non_delaunay_edges"] = quality.non_delaunay_edges;
     object["faces_without_area"] = quality.faces_without_area;
+    return object;
+}
+
+Json to_json(const MeshFigures& mesh) {
+    Json object = figures_of(mesh);
     object["self_intersecting_pairs"] = Json();
     object["self_intersecting_faces"] = Json();
     if (mesh.self_intersections) {
@@ -116,7 +127,7 @@ Json to_json(const std::optional<FeatureCoverage>& measured) {
 
 Json to_json(const DelaunayCounts& counts, Delaunay delaunay) {
     if (delaunay == Delaunay::Off) return {};
-    const double inner_edges = std::max<agvd::Index>(counts.inner_edges, 1);
+    const double inner_edges = std::max<Index>(counts.inner_edges, 1);
     return {{"inner_edges", counts.inner_edges},
             {"failing_edges_before", counts.failing_before},
             {"failing_before_percent", 100 * counts.failing_before / inner_edges},
@@ -210,9 +221,17 @@ Json to_json(const AttributeReport& attributes) {
             {"map_path", text_or_null(attributes.map_path)}};
 }
 
-Json to_json(const RemeshOptions& options) {
+// What the window engine takes if nothing is asked for; the others then have no bound.
+std::optional<double> max_error_of(const agvd::PropagationOptions& options) {
+    if (options.max_error || options.engine != agvd::Engine::Window) return options.max_error;
+    return agvd::default_max_error;
+}
+
+// With the defaults that were taken.
+Json to_json(const RemeshOptions& options, Index num_samples) {
+    const std::optional<double> max_error = max_error_of(options.propagation);
     Json object;
-    object["samples"] = options.num_samples;
+    object["samples"] = num_samples;
     object["sizing"] = to_json(options.sizing);
     object["topology"] = options.vertex_count == VertexCount::Exact ? "exact" : "add";
     object["boundary"] = options.boundary == Boundary::Keep ? "keep" : "free";
@@ -229,10 +248,9 @@ Json to_json(const RemeshOptions& options) {
     object["given_sites"] = options.sites ? Json(options.sites->size()) : Json();
     object["relax_steps"] = options.relax_steps;
     object["keep_sites"] = options.keep_sites;
-    object["fit"] = options.fit ? Json(*options.fit) : Json();
+    object["fit"] = options.fit.value_or(detail::is_relaxed(options));
     object["engine"] = agvd::engine_name(options.propagation.engine);
-    object["max_error"] =
-        options.propagation.max_error ? Json(*options.propagation.max_error) : Json();
+    object["max_error"] = max_error ? Json(*max_error) : Json();
     object["steiner_points_per_edge"] = options.propagation.steiner_points;
     object["lambda"] = options.propagation.lambda;
     object["delaunay"] = delaunay_name(options.delaunay);
@@ -241,21 +259,37 @@ Json to_json(const RemeshOptions& options) {
     return object;
 }
 
-}  // namespace
-
-std::string to_json(const RemeshResult& result, const RunInfo& info) {
+// What the report of every run begins with.
+Json begin_report(const char* status, const RunFailure& failure, const RunInfo& info) {
     Json object;
     object["program"] = "remesh";
     object["version"] = text_or_null(info.version);
+    object["status"] = status;
+    object["exit_code"] = failure.exit_code;
+    object["error"] = text_or_null(failure.error);
+    object["stage"] = text_or_null(failure.stage);
     object["input_path"] = text_or_null(info.input_path);
     object["output_path"] = text_or_null(info.output_path);
-    object["options"] = to_json(info.options);
+    object["warnings"] = info.warnings;
+    return object;
+}
+
+}  // namespace
+
+std::string to_json(const RunFailure& failure, const RunInfo& info) {
+    return dump(begin_report(failure.exit_code == 0 ? "skipped" : "failed", failure, info));
+}
+
+std::string to_json(const RemeshResult& result, const RunInfo& info) {
+    Json object = begin_report("done", {}, info);
+    object["options"] = to_json(info.options, result.sizing.num_samples);
     object["attributes"] = to_json(info.attributes);
     object["input_repair"] = to_json(result.cleaned);
     object["input_faces"] = result.input_topology.face_component.size();
     add_topology(object["input_topology"], result.input_topology);
     object["output_vertices"] = result.mesh.positions.size();
     object["output_faces"] = result.mesh.triangles.size();
+    object["output"] = info.output ? figures_of(*info.output) : Json();
     object["kept"] = to_json(result.kept);
     object["refined_faces"] = result.refined_faces;
     object["components_dropped"] = result.components_dropped;
@@ -283,6 +317,8 @@ std::string to_json(const RemeshResult& result, const RunInfo& info) {
         result.self_intersections ? Json(*result.self_intersections) : Json();
     object["input_self_intersecting_pairs"] =
         result.self_intersections.value_or(0) > 0 ? Json(result.input_self_intersections) : Json();
+    object["new_self_intersecting_pairs"] =
+        result.self_intersections ? Json(result.new_self_intersections) : Json();
     object["certified_error"] = result.certified_error;
     object["propagation_bytes"] = result.propagation_bytes;
     Json& stages = object["stage_seconds"] = Json::object();

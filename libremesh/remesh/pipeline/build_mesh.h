@@ -11,16 +11,17 @@ struct NetworkFailed {};
 
 struct BuiltMesh {
     agvd::TriangleMesh mesh;
-    std::vector<agvd::SurfacePoint> sites;          //!< #V, on the cleaned surface.
-    std::vector<agvd::Index> first_of_group;        //!< #V: see GluedMesh; empty without junctions.
-    agvd::Index num_wanted = 0;                     //!< Vertices that were asked for.
-    std::optional<agvd::Index> self_intersections;  //!< Pairs of faces; unset without CGAL.
+    std::vector<agvd::SurfacePoint> sites;    //!< #V, on the cleaned surface.
+    std::vector<agvd::Index> first_of_group;  //!< #V: see GluedMesh; empty without junctions.
+    agvd::Index num_wanted = 0;               //!< Vertices that were asked for.
+    std::optional<CrossingCounts> self_intersections;  //!< Unset without CGAL.
     //! On the surface of the domain: see ValidDual; of the first round.
     std::vector<agvd::SurfacePoint> thin_places;
 };
 
-//! Builds the mesh of the sites. While it self-intersects more often than the input, builds it
-//! again with more sites there, and returns the best mesh. Mends thin triangles last.
+//! Builds the mesh of the sites. While it self-intersects more often than the input, and where that
+//! does not, builds it again with more sites there, and returns the best mesh. Mends thin triangles
+//! last.
 //!
 //! \param domain      its layout is consumed.
 //! \param most_mends  most rounds that add sites at self-intersections.

@@ -13,7 +13,7 @@ constexpr int max_unfits = 4;
 // Fewer samples than this for each new pair are hopeless.
 constexpr std::size_t samples_per_pair = 4;
 
-CrossingFaces find_in(const agvd::MeshView& mesh, const RemeshOptions& options) {
+std::optional<FacePairs> find_in(const agvd::MeshView& mesh, const RemeshOptions& options) {
     return find_self_intersections(mesh, options.num_threads, progress_of(Stage::Check, options));
 }
 
@@ -30,15 +30,22 @@ void unfit(Index v, const CurveSites& curves, PlacedDual& placed) {
 
 }  // namespace
 
-CrossingFaces CrossingFinder::find(const PlacedDual& placed) {
+std::optional<CrossingFaces> CrossingFinder::find(const PlacedDual& placed) {
     const StageClock clock(Stage::Check, context_.result);
     agvd::poll(progress_of(Stage::Check, context_.options), 0);
-    CrossingFaces found = find_in(welded_mesh(domain_, placed).view(), context_.options);
-    if (found && !found->empty() && !has_counted_input_) count_in_input();
+    const agvd::TriangleMesh mesh = welded_mesh(domain_, placed);
+    std::optional<FacePairs> all = find_in(mesh.view(), context_.options);
+    if (!all) return std::nullopt;
+    if (!all->empty() && !has_searched_input_) find_in_input();
+    CrossingFaces found{*std::move(all), {}};
+    if (found.all.size() > context_.result.input_self_intersections) {
+        found.fresh =
+            input_places_ ? input_places_->pairs_elsewhere(mesh.view(), found.all) : found.all;
+    }
     return found;
 }
 
-void CrossingFinder::count_in_input() {
+void CrossingFinder::find_in_input() {
     const agvd::TriangleMesh& input = domain_.whole->mesh;
     std::vector<agvd::Triangle> welded;
     if (domain_.has_locked()) {
@@ -48,9 +55,12 @@ void CrossingFinder::count_in_input() {
                                                                domain_.whole->num_vertices()));
     }
     const agvd::MeshView mesh{input.positions, welded.empty() ? input.triangles : welded};
-    context_.result.input_self_intersections =
-        static_cast<Index>(find_in(mesh, context_.options)->size());
-    has_counted_input_ = true;
+    const FacePairs pairs = find_in(mesh, context_.options).value();
+    if (!pairs.empty()) {
+        input_places_.emplace(mesh, pairs, progress_of(Stage::Check, context_.options));
+    }
+    context_.result.input_self_intersections = static_cast<Index>(pairs.size());
+    has_searched_input_ = true;
 }
 
 bool is_hopeless(std::size_t num_pairs, const StageContext& context) {
@@ -58,13 +68,13 @@ bool is_hopeless(std::size_t num_pairs, const StageContext& context) {
     return num_pairs > context.result.input_self_intersections + most;
 }
 
-CrossingFaces unfit_crossings(CrossingFinder& finder, const CurveSites& curves, PlacedDual& placed,
-                              RemeshResult& result) {
-    CrossingFaces crossings = finder.find(placed);
+std::optional<CrossingFaces> unfit_crossings(CrossingFinder& finder, const CurveSites& curves,
+                                             PlacedDual& placed, RemeshResult& result) {
+    std::optional<CrossingFaces> crossings = finder.find(placed);
     result.unfitted_vertices = 0;
-    for (int round = 0; round < max_unfits && crossings && !crossings->empty(); ++round) {
+    for (int round = 0; round < max_unfits && crossings && !crossings->all.empty(); ++round) {
         bool is_changed = false;
-        for_each_corner(*crossings, placed.mesh.triangles, [&](Index v) {
+        for_each_corner(crossings->all, placed.mesh.triangles, [&](Index v) {
             if (placed.mesh.offsets[v].isZero(0)) return;
             unfit(v, curves, placed);
             ++result.unfitted_vertices;

@@ -2,17 +2,26 @@
 //! Self-intersections of the result.
 #pragma once
 
+#include "remesh/pipeline/crossing_places.h"
 #include "remesh/pipeline/whole_mesh.h"
 
 namespace remesh::detail {
 
-//! Pairs of faces that intersect; unset without CGAL.
-using CrossingFaces = std::optional<std::vector<std::pair<agvd::Index, agvd::Index>>>;
+//! Pairs of faces that intersect.
+struct CrossingFaces {
+    FacePairs all;
+    //! Of these the ones that do not follow from the input's; empty if it has as many.
+    FacePairs fresh;
+
+    [[nodiscard]] CrossingCounts counts() const {
+        return {static_cast<agvd::Index>(all.size()), static_cast<agvd::Index>(fresh.size())};
+    }
+};
 
 //! Calls each(vertex) for the corners of the faces of each pair.
 template <typename Each>
-void for_each_corner(const std::vector<std::pair<agvd::Index, agvd::Index>>& pairs,
-                     const std::vector<agvd::Triangle>& triangles, const Each& each) {
+void for_each_corner(const FacePairs& pairs, const std::vector<agvd::Triangle>& triangles,
+                     const Each& each) {
     for (const auto& [f, g] : pairs) {
         for (const agvd::Index face : {f, g}) {
             for (const agvd::Index v : triangles[face]) each(v);
@@ -20,7 +29,7 @@ void for_each_corner(const std::vector<std::pair<agvd::Index, agvd::Index>>& pai
     }
 }
 
-//! Finds self-intersections, and counts those of the input as soon as a result has any.
+//! Finds self-intersections, and those of the input as soon as a result has any.
 class CrossingFinder {
 public:
     //! \param domain, context  outlive this.
@@ -28,15 +37,17 @@ public:
         : domain_(domain), context_(context) {}
 
     //! Faces of placed.mesh. Sheets that meet at a junction do not count.
+    //! \return unset without CGAL.
     //! Cost: that of find_self_intersections.
-    [[nodiscard]] CrossingFaces find(const PlacedDual& placed);
+    [[nodiscard]] std::optional<CrossingFaces> find(const PlacedDual& placed);
 
 private:
-    void count_in_input();
+    void find_in_input();
 
     const Domain& domain_;
     const StageContext& context_;
-    bool has_counted_input_ = false;
+    bool has_searched_input_ = false;
+    std::optional<CrossingPlaces> input_places_;  // Unset: there are none.
 };
 
 //! Whether a result has so many more intersecting pairs of faces than the input that more sites
@@ -47,8 +58,8 @@ private:
 [[nodiscard]] bool is_hopeless(std::size_t num_pairs, const StageContext& context);
 
 //! Moves vertices of intersecting triangles back onto the surface, in a few rounds.
-//! \return the pairs that still intersect.
-CrossingFaces unfit_crossings(CrossingFinder& finder, const CurveSites& curves, PlacedDual& placed,
-                              RemeshResult& result);
+//! \return the pairs that still intersect; unset without CGAL.
+std::optional<CrossingFaces> unfit_crossings(CrossingFinder& finder, const CurveSites& curves,
+                                             PlacedDual& placed, RemeshResult& result);
 
 }  // namespace remesh::detail

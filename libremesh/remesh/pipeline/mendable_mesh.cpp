@@ -80,13 +80,12 @@ std::optional<MendedMesh> mend(const Domain& domain, MendableMesh mendable,
                                  mended.mesh, agvd::within(progress, 1, 1));
         }
         if (numbers.empty()) return std::nullopt;
-        const CrossingFaces crossings = finder.find(mended);
+        const std::optional<CrossingFaces> crossings = finder.find(mended);
         if (!crossings) return MendedMesh{std::move(mended.mesh), std::nullopt};
-        const auto num_crossings = static_cast<Index>(crossings->size());
-        if (num_crossings <= most_crossings) {
-            return MendedMesh{std::move(mended.mesh), num_crossings};
+        if (crossings->counts().all <= most_crossings) {
+            return MendedMesh{std::move(mended.mesh), crossings->counts()};
         }
-        for_each_corner(*crossings, mended.mesh.triangles, [&](Index v) {
+        for_each_corner(crossings->all, mended.mesh.triangles, [&](Index v) {
             const Index before = numbers[v];
             if (before < mendable.mobility.size()) mendable.mobility[before] = Mobility::Fixed;
         });

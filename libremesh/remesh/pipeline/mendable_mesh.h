@@ -30,7 +30,7 @@ struct MendableMesh {
 
 struct MendedMesh {
     PlacedMesh mesh;
-    std::optional<agvd::Index> self_intersections;  //!< Pairs of faces; unset without CGAL.
+    std::optional<CrossingCounts> self_intersections;  //!< Unset without CGAL.
 };
 
 //! Mends thin triangles (mend_shape). If mended triangles intersect, fixes their corners and tries

@@ -148,12 +148,14 @@ void count_crossings(const agvd::MeshView& mesh, const Region& region, const Rem
     std::fill_n(is_new.begin(), region.kept.size(), 0);
     result.self_intersections =
         count_crossings_at(result.mesh.view(), is_new, options.num_threads, last);
-    result.input_self_intersections = 0;
+    result.input_self_intersections = result.new_self_intersections = 0;
     if (result.self_intersections.value_or(0) == 0) return;
     std::vector<std::uint8_t> is_inside(mesh.triangles.size(), 0);
     for (const Index f : region.faces) is_inside[f] = 1;
     result.input_self_intersections =
         *count_crossings_at(mesh, is_inside, options.num_threads, last);
+    const Index pairs = *result.self_intersections;
+    result.new_self_intersections = pairs - std::min(pairs, result.input_self_intersections);
 }
 
 }  // namespace

@@ -68,6 +68,12 @@ struct KeptPart {
     agvd::Index seam_edges = 0;         //!< Edges between kept and remeshed faces.
 };
 
+//! Pairs of faces of a result that intersect.
+struct CrossingCounts {
+    agvd::Index all = 0;
+    agvd::Index fresh = 0;  //!< See RemeshResult::new_self_intersections.
+};
+
 //! Plain values owned by the caller; nothing points back into the input.
 struct RemeshResult {
     //! Oriented 2-manifold with the topology of the cleaned input; Junctions::Keep welds its sheets
@@ -100,6 +106,10 @@ struct RemeshResult {
     //! Sheets that touch at a junction with equal points do not count. Unset: without CGAL.
     std::optional<agvd::Index> self_intersections = {};
     agvd::Index input_self_intersections = 0;
+    //! Pairs of the result that intersect farther from all places where the input intersects itself
+    //! than their longest edge. Others follow from the input; more samples give more of these. 0 if
+    //! the input has as many pairs as the result. With a region: those above their number.
+    agvd::Index new_self_intersections = 0;
     Verdict verdict = {};  //!< What the result is too coarse to show.
     //! Of the last propagation: see agvd::Propagation. Infinity: nothing is certified.
     double certified_error = std::numeric_limits<double>::infinity();

@@ -56,7 +56,10 @@ std::vector<agvd::SurfacePoint> run_attempt(CleanedInput& cleaned, const FoundCu
         context.result.sites =
             to_original(built.sites, cleaned.given, {cleaned_mesh, cleaned.face_origin});
         context.result.mesh = std::move(built.mesh);
-        context.result.self_intersections = built.self_intersections;
+        if (const auto& crossings = built.self_intersections) {
+            context.result.self_intersections = crossings->all;
+            context.result.new_self_intersections = crossings->fresh;
+        }
         // The surface is needed again if the edges are not as long as asked for, or as parts are
         // thin.
         const Sizing& sizing = context.options.sizing;
@@ -70,9 +73,17 @@ std::vector<agvd::SurfacePoint> run_attempt(CleanedInput& cleaned, const FoundCu
 }
 
 // Intersecting pairs of faces, less those that the input has.
-Index num_new_crossings(const RemeshResult& result) {
+Index num_more_crossings(const RemeshResult& result) {
     const Index pairs = result.self_intersections.value_or(0);
     return pairs - std::min(pairs, result.input_self_intersections);
+}
+
+// Fewer creases are worth fewer self-intersections, if none remain beyond the number of the input
+// or if fewer are new.
+bool is_better(const RemeshResult& result, const RemeshResult& best) {
+    const Index more = num_more_crossings(result);
+    return more < num_more_crossings(best) &&
+           (more == 0 || result.new_self_intersections < best.new_self_intersections);
 }
 
 // Whether lengths are ours to choose, for a number of samples that is given.
@@ -100,7 +111,7 @@ void shorten_thin(CleanedInput& cleaned, const FoundCurves& found, const KeptCur
         return;
     }
     best.seconds = again.seconds;
-    if (num_new_crossings(again) > num_new_crossings(best) ||
+    if (num_more_crossings(again) > num_more_crossings(best) ||
         again.verdict.largest_distance >= best.verdict.largest_distance) {
         return;
     }
@@ -148,12 +159,12 @@ RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cl
             first.seconds = result.seconds;
             needs_none = is_hopeless(result.self_intersections.value_or(0), {options, result});
             const bool has_curves = result.features.curves > 0;
-            if (!best || num_new_crossings(result) < num_new_crossings(*best)) {
+            if (!best || is_better(result, *best)) {
                 best = std::move(result);
                 kept_of_best = kept;
                 thin_places = std::move(thin);
             }
-            if (num_new_crossings(*best) == 0 || !has_curves) break;
+            if (num_more_crossings(*best) == 0 || !has_curves) break;
         }
         if (best) break;
     }

@@ -39,11 +39,9 @@ void check_result(const agvd::MeshView& mesh) {
 }
 
 MeshFigures measure(const agvd::MeshView& mesh, int num_threads, const agvd::Progress& progress) {
-    return {.vertices = static_cast<agvd::Index>(mesh.positions.size()),
-            .faces = static_cast<agvd::Index>(mesh.triangles.size()),
-            .topology = analyze_topology(mesh, progress),
-            .triangles = measure_triangles(mesh, progress),
-            .self_intersections = find_self_intersections(mesh, num_threads, progress)};
+    MeshFigures figures = measure_figures(mesh, progress);
+    figures.self_intersections = find_self_intersections(mesh, num_threads, progress);
+    return figures;
 }
 
 // \param original  of a size that can be computed on.
@@ -90,6 +88,14 @@ void scale_back(Evaluation& evaluation, int exponent) {
 }
 
 }  // namespace
+
+MeshFigures measure_figures(const agvd::MeshView& mesh, const agvd::Progress& progress) {
+    return {.vertices = static_cast<agvd::Index>(mesh.positions.size()),
+            .faces = static_cast<agvd::Index>(mesh.triangles.size()),
+            .topology = analyze_topology(mesh, progress),
+            .triangles = measure_triangles(mesh, progress),
+            .self_intersections = {}};
+}
 
 Evaluation evaluate(const agvd::MeshView& original, const agvd::MeshView& result,
                     const EvaluationOptions& options) {

@@ -26,6 +26,12 @@ struct MeshFigures {
     std::optional<std::vector<std::pair<agvd::Index, agvd::Index>>> self_intersections;
 };
 
+//! Everything but self-intersections.
+//! \throw agvd::Cancelled  the progress callback returned false.
+//! Cost: O(n log n).
+[[nodiscard]] MeshFigures measure_figures(const agvd::MeshView& mesh,
+                                          const agvd::Progress& progress = {});
+
 struct Evaluation {
     MeshFigures original;        //!< After the repair that remesh() does, with its face numbers.
     CleanCounts cleaned;         //!< What that repair did.

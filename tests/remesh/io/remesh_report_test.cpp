@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "remesh/io/report.h"
+#include "support/report_keys.h"
+#include "support/shapes.h"
 
 using nlohmann::json;
 
@@ -27,6 +29,7 @@ remesh::RemeshResult example_result() {
     result.unfitted_vertices = 15;
     result.self_intersections = 17;
     result.input_self_intersections = 16;
+    result.new_self_intersections = 3;
     result.features = {.curves = 21,
                        .nodes = 22,
                        .vertices = 23,
@@ -52,6 +55,7 @@ remesh::RemeshResult example_result() {
                         .apart_edges = 34,
                         .samples_for_all = 35,
                         .welded_edges = 36};
+    result.sizing = {.num_samples = 77, .mean_edge = 1};
     result.repair_rounds = 2;
     result.certified_error = 1.23e-4;
     result.propagation_bytes = 12'300'000;
@@ -135,6 +139,7 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
     EXPECT_EQ(report["unfitted_vertices"], 15);
     EXPECT_EQ(report["input_self_intersecting_pairs"], 16);
     EXPECT_EQ(report["self_intersecting_pairs"], 17);
+    EXPECT_EQ(report["new_self_intersecting_pairs"], 3);
     EXPECT_EQ(report["features"], json({{"curves", 21},
                                         {"nodes", 22},
                                         {"vertices", 23},
@@ -187,6 +192,69 @@ TEST(RemeshReport, AnErrorNotAskedForOrNotCertifiedIsNull) {
     EXPECT_EQ(report["options"]["engine"], "vertex");
     EXPECT_EQ(report["options"]["max_error"], nullptr);
     EXPECT_EQ(report["certified_error"], nullptr);
+}
+
+// No value is null that may be an object.
+TEST(RemeshReport, AllKeysAreDocumentedAndNoOthers) {
+    remesh::RemeshResult result = example_result();
+    result.kept.faces = {0};
+    remesh::RunInfo info;
+    info.attributes.declined = {{"vt", "no place"}};
+    info.output = remesh::measure_figures(shapes::cube().view());
+    report_keys::expect_documented(remesh::to_json(result, info), {"remesh", "What reports share"});
+}
+
+TEST(RemeshReport, TellsTopologyAndQualityOfTheOutput) {
+    remesh::RunInfo info;
+    EXPECT_EQ(json::parse(remesh::to_json(example_result(), info))["output"], nullptr);
+    info.output = remesh::measure_figures(shapes::cube().view());
+    const json output = json::parse(remesh::to_json(example_result(), info))["output"];
+    EXPECT_EQ(output["vertices"], 8);
+    EXPECT_EQ(output["edges"], 18);
+    EXPECT_EQ(output["faces"], 12);
+    EXPECT_EQ(output["euler_characteristic"], 2);
+    EXPECT_EQ(output["genus"], 0);
+    EXPECT_EQ(output["boundary_loops"], 0);
+    EXPECT_EQ(output["component_count"], 1);
+    EXPECT_NEAR(output["min_angle_deg"], 45, 1e-9);
+    EXPECT_NEAR(output["max_angle_deg"], 90, 1e-9);
+    EXPECT_FALSE(output.contains("self_intersecting_pairs"));
+}
+
+TEST(RemeshReport, OfARunWithoutResultHasTheFirstKeys) {
+    remesh::RunInfo info{.version = "1.2", .input_path = "in.ply", .output_path = "out.obj"};
+    info.warnings = {"one", "two"};
+    const json failed =
+        json::parse(remesh::to_json({.exit_code = 4, .error = "no face", .stage = "clean"}, info));
+    EXPECT_EQ(failed, json({{"program", "remesh"},
+                            {"version", "1.2"},
+                            {"status", "failed"},
+                            {"exit_code", 4},
+                            {"error", "no face"},
+                            {"stage", "clean"},
+                            {"input_path", "in.ply"},
+                            {"output_path", "out.obj"},
+                            {"warnings", {"one", "two"}}}));
+    EXPECT_EQ(json::parse(remesh::to_json(remesh::RunFailure{.error = "exists"}))["status"],
+              "skipped");
+    const json done = json::parse(remesh::to_json(example_result(), info));
+    EXPECT_EQ(done["status"], "done");
+    EXPECT_EQ(done["exit_code"], 0);
+    EXPECT_EQ(done["error"], nullptr);
+    EXPECT_EQ(done["warnings"], json({"one", "two"}));
+    for (const auto& [key, value] : failed.items()) EXPECT_TRUE(done.contains(key)) << key;
+}
+
+TEST(RemeshReport, OptionsAreThoseThatWereTaken) {
+    const auto options = [](const remesh::RemeshOptions& given) {
+        return json::parse(remesh::to_json(example_result(), {.options = given}))["options"];
+    };
+    EXPECT_EQ(options({.num_samples = 5})["samples"], 77);
+    EXPECT_EQ(options({})["max_error"], agvd::default_max_error);
+    EXPECT_EQ(options({.propagation = {.engine = agvd::Engine::Steiner}})["max_error"], nullptr);
+    EXPECT_EQ(options({})["fit"], true);
+    EXPECT_EQ(options({.relax_steps = 0})["fit"], false);
+    EXPECT_EQ(options({.relax_steps = 0, .fit = true})["fit"], true);
 }
 
 TEST(RemeshReport, TextTellsTheEngineAndItsBound) {

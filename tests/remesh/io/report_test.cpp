@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "support/report_keys.h"
+
 using nlohmann::json;
 
 namespace {
@@ -108,6 +110,12 @@ TEST(EvaluationReport, FeaturesAreThereWhereTheOriginalHasAny) {
     EXPECT_EQ(remesh::to_text(e).find("sharp"), std::string::npos);
 }
 
+TEST(EvaluationReport, AllKeysAreDocumentedAndNoOthers) {
+    remesh::Evaluation e = example_evaluation();
+    e.result = e.original;
+    report_keys::expect_documented(remesh::to_json(e), {"remesh-eval", "What reports share"});
+}
+
 TEST(EvaluationReport, HasTheSameKeysWhateverWasMeasured) {
     const std::string all = remesh::to_json(example_evaluation());
     remesh::Evaluation bare = example_evaluation();
@@ -182,4 +190,10 @@ TEST(ComparisonReport, GivesEveryFigureAsJsonAndText) {
          {"30 sites", "1.9800 %", "12.5000 %", "29 pairs", "1 loop unmatched", "not measured"}) {
         EXPECT_NE(text.find(part), std::string::npos) << part << " is not in\n" << text;
     }
+}
+
+TEST(ComparisonReport, AllKeysAreDocumentedAndNoOthers) {
+    remesh::Comparison c;
+    c.bisectors_a = c.bisectors_b = agvd::BisectorError{};
+    report_keys::expect_documented(remesh::to_json(c), {"agvd compare"});
 }

@@ -433,6 +433,9 @@ TEST(Region, IntersectionsWithFacesThatStayCount) {
     const RemeshResult crossed = expect_region(pierced, mask, {.num_samples = 100});
     EXPECT_GT(*crossed.self_intersections, 0u);
     EXPECT_GT(crossed.input_self_intersections, 0u);
+    EXPECT_EQ(crossed.new_self_intersections +
+                  std::min(*crossed.self_intersections, crossed.input_self_intersections),
+              *crossed.self_intersections);
 }
 
 class RegionOfRealMesh : public testing::TestWithParam<const char*> {};

@@ -92,11 +92,14 @@ py::tuple run_remesh(const Doubles& positions, const Indices& triangles, RemeshO
     std::string report;
     remesh::RemeshResult result = progress.run([&] {
         remesh::RemeshResult made = remesh::remesh(mesh, options);
+        remesh::MeshFigures output =
+            remesh::measure_figures(made.mesh.view(), agvd::within(progress.of("check"), 1, 1));
         map = remesh::map_to_input(mesh, made.mesh.view(), made.sites,
                                    {.with_faces = with_faces,
                                     .num_threads = options.num_threads,
                                     .progress = progress.of("transfer")});
-        report = remesh::to_json(made, {.version = REMESH_VERSION, .options = options});
+        report = remesh::to_json(
+            made, {.version = REMESH_VERSION, .options = options, .output = std::move(output)});
         return made;
     });
     const py::tuple places = to_arrays(map.vertices);

@@ -11,7 +11,7 @@ from ._stages import Progress
 
 def evaluate(V: Any, F: Any = None, V2: Any = None, F2: Any = None, *, samples: int = 200_000,
              threads: int = 0, progress: Progress | None = None) -> dict[str, Any]:
-    """Compares a mesh (V2, F2) with its original (V, F): what ``remesh-eval --json`` writes.
+    """Compares a mesh (V2, F2) with its original (V, F): what ``remesh-eval --report`` writes.
 
     Either mesh may be one object: ``evaluate(V, F, V2, F2)``, ``evaluate(mesh, mesh2)``. samples:
     points on each surface at which distances are measured.

@@ -1,0 +1,93 @@
+// Self-intersections of the result, and which of them follow from the input's.
+#include <gtest/gtest.h>
+
+#include "remesh/pipeline/crossing_places.h"
+#include "remesh/pipeline/remesh.h"
+#include "remesh/quality/self_intersections.h"
+#include "support/shapes.h"
+
+using agvd::Vec3;
+using remesh::detail::crossing_place;
+
+namespace {
+
+using Corners = std::array<Vec3, 3>;
+
+bool has_cgal() { return remesh::find_self_intersections(shapes::cube().view()).has_value(); }
+
+void expect_segment(const Corners& place, const Vec3& a, const Vec3& b) {
+    const bool is_swapped = (place[0] - a).norm() > (place[0] - b).norm();
+    EXPECT_LT((place[0] - (is_swapped ? b : a)).norm(), 1e-12);
+    EXPECT_LT((place[1] - (is_swapped ? a : b)).norm(), 1e-12);
+    EXPECT_EQ(place[1], place[2]);
+}
+
+}  // namespace
+
+TEST(CrossingPlaces, AreTheShorterOfBothSegments) {
+    const Corners large{Vec3(-4, -4, 0), Vec3(4, -4, 0), Vec3(0, 8, 0)};
+    const Corners small{Vec3(0, 0, -1), Vec3(0, 1, 1), Vec3(0, -1, 1)};
+    expect_segment(crossing_place(large, small), {0, -.5, 0}, {0, .5, 0});
+    expect_segment(crossing_place(small, large), {0, -.5, 0}, {0, .5, 0});
+    const Corners touching{Vec3(1, 0, 0), Vec3(1, 1, 1), Vec3(1, -1, 1)};
+    expect_segment(crossing_place(large, touching), {1, 0, 0}, {1, 0, 0});
+    const Corners in_plane{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)};
+    EXPECT_EQ(crossing_place(large, in_plane), in_plane);
+    EXPECT_EQ(crossing_place(in_plane, large), in_plane);
+    // One edge lies in the other's plane.
+    const Corners standing{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 0, 1)};
+    expect_segment(crossing_place(standing, large), {0, 0, 0}, {1, 0, 0});
+}
+
+TEST(CrossingPlaces, PairsFartherThanTheirLongestEdgeAreElsewhere) {
+    // Pairs of small triangles that cross at x = 0, 1, 2, ...
+    agvd::TriangleMesh mesh;
+    remesh::detail::FacePairs pairs;
+    for (agvd::Index i = 0; i < 6; ++i) {
+        const Vec3 at(i, 0, 0);
+        for (const Vec3& p : {Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(0, 1, 0), Vec3(0, -1, -1),
+                              Vec3(0, 0, 1), Vec3(0, 1, -1)}) {
+            mesh.positions.push_back(at + .5 * p);
+        }
+        mesh.triangles.push_back({6 * i, 6 * i + 1, 6 * i + 2});
+        mesh.triangles.push_back({6 * i + 3, 6 * i + 4, 6 * i + 5});
+        pairs.emplace_back(2 * i, 2 * i + 1);
+    }
+    const remesh::detail::CrossingPlaces places(mesh.view(), {pairs[1]}, {});
+    // The longest edges are 1.12.
+    EXPECT_EQ(places.pairs_elsewhere(mesh.view(), pairs),
+              (remesh::detail::FacePairs{pairs[3], pairs[4], pairs[5]}));
+}
+
+TEST(Crossings, ThatFollowFromTheInputAddNoSitesAndDropNoCreases) {
+    if (!has_cgal()) GTEST_SKIP() << "without CGAL";
+    const agvd::TriangleMesh cube = shapes::cube();
+    const agvd::TriangleMesh cubes = shapes::join(cube, shapes::moved(cube, Vec3(.3, .35, .4)));
+    const auto result = remesh::remesh(cubes.view(), {.num_samples = 400});
+    EXPECT_GT(*result.self_intersections, result.input_self_intersections);
+    EXPECT_GT(result.input_self_intersections, 0u);
+    EXPECT_EQ(result.new_self_intersections, 0u);
+    EXPECT_FALSE(result.added_because.contains(remesh::SiteReason::SelfIntersection));
+    EXPECT_EQ(result.features.dropped_length, 0);
+    EXPECT_FALSE(result.features.gave_up);
+}
+
+// Two spheres, one just inside the other: their coarse meshes run through each other.
+TEST(Crossings, ThatTheInputDoesNotHaveAreNew) {
+    if (!has_cgal()) GTEST_SKIP() << "without CGAL";
+    agvd::TriangleMesh inner = shapes::sphere(2);
+    for (Vec3& p : inner.positions) p *= 0.98;
+    for (agvd::Triangle& t : inner.triangles) std::swap(t[1], t[2]);
+    const agvd::TriangleMesh shells = shapes::join(shapes::sphere(2), inner);
+    const auto result = remesh::remesh(shells.view(), {.num_samples = 20});
+    EXPECT_EQ(result.new_self_intersections, result.self_intersections);
+    EXPECT_GT(result.new_self_intersections, 0u);
+    // Far away two more spheres cross.
+    const agvd::TriangleMesh far = shapes::moved(shapes::sphere(2), Vec3(9, 0, 0));
+    const agvd::TriangleMesh all =
+        shapes::join(shells, shapes::join(far, shapes::moved(far, Vec3(1.2, 0, 0))));
+    const auto both = remesh::remesh(all.view(), {.num_samples = 80});
+    EXPECT_GT(both.input_self_intersections, 0u);
+    EXPECT_GT(both.new_self_intersections, 0u);
+    EXPECT_LT(both.new_self_intersections, *both.self_intersections);
+}
