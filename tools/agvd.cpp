@@ -6,6 +6,7 @@
 #include "agvd/metrics/compare_diagrams.h"
 #include "arguments.h"
 #include "based_diagram.h"
+#include "help.h"
 #include "remesh/clean/carry_sites.h"
 #include "remesh/io/atomic_file.h"
 #include "remesh/io/read_diagram.h"
@@ -29,12 +30,13 @@ constexpr const char* diagram_footer =
     "  agvd diagram bunny.ply -n 100 -o cells.vtp -o labels.ply\n"
     "  agvd diagram bunny.ply --sites sites.txt -o edges.obj\n\n"
     "Output:\n"
-    "  .vtp  VTK PolyData: Voronoi edges and boundary arcs as polylines with the cell data\n"
-    "        site_left, site_right (-1: outside) and the point data distance\n"
+    "  .vtp  VTK PolyData: Voronoi edges and boundary arcs as polylines with the\n"
+    "        cell data site_left, site_right (-1: outside) and the point data\n"
+    "        distance\n"
     "  .obj  the same polylines as v and l lines\n"
-    "  .ply  the cleaned mesh with the vertex properties site (-1: no site) and distance, "
-    "and\n"
-    "        as further elements the sites and the diagram: what `agvd compare` reads\n\n";
+    "  .ply  the cleaned mesh with the vertex properties site (-1: no site) and\n"
+    "        distance, and as further elements the sites and the diagram: what\n"
+    "        `agvd compare` reads\n\n";
 
 struct DiagramArguments : cli::DiagramArguments {
     std::vector<fs::path> outputs;
@@ -122,20 +124,18 @@ constexpr const char* compare_footer =
     "  agvd diagram bunny.ply -n 100 --engine steiner -o a.ply\n"
     "  agvd compare a.ply exact\n"
     "  agvd compare a.ply b.ply --json - | jq .frechet.delta\n\n"
-    "Both diagrams must be of the same mesh and sites: write them with the same IN and --sites "
-    "(or\n"
-    "--samples, --init, --seed). `exact` builds the exact diagram of A's mesh and sites; a file "
-    "of\n"
-    "that name is ./exact.\n\n"
+    "Both diagrams must be of the same mesh and sites: write them with the same\n"
+    "IN and --sites (or --samples, --init, --seed). `exact` builds the exact\n"
+    "diagram of A's mesh and sites; a file of that name is ./exact.\n\n"
     "Figures:\n"
-    "  Frechet sum  over all cells and their boundary loops, the discrete Frechet distance of A's\n"
-    "               and B's loop, measured in space; loops of a cell are matched nearest first, "
-    "and\n"
-    "               a loop without a partner counts as its diameter\n"
-    "  delta        1 - exp(-F / 10^2), F being that sum in mean cell radii sqrt(area / (pi "
-    "sites))\n"
-    "  |dA - dB|    at points of the bisectors, difference of the exact distances from the two\n"
-    "               sites of the bisector\n\n";
+    "  Frechet sum  over all cells and their boundary loops, the discrete Frechet\n"
+    "               distance of A's and B's loop, measured in space; loops of a\n"
+    "               cell are matched nearest first, and a loop without a partner\n"
+    "               counts as its diameter\n"
+    "  delta        1 - exp(-F / 10^2), F being that sum in mean cell radii\n"
+    "               sqrt(area / (pi sites))\n"
+    "  |dA - dB|    at points of the bisectors, difference of the exact distances\n"
+    "               from the two sites of the bisector\n\n";
 
 struct CompareArguments {
     fs::path a;
@@ -215,6 +215,7 @@ CLI::App* add_diagram(CLI::App& app, DiagramArguments& arguments) {
     CLI::App* command = app.add_subcommand(
         "diagram", "Compute the diagram of sites on a mesh and write it to files");
     cli::add_diagram_options(*command, arguments);
+    cli::start_group(*command, cli::heading::files);
     command
         ->add_option("-o,--output", arguments.outputs,
                      "File to write; repeat the option to write more files")
@@ -228,6 +229,7 @@ CLI::App* add_diagram(CLI::App& app, DiagramArguments& arguments) {
 void add_compare(CLI::App& app, CompareArguments& arguments) {
     CLI::App* command = app.add_subcommand(
         "compare", "Measure the difference of a diagram from another one, or from the exact one");
+    cli::start_group(*command, cli::heading::files);
     command->add_option("A", arguments.a, "Diagram to measure: a .ply file of `agvd diagram`")
         ->required();
     command->add_option("B", arguments.b, "Diagram to compare A with: a .ply file, or `exact`")
@@ -235,6 +237,7 @@ void add_compare(CLI::App& app, CompareArguments& arguments) {
     command
         ->add_option("--json", arguments.json, "Write the figures as JSON; - writes them to stdout")
         ->type_name("FILE|-");
+    cli::start_group(*command, cli::heading::accuracy);
     command
         ->add_option(
             "--spacing", arguments.options.spacing,

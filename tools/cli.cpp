@@ -14,6 +14,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "help.h"
 #include "remesh/io/atomic_file.h"
 
 namespace cli {
@@ -22,10 +23,13 @@ namespace fs = std::filesystem;
 
 const char* const exit_code_help =
     "Exit codes:\n"
-    "  0  done (warnings on stderr)          4  the mesh cannot be used\n"
-    "  1  internal error, not enough memory  5  a constraint cannot be met, nothing written\n"
-    "  2  wrong usage                        130, 143  interrupted, nothing written\n"
-    "  3  a file cannot be read or written";
+    "  0  done; warnings are on stderr\n"
+    "  1  internal error, or not enough memory\n"
+    "  2  wrong usage\n"
+    "  3  a file cannot be read or written\n"
+    "  4  the mesh cannot be used\n"
+    "  5  a constraint cannot be met, nothing written\n"
+    "  130, 143  interrupted, nothing written";
 
 namespace {
 
@@ -74,8 +78,10 @@ ExitCode parse_and_run(CLI::App& app, int argc, const char* const* argv,
 }  // namespace
 
 void add_common_options(CLI::App& app, CommonOptions& options) {
+    start_group(app, heading::running);
     app.add_option("-t,--threads", options.threads, "Number of threads; 0: all cores")
-        ->check(CLI::Range(0, 4096))
+        ->check(CLI::Range(0, 4096).description(""))
+        ->type_name("N")
         ->capture_default_str();
     auto* quiet =
         app.add_flag("-q,--quiet", options.quiet, "Write only warnings and errors to stderr");
@@ -84,7 +90,9 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
 
 int run(CLI::App& app, int argc, const char* const* argv, const std::function<void()>& job) {
     const std::string name = app.get_name();
+    start_group(app, heading::running);
     app.set_version_flag("--version", name + " " REMESH_VERSION, "Print the version and exit");
+    format_help(app);
     app.failure_message([&](const CLI::App*, const CLI::Error& error) {
         return name + ": error: " + error.what() + "; see " + name + " --help\n";
     });

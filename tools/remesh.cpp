@@ -9,6 +9,7 @@
 
 #include "arguments.h"
 #include "attributes.h"
+#include "help.h"
 #include "region.h"
 #include "remesh/io/atomic_file.h"
 #include "remesh/io/read_edges.h"
@@ -80,6 +81,7 @@ void add_feature_options(CLI::App& app, Arguments& arguments) {
         const std::string complaint = take_features(text, arguments);
         if (!complaint.empty()) throw CLI::ValidationError("--features", complaint);
     };
+    cli::start_group(app, cli::heading::curves);
     CLI::Option* const features =
         app.add_option_function<std::string>(
                "--features,--crease", take,
@@ -110,6 +112,7 @@ void add_feature_options(CLI::App& app, Arguments& arguments) {
 
 // Which vertices and edges the result has.
 void add_result_options(CLI::App& app, Arguments& arguments) {
+    cli::start_group(app, cli::heading::count);
     cli::add_choice(
         app,
         {"--topology",
@@ -121,6 +124,7 @@ void add_result_options(CLI::App& app, Arguments& arguments) {
             arguments.vertex_count =
                 name == "add" ? remesh::VertexCount::Add : remesh::VertexCount::Exact;
         });
+    cli::start_group(app, cli::heading::curves);
     cli::add_choice(
         app,
         {"--boundary",
@@ -132,6 +136,7 @@ void add_result_options(CLI::App& app, Arguments& arguments) {
             arguments.sampling.boundary =
                 name == "free" ? remesh::Boundary::Free : remesh::Boundary::Keep;
         });
+    cli::start_group(app, cli::heading::relaxation);
     cli::add_choice(
         app,
         {"--delaunay", cli::names_of(delaunay_by_name()), remesh::delaunay_name(arguments.delaunay),
@@ -148,16 +153,19 @@ void add_options(CLI::App& app, Arguments& arguments) {
     add_feature_options(app, arguments);
     cli::add_sizing_options(app, arguments.sizing);
     cli::add_attribute_options(app, arguments.attributes);
+    cli::start_group(app, cli::heading::files);
     app.add_option("--drop-components", arguments.drop_components,
                    "Drop components with less than this percentage of the area")
         ->check(CLI::Range(0.0, 100.0).description(""))
         ->type_name("PERCENT")
         ->capture_default_str();
     cli::add_region_options(app, arguments.region);
+    cli::start_group(app, cli::heading::running);
     app.add_flag(
         "--strict", arguments.strict,
         "Fail (exit code 5) if the result has more pairs of intersecting faces than the input, or "
         "is too coarse for creases, walls or components");
+    cli::start_group(app, cli::heading::relaxation);
     app.add_option("--relax,--lloyd", arguments.relax_steps,
                    "Number of relaxation steps; 0: the sites stay as sampled")
         ->check(CLI::Range(0, 1'000'000).description(""))
@@ -169,8 +177,10 @@ void add_options(CLI::App& app, Arguments& arguments) {
         "--fit,!--no-fit", [&arguments](std::int64_t count) { arguments.fit = count > 0; },
         "Let vertices leave the surface so that the triangles lie nearer to it; the default if "
         "sites are relaxed");
+    cli::start_group(app, cli::heading::files);
     app.add_option("OUT,-o,--output", arguments.output,
                    "Mesh to write: .ply, .obj, .off or .stl; an existing file is replaced")
+        ->type_name("FILE")
         ->required();
     app.add_option("--report", arguments.report, "Write a JSON report; - writes it to stdout")
         ->type_name("FILE|-");
