@@ -6,6 +6,7 @@
 #include "agvd/metrics/compare_diagrams.h"
 #include "arguments.h"
 #include "based_diagram.h"
+#include "expected_stages.h"
 #include "help.h"
 #include "remesh/clean/carry_sites.h"
 #include "remesh/io/atomic_file.h"
@@ -82,9 +83,11 @@ std::vector<agvd::SurfacePoint> read_given_sites(const DiagramArguments& argumen
 
 void run_diagram(const DiagramArguments& arguments, cli::Console& console) {
     check_outputs(arguments);
+    console.expect(cli::stages_with_reading(arguments.input, arguments.sampling.num_samples));
     const remesh::MeshFile input = cli::read_input(arguments, console);
     const agvd::MeshView mesh = input.mesh.view();
     console.info(cli::describe(arguments.input, mesh));
+    console.expect(cli::stages_of_diagram(mesh.triangles.size(), arguments.sampling.num_samples));
     const remesh::CleanResult clean = cli::naming_file(arguments.input, [&] {
         return remesh::clean_input(mesh, arguments.common.threads, console.progress_of("clean"));
     });
@@ -174,6 +177,7 @@ void run_compare(const CompareArguments& arguments, cli::Console& console) {
         cli::check_output(arguments.json,
                           {arguments.a, is_exact ? fs::path() : fs::path(arguments.b)});
     }
+    console.expect(cli::stages_of_comparison(is_exact));
     const remesh::DiagramFile a = remesh::read_diagram(arguments.a, console.progress_of("read"));
     const int threads = arguments.common.threads;
     const agvd::Surface surface = cli::naming_file(arguments.a, [&] {

@@ -9,6 +9,7 @@
 
 #include "arguments.h"
 #include "attributes.h"
+#include "expected_stages.h"
 #include "help.h"
 #include "region.h"
 #include "remesh/io/atomic_file.h"
@@ -20,6 +21,7 @@
 #include "remesh/io/write_mesh.h"
 #include "remesh/pipeline/remesh.h"
 #include "sizing_arguments.h"
+#include "stage_details.h"
 
 namespace fs = std::filesystem;
 
@@ -278,6 +280,7 @@ void run_job(const Arguments& arguments, cli::Console& console) {
     const bool wants_attributes = cli::wants_attributes(arguments.attributes) ||
                                   cli::wants_attributes(arguments.sizing) ||
                                   !arguments.region.region.empty();
+    console.expect(cli::stages_with_reading(arguments.input, arguments.sampling.num_samples));
     remesh::MeshFile input = cli::read_input(
         arguments, console, wants_attributes ? cli::WithAttributes::Yes : cli::WithAttributes::No);
     // Of the file, before those that are not carried over are removed.
@@ -330,9 +333,11 @@ void run_job(const Arguments& arguments, cli::Console& console) {
         options.locked = remesh::read_vertices(arguments.region.lock, input.mesh.view(),
                                                console.progress_of("read"));
     }
-    console.require_memory("sample",
-                           least_memory(input.mesh.triangles.size(),
-                                        cli::estimated_samples(options, input.mesh.view())));
+    const std::size_t num_faces = input.mesh.triangles.size();
+    const std::size_t num_samples = cli::estimated_samples(options, input.mesh.view());
+    console.require_memory("sample", least_memory(num_faces, num_samples));
+    console.expect(cli::stages_of_remesh(num_faces, num_samples, needs_input, options),
+                   options.sizing.max_distance > 0 ? cli::Runs::Unknown : cli::Runs::One);
     const remesh::RemeshResult result = cli::naming_file(
         arguments.input,
         [&] {
@@ -340,6 +345,7 @@ void run_job(const Arguments& arguments, cli::Console& console) {
                                : remesh::remesh_moved(std::move(input.mesh), options);
         },
         arguments.sites);
+    console.detail(cli::stage_details(result, num_faces));
     judge(result, arguments.strict, console);
     warn_of_junctions(result.junctions, arguments.junctions, console);
     warn_of_bounds(result.sizing, options.sizing, console);
@@ -361,6 +367,7 @@ void run_job(const Arguments& arguments, cli::Console& console) {
         files.push_back({arguments.report, remesh::to_json(result, info)});
     }
     remesh::write_files_atomically(files, writing);
+    console.end_stage();
     console.info(remesh::to_text(result, info));
 }
 
