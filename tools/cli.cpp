@@ -82,7 +82,9 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
         ->capture_default_str();
     auto* quiet =
         app.add_flag("-q,--quiet", options.quiet, "Write only warnings and errors to stderr");
-    app.add_flag("--verbose", options.verbose, "Write more to stderr")->excludes(quiet);
+    app.add_flag("--verbose", options.verbose,
+                 "Also write to stderr what each stage did, its time and the memory")
+        ->excludes(quiet);
 }
 
 int run(CLI::App& app, int argc, const char* const* argv, const std::function<void()>& job) {

@@ -345,6 +345,7 @@ void run_job(const Arguments& arguments, cli::Console& console) {
                                : remesh::remesh_moved(std::move(input.mesh), options);
         },
         arguments.sites);
+    console.end_stage();
     console.detail(cli::stage_details(result, num_faces));
     judge(result, arguments.strict, console);
     warn_of_junctions(result.junctions, arguments.junctions, console);
