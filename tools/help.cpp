@@ -42,6 +42,7 @@ std::string entry(const std::string& names, const std::string& text) {
 // CLI11 keeps them in the order of their addresses.
 std::string names_of_options(const std::set<CLI::Option*>& options) {
     std::vector<std::string> names;
+    names.reserve(options.size());
     for (const CLI::Option* option : options) names.push_back(option->get_name());
     std::sort(names.begin(), names.end());
     return CLI::detail::join(names, ", ");

@@ -31,7 +31,8 @@ Domain prepare_domain(CleanedInput& cleaned, std::unique_ptr<const CurvePlan> pl
     } else {
         domain.whole = &domain.prepared.input();
     }
-    domain.component = parts_of_base(domain.prepared.base, domain.parts->face_component, progress);
+    domain.component =
+        parts_of_base(domain.prepared.base, domain.parts->face_component, agvd::within(all, 1, 1));
     result.refined_faces = domain.base().num_faces();
     return domain;
 }
