@@ -6,6 +6,8 @@
 #include "agvd/metrics/compare_diagrams.h"
 #include "arguments.h"
 #include "based_diagram.h"
+#include "expected_stages.h"
+#include "help.h"
 #include "remesh/clean/carry_sites.h"
 #include "remesh/io/atomic_file.h"
 #include "remesh/io/read_diagram.h"
@@ -29,12 +31,13 @@ constexpr const char* diagram_footer =
     "  agvd diagram bunny.ply -n 100 -o cells.vtp -o labels.ply\n"
     "  agvd diagram bunny.ply --sites sites.txt -o edges.obj\n\n"
     "Output:\n"
-    "  .vtp  VTK PolyData: Voronoi edges and boundary arcs as polylines with the cell data\n"
-    "        site_left, site_right (-1: outside) and the point data distance\n"
+    "  .vtp  VTK PolyData: Voronoi edges and boundary arcs as polylines with the\n"
+    "        cell data site_left, site_right (-1: outside) and the point data\n"
+    "        distance\n"
     "  .obj  the same polylines as v and l lines\n"
-    "  .ply  the cleaned mesh with the vertex properties site (-1: no site) and distance, "
-    "and\n"
-    "        as further elements the sites and the diagram: what `agvd compare` reads\n\n";
+    "  .ply  the cleaned mesh with the vertex properties site (-1: no site) and\n"
+    "        distance, and as further elements the sites and the diagram: what\n"
+    "        `agvd compare` reads\n\n";
 
 struct DiagramArguments : cli::DiagramArguments {
     std::vector<fs::path> outputs;
@@ -80,9 +83,11 @@ std::vector<agvd::SurfacePoint> read_given_sites(const DiagramArguments& argumen
 
 void run_diagram(const DiagramArguments& arguments, cli::Console& console) {
     check_outputs(arguments);
+    console.expect(cli::stages_with_reading(arguments.input, arguments.sampling.num_samples));
     const remesh::MeshFile input = cli::read_input(arguments, console);
     const agvd::MeshView mesh = input.mesh.view();
     console.info(cli::describe(arguments.input, mesh));
+    console.expect(cli::stages_of_diagram(mesh.triangles.size(), arguments.sampling.num_samples));
     const remesh::CleanResult clean = cli::naming_file(arguments.input, [&] {
         return remesh::clean_input(mesh, arguments.common.threads, console.progress_of("clean"));
     });
@@ -122,20 +127,18 @@ constexpr const char* compare_footer =
     "  agvd diagram bunny.ply -n 100 --engine steiner -o a.ply\n"
     "  agvd compare a.ply exact\n"
     "  agvd compare a.ply b.ply --report - | jq .frechet.delta\n\n"
-    "Both diagrams must be of the same mesh and sites: write them with the same IN and --sites "
-    "(or\n"
-    "--samples, --init, --seed). `exact` builds the exact diagram of A's mesh and sites; a file "
-    "of\n"
-    "that name is ./exact.\n\n"
+    "Both diagrams must be of the same mesh and sites: write them with the same\n"
+    "IN and --sites (or --samples, --init, --seed). `exact` builds the exact\n"
+    "diagram of A's mesh and sites; a file of that name is ./exact.\n\n"
     "Figures:\n"
-    "  Frechet sum  over all cells and their boundary loops, the discrete Frechet distance of A's\n"
-    "               and B's loop, measured in space; loops of a cell are matched nearest first, "
-    "and\n"
-    "               a loop without a partner counts as its diameter\n"
-    "  delta        1 - exp(-F / 10^2), F being that sum in mean cell radii sqrt(area / (pi "
-    "sites))\n"
-    "  |dA - dB|    at points of the bisectors, difference of the exact distances from the two\n"
-    "               sites of the bisector\n\n";
+    "  Frechet sum  over all cells and their boundary loops, the discrete Frechet\n"
+    "               distance of A's and B's loop, measured in space; loops of a\n"
+    "               cell are matched nearest first, and a loop without a partner\n"
+    "               counts as its diameter\n"
+    "  delta        1 - exp(-F / 10^2), F being that sum in mean cell radii\n"
+    "               sqrt(area / (pi sites))\n"
+    "  |dA - dB|    at points of the bisectors, difference of the exact distances\n"
+    "               from the two sites of the bisector\n\n";
 
 struct CompareArguments {
     fs::path a;
@@ -174,6 +177,7 @@ void run_compare(const CompareArguments& arguments, cli::Console& console) {
         cli::check_output(arguments.report,
                           {arguments.a, is_exact ? fs::path() : fs::path(arguments.b)});
     }
+    console.expect(cli::stages_of_comparison(is_exact));
     const remesh::DiagramFile a = remesh::read_diagram(arguments.a, console.progress_of("read"));
     const int threads = arguments.common.threads;
     const agvd::Surface surface = cli::naming_file(arguments.a, [&] {
@@ -215,6 +219,7 @@ CLI::App* add_diagram(CLI::App& app, DiagramArguments& arguments) {
     CLI::App* command = app.add_subcommand(
         "diagram", "Compute the diagram of sites on a mesh and write it to files");
     cli::add_diagram_options(*command, arguments);
+    cli::start_group(*command, cli::heading::files);
     command
         ->add_option("-o,--output", arguments.outputs,
                      "File to write; repeat the option to write more files")
@@ -228,6 +233,7 @@ CLI::App* add_diagram(CLI::App& app, DiagramArguments& arguments) {
 void add_compare(CLI::App& app, CompareArguments& arguments) {
     CLI::App* command = app.add_subcommand(
         "compare", "Measure the difference of a diagram from another one, or from the exact one");
+    cli::start_group(*command, cli::heading::files);
     command->add_option("A", arguments.a, "Diagram to measure: a .ply file of `agvd diagram`")
         ->required();
     command->add_option("B", arguments.b, "Diagram to compare A with: a .ply file, or `exact`")
@@ -236,6 +242,7 @@ void add_compare(CLI::App& app, CompareArguments& arguments) {
         ->add_option("--report,--json", arguments.report,
                      "Write the figures as JSON; - writes them to stdout")
         ->type_name("FILE|-");
+    cli::start_group(*command, cli::heading::accuracy);
     command
         ->add_option(
             "--spacing", arguments.options.spacing,

@@ -9,6 +9,8 @@
 #include <sstream>
 #include <string>
 
+#include "help.h"
+
 namespace cli {
 namespace {
 
@@ -68,6 +70,7 @@ void add_site_options(CLI::App& app, DiagramArguments& arguments) {
             arguments.sampling.num_samples = static_cast<agvd::Index>(amount.value);
         }
     };
+    start_group(app, heading::count);
     auto* samples =
         app.add_option_function<std::string>(
                "-n,--samples,--vertices", take_samples,
@@ -76,6 +79,7 @@ void add_site_options(CLI::App& app, DiagramArguments& arguments) {
             ->check(CLI::Validator(check_samples, ""))
             ->type_name("N|N%")
             ->default_str(std::to_string(sampling.num_samples));
+    start_group(app, heading::place);
     auto* init = add_choice(
         app,
         {"--init", names_of(inits_by_name()), remesh::init_name(sampling.init),
@@ -96,6 +100,7 @@ void add_site_options(CLI::App& app, DiagramArguments& arguments) {
 }
 
 void add_propagation_options(CLI::App& app, agvd::PropagationOptions& propagation) {
+    start_group(app, heading::geodesics);
     add_choice(app,
                {"--engine", names_of(engines_by_name()), agvd::engine_name(propagation.engine),
                 "How distances are computed: window (quickest for every error), steiner (as in the "
@@ -157,10 +162,12 @@ agvd::Index num_samples_for(const DiagramArguments& arguments, std::size_t num_v
 }
 
 void add_diagram_options(CLI::App& app, DiagramArguments& arguments) {
+    start_group(app, heading::files);
     app.add_option("IN", arguments.input, "Mesh to read: .ply, .obj, .off or .stl")->required();
     add_site_options(app, arguments);
     add_propagation_options(app, arguments.propagation);
     arguments.memory_limit = machine_memory() / 4 * 3;
+    start_group(app, heading::running);
     app.add_option_function<std::string>(
            "--memory-limit",
            [&arguments](const std::string& text) {
@@ -171,6 +178,7 @@ void add_diagram_options(CLI::App& app, DiagramArguments& arguments) {
         ->check(CLI::Validator(check_memory_limit, ""))
         ->type_name("BYTES")
         ->default_str("75%");
+    start_group(app, heading::files);
     app.add_flag("--force", arguments.force, "Allow an output to overwrite an input");
     app.add_flag(
         "--lenient", arguments.is_lenient,

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "help.h"
 #include "remesh/io/transfer_attributes.h"
 #include "remesh/io/write_mesh.h"
 
@@ -108,6 +109,7 @@ void warn_of(const std::vector<remesh::DeclinedAttribute>& declined, Console& co
 }  // namespace
 
 void add_attribute_options(CLI::App& app, AttributeArguments& arguments) {
+    start_group(app, heading::attributes);
     app.add_option("--transfer", arguments.transfer,
                    "What the output gets of the input's colours, labels and other properties of "
                    "vertices and faces: all, none, or names such as quality,material")
@@ -116,9 +118,11 @@ void add_attribute_options(CLI::App& app, AttributeArguments& arguments) {
     app.add_option("--map", arguments.map,
                    "Write where each output vertex lies on the input: lines FACE B0 B1 B2")
         ->type_name("FILE");
+    start_group(app, heading::curves);
     app.add_flag(std::string("--keep-labels{") + any_labels + "}", arguments.keep_labels,
                  "Borders between faces with different labels or materials become chains of "
-                 "edges; --keep-labels=NAME: those of this property");
+                 "edges; --keep-labels=NAME: those of this property")
+        ->type_name("NAME");
 }
 
 bool wants_attributes(const AttributeArguments& arguments) {

@@ -1,19 +1,17 @@
 // What all programs share. Exceptions of the libraries become texts on stderr and exit codes. The
-// first SIGINT or SIGTERM sets a flag, which progress callbacks read; then nothing is written. The
-// same callbacks look at the memory in use and draw the progress bar, every few milliseconds.
+// first SIGINT or SIGTERM sets a flag, which progress callbacks read; then nothing is written.
 #include "cli.h"
 
 #include <signal.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <new>
 #include <sstream>
 #include <system_error>
 
+#include "help.h"
 #include "remesh/io/atomic_file.h"
 
 namespace cli {
@@ -22,10 +20,13 @@ namespace fs = std::filesystem;
 
 const char* const exit_code_help =
     "Exit codes:\n"
-    "  0  done (warnings on stderr)          4  the mesh cannot be used\n"
-    "  1  internal error, not enough memory  5  a constraint cannot be met, nothing written\n"
-    "  2  wrong usage                        130, 143  interrupted, nothing written\n"
-    "  3  a file cannot be read or written";
+    "  0  done; warnings are on stderr\n"
+    "  1  internal error, or not enough memory\n"
+    "  2  wrong usage\n"
+    "  3  a file cannot be read or written\n"
+    "  4  the mesh cannot be used\n"
+    "  5  a constraint cannot be met, nothing written\n"
+    "  130, 143  interrupted, nothing written";
 
 namespace {
 
@@ -74,12 +75,16 @@ ExitCode parse_and_run(CLI::App& app, int argc, const char* const* argv,
 }  // namespace
 
 void add_common_options(CLI::App& app, CommonOptions& options) {
+    start_group(app, heading::running);
     app.add_option("-t,--threads", options.threads, "Number of threads; 0: all cores")
-        ->check(CLI::Range(0, 4096))
+        ->check(CLI::Range(0, 4096).description(""))
+        ->type_name("N")
         ->capture_default_str();
     auto* quiet =
         app.add_flag("-q,--quiet", options.quiet, "Write only warnings and errors to stderr");
-    app.add_flag("--verbose", options.verbose, "Write more to stderr")->excludes(quiet);
+    app.add_flag("--verbose", options.verbose,
+                 "Also write to stderr what each stage did, its time and the memory")
+        ->excludes(quiet);
 }
 
 Failure failure_of(const std::exception_ptr& thrown) {
@@ -115,7 +120,9 @@ Failure failure_of(const std::exception_ptr& thrown) {
 
 int run(CLI::App& app, int argc, const char* const* argv, const std::function<void()>& job) {
     const std::string name = app.get_name();
+    start_group(app, heading::running);
     app.set_version_flag("--version", name + " " REMESH_VERSION, "Print the version and exit");
+    format_help(app);
     app.failure_message([&](const CLI::App*, const CLI::Error& error) {
         return name + ": error: " + error.what() + "; see " + name + " --help\n";
     });
@@ -177,93 +184,6 @@ void write_text(const fs::path& path, std::string_view text) {
     } else {
         remesh::write_file_atomically(path, text, [](double) { return !interrupted(); });
     }
-}
-
-void Console::detail(std::string_view text) {
-    if (options_.verbose) info(text);
-}
-
-void Console::info(std::string_view text) {
-    if (!options_.quiet) write_line("", text);
-}
-
-void Console::warn(std::string_view text) {
-    write_line("warning: ", text);
-    warnings_.emplace_back(text);
-}
-
-void Console::error(std::string_view text) { write_line("error: ", text); }
-
-void Console::write_line(const char* kind, std::string_view text) {
-    clear_bar();
-    std::fprintf(stderr, "%s%.*s\n", kind, static_cast<int>(text.size()), text.data());
-}
-
-bool Console::progress(std::string_view stage, double fraction) {
-    constexpr std::chrono::milliseconds between_looks{5};
-    const auto now = std::chrono::steady_clock::now();
-    if (now >= next_look_ || stage != stage_) {
-        next_look_ = now + between_looks;
-        look(stage, fraction);
-    }
-    return !is_over_limit_ && !interrupted();
-}
-
-agvd::Progress Console::progress_of(const char* stage) {
-    return [this, stage](double fraction) { return progress(stage, fraction); };
-}
-
-void Console::run(const std::function<void()>& job) {
-    try {
-        job();
-    } catch (const agvd::Cancelled&) {
-        if (is_over_limit_ && !interrupted()) throw out_of_memory();
-        throw;
-    } catch (const std::bad_alloc&) {
-        throw out_of_memory();
-    }
-}
-
-void Console::require_memory(const char* stage, std::size_t bytes) {
-    look(stage, 0);
-    const std::size_t needed = resident_memory() + bytes;
-    if (limit_.bytes == 0 || needed <= limit_.bytes) return;
-    is_over_limit_ = true;
-    throw out_of_memory("some " + format_bytes(needed) + ", ");
-}
-
-OutOfMemory Console::out_of_memory(const std::string& needed) const {
-    std::string text = "not enough memory";
-    if (is_over_limit_) {
-        text += ": the program needs " + needed + "more than the " + format_bytes(limit_.bytes) +
-                " of --memory-limit";
-    }
-    if (!stage_.empty()) text += " (stage: " + stage_ + ")";
-    text += "; " + memory_remedy(stage_, limit_.engine);
-    return OutOfMemory(is_over_limit_ ? text + ", or raise --memory-limit" : text);
-}
-
-// Keeps the name of the stage in which the limit was reached.
-void Console::look(std::string_view stage, double fraction) {
-    static constexpr std::size_t width = 30;
-    if (is_over_limit_) return;
-    stage_ = stage;
-    is_over_limit_ = limit_.bytes > 0 && resident_memory() > limit_.bytes;
-    if (!options_.quiet && ::isatty(STDERR_FILENO) == 1) {
-        const auto filled = static_cast<std::size_t>(std::clamp(fraction, 0.0, 1.0) * width);
-        std::ostringstream bar;
-        bar << '[' << std::string(filled, '#') << std::string(width - filled, ' ') << "] " << stage;
-        if (bar.str() != bar_) {
-            clear_bar();
-            bar_ = bar.str();
-            std::fputs(bar_.c_str(), stderr);
-        }
-    }
-}
-
-void Console::clear_bar() {
-    if (!bar_.empty()) std::fputs("\r\x1b[K", stderr);
-    bar_.clear();
 }
 
 }  // namespace cli

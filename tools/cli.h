@@ -1,9 +1,7 @@
 //! \file
-//! Code that all programs share: exit codes, log and progress bar, interruption, checks of output
-//! paths.
+//! Code that all programs share: exit codes, interruption, checks of output paths.
 #pragma once
 
-#include <chrono>
 #include <exception>
 #include <filesystem>
 #include <functional>
@@ -14,8 +12,7 @@
 #include <vector>
 
 #include "agvd/core/error.h"
-#include "agvd/core/progress.h"
-#include "memory_limit.h"
+#include "console.h"
 
 namespace CLI {
 class App;
@@ -37,12 +34,6 @@ enum class ExitCode {
 
 //! The exit codes as text for the end of --help.
 extern const char* const exit_code_help;
-
-struct CommonOptions {
-    int threads = 0;  //!< 0: all cores.
-    bool quiet = false;
-    bool verbose = false;
-};
 
 //! Adds -t/--threads, -q/--quiet and --verbose; they are valid once run() calls the job.
 void add_common_options(CLI::App& app, CommonOptions& options);
@@ -124,60 +115,5 @@ void print(std::string_view text);
 //! Writes a text to `path`, all or nothing, or to stdout if the path is "-".
 //! \throw agvd::Cancelled  if interrupted(): an old file is unchanged.
 void write_text(const std::filesystem::path& path, std::string_view text);
-
-//! How much memory a job may use.
-struct MemoryLimit {
-    std::size_t bytes = 0;                       //!< 0: as much as the system gives.
-    agvd::Engine engine = agvd::Engine::Window;  //!< For the remedy.
-};
-
-//! Writes messages to stderr, one on each line, and a progress bar on a terminal. Also ends the job
-//! if it is interrupted or needs too much memory.
-class Console {
-public:
-    explicit Console(const CommonOptions& options, const MemoryLimit& limit = {})
-        : options_(options), limit_(limit) {}
-    Console(const Console&) = delete;
-    Console& operator=(const Console&) = delete;
-    ~Console() { clear_bar(); }
-
-    void detail(std::string_view text);  //!< With --verbose only.
-    void info(std::string_view text);    //!< Unless --quiet.
-    void warn(std::string_view text);    //!< Always.
-    void error(std::string_view text);   //!< Always.
-
-    //! The texts of warn(), in their order.
-    [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
-    //! The last stage that was reported; empty: none.
-    [[nodiscard]] const std::string& stage() const { return stage_; }
-
-    //! A progress callback: draws the bar, and returns false once interrupted() or above the memory
-    //! limit. Cheap: it checks memory and terminal only every few milliseconds.
-    [[nodiscard]] bool progress(std::string_view stage, double fraction);
-    //! The same for one stage; this must outlive it.
-    [[nodiscard]] agvd::Progress progress_of(const char* stage);
-
-    //! Calls the job, whose callbacks are those above.
-    //! \throw OutOfMemory  in place of the agvd::Cancelled or std::bad_alloc that this causes.
-    void run(const std::function<void()>& job);
-    //! Call before work that needs at least this many bytes more.
-    //! \throw OutOfMemory  the limit would be exceeded; the text tells how much is needed.
-    void require_memory(const char* stage, std::size_t bytes);
-
-private:
-    void look(std::string_view stage, double fraction);
-    void clear_bar();
-    void write_line(const char* kind, std::string_view text);
-    // \param needed  how much, if it is known: "some 3.7G, ".
-    [[nodiscard]] OutOfMemory out_of_memory(const std::string& needed = {}) const;
-
-    const CommonOptions& options_;
-    MemoryLimit limit_;
-    std::string stage_;  // The last one reported.
-    std::chrono::steady_clock::time_point next_look_;
-    bool is_over_limit_ = false;
-    std::vector<std::string> warnings_;
-    std::string bar_;  // As on the screen now; empty: none.
-};
 
 }  // namespace cli

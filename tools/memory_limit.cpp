@@ -1,5 +1,6 @@
 #include "memory_limit.h"
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -45,6 +46,13 @@ std::size_t resident_memory() {
     std::size_t total = 0, resident = 0;
     if (!(std::ifstream("/proc/self/statm") >> total >> resident)) return 0;
     return resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+std::size_t peak_memory() {
+    rusage usage{};
+    constexpr std::size_t unit = 1024;
+    if (::getrusage(RUSAGE_SELF, &usage) != 0) return 0;
+    return static_cast<std::size_t>(usage.ru_maxrss) * unit;
 }
 
 std::optional<std::size_t> parse_bytes(std::string_view text) {

@@ -25,6 +25,9 @@ public:
 //! Cost: some microseconds.
 [[nodiscard]] std::size_t resident_memory();
 
+//! The most bytes that the process has had in memory so far. 0: unknown.
+[[nodiscard]] std::size_t peak_memory();
+
 //! A number of bytes above 0: "1000000", with K, M, G or T for powers of 1024 ("500M", "1.5G"), or
 //! a percentage of machine_memory(), above 0 and at most 100 ("60%"). Unset: it is none of these.
 [[nodiscard]] std::optional<std::size_t> parse_bytes(std::string_view text);

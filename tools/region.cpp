@@ -3,11 +3,13 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
+#include "help.h"
 #include "remesh/io/transfer_attributes.h"
 
 namespace cli {
 
 void add_region_options(CLI::App& app, RegionArguments& arguments) {
+    start_group(app, heading::regions);
     app.add_option("--region", arguments.region,
                    "Face property of IN, such as of PLY: faces where it is not 0 are remeshed, all "
                    "others stay as they are. --samples and lengths count in the region")

@@ -10,6 +10,8 @@
 #include "arguments.h"
 #include "attributes.h"
 #include "batch.h"
+#include "expected_stages.h"
+#include "help.h"
 #include "mesh_run.h"
 #include "region.h"
 #include "remesh/io/read_edges.h"
@@ -21,6 +23,7 @@
 #include "remesh/pipeline/remesh.h"
 #include "shortfalls.h"
 #include "sizing_arguments.h"
+#include "stage_details.h"
 
 namespace fs = std::filesystem;
 
@@ -94,6 +97,7 @@ void add_feature_options(CLI::App& app, Arguments& arguments) {
         const std::string complaint = take_features(text, arguments);
         if (!complaint.empty()) throw CLI::ValidationError("--features", complaint);
     };
+    cli::start_group(app, cli::heading::curves);
     CLI::Option* const features =
         app.add_option_function<std::string>(
                "--features,--crease", take,
@@ -124,6 +128,7 @@ void add_feature_options(CLI::App& app, Arguments& arguments) {
 
 // Which vertices and edges the result has.
 void add_result_options(CLI::App& app, Arguments& arguments) {
+    cli::start_group(app, cli::heading::count);
     cli::add_choice(
         app,
         {"--topology",
@@ -135,6 +140,7 @@ void add_result_options(CLI::App& app, Arguments& arguments) {
             arguments.vertex_count =
                 name == "add" ? remesh::VertexCount::Add : remesh::VertexCount::Exact;
         });
+    cli::start_group(app, cli::heading::curves);
     cli::add_choice(
         app,
         {"--boundary",
@@ -146,6 +152,7 @@ void add_result_options(CLI::App& app, Arguments& arguments) {
             arguments.sampling.boundary =
                 name == "free" ? remesh::Boundary::Free : remesh::Boundary::Keep;
         });
+    cli::start_group(app, cli::heading::relaxation);
     cli::add_choice(
         app,
         {"--delaunay", cli::names_of(delaunay_by_name()), remesh::delaunay_name(arguments.delaunay),
@@ -162,16 +169,19 @@ void add_options(CLI::App& app, Arguments& arguments) {
     add_feature_options(app, arguments);
     cli::add_sizing_options(app, arguments.sizing);
     cli::add_attribute_options(app, arguments.attributes);
+    cli::start_group(app, cli::heading::files);
     app.add_option("--drop-components", arguments.drop_components,
                    "Drop components with less than this percentage of the area")
         ->check(CLI::Range(0.0, 100.0).description(""))
         ->type_name("PERCENT")
         ->capture_default_str();
     cli::add_region_options(app, arguments.region);
+    cli::start_group(app, cli::heading::running);
     app.add_flag(
         "--strict", arguments.strict,
         "Fail (exit code 5) if the result has more pairs of intersecting faces than the input, or "
         "is too coarse for creases, walls or components");
+    cli::start_group(app, cli::heading::relaxation);
     app.add_option("--relax,--lloyd", arguments.relax_steps,
                    "Number of relaxation steps; 0: the sites stay as sampled")
         ->check(CLI::Range(0, 1'000'000).description(""))
@@ -186,6 +196,7 @@ void add_options(CLI::App& app, Arguments& arguments) {
 }
 
 void add_output_options(CLI::App& app, Arguments& arguments) {
+    cli::start_group(app, cli::heading::files);
     app.add_option("OUT", arguments.further,
                    "Mesh to write: .ply, .obj, .off or .stl; an existing file is replaced. With "
                    "--out-dir: more meshes to read");
@@ -247,6 +258,7 @@ cli::Products make_products(const Arguments& arguments, cli::Console& console) {
     const bool wants_attributes = cli::wants_attributes(arguments.attributes) ||
                                   cli::wants_attributes(arguments.sizing) ||
                                   !arguments.region.region.empty();
+    console.expect(cli::stages_with_reading(arguments.input, arguments.sampling.num_samples));
     remesh::MeshFile input = cli::read_input(
         arguments, console, wants_attributes ? cli::WithAttributes::Yes : cli::WithAttributes::No);
     // Of the file, before those that are not carried over are removed.
@@ -299,9 +311,11 @@ cli::Products make_products(const Arguments& arguments, cli::Console& console) {
         options.locked = remesh::read_vertices(arguments.region.lock, input.mesh.view(),
                                                console.progress_of("read"));
     }
-    console.require_memory("sample",
-                           least_memory(input.mesh.triangles.size(),
-                                        cli::estimated_samples(options, input.mesh.view())));
+    const std::size_t num_faces = input.mesh.triangles.size();
+    const std::size_t num_samples = cli::estimated_samples(options, input.mesh.view());
+    console.require_memory("sample", least_memory(num_faces, num_samples));
+    console.expect(cli::stages_of_remesh(num_faces, num_samples, needs_input, options),
+                   options.sizing.max_distance > 0 ? cli::Runs::Unknown : cli::Runs::One);
     const remesh::RemeshResult result = cli::naming_file(
         arguments.input,
         [&] {
@@ -309,6 +323,8 @@ cli::Products make_products(const Arguments& arguments, cli::Console& console) {
                                : remesh::remesh_moved(std::move(input.mesh), options);
         },
         arguments.sites);
+    console.end_stage();
+    console.detail(cli::stage_details(result, num_faces));
     cli::warn_of_shortfalls(result, options, arguments.strict, console);
     remesh::RunInfo info{.version = REMESH_VERSION,
                          .input_path = arguments.input.string(),

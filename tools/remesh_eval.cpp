@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli.h"
+#include "help.h"
 #include "remesh/io/read_mesh.h"
 #include "remesh/io/report.h"
 
@@ -13,13 +14,14 @@ constexpr const char* footer =
     "Examples:\n"
     "  remesh-eval bunny.ply out.obj\n"
     "  remesh-eval bunny.ply out.obj --report - | jq .distance.two_sided\n\n"
-    "ORIGINAL is cleaned first, as remesh does; the report counts the repairs. RESULT is measured\n"
-    "as it is.\n"
-    "Distances are in percent of the diagonal of ORIGINAL's bounding box; two-sided is the larger\n"
-    "of both directions. Q = 6 / sqrt(3) * area / (half perimeter * longest edge).\n"
-    "An edge is sharp if its faces turn by more than 40 degrees. A sharp edge of ORIGINAL is\n"
-    "covered where RESULT has an edge of more than 25 degrees nearby. A sharp edge of RESULT is\n"
-    "false where it is farther than .1 % from all such edges and the boundary of ORIGINAL.\n\n";
+    "ORIGINAL is cleaned first, as remesh does; the report counts the repairs.\n"
+    "RESULT is measured as it is. Distances are in percent of the diagonal of\n"
+    "ORIGINAL's bounding box; two-sided is the larger of both directions.\n"
+    "Q = 6 / sqrt(3) * area / (half perimeter * longest edge).\n"
+    "An edge is sharp if its faces turn by more than 40 degrees. A sharp edge of\n"
+    "ORIGINAL is covered where RESULT has an edge of more than 25 degrees nearby.\n"
+    "A sharp edge of RESULT is false where it is farther than .1 % from all such\n"
+    "edges and the boundary of ORIGINAL.\n\n";
 
 struct Arguments {
     fs::path original;
@@ -55,17 +57,22 @@ void run_job(Arguments& arguments, cli::Console& console) {
 int main(int argc, char** argv) {
     CLI::App app("Measures a remeshed surface and its distance to the original.", "remesh-eval");
     Arguments arguments;
+    cli::start_group(app, cli::heading::files);
     app.add_option("ORIGINAL", arguments.original, "Mesh that was remeshed")->required();
     app.add_option("RESULT", arguments.result, "Mesh to measure")->required();
     app.add_option("--report,--json", arguments.report,
                    "Write the figures as JSON; - writes them to stdout")
         ->type_name("FILE|-");
+    cli::start_group(app, cli::heading::accuracy);
     app.add_option("--samples", arguments.options.samples,
                    "Number of points to measure on each surface")
-        ->check(CLI::Range(agvd::Index{1}, agvd::Index{1'000'000'000}))
+        ->check(CLI::Range(agvd::Index{1}, agvd::Index{1'000'000'000}).description(""))
+        ->type_name("N")
         ->capture_default_str();
+    cli::start_group(app, cli::heading::running);
     app.add_option("-t,--threads", arguments.options.num_threads, "Number of threads; 0: all cores")
-        ->check(CLI::Range(0, 4096))
+        ->check(CLI::Range(0, 4096).description(""))
+        ->type_name("N")
         ->capture_default_str();
     app.footer(std::string(footer) + cli::exit_code_help);
     return cli::run(app, argc, argv, [&] {

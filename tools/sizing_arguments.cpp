@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "agvd/mesh/scale.h"
+#include "help.h"
 #include "remesh/io/transfer_attributes.h"
 
 namespace cli {
@@ -44,6 +45,7 @@ CLI::Option* add_length(CLI::App& app, const std::string& flag, const std::strin
 }  // namespace
 
 void add_sizing_options(CLI::App& app, SizingArguments& arguments) {
+    start_group(app, heading::count);
     remesh::Sizing& sizing = arguments.sizing;
     CLI::Option* const samples = app.get_option("--samples");
     CLI::Option* const sites = app.get_option("--sites");
@@ -73,6 +75,7 @@ void add_sizing_options(CLI::App& app, SizingArguments& arguments) {
         "cannot be met",
         arguments.max_distance);
     distance->excludes(samples)->excludes(sites)->excludes(faces)->excludes(edge);
+    start_group(app, heading::place);
     CLI::Option* const adaptive =
         app.add_flag("--adaptive", sizing.is_adaptive,
                      "Shorter edges where the surface is curved, longer ones elsewhere");

@@ -14,6 +14,7 @@
 #include "remesh/io/transfer_attributes.h"
 #include "remesh/io/write_diagram.h"
 #include "remesh/io/write_mesh.h"
+#include "remesh/pipeline/expected_work.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/quality/evaluate.h"
 #include "remesh/quality/self_intersections.h"

@@ -1,6 +1,7 @@
 #include "support/process.h"
 
 #include <fcntl.h>
+#include <pty.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/resource.h>
@@ -46,14 +47,26 @@ pid_t start(const std::vector<std::string>& command, const std::filesystem::path
     return pid;
 }
 
+// The ends to read from and to write to.
+std::array<int, 2> make_pipe(unsigned short columns) {
+    std::array<int, 2> ends{};
+    winsize size{};
+    size.ws_row = 25;
+    size.ws_col = columns;
+    const int failure =
+        columns == 0 ? ::pipe(ends.data()) : ::openpty(&ends[0], &ends[1], nullptr, nullptr, &size);
+    if (failure != 0) throw std::runtime_error("no pipe or terminal left");
+    return ends;
+}
+
 }  // namespace
 
 Outcome run(const std::vector<std::string>& command, const Options& options) {
     std::string temporary = std::filesystem::temp_directory_path() / "stdout-XXXXXX";
     const int file = mkstemp(temporary.data());
-    std::array<int, 2> pipe{};
-    if (file < 0 || ::pipe(pipe.data()) != 0) throw std::runtime_error("no file or pipe left");
+    if (file < 0) throw std::runtime_error("no file left");
     close(file);
+    const std::array<int, 2> pipe = make_pipe(options.columns);
     const pid_t pid =
         start(command, options.out.empty() ? std::filesystem::path(temporary) : options.out, pipe);
     close(pipe[1]);

@@ -17,6 +17,7 @@ struct Outcome {
 
 struct Options {
     std::filesystem::path out = {};  //!< Where stdout goes instead of Outcome::out.
+    unsigned short columns = 0;      //!< If not 0, stderr is a terminal of this width.
     int signal = 0;                  //!< Sent, if not 0, ...
     std::string after = {};          //!< ... once stderr holds this text.
 };

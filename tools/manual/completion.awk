@@ -2,6 +2,7 @@
 # -v shell=bash|zsh|fish -v program=agvd -v command=diagram (empty: the program without subcommand)
 function about(text) {}
 function usage(text) {}
+function group(title) {}
 function positional(name, text) {}
 function heading(text) {}
 function line(text) {}
@@ -17,10 +18,10 @@ function quoted(text) {
     gsub(/'/, "'\\''", text)
     return text
 }
-function option(names, value, default_value, text,    words, name, n, i, rule) {
+function option(names, value, text,    words, name, n, i, rule) {
     n = split(names, name, ",")
     words = choices(value)
-    sub(/[.] (Not with|Needs) .*/, "", text)
+    sub(/[.] (Default:|Required|Needs|Not with).*/, "", text)
     text = quoted(text)
     if (shell == "bash") {
         for (i = 1; i <= n; ++i) all = all " " name[i]

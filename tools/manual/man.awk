@@ -24,18 +24,23 @@ function usage(text) {
     begin("Synopsis")
     print escaped(text)
 }
+function group(title) {
+    if (title == "Positionals") begin("Operands")
+    else if (title == "Subcommands") begin("Commands")
+    else {
+        begin("Options")
+        print ".SS " title
+    }
+}
 function positional(operand, text) {
-    begin("Operands")
     print ".TP\n.I " operand "\n" escaped(text)
 }
-function option(names, value, default_value, text) {
-    begin("Options")
+function option(names, value, text) {
     gsub(/,/, ", ", names)
     print ".TP\n\\fB" escaped(names) "\\fR" (value == "" ? "" : " \\fI" escaped(value) "\\fR")
-    print escaped(text) (default_value == "" ? "" : ". Default: " escaped(default_value))
+    print escaped(text)
 }
 function subcommand(command, text) {
-    begin("Commands")
     print ".TP\n\\fB" command "\\fR\n" escaped(text) ": see\n.BR " name "\\-" command " (1)"
 }
 function heading(text) {

@@ -1,54 +1,46 @@
 # Reads what --help prints, and hands each part to a function of the file that is read besides:
-# about(text), usage(text), positional(name, text), subcommand(name, text), heading(text), line(text),
-# finish(), and option(names, value, default_value, text) with names such as "-n,--samples".
-# An entry has columns 3 to 30, its text the rest or, if the entry is too long, the next line.
-function take_entry(    words, n, i, names, value, default_value, relation) {
+# about(text), usage(text), group(title), positional(name, text), subcommand(name, text),
+# option(names, value, text) with names such as "-n,--samples", heading(text) and line(text) for what
+# stands after the options, finish().
+# An entry begins in column 3. Two blanks or the line's end come after its names; its text goes on in
+# lines that begin farther right.
+function take_entry(    names, value) {
     if (entry == "") return
-    n = split(entry, words, " ")
-    names = words[1]
-    for (i = 2; i <= n; ++i) {
-        if (words[i] ~ /^(Excludes|Needs):$/) {
-            sub(/[.]$/, "", text)
-            text = text (words[i] == "Needs:" ? ". Needs" : ". Not with")
-            relation = " "
-        } else if (relation != "") {
-            text = text relation words[i]
-            relation = ", "
-        } else if (words[i] != "REQUIRED" && words[i] != "...") {
-            value = value (value == "" ? "" : " ") words[i]
-        }
+    names = value = entry
+    sub(/ .*/, "", names)
+    if (!sub(/^[^ ]* /, "", value)) value = ""
+    if (match(names, /\[=.*\]$/)) {
+        value = "[" substr(names, RSTART + 2)
+        names = substr(names, 1, RSTART - 1)
     }
-    if (names ~ /[{]\*[}]$/) value = "[NAME]"
-    gsub(/[{][^}]*[}]/, "", names)
-    if (match(value, /=[^=]*$/)) {
-        default_value = substr(value, RSTART + 1)
-        value = substr(value, 1, RSTART - 1)
-    }
-    sub(/^U?INT:U?INT in /, "", value)
-    if (section == "Positionals:") positional(names, text)
-    else if (section == "Subcommands:") subcommand(names, text)
-    else option(names, value, default_value, text)
+    if (section == "Positionals") positional(names, text)
+    else if (section == "Subcommands") subcommand(names, text)
+    else option(names, value, text)
     entry = text = ""
 }
 NR == 1 { about($0); next }
 /^Usage: / { usage(substr($0, 8)); next }
 /^[A-Z].*:$/ {
     take_entry()
-    section = $0
-    has_entries = section ~ /^(Positionals|Options|Subcommands):$/
-    if (!has_entries) heading(substr($0, 1, length($0) - 1))
+    section = substr($0, 1, length($0) - 1)
+    # What follows the options begins with one of these.
+    is_after_options = is_after_options || section ~ /^(Examples|Exit codes)$/
+    if (is_after_options) heading(section)
+    else group(section)
     next
 }
-has_entries && /^                              [^ ]/ {
-    entry = entry text
-    text = substr($0, 31)
-    next
-}
-has_entries && $0 != "" {
+is_after_options { line($0); next }
+/^  [^ ]/ {
     take_entry()
-    entry = substr($0, 3, 28)
-    text = substr($0, 31)
+    entry = substr($0, 3)
+    if (match(entry, /  +/)) {
+        text = substr(entry, RSTART + RLENGTH)
+        entry = substr(entry, 1, RSTART - 1)
+    }
     next
 }
-!has_entries && section != "" { line($0) }
+/^   +[^ ]/ {
+    sub(/^ +/, "")
+    text = text (text == "" ? "" : " ") $0
+}
 END { take_entry(); finish() }

@@ -28,6 +28,8 @@ using detail::FaceSegment;
 
 // The most flips for each edge. The worst part of needles that was met took 6.
 constexpr std::size_t most_flips = 1000;
+// What is done, as a share of the time, before the flips and before the splits.
+constexpr double share_of_removal = 0.75, share_of_flips = 0.9;
 // Ticks of a split.
 constexpr std::size_t split_work = 16;
 
@@ -214,10 +216,12 @@ void IntrinsicTriangulation::change_faces(const IntrinsicOptions& options, Polle
         removal = detail::remove_flat_vertices(surface_, charts, *history_, is_kept,
                                                options.min_length, options.num_threads, poller);
     }
+    poller.tell(share_of_removal);
     DelaunayQueue flips(surface_, charts, history_.get(), is_kept, &ticker);
     flips.push_all(options.num_threads, poller);
     charts.reserve(2 * flips.num_waiting());
     counts_.is_delaunay = flips.flip_all(most_flips * surface_.num_edges());
+    poller.tell(share_of_flips);
     Refinement refinement(surface_, charts, *history_, flips, is_kept, options, ticker);
     counts_.is_delaunay =
         refinement.run(most_flips, options.most_splits, added_) && counts_.is_delaunay;

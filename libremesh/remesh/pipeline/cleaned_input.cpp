@@ -30,7 +30,7 @@ CleanedInput clean_stage(const InputMesh& input, const StageContext& context) {
     agvd::poll(progress, 0);
     CleanResult clean = clean_input(input.view, options.num_threads, agvd::within(progress, 0, 0));
     result.cleaned = clean.counts;
-    const agvd::Progress half = agvd::within(progress, 0.5, 0.5);
+    const agvd::Progress half = agvd::within(progress, cleaned_fraction / 2, cleaned_fraction / 2);
     CleanedInput cleaned{.given = input.view};
     cleaned.topology = topology_of(clean, options.num_threads, half);
     if (options.drop_components > 0) {
@@ -51,8 +51,8 @@ CleanedInput clean_stage(const InputMesh& input, const StageContext& context) {
             cleaned.given = {};
         }
     }
-    agvd::poll(progress, 1);
-    const agvd::Progress done = agvd::within(progress, 1, 1);
+    agvd::poll(progress, cleaned_fraction);
+    const agvd::Progress done = agvd::within(progress, cleaned_fraction, cleaned_fraction);
     cleaned.surface =
         is_unchanged ? agvd::build_surface(std::move(clean.mesh), std::move(clean.connectivity),
                                            options.num_threads, done)

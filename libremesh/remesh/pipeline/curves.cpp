@@ -71,14 +71,14 @@ std::pair<NetworkPlan, GivenSites> plan_with_given(const CleanedInput& cleaned,
     const auto& [options, result] = context;
     const agvd::Progress progress = progress_of(Stage::Clean, options);
     const std::vector<SurfacePoint> sites = given_sites(cleaned, cleaned.surface, *options.sites);
-    GivenNetwork given =
-        plan_given_network(cleaned.surface, std::move(is_crease),
-                           agvd::points_of(sites, agvd::distinct_points(cleaned.surface, sites)),
-                           {.spacing = spacing,
-                            .tolerance = is_relaxed(options) ? on_curve : site_rounding,
-                            .drop_share = drop_share,
-                            .num_threads = options.num_threads,
-                            .progress = agvd::within(progress, 1, 1)});
+    GivenNetwork given = plan_given_network(
+        cleaned.surface, std::move(is_crease),
+        agvd::points_of(sites, agvd::distinct_points(cleaned.surface, sites)),
+        {.spacing = spacing,
+         .tolerance = is_relaxed(options) ? on_curve : site_rounding,
+         .drop_share = drop_share,
+         .num_threads = options.num_threads,
+         .progress = agvd::within(progress, cleaned_fraction, cleaned_fraction)});
     result.features.uncarried_curves = given.dropped_curves;
     GivenSites sorted{std::move(given.curves), std::move(given.inner), {}};
     for (const Index group : groups_of_copies(sorted.on_curves)) {
@@ -121,7 +121,8 @@ FoundCurves find_curves(const CleanedInput& cleaned, double spacing, const Stage
         drop_short_junctions(cleaned.surface, least_junction * spacing, found.junctions);
     }
     if (wants_creases(options)) {
-        found.is_crease = find_all_creases(cleaned, spacing, options, agvd::within(progress, 1, 1));
+        found.is_crease = find_all_creases(
+            cleaned, spacing, options, agvd::within(progress, cleaned_fraction, cleaned_fraction));
     }
     return found;
 }
@@ -132,7 +133,7 @@ std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const 
     const auto& [options, result] = context;
     const StageClock clock(Stage::Clean, result);
     const agvd::Progress progress = progress_of(Stage::Clean, options);
-    const agvd::Progress done = agvd::within(progress, 1, 1);
+    const agvd::Progress done = agvd::within(progress, cleaned_fraction, cleaned_fraction);
     result.junctions.apart_edges = result.junctions.edges;
     JunctionSet junctions = kept.has_junctions ? found.junctions : JunctionSet{};
     if (found.is_crease.empty() && junctions.empty() && cleaned.locked.empty()) return nullptr;

@@ -213,12 +213,12 @@ DistanceCheck::DistanceCheck(const agvd::MeshView& mesh, int num_threads,
     : mesh_{{mesh.positions.begin(), mesh.positions.end()},
             {mesh.triangles.begin(), mesh.triangles.end()}},
       tree_(mesh, progress),
-      num_threads_(num_threads),
-      progress_(progress) {}
+      num_threads_(num_threads) {}
 
 MeasuredDistance DistanceCheck::measure(const agvd::MeshView& result, double limit,
-                                        std::vector<double>& most_lengths) const {
-    agvd::Poller poller(progress_);
+                                        std::vector<double>& most_lengths,
+                                        const agvd::Progress& progress) const {
+    agvd::Poller poller(progress);
     const agvd::ClosestPointTree result_tree(result, poller.progress());
     Comparison comparison(mesh_.view(), result, limit, num_threads_, poller, most_lengths);
     comparison.look_at_points(true, result_tree);

@@ -31,13 +31,13 @@ public:
     //! Cost: O((n + 100 000) log n); for the proof about O((n + length of all edges / limit) log
     //! n).
     [[nodiscard]] MeasuredDistance measure(const agvd::MeshView& result, double limit,
-                                           std::vector<double>& most_lengths) const;
+                                           std::vector<double>& most_lengths,
+                                           const agvd::Progress& progress = {}) const;
 
 private:
     agvd::TriangleMesh mesh_;
     agvd::ClosestPointTree tree_;
     int num_threads_;
-    agvd::Progress progress_;
 };
 
 }  // namespace remesh::detail

@@ -18,7 +18,7 @@ Domain prepare_domain(CleanedInput& cleaned, std::unique_ptr<const CurvePlan> pl
     const auto& [options, result] = context;
     const StageClock clock(Stage::Clean, result);
     const agvd::Progress all = progress_of(Stage::Clean, options);
-    const agvd::Progress progress = agvd::within(all, 1, 1);
+    const agvd::Progress progress = agvd::within(all, cleaned_fraction, 1);
     const CurvePlan* cut = plan.get();
     Domain domain{.plan = std::move(plan),
                   .prepared = prepare(cleaned, cut, spacing, sizes, options.num_threads, progress),
@@ -31,7 +31,8 @@ Domain prepare_domain(CleanedInput& cleaned, std::unique_ptr<const CurvePlan> pl
     } else {
         domain.whole = &domain.prepared.input();
     }
-    domain.component = parts_of_base(domain.prepared.base, domain.parts->face_component, progress);
+    domain.component =
+        parts_of_base(domain.prepared.base, domain.parts->face_component, agvd::within(all, 1, 1));
     result.refined_faces = domain.base().num_faces();
     return domain;
 }

@@ -29,15 +29,18 @@ RemeshResult meet_distance(const CleanedInput& cleaned, const RemeshOptions& opt
     finer.sizing.is_adaptive = true;
     finer.sizing.max_error = first_error * limit;
     const agvd::MeshView mesh = cleaned.surface.mesh.view();
-    const agvd::Progress progress = progress_of(Stage::Check, options);
-    const DistanceCheck check(mesh, options.num_threads, agvd::within(progress, 1, 1));
+    const agvd::Progress cleaning = progress_of(Stage::Clean, options);
+    const DistanceCheck check(mesh, options.num_threads,
+                              agvd::within(cleaning, cleaned_fraction, cleaned_fraction));
+    const agvd::Progress checking = progress_of(Stage::Check, options);
+    const agvd::Progress last = agvd::within(checking, 1, 1);
     const agvd::MeshBox box = agvd::box_of(mesh, options.num_threads);
     std::vector<double> most_lengths(mesh.positions.size(), (box.high - box.low).norm());
     MeasuredDistance best{std::numeric_limits<double>::infinity(), false, {}};
     std::size_t num_vertices = 0;
     for (int round = 0; round < max_rounds; ++round) {
         RemeshResult result = run(finer, most_lengths);
-        const MeasuredDistance found = check.measure(result.mesh.view(), limit, most_lengths);
+        const MeasuredDistance found = check.measure(result.mesh.view(), limit, most_lengths, last);
         result.sizing.largest_distance = found.largest;
         if (found.is_within) return result;
         if (round >= local_rounds) finer.sizing.max_error *= global_factor;

@@ -168,7 +168,11 @@ RemeshResult remesh_region(const agvd::MeshView& mesh, const RemeshOptions& opti
     agvd::Ticker ticker(poller);
     const Region region = cut_region(mesh, options.region, ticker);
     RemeshResult result = run(region.mesh.view(), options_of_region(mesh, options, region));
-    GluedRegion glued = glue_region(mesh, region, result.mesh, ticker);
+    const agvd::Progress checking = progress_of(Stage::Check, options);
+    const agvd::Progress last = agvd::within(checking, 1, 1);
+    agvd::Poller last_poller(last);
+    agvd::Ticker last_ticker(last_poller);
+    GluedRegion glued = glue_region(mesh, region, result.mesh, last_ticker);
     if (!glued.is_joined) {
         throw agvd::ConstraintUnmet(
             std::to_string(result.mesh.positions.size()) +

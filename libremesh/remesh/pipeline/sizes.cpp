@@ -129,7 +129,7 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
     if (is_uniform(sizing) && thin_places.empty()) return {nullptr, options.num_samples};
     const StageClock clock(Stage::Clean, result);
     const agvd::Progress all = progress_of(Stage::Clean, options);
-    const agvd::Progress progress = agvd::within(all, 1, 1);
+    const agvd::Progress progress = agvd::within(all, cleaned_fraction, cleaned_fraction);
     agvd::Poller poller(progress);
     agvd::Ticker ticker(poller);
     std::vector<std::uint8_t> is_crease = found.is_crease;

@@ -16,6 +16,9 @@ struct StageContext {
     RemeshResult& result;          //!< The stage adds its counts and times.
 };
 
+//! The fraction of Stage::Clean at which cleaning itself is done, and the surface is prepared.
+inline constexpr double cleaned_fraction = 0.1;
+
 //! Thrown if no further vertex can be removed without changing the topology, or there are more
 //! locked vertices.
 struct TooFewSamples {

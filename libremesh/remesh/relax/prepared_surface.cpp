@@ -27,6 +27,9 @@ constexpr double spacing_of_edge = 0.9306;  // Root of sqrt(3) / 2.
 // Share of a cell that one piece stands for, in a face of the base that holds needles.
 constexpr double piece_share = 1.0 / 16;
 
+// Of the time: what the base takes, and what is done when its layout begins.
+constexpr double base_share = 0.75, layout_begin = 0.95;
+
 agvd::Index most_splits(const agvd::Surface& input, double spacing) {
     const double num_sites = agvd::surface_area(input) / (spacing * spacing);
     const double most =
@@ -56,17 +59,21 @@ agvd::IntrinsicOptions options_for(const agvd::Surface& input, double spacing,
 
 PreparedSurface::PreparedSurface(const agvd::Surface& input, double spacing, int num_threads,
                                  const agvd::Progress& progress, const SizeField* sizes)
-    : base(input, options_for(input, spacing, sizes, num_threads, progress)),
+    : base(input,
+           options_for(input, spacing, sizes, num_threads, agvd::within(progress, 0, base_share))),
       piece_area(piece_share * spacing * spacing),
-      pieces(std::in_place, base, piece_area, num_threads, progress),
-      layout(base.surface(), num_threads, progress) {}
+      pieces(std::in_place, base, piece_area, num_threads,
+             agvd::within(progress, base_share, base_share)),
+      layout(base.surface(), num_threads, agvd::within(progress, layout_begin, layout_begin)) {}
 
 PreparedSurface::PreparedSurface(agvd::Surface&& input, double spacing, int num_threads,
                                  const agvd::Progress& progress, const SizeField* sizes)
-    : base(std::move(input), options_for(input, spacing, sizes, num_threads, progress)),
+    : base(std::move(input),
+           options_for(input, spacing, sizes, num_threads, agvd::within(progress, 0, base_share))),
       piece_area(piece_share * spacing * spacing),
-      pieces(std::in_place, base, piece_area, num_threads, progress),
-      layout(base.surface(), num_threads, progress) {}
+      pieces(std::in_place, base, piece_area, num_threads,
+             agvd::within(progress, base_share, base_share)),
+      layout(base.surface(), num_threads, agvd::within(progress, layout_begin, layout_begin)) {}
 
 void PreparedSurface::find_pieces(int num_threads, const agvd::Progress& progress) {
     if (!pieces) pieces.emplace(base, piece_area, num_threads, progress);

@@ -1,0 +1,34 @@
+//! \file
+//! What the programs expect of their stages, for the bar of the whole run. Figures are times as
+//! remesh::expected_work has them.
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "overall_progress.h"
+#include "remesh/pipeline/expected_work.h"
+
+namespace cli {
+
+//! Before the input is read: only the size of the file is known.
+//! \param num_samples  the number that is asked for, or a guess.
+[[nodiscard]] std::vector<ExpectedStage> stages_with_reading(const std::filesystem::path& input,
+                                                             std::size_t num_samples);
+
+//! Of a run of remesh, once the input is read.
+//! \param num_faces    of the input.
+//! \param num_samples  0: not known.
+//! \param has_map      whether the result is mapped to the input.
+[[nodiscard]] std::vector<ExpectedStage> stages_of_remesh(std::size_t num_faces,
+                                                          std::size_t num_samples, bool has_map,
+                                                          const remesh::RemeshOptions& options);
+
+//! Of `agvd diagram`, once the input is read.
+[[nodiscard]] std::vector<ExpectedStage> stages_of_diagram(std::size_t num_faces,
+                                                           std::size_t num_sites);
+
+//! Of `agvd compare`.
+[[nodiscard]] std::vector<ExpectedStage> stages_of_comparison(bool is_exact);
+
+}  // namespace cli
