@@ -113,6 +113,10 @@ void put_meshes(Seeds& seeds) {
               "property uint label\nproperty list uchar int vertex_indices\n"
               "property double heat\nend_header\n0 0 0 1 7 0 0 0\n1 0 0 1 -7 0 1 1 2\n"
               "1 1 0 1 8 1 1 0\n0 1 0 1 9 1 0 0\n5 4 0 1 2 3 nan\n9 3 0 1 2 -1e9\n");
+    seeds.put("read_ply",
+              "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
+              "property float z\nelement tristrips 1\nproperty list int int vertex_indices\n"
+              "end_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n9 0 1 2 3 4 -1 0 1 3\n");
     seeds.put("read_obj",
               "mtllib a.mtl\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\nusemtl a b\n"
               "g x\nf 3 2 1\nusemtl c\\\\\no y\nf 1 3 2\n");
