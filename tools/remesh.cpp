@@ -9,6 +9,7 @@
 
 #include "arguments.h"
 #include "attributes.h"
+#include "mesh_paths.h"
 #include "region.h"
 #include "remesh/io/atomic_file.h"
 #include "remesh/io/read_edges.h"
@@ -33,6 +34,7 @@ constexpr const char* footer =
 
 struct Arguments : cli::DiagramArguments {
     fs::path output;
+    std::string to;  // Its format; empty: by the extension.
     int relax_steps = remesh::RemeshOptions{}.relax_steps;
     bool keep_sites = false;
     std::optional<bool> fit;
@@ -169,9 +171,14 @@ void add_options(CLI::App& app, Arguments& arguments) {
         "--fit,!--no-fit", [&arguments](std::int64_t count) { arguments.fit = count > 0; },
         "Let vertices leave the surface so that the triangles lie nearer to it; the default if "
         "sites are relaxed");
-    app.add_option("OUT,-o,--output", arguments.output,
-                   "Mesh to write: .ply, .obj, .off or .stl; an existing file is replaced")
+    cli::add_mesh_output(app, "OUT,-o,--output",
+                         "Mesh to write: " + cli::mesh_extensions() +
+                             "; an existing file is replaced; - writes standard output, with --to",
+                         arguments.output)
         ->required();
+    cli::add_format_option(app, "--to",
+                           "Format of OUT where no extension names it: " + remesh::mesh_formats(),
+                           arguments.to);
     app.add_option("--report", arguments.report, "Write a JSON report; - writes it to stdout")
         ->type_name("FILE|-");
 }
@@ -226,12 +233,17 @@ void warn_of_bounds(const remesh::SizingResult& sizes, const remesh::Sizing& wan
     }
 }
 
+// Warns of a shape that suffers in the single precision of the format.
+void warn_of_rounding(const remesh::MeshPath& target, const agvd::MeshView& mesh,
+                      const agvd::Progress& progress, cli::Console& console) {
+    const std::string text =
+        remesh::describe(remesh::rounding_loss(target, mesh, progress), target);
+    if (!text.empty()) console.warn(text);
+}
+
 void check_outputs(const Arguments& arguments) {
-    if (!remesh::is_known_mesh_extension(arguments.output)) {
-        throw agvd::IoError(arguments.output.string() + ": unknown extension '" +
-                            arguments.output.extension().string() +
-                            "'; use .ply, .obj, .off or .stl");
-    }
+    static_cast<void>(remesh::mesh_format({arguments.output, arguments.to}));  // Is it known?
+    cli::check_one_on_stdout(arguments.output, arguments.report, "--report");
     struct Output {
         const char* name;
         const fs::path& path;
@@ -275,8 +287,9 @@ void run_job(const Arguments& arguments, cli::Console& console) {
         cli::labels_to_keep(arguments.attributes, arguments.input, input.attributes);
     remesh::Sizing sizing = cli::sizing_for(arguments.sizing, arguments.input, input);
     std::vector<std::uint8_t> region = cli::region_for(arguments.region, arguments.input, input);
-    const remesh::AttributeReport attributes = cli::select_attributes(
-        arguments.attributes, arguments.input, arguments.output, input.attributes, console);
+    const remesh::AttributeReport attributes =
+        cli::select_attributes(arguments.attributes, arguments.input,
+                               {arguments.output, arguments.to}, input.attributes, console);
     const bool needs_input = cli::needs_map(arguments.attributes, input.attributes);
     if (!needs_input) std::vector<agvd::Index>().swap(input.face_polygon);  // Not used any more.
     console.info(cli::describe(arguments.input, input.mesh.view()));
@@ -343,8 +356,10 @@ void run_job(const Arguments& arguments, cli::Console& console) {
     const remesh::MeshAttributes carried =
         cli::carry_attributes(arguments.attributes, input, result, arguments.common.threads,
                               console.progress_of("transfer"), files);
-    files.push_back({arguments.output,
-                     remesh::format_mesh(arguments.output, result.mesh.view(), carried, writing)});
+    const remesh::MeshPath target{arguments.output, arguments.to};
+    files.push_back(
+        {arguments.output, remesh::format_mesh(target, result.mesh.view(), carried, writing)});
+    warn_of_rounding(target, result.mesh.view(), writing, console);
     if (arguments.report == "-") {
         cli::print(remesh::to_json(result, info));
     } else if (!arguments.report.empty()) {

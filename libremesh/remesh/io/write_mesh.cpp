@@ -21,7 +21,9 @@ void check(const std::filesystem::path& path, const MeshFormat& format,
         }
         if ((mesh.positions[v].array().abs() > format.largest).any()) {
             fail("vertex", v,
-                 "is too large for the single precision of STL; write PLY, OBJ or OFF");
+                 "is too large for single precision, in which this format stores it; write .ply, "
+                 ".obj or "
+                 ".off");
         }
     }
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
@@ -67,21 +69,30 @@ MeshAttributes names_only(const MeshAttributes& attributes) {
 
 std::string format_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
                         const agvd::Progress& progress) {
-    return format_mesh(path, mesh, {}, progress);
+    return format_mesh(MeshPath{path}, mesh, {}, progress);
 }
 
 std::string format_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
                         const MeshAttributes& attributes, const agvd::Progress& progress) {
+    return format_mesh(MeshPath{path}, mesh, attributes, progress);
+}
+
+std::string format_mesh(const MeshPath& path, const agvd::MeshView& mesh,
+                        const MeshAttributes& attributes, const agvd::Progress& progress) {
     agvd::Poller poller(progress);
     const MeshFormat& format = require_format(path);
-    check(path, format, mesh);
-    check(path, attributes.of_vertices, mesh.positions.size());
-    check(path, attributes.of_faces, mesh.triangles.size());
+    check(path.path, format, mesh);
+    check(path.path, attributes.of_vertices, mesh.positions.size());
+    check(path.path, attributes.of_faces, mesh.triangles.size());
     return format.format(mesh, attributes, agvd::Ticker(poller));
 }
 
 std::vector<std::string> remove_unwritable(const std::filesystem::path& path,
                                            MeshAttributes& attributes) {
+    return remove_unwritable(MeshPath{path}, attributes);
+}
+
+std::vector<std::string> remove_unwritable(const MeshPath& path, MeshAttributes& attributes) {
     const MeshFormat& format = require_format(path);
     if (!format.has_normals) attributes.normals.reset();
     const MeshAttributes all = names_only(attributes);
@@ -104,7 +115,13 @@ void write_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
 }
 
 bool is_known_mesh_extension(const std::filesystem::path& path) {
-    return find_format(path) != nullptr;
+    return is_known_mesh_format({path});
 }
+
+bool is_known_mesh_format(const MeshPath& path) { return find_format(path) != nullptr; }
+
+std::string mesh_format(const MeshPath& path) { return require_format(path).name; }
+
+std::string mesh_formats(const char* mark) { return names_of_formats(mark); }
 
 }  // namespace remesh

@@ -32,7 +32,7 @@ TEST(ReadMesh, WhatIsNoFileIsRefused) {
     files::write(folder / "a.stl", "");
     EXPECT_NE(what_reading_says(folder / "a.stl").find("empty"), std::string::npos);
     expect_error<IoError>("a.vtk", "OFF", {"'.vtk'", ".ply, .obj, .off or .stl"});
-    expect_error<IoError>("mesh", "OFF", {"unknown"});
+    expect_error<IoError>("mesh", "OFF", {"unknown", "--from"});
 }
 
 TEST(ReadMesh, ExtensionsAreKnownInAnyCase) {
