@@ -130,4 +130,22 @@ TEST_F(Pipes, LossesOfSinglePrecisionAreWarnedOf) {
     EXPECT_EQ(shell("$REMESH $IN $DIR/near.stl -n 100 -q").err, "");
 }
 
+TEST_F(Pipes, CompressedMeshesAreReadAndWritten) {
+    if (!remesh::is_known_mesh_extension("a.ply.gz")) GTEST_SKIP() << "built without zlib";
+    const auto out = shell("gzip -c $IN | $REMESH - $DIR/a.off.gz --from off -n 60 -q");
+    EXPECT_EQ(out.exit_code, 0) << out.err;
+    EXPECT_EQ(shell("$REMESH $IN $DIR/a.off -n 60 -q").exit_code, 0);
+    EXPECT_EQ(shell("gzip -cd $DIR/a.off.gz").out, bytes("a.off"));
+    EXPECT_EQ(shell("$REMESH $IN - --to off.gz -n 60 -q | gzip -cd").out, bytes("a.off"));
+}
+
+TEST_F(Pipes, AHugeContentStopsAtTheMemoryLimit) {
+    if (!remesh::is_known_mesh_extension("a.ply.gz")) GTEST_SKIP() << "built without zlib";
+    EXPECT_EQ(shell("head -c 1000000000 /dev/zero | gzip -1 > $DIR/huge.ply.gz").exit_code, 0);
+    const auto outcome = shell("exec $REMESH $DIR/huge.ply.gz $DIR/a.off --memory-limit 200M");
+    EXPECT_EQ(outcome.exit_code, 1);
+    EXPECT_NE(outcome.err.find("--memory-limit (stage: read)"), std::string::npos) << outcome.err;
+    EXPECT_LT(outcome.peak_bytes, 400'000'000u);
+}
+
 }  // namespace

@@ -16,6 +16,9 @@ namespace remesh {
 [[nodiscard]] MeshFile read_obj(SourceFile file);
 [[nodiscard]] MeshFile read_off(SourceFile file);
 [[nodiscard]] MeshFile read_stl(SourceFile file);
+[[nodiscard]] MeshFile read_vtk(SourceFile file);
+[[nodiscard]] MeshFile read_medit(SourceFile file);
+[[nodiscard]] MeshFile read_glb(SourceFile file);
 
 //! Unless it is empty.
 inline void add_warning(const std::string& text, MeshFile& file) {
@@ -34,11 +37,21 @@ void attach(MeshAttributes attributes, MeshFile& file);
                                      agvd::Ticker ticker);
 [[nodiscard]] std::string format_stl(const agvd::MeshView& mesh, const MeshAttributes& attributes,
                                      agvd::Ticker ticker);
+[[nodiscard]] std::string format_vtk(const agvd::MeshView& mesh, const MeshAttributes& attributes,
+                                     agvd::Ticker ticker);
+[[nodiscard]] std::string format_medit(const agvd::MeshView& mesh, const MeshAttributes& attributes,
+                                       agvd::Ticker ticker);
+[[nodiscard]] std::string format_glb(const agvd::MeshView& mesh, const MeshAttributes& attributes,
+                                     agvd::Ticker ticker);
 
 //! See MeshFormat::holds.
 [[nodiscard]] bool obj_holds(const Attribute& attribute, ElementKind kind,
                              const MeshAttributes& all);
 [[nodiscard]] bool off_holds(const Attribute& attribute, ElementKind kind,
+                             const MeshAttributes& all);
+[[nodiscard]] bool medit_holds(const Attribute& attribute, ElementKind kind,
+                               const MeshAttributes& all);
+[[nodiscard]] bool glb_holds(const Attribute& attribute, ElementKind kind,
                              const MeshAttributes& all);
 
 struct MeshFormat {
@@ -54,13 +67,17 @@ struct MeshFormat {
     [[nodiscard]] bool is_single() const { return largest < std::numeric_limits<double>::max(); }
 };
 
-//! "ply, obj, off or stl" with `mark` before each name.
+//! "ply, obj, ... or glb" with `mark` before each name.
 [[nodiscard]] std::string names_of_formats(const char* mark);
 
 //! With its dot, in lower case; empty if there is none.
 [[nodiscard]] std::string lower_extension(const std::filesystem::path& path);
 
-//! The given format, or that of the path's extension (any case); nullptr: unknown.
+//! Whether the path or the format ends in .gz, and this build can compress.
+[[nodiscard]] bool is_compressed(const MeshPath& path);
+
+//! The given format, or that of the path's extension (any case), either without .gz; nullptr:
+//! unknown.
 [[nodiscard]] const MeshFormat* find_format(const MeshPath& path);
 
 //! As find_format.

@@ -16,7 +16,9 @@ namespace remesh {
 struct MeshPath {
     //! /dev/stdin and /dev/stdout are the streams of the process, whatever they are connected to.
     std::filesystem::path path;
-    std::string format = {};  //!< "ply", "obj", ...; empty: the extension names it, in any case.
+    //! "ply", "obj", ...; empty: the extension names it, in any case. Either may end in ".gz":
+    //! compressed. On reading the file itself tells whether it is.
+    std::string format = {};
 };
 
 struct MeshFile {

@@ -1,6 +1,7 @@
 #include "remesh/io/read_mesh.h"
 
 #include "remesh/io/formats.h"
+#include "remesh/io/gzip.h"
 
 namespace remesh {
 
@@ -11,6 +12,7 @@ MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options
     SourceFile file = load_file(path, poller);
     file.is_lenient = options.is_lenient;
     file.with_attributes = options.with_attributes;
+    if (is_gzip(file.bytes)) unpack_gzip(file);
     return format.read(std::move(file));
 }
 

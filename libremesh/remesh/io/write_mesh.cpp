@@ -5,6 +5,7 @@
 #include "agvd/core/error.h"
 #include "remesh/io/atomic_file.h"
 #include "remesh/io/formats.h"
+#include "remesh/io/gzip.h"
 
 namespace remesh {
 namespace {
@@ -56,13 +57,12 @@ void check(const std::filesystem::path& path, const std::vector<Attribute>& attr
     }
 }
 
-MeshAttributes names_only(const MeshAttributes& attributes) {
-    MeshAttributes names;
-    for (const Attribute& one : attributes.of_vertices) {
-        names.of_vertices.push_back({.name = one.name});
-    }
-    for (const Attribute& one : attributes.of_faces) names.of_faces.push_back({.name = one.name});
-    return names;
+// Names and types.
+std::vector<Attribute> without_values(const std::vector<Attribute>& attributes) {
+    std::vector<Attribute> empty;
+    empty.reserve(attributes.size());
+    for (const Attribute& one : attributes) empty.push_back({.name = one.name, .type = one.type});
+    return empty;
 }
 
 }  // namespace
@@ -84,7 +84,8 @@ std::string format_mesh(const MeshPath& path, const agvd::MeshView& mesh,
     check(path.path, format, mesh);
     check(path.path, attributes.of_vertices, mesh.positions.size());
     check(path.path, attributes.of_faces, mesh.triangles.size());
-    return format.format(mesh, attributes, agvd::Ticker(poller));
+    std::string bytes = format.format(mesh, attributes, agvd::Ticker(poller));
+    return is_compressed(path) ? pack_gzip(bytes, agvd::Ticker(poller)) : bytes;
 }
 
 std::vector<std::string> remove_unwritable(const std::filesystem::path& path,
@@ -95,7 +96,8 @@ std::vector<std::string> remove_unwritable(const std::filesystem::path& path,
 std::vector<std::string> remove_unwritable(const MeshPath& path, MeshAttributes& attributes) {
     const MeshFormat& format = require_format(path);
     if (!format.has_normals) attributes.normals.reset();
-    const MeshAttributes all = names_only(attributes);
+    const MeshAttributes all{.of_vertices = without_values(attributes.of_vertices),
+                             .of_faces = without_values(attributes.of_faces)};
     std::vector<std::string> removed;
     const auto keep_writable = [&](std::vector<Attribute>& some, ElementKind kind) {
         std::erase_if(some, [&](const Attribute& attribute) {
