@@ -103,7 +103,7 @@ TEST(Vtk, BinaryIsRead) {
     ASSERT_EQ(file.attributes.of_vertices.size(), 3u);
     EXPECT_EQ(file.attributes.of_vertices[1].name, "green");
     EXPECT_EQ(file.attributes.of_vertices[1].values, (std::vector<double>{'b', 'e', 'h'}));
-    for (std::size_t size = bytes.find("POINTS"); size < bytes.find("POINT_DATA"); ++size) {
+    for (std::size_t size = bytes.find("POINTS"); size < bytes.find("\nCELL_DATA"); ++size) {
         EXPECT_THROW(static_cast<void>(with_arrays(bytes.substr(0, size))), agvd::Error) << size;
     }
 }
