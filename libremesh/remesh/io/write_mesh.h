@@ -1,5 +1,5 @@
 //! \file
-//! Writes PLY, OBJ, OFF and STL.
+//! Writes PLY, OBJ, OFF, STL, legacy VTK, Medit and binary glTF.
 #pragma once
 
 #include <filesystem>
@@ -14,12 +14,13 @@ namespace remesh {
 //! Writes a temporary file and renames it, so that a failed or interrupted run does not change an
 //! old file (see write_file_atomically). Binary little-endian PLY with double coordinates, OBJ and
 //! OFF with the shortest decimals that read back as the same double, binary STL (float by the
-//! format's nature).
+//! format's nature), binary VTK with double coordinates, Medit as OBJ, GLB in float; compressed if
+//! .gz follows the extension.
 //!
 //! \throw agvd::IoError       the extension is unknown or the file cannot be written; says which
 //!        and why.
 //! \throw agvd::InvalidInput  read_mesh could not read it back: an index is out of range, a
-//!        coordinate is not finite (STL: beyond float).
+//!        coordinate is not finite (STL, GLB: beyond float).
 //! Cost: O(n) time; holds the whole file in memory.
 //! \throw agvd::Cancelled     the progress callback returned false; an old file is unchanged.
 void write_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
