@@ -19,34 +19,7 @@ namespace {
 
 using agvd::Vec3;
 using nlohmann::json;
-using Matrix = Eigen::Matrix3d;
-
-// p -> linear * p + shift.
-struct Transform {
-    Matrix linear = Matrix::Identity();
-    Vec3 shift = Vec3::Zero();
-
-    Vec3 operator()(const Vec3& p) const { return linear * p + shift; }
-    Transform operator*(const Transform& inner) const {
-        return {linear * inner.linear, linear * inner.shift + shift};
-    }
-    [[nodiscard]] bool is_reflection() const {
-        return linear.col(0).cross(linear.col(1)).dot(linear.col(2)) < 0;
-    }
-};
-
-// The rotation of a quaternion, of any length above 0.
-Matrix rotation_of(const std::vector<double>& quaternion) {
-    const Vec3 v(quaternion[0], quaternion[1], quaternion[2]);
-    const double w = quaternion[3], length_sq = v.squaredNorm() + w * w;
-    if (!(length_sq > 0)) return Matrix::Identity();
-    Matrix turned = Matrix::Identity();
-    for (int k = 0; k < 3; ++k) {
-        const Vec3 e = Vec3::Unit(k);
-        turned.col(k) = e + 2 / length_sq * (w * v.cross(e) + v.cross(v.cross(e)));
-    }
-    return turned;
-}
+using Transform = Eigen::Affine3d;
 
 constexpr std::uint64_t mode_triangles = 4, mode_strip = 5, mode_fan = 6;
 
@@ -57,7 +30,7 @@ public:
     MeshFile read() {
         if (glb_.list(glb_.root(), "scenes").empty()) {
             for (std::uint64_t m = 0; m < glb_.list(glb_.root(), "meshes").size(); ++m) {
-                read_mesh(m, {});
+                read_mesh(m, Transform::Identity());
             }
         } else {
             read_nodes(glb_.at("scenes", glb_.number(glb_.root(), "scene").value_or(0)));
@@ -88,7 +61,7 @@ private:
                 open.push_back({nodes[i].get<std::uint64_t>(), parent});
             }
         };
-        push(glb_.list(scene, "nodes"), {});
+        push(glb_.list(scene, "nodes"), Transform::Identity());
         while (!open.empty()) {
             const auto [index, parent] = open.back();
             open.pop_back();
@@ -103,28 +76,20 @@ private:
     }
 
     [[nodiscard]] Transform transform_of(const json& node) const {
-        Transform transform;
+        Transform transform = Transform::Identity();
         if (const auto matrix = glb_.numbers(node, "matrix", 16)) {
-            for (int column = 0; column < 4; ++column) {
-                const Vec3 v =
-                    Eigen::Map<const Vec3>(&(*matrix)[static_cast<std::size_t>(4 * column)]);
-                if (column < 3) {
-                    transform.linear.col(column) = v;
-                } else {
-                    transform.shift = v;
-                }
-            }
+            transform.matrix() = Eigen::Map<const Eigen::Matrix4d>(matrix->data());
             return transform;
         }
-        if (const auto rotation = glb_.numbers(node, "rotation", 4)) {
-            transform.linear = rotation_of(*rotation);
+        if (const auto t = glb_.numbers(node, "translation", 3)) {
+            transform.translate(Vec3((*t)[0], (*t)[1], (*t)[2]));
         }
-        if (const auto scale = glb_.numbers(node, "scale", 3)) {
-            for (int k = 0; k < 3; ++k)
-                transform.linear.col(k) *= (*scale)[static_cast<std::size_t>(k)];
+        if (const auto r = glb_.numbers(node, "rotation", 4)) {
+            const Eigen::Quaterniond rotation((*r)[3], (*r)[0], (*r)[1], (*r)[2]);
+            if (rotation.norm() > 0) transform.rotate(rotation.normalized());
         }
-        if (const auto shift = glb_.numbers(node, "translation", 3)) {
-            transform.shift = Eigen::Map<const Vec3>(shift->data());
+        if (const auto s = glb_.numbers(node, "scale", 3)) {
+            transform.scale(Vec3((*s)[0], (*s)[1], (*s)[2]));
         }
         return transform;
     }
@@ -149,7 +114,7 @@ private:
             if (is_new) read_vertices(*positions, *attributes, transform);
             const std::uint64_t count = glb_.array(*positions).num_rows;
             const std::size_t num_before = soup_.num_polygons();
-            read_faces(primitive, mode, entry->second, count, transform.is_reflection());
+            read_faces(primitive, mode, entry->second, count, transform.linear().determinant() < 0);
             add_materials(primitive, soup_.num_polygons() - num_before);
         }
     }
@@ -160,8 +125,8 @@ private:
         const std::size_t first = soup_.positions.size();
         for (std::uint64_t row = 0; row < array.num_rows; ++row) {
             soup_.ticker.tick(4);
-            const Vec3 p = transform(Vec3(glb_.value(array, row, 0), glb_.value(array, row, 1),
-                                          glb_.value(array, row, 2)));
+            const Vec3 p = transform * Vec3(glb_.value(array, row, 0), glb_.value(array, row, 1),
+                                            glb_.value(array, row, 2));
             if (!p.allFinite()) {
                 file_.fail_unusable(
                     array.offset + row * array.stride,
