@@ -15,7 +15,7 @@
 namespace remesh {
 namespace {
 
-using json = nlohmann::ordered_json;
+using GlbJson = nlohmann::ordered_json;
 
 constexpr int of_vertices = 34962, of_corners = 34963;  // Targets of views.
 constexpr int type_byte = 5121, type_index = 5125, type_float = 5126;
@@ -23,10 +23,10 @@ constexpr int type_byte = 5121, type_index = 5125, type_float = 5126;
 // The data of the file, and what the JSON says of them.
 struct GlbBuffer {
     std::string bytes;
-    json views = json::array(), accessors = json::array();
+    GlbJson views = GlbJson::array(), accessors = GlbJson::array();
 
     // Describes the bytes appended since `begin`. \return the number of the accessor.
-    std::size_t add(std::size_t begin, int target, json accessor) {
+    std::size_t add(std::size_t begin, int target, GlbJson accessor) {
         views.push_back({{"buffer", 0},
                          {"byteOffset", begin},
                          {"byteLength", bytes.size() - begin},
@@ -114,7 +114,7 @@ std::string format_glb(const agvd::MeshView& mesh, const MeshAttributes& attribu
             ".glb; write .ply");
     }
     GlbBuffer buffer;
-    json primitive;
+    GlbJson primitive;
     primitive["attributes"]["POSITION"] =
         add_vectors({mesh.positions.begin(), mesh.positions.end()}, ticker, buffer);
     if (attributes.normals) {
@@ -125,14 +125,15 @@ std::string format_glb(const agvd::MeshView& mesh, const MeshAttributes& attribu
             add_colors(colors, mesh.positions.size(), ticker, buffer);
     }
     primitive["indices"] = add_corners(mesh, ticker, buffer);
-    const json root = {{"asset", {{"version", "2.0"}, {"generator", "remesh"}}},
-                       {"scene", 0},
-                       {"scenes", json::array({{{"nodes", json::array({0})}}})},
-                       {"nodes", json::array({{{"mesh", 0}}})},
-                       {"meshes", json::array({{{"primitives", json::array({primitive})}}})},
-                       {"buffers", json::array({{{"byteLength", buffer.bytes.size()}}})},
-                       {"bufferViews", buffer.views},
-                       {"accessors", buffer.accessors}};
+    const GlbJson root = {
+        {"asset", {{"version", "2.0"}, {"generator", "remesh"}}},
+        {"scene", 0},
+        {"scenes", GlbJson::array({{{"nodes", GlbJson::array({0})}}})},
+        {"nodes", GlbJson::array({{{"mesh", 0}}})},
+        {"meshes", GlbJson::array({{{"primitives", GlbJson::array({primitive})}}})},
+        {"buffers", GlbJson::array({{{"byteLength", buffer.bytes.size()}}})},
+        {"bufferViews", buffer.views},
+        {"accessors", buffer.accessors}};
     std::string chunks;
     append_chunk("JSON", root.dump(), ' ', chunks);
     append_chunk("BIN\0", std::move(buffer.bytes), '\0', chunks);

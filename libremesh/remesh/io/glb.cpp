@@ -18,7 +18,6 @@ namespace remesh {
 namespace {
 
 using agvd::Vec3;
-using nlohmann::json;
 using Transform = Eigen::Affine3d;
 
 constexpr std::uint64_t mode_triangles = 4, mode_strip = 5, mode_fan = 6;
@@ -48,14 +47,14 @@ public:
 
 private:
     // In the order of the file, children after their parent. A node has one parent at most.
-    void read_nodes(const json& scene) {
+    void read_nodes(const nlohmann::json& scene) {
         struct Open {
             std::uint64_t node;
             Transform parent;
         };
         std::vector<Open> open;
         std::vector<bool> is_seen(glb_.list(glb_.root(), "nodes").size(), false);
-        const auto push = [&](const json& nodes, const Transform& parent) {
+        const auto push = [&](const nlohmann::json& nodes, const Transform& parent) {
             for (std::size_t i = nodes.size(); i-- > 0;) {
                 if (!nodes[i].is_number_unsigned()) glb_.fail("a node is no whole number from 0");
                 open.push_back({nodes[i].get<std::uint64_t>(), parent});
@@ -66,7 +65,7 @@ private:
             const auto [index, parent] = open.back();
             open.pop_back();
             soup_.ticker.tick(16);
-            const json& node = glb_.at("nodes", index);
+            const nlohmann::json& node = glb_.at("nodes", index);
             if (is_seen[index]) glb_.fail("node " + std::to_string(index) + " has several parents");
             is_seen[index] = true;
             const Transform transform = parent * transform_of(node);
@@ -75,7 +74,7 @@ private:
         }
     }
 
-    [[nodiscard]] Transform transform_of(const json& node) const {
+    [[nodiscard]] Transform transform_of(const nlohmann::json& node) const {
         Transform transform = Transform::Identity();
         if (const auto matrix = glb_.numbers(node, "matrix", 16)) {
             transform.matrix() = Eigen::Map<const Eigen::Matrix4d>(matrix->data());
@@ -96,7 +95,7 @@ private:
 
     void read_mesh(std::uint64_t index, const Transform& transform) {
         std::map<std::uint64_t, std::size_t> first_vertex;  // By accessor: primitives may share it.
-        for (const json& primitive : glb_.list(glb_.at("meshes", index), "primitives")) {
+        for (const nlohmann::json& primitive : glb_.list(glb_.at("meshes", index), "primitives")) {
             if (!primitive.is_object()) glb_.fail("a primitive is no object");
             const std::uint64_t mode = glb_.number(primitive, "mode").value_or(mode_triangles);
             if (mode < mode_triangles || mode > mode_fan) {
@@ -119,7 +118,8 @@ private:
         }
     }
 
-    void read_vertices(std::uint64_t accessor, const json& attributes, const Transform& transform) {
+    void read_vertices(std::uint64_t accessor, const nlohmann::json& attributes,
+                       const Transform& transform) {
         const GlbArray array = glb_.array(accessor);
         if (array.num_columns != 3) glb_.fail("positions do not have three coordinates");
         const std::size_t first = soup_.positions.size();
@@ -139,7 +139,7 @@ private:
         if (file_.with_attributes) read_attributes(attributes, first, array.num_rows);
     }
 
-    void read_attributes(const json& attributes, std::size_t first, std::uint64_t count) {
+    void read_attributes(const nlohmann::json& attributes, std::size_t first, std::uint64_t count) {
         for (const auto& [name, accessor] : attributes.items()) {
             if (name == "POSITION") continue;
             if (name == "COLOR_0" && accessor.is_number_unsigned()) {
@@ -168,7 +168,7 @@ private:
 
     // \param first   the vertex that the primitive calls 0, of `count`.
     // \param turned  the transform is a reflection.
-    void read_faces(const json& primitive, std::uint64_t mode, std::size_t first,
+    void read_faces(const nlohmann::json& primitive, std::uint64_t mode, std::size_t first,
                     std::uint64_t count, bool turned) {
         GlbArray indices{.num_rows = count};
         const auto accessor = glb_.number(primitive, "indices");
@@ -215,11 +215,11 @@ private:
     };
     static void add(StripTriangles& strip, const Corner& c) { strip.add(c.vertex, c.offset); }
 
-    void add_materials(const json& primitive, std::size_t num_faces) {
+    void add_materials(const nlohmann::json& primitive, std::size_t num_faces) {
         if (!file_.with_attributes) return;
         std::string name;
         if (const auto material = glb_.number(primitive, "material")) {
-            const json& properties = glb_.at("materials", *material);
+            const nlohmann::json& properties = glb_.at("materials", *material);
             const auto found = properties.find("name");
             name = found != properties.end() && found->is_string()
                        ? found->get<std::string>()

@@ -9,12 +9,10 @@
 namespace remesh {
 namespace {
 
-using nlohmann::json;
-
-constexpr std::size_t header_size = 12;
-constexpr std::size_t chunk_header_size = 8;
+constexpr std::size_t glb_header_size = 12;
+constexpr std::size_t glb_chunk_header_size = 8;
 constexpr std::uint32_t json_chunk = 0x4E4F534A, bin_chunk = 0x004E4942;
-constexpr const char* export_again = "; export the file again";
+constexpr const char* export_glb_again = "; export the file again";
 
 struct ComponentType {
     std::int64_t number;
@@ -72,30 +70,30 @@ GlbContainer::GlbContainer(SourceFile& file) : file_(file) {
         file_.fail_malformed(bytes.size(), "the file ends before byte " + std::to_string(size) +
                                                "; it is truncated: export the file again");
     };
-    require_size(header_size + chunk_header_size);
+    require_size(glb_header_size + glb_chunk_header_size);
     const auto version = load<std::uint32_t>(&bytes[4]);
     if (version != 2) {
         file_.fail_malformed(4, "glTF of version " + std::to_string(version) +
                                     " is not supported; export the file as glTF 2.0");
     }
     require_size(load<std::uint32_t>(&bytes[8]));
-    const std::uint64_t json_size = load<std::uint32_t>(&bytes[header_size]);
-    const std::size_t json_begin = header_size + chunk_header_size;
-    if (load<std::uint32_t>(&bytes[header_size + 4]) != json_chunk) {
-        file_.fail_malformed(header_size, "the first chunk is not JSON; export the file again");
+    const std::uint64_t json_size = load<std::uint32_t>(&bytes[glb_header_size]);
+    const std::size_t json_begin = glb_header_size + glb_chunk_header_size;
+    if (load<std::uint32_t>(&bytes[glb_header_size + 4]) != json_chunk) {
+        file_.fail_malformed(glb_header_size, "the first chunk is not JSON; export the file again");
     }
     require_size(json_begin + json_size);
     const std::size_t next = json_begin + json_size;
-    if (next + chunk_header_size <= bytes.size() &&
+    if (next + glb_chunk_header_size <= bytes.size() &&
         load<std::uint32_t>(&bytes[next + 4]) == bin_chunk) {
         bin_size_ = load<std::uint32_t>(&bytes[next]);
-        bin_begin_ = next + chunk_header_size;
+        bin_begin_ = next + glb_chunk_header_size;
         require_size(bin_begin_ + bin_size_);
     }
-    json_ = json::parse(bytes.data() + json_begin, bytes.data() + json_begin + json_size, nullptr,
-                        false);
+    json_ = nlohmann::json::parse(bytes.data() + json_begin, bytes.data() + json_begin + json_size,
+                                  nullptr, false);
     if (!json_.is_object()) fail("the first chunk is no JSON object");
-    for (const json& extension : list(json_, "extensionsRequired")) {
+    for (const nlohmann::json& extension : list(json_, "extensionsRequired")) {
         const std::string name = extension.is_string() ? extension.get<std::string>() : "?";
         if (is_harmless(name)) continue;
         file_.fail_malformed(json_begin, "the file needs the extension " + in_quotes(name) +
@@ -105,38 +103,39 @@ GlbContainer::GlbContainer(SourceFile& file) : file_(file) {
 }
 
 void GlbContainer::fail(const std::string& text) const {
-    file_.fail_malformed(header_size + chunk_header_size, text + export_again);
+    file_.fail_malformed(glb_header_size + glb_chunk_header_size, text + export_glb_again);
 }
 
-const json& GlbContainer::at(const char* list_name, std::uint64_t index) const {
-    const json& all = list(json_, list_name);
+const nlohmann::json& GlbContainer::at(const char* list_name, std::uint64_t index) const {
+    const nlohmann::json& all = list(json_, list_name);
     if (index >= all.size() || !all[index].is_object()) {
         fail(std::string(list_name) + " has no element " + std::to_string(index));
     }
     return all[index];
 }
 
-const json& GlbContainer::list(const json& object, const char* key) const {
-    static const json empty = json::array();
+const nlohmann::json& GlbContainer::list(const nlohmann::json& object, const char* key) const {
+    static const nlohmann::json empty = nlohmann::json::array();
     const auto found = object.find(key);
     if (found == object.end()) return empty;
     if (!found->is_array()) fail(std::string(key) + " is no list");
     return *found;
 }
 
-std::optional<std::uint64_t> GlbContainer::number(const json& object, const char* key) const {
+std::optional<std::uint64_t> GlbContainer::number(const nlohmann::json& object,
+                                                  const char* key) const {
     const auto found = object.find(key);
     if (found == object.end()) return std::nullopt;
     if (!found->is_number_unsigned()) fail(std::string(key) + " is no whole number from 0");
     return found->get<std::uint64_t>();
 }
 
-std::optional<std::vector<double>> GlbContainer::numbers(const json& object, const char* key,
-                                                         std::size_t count) const {
+std::optional<std::vector<double>> GlbContainer::numbers(const nlohmann::json& object,
+                                                         const char* key, std::size_t count) const {
     if (object.find(key) == object.end()) return std::nullopt;
-    const json& all = list(object, key);
+    const nlohmann::json& all = list(object, key);
     std::vector<double> values;
-    for (const json& value : all) {
+    for (const nlohmann::json& value : all) {
         values.push_back(value.is_number() ? value.get<double>() : std::nan(""));
         if (!std::isfinite(values.back()))
             fail(std::string(key) + " has a value that is no number");
@@ -148,12 +147,12 @@ std::optional<std::vector<double>> GlbContainer::numbers(const json& object, con
 }
 
 GlbArray GlbContainer::array(std::uint64_t index) const {
-    const json& accessor = at("accessors", index);
+    const nlohmann::json& accessor = at("accessors", index);
     const std::string name = "accessor " + std::to_string(index);
     if (accessor.contains("sparse") || !accessor.contains("bufferView")) {
         fail(name + " is sparse or has no data, which is not supported");
     }
-    const json& view = at("bufferViews", *number(accessor, "bufferView"));
+    const nlohmann::json& view = at("bufferViews", *number(accessor, "bufferView"));
     const std::uint64_t buffer = number(view, "buffer").value_or(0);
     if (buffer != 0 || at("buffers", buffer).contains("uri")) {
         fail(name + " lies in another file or buffer, which is not supported");
