@@ -75,7 +75,7 @@ public:
 };
 
 // Each chunk is freed as soon as it is appended, so that nothing is in memory twice.
-std::string joined(std::vector<std::string> chunks) {
+std::string joined_chunks(std::vector<std::string> chunks) {
     std::size_t size = 0;
     for (const std::string& chunk : chunks) size += chunk.size();
     std::string bytes;
@@ -129,7 +129,7 @@ void unpack_gzip(SourceFile& file) {
                             "file again");
     }
     file.bytes = {};
-    file.bytes = joined(std::move(chunks));
+    file.bytes = joined_chunks(std::move(chunks));
     file.is_binary = false;
     if (file.bytes.empty()) {
         file.fail_malformed(0, "the compressed file is empty; export the file again");
@@ -147,7 +147,7 @@ std::string pack_gzip(const std::string& bytes, agvd::Ticker ticker) {
             return ::deflate(&stream, is_last ? Z_FINISH : Z_NO_FLUSH);
         });
     }
-    return joined(std::move(chunks));
+    return joined_chunks(std::move(chunks));
 }
 
 }  // namespace remesh

@@ -86,7 +86,7 @@ private:
                 return add_polygon(begin, end);
             case VtkCell::Pixel:
                 require_corners(end - begin, 4);
-                for (const std::size_t k : {0, 1, 3, 2})
+                for (const std::size_t k : {0u, 1u, 3u, 2u})
                     soup_.add_corner(vertex(begin + k), offset());
                 return soup_.end_polygon();
             case VtkCell::Polygon:
