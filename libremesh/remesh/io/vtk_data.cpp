@@ -163,7 +163,7 @@ public:
           attributes_(attributes),
           target_(kind == ElementKind::Vertex ? attributes.of_vertices : attributes.of_faces) {}
 
-    void take(VtkArray array) {
+    void take(const VtkArray& array) {
         if (array.values.size() != num_elements_ * array.num_components) {
             file_.fail_malformed(
                 array.offset,
@@ -217,9 +217,9 @@ MeshAttributes read_attributes(VtkData& data, const CellReader& cells, std::size
                                const SourceFile& file) {
     MeshAttributes attributes{.normals = data.normals, .declined = std::move(data.declined)};
     ArrayReader of_points(ElementKind::Vertex, num_points, file, attributes);
-    for (VtkArray& array : data.of_points) of_points.take(std::move(array));
+    for (const VtkArray& array : data.of_points) of_points.take(array);
     ArrayReader of_cells(ElementKind::Face, cells.num_cells(), file, attributes);
-    for (VtkArray& array : data.of_cells) of_cells.take(std::move(array));
+    for (const VtkArray& array : data.of_cells) of_cells.take(array);
     for (Attribute& attribute : attributes.of_faces) {
         std::vector<double> of_polygons;
         of_polygons.reserve(cells.cell_of_polygon().size());

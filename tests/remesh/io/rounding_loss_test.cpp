@@ -37,6 +37,7 @@ TEST(RoundingLoss, CountsVerticesThatFallOntoOthers) {
     const agvd::TriangleMesh mesh{
         {{9e6, 0, 0}, {9e6 + 0.25, 0, 0}, {9e6, 0, 4}, {9e6, 0, 4}, {9e6, 0, 4.5}}, {{0, 1, 2}}};
     EXPECT_EQ(loss_of(mesh).merged, 1u);  // Two lay on one spot before.
+    EXPECT_EQ(loss_of({mesh.positions, {{2, 3, 4}}}).shortest_edge, 0.5);
     const remesh::RoundingLoss small{.largest_shift = 1e-9, .diagonal = 1, .shortest_edge = 1};
     EXPECT_FALSE(small.matters());
     remesh::RoundingLoss merging = small;
