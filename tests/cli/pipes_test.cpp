@@ -69,6 +69,12 @@ TEST_F(Pipes, ErrorsOfStandardInputNameIt) {
     EXPECT_EQ(num_files(), 1u);
 }
 
+TEST_F(Pipes, StandardInputIsReadFromWhereItStands) {
+    put("two", "a line for the shell\n" + bytes("in.off"));
+    const auto outcome = shell("(read first; $REMESH - $DIR/a.off --from off -n 60 -q) < $DIR/two");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+}
+
 TEST_F(Pipes, AFileOnStandardOutputIsWrittenToNotReplaced) {
     const auto outcome =
         shell("(echo first; $REMESH $IN - --to off -n 60 -q; echo last) > $DIR/all");
@@ -101,6 +107,7 @@ TEST_F(Pipes, AClosedPipeIsAnErrorOfTheFile) {
     const auto outcome = shell("($REMESH $IN - --to off -n 60 -q; echo $? >&2) | true");
     EXPECT_NE(outcome.err.find("/dev/stdout: cannot be written: Broken pipe"), std::string::npos)
         << outcome.err;
+    EXPECT_NE(outcome.err.find("; check the program that reads"), std::string::npos) << outcome.err;
     EXPECT_EQ(outcome.err.substr(outcome.err.size() - 2), "3\n");
     EXPECT_EQ(shell("$REMESH $IN - --to off -n 60 >&-").exit_code, 3);
 }
