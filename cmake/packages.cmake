@@ -17,6 +17,9 @@ if(AGVD_BUILD_REMESH)
     agvd_need(FastFloat libfast-float-dev "${otherwise}")
     agvd_need(nlohmann_json nlohmann-json3-dev "${otherwise}")
 endif()
+if(AGVD_BUILD_REMESH AND AGVD_WITH_ZLIB)
+    agvd_need(ZLIB zlib1g-dev "compressed files (without them: -DAGVD_WITH_ZLIB=OFF)")
+endif()
 if(AGVD_WITH_OPENMESH)
     # CGAL brings a find module of that name.
     agvd_need(OpenMesh libopenmesh-dev

@@ -36,7 +36,7 @@ constexpr Package packages[] = {
     {"tbb/", R"(agvd/core/parallel\.cpp)"},
     {"CGAL/", R"(agvd/metrics/oracle\.cpp|remesh/quality/.*\.cpp)"},
     {"OpenMesh/", R"(remesh/io/(.*\.cpp|openmesh_exchange\.h))"},
-    {"nlohmann/", R"(remesh/io/.*\.cpp)"},
+    {"nlohmann/", R"(remesh/io/(.*\.cpp|glb_container\.h))"},
     {"fast_float/", R"(remesh/io/(.*\.cpp|text_scanner\.h))"},
     {"sys/", R"(remesh/io/.*\.cpp)"},
 };

@@ -10,6 +10,8 @@
 #include <string>
 
 #include "help.h"
+#include "mesh_paths.h"
+#include "remesh/io/write_mesh.h"
 
 namespace cli {
 namespace {
@@ -163,7 +165,13 @@ agvd::Index num_samples_for(const DiagramArguments& arguments, std::size_t num_v
 
 void add_diagram_options(CLI::App& app, DiagramArguments& arguments) {
     start_group(app, heading::files);
-    app.add_option("IN", arguments.input, "Mesh to read: .ply, .obj, .off or .stl")->required();
+    add_mesh_input(app, "IN",
+                   "Mesh to read: " + mesh_extensions() + "; - reads standard input, with --from",
+                   arguments.input)
+        ->required();
+    add_format_option(app, "--from",
+                      "Format of IN where no extension names it: " + remesh::mesh_formats(),
+                      arguments.from);
     add_site_options(app, arguments);
     add_propagation_options(app, arguments.propagation);
     arguments.memory_limit = machine_memory() / 4 * 3;
@@ -198,6 +206,7 @@ remesh::MeshFile read_input(const DiagramArguments& arguments, Console& console,
     remesh::MeshFile file = remesh::read_mesh(
         arguments.input, remesh::ReadOptions{.is_lenient = arguments.is_lenient,
                                              .with_attributes = attributes == WithAttributes::Yes,
+                                             .format = arguments.from,
                                              .progress = console.progress_of("read")});
     for (const std::string& warning : file.warnings) console.warn(warning);
     return file;

@@ -24,6 +24,7 @@ namespace cli {
 //! Values of the options; all are in their documented range once run() calls the job.
 struct DiagramArguments {
     std::filesystem::path input;
+    std::string from;             //!< Its format; empty: by the extension.
     std::filesystem::path sites;  //!< Empty: sample.
     remesh::SamplingOptions sampling;
     double sample_percent = 0;  //!< Of the input's vertices; 0: sampling.num_samples counts.
@@ -50,7 +51,8 @@ struct Amount {
 //! Nothing unless the text is such a number, finite and above 0.
 [[nodiscard]] std::optional<Amount> parse_amount(std::string_view text);
 
-//! Adds IN, --samples, --init, --seed, --sites, --engine, --max-error, --steiner-points, --lambda,
+//! Adds IN, --from, --samples, --init, --seed, --sites, --engine, --max-error, --steiner-points,
+//! --lambda,
 //! --memory-limit, --force, --lenient and the common options.
 void add_diagram_options(CLI::App& app, DiagramArguments& arguments);
 

@@ -142,18 +142,18 @@ std::vector<agvd::Index> labels_to_keep(const AttributeArguments& arguments,
 
 remesh::AttributeReport select_attributes(const AttributeArguments& arguments,
                                           const std::filesystem::path& input,
-                                          const std::filesystem::path& output,
+                                          const remesh::MeshPath& output,
                                           remesh::MeshAttributes& attributes, Console& console) {
     if (arguments.transfer == "none") attributes = {};
     if (arguments.transfer != "all" && arguments.transfer != "none") {
         keep_named(split(arguments.transfer), input, attributes);
     }
     const std::string reason =
-        output.extension().string() + " files have no place for it; write .ply to keep it";
+        "." + remesh::mesh_format(output) + " files have no place for it; write .ply to keep it";
     for (const std::string& name : remesh::remove_unwritable(output, attributes)) {
         attributes.declined.push_back({name, reason});
     }
-    move_material_files(input, output, attributes.material_files);
+    move_material_files(input, output.path, attributes.material_files);
     warn_of(attributes.declined, console);
     return {names_in(attributes), attributes.declined, arguments.map.string()};
 }

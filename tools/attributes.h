@@ -37,7 +37,7 @@ void add_attribute_options(CLI::App& app, AttributeArguments& arguments);
 //!        do.
 [[nodiscard]] remesh::AttributeReport select_attributes(const AttributeArguments& arguments,
                                                         const std::filesystem::path& input,
-                                                        const std::filesystem::path& output,
+                                                        const remesh::MeshPath& output,
                                                         remesh::MeshAttributes& attributes,
                                                         Console& console);
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <system_error>
 
+#include "mesh_paths.h"
 #include "remesh/io/atomic_file.h"
 #include "remesh/io/write_mesh.h"
 
@@ -85,9 +86,11 @@ fs::path only_output(std::span<const fs::path> outputs) {
                               "--out-dir");
 }
 
-fs::path output_in(const fs::path& folder, const fs::path& input) {
+fs::path output_in(const fs::path& folder, const fs::path& input, const std::string& format) {
     fs::path output = folder / input.filename();
-    if (!remesh::is_known_mesh_extension(output)) output.replace_extension(".ply");
+    if (format.empty() && remesh::is_known_mesh_extension(output)) return output;
+    if (output.extension() == ".gz") output.replace_extension();
+    output.replace_extension(format.empty() ? "ply" : format);
     return output;
 }
 
@@ -95,11 +98,11 @@ std::vector<BatchMesh> plan_batch(const BatchArguments& arguments) {
     std::vector<BatchMesh> meshes;
     Places places;
     for (const fs::path& input : arguments.inputs) {
-        if (!input.has_filename() || input == "-") {
+        if (!input.has_filename() || is_standard_stream(input)) {
             throw agvd::InvalidOption("'" + input.string() +
                                       "' gives no name for a file in --out-dir; name a file");
         }
-        meshes.push_back({input, output_in(arguments.folder, input)});
+        meshes.push_back({input, output_in(arguments.folder, input, arguments.to)});
         add_output(meshes.back().output, input.string(), places);
     }
     if (!arguments.report.empty() && arguments.report != "-") {

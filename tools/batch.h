@@ -22,6 +22,7 @@ struct BatchMesh {
 struct BatchArguments {
     std::vector<std::filesystem::path> inputs;
     std::filesystem::path folder;  //!< Of the outputs; made if it does not exist.
+    std::string to;                //!< Format of the outputs; empty: by the inputs' names.
     std::filesystem::path report;  //!< Empty: none; "-": stdout.
     bool force = false;            //!< Outputs may replace inputs.
 };
@@ -30,9 +31,12 @@ struct BatchArguments {
 //! \throw agvd::InvalidOption  there is not exactly one; the text tells of --out-dir.
 [[nodiscard]] std::filesystem::path only_output(std::span<const std::filesystem::path> outputs);
 
-//! The file of the same name in `folder`; .ply in place of an extension that cannot be written.
+//! The file of the same name in `folder`. Its extension is that of the format; without one, .ply
+//! takes the place of an extension that cannot be written.
+//! \param format  "ply", "obj.gz", ...; empty: none.
 [[nodiscard]] std::filesystem::path output_in(const std::filesystem::path& folder,
-                                              const std::filesystem::path& input);
+                                              const std::filesystem::path& input,
+                                              const std::string& format = {});
 
 //! The outputs of all inputs, in their order. Nothing is read or written.
 //! \throw agvd::InvalidOption  two files would be written to the same place, or, without `force`,

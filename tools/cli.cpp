@@ -147,8 +147,10 @@ void stop_if_interrupted() {
 
 bool is_same_file(const fs::path& a, const fs::path& b) {
     std::error_code ignored;  // Such as that there is no such file yet.
-    return fs::equivalent(a, b, ignored) ||
-           fs::weakly_canonical(fs::absolute(a)) == fs::weakly_canonical(fs::absolute(b));
+    if (a == b || fs::equivalent(a, b, ignored)) return true;
+    const fs::path real_a = fs::weakly_canonical(fs::absolute(a), ignored);
+    const fs::path real_b = fs::weakly_canonical(fs::absolute(b), ignored);
+    return !real_a.empty() && real_a == real_b;
 }
 
 void check_output(const fs::path& path, std::initializer_list<fs::path> inputs,

@@ -12,6 +12,7 @@
 #include "batch.h"
 #include "expected_stages.h"
 #include "help.h"
+#include "mesh_paths.h"
 #include "mesh_run.h"
 #include "region.h"
 #include "remesh/io/read_edges.h"
@@ -50,6 +51,7 @@ struct Arguments : cli::DiagramArguments {
     fs::path output;
     fs::path folder;  // Of many outputs; empty: there is one.
     bool no_clobber = false;
+    std::string to;  // Format of the outputs; empty: by the extension.
     int relax_steps = remesh::RemeshOptions{}.relax_steps;
     bool keep_sites = false;
     std::optional<bool> fit;
@@ -197,11 +199,19 @@ void add_options(CLI::App& app, Arguments& arguments) {
 
 void add_output_options(CLI::App& app, Arguments& arguments) {
     cli::start_group(app, cli::heading::files);
-    app.add_option("OUT", arguments.further,
-                   "Mesh to write: .ply, .obj, .off or .stl; an existing file is replaced. With "
-                   "--out-dir: more meshes to read");
+    cli::add_mesh_outputs(app, "OUT",
+                          "Mesh to write: " + cli::mesh_extensions() +
+                              "; an existing file is replaced; - writes standard output, with "
+                              "--to. With --out-dir: more meshes to read",
+                          arguments.further);
     CLI::Option* const output =
-        app.add_option("-o,--output", arguments.output, "The same as OUT")->type_name("FILE");
+        cli::add_mesh_output(app, "-o,--output", "The same as OUT", arguments.output)
+            ->type_name("FILE");
+    cli::add_format_option(app, "--to",
+                           "Format of OUT where no extension names it, or of all files in "
+                           "--out-dir: " +
+                               remesh::mesh_formats(),
+                           arguments.to);
     app.add_option("--out-dir", arguments.folder,
                    "Read many meshes, and write each to a file of its name in this folder")
         ->excludes(output)
@@ -217,11 +227,8 @@ void add_output_options(CLI::App& app, Arguments& arguments) {
 }
 
 void check_outputs(const Arguments& arguments) {
-    if (!remesh::is_known_mesh_extension(arguments.output)) {
-        throw agvd::IoError(arguments.output.string() + ": unknown extension '" +
-                            arguments.output.extension().string() +
-                            "'; use .ply, .obj, .off or .stl");
-    }
+    static_cast<void>(remesh::mesh_format({arguments.output, arguments.to}));  // Is it known?
+    cli::check_one_on_stdout(arguments.output, arguments.report, "--report");
     struct Output {
         const char* name;
         const fs::path& path;
@@ -266,8 +273,9 @@ cli::Products make_products(const Arguments& arguments, cli::Console& console) {
         cli::labels_to_keep(arguments.attributes, arguments.input, input.attributes);
     remesh::Sizing sizing = cli::sizing_for(arguments.sizing, arguments.input, input);
     std::vector<std::uint8_t> region = cli::region_for(arguments.region, arguments.input, input);
-    const remesh::AttributeReport attributes = cli::select_attributes(
-        arguments.attributes, arguments.input, arguments.output, input.attributes, console);
+    const remesh::AttributeReport attributes =
+        cli::select_attributes(arguments.attributes, arguments.input,
+                               {arguments.output, arguments.to}, input.attributes, console);
     const bool needs_input = cli::needs_map(arguments.attributes, input.attributes);
     if (!needs_input) std::vector<agvd::Index>().swap(input.face_polygon);  // Not used any more.
     console.info(cli::describe(arguments.input, input.mesh.view()));
@@ -331,15 +339,17 @@ cli::Products make_products(const Arguments& arguments, cli::Console& console) {
                          .output_path = arguments.output.string(),
                          .options = options,
                          .attributes = attributes};
+    const agvd::Progress writing = console.progress_of("write");
     cli::Products products;
     const remesh::MeshAttributes carried =
         cli::carry_attributes(arguments.attributes, input, result, arguments.common.threads,
                               console.progress_of("transfer"), products.files);
+    const remesh::MeshPath target{arguments.output, arguments.to};
     products.files.push_back(
-        {arguments.output, remesh::format_mesh(arguments.output, result.mesh.view(), carried,
-                                               console.progress_of("write"))});
+        {arguments.output, remesh::format_mesh(target, result.mesh.view(), carried, writing)});
+    cli::warn_of_rounding(target, result.mesh.view(), writing, console);
     if (!arguments.report.empty()) {
-        info.output = remesh::measure_figures(result.mesh.view(), console.progress_of("write"));
+        info.output = remesh::measure_figures(result.mesh.view(), writing);
         info.warnings = console.warnings();
         products.report = remesh::to_json(result, info);
     }
@@ -368,6 +378,7 @@ void run_one(Arguments arguments) {
 void run_many(const Arguments& arguments) {
     cli::BatchArguments batch{.inputs = {arguments.input},
                               .folder = arguments.folder,
+                              .to = arguments.to,
                               .report = arguments.report,
                               .force = arguments.force};
     batch.inputs.insert(batch.inputs.end(), arguments.further.begin(), arguments.further.end());

@@ -3,8 +3,10 @@
 
 #include "cli.h"
 #include "help.h"
+#include "mesh_paths.h"
 #include "remesh/io/read_mesh.h"
 #include "remesh/io/report.h"
+#include "remesh/io/write_mesh.h"
 
 namespace fs = std::filesystem;
 
@@ -26,7 +28,8 @@ constexpr const char* footer =
 struct Arguments {
     fs::path original;
     fs::path result;
-    fs::path report;  // Empty: none; "-": stdout, and no text.
+    std::string from;  // Format of the one that comes from standard input.
+    fs::path report;   // Empty: none; "-": stdout, and no text.
     remesh::EvaluationOptions options;
 };
 
@@ -35,10 +38,18 @@ void run_job(Arguments& arguments, cli::Console& console) {
     if (!arguments.report.empty() && !is_json_on_stdout) {
         cli::check_output(arguments.report, {arguments.original, arguments.result});
     }
-    const remesh::MeshFile original =
-        remesh::read_mesh(arguments.original, console.progress_of("read"));
-    const remesh::MeshFile result =
-        remesh::read_mesh(arguments.result, console.progress_of("read"));
+    const auto read = [&](const fs::path& path) {
+        const bool is_stream = cli::is_standard_input(path);
+        return remesh::read_mesh(
+            path, remesh::ReadOptions{.format = is_stream ? arguments.from : std::string(),
+                                      .progress = console.progress_of("read")});
+    };
+    if (cli::is_standard_input(arguments.original) && cli::is_standard_input(arguments.result)) {
+        throw agvd::InvalidOption(
+            "ORIGINAL and RESULT cannot both be the standard input; name a file for one of them");
+    }
+    const remesh::MeshFile original = read(arguments.original);
+    const remesh::MeshFile result = read(arguments.result);
     arguments.options.progress = console.progress_of("measure");
     const std::string both =
         "comparing " + arguments.original.string() + " with " + arguments.result.string();
@@ -58,8 +69,12 @@ int main(int argc, char** argv) {
     CLI::App app("Measures a remeshed surface and its distance to the original.", "remesh-eval");
     Arguments arguments;
     cli::start_group(app, cli::heading::files);
-    app.add_option("ORIGINAL", arguments.original, "Mesh that was remeshed")->required();
-    app.add_option("RESULT", arguments.result, "Mesh to measure")->required();
+    cli::add_mesh_input(app, "ORIGINAL", "Mesh that was remeshed", arguments.original)->required();
+    cli::add_mesh_input(app, "RESULT", "Mesh to measure", arguments.result)->required();
+    cli::add_format_option(
+        app, "--from",
+        "Format of the one of them that is -, standard input: " + remesh::mesh_formats(),
+        arguments.from);
     app.add_option("--report,--json", arguments.report,
                    "Write the figures as JSON; - writes them to stdout")
         ->type_name("FILE|-");

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "remesh/io/rounding_loss.h"
+
 namespace cli {
 namespace {
 
@@ -76,6 +78,13 @@ void warn_of_shortfalls(const remesh::RemeshResult& result, const remesh::Remesh
     judge(result, strict, console);
     warn_of_junctions(result.junctions, options.junctions, console);
     warn_of_bounds(result.sizing, options.sizing, console);
+}
+
+void warn_of_rounding(const remesh::MeshPath& target, const agvd::MeshView& mesh,
+                      const agvd::Progress& progress, Console& console) {
+    const std::string text =
+        remesh::describe(remesh::rounding_loss(target, mesh, progress), target);
+    if (!text.empty()) console.warn(text);
 }
 
 }  // namespace cli

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cli.h"
+#include "remesh/io/mesh_file.h"
 #include "remesh/pipeline/remesh.h"
 
 namespace cli {
@@ -15,5 +16,9 @@ namespace cli {
 //!        input, or is too coarse for creases, walls or components.
 void warn_of_shortfalls(const remesh::RemeshResult& result, const remesh::RemeshOptions& options,
                         bool strict, Console& console);
+
+//! Warns of a shape that suffers in the single precision of the target's format.
+void warn_of_rounding(const remesh::MeshPath& target, const agvd::MeshView& mesh,
+                      const agvd::Progress& progress, Console& console);
 
 }  // namespace cli

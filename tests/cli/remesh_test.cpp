@@ -28,7 +28,8 @@ protected:
 
 TEST_F(Remesh, WritesAMeshOfTheSameTopologyAndNothingOnStdout) {
     const std::string in = put("in.ply", shapes::torus(40, 20));
-    for (const char* name : {"out.ply", "out.obj", "out.off", "out.stl"}) {
+    for (const char* name :
+         {"out.ply", "out.obj", "out.off", "out.stl", "out.vtk", "out.mesh", "out.glb"}) {
         const auto outcome = remesh({in, "-n", "150", at(name)});
         EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
         EXPECT_EQ(outcome.out, "");

@@ -16,7 +16,7 @@ namespace fuzz {
 inline std::optional<remesh::MeshFile> read_bytes(const remesh::MeshFormat& format,
                                                   std::string bytes, bool is_lenient) {
     try {
-        return format.read({.path = std::string("fuzzed") + format.extension,
+        return format.read({.path = std::string("fuzzed.") + format.name,
                             .bytes = std::move(bytes),
                             .is_lenient = is_lenient,
                             .with_attributes = !is_lenient});
@@ -54,7 +54,7 @@ inline void check_mesh_file(const remesh::MeshFile& file) {
 //! Reads the bytes as the whole file, strictly and leniently, then what is written of the result.
 //! \param extension  with its dot.
 inline int check_reader(const char* extension, const std::uint8_t* data, std::size_t size) {
-    const remesh::MeshFormat& format = *remesh::find_format(std::string("fuzzed") + extension);
+    const remesh::MeshFormat& format = *remesh::find_format({std::string("fuzzed") + extension});
     const std::string bytes(reinterpret_cast<const char*>(data), size);
     if (bytes.empty()) return 0;  // Refused before the format matters.
     const auto lenient = read_bytes(format, bytes, true);
@@ -64,14 +64,14 @@ inline int check_reader(const char* extension, const std::uint8_t* data, std::si
     check_mesh_file(*strict);
     require(lenient && has_same_bits(strict->mesh, lenient->mesh), "leniency only adds");
     for (const agvd::Vec3& p : strict->mesh.positions) {
-        if ((p.array().abs() > format.largest).any()) return 0;  // Only STL has such a limit.
+        if ((p.array().abs() > format.largest).any()) return 0;  // A limit of single precision.
     }
     const auto again =
         read_bytes(format, format.format(strict->mesh.view(), strict->attributes, {}), false);
     require(again.has_value(), "what was written can be read");
-    const bool is_stl = std::string_view(extension) == ".stl";  // Rounds and welds.
-    require(is_stl ? again->mesh.triangles.size() == strict->mesh.triangles.size()
-                   : has_same_bits(again->mesh, strict->mesh),
+    // Such formats round, and STL welds.
+    require(format.is_single() ? again->mesh.triangles.size() == strict->mesh.triangles.size()
+                               : has_same_bits(again->mesh, strict->mesh),
             "what was written comes back");
     return 0;
 }

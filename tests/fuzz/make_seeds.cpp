@@ -8,6 +8,7 @@
 #include "agvd/diagram/build_diagram.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/io/byte_order.h"
+#include "remesh/io/gzip.h"
 #include "remesh/io/write_diagram.h"
 #include "remesh/io/write_mesh.h"
 #include "support/dice.h"
@@ -99,6 +100,10 @@ void put_meshes(Seeds& seeds) {
         seeds.put("read_off", remesh::format_mesh("a.off", mesh.view()));
         seeds.put("read_stl", remesh::format_mesh("a.stl", mesh.view()));
         seeds.put("read_stl", ascii_stl(mesh));
+        seeds.put("read_vtk", remesh::format_mesh("a.vtk", mesh.view()));
+        seeds.put("read_medit", remesh::format_mesh("a.mesh", mesh.view()));
+        seeds.put("read_glb", remesh::format_mesh("a.glb", mesh.view()));
+        seeds.put("read_gzip", remesh::pack_gzip(ascii_ply(mesh), {}));
     }
     seeds.put("read_off",
               "COFF # colours\n5 2 0\n0 0 0 255 0 0 255\n1 0 0 0 1 0 1\n1 1 0 .5 .5 .5 1\n"
@@ -113,6 +118,53 @@ void put_meshes(Seeds& seeds) {
               "property uint label\nproperty list uchar int vertex_indices\n"
               "property double heat\nend_header\n0 0 0 1 7 0 0 0\n1 0 0 1 -7 0 1 1 2\n"
               "1 1 0 1 8 1 1 0\n0 1 0 1 9 1 0 0\n5 4 0 1 2 3 nan\n9 3 0 1 2 -1e9\n");
+    seeds.put("read_ply",
+              "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\n"
+              "property float z\nelement tristrips 1\nproperty list int int vertex_indices\n"
+              "end_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n9 0 1 2 3 4 -1 0 1 3\n");
+    seeds.put("read_vtk",
+              "# vtk DataFile Version 2.0\na seed\nASCII\nDATASET UNSTRUCTURED_GRID\n"
+              "POINTS 5 float\n0 0 0 1 0 0\n0 1 0 1 1 0 0 2 0\nCELLS 4 19\n3 0 1 2\n4 0 1 2 3\n"
+              "4 0 1 3 2\n4 1 3 2 4\nCELL_TYPES 4\n5 8 9 6\nCELL_DATA 4\n"
+              "SCALARS part%20id int\nLOOKUP_TABLE default\n9 7 8 6\nFIELD f 1\nheat 1 4 double\n"
+              ".5 1.5 2.5 3\nPOINT_DATA 5\nCOLOR_SCALARS c 3\n1 0 0 1 0 1 0 1 0 0 1 1 1 1 1\n"
+              "NORMALS n float\n0 0 1 0 0 1 0 0 1 0 0 1 0 0 1\n");
+    seeds.put("read_vtk",
+              "# vtk DataFile Version 5.1\na seed\nASCII\nDATASET POLYDATA\nPOINTS 4 double\n"
+              "0 0 0 1 0 0 0 1 0 1 1 0\nMETADATA\nINFORMATION 0\n\nLINES 2 2\nOFFSETS int\n0 2\n"
+              "CONNECTIVITY int\n0 1\nPOLYGONS 2 4\nOFFSETS vtktypeint64\n0 4\n"
+              "CONNECTIVITY vtktypeint64\n0 1 3 2\nTRIANGLE_STRIPS 2 4\nOFFSETS int\n0 4\n"
+              "CONNECTIVITY int\n0 1 2 3\n");
+    seeds.put("read_medit",
+              "MeshVersionFormatted 1\nDimension\n3\n# a seed\nVertices 5\n0 0 0 1\n1 0 0 0\n"
+              "0 1 0 0\n1 1 0 -3\n0 2 0 0\nEdges 1 1 2 0\nTriangles 2 1 2 3 7\n3 4 5 8\n"
+              "Quadrilaterals 1 1 2 4 3 9\nCorners 1 1\nEnd\n");
+    const auto glb = [](std::string json, const std::string& data) {
+        json.resize((json.size() + 3) / 4 * 4, ' ');
+        std::string bytes = "glTF";
+        remesh::append(bytes, std::uint32_t{2});
+        remesh::append(bytes, static_cast<std::uint32_t>(28 + json.size() + data.size()));
+        remesh::append(bytes, static_cast<std::uint32_t>(json.size()));
+        bytes += "JSON" + json;
+        remesh::append(bytes, static_cast<std::uint32_t>(data.size()));
+        return bytes + std::string("BIN\0", 4) + data;
+    };
+    std::string points;
+    for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, 1.f, 1.f, 0.f}) {
+        remesh::append(points, x);
+    }
+    seeds.put(
+        "read_glb",
+        glb("{\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"children\":[1,2],\"scale\":[1,-1,2]},"
+            "{\"mesh\":0,\"rotation\":[0,0,1,1]},{\"mesh\":0,\"matrix\":[1,0,0,0,0,1,0,0,0,0,1,0,"
+            "5,0,0,1]}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"mode\":5,"
+            "\"material\":0},{\"attributes\":{\"POSITION\":0,\"COLOR_0\":1},\"mode\":6}]}],"
+            "\"materials\":[{\"name\":\"a\"}],\"buffers\":[{\"byteLength\":48}],\"bufferViews\":"
+            "[{\"buffer\":0,\"byteLength\":48}],\"accessors\":[{\"bufferView\":0,\"componentType\":"
+            "5126,\"count\":4,\"type\":\"VEC3\"},{\"bufferView\":0,\"componentType\":5121,"
+            "\"count\":4,"
+            "\"type\":\"VEC4\",\"normalized\":true}]}",
+            points));
     seeds.put("read_obj",
               "mtllib a.mtl\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\nusemtl a b\n"
               "g x\nf 3 2 1\nusemtl c\\\\\no y\nf 1 3 2\n");

@@ -12,7 +12,7 @@ namespace texts {
 //! The result of read_mesh for a file `name` with these bytes; in memory, as disks are slow.
 [[nodiscard]] inline remesh::MeshFile read_bytes(const std::string& name,
                                                  const std::string& bytes) {
-    return remesh::require_format(name).read({.path = name, .bytes = bytes});
+    return remesh::require_format({name}).read({.path = name, .bytes = bytes});
 }
 
 //! Expects an error of type E that names the file and has all of `words` in its text.

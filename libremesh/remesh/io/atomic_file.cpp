@@ -15,6 +15,7 @@
 #include <utility>
 
 #include "agvd/core/error.h"
+#include "remesh/io/standard_streams.h"
 
 namespace remesh {
 namespace {
@@ -47,7 +48,11 @@ void write_all(int fd, std::string_view bytes, const fs::path& path,
         agvd::poll(progress, 0);
         const ssize_t written = ::write(fd, bytes.data(), std::min(most, bytes.size()));
         if (written < 0 && errno == EINTR) continue;
-        if (written < 0) fail(path, errno, "free some space, or write to another file");
+        if (written < 0) {
+            fail(path, errno,
+                 errno == EPIPE ? "check the program that reads from it, or write to a file"
+                                : "free some space, or write to another file");
+        }
         bytes.remove_prefix(static_cast<std::size_t>(written));
     }
 }
@@ -112,8 +117,11 @@ private:
     int fd_ = -1;
 };
 
-// True for a device or a pipe, which must not be replaced by a file of the same name.
+// True for a device or a pipe, also behind links, and for the standard output, even if that is a
+// file: none of them must be replaced by a file of the same name. A pipe of the shell, such as
+// /dev/fd/63, is a link to a name that no file has, so links are not followed before this.
 bool is_special(const fs::path& target) {
+    if (is_standard_output(target)) return true;
     std::error_code none;
     const fs::file_status status = fs::status(target, none);
     return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
@@ -121,6 +129,7 @@ bool is_special(const fs::path& target) {
 
 void write_directly(const fs::path& target, std::string_view bytes,
                     const agvd::Progress& progress) {
+    if (is_standard_output(target)) return write_all(STDOUT_FILENO, bytes, target, progress);
     const int fd = ::open(target.c_str(), O_WRONLY | O_CLOEXEC);
     if (fd < 0) fail(target, errno, "check its permissions, or write to another file");
     try {
@@ -136,9 +145,8 @@ void write_directly(const fs::path& target, std::string_view bytes,
 
 void write_file_atomically(const fs::path& path, std::string_view bytes,
                            const agvd::Progress& progress) {
-    const fs::path target = follow_links(path);
-    if (is_special(target)) return write_directly(target, bytes, progress);
-    TemporaryFile file(target);
+    if (is_special(path)) return write_directly(path, bytes, progress);
+    TemporaryFile file(follow_links(path));
     file.write(bytes, progress);
     agvd::poll(progress, 1);
     file.rename_to_target();
@@ -147,13 +155,11 @@ void write_file_atomically(const fs::path& path, std::string_view bytes,
 void write_files_atomically(std::span<const FileContent> files, const agvd::Progress& progress) {
     std::deque<TemporaryFile> temporaries;  // A deque: the objects must not move.
     for (const FileContent& file : files) {
-        const fs::path target = follow_links(file.path);
-        if (is_special(target)) continue;
-        temporaries.emplace_back(target).write(file.bytes, progress);
+        if (is_special(file.path)) continue;
+        temporaries.emplace_back(follow_links(file.path)).write(file.bytes, progress);
     }
     for (const FileContent& file : files) {
-        const fs::path target = follow_links(file.path);
-        if (is_special(target)) write_directly(target, file.bytes, progress);
+        if (is_special(file.path)) write_directly(file.path, file.bytes, progress);
     }
     agvd::poll(progress, 1);
     for (TemporaryFile& temporary : temporaries) temporary.close();
@@ -161,8 +167,10 @@ void write_files_atomically(std::span<const FileContent> files, const agvd::Prog
 }
 
 void require_writable(const fs::path& path) {
-    const fs::path target = follow_links(path);
-    if (!is_special(target)) TemporaryFile file(target);
+    if (is_standard_output(path) && ::fcntl(STDOUT_FILENO, F_GETFD) < 0) {
+        fail(path, errno, "open the standard output, or write to a file");
+    }
+    if (!is_special(path)) TemporaryFile file(follow_links(path));
 }
 
 }  // namespace remesh

@@ -16,8 +16,9 @@ namespace remesh {
 //!
 //! A symbolic link is kept: what it points to is replaced. An existing file keeps its permission
 //! bits (and its owner, if the system allows it); its other hard links keep the old content. A
-//! target that is not a regular file (/dev/null, a pipe) is written to directly. There is no fsync:
-//! after a power failure the file may be the old one.
+//! target that is not a regular file (/dev/null, a pipe) is written to directly, and so is
+//! /dev/stdout, whatever it is. There is no fsync: after a power failure the file may be the old
+//! one.
 //!
 //! The temporary file is removed on every failure. Signals: it exists only during this call, and a
 //! signal whose handler returns (such as one that sets a flag for the progress callbacks) does not

@@ -19,11 +19,11 @@ template <typename T>
     return std::bit_cast<T>(raw);
 }
 
-//! Appends the value in little-endian order.
+//! Appends the value in the order given.
 template <typename T>
-void append(std::string& bytes, T value) {
+void append(std::string& bytes, T value, std::endian order = std::endian::little) {
     auto raw = std::bit_cast<std::array<char, sizeof(T)>>(value);
-    if (std::endian::native != std::endian::little) std::reverse(raw.begin(), raw.end());
+    if (std::endian::native != order) std::reverse(raw.begin(), raw.end());
     bytes.append(raw.data(), raw.size());
 }
 

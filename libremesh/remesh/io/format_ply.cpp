@@ -1,10 +1,6 @@
 // Writes PLY: coordinates in double, attributes under their names and types.
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
-#include "remesh/io/byte_order.h"
+#include "remesh/io/append_number.h"
 #include "remesh/io/formats.h"
 #include "remesh/io/ply_header.h"
 #include "remesh/transfer/vertex_normals.h"
@@ -46,37 +42,10 @@ std::string label_comments(const MeshAttributes& attributes) {
     return text;
 }
 
-template <typename T>
-void append_rounded(std::string& bytes, double value) {
-    constexpr double low = std::numeric_limits<T>::min(), high = std::numeric_limits<T>::max();
-    append(bytes, static_cast<T>(std::isnan(value) ? 0 : std::clamp(std::round(value), low, high)));
-}
-
-void append_as(std::string& bytes, NumberType type, double value) {
-    switch (type) {
-        case NumberType::Int8:
-            return append_rounded<std::int8_t>(bytes, value);
-        case NumberType::UInt8:
-            return append_rounded<std::uint8_t>(bytes, value);
-        case NumberType::Int16:
-            return append_rounded<std::int16_t>(bytes, value);
-        case NumberType::UInt16:
-            return append_rounded<std::uint16_t>(bytes, value);
-        case NumberType::Int32:
-            return append_rounded<std::int32_t>(bytes, value);
-        case NumberType::UInt32:
-            return append_rounded<std::uint32_t>(bytes, value);
-        case NumberType::Float32:
-            return append(bytes, static_cast<float>(value));
-        case NumberType::Float64:
-            return append(bytes, value);
-    }
-}
-
 void append_values(std::string& bytes, const std::vector<Attribute>& attributes, std::size_t i) {
     for (const Attribute& attribute : attributes) {
         const double value = attribute.values[i];
-        append_as(bytes, stored_type(attribute), attribute.is_intensity ? 255 * value : value);
+        append_number(bytes, stored_type(attribute), attribute.is_intensity ? 255 * value : value);
     }
 }
 
@@ -99,7 +68,7 @@ std::string format_ply(const agvd::MeshView& mesh, const MeshAttributes& attribu
         ticker.tick();
         for (const double x : mesh.positions[v]) append(bytes, x);
         if (attributes.normals) {
-            for (const double x : normals[v]) append_as(bytes, *attributes.normals, x);
+            for (const double x : normals[v]) append_number(bytes, *attributes.normals, x);
         }
         append_values(bytes, attributes.of_vertices, v);
     }

@@ -5,20 +5,27 @@
 #include <utility>
 
 #include "agvd/core/error.h"
+#include "remesh/io/gzip.h"
 
 namespace remesh {
 namespace {
 
+constexpr std::string_view compressed = ".gz";
+
 constexpr double any_double = std::numeric_limits<double>::max();
 constexpr double any_float = std::numeric_limits<float>::max();
 
-bool ply_holds(const Attribute&, ElementKind, const MeshAttributes&) { return true; }
-bool stl_holds(const Attribute&, ElementKind, const MeshAttributes&) { return false; }
+bool holds_all(const Attribute&, ElementKind, const MeshAttributes&) { return true; }
+bool holds_none(const Attribute&, ElementKind, const MeshAttributes&) { return false; }
 
-constexpr MeshFormat formats[] = {{".ply", read_ply, format_ply, ply_holds, true, any_double},
-                                  {".obj", read_obj, format_obj, obj_holds, true, any_double},
-                                  {".off", read_off, format_off, off_holds, true, any_double},
-                                  {".stl", read_stl, format_stl, stl_holds, false, any_float}};
+constexpr MeshFormat formats[] = {
+    {"ply", read_ply, format_ply, holds_all, true, any_double},
+    {"obj", read_obj, format_obj, obj_holds, true, any_double},
+    {"off", read_off, format_off, off_holds, true, any_double},
+    {"stl", read_stl, format_stl, holds_none, false, any_float},
+    {"vtk", read_vtk, format_vtk, holds_all, true, any_double},
+    {"mesh", read_medit, format_medit, medit_holds, false, any_double},
+    {"glb", read_glb, format_glb, glb_holds, true, any_float}};
 
 }  // namespace
 
@@ -37,18 +44,44 @@ void attach(MeshAttributes attributes, MeshFile& file) {
     }
 }
 
-const MeshFormat* find_format(const std::filesystem::path& path) {
-    const std::string extension = lower_extension(path);
+std::string names_of_formats(const char* mark) {
+    std::string text;
+    for (const MeshFormat& format : formats) {
+        const bool is_last = &format == std::end(formats) - 1;
+        text += (text.empty() ? "" : is_last ? " or " : ", ") + std::string(mark) + format.name;
+    }
+    return text;
+}
+
+bool is_compressed(const MeshPath& path) {
+    return knows_gzip() && (path.format.empty() ? lower_extension(path.path) == compressed
+                                                : path.format.ends_with(compressed));
+}
+
+const MeshFormat* find_format(const MeshPath& path) {
+    const bool is_packed = is_compressed(path);
+    std::string name = path.format;
+    if (name.empty())
+        name = lower_extension(is_packed ? path.path.stem() : path.path);
+    else if (is_packed)
+        name.resize(name.size() - compressed.size());
+    if (name.starts_with('.')) name.erase(0, 1);
     const auto* const found =
         std::find_if(std::begin(formats), std::end(formats),
-                     [&](const MeshFormat& format) { return extension == format.extension; });
+                     [&](const MeshFormat& known) { return name == known.name; });
     return found == std::end(formats) ? nullptr : found;
 }
 
-const MeshFormat& require_format(const std::filesystem::path& path) {
+const MeshFormat& require_format(const MeshPath& path) {
     if (const MeshFormat* const format = find_format(path)) return *format;
-    throw agvd::IoError(path.string() + ": unknown extension " +
-                        in_quotes(path.extension().string()) + "; use .ply, .obj, .off or .stl");
+    const std::string begin = path.path.string() + ": unknown ";
+    if (!path.format.empty()) {
+        throw agvd::IoError(begin + "format " + in_quotes(path.format) + "; use " +
+                            names_of_formats(""));
+    }
+    throw agvd::IoError(begin + "extension " + in_quotes(path.path.extension().string()) +
+                        "; use " + names_of_formats(".") +
+                        ", or name the format (remesh: --from for an input, --to for the output)");
 }
 
 }  // namespace remesh

@@ -1,8 +1,9 @@
 //! \file
-//! The four formats, for the dispatch of reading and writing. Private.
+//! The table of formats: names, extensions, readers and writers. Private.
 #pragma once
 
 #include <filesystem>
+#include <limits>
 #include <string>
 
 #include "agvd/core/poller.h"
@@ -15,6 +16,9 @@ namespace remesh {
 [[nodiscard]] MeshFile read_obj(SourceFile file);
 [[nodiscard]] MeshFile read_off(SourceFile file);
 [[nodiscard]] MeshFile read_stl(SourceFile file);
+[[nodiscard]] MeshFile read_vtk(SourceFile file);
+[[nodiscard]] MeshFile read_medit(SourceFile file);
+[[nodiscard]] MeshFile read_glb(SourceFile file);
 
 //! Unless it is empty.
 inline void add_warning(const std::string& text, MeshFile& file) {
@@ -33,31 +37,51 @@ void attach(MeshAttributes attributes, MeshFile& file);
                                      agvd::Ticker ticker);
 [[nodiscard]] std::string format_stl(const agvd::MeshView& mesh, const MeshAttributes& attributes,
                                      agvd::Ticker ticker);
+[[nodiscard]] std::string format_vtk(const agvd::MeshView& mesh, const MeshAttributes& attributes,
+                                     agvd::Ticker ticker);
+[[nodiscard]] std::string format_medit(const agvd::MeshView& mesh, const MeshAttributes& attributes,
+                                       agvd::Ticker ticker);
+[[nodiscard]] std::string format_glb(const agvd::MeshView& mesh, const MeshAttributes& attributes,
+                                     agvd::Ticker ticker);
 
 //! See MeshFormat::holds.
 [[nodiscard]] bool obj_holds(const Attribute& attribute, ElementKind kind,
                              const MeshAttributes& all);
 [[nodiscard]] bool off_holds(const Attribute& attribute, ElementKind kind,
                              const MeshAttributes& all);
+[[nodiscard]] bool medit_holds(const Attribute& attribute, ElementKind kind,
+                               const MeshAttributes& all);
+[[nodiscard]] bool glb_holds(const Attribute& attribute, ElementKind kind,
+                             const MeshAttributes& all);
 
 struct MeshFormat {
-    const char* extension;  //!< Lower case, with its dot.
+    const char* name;  //!< Lower case; the extension without its dot.
     MeshFile (*read)(SourceFile);
     std::string (*format)(const agvd::MeshView&, const MeshAttributes&, agvd::Ticker);
     //! Whether it can hold an attribute, one of `all`.
     bool (*holds)(const Attribute&, ElementKind, const MeshAttributes& all);
     bool has_normals;  //!< At vertices.
     double largest;    //!< Coordinate that it can hold.
+
+    //! Whether coordinates are stored in single precision.
+    [[nodiscard]] bool is_single() const { return largest < std::numeric_limits<double>::max(); }
 };
+
+//! "ply, obj, ... or glb" with `mark` before each name.
+[[nodiscard]] std::string names_of_formats(const char* mark);
 
 //! With its dot, in lower case; empty if there is none.
 [[nodiscard]] std::string lower_extension(const std::filesystem::path& path);
 
-//! The format of the path's extension (any case), or nullptr.
-[[nodiscard]] const MeshFormat* find_format(const std::filesystem::path& path);
+//! Whether the path or the format ends in .gz, and this build can compress.
+[[nodiscard]] bool is_compressed(const MeshPath& path);
+
+//! The given format, or that of the path's extension (any case), either without .gz; nullptr:
+//! unknown.
+[[nodiscard]] const MeshFormat* find_format(const MeshPath& path);
 
 //! As find_format.
-//! \throw agvd::IoError  unknown; the text lists the known extensions.
-[[nodiscard]] const MeshFormat& require_format(const std::filesystem::path& path);
+//! \throw agvd::IoError  unknown; the text lists the known ones.
+[[nodiscard]] const MeshFormat& require_format(const MeshPath& path);
 
 }  // namespace remesh

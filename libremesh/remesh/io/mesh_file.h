@@ -2,6 +2,7 @@
 //! What a mesh file holds, and how strictly it is read.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,15 @@
 #include "remesh/io/mesh_attributes.h"
 
 namespace remesh {
+
+//! Where a mesh is read or written, and how.
+struct MeshPath {
+    //! /dev/stdin and /dev/stdout are the streams of the process, whatever they are connected to.
+    std::filesystem::path path;
+    //! "ply", "obj", ...; empty: the extension names it, in any case. Either may end in ".gz":
+    //! compressed. On reading the file itself tells whether it is.
+    std::string format = {};
+};
 
 struct MeshFile {
     agvd::TriangleMesh mesh;           //!< As in the file: order kept, defects too.
@@ -27,6 +37,7 @@ struct ReadOptions {
     bool is_lenient = false;
     //! Also read colours, labels and other properties. They take 8 bytes for each value.
     bool with_attributes = false;
+    std::string format = {};  //!< See MeshPath.
     agvd::Progress progress = {};
 };
 

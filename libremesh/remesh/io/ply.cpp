@@ -1,6 +1,6 @@
 // PLY, ascii and both binaries: the coordinates of element "vertex", the corners of element "face",
-// and their other properties as attributes; every other element is skipped (format: Greg Turk, "The
-// PLY Polygon File Format", 1994).
+// and their other properties as attributes; triangle strips. Every other element is skipped
+// (format: Greg Turk, "The PLY Polygon File Format", 1994).
 
 #include <algorithm>
 #include <array>
@@ -8,6 +8,7 @@
 
 #include "remesh/io/formats.h"
 #include "remesh/io/ply_attributes.h"
+#include "remesh/io/ply_strips.h"
 #include "remesh/io/polygon_soup.h"
 
 namespace remesh {
@@ -56,20 +57,13 @@ void read_vertices(Values& values, const PlyElement& element, const SourceFile& 
 template <typename Values>
 void read_faces(Values& values, const PlyElement& element, const SourceFile& file,
                 PolygonSoup& soup, MeshAttributes& attributes) {
-    const PlyProperty* corners = element.find("vertex_indices");
-    if (corners == nullptr) corners = element.find("vertex_index");
-    if (corners == nullptr || !corners->size_type || corners->type == PlyType::Float32 ||
-        corners->type == PlyType::Float64) {
-        file.fail_malformed(0,
-                            "element face lacks a list of whole numbers named vertex_indices; "
-                            "export the file again");
-    }
-    PlyAttributes others(element, ElementKind::Face, {corners}, file, attributes);
+    const PlyProperty& corners = require_corners(element, file);
+    PlyAttributes others(element, ElementKind::Face, {&corners}, file, attributes);
     for (std::uint64_t f = 0; f < element.count; ++f) {
         values.begin(element, f);
         for (std::size_t i = 0; i < element.properties.size(); ++i) {
             const PlyProperty& property = element.properties[i];
-            if (&property != corners) {
+            if (&property != &corners) {
                 others.take(values, i);
                 continue;
             }
@@ -84,11 +78,21 @@ void read_faces(Values& values, const PlyElement& element, const SourceFile& fil
     std::move(others).finish(attributes);
 }
 
+// Where strips add triangles, not each face has a value.
+void decline_face_values(MeshAttributes& attributes) {
+    for (const Attribute& attribute : attributes.of_faces) {
+        attributes.declined.push_back(
+            {"face " + attribute.name, "the triangles of strips have no such value"});
+    }
+    attributes.of_faces.clear();
+}
+
 template <typename Values>
 MeshFile read_body(Values values, const PlyHeader& header, const SourceFile& file) {
     PolygonSoup soup(file, 0);
     MeshAttributes attributes;
     bool has_vertices = false, has_faces = false;
+    std::uint64_t num_strip_lists = 0;
     std::size_t begin = values.offset();  // Of the last element.
     for (const PlyElement& element : header.elements) {
         begin = values.offset();
@@ -99,9 +103,8 @@ MeshFile read_body(Values values, const PlyHeader& header, const SourceFile& fil
             soup.reserve(0, element.count);
             read_faces(values, element, file, soup, attributes);
         } else if (element.name == "tristrips") {
-            file.fail_malformed(0,
-                                "triangle strips are not supported; export the file with a list of "
-                                "faces");
+            num_strip_lists += element.count;
+            read_strips(values, element, file, soup);
         } else if (!element.properties.empty()) {
             if (file.with_attributes) {
                 attributes.declined.push_back(
@@ -113,6 +116,7 @@ MeshFile read_body(Values values, const PlyHeader& header, const SourceFile& fil
             }
         }
     }
+    if (num_strip_lists > 0) decline_face_values(attributes);
     MeshFile result = std::move(soup).finish();
     attach(std::move(attributes), result);
     if (header.elements.empty()) return result;

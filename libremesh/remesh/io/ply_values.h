@@ -129,6 +129,20 @@ void skip_property(Values& values, const PlyProperty& property, const SourceFile
     values.skip(property.type, property.size_type ? read_length(values, property, file) : 1);
 }
 
+//! The list of vertices of a face or of strips.
+//! \throw agvd::IoError  there is none, or its numbers are not whole.
+[[nodiscard]] inline const PlyProperty& require_corners(const PlyElement& element,
+                                                        const SourceFile& file) {
+    const PlyProperty* corners = element.find("vertex_indices");
+    if (corners == nullptr) corners = element.find("vertex_index");
+    if (corners == nullptr || !corners->size_type || !is_integer(corners->type)) {
+        file.fail_malformed(0, "element " + element.name +
+                                   " lacks a list of whole numbers named vertex_indices; "
+                                   "export the file again");
+    }
+    return *corners;
+}
+
 //! Passes over a whole element.
 //! \param index  which one, for errors.
 template <typename Values>

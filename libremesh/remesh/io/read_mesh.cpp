@@ -1,16 +1,18 @@
 #include "remesh/io/read_mesh.h"
 
 #include "remesh/io/formats.h"
+#include "remesh/io/gzip.h"
 
 namespace remesh {
 
 MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options) {
     agvd::Poller poller(options.progress);
     poller.poll();
-    const MeshFormat& format = require_format(path);
+    const MeshFormat& format = require_format({path, options.format});
     SourceFile file = load_file(path, poller);
     file.is_lenient = options.is_lenient;
     file.with_attributes = options.with_attributes;
+    if (is_gzip(file.bytes)) unpack_gzip(file);
     return format.read(std::move(file));
 }
 

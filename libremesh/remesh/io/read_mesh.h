@@ -1,5 +1,5 @@
 //! \file
-//! Reads PLY, OBJ, OFF and STL.
+//! Reads PLY, OBJ, OFF, STL, legacy VTK, Medit and binary glTF.
 #pragma once
 
 #include <filesystem>
@@ -8,10 +8,12 @@
 
 namespace remesh {
 
-//! The format is chosen by the extension (any case): ply (ascii and both binaries), obj (v, v/vt,
-//! v//vn and v/vt/vn, negative indices; never split along texture seams), off (OFF, COFF, NOFF,
-//! STOFF), stl (ascii, binary; welded at equal positions). Coordinates are kept in double. A quad
-//! is cut along the shorter of its inner diagonals, a larger polygon by clipping ears.
+//! The format is ReadOptions::format, or that of the extension: ply (ascii and both binaries), obj
+//! (v, v/vt, v//vn and v/vt/vn, negative indices; never split along texture seams), off (OFF, COFF,
+//! NOFF, STOFF), stl (ascii, binary; welded at equal positions), vtk (legacy), mesh (Medit, ascii),
+//! glb; each also compressed with gzip. /dev/stdin is the standard input. Coordinates are kept in
+//! double. A quad is cut along the shorter of its inner diagonals, a larger polygon by clipping
+//! ears.
 //!
 //! \throw agvd::IoError       the file is missing, empty, unreadable, truncated, malformed or
 //!        longer than its header announces (a few stray bytes are only a warning), or the extension

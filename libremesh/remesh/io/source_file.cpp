@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "agvd/core/error.h"
+#include "remesh/io/standard_streams.h"
 
 namespace remesh {
 namespace {
@@ -23,12 +24,20 @@ namespace {
                         "; check its name and permissions");
 }
 
+// Closes what it opened, but not the standard input.
 struct Descriptor {
     int fd;
+    bool is_ours;
     ~Descriptor() {
-        if (fd >= 0) ::close(fd);
+        if (fd >= 0 && is_ours) ::close(fd);
     }
 };
+
+// Opening a pipe must not wait for its other end.
+Descriptor open_for_reading(const std::filesystem::path& path) {
+    if (is_standard_input(path)) return {STDIN_FILENO, false};
+    return {::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK), true};
+}
 
 // Waits until there is something to read, or the end; a file is always ready.
 void wait_for_bytes(int fd, agvd::Poller& poller) {
@@ -91,8 +100,7 @@ void SourceFile::fail_unusable(std::size_t offset, const std::string& text) cons
 
 SourceFile load_file(const std::filesystem::path& path, agvd::Poller& poller) {
     SourceFile file{.path = path, .bytes = {}, .ticker = agvd::Ticker(poller)};
-    // Opening a pipe must not wait for its other end.
-    const Descriptor in{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
+    const Descriptor in = open_for_reading(path);
     if (in.fd < 0) fail_to_read(path, errno);
     struct stat status {};
     if (::fstat(in.fd, &status) != 0) fail_to_read(path, errno);

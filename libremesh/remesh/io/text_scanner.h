@@ -35,6 +35,9 @@ public:
 
     [[nodiscard]] std::size_t offset() const { return static_cast<std::size_t>(at_ - begin_); }
 
+    //! Goes on at an offset, such as behind binary data.
+    void go_to(std::size_t offset) { at_ = begin_ + offset; }
+
     //! True if a word is left on this line.
     [[nodiscard]] bool has_word() {
         skip_blanks();

@@ -5,6 +5,7 @@
 #include "agvd/core/error.h"
 #include "remesh/io/atomic_file.h"
 #include "remesh/io/formats.h"
+#include "remesh/io/gzip.h"
 
 namespace remesh {
 namespace {
@@ -21,7 +22,9 @@ void check(const std::filesystem::path& path, const MeshFormat& format,
         }
         if ((mesh.positions[v].array().abs() > format.largest).any()) {
             fail("vertex", v,
-                 "is too large for the single precision of STL; write PLY, OBJ or OFF");
+                 "is too large for single precision, in which this format stores it; write .ply, "
+                 ".obj or "
+                 ".off");
         }
     }
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
@@ -54,37 +57,47 @@ void check(const std::filesystem::path& path, const std::vector<Attribute>& attr
     }
 }
 
-MeshAttributes names_only(const MeshAttributes& attributes) {
-    MeshAttributes names;
-    for (const Attribute& one : attributes.of_vertices) {
-        names.of_vertices.push_back({.name = one.name});
-    }
-    for (const Attribute& one : attributes.of_faces) names.of_faces.push_back({.name = one.name});
-    return names;
+// Names and types.
+std::vector<Attribute> without_values(const std::vector<Attribute>& attributes) {
+    std::vector<Attribute> empty;
+    empty.reserve(attributes.size());
+    for (const Attribute& one : attributes) empty.push_back({.name = one.name, .type = one.type});
+    return empty;
 }
 
 }  // namespace
 
 std::string format_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
                         const agvd::Progress& progress) {
-    return format_mesh(path, mesh, {}, progress);
+    return format_mesh(MeshPath{path}, mesh, {}, progress);
 }
 
 std::string format_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
                         const MeshAttributes& attributes, const agvd::Progress& progress) {
+    return format_mesh(MeshPath{path}, mesh, attributes, progress);
+}
+
+std::string format_mesh(const MeshPath& path, const agvd::MeshView& mesh,
+                        const MeshAttributes& attributes, const agvd::Progress& progress) {
     agvd::Poller poller(progress);
     const MeshFormat& format = require_format(path);
-    check(path, format, mesh);
-    check(path, attributes.of_vertices, mesh.positions.size());
-    check(path, attributes.of_faces, mesh.triangles.size());
-    return format.format(mesh, attributes, agvd::Ticker(poller));
+    check(path.path, format, mesh);
+    check(path.path, attributes.of_vertices, mesh.positions.size());
+    check(path.path, attributes.of_faces, mesh.triangles.size());
+    std::string bytes = format.format(mesh, attributes, agvd::Ticker(poller));
+    return is_compressed(path) ? pack_gzip(bytes, agvd::Ticker(poller)) : bytes;
 }
 
 std::vector<std::string> remove_unwritable(const std::filesystem::path& path,
                                            MeshAttributes& attributes) {
+    return remove_unwritable(MeshPath{path}, attributes);
+}
+
+std::vector<std::string> remove_unwritable(const MeshPath& path, MeshAttributes& attributes) {
     const MeshFormat& format = require_format(path);
     if (!format.has_normals) attributes.normals.reset();
-    const MeshAttributes all = names_only(attributes);
+    const MeshAttributes all{.of_vertices = without_values(attributes.of_vertices),
+                             .of_faces = without_values(attributes.of_faces)};
     std::vector<std::string> removed;
     const auto keep_writable = [&](std::vector<Attribute>& some, ElementKind kind) {
         std::erase_if(some, [&](const Attribute& attribute) {
@@ -104,7 +117,13 @@ void write_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
 }
 
 bool is_known_mesh_extension(const std::filesystem::path& path) {
-    return find_format(path) != nullptr;
+    return is_known_mesh_format({path});
 }
+
+bool is_known_mesh_format(const MeshPath& path) { return find_format(path) != nullptr; }
+
+std::string mesh_format(const MeshPath& path) { return require_format(path).name; }
+
+std::string mesh_formats(const char* mark) { return names_of_formats(mark); }
 
 }  // namespace remesh

@@ -1,5 +1,5 @@
 //! \file
-//! Writes PLY, OBJ, OFF and STL.
+//! Writes PLY, OBJ, OFF, STL, legacy VTK, Medit and binary glTF.
 #pragma once
 
 #include <filesystem>
@@ -7,18 +7,20 @@
 #include "agvd/core/progress.h"
 #include "agvd/mesh/mesh_view.h"
 #include "remesh/io/mesh_attributes.h"
+#include "remesh/io/mesh_file.h"
 
 namespace remesh {
 
 //! Writes a temporary file and renames it, so that a failed or interrupted run does not change an
 //! old file (see write_file_atomically). Binary little-endian PLY with double coordinates, OBJ and
 //! OFF with the shortest decimals that read back as the same double, binary STL (float by the
-//! format's nature).
+//! format's nature), binary VTK with double coordinates, Medit as OBJ, GLB in float; compressed if
+//! .gz follows the extension.
 //!
 //! \throw agvd::IoError       the extension is unknown or the file cannot be written; says which
 //!        and why.
 //! \throw agvd::InvalidInput  read_mesh could not read it back: an index is out of range, a
-//!        coordinate is not finite (STL: beyond float).
+//!        coordinate is not finite (STL, GLB: beyond float).
 //! Cost: O(n) time; holds the whole file in memory.
 //! \throw agvd::Cancelled     the progress callback returned false; an old file is unchanged.
 void write_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
@@ -36,14 +38,49 @@ void write_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
 [[nodiscard]] std::string format_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
                                       const MeshAttributes& attributes,
                                       const agvd::Progress& progress = {});
+[[nodiscard]] std::string format_mesh(const MeshPath& path, const agvd::MeshView& mesh,
+                                      const MeshAttributes& attributes,
+                                      const agvd::Progress& progress = {});
 
 //! Removes the attributes that the format of the path's extension cannot hold.
 //! \return what they were: "vertex quality", "face label", ...
 //! \throw agvd::IoError  the extension is unknown.
 std::vector<std::string> remove_unwritable(const std::filesystem::path& path,
                                            MeshAttributes& attributes);
+std::vector<std::string> remove_unwritable(const MeshPath& path, MeshAttributes& attributes);
+
+//! Figures of what the positions lose in a format of single precision.
+struct RoundingLoss {
+    double largest_shift = 0;    //!< Of a vertex, in mesh units.
+    double diagonal = 0;         //!< Of the bounding box.
+    double shortest_edge = 0;    //!< Of those that have a length; 0: there is none.
+    agvd::Index merged = 0;      //!< Vertices that come to lie on others, but did not before.
+    agvd::Vec3 middle{0, 0, 0};  //!< Of the bounding box.
+
+    //! Whether the shape suffers: vertices merge, or the shift is above 5 % of the shortest edge or
+    //! above 10^-6 of the diagonal. A mesh near the origin has 10^-7.
+    [[nodiscard]] bool matters() const;
+};
+
+//! \return zeros for a format of double precision. Cost: O(n) expected.
+//! \throw agvd::IoError  the format is unknown.  \throw agvd::Cancelled
+[[nodiscard]] RoundingLoss rounding_loss(const MeshPath& path, const agvd::MeshView& mesh,
+                                         const agvd::Progress& progress = {});
+
+//! The loss and its remedy in words; empty unless it matters.
+[[nodiscard]] std::string describe(const RoundingLoss& loss, const MeshPath& path);
 
 //! The extensions read_mesh and write_mesh know: true for "out.ply", "out.OBJ", ...
 [[nodiscard]] bool is_known_mesh_extension(const std::filesystem::path& path);
+
+//! Whether read_mesh and write_mesh know the format, or the extension if no format is given.
+[[nodiscard]] bool is_known_mesh_format(const MeshPath& path);
+
+//! The name of the format: "ply", "obj", ...
+//! \throw agvd::IoError  it is unknown; the text lists the known ones.
+[[nodiscard]] std::string mesh_format(const MeshPath& path);
+
+//! All names, with `mark` before each: "ply, obj, off or stl".
+[[nodiscard]] std::string mesh_formats(const char* mark = "");
 
 }  // namespace remesh

@@ -23,7 +23,7 @@ using Values = std::vector<double>;
 namespace {
 
 MeshFile read_all(const std::string& name, const std::string& bytes) {
-    return remesh::require_format(name).read(
+    return remesh::require_format({name}).read(
         {.path = name, .bytes = bytes, .with_attributes = true});
 }
 

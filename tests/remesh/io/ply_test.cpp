@@ -61,6 +61,15 @@ void expect_binary_read(const std::string& real, const std::string& size,
     }
 }
 
+const std::string strips = "element tristrips 1\nproperty list int int vertex_indices\n";
+const std::string six = three + "1 1 0\n0 2 0\n1 2 0\n";
+
+// The triangles of strips over six vertices.
+std::vector<Triangle> triangles_of_strips(const std::string& list) {
+    return read_bytes("a.ply", header("ascii", "element vertex 6\n" + xyz + strips) + six + list)
+        .mesh.triangles;
+}
+
 }  // namespace
 
 TEST(Ply, AsciiIsRead) {
@@ -139,6 +148,74 @@ TEST(Ply, BinaryDataMayBeginLikeALineEnd) {
     }
 }
 
+TEST(Ply, StripsAreTurnedAtEverySecondTriangle) {
+    EXPECT_EQ(triangles_of_strips("6 0 1 2 3 4 5\n"),
+              (std::vector<Triangle>{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}, {4, 3, 5}}));
+}
+
+TEST(Ply, MinusOneEndsAStrip) {
+    const std::vector<Triangle> expected{{0, 1, 2}, {2, 1, 3}, {3, 4, 5}};
+    EXPECT_EQ(triangles_of_strips("8 0 1 2 3 -1 3 4 5\n"), expected);
+    EXPECT_EQ(triangles_of_strips("11 -1 0 1 2 3 -1 -1 3 4 5 -1\n"), expected);
+}
+
+TEST(Ply, AVertexNamedTwiceTurnsAStrip) {
+    EXPECT_EQ(triangles_of_strips("5 0 1 2 2 3\n"), (std::vector<Triangle>{{0, 1, 2}}));
+    // The triangles 2 1 2 and 1 2 1 in between have no area.
+    EXPECT_EQ(triangles_of_strips("7 0 1 2 1 2 3 4\n"),
+              (std::vector<Triangle>{{0, 1, 2}, {2, 1, 3}, {2, 3, 4}}));
+}
+
+TEST(Ply, BinaryStripsOfSeveralListsAreRead) {
+    for (const bool is_big : {false, true}) {
+        std::string bytes =
+            header(is_big ? "binary_big_endian" : "binary_little_endian",
+                   "element tristrips 2\nproperty uchar flag\nproperty list uchar short "
+                   "vertex_indices\nelement vertex 4\n" +
+                       xyz);
+        for (const std::vector<std::int16_t>& list :
+             {std::vector<std::int16_t>{0, 1, 2, 3}, {3, 2, 0, -1}}) {
+            bytes += '\7' + std::string(1, static_cast<char>(list.size()));
+            for (const std::int16_t v : list) bytes += bytes_of(v, is_big);
+        }
+        for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f, 1.f, 1.f, 0.f}) {
+            bytes += bytes_of(x, is_big);
+        }
+        EXPECT_EQ(read_bytes("a.ply", bytes).mesh.triangles,
+                  (std::vector<Triangle>{{0, 1, 2}, {2, 1, 3}, {3, 2, 0}}));
+    }
+}
+
+TEST(Ply, StripsOfOneOrTwoVerticesAreCountedAsDroppedFaces) {
+    const auto file = read_bytes("a.ply", header("ascii", "element vertex 6\n" + xyz + strips) +
+                                              six + "8 0 -1 1 2 -1 3 4 5\n");
+    EXPECT_EQ(file.dropped_polygons, 2u);
+    EXPECT_EQ(file.mesh.triangles, (std::vector<Triangle>{{3, 4, 5}}));
+}
+
+TEST(Ply, StripsMayStandBesideFacesWhoseValuesAreThenDeclined) {
+    const std::string bytes = header("ascii", "element vertex 6\n" + xyz + "element face 1\n" +
+                                                  faces + "property int label\n" + strips) +
+                              six + "4 0 1 3 2 7\n3 3 4 5\n";
+    const auto file = remesh::read_ply({.path = "a.ply", .bytes = bytes, .with_attributes = true});
+    EXPECT_EQ(file.mesh.triangles.size(), 3u);
+    EXPECT_EQ(file.mesh.triangles.back(), (Triangle{3, 4, 5}));
+    EXPECT_TRUE(file.attributes.of_faces.empty());
+    ASSERT_EQ(file.attributes.declined.size(), 1u);
+    EXPECT_EQ(file.attributes.declined[0].name, "face label");
+}
+
+TEST(Ply, WrongStripsAreRefused) {
+    const std::string head = header("ascii", "element vertex 6\n" + xyz + strips) + six;
+    expect_error<InvalidInput>("a.ply", head + "3 0 1 6\n", {"line 16", "vertex 6"});
+    expect_error<InvalidInput>("a.ply", head + "3 0 1 -2\n", {"line 16", "negative"});
+    expect_error<InvalidInput>("a.ply", head + "3 -1 -1 -1\n", {"no face"});
+    expect_error<IoError>("a.ply", head + "4 0 1 2\n", {"line 16"});
+    expect_error<IoError>("a.ply", head + "-1\n", {"line 16", "negative length"});
+    expect_error<IoError>("a.ply", header("binary_little_endian", strips) + "\xff\xff\xff\x7f",
+                          {"tristrips 0 of 1", "truncated"});
+}
+
 TEST(Ply, WrongHeadersAreRefused) {
     expect_error<IoError>("a.ply", "solid\n", {"line 1", "not a PLY"});
     expect_error<IoError>("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\n", {"end_header"});
@@ -156,12 +233,8 @@ TEST(Ply, WrongHeadersAreRefused) {
                           {"x, y and z"});
     expect_error<IoError>("a.ply", header("ascii", "element face 1\nproperty int a\n") + "1\n",
                           {"vertex_indices"});
-    expect_error<IoError>("a.ply",
-                          header("ascii",
-                                 "element tristrips 1\nproperty list int int "
-                                 "vertex_indices\n") +
-                              "3 0 1 2\n",
-                          {"strips", "list of faces"});
+    expect_error<IoError>("a.ply", header("ascii", "element tristrips 1\nproperty int a\n") + "1\n",
+                          {"element tristrips", "vertex_indices"});
 }
 
 TEST(Ply, TruncatedFilesAreRefused) {

@@ -31,8 +31,8 @@ TEST(ReadMesh, WhatIsNoFileIsRefused) {
     EXPECT_NE(what_reading_says(folder / "folder.off").find("Is a directory"), std::string::npos);
     files::write(folder / "a.stl", "");
     EXPECT_NE(what_reading_says(folder / "a.stl").find("empty"), std::string::npos);
-    expect_error<IoError>("a.vtk", "OFF", {"'.vtk'", ".ply, .obj, .off or .stl"});
-    expect_error<IoError>("mesh", "OFF", {"unknown"});
+    expect_error<IoError>("a.step", "OFF", {"'.step'", ".ply, .obj, .off, .stl", " or .glb"});
+    expect_error<IoError>("mesh", "OFF", {"unknown", "--from"});
 }
 
 TEST(ReadMesh, ExtensionsAreKnownInAnyCase) {

@@ -62,14 +62,14 @@ TEST(WriteMesh, StlComesBackInFloat) {
     }
 }
 
-TEST(WriteMesh, OnlyTheFourExtensionsAreKnown) {
-    for (const char* name : {"a.ply", "b/a.OBJ", "a.b.Off", "a.stl"}) {
+TEST(WriteMesh, OnlyTheExtensionsOfFormatsAreKnown) {
+    for (const char* name : {"a.ply", "b/a.OBJ", "a.b.Off", "a.stl", "a.vtk", "a.mesh", "a.GLB"}) {
         EXPECT_TRUE(remesh::is_known_mesh_extension(name)) << name;
     }
-    for (const char* name : {"a", "ply", ".ply", "a.ply.gz", "a.plyx", "a.", ""}) {
+    for (const char* name : {"a", "ply", ".ply", "a.gz", "a.plyx", "a.", ""}) {
         EXPECT_FALSE(remesh::is_known_mesh_extension(name)) << name;
     }
-    EXPECT_THROW(remesh::write_mesh("a.vtk", shapes::cube().view()), IoError);
+    EXPECT_THROW(remesh::write_mesh("a.step", shapes::cube().view()), IoError);
 }
 
 TEST(WriteMesh, WhatCouldNotBeReadBackIsNotWritten) {

@@ -1,0 +1,115 @@
+// Writes legacy VTK of version 3.0, which all programs read: binary POLYDATA with coordinates in
+// double. Colours become one array of bytes, every other attribute an array of its own.
+
+#include <algorithm>
+#include <array>
+
+#include "agvd/core/error.h"
+#include "remesh/io/append_number.h"
+#include "remesh/io/formats.h"
+#include "remesh/io/text_colors.h"
+#include "remesh/transfer/vertex_normals.h"
+
+namespace remesh {
+namespace {
+
+constexpr std::endian vtk_order = std::endian::big;
+
+const char* vtk_name_of(NumberType type) {
+    constexpr std::array names = {"char", "unsigned_char", "short", "unsigned_short",
+                                  "int",  "unsigned_int",  "float", "double"};
+    return names[static_cast<std::size_t>(type)];
+}
+
+// A blank would end a name.
+std::string encoded(const std::string& name) {
+    constexpr std::string_view digits = "0123456789ABCDEF";
+    std::string text;
+    for (const char c : name) {
+        const auto code = static_cast<unsigned char>(c);
+        if (c > ' ' && c != '%' && c != '"') {
+            text += c;
+        } else {
+            text.append({'%', digits[code / 16], digits[code % 16]});
+        }
+    }
+    return text;
+}
+
+std::string array_head(const std::string& name, std::size_t num_components, std::size_t count,
+                       NumberType type) {
+    return encoded(name) + ' ' + std::to_string(num_components) + ' ' + std::to_string(count) +
+           ' ' + vtk_name_of(type) + '\n';
+}
+
+void append_colors(const std::vector<const Attribute*>& colors, std::size_t count,
+                   agvd::Ticker& ticker, std::string& bytes) {
+    bytes +=
+        array_head(colors.size() == 4 ? "RGBA" : "RGB", colors.size(), count, NumberType::UInt8);
+    for (std::size_t i = 0; i < count; ++i) {
+        ticker.tick();
+        for (const Attribute* part : colors) {
+            append_number(bytes, NumberType::UInt8, 255 * intensity(*part, i), vtk_order);
+        }
+    }
+    bytes += '\n';
+}
+
+void append_attributes(const char* section, const std::vector<Attribute>& attributes,
+                       std::size_t count, agvd::Ticker& ticker, std::string& bytes) {
+    if (attributes.empty()) return;
+    const std::vector<const Attribute*> colors = colors_of(attributes);
+    const std::size_t num_arrays =
+        colors.empty() ? attributes.size() : attributes.size() - colors.size() + 1;
+    bytes += section;
+    bytes += "FIELD FieldData " + std::to_string(num_arrays) + '\n';
+    if (!colors.empty()) append_colors(colors, count, ticker, bytes);
+    for (const Attribute& attribute : attributes) {
+        if (std::find(colors.begin(), colors.end(), &attribute) != colors.end()) continue;
+        const NumberType type = attribute.is_intensity ? NumberType::Float32 : attribute.type;
+        bytes += array_head(attribute.name, 1, count, type);
+        for (const double value : attribute.values) {
+            ticker.tick();
+            append_number(bytes, type, value, vtk_order);
+        }
+        bytes += '\n';
+    }
+}
+
+}  // namespace
+
+std::string format_vtk(const agvd::MeshView& mesh, const MeshAttributes& attributes,
+                       agvd::Ticker ticker) {
+    const std::size_t num_points = mesh.positions.size(), num_faces = mesh.triangles.size();
+    if (num_points > INT32_MAX || num_faces > INT32_MAX / 4) {
+        throw agvd::InvalidInput("the mesh is too large for a legacy VTK file; write .ply");
+    }
+    std::string bytes = "# vtk DataFile Version 3.0\nremesh\nBINARY\nDATASET POLYDATA\nPOINTS " +
+                        std::to_string(num_points) + " double\n";
+    for (const agvd::Vec3& p : mesh.positions) {
+        ticker.tick();
+        for (const double x : p) append(bytes, x, vtk_order);
+    }
+    bytes += "\nPOLYGONS " + std::to_string(num_faces) + ' ' + std::to_string(4 * num_faces) + '\n';
+    for (const agvd::Triangle& triangle : mesh.triangles) {
+        ticker.tick();
+        append(bytes, std::int32_t{3}, vtk_order);
+        for (const agvd::Index v : triangle) append(bytes, static_cast<std::int32_t>(v), vtk_order);
+    }
+    bytes += '\n';
+    std::string of_points = "POINT_DATA " + std::to_string(num_points) + '\n';
+    if (attributes.normals) {
+        bytes += of_points + "NORMALS normals float\n";
+        of_points.clear();
+        for (const agvd::Vec3& normal : vertex_normals(mesh)) {
+            for (const double x : normal) append(bytes, static_cast<float>(x), vtk_order);
+        }
+        bytes += '\n';
+    }
+    append_attributes(of_points.c_str(), attributes.of_vertices, num_points, ticker, bytes);
+    const std::string of_cells = "CELL_DATA " + std::to_string(num_faces) + '\n';
+    append_attributes(of_cells.c_str(), attributes.of_faces, num_faces, ticker, bytes);
+    return bytes;
+}
+
+}  // namespace remesh

@@ -1,0 +1,238 @@
+// Medit's .mesh, ascii: vertices, triangles and quadrilaterals; their references are the labels
+// `ref`. Other lists (edges, corners, tetrahedra, ...) are passed over (format: Frey, "MEDIT: an
+// interactive mesh visualization software", INRIA RT-0253, 2001).
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "remesh/io/formats.h"
+#include "remesh/io/polygon_soup.h"
+#include "remesh/io/text_format.h"
+#include "remesh/io/text_scanner.h"
+
+namespace remesh {
+namespace {
+
+constexpr const char* ref_name = "ref";
+
+// A list that is passed over, and how many numbers each of its elements has.
+struct PassedOver {
+    std::string_view keyword;
+    std::size_t num_numbers;
+};
+constexpr std::array passed_over = {PassedOver{"Edges", 3},
+                                    PassedOver{"Tetrahedra", 5},
+                                    PassedOver{"Hexahedra", 9},
+                                    PassedOver{"Prisms", 7},
+                                    PassedOver{"Pyramids", 6},
+                                    PassedOver{"Corners", 1},
+                                    PassedOver{"Ridges", 1},
+                                    PassedOver{"RequiredVertices", 1},
+                                    PassedOver{"RequiredEdges", 1},
+                                    PassedOver{"RequiredTriangles", 1},
+                                    PassedOver{"RequiredQuadrilaterals", 1},
+                                    PassedOver{"RequiredTetrahedra", 1},
+                                    PassedOver{"Normals", 3},
+                                    PassedOver{"NormalAtVertices", 2},
+                                    PassedOver{"NormalAtTriangleVertices", 3},
+                                    PassedOver{"NormalAtQuadrilateralVertices", 3},
+                                    PassedOver{"Tangents", 3},
+                                    PassedOver{"TangentAtVertices", 2},
+                                    PassedOver{"TangentAtEdges", 3}};
+
+class MeditReader {
+public:
+    explicit MeditReader(const SourceFile& file)
+        : file_(file), scan_(file, 0, {.comment = '#'}), soup_(file, 1) {}
+
+    MeshFile read() {
+        expect("MeshVersionFormatted");
+        next();
+        if (const std::int64_t version = scan_.integer("a version"); version < 1 || version > 4) {
+            fail("unknown version " + std::to_string(version) + "; export the file again");
+        }
+        expect("Dimension");
+        next();
+        if (scan_.integer("the dimension") != 3) {
+            fail("the mesh does not have three dimensions; export it with three coordinates");
+        }
+        while (scan_.find_word()) {
+            start_ = scan_.offset();
+            const std::string_view keyword = scan_.word();
+            if (keyword == "End") return finish();
+            read_list(keyword);
+        }
+        fail(
+            "the file ends without 'End'; it is truncated: export it again, or add that line if "
+            "nothing is missing");
+    }
+
+private:
+    [[noreturn]] void fail(const std::string& text) const { file_.fail_malformed(start_, text); }
+
+    // Goes to the next word, on whatever line.
+    void next() {
+        if (!scan_.find_word()) {
+            scan_.fail_malformed("the file ends too early; it is truncated: export the file again");
+        }
+        start_ = scan_.offset();
+    }
+
+    void expect(std::string_view keyword) {
+        next();
+        const std::string_view word = scan_.word();
+        if (word == keyword) return;
+        fail("expected '" + std::string(keyword) + "', found " + in_quotes(word) +
+             "; check that the file is a Medit mesh (.mesh, not .meshb)");
+    }
+
+    std::int64_t integer(const char* what) {
+        next();
+        return scan_.integer(what);
+    }
+
+    void read_list(std::string_view keyword) {
+        const auto* const other =
+            std::find_if(passed_over.begin(), passed_over.end(),
+                         [&](const PassedOver& known) { return keyword == known.keyword; });
+        const bool is_vertices = keyword == "Vertices";
+        const bool is_triangles = keyword == "Triangles", is_quads = keyword == "Quadrilaterals";
+        if (!is_vertices && !is_triangles && !is_quads && other == passed_over.end()) {
+            fail("unknown keyword " + in_quotes(keyword) +
+                 "; save the file with vertices, triangles and quadrilaterals only");
+        }
+        const std::int64_t count = integer("the number of elements");
+        if (count < 0) fail("the number of elements is negative; export the file again");
+        for (std::int64_t i = 0; i < count; ++i) {
+            if (is_vertices) {
+                read_vertex();
+            } else if (other == passed_over.end()) {
+                read_face(is_triangles ? 3 : 4);
+            } else {
+                skip(other->num_numbers);
+            }
+        }
+    }
+
+    void read_vertex() {
+        soup_.ticker.tick(2);
+        agvd::Vec3 p;
+        for (int k = 0; k < 3; ++k) {
+            next();
+            p[k] = scan_.number("a coordinate");
+            if (!std::isfinite(p[k])) {
+                file_.fail_unusable(start_,
+                                    "a coordinate is not finite; correct or delete the vertex");
+            }
+        }
+        soup_.positions.push_back(p);
+        read_ref(vertex_refs_);
+    }
+
+    void read_face(int num_corners) {
+        for (int k = 0; k < num_corners; ++k) {
+            const std::int64_t vertex = integer("a corner");
+            if (vertex == 0) {
+                file_.fail_unusable(start_,
+                                    "a face names vertex 0, but Medit counts vertices from 1; "
+                                    "correct the face, or export the file again");
+            }
+            soup_.add_corner(vertex - 1, start_);
+        }
+        soup_.end_polygon();
+        read_ref(face_refs_);
+    }
+
+    void read_ref(std::vector<double>& refs) {
+        const std::int64_t ref = integer("a reference");
+        if (ref < INT32_MIN || ref > INT32_MAX) {
+            fail("a reference has more than 32 bits; renumber the references");
+        }
+        if (file_.with_attributes) refs.push_back(static_cast<double>(ref));
+    }
+
+    void skip(std::size_t count) {
+        for (; count > 0; --count) {
+            soup_.ticker.tick();
+            next();
+            static_cast<void>(scan_.number("a number"));
+        }
+    }
+
+    // References that are all 0 say nothing.
+    static void add(std::vector<double> refs, std::vector<Attribute>& attributes) {
+        if (std::all_of(refs.begin(), refs.end(), [](double ref) { return ref == 0; })) return;
+        attributes.push_back(
+            {.name = ref_name, .type = NumberType::Int32, .values = std::move(refs)});
+    }
+
+    MeshFile finish() {
+        MeshFile result = std::move(soup_).finish();
+        MeshAttributes attributes;
+        add(std::move(vertex_refs_), attributes.of_vertices);
+        add(std::move(face_refs_), attributes.of_faces);
+        attach(std::move(attributes), result);
+        return result;
+    }
+
+    const SourceFile& file_;
+    TextScanner scan_;
+    PolygonSoup soup_;
+    std::size_t start_ = 0;  // Of the word that is being read.
+    std::vector<double> vertex_refs_, face_refs_;
+};
+
+bool is_reference(const Attribute& attribute) {
+    return is_label(attribute) && attribute.type != NumberType::UInt32;
+}
+
+// The attribute that is written as references: the one of that name, or the first labels.
+const Attribute* references_of(const std::vector<Attribute>& attributes) {
+    const Attribute* const named = find_attribute(attributes, ref_name);
+    if (named != nullptr && is_reference(*named)) return named;
+    const auto found = std::find_if(attributes.begin(), attributes.end(), is_reference);
+    return found == attributes.end() ? nullptr : &*found;
+}
+
+std::int64_t reference(const Attribute* refs, std::size_t element) {
+    if (refs == nullptr || !is_value_of(NumberType::Int32, refs->values[element])) return 0;
+    return static_cast<std::int64_t>(refs->values[element]);
+}
+
+}  // namespace
+
+// NOLINTNEXTLINE(performance-unnecessary-value-param): all readers have this type.
+MeshFile read_medit(SourceFile file) { return MeditReader(file).read(); }
+
+bool medit_holds(const Attribute& attribute, ElementKind kind, const MeshAttributes& all) {
+    const Attribute* const refs =
+        references_of(kind == ElementKind::Vertex ? all.of_vertices : all.of_faces);
+    return refs != nullptr && refs->name == attribute.name;
+}
+
+std::string format_medit(const agvd::MeshView& mesh, const MeshAttributes& attributes,
+                         agvd::Ticker ticker) {
+    const Attribute* const vertex_refs = references_of(attributes.of_vertices);
+    const Attribute* const face_refs = references_of(attributes.of_faces);
+    std::string bytes = "MeshVersionFormatted 2\nDimension 3\nVertices\n" +
+                        std::to_string(mesh.positions.size()) + '\n';
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        ticker.tick(4);
+        append_line(bytes, "", mesh.positions[v]);
+        bytes.back() = ' ';
+        append_line(bytes, "", std::array{reference(vertex_refs, v)});
+    }
+    bytes += "Triangles\n" + std::to_string(mesh.triangles.size()) + '\n';
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        ticker.tick(2);
+        const auto& [a, b, c] = mesh.triangles[f];
+        append_line(
+            bytes, "",
+            std::array<std::int64_t, 4>{a + 1ll, b + 1ll, c + 1ll, reference(face_refs, f)});
+    }
+    return bytes + "End\n";
+}
+
+}  // namespace remesh

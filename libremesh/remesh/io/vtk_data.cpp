@@ -1,0 +1,260 @@
+#include "remesh/io/vtk_data.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "remesh/io/byte_order.h"
+#include "remesh/io/formats.h"
+#include "remesh/io/strip_triangles.h"
+
+namespace remesh {
+namespace {
+
+template <typename T>
+double load_as(const char* bytes, std::endian order) {
+    return static_cast<double>(load<T>(bytes, order));
+}
+
+constexpr std::array vtk_types = {
+    VtkType{"char", "Int8", 1, NumberType::Int8, load_as<std::int8_t>},
+    VtkType{"unsigned_char", "UInt8", 1, NumberType::UInt8, load_as<std::uint8_t>},
+    VtkType{"short", "Int16", 2, NumberType::Int16, load_as<std::int16_t>},
+    VtkType{"unsigned_short", "UInt16", 2, NumberType::UInt16, load_as<std::uint16_t>},
+    VtkType{"int", "Int32", 4, NumberType::Int32, load_as<std::int32_t>},
+    VtkType{"vtkidtype", "", 4, NumberType::Int32, load_as<std::int32_t>},
+    VtkType{"unsigned_int", "UInt32", 4, NumberType::UInt32, load_as<std::uint32_t>},
+    VtkType{"long", "", 8, NumberType::Int32, load_as<std::int64_t>},
+    VtkType{"vtktypeint64", "Int64", 8, NumberType::Int32, load_as<std::int64_t>},
+    VtkType{"unsigned_long", "", 8, NumberType::UInt32, load_as<std::uint64_t>},
+    VtkType{"vtktypeuint64", "UInt64", 8, NumberType::UInt32, load_as<std::uint64_t>},
+    VtkType{"float", "Float32", 4, NumberType::Float32, load_as<float>},
+    VtkType{"double", "Float64", 8, NumberType::Float64, load_as<double>}};
+
+// Names that PLY gives to what is no attribute.
+constexpr std::array reserved_names = {"x",           "y", "z", "nx", "ny", "nz", "vertex_indices",
+                                       "vertex_index"};
+
+constexpr std::array color_names = {"red", "green", "blue", "alpha"};
+
+void add_points(const VtkArray& points, const SourceFile& file, PolygonSoup& soup) {
+    soup.positions.reserve(points.values.size() / 3);
+    for (std::size_t i = 0; i + 2 < points.values.size(); i += 3) {
+        soup.ticker.tick(2);
+        const agvd::Vec3 p(points.values[i], points.values[i + 1], points.values[i + 2]);
+        if (!p.allFinite()) {
+            file.fail_unusable(points.offset,
+                               "point " + std::to_string(i / 3) +
+                                   " has a coordinate that is not finite; correct or "
+                                   "delete the point");
+        }
+        soup.positions.push_back(p);
+    }
+}
+
+// Adds cells to a soup and knows which cell each polygon came from.
+class CellReader {
+public:
+    CellReader(const SourceFile& file, PolygonSoup& soup) : file_(file), soup_(soup) {}
+
+    void add(const VtkCells& cells) {
+        cells_ = &cells;
+        std::size_t begin = 0;
+        for (std::size_t i = 0; i < cells.ends.size(); begin = cells.ends[i++]) {
+            add_cell(cells.types.size() == 1 ? cells.types[0] : cells.types[i], begin,
+                     cells.ends[i]);
+            cell_of_polygon_.resize(soup_.num_polygons(), num_cells_++);
+        }
+    }
+
+    [[nodiscard]] const std::vector<std::size_t>& cell_of_polygon() const {
+        return cell_of_polygon_;
+    }
+    [[nodiscard]] std::size_t num_cells() const { return num_cells_; }
+    [[nodiscard]] std::size_t num_others() const { return num_others_; }
+
+private:
+    void add_cell(VtkCell type, std::size_t begin, std::size_t end) {
+        soup_.ticker.tick();
+        switch (type) {
+            case VtkCell::Triangle:
+                require_corners(end - begin, 3);
+                return add_polygon(begin, end);
+            case VtkCell::Quad:
+                require_corners(end - begin, 4);
+                return add_polygon(begin, end);
+            case VtkCell::Pixel:
+                require_corners(end - begin, 4);
+                for (const std::size_t k : {0u, 1u, 3u, 2u})
+                    soup_.add_corner(vertex(begin + k), offset());
+                return soup_.end_polygon();
+            case VtkCell::Polygon:
+                return add_polygon(begin, end);
+            case VtkCell::Strip: {
+                StripTriangles strip(soup_);
+                for (std::size_t k = begin; k < end; ++k) strip.add(vertex(k), offset());
+                return strip.end();
+            }
+            default:
+                ++num_others_;
+        }
+    }
+
+    void add_polygon(std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) soup_.add_corner(vertex(k), offset());
+        soup_.end_polygon();
+    }
+
+    void require_corners(std::size_t found, std::size_t needed) const {
+        if (found == needed) return;
+        file_.fail_malformed(offset(), "cell " + std::to_string(num_cells_) + " has " +
+                                           std::to_string(found) + " corners instead of " +
+                                           std::to_string(needed) + "; export the file again");
+    }
+
+    [[nodiscard]] std::int64_t vertex(std::size_t corner) const {
+        const double value = cells_->corners.values[corner];
+        if (value == std::floor(value) && std::abs(value) < 1e15) {
+            return static_cast<std::int64_t>(value);
+        }
+        file_.fail_malformed(offset(), "cell " + std::to_string(num_cells_) +
+                                           " has a corner that is no whole number; export the file "
+                                           "again");
+    }
+    [[nodiscard]] std::size_t offset() const { return cells_->corners.offset; }
+
+    const SourceFile& file_;
+    PolygonSoup& soup_;
+    const VtkCells* cells_ = nullptr;
+    std::size_t num_cells_ = 0, num_others_ = 0;
+    std::vector<std::size_t> cell_of_polygon_;
+};
+
+// A name that is one word, as PLY wants it.
+std::string as_word(const std::string& name) {
+    std::string word = name.empty() ? "array" : name;
+    for (char& c : word) c = c > ' ' && c != '\x7f' ? c : '_';
+    return word;
+}
+
+NumberType type_of(const VtkArray& array) {
+    if (array.type->size < 8 || !is_integer(array.type->type)) return array.type->type;
+    const bool fits = std::all_of(array.values.begin(), array.values.end(), [&](double value) {
+        return is_value_of(array.type->type, value);
+    });
+    return fits ? array.type->type : NumberType::Float64;
+}
+
+// Text files may hold words for integers that are none.
+bool has_wrong_values(const VtkArray& array, NumberType type) {
+    return is_integer(type) && !std::all_of(array.values.begin(), array.values.end(),
+                                            [&](double v) { return is_value_of(type, v); });
+}
+
+// Turns arrays into attributes.
+class ArrayReader {
+public:
+    ArrayReader(ElementKind kind, std::size_t num_elements, const SourceFile& file,
+                MeshAttributes& attributes)
+        : kind_(kind),
+          num_elements_(num_elements),
+          file_(file),
+          attributes_(attributes),
+          target_(kind == ElementKind::Vertex ? attributes.of_vertices : attributes.of_faces) {}
+
+    void take(const VtkArray& array) {
+        if (array.values.size() != num_elements_ * array.num_components) {
+            file_.fail_malformed(
+                array.offset,
+                "array " + in_quotes(array.name) + " has " + std::to_string(array.values.size()) +
+                    " numbers for " + std::to_string(num_elements_) + " elements with " +
+                    std::to_string(array.num_components) + " each; export the file again");
+        }
+        const NumberType type = type_of(array);
+        const bool is_color =
+            type == NumberType::UInt8 && (array.num_components == 3 || array.num_components == 4);
+        if (has_wrong_values(array, type)) {
+            decline(array.name, "some of its values are not of its type");
+        } else if (is_color && find_attribute(target_, "red") == nullptr) {
+            for (std::size_t k = 0; k < array.num_components; ++k)
+                add(color_names[k], type, array, k);
+        } else if (array.num_components != 1) {
+            decline(array.name, "arrays of several numbers are not carried over");
+        } else {
+            add(as_word(array.name), type, array, 0);
+        }
+    }
+
+private:
+    void add(const std::string& name, NumberType type, const VtkArray& array,
+             std::size_t component) {
+        const bool is_reserved =
+            std::find(reserved_names.begin(), reserved_names.end(), name) != reserved_names.end();
+        if (is_reserved || find_attribute(target_, name) != nullptr) {
+            return decline(name, "another property has the same name");
+        }
+        std::vector<double> values;
+        values.reserve(num_elements_);
+        for (std::size_t i = component; i < array.values.size(); i += array.num_components) {
+            values.push_back(array.values[i]);
+        }
+        target_.push_back({.name = name, .type = type, .values = std::move(values)});
+    }
+    void decline(const std::string& name, const char* reason) {
+        attributes_.declined.push_back(
+            {(kind_ == ElementKind::Vertex ? "vertex " : "face ") + name, reason});
+    }
+
+    ElementKind kind_;
+    std::size_t num_elements_;
+    const SourceFile& file_;
+    MeshAttributes& attributes_;
+    std::vector<Attribute>& target_;
+};
+
+MeshAttributes read_attributes(VtkData& data, const CellReader& cells, std::size_t num_points,
+                               const SourceFile& file) {
+    MeshAttributes attributes{.normals = data.normals, .declined = std::move(data.declined)};
+    ArrayReader of_points(ElementKind::Vertex, num_points, file, attributes);
+    for (const VtkArray& array : data.of_points) of_points.take(array);
+    ArrayReader of_cells(ElementKind::Face, cells.num_cells(), file, attributes);
+    for (const VtkArray& array : data.of_cells) of_cells.take(array);
+    for (Attribute& attribute : attributes.of_faces) {
+        std::vector<double> of_polygons;
+        of_polygons.reserve(cells.cell_of_polygon().size());
+        for (const std::size_t cell : cells.cell_of_polygon()) {
+            of_polygons.push_back(attribute.values[cell]);
+        }
+        attribute.values = std::move(of_polygons);
+    }
+    return attributes;
+}
+
+}  // namespace
+
+const VtkType* find_vtk_type(std::string_view name) {
+    const auto found = std::find_if(vtk_types.begin(), vtk_types.end(),
+                                    [&](const VtkType& type) { return name == type.name; });
+    return found == vtk_types.end() ? nullptr : found;
+}
+
+MeshFile make_mesh(VtkData data, const SourceFile& file) {
+    PolygonSoup soup(file, 0);
+    if (data.points) add_points(*data.points, file, soup);
+    CellReader cells(file, soup);
+    for (const VtkCells& group : data.cells) cells.add(group);
+    const std::size_t num_points = soup.positions.size();
+    MeshAttributes attributes;
+    if (file.with_attributes) attributes = read_attributes(data, cells, num_points, file);
+    MeshFile result = std::move(soup).finish();
+    attach(std::move(attributes), result);
+    if (cells.num_others() > 0) {
+        add_warning(file.path.string() + ": " + std::to_string(cells.num_others()) +
+                        " cells that are no faces (vertices, lines, volumes) are passed over",
+                    result);
+    }
+    return result;
+}
+
+}  // namespace remesh

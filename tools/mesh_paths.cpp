@@ -1,0 +1,70 @@
+#include "mesh_paths.h"
+
+#include <CLI/CLI.hpp>
+
+#include "agvd/core/error.h"
+#include "remesh/io/write_mesh.h"
+
+namespace cli {
+namespace {
+
+constexpr const char* input_stream = "/dev/stdin";
+constexpr const char* output_stream = "/dev/stdout";
+
+// \tparam Paths  a path, or a vector of these.
+template <typename Paths>
+CLI::Option* add_mesh_path(CLI::App& app, const std::string& name, const std::string& help,
+                           const char* stream, Paths& path) {
+    const auto name_stream = [stream](std::string& text) {
+        if (text == "-") text = stream;
+        return std::string();
+    };
+    return app.add_option(name, path, help)->transform(CLI::Validator(name_stream, ""));
+}
+
+}  // namespace
+
+std::string mesh_extensions() { return remesh::mesh_formats("."); }
+
+CLI::Option* add_mesh_input(CLI::App& app, const std::string& name, const std::string& help,
+                            std::filesystem::path& path) {
+    return add_mesh_path(app, name, help, input_stream, path);
+}
+
+CLI::Option* add_mesh_output(CLI::App& app, const std::string& name, const std::string& help,
+                             std::filesystem::path& path) {
+    return add_mesh_path(app, name, help, output_stream, path);
+}
+
+CLI::Option* add_mesh_outputs(CLI::App& app, const std::string& name, const std::string& help,
+                              std::vector<std::filesystem::path>& paths) {
+    return add_mesh_path(app, name, help, output_stream, paths);
+}
+
+CLI::Option* add_format_option(CLI::App& app, const std::string& name, const std::string& help,
+                               std::string& format) {
+    const auto check = [](std::string& text) {
+        for (char& c : text) c = 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+        if (remesh::is_known_mesh_format({.path = {}, .format = text})) return std::string();
+        return "unknown format '" + text + "'; use " + remesh::mesh_formats();
+    };
+    return app.add_option(name, format, help)
+        ->transform(CLI::Validator(check, ""))
+        ->type_name("FORMAT");
+}
+
+bool is_standard_input(const std::filesystem::path& path) { return path == input_stream; }
+
+bool is_standard_stream(const std::filesystem::path& path) {
+    return path == input_stream || path == output_stream;
+}
+
+void check_one_on_stdout(const std::filesystem::path& mesh, const std::filesystem::path& other,
+                         const char* option) {
+    if (mesh != output_stream || (other != "-" && other != output_stream)) return;
+    throw agvd::InvalidOption(
+        std::string("the mesh and ") + option +
+        " cannot both go to the standard output; write one of them to a file");
+}
+
+}  // namespace cli

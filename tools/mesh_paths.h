@@ -1,0 +1,45 @@
+//! \file
+//! Meshes on the command line: `-` for a standard stream, and formats that no extension names.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "remesh/io/mesh_file.h"
+
+namespace CLI {
+class App;
+class Option;
+}  // namespace CLI
+
+namespace cli {
+
+//! ".ply, .obj, .off or .stl"
+[[nodiscard]] std::string mesh_extensions();
+
+//! Adds a positional argument for a mesh to read; `-` becomes /dev/stdin.
+CLI::Option* add_mesh_input(CLI::App& app, const std::string& name, const std::string& help,
+                            std::filesystem::path& path);
+//! Adds an option or positional argument for a mesh to write; `-` becomes /dev/stdout.
+CLI::Option* add_mesh_output(CLI::App& app, const std::string& name, const std::string& help,
+                             std::filesystem::path& path);
+
+//! The same for several.
+CLI::Option* add_mesh_outputs(CLI::App& app, const std::string& name, const std::string& help,
+                              std::vector<std::filesystem::path>& paths);
+
+//! Adds --from or --to: the name of a format, in any case.
+CLI::Option* add_format_option(CLI::App& app, const std::string& name, const std::string& help,
+                               std::string& format);
+
+[[nodiscard]] bool is_standard_input(const std::filesystem::path& path);
+//! The input or the output.
+[[nodiscard]] bool is_standard_stream(const std::filesystem::path& path);
+
+//! \throw agvd::InvalidOption  both are the standard output: the mesh and the file of `option`,
+//!        which may be empty or `-`.
+void check_one_on_stdout(const std::filesystem::path& mesh, const std::filesystem::path& other,
+                         const char* option);
+
+}  // namespace cli
