@@ -17,7 +17,15 @@ from ._stages import Progress
 
 @dataclass(frozen=True)
 class Result:
-    """The result of remesh()."""
+    """The result of remesh().
+
+    >>> V, F = remesh.examples.sphere(3)
+    >>> result = remesh.remesh(V, F, 200, region=V[F].mean(axis=1)[:, 2] > 0)
+    >>> len(result.V) - len(result.kept_vertices)  # of 200, others are on the seam
+    168
+    >>> bool((result.V[:len(result.kept_vertices)] == V[result.kept_vertices]).all())
+    True
+    """
 
     #: #V x 3: float32 if the input's is, else float64.
     V: NDArray[Any]
