@@ -60,7 +60,7 @@ def snippets(path):
     return re.findall(r"```python\n(.*?)```", (conftest.ROOT / path).read_text(), re.DOTALL)
 
 
-@pytest.mark.parametrize("path", ["docs/python.md", "docs/cookbook.md", "README.md"])
+@pytest.mark.parametrize("path", ["docs/python.md", "docs/cookbook.md", "docs/switching.md", "README.md"])
 def test_snippets_of_the_documentation_run(path, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     found = snippets(path)
