@@ -147,8 +147,10 @@ def test_strict_results_cross_themselves_no_more_than_the_input():
     remesh._remeshing._require_all(report)
     remesh._remeshing._require_all({**report, "self_intersecting_pairs": None})
     with pytest.raises(remesh.ConstraintUnmet, match="has 3 pairs of intersecting faces, the input "
-                       "has 2; use more vertices, or leave out strict"):
+                       "has 2; mend the input, or leave out strict"):
         remesh._remeshing._require_all({**report, "self_intersecting_pairs": 3})
+    with pytest.raises(remesh.ConstraintUnmet, match="the input has 0; use more vertices, or "):
+        remesh._remeshing._require_all({**report, "input_self_intersecting_pairs": None})
     with pytest.raises(remesh.ConstraintUnmet, match="some creases, components; use about 70 "):
         remesh._remeshing._require_all({
             **report,

@@ -236,5 +236,7 @@ def _require_all(report: dict[str, Any]) -> None:
     pairs, before = (report[key] or 0 for key in ("self_intersecting_pairs",
                                                   "input_self_intersecting_pairs"))
     if pairs > before:
+        # Where the input intersects itself, more vertices give more pairs.
+        remedy = "use more vertices" if before == 0 else "mend the input"
         raise ConstraintUnmet(f"the result has {pairs} pairs of intersecting faces, the input has "
-                              f"{before}; use more vertices, or leave out strict")
+                              f"{before}; {remedy}, or leave out strict")
