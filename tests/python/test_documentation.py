@@ -27,12 +27,27 @@ def test_examples_of_docstrings_run(name):
     assert failed == 0
 
 
-def test_every_function_has_an_example():
-    functions = [getattr(remesh, name) for name in remesh.__all__]
-    functions = [f for f in functions if inspect.isfunction(f)]
-    assert len(functions) == 7
-    for function in functions:
-        assert ">>> " in function.__doc__, function.__name__
+def is_error(thing):
+    return inspect.isclass(thing) and issubclass(thing, Exception)
+
+
+def test_every_function_and_class_has_an_example():
+    things = [getattr(remesh, name) for name in remesh.__all__]
+    things = [x for x in things if (inspect.isfunction(x) or inspect.isclass(x)) and not is_error(x)]
+    things += [remesh.examples.sphere, remesh.examples.torus]
+    assert len(things) == 14
+    for thing in things:
+        assert ">>> " in thing.__doc__, thing.__name__
+
+
+def test_every_method_is_documented():
+    classes = [getattr(remesh, name) for name in remesh.__all__]
+    methods = [(c, name) for c in classes if inspect.isclass(c) and not is_error(c)
+               for name, method in vars(c).items()
+               if inspect.isfunction(method) and not name.startswith("_")]
+    assert len(methods) >= 2
+    for kind, name in methods:
+        assert inspect.getdoc(getattr(kind, name)), f"{kind.__name__}.{name}"
 
 
 def test_every_public_name_is_documented():
@@ -45,11 +60,11 @@ def snippets(path):
     return re.findall(r"```python\n(.*?)```", (conftest.ROOT / path).read_text(), re.DOTALL)
 
 
-@pytest.mark.parametrize("path", ["docs/python.md", "README.md"])
+@pytest.mark.parametrize("path", ["docs/python.md", "docs/cookbook.md", "docs/switching.md", "README.md"])
 def test_snippets_of_the_documentation_run(path, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     found = snippets(path)
-    assert len(found) >= (5 if path.startswith("docs") else 1)
+    assert len(found) >= (5 if path == "docs/python.md" else 1)
     for snippet in found:
         exec(compile(snippet, path, "exec"), {"__name__": "__main__"})
 

@@ -70,6 +70,7 @@ template <typename V, typename F>
     return mesh;
 }
 
+//! Numbers of someone else as a matrix of three columns, row by row.
 template <typename Scalar>
 using RowsOfThree = Eigen::Map<const Eigen::Matrix<Scalar, Eigen::Dynamic, 3, Eigen::RowMajor>>;
 
@@ -80,6 +81,7 @@ using RowsOfThree = Eigen::Map<const Eigen::Matrix<Scalar, Eigen::Dynamic, 3, Ei
     return {reinterpret_cast<const double*>(positions.data()),
             static_cast<Eigen::Index>(positions.size()), 3};
 }
+//! The same for triangles.
 [[nodiscard]] inline RowsOfThree<Index> matrix_of(std::span<const Triangle> triangles) {
     return {reinterpret_cast<const Index*>(triangles.data()),
             static_cast<Eigen::Index>(triangles.size()), 3};

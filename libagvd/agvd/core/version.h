@@ -4,9 +4,9 @@
 
 namespace agvd {
 
-inline constexpr int version_major = 0;
-inline constexpr int version_minor = 1;
-inline constexpr int version_patch = 0;
+inline constexpr int version_major = 0;          //!< First part of `version`.
+inline constexpr int version_minor = 1;          //!< Second part: with it the interface may change.
+inline constexpr int version_patch = 0;          //!< Third part.
 inline constexpr const char* version = "0.1.0";  //!< Of the headers.
 
 //! The version of the library that is linked or loaded. It should be that of the headers; a

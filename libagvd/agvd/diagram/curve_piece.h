@@ -8,7 +8,8 @@ namespace agvd {
 
 //! A straight piece of a curve, both ends as points of the face that it crosses.
 struct CurvePiece {
-    SurfacePoint from, to;
+    SurfacePoint from;  //!< First end.
+    SurfacePoint to;    //!< Other end; in the same face.
 };
 
 //! The piece of a Voronoi edge, or of an arc of the boundary, from one of its points to the next.

@@ -21,7 +21,7 @@ struct VoronoiEdge {
 //! the points of a piece tell its face; where faces share two edges, or a face has a vertex twice,
 //! this does: see curve_piece().
 struct Passage {
-    static constexpr std::uint8_t none = 3;
+    static constexpr std::uint8_t none = 3;  //!< No side of the face.
     //! 0 to 2: half-edge 3 f + side; none: the curve comes and goes on in the face. On the
     //! surface's boundary the half-edge along which the curve goes on (or ends).
     std::uint8_t side = none;
@@ -29,27 +29,28 @@ struct Passage {
     //! half-edge before, over a mesh vertex.
     bool leaves = false;
 
+    //! Whether both parts are equal.
     friend bool operator==(const Passage&, const Passage&) = default;
 };
 
 //! One end of a Voronoi edge at a Voronoi vertex.
 struct EdgeEnd {
-    Index edge = no_index;
-    bool is_tail = false;  //!< True: the edge starts at this vertex.
+    Index edge = no_index;  //!< Of Diagram::edges.
+    bool is_tail = false;   //!< True: the edge starts at this vertex.
 };
 
 //! The complex. Voronoi vertices are the points where three or more cells (or two cells and the
 //! outside) meet; around vertex v, counter-clockwise, edge end i is followed by the cell
 //! vertex_sites[i].
 struct Diagram {
-    Index num_sites = 0;
+    Index num_sites = 0;  //!< Sites, and cells: some may be empty.
 
     std::vector<SurfacePoint> points;    //!< Polyline points, edge after edge; a closed curve does
                                          //!< not repeat its first point.
     std::vector<double> point_distance;  //!< Distance of each point from the sites it is between.
     std::vector<Passage> passages;       //!< By point; none in a diagram from a file.
     std::vector<Index> edge_points;      //!< #edges + 1 offsets into points.
-    std::vector<VoronoiEdge> edges;
+    std::vector<VoronoiEdge> edges;      //!< With the cells on both sides.
 
     std::vector<Index> vertex_offsets;    //!< #vertices + 1 offsets into the next two.
     std::vector<EdgeEnd> vertex_ends;     //!< Counter-clockwise edge ends.
@@ -66,10 +67,11 @@ struct Diagram {
     std::vector<int> cell_euler;  //!< #sites: Euler characteristic of each cell (a disc has 1).
 };
 
+//! `{}` gives the defaults.
 struct DiagramOptions {
     double chord_tolerance = 0.01;  //!< Arcs are sampled to this share of their chord's length.
     int num_threads = 0;            //!< >= 0; 0: all cores. Same bytes for any number.
-    Progress progress = {};
+    Progress progress = {};         //!< Polled during the call; see agvd::poll.
 };
 
 }  // namespace agvd

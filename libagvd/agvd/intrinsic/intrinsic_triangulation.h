@@ -35,18 +35,19 @@ struct IntrinsicOptions {
     Progress progress = {};  //!< Tells the fraction 0 until it is done.
 };
 
+//! What was done to the input's triangulation.
 struct IntrinsicCounts {
-    std::size_t flips = 0;
-    Index splits = 0;   //!< Edges split: vertices added.
-    Index removed = 0;  //!< Vertices without curvature that were removed: they have no faces.
+    std::size_t flips = 0;  //!< Edges flipped.
+    Index splits = 0;       //!< Edges split: vertices added.
+    Index removed = 0;      //!< Vertices without curvature that were removed: they have no faces.
     Index degenerate_faces = 0;  //!< Degenerate faces of the input, which got the least area.
     bool is_delaunay = true;     //!< False: flips ended before the condition held everywhere.
 };
 
 //! A convex part of a face of the input.
 struct InputPart {
-    SurfacePoint centroid;
-    double share = 0;  //!< Of the face's area.
+    SurfacePoint centroid;  //!< Of the part, on the input.
+    double share = 0;       //!< Of the face's area.
 };
 
 //! The input's surface and vertices, other edges. An edge of the input with two triangles beside it
@@ -72,13 +73,17 @@ public:
     //! The same for an input that is not used elsewhere. input() keeps its mesh, `twin` and
     //! `outgoing`, and computes the rest from its positions: 78 bytes less for each face.
     explicit IntrinsicTriangulation(Surface&& input, const IntrinsicOptions& options = {});
+    //! Moves; the other one may only be destroyed or assigned to.
     IntrinsicTriangulation(IntrinsicTriangulation&&) noexcept;
+    //! Likewise.
     IntrinsicTriangulation& operator=(IntrinsicTriangulation&&) noexcept;
     ~IntrinsicTriangulation();
 
+    //! The surface that was given.
     [[nodiscard]] const Surface& input() const { return *input_; }
     //! Vertices of the input first, then added ones, at their places on the input.
     [[nodiscard]] const Surface& surface() const { return surface_; }
+    //! What was done.
     [[nodiscard]] const IntrinsicCounts& counts() const { return counts_; }
 
     //! Whether a face is not one of the input's.
@@ -94,9 +99,12 @@ public:
     //! vertices, coordinates that are 0 stay exactly 0. Cost: some 20 ns for each operation that
     //! concerned the face there: none to hundreds.
     [[nodiscard]] SurfacePoint to_intrinsic(const SurfacePoint& on_input) const;
+    //! The reverse, at the same cost.
     [[nodiscard]] SurfacePoint to_input(const SurfacePoint& on_base) const;
+    //! The same for many points.
     [[nodiscard]] std::vector<SurfacePoint> to_intrinsic(
         std::span<const SurfacePoint> on_input) const;
+    //! The same for many points.
     [[nodiscard]] std::vector<SurfacePoint> to_input(std::span<const SurfacePoint> on_base) const;
 
     //! A straight segment in one face of this, as a polyline on the input: two points for each face

@@ -10,6 +10,7 @@
 
 namespace agvd {
 
+//! The result of thin().
 struct ThinnedMesh {
     //! Their vertices are points and extra vertices: i < #points is points[i], others are extra[i -
     //! #points].
@@ -17,7 +18,7 @@ struct ThinnedMesh {
     //! Points of the surface: vertices that were kept, since without them the result would not be a
     //! simplicial manifold of the surface's topology.
     std::vector<SurfacePoint> extra;
-    std::size_t flips = 0;
+    std::size_t flips = 0;  //!< Edges flipped.
 };
 
 //! Makes points the vertices of a component and removes all other vertices, one by one ([liu2023]):

@@ -7,9 +7,10 @@
 
 namespace agvd {
 
+//! The point of a mesh that is nearest to another point.
 struct ClosestPoint {
     SurfacePoint point;  //!< A barycentric coordinate of exactly 0 means on the edge, two a vertex.
-    Vec3 position;
+    Vec3 position;       //!< The same in space.
     double distance_sq = 0;  //!< From the query to `position`.
 };
 

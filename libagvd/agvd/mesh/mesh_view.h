@@ -11,15 +11,16 @@ namespace agvd {
 
 //! #V x 3 positions and #F x 3 vertex indices, not owned.
 struct MeshView {
-    std::span<const Vec3> positions;
-    std::span<const Triangle> triangles;
+    std::span<const Vec3> positions;      //!< #V x 3, mesh units.
+    std::span<const Triangle> triangles;  //!< #F x 3, vertices.
 };
 
 //! #V x 3 positions and #F x 3 vertex indices.
 struct TriangleMesh {
-    std::vector<Vec3> positions;
-    std::vector<Triangle> triangles;
+    std::vector<Vec3> positions;      //!< #V x 3, mesh units.
+    std::vector<Triangle> triangles;  //!< #F x 3, vertices.
 
+    //! Must not outlive the mesh.
     [[nodiscard]] MeshView view() const { return {positions, triangles}; }
     //! Every function of a MeshView takes a TriangleMesh. The view must not outlive the mesh.
     operator MeshView() const { return view(); }

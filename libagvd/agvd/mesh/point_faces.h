@@ -64,6 +64,7 @@ struct CommonFaces {
     Index first = no_index;   //!< no_index: none.
     Index second = no_index;  //!< Where both lie on one edge; no_index otherwise.
 };
+//! See CommonFaces.
 [[nodiscard]] CommonFaces common_faces(const Surface& surface, const SurfacePoint& a,
                                        const SurfacePoint& b);
 

@@ -11,11 +11,14 @@ namespace agvd {
 
 //! Of a mesh, along the axes. Without points: low is above high.
 struct MeshBox {
-    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());  //!< Least coordinates.
+    Vec3 high = -low;                                                    //!< Largest ones.
 
+    //! Whether no point was added.
     [[nodiscard]] bool is_empty() const { return low.x() > high.x(); }
     //! Mesh units; at most the largest double. 0 if empty.
     [[nodiscard]] double longest_side() const;
+    //! Grows to hold the point.
     void add(const Vec3& point) {
         low = low.cwiseMin(point);
         high = high.cwiseMax(point);

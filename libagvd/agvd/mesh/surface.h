@@ -14,7 +14,7 @@ namespace agvd {
 
 //! The frame of half-edge h: its tail at (0, 0), its head at (length, 0), its face above (y > 0).
 struct Surface {
-    TriangleMesh mesh;
+    TriangleMesh mesh;        //!< The faces, and the positions of the vertices.
     std::vector<Index> twin;  //!< #H: the half-edge across; no_index on the boundary.
     //! IntrinsicTriangulation may take these four away. They are empty then, and length_of and
     //! apex_of compute the same numbers from the positions.
@@ -30,22 +30,32 @@ struct Surface {
     //! saddles.
     std::vector<std::uint8_t> can_be_pseudo_source;
 
+    //! #V.
     [[nodiscard]] Index num_vertices() const { return static_cast<Index>(mesh.positions.size()); }
+    //! #F.
     [[nodiscard]] Index num_faces() const { return static_cast<Index>(mesh.triangles.size()); }
+    //! #E.
     [[nodiscard]] Index num_edges() const { return static_cast<Index>(edge_half.size()); }
 
+    //! The face of a half-edge.
     [[nodiscard]] static constexpr Index face(Index half_edge) { return half_edge / 3; }
+    //! The one that starts at its head, in the same face.
     [[nodiscard]] static constexpr Index next(Index half_edge) { return next_half_edge(half_edge); }
+    //! The one that ends at its tail, in the same face.
     [[nodiscard]] static constexpr Index previous(Index half_edge) {
         return previous_half_edge(half_edge);
     }
+    //! The vertex where it starts.
     [[nodiscard]] Index tail(Index half_edge) const {
         return mesh.triangles[half_edge / 3][half_edge % 3];
     }
+    //! The vertex where it ends.
     [[nodiscard]] Index head(Index half_edge) const { return tail(next(half_edge)); }
+    //! Mesh units.
     [[nodiscard]] double length_of(Index half_edge) const {
         return edge.empty() ? length_in_space(half_edge) : length[edge[half_edge]];
     }
+    //! The third corner of its face, in its frame.
     [[nodiscard]] Vec2 apex_of(Index half_edge) const {
         return apex.empty() ? apex_in_space(half_edge) : apex[half_edge];
     }
@@ -55,6 +65,7 @@ struct Surface {
     }
     //! The apex from the positions. Not finite if the half-edge has length 0.
     [[nodiscard]] Vec2 apex_in_space(Index half_edge) const;
+    //! Whether the vertex lies on the boundary.
     [[nodiscard]] bool is_boundary_vertex(Index vertex) const {
         return outgoing[vertex] != no_index && twin[outgoing[vertex]] == no_index;
     }

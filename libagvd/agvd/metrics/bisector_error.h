@@ -10,8 +10,9 @@ namespace agvd {
 
 //! A point of a bisector and the two sites that it is said to be equally far from.
 struct BisectorSample {
-    SurfacePoint point;
-    SiteId left, right;
+    SurfacePoint point;  //!< On the surface.
+    SiteId left;         //!< One site.
+    SiteId right;        //!< The other one.
     double distance;  //!< From both, as the diagram has it; between two points of the bisector the
                       //!< larger of theirs.
 };
@@ -22,9 +23,9 @@ struct BisectorSample {
 
 //! |dA - dB| over the mean cell radius.
 struct BisectorError {
-    double mean = 0;
-    double p95 = 0;  //!< 95th percentile.
-    double max = 0;
+    double mean = 0;       //!< Over the points measured.
+    double p95 = 0;        //!< 95th percentile.
+    double max = 0;        //!< Likewise.
     Index num_points = 0;  //!< Points measured.
 };
 

@@ -10,8 +10,8 @@ namespace agvd {
 
 //! Scale-free error of an approximate diagram.
 struct DiagramError {
-    double wrong_label_area = 0;  //!< Share of the surface's area with a wrong label.
-    BisectorError bisectors;
+    double wrong_label_area = 0;        //!< Share of the surface's area with a wrong label.
+    BisectorError bisectors;            //!< Of the points of its bisectors.
     double min_relative_distance = 0;   //!< Lowest (ours - exact) / exact at the vertices; never
                                         //!< below rounding, since distances are of real paths.
     double mean_relative_distance = 0;  //!< Mean of the same.
@@ -24,6 +24,7 @@ struct Approximation {
     const IntrinsicTriangulation* base = nullptr;  //!< Of the surface; outlives this.
 };
 
+//! `{}` gives the defaults.
 struct CompareOptions {
     Index area_samples = 20000;  //!< Points, uniform by area, whose labels are compared, >= 1.
     std::uint64_t seed = 1;      //!< Same seed, same figures, any num_threads.

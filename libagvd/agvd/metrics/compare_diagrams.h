@@ -22,14 +22,16 @@ struct FrechetError {
     Index unmatched_loops = 0;  //!< Loops of either diagram without a partner.
 };
 
+//! How far two diagrams of the same sites differ.
 struct DiagramDifference {
-    double cell_radius = 0;  //!< mean_cell_radius, mesh units.
-    FrechetError frechet;
+    double cell_radius = 0;       //!< mean_cell_radius, mesh units.
+    FrechetError frechet;         //!< Between the borders of their cells.
     double wrong_label_area = 0;  //!< Share of the surface's area that lies in different cells.
     double hausdorff = 0;         //!< Between the networks of bisectors, mesh units; infinity if
                                   //!< only one diagram has any.
 };
 
+//! `{}` gives the defaults.
 struct DiagramCompareOptions {
     //! Between neighbouring points of a loop, in mean cell radii, > 0. Both loops of a pair get as
     //! many points as the longer one needs, between 8 and max_loop_points.
@@ -39,7 +41,7 @@ struct DiagramCompareOptions {
     Index area_samples = 100'000;    //!< Points, uniform by area, whose cells are compared, >= 1.
     std::uint64_t seed = 1;          //!< Same seed, same figures, any num_threads.
     int num_threads = 0;             //!< >= 0; 0: all cores.
-    Progress progress = {};
+    Progress progress = {};          //!< Polled during the call; see agvd::poll.
 };
 
 //! Sets two diagrams of the same surface and sites side by side. Distances between points of curves
@@ -62,14 +64,16 @@ struct LoopCurves {
     std::vector<Index> cell_loops;         //!< #sites + 1 offsets into loops.
     std::vector<std::vector<Vec3>> loops;  //!< First points are not repeated.
 };
+//! See LoopCurves. Cost: O(points of the diagram).
 [[nodiscard]] LoopCurves loop_curves(const Surface& surface, const Diagram& diagram,
                                      Ticker ticker = {});
 
+//! `{}` gives the defaults.
 struct BisectorErrorOptions {
     //! >= 1; of more points that a diagram has, every k-th is measured.
     Index max_points = 20'000;
-    int num_threads = 0;  //!< >= 0; 0: all cores. Same result for any number.
-    Progress progress = {};
+    int num_threads = 0;     //!< >= 0; 0: all cores. Same result for any number.
+    Progress progress = {};  //!< Polled during the call; see agvd::poll.
 };
 
 //! |dA - dB| of each diagram, dA and dB being the exact distances (window engine) of points of its

@@ -10,6 +10,7 @@
 
 namespace agvd {
 
+//! The exact answer for some points of the surface.
 struct NearestSites {
     std::vector<double> distance;  //!< #targets; infinity where no site reaches.
     std::vector<SiteId> site;      //!< #targets; invalid where no site reaches.

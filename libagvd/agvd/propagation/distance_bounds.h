@@ -11,6 +11,7 @@
 
 namespace agvd {
 
+//! For each vertex a path to some site.
 struct DistanceBounds {
     std::vector<float> distance;  //!< #V; infinity where no site reaches.
     std::vector<Index> site;     //!< #V: the site whose path it is; no_index where no site reaches.
@@ -51,14 +52,16 @@ public:
     [[nodiscard]] Index site(Index vertex) const;
     //! Vertices whose bound may have changed since the last call, in any order.
     [[nodiscard]] std::vector<Index> take_changes();
+    //! Memory held.
     [[nodiscard]] std::size_t bytes() const;
 
 private:
     // The memory and the results of one task.
     struct Chunk {
+        //! A vertex that waits for its turn.
         struct Waiting {
-            std::uint64_t key;  // Stale if the vertex has another one.
-            Index vertex;
+            std::uint64_t key;  //!< Stale if the vertex has another one.
+            Index vertex;       //!< Of the mesh.
         };
         std::vector<std::vector<Waiting>> steps;
         std::vector<Index> beyond;  // Vertices lowered in later slabs.
@@ -89,6 +92,7 @@ private:
 [[nodiscard]] DistanceBounds distance_bounds(const Surface& surface, const ArcGraph& graph,
                                              double mean_edge, std::span<const SurfacePoint> sites,
                                              int num_threads, const Progress& progress = {});
+//! The same along the arcs of a layout.
 [[nodiscard]] DistanceBounds distance_bounds(const Surface& surface, const SurfaceLayout& layout,
                                              std::span<const SurfacePoint> sites, int num_threads,
                                              const Progress& progress = {});

@@ -21,7 +21,7 @@ enum class Engine : std::uint8_t {
 
 //! `{}` gives the defaults.
 struct PropagationOptions {
-    Engine engine = Engine::Window;
+    Engine engine = Engine::Window;  //!< How distances are computed.
     //! Relative distance error, in [0, 1); 0: exact in double. Certified: see
     //! Propagation::certified_error. Unset: the window engine takes default_max_error, the Steiner
     //! engine certifies nothing. If set, the Steiner engine inserts points where they are needed
@@ -33,8 +33,8 @@ struct PropagationOptions {
     //! Steiner engine: triangles are retired every lambda * #F pops, > 0. With max_error they all
     //! stay until the end.
     double lambda = 1;
-    int num_threads = 0;  //!< >= 0; 0: all cores. The same bytes for any number.
-    Progress progress = {};
+    int num_threads = 0;     //!< >= 0; 0: all cores. The same bytes for any number.
+    Progress progress = {};  //!< Polled during the call; see agvd::poll.
 };
 
 //! max_error of the window engine where none is asked for.

@@ -17,18 +17,23 @@ namespace agvd {
 //! are straight, others bend at the nearer end of the interval. With y >= 0 the image lies in the
 //! (convex) face itself and sees all of it.
 struct Relay {
-    double x = 0, y = 0;
+    double x = 0;  //!< Of the image, along the half-edge, mesh units.
+    double y = 0;  //!< Of the image, to the left of the half-edge.
     //! Distance from the site to the image. An image that stands for several may lie farther off
     //! than the site, with a weight below 0.
     double weight = 0;
-    double begin = 0, end = 0;  //!< Visible interval on the half-edge, 0 <= begin <= end <= length.
-    SiteId site;
-    Index half_edge = no_index;
+    //! Visible interval on the half-edge, 0 <= begin <= end <= length.
+    double begin = 0;
+    double end = 0;              //!< See begin.
+    SiteId site;                 //!< Whose image it is.
+    Index half_edge = no_index;  //!< In whose frame the image lies.
 };
 
 //! [begin, end) of Propagation::relays.
 struct RelayRange {
-    Index begin = 0, end = 0;
+    Index begin = 0;  //!< First relay.
+    Index end = 0;    //!< One past the last relay.
+    //! Whether both ends are equal.
     friend bool operator==(const RelayRange&, const RelayRange&) = default;
 };
 

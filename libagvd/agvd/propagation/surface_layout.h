@@ -21,14 +21,19 @@ public:
     //! \throw Cancelled  the progress callback returned false.
     explicit SurfaceLayout(const Surface& surface, int num_threads = 0,
                            const Progress& progress = {});
+    //! Moves; the other one may only be destroyed or assigned to.
     SurfaceLayout(SurfaceLayout&&) noexcept;
+    //! Likewise.
     SurfaceLayout& operator=(SurfaceLayout&&) noexcept;
     ~SurfaceLayout();
 
+    //! The corners of the faces, for the engines.
     [[nodiscard]] const Corners& corners() const { return *corners_; }
     //! Shared ownership, for users that outlive the layout.
     [[nodiscard]] std::shared_ptr<const Corners> shared_corners() const { return corners_; }
+    //! Edges and lines across them, for upper bounds.
     [[nodiscard]] const ArcGraph& arcs() const { return *arcs_; }
+    //! Memory held.
     [[nodiscard]] std::size_t bytes() const;
 
 private:

@@ -20,7 +20,9 @@ public:
     MovingDiagram(const Surface& surface, const SurfaceLayout& layout,
                   std::vector<SurfacePoint> sites, const PropagationOptions& propagation = {},
                   const DiagramOptions& options = {});
+    //! Moves; the other one may only be destroyed or assigned to.
     MovingDiagram(MovingDiagram&&) noexcept;
+    //! Likewise.
     MovingDiagram& operator=(MovingDiagram&&) noexcept;
     ~MovingDiagram();
 
@@ -31,7 +33,9 @@ public:
     //! quick passes.
     void update(const SiteChanges& changes);
 
+    //! The sites and their distances.
     [[nodiscard]] const MovingSites& sites() const;
+    //! As build_diagram() would make it.
     [[nodiscard]] const Diagram& diagram() const;
 
 private:

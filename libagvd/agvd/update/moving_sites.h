@@ -24,7 +24,9 @@ public:
     //! Space: all windows of all sites, 48 bytes each, and up to twice as much for relays.
     MovingSites(const Surface& surface, const SurfaceLayout& layout,
                 std::vector<SurfacePoint> sites, const PropagationOptions& options = {});
+    //! Moves; the other one may only be destroyed or assigned to.
     MovingSites(MovingSites&&) noexcept;
+    //! Likewise.
     MovingSites& operator=(MovingSites&&) noexcept;
     ~MovingSites();
 
@@ -34,7 +36,9 @@ public:
     //! a pass over the relays.
     void update(const SiteChanges& changes);
 
+    //! As they are after the last change.
     [[nodiscard]] const std::vector<SurfacePoint>& sites() const;
+    //! As propagate() would make it.
     [[nodiscard]] const Propagation& propagation() const;
     //! Sites that the last change (or the constructor) propagated.
     [[nodiscard]] Index num_propagated() const;

@@ -11,9 +11,9 @@ namespace agvd {
 
 //! What happens to a list of sites, in this order. Indices are those before the change.
 struct SiteChanges {
-    std::vector<std::pair<Index, SurfacePoint>> moved;
-    std::vector<Index> removed;       //!< Those behind move up.
-    std::vector<SurfacePoint> added;  //!< At the end.
+    std::vector<std::pair<Index, SurfacePoint>> moved;  //!< Sites and their new places.
+    std::vector<Index> removed;                         //!< Those behind move up.
+    std::vector<SurfacePoint> added;                    //!< At the end.
 };
 
 }  // namespace agvd

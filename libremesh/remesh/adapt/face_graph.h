@@ -36,7 +36,7 @@ template <typename Number>
 //! A mesh that came from a graph, and the origin of each of its elements.
 template <typename Graph>
 struct FromFaceGraph {
-    agvd::TriangleMesh mesh;
+    agvd::TriangleMesh mesh;                        //!< Polygons are cut into triangles.
     std::vector<detail::VertexOf<Graph>> vertices;  //!< #V: the vertex of the graph.
     std::vector<detail::FaceOf<Graph>> faces;  //!< #F: the face of the graph; polygons are cut.
 

@@ -17,6 +17,7 @@ struct CleanCounts {
     agvd::Index split_vertices = 0;     //!< Copies made where faces at a vertex are not one fan.
     agvd::Index isolated_vertices = 0;  //!< Dropped: in no face, or only in dropped ones.
 
+    //! Whether all counts are equal.
     [[nodiscard]] bool operator==(const CleanCounts&) const = default;
 };
 

@@ -10,6 +10,7 @@
 
 namespace remesh {
 
+//! A mesh after cleaning, and where its elements come from.
 struct CleanResult {
     agvd::TriangleMesh mesh;  //!< What agvd::build_surface accepts.
     //! #V: the input vertex each vertex came from. Edges between the same two origins were one
@@ -18,7 +19,7 @@ struct CleanResult {
     //! #F: the input face in which each face lies (it may be part of it, or have its corners in
     //! another order).
     std::vector<agvd::Index> face_origin;
-    CleanCounts counts;
+    CleanCounts counts;  //!< What was repaired.
     //! agvd::find_connectivity(mesh) if nothing had to be repaired; otherwise empty.
     agvd::Connectivity connectivity;
 };
@@ -26,11 +27,13 @@ struct CleanResult {
 //! A cleaned mesh and the origins of its faces, for functions that carry points and edges over.
 //! Refers to arrays that the caller owns, such as those of a CleanResult.
 struct CleanedView {
-    agvd::MeshView mesh;
+    agvd::MeshView mesh;                       //!< What agvd::build_surface accepts.
     std::span<const agvd::Index> face_origin;  //!< See CleanResult; empty: nothing was changed.
 
+    //! Of a result, which must outlive this.
     CleanedView(const CleanResult& clean)
         : mesh(clean.mesh.view()), face_origin(clean.face_origin) {}
+    //! Of arrays, which must outlive this.
     CleanedView(const agvd::MeshView& cleaned, std::span<const agvd::Index> origin)
         : mesh(cleaned), face_origin(origin) {}
 };

@@ -18,18 +18,19 @@ enum class Delaunay : std::uint8_t {
 //! Lower-case name, for command lines and reports.
 [[nodiscard]] const char* delaunay_name(Delaunay delaunay);
 
+//! `{}` gives the defaults.
 struct DelaunayOptions {
-    Delaunay mode = Delaunay::Intrinsic;
-    int num_threads = 0;  //!< >= 0; 0: all cores. Same bytes for any number.
-    agvd::Progress progress = {};
+    Delaunay mode = Delaunay::Intrinsic;  //!< Which edges to flip.
+    int num_threads = 0;                  //!< >= 0; 0: all cores. Same bytes for any number.
+    agvd::Progress progress = {};         //!< Polled during the call; see agvd::poll.
 };
 
 //! Counts of edges, flips and triangles; all 0 with Delaunay::Off.
 struct DelaunayCounts {
-    agvd::Index inner_edges = 0;
+    agvd::Index inner_edges = 0;     //!< Edges of two faces.
     agvd::Index failing_before = 0;  //!< Inner edges whose opposite angles sum to more than pi (by
     agvd::Index failing_after = 0;   //!< more than 1e-6), before and after the flips.
-    agvd::Index flips = 0;
+    agvd::Index flips = 0;           //!< Edges flipped, each as often as it was.
     //! Intrinsic, of all edges: those whose path is not proved locally shortest (see GeodesicPath).
     agvd::Index not_locally_shortest = 0;
     //! Intrinsic: triangles with a side longer than the other two together.
@@ -37,11 +38,12 @@ struct DelaunayCounts {
     bool is_finished = true;  //!< False: stopped after 10 flips for each edge.
 };
 
+//! A mesh after the flips.
 struct DelaunayResult {
-    std::vector<agvd::Triangle> triangles;
+    std::vector<agvd::Triangle> triangles;  //!< As many as before.
     //! By triangle, of the sides from corner k to corner k + 1; empty with Delaunay::Off.
     std::vector<std::array<double, 3>> side_lengths;
-    DelaunayCounts counts;
+    DelaunayCounts counts;  //!< Before and after.
 };
 
 //! Tests the edges of a triangle mesh on a surface and flips those that fail the Delaunay

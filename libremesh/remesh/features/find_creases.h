@@ -10,14 +10,15 @@
 
 namespace remesh {
 
+//! `{}` gives the defaults.
 struct CreaseOptions {
     double angle = 40;   //!< Degrees, in (0, 180): least dihedral angle of a crease.
     double spacing = 0;  //!< Mesh units, > 0: mean distance of neighbouring sites.
     //! Leaves out noise and what is too short or too weak for the spacing, and closes gaps. False:
     //! all edges above the angle, except for false angles at needles.
     bool is_automatic = true;
-    int num_threads = 0;  //!< >= 0; 0: all cores. Any number gives the same result.
-    agvd::Progress progress = {};
+    int num_threads = 0;           //!< >= 0; 0: all cores. Any number gives the same result.
+    agvd::Progress progress = {};  //!< Polled during the call; see agvd::poll.
 };
 
 //! Finds the edges of creases.

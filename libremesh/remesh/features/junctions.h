@@ -25,8 +25,9 @@ struct JunctionSet {
     //! The same for the ends of such edges. Vertices where sheets met in a single point are left
     //! out.
     std::vector<std::vector<agvd::Index>> vertices;
-    Junctions in_result = Junctions::Apart;
+    Junctions in_result = Junctions::Apart;  //!< What becomes of the sheets.
 
+    //! Whether no sheets meet in an edge.
     [[nodiscard]] bool empty() const { return edges.empty(); }
 };
 

@@ -12,10 +12,13 @@
 
 namespace remesh {
 
+//! How a file stores a number.
 enum class NumberType { Int8, UInt8, Int16, UInt16, Int32, UInt32, Float32, Float64 };
 
+//! Whether the type holds integers only.
 [[nodiscard]] constexpr bool is_integer(NumberType type) { return type < NumberType::Float32; }
 
+//! What has a value.
 enum class ElementKind { Vertex, Face };
 
 //! A number for each vertex or each face. What has several components, such as a colour, is one
@@ -32,10 +35,11 @@ struct Attribute {
 
 //! What a file holds and cannot be carried over.
 struct DeclinedAttribute {
-    std::string name;
-    std::string reason;
+    std::string name;    //!< Of the property.
+    std::string reason;  //!< Why not, for people.
 };
 
+//! All values of a file.
 struct MeshAttributes {
     std::vector<Attribute> of_vertices = {};  //!< #V values each.
     std::vector<Attribute> of_faces = {};     //!< #F values each: one for each triangle.
@@ -43,7 +47,7 @@ struct MeshAttributes {
     //! computed anew.
     std::optional<NumberType> normals = {};
     std::vector<std::string> material_files = {};  //!< OBJ: the names behind each mtllib.
-    std::vector<DeclinedAttribute> declined = {};
+    std::vector<DeclinedAttribute> declined = {};  //!< Such as texture coordinates.
 
     //! Whether nothing is stored.
     [[nodiscard]] bool empty() const { return of_vertices.empty() && of_faces.empty(); }

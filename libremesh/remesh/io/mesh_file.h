@@ -21,6 +21,7 @@ struct MeshPath {
     std::string format = {};
 };
 
+//! What was read from a file.
 struct MeshFile {
     agvd::TriangleMesh mesh;           //!< As in the file: order kept, defects too.
     agvd::Index polygons = 0;          //!< Faces of more than three corners, triangulated.
@@ -32,13 +33,14 @@ struct MeshFile {
     std::vector<std::string> warnings;  //!< What was skipped, with the file's name.
 };
 
+//! `{}` gives the defaults.
 struct ReadOptions {
     //! Whole elements beyond those that the header announces are a warning, not an error.
     bool is_lenient = false;
     //! Also read colours, labels and other properties. They take 8 bytes for each value.
     bool with_attributes = false;
-    std::string format = {};  //!< See MeshPath.
-    agvd::Progress progress = {};
+    std::string format = {};       //!< See MeshPath.
+    agvd::Progress progress = {};  //!< Polled during the call; see agvd::poll.
 };
 
 }  // namespace remesh

@@ -24,7 +24,7 @@ concept OpenMeshMesh =
 
 //! A mesh that came from OpenMesh, and the origin of each of its elements.
 struct FromOpenMesh {
-    agvd::TriangleMesh mesh;
+    agvd::TriangleMesh mesh;                       //!< Polygons are cut into triangles.
     std::vector<OpenMesh::VertexHandle> vertices;  //!< #V: the OpenMesh vertex of each.
     std::vector<OpenMesh::FaceHandle> faces;       //!< #F: the OpenMesh face of each.
 
@@ -112,7 +112,7 @@ template <typename Mesh>
 //! that are missing.
 template <OpenMeshMesh Mesh>
 struct ToOpenMesh {
-    Mesh mesh;
+    Mesh mesh;  //!< In OpenMesh's types.
     //! Faces that OpenMesh's half-edges cannot hold, ascending: with a repeated corner, or at an
     //! edge or vertex that is not manifold or not consistently oriented by what was added before
     //! them.

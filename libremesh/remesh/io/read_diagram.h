@@ -8,10 +8,11 @@
 
 namespace remesh {
 
+//! What a file of `agvd diagram` holds.
 struct DiagramFile {
-    agvd::TriangleMesh mesh;
-    std::vector<agvd::SurfacePoint> sites;
-    agvd::Diagram diagram;
+    agvd::TriangleMesh mesh;                //!< That the diagram lies on.
+    std::vector<agvd::SurfacePoint> sites;  //!< On the mesh, in the order of the cells.
+    agvd::Diagram diagram;                  //!< With the points of its edges.
 };
 
 //! Returns the data given to write_diagram, bit for bit. Every index is in range; whether the

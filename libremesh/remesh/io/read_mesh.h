@@ -25,6 +25,7 @@ namespace remesh {
 //! \throw agvd::Cancelled     the progress callback returned false.
 [[nodiscard]] MeshFile read_mesh(const std::filesystem::path& path,
                                  const agvd::Progress& progress = {});
+//! The same with options.
 [[nodiscard]] MeshFile read_mesh(const std::filesystem::path& path, const ReadOptions& options);
 
 }  // namespace remesh

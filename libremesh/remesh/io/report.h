@@ -22,11 +22,11 @@ struct AttributeReport {
 
 //! What the caller of remesh() knows about a run.
 struct RunInfo {
-    std::string version = {};      //!< Of the program.
-    std::string input_path = {};   //!< Empty: not a file.
-    std::string output_path = {};  //!< Likewise.
-    RemeshOptions options = {};    //!< As passed to remesh().
-    AttributeReport attributes = {};
+    std::string version = {};                //!< Of the program.
+    std::string input_path = {};             //!< Empty: not a file.
+    std::string output_path = {};            //!< Likewise.
+    RemeshOptions options = {};              //!< As passed to remesh().
+    AttributeReport attributes = {};         //!< What was carried over.
     std::optional<MeshFigures> output = {};  //!< Of the result (measure_figures), if measured.
     std::vector<std::string> warnings = {};  //!< All texts that the caller warned with.
 };
@@ -47,10 +47,11 @@ struct EvaluationInfo {
 
 //! A diagram compared with another one or the exact one.
 struct Comparison {
-    agvd::Index sites = 0;
-    agvd::DiagramDifference difference = {};
+    agvd::Index sites = 0;                    //!< Of both diagrams.
+    agvd::DiagramDifference difference = {};  //!< Between the two.
     //! Of either diagram against exact distances; none: not measured.
-    std::optional<agvd::BisectorError> bisectors_a = {}, bisectors_b = {};
+    std::optional<agvd::BisectorError> bisectors_a = {};
+    std::optional<agvd::BisectorError> bisectors_b = {};  //!< See bisectors_a.
 };
 
 //! What the caller of compare_diagrams() knows about its diagrams.
@@ -69,12 +70,16 @@ struct ComparisonInfo {
 //! The report of a run without a result: the first keys of the above. Reads of `info` version,
 //! paths and warnings.
 [[nodiscard]] std::string to_json(const RunFailure& failure, const RunInfo& info = {});
+//! The report of `remesh-eval`.
 [[nodiscard]] std::string to_json(const Evaluation& evaluation, const EvaluationInfo& info = {});
+//! The report of `agvd compare`.
 [[nodiscard]] std::string to_json(const Comparison& comparison, const ComparisonInfo& info = {});
 
 //! The same for people, several lines without a last line end; details left to the JSON.
 [[nodiscard]] std::string to_text(const RemeshResult& result, const RunInfo& info = {});
+//! Likewise.
 [[nodiscard]] std::string to_text(const Evaluation& evaluation, const EvaluationInfo& info = {});
+//! Likewise.
 [[nodiscard]] std::string to_text(const Comparison& comparison, const ComparisonInfo& info = {});
 
 //! One line on where distances come from, e.g. "distances: window engine, at most 0.0712 % above

@@ -19,6 +19,7 @@
 
 namespace remesh {
 
+//! The stages of remesh(); some run more than once.
 enum class Stage { Clean, Sample, Relax, Propagate, Diagram, Dual, Delaunay, Place, Check };
 
 //! Lower-case name of a stage, for logs.
@@ -45,12 +46,12 @@ struct RemeshOptions {
     agvd::Index num_samples = 2000;  //!< Sites to place, >= 1: one output vertex each.
     //! How long edges are, and where. Some of its fields decide the number of samples instead.
     Sizing sizing = {};
-    VertexCount vertex_count = VertexCount::Exact;
+    VertexCount vertex_count = VertexCount::Exact;  //!< What gives way.
     //! Keep: boundary vertices lie on the input's boundary. Free: they lie near it; if creases are
     //! kept, only `fit` moves vertices off the boundary.
     Boundary boundary = Boundary::Keep;
     double drop_components = 0;  //!< In [0, 1]: smaller components (share of the area) are dropped.
-    Init init = Init::BlueNoise;
+    Init init = Init::BlueNoise;  //!< How sites are sampled.
     //! Creases become chains of edges, and their corners become vertices. Given sites on a crease
     //! become its vertices; creases with too few of them are dropped: see plan_given_network.
     Features features = Features::Auto;

@@ -52,9 +52,11 @@ struct SizingResult {
     agvd::Index num_samples = 0;  //!< Asked for, or as edge length, faces or targets gave it.
     double mean_edge = 0;         //!< Of the result.
     //! Least and largest target at the result's vertices. 0: all targets are equal.
-    double least_target = 0, largest_target = 0;
+    double least_target = 0;
+    double largest_target = 0;  //!< See least_target.
     //! Edges over the mean of the targets at their ends: 5th and 95th percentile.
-    double low_ratio = 0, high_ratio = 0;
+    double low_ratio = 0;
+    double high_ratio = 0;  //!< See low_ratio.
     //! Both ways between result and input, at many points of each; all others are proved to be
     //! within Sizing::max_distance. 0: not measured, as that is not used.
     double largest_distance = 0;
@@ -98,14 +100,14 @@ struct RemeshResult {
     //! Components whose cells did not give their topology: they were thinned to their sites instead
     //! (agvd::thin).
     agvd::Index components_thinned = 0;
-    FeatureCounts features = {};
-    JunctionCounts junctions = {};
-    SizingResult sizing = {};
-    DelaunayCounts delaunay = {};  //!< Edges that failed, were flipped, still fail.
+    FeatureCounts features = {};    //!< What became of creases.
+    JunctionCounts junctions = {};  //!< What became of junctions.
+    SizingResult sizing = {};       //!< How long the edges are.
+    DelaunayCounts delaunay = {};   //!< Edges that failed, were flipped, still fail.
     //! Intersecting pairs of faces of the result and, if that is not 0, of the cleaned input.
     //! Sheets that touch at a junction with equal points do not count. Unset: without CGAL.
     std::optional<agvd::Index> self_intersections = {};
-    agvd::Index input_self_intersections = 0;
+    agvd::Index input_self_intersections = 0;  //!< See self_intersections.
     //! Pairs of the result that intersect farther from all places where the input intersects itself
     //! than their longest edge. Others follow from the input; more samples give more of these. 0 if
     //! the input has as many pairs as the result. With a region: those above their number.

@@ -14,14 +14,15 @@
 
 namespace remesh {
 
+//! The distance is the only measure with options.
 using EvaluationOptions = DistanceOptions;
 
 //! One mesh by itself.
 struct MeshFigures {
-    agvd::Index vertices = 0;  //!< Also those in no face.
-    agvd::Index faces = 0;
-    Topology topology;
-    TriangleQuality triangles;
+    agvd::Index vertices = 0;   //!< Also those in no face.
+    agvd::Index faces = 0;      //!< #F.
+    Topology topology;          //!< Components, genus, boundary loops.
+    TriangleQuality triangles;  //!< Shapes and sizes.
     //! See find_self_intersections; unset in a build without CGAL.
     std::optional<std::vector<std::pair<agvd::Index, agvd::Index>>> self_intersections;
 };
@@ -32,6 +33,7 @@ struct MeshFigures {
 [[nodiscard]] MeshFigures measure_figures(const agvd::MeshView& mesh,
                                           const agvd::Progress& progress = {});
 
+//! A remesh compared with its original.
 struct Evaluation {
     MeshFigures original;        //!< After the repair that remesh() does, with its face numbers.
     CleanCounts cleaned;         //!< What that repair did.

@@ -10,10 +10,11 @@
 
 namespace remesh {
 
+//! `{}` gives the defaults.
 struct DistanceOptions {
     agvd::Index samples = 200'000;  //!< On each of the two surfaces, >= 1; vertices are added.
     int num_threads = 0;            //!< >= 0; 0: all cores. Any number gives the same bytes.
-    agvd::Progress progress = {};
+    agvd::Progress progress = {};   //!< Polled during the call; see agvd::poll.
 };
 
 //! From one surface to the closest points of another, mesh units.

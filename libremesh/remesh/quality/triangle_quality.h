@@ -12,17 +12,17 @@ struct TriangleQuality {
     //! Of Q = 6 / sqrt(3) * S / (p h): S area, p half the perimeter, h the longest edge. 1 for an
     //! equilateral triangle, 0 for a degenerate one ([frey1999]).
     double mean_quality = 0;
-    double min_quality = 0;
-    double mean_min_angle = 0;  //!< Mean of the faces' smallest angles.
-    double min_angle = 0;
-    double max_angle = 0;
+    double min_quality = 0;            //!< Of the worst triangle.
+    double mean_min_angle = 0;         //!< Mean of the faces' smallest angles.
+    double min_angle = 0;              //!< Radians.
+    double max_angle = 0;              //!< Radians.
     double small_angle_share = 0;      //!< Faces whose smallest angle is below pi / 6.
     double regular_share = 0;          //!< Vertices of 6 edges, on the boundary of 4.
     double edge_length_variation = 0;  //!< Standard deviation over mean of the edge lengths.
-    agvd::Index edges = 0;
+    agvd::Index edges = 0;             //!< #E.
     //! Inner edges whose two opposite angles (measured in space) sum to more than pi.
     agvd::Index non_delaunay_edges = 0;
-    agvd::Index faces_without_area = 0;
+    agvd::Index faces_without_area = 0;  //!< Their quality is 0.
 };
 
 //! Measures any mesh, manifold or not. Edges with one face or more than two are not tested for the

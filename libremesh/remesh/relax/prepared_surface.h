@@ -25,12 +25,13 @@ struct PreparedSurface {
     PreparedSurface(agvd::Surface&& input, double spacing, int num_threads = 0,
                     const agvd::Progress& progress = {}, const SizeField* sizes = nullptr);
 
-    agvd::IntrinsicTriangulation base;
-    double piece_area;  //!< As FacePieces takes it.
+    agvd::IntrinsicTriangulation base;  //!< On which distances are computed.
+    double piece_area;                  //!< As FacePieces takes it.
     //! Of the base's faces. May be reset where they are not needed for long: some 70 bytes a face.
     std::optional<agvd::FacePieces> pieces;
     agvd::SurfaceLayout layout;  //!< Of base.surface(). May be moved from when sites are final.
 
+    //! The surface that was given.
     [[nodiscard]] const agvd::Surface& input() const { return base.input(); }
     //! Sets `pieces` if they were reset.
     //! \throw agvd::Cancelled  the progress callback returned false.

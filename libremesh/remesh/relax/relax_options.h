@@ -13,12 +13,13 @@ namespace remesh {
 
 //! One level of relaxation.
 struct RelaxLevel {
-    agvd::Index num_sites = 0;
+    agvd::Index num_sites = 0;  //!< Sites of this level.
     //! Before the first step and after each: the sum over the cells of the integral of the squared
     //! distance from the site, on the triangulation of the sites; mesh units to the fourth.
     std::vector<double> energy;
 };
 
+//! `{}` gives the defaults.
 struct RelaxOptions {
     int steps = 60;  //!< >= 0; on each level.
     //! Stops when ten steps lower the energy by less than this share, >= 0.
@@ -29,16 +30,17 @@ struct RelaxOptions {
     std::vector<std::uint8_t> is_fixed = {};  //!< #sites: 1 for sites that stay; or empty.
     Boundary boundary = Boundary::Keep;       //!< Keep: inner sites whose cells meet it move to it.
     std::vector<agvd::Index> corners = {};    //!< Boundary vertices: with Keep, sites move there.
-    int num_threads = 0;  //!< >= 0; 0: all cores. The same bytes for any number.
-    agvd::Progress progress = {};
+    int num_threads = 0;           //!< >= 0; 0: all cores. The same bytes for any number.
+    agvd::Progress progress = {};  //!< Polled during the call; see agvd::poll.
     //! Target lengths: cells get areas in proportion to their squares. Outlives the call; null: all
     //! are equal, and cells are smaller where they are bent.
     const SizeField* sizes = nullptr;
 };
 
+//! Sites after relaxation.
 struct RelaxResult {
-    std::vector<agvd::SurfacePoint> sites;
-    std::vector<RelaxLevel> levels;  //!< Coarse to fine.
+    std::vector<agvd::SurfacePoint> sites;  //!< On the input, in the order given.
+    std::vector<RelaxLevel> levels;         //!< Coarse to fine.
 };
 
 }  // namespace remesh

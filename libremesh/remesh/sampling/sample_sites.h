@@ -12,6 +12,7 @@ namespace remesh {
 
 class SizeField;
 
+//! How the first sites are sampled.
 enum class Init {
     Random,     //!< Area-uniform, independent (the paper's choice).
     BlueNoise,  //!< Area-uniform with large mutual distances, by sample elimination.
@@ -21,18 +22,20 @@ enum class Init {
 //! As on the command line: "blue-noise".
 [[nodiscard]] const char* init_name(Init init);
 
+//! What sites have to do with the boundary.
 enum class Boundary {
     Keep,  //!< Sites whose cells meet the boundary lie on it.
     Free,  //!< Sites are placed as if there were no boundary.
 };
 
+//! `{}` gives the defaults.
 struct SamplingOptions {
-    agvd::Index num_samples = 2000;  //!< >= 1.
-    Init init = Init::BlueNoise;
+    agvd::Index num_samples = 2000;      //!< >= 1.
+    Init init = Init::BlueNoise;         //!< How sites are sampled.
     Boundary boundary = Boundary::Keep;  //!< Ignored by Init::Random.
     std::uint64_t seed = 1;              //!< Same seed, same bytes, any num_threads.
     int num_threads = 0;                 //!< >= 0; 0: all cores.
-    agvd::Progress progress = {};
+    agvd::Progress progress = {};        //!< Polled during the call; see agvd::poll.
     //! Target lengths on the surface: areas, lengths and distances count in local lengths. Outlives
     //! the call; null: all are equal.
     const SizeField* sizes = nullptr;

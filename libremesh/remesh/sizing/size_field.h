@@ -22,6 +22,7 @@ public:
 
     //! Cost: that of agvd::IntrinsicTriangulation::to_intrinsic.
     [[nodiscard]] double at(const agvd::SurfacePoint& point) const;
+    //! The same for many points.
     [[nodiscard]] std::vector<double> at(std::span<const agvd::SurfacePoint> points) const;
     //! The same as a function; this outlives it.
     [[nodiscard]] std::function<double(const agvd::SurfacePoint&)> function() const {
@@ -31,9 +32,11 @@ public:
     //! #F of the input: area in squares of the local length. A face of the base counts for one face
     //! of the input in the same patch: only sums over patches are exact.
     [[nodiscard]] std::span<const double> area_of_face() const { return area_; }
+    //! The sum of area_of_face().
     [[nodiscard]] double area() const { return sum_; }
     //! #F of the input: the least length at its corners and at vertices of the base inside it.
     [[nodiscard]] std::span<const double> least_in_face() const { return least_; }
+    //! The least length of all.
     [[nodiscard]] double least() const { return least_of_all_; }
 
 private:

@@ -7,17 +7,20 @@
 
 namespace remesh {
 
+//! One connected piece.
 struct ComponentTopology {
-    agvd::Index faces = 0;
-    int euler = 0;  //!< V - E + F.
-    int boundary_loops = 0;
-    int genus = 0;  //!< (2 - euler - boundary_loops) / 2; meaningful on an oriented manifold.
-    double area = 0;
+    agvd::Index faces = 0;   //!< #F of it.
+    int euler = 0;           //!< V - E + F.
+    int boundary_loops = 0;  //!< Closed chains of edges with one face.
+    int genus = 0;    //!< (2 - euler - boundary_loops) / 2; meaningful on an oriented manifold.
+    double area = 0;  //!< Square mesh units.
+    //! Whether genus and boundary loops are equal.
     [[nodiscard]] bool same_type(const ComponentTopology& other) const {
         return genus == other.genus && boundary_loops == other.boundary_loops;
     }
 };
 
+//! Of a whole mesh.
 struct Topology {
     bool is_manifold = false;  //!< Every edge has 1 or 2 faces, every vertex one umbrella, no
                                //!< duplicate and no degenerate (repeated corner) face.

@@ -11,15 +11,17 @@
 
 namespace remesh {
 
+//! `{}` gives the defaults.
 struct MapOptions {
-    bool with_faces = false;  //!< Also map the faces.
-    int num_threads = 0;      //!< >= 0; 0: all cores.
-    agvd::Progress progress = {};
+    bool with_faces = false;       //!< Also map the faces.
+    int num_threads = 0;           //!< >= 0; 0: all cores.
+    agvd::Progress progress = {};  //!< Polled during the call; see agvd::poll.
 };
 
 //! Faces of the input at points that are spread evenly over a face of the result.
 using FaceSamples = std::array<agvd::Index, 16>;
 
+//! Where the elements of a result lie on the input.
 struct InputMap {
     std::vector<agvd::SurfacePoint> vertices;  //!< #V of the result: points of the input.
     std::vector<FaceSamples> faces;            //!< #F of the result; empty without with_faces.

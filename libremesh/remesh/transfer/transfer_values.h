@@ -6,6 +6,7 @@
 
 namespace remesh {
 
+//! Whether values are averaged or chosen.
 enum class ValueKind {
     Number,  //!< Values between two values make sense, as with heights and colours.
     Label,   //!< They do not: each value of the result is one of the input's.

@@ -22,14 +22,6 @@ agvd::MeshView view_of(const Doubles& positions, const Indices& triangles) {
              static_cast<std::size_t>(triangles.shape(0))}};
 }
 
-std::vector<double> vector_of(const Doubles& values) {
-    return {values.data(), values.data() + values.size()};
-}
-
-std::vector<agvd::Index> vector_of(const Indices& values) {
-    return {values.data(), values.data() + values.size()};
-}
-
 std::vector<agvd::SurfacePoint> points_of(const Indices& faces, const Doubles& barycentric) {
     require(faces.ndim() == 1, "faces must have one dimension");
     require(has_three_columns(barycentric) && barycentric.shape(0) == faces.shape(0),

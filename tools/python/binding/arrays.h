@@ -4,6 +4,7 @@
 
 #include <pybind11/numpy.h>
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ namespace py = pybind11;
 //! package has done that.
 using Doubles = py::array_t<double, py::array::c_style>;
 using Indices = py::array_t<agvd::Index, py::array::c_style>;
+using Flags = py::array_t<std::uint8_t, py::array::c_style>;
 
 //! The arrays' own memory: no copy. They outlive the view.
 //! \param positions  #V x 3
@@ -26,9 +28,11 @@ using Indices = py::array_t<agvd::Index, py::array::c_style>;
 //! \throw py::value_error  another shape.
 [[nodiscard]] agvd::MeshView view_of(const Doubles& positions, const Indices& triangles);
 
-//! Copies.
-[[nodiscard]] std::vector<double> vector_of(const Doubles& values);
-[[nodiscard]] std::vector<agvd::Index> vector_of(const Indices& values);
+//! A copy.
+template <typename Scalar>
+[[nodiscard]] std::vector<Scalar> vector_of(const py::array_t<Scalar, py::array::c_style>& values) {
+    return {values.data(), values.data() + values.size()};
+}
 
 //! \param faces        k
 //! \param barycentric  k x 3

@@ -80,7 +80,7 @@ void add_propagation(OptionsClass& options) {
 }
 
 // \return positions, triangles, faces and coordinates of the vertices on the input, the samples of
-// faces on the input (#F x 16, or none), the report.
+// faces on the input (#F x 16, or none), the vertices and the faces that were kept, the report.
 py::tuple run_remesh(const Doubles& positions, const Indices& triangles, RemeshOptions options,
                      bool with_faces, const py::object& function) {
     const agvd::MeshView mesh = view_of(positions, triangles);
@@ -105,7 +105,8 @@ py::tuple run_remesh(const Doubles& positions, const Indices& triangles, RemeshO
     const py::tuple places = to_arrays(map.vertices);
     return py::make_tuple(to_array<double>(std::move(result.mesh.positions), 3),
                           to_array<agvd::Index>(std::move(result.mesh.triangles), 3), places[0],
-                          places[1], to_array<agvd::Index>(std::move(map.faces), 16), report);
+                          places[1], to_array<agvd::Index>(std::move(map.faces), 16),
+                          to_numbers(result.kept.vertices), to_numbers(result.kept.faces), report);
 }
 
 }  // namespace
@@ -132,6 +133,14 @@ void bind_remesh(py::module_& module) {
         "set_face_labels",
         [](RemeshOptions& self, const Indices& labels) { self.face_labels = vector_of(labels); },
         py::arg("labels").noconvert());
+    options.def(
+        "set_region",
+        [](RemeshOptions& self, const Flags& flags) { self.region = vector_of(flags); },
+        py::arg("flags").noconvert());
+    options.def(
+        "set_locked",
+        [](RemeshOptions& self, const Indices& vertices) { self.locked = vector_of(vertices); },
+        py::arg("vertices").noconvert());
     options.def(
         "set_target_lengths",
         [](RemeshOptions& self, const Doubles& values) {

@@ -14,7 +14,13 @@ from ._stages import Progress, take_sites
 
 @dataclass(frozen=True)
 class Voronoi:
-    """A geodesic Voronoi diagram of k sites. Lengths are in mesh units."""
+    """A geodesic Voronoi diagram of k sites. Lengths are in mesh units.
+
+    >>> V, F = remesh.examples.sphere(3)
+    >>> diagram = remesh.voronoi(V, F, [0, 1, 2])
+    >>> diagram.cell_area.shape, bool(abs(diagram.cell_area.sum() / (4 * np.pi) - 1) < 0.02)
+    ((3,), True)
+    """
 
     #: #V, int64: the nearest site of each vertex of the input; -1: no site reaches it.
     labels: NDArray[np.int64]

@@ -10,7 +10,7 @@ from . import _arrays, _kinds, _remesh, _stages
 from ._remesh import InvalidOption
 
 
-def count(mesh: _kinds.Mesh, value: Any, name: str) -> int:
+def count(num_vertices: int, value: Any, name: str) -> int:
     """A number of vertices: 2000, or "10%" of the input's."""
     if not isinstance(value, str):
         return _arrays.whole(value, name, 1)
@@ -18,7 +18,7 @@ def count(mesh: _kinds.Mesh, value: Any, name: str) -> int:
     if percent is None or percent <= 0:
         raise InvalidOption(f"{name} is {value!r}; use a whole number of 1 or more, or a percentage "
                             "of the input's vertices (such as '10%')")
-    return max(1, round(len(mesh.V) * percent / 100))
+    return max(1, round(num_vertices * percent / 100))
 
 
 def length(mesh: _kinds.Mesh, value: Any, name: str) -> float:
@@ -77,12 +77,15 @@ def _at_vertices(mesh: _kinds.Mesh, given: Any, name: str) -> _arrays.Floats:
     if callable(given):
         given = given(mesh.V.copy())
     elif isinstance(given, str):
-        of_vertices = mesh.data()[0]
-        if given not in of_vertices:
-            raise InvalidOption(f"{name}: the mesh has no values {given!r} of vertices; it has: "
-                                f"{', '.join(of_vertices) or 'none'}")
-        given = of_vertices[given]
+        given = _named(mesh.data()[0], given, name, "vertices")
     return _arrays.one_each(given, len(mesh.V), name, "vertices")
+
+
+def _named(values: _kinds.Data, given: str, name: str, element: str) -> Any:
+    if given not in values:
+        raise InvalidOption(f"{name}: the mesh has no values {given!r} of {element}; it has: "
+                            f"{', '.join(values) or 'none'}")
+    return values[given]
 
 
 def set_features(options: _remesh.Options, mesh: _kinds.Mesh, features: Any, feature_edges: Any,
@@ -113,6 +116,31 @@ def set_features(options: _remesh.Options, mesh: _kinds.Mesh, features: Any, fea
                                 f"{len(mesh.F)} faces; give one for each")
         numbers = np.unique(labels, return_inverse=True)[1]
         options.set_face_labels(numbers.reshape(-1).astype(np.uint32))
+
+
+def set_kept(options: _remesh.Options, mesh: _kinds.Mesh, region: Any, lock: Any) -> int:
+    """Says what stays as it is.
+
+    Returns the number of vertices of what is remeshed."""
+    if lock is not None:
+        vertices = _arrays.integers(lock, "lock")
+        wrong = _arrays.first_outside(vertices, len(mesh.V))
+        if vertices.ndim != 1 or wrong is not None:
+            what = f"has the shape {vertices.shape}" if wrong is None else (
+                f"names vertex {vertices.ravel()[wrong]}")
+            raise InvalidOption(f"lock {what}; give a list of vertices, counted from 0, below "
+                                f"{len(mesh.V)}")
+        options.set_locked(_arrays.to_indices(vertices))
+    if region is None:
+        return len(mesh.V)
+    if isinstance(region, str):
+        region = _named(mesh.data()[1], region, "region", "faces")
+    flags = _arrays.one_each(region, len(mesh.F), "region", "faces") != 0
+    if not flags.any():
+        raise InvalidOption("region is 0 for all faces; mark the faces to remesh, or leave out "
+                            "region")
+    options.set_region(flags.view(np.uint8))
+    return len(np.unique(mesh.F[flags]))
 
 
 def set_sites(options: _remesh.Options, mesh: _kinds.Mesh, sites: Any, keep_sites: bool) -> None:

@@ -11,13 +11,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays, _kinds, _options, _remesh, _transfer
-from ._remesh import InvalidOption
+from ._remesh import ConstraintUnmet, InvalidOption
 from ._stages import Progress
 
 
 @dataclass(frozen=True)
 class Result:
-    """The result of remesh()."""
+    """The result of remesh().
+
+    >>> V, F = remesh.examples.sphere(3)
+    >>> result = remesh.remesh(V, F, 200, region=V[F].mean(axis=1)[:, 2] > 0)
+    >>> len(result.V) - len(result.kept_vertices)  # of 200, others are on the seam
+    168
+    >>> bool((result.V[:len(result.kept_vertices)] == V[result.kept_vertices]).all())
+    True
+    """
 
     #: #V x 3: float32 if the input's is, else float64.
     V: NDArray[Any]
@@ -28,6 +36,10 @@ class Result:
     source_face: NDArray[np.int64]
     #: #V x 3: the coordinates in that face, 0 or more with the sum 1.
     barycentric: NDArray[np.float64]
+    #: With ``region``: vertices and faces of the input that stayed as they were, ascending. They are
+    #: the first ones of the result. Otherwise of length 0.
+    kept_vertices: NDArray[np.int64]
+    kept_faces: NDArray[np.int64]
     #: What was done and found: the keys of the program's ``--report``.
     report: dict[str, Any]
     #: Values of the input that were carried over, by name.
@@ -59,6 +71,9 @@ def remesh(
     boundary: str = "keep",
     topology: str = "exact",
     drop_components: float = 0,
+    region: Any = None,
+    lock: Any = None,
+    strict: bool = False,
     transfer: Any = "all",
     sites: Any = None,
     keep_sites: bool = False,
@@ -105,6 +120,13 @@ def remesh(
     - ``junctions``: ``"apart"`` or ``"keep"``; ``boundary``: ``"keep"`` or ``"free"``;
       ``topology``: ``"exact"``, or ``"add"`` to add vertices that the topology needs.
     - ``drop_components``: smaller components are dropped; a share of the area from 0 to 1.
+    - ``region``: only these faces are remeshed: something other than 0 (or False) for each of them,
+      or the name of such values of the mesh. All others stay, bit for bit, and are the first ones
+      of the result (Result.kept_faces). ``n``, ``faces`` and lengths count in the region, the
+      vertices that it shares with other faces included. Not with ``sites`` or ``drop_components``.
+    - ``lock``: vertices that stay where they are, bit for bit. Not with ``sites``.
+    - ``strict``: ConstraintUnmet if the result has more pairs of intersecting faces than the input,
+      or is too coarse for creases, walls or components of it. Otherwise the report tells.
     - ``transfer``: values of the input for the result: ``"all"`` that the mesh object has,
       ``"none"``, names of them, or arrays by name with a row for each vertex or each face. Floats
       are interpolated, and so are colours (uint8, 3 or 4 columns); anything else is a label.
@@ -138,9 +160,10 @@ def remesh(
     _options.only_one(n=n, n_clusters=n_clusters, faces=faces, edge_length=edge_length,
                       max_distance=max_distance, sites=sites)
     options = _remesh.Options()
+    num_vertices = _options.set_kept(options, mesh, region, lock)
     for name, value in (("n", n), ("n_clusters", n_clusters)):
         if value is not None:
-            options.num_samples = _options.count(mesh, value, name)
+            options.num_samples = _options.count(num_vertices, value, name)
     if faces is not None:
         options.num_faces = _arrays.whole(faces, "faces", 1)
     if edge_length is not None:
@@ -167,7 +190,7 @@ def remesh(
     options.seed = _arrays.whole(seed, "seed", 0, 2**64 - 1)
     options.num_threads = _arrays.whole(threads, "threads", 0, 2**31 - 1)
     wanted = _transfer.wanted(mesh, transfer)
-    return _run(mesh, options, wanted, progress)
+    return _run(mesh, options, wanted, bool(strict), progress)
 
 
 def _is_count(value: Any) -> bool:
@@ -180,14 +203,40 @@ def _is_count(value: Any) -> bool:
     return True
 
 
-def _run(mesh: _kinds.Mesh, options: _remesh.Options, wanted: _transfer.Wanted,
+def _run(mesh: _kinds.Mesh, options: _remesh.Options, wanted: _transfer.Wanted, strict: bool,
          progress: Progress | None) -> Result:
     if progress is not None and not callable(progress):
         raise InvalidOption(f"progress is {progress!r}; give a function of a fraction and a stage")
-    new_V, new_F, source_face, barycentric, samples, report = _remesh.remesh(
-        mesh.V, mesh.F, options, bool(wanted.of_faces), progress)
+    (new_V, new_F, source_face, barycentric, samples, kept_vertices, kept_faces,
+     text) = _remesh.remesh(mesh.V, mesh.F, options, bool(wanted.of_faces), progress)
+    report = json.loads(text)
+    if strict:
+        _require_all(report)
     of_vertices, of_faces = _transfer.carry(wanted, mesh, new_V, new_F, source_face, barycentric,
                                             samples)
+    _transfer.keep(wanted.of_vertices, kept_vertices, of_vertices)
+    _transfer.keep(wanted.of_faces, kept_faces, of_faces)
     like_V, like_F = mesh.like_given(new_V, new_F)
-    return Result(like_V, like_F, source_face, barycentric, json.loads(report), of_vertices,
-                  of_faces, mesh.build(like_V, like_F, of_vertices, of_faces))
+    return Result(like_V, like_F, source_face, barycentric, kept_vertices, kept_faces, report,
+                  of_vertices, of_faces, mesh.build(like_V, like_F, of_vertices, of_faces))
+
+
+def _require_all(report: dict[str, Any]) -> None:
+    """What ``strict`` asks for, as --strict does."""
+    features, verdict = report["features"], report["verdict"]
+    needed = {"creases": (features["dropped_crease_length_mesh_units"], features["samples_for_all"]),
+              "walls": (verdict["thin_walls"], verdict["samples_for_walls"]),
+              "components": (verdict["small_components"], verdict["samples_for_components"])}
+    lost = {name: samples for name, (count, samples) in needed.items() if count > 0}
+    if lost:
+        samples = max(lost.values())
+        remedy = f"about {samples}" if samples > 0 else "more"
+        raise ConstraintUnmet(f"the result is too coarse for some {', '.join(lost)}; use {remedy} "
+                              "vertices, or leave out strict")
+    pairs, before = (report[key] or 0 for key in ("self_intersecting_pairs",
+                                                  "input_self_intersecting_pairs"))
+    if pairs > before:
+        # Where the input intersects itself, more vertices give more pairs.
+        remedy = "use more vertices" if before == 0 else "mend the input"
+        raise ConstraintUnmet(f"the result has {pairs} pairs of intersecting faces, the input has "
+                              f"{before}; {remedy}, or leave out strict")

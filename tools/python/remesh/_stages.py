@@ -15,7 +15,12 @@ Progress = Callable[[float, str], Any]
 
 
 class Sites(NamedTuple):
-    """Points on a surface."""
+    """Points on a surface.
+
+    >>> sites = remesh.Sites(np.array([5, 7]), np.full((2, 3), 1 / 3))
+    >>> sites.positions(*remesh.examples.sphere(1)).shape
+    (2, 3)
+    """
 
     #: k, int64: the face of the mesh in which each point lies.
     face: NDArray[np.int64]
@@ -34,7 +39,13 @@ class Sites(NamedTuple):
 
 
 class Relaxed(NamedTuple):
-    """Sites that were moved, and how that went."""
+    """Sites that were moved, and how that went.
+
+    >>> V, F = remesh.examples.sphere(3)
+    >>> relaxed = remesh.relax_sites(V, F, remesh.sample_sites(V, F, 100, init="random"))
+    >>> bool(relaxed.energies[-1] < relaxed.energies[0])
+    True
+    """
 
     sites: Sites
     #: Before the first step and after each. Empty: there are too few sites to be relaxed.
@@ -42,7 +53,13 @@ class Relaxed(NamedTuple):
 
 
 class Cleaned(NamedTuple):
-    """A repaired mesh."""
+    """A repaired mesh.
+
+    >>> V, F = remesh.examples.sphere(1)
+    >>> cleaned = remesh.clean(V, F[:, ::-1])  # inside out
+    >>> cleaned.V.shape, int(cleaned.source_face[3])
+    ((18, 3), 3)
+    """
 
     V: NDArray[Any]
     F: NDArray[Any]

@@ -85,6 +85,13 @@ def carry(wanted: Wanted, mesh: Mesh, V: NDArray[Any], F: NDArray[Any], faces: N
     return of_vertices, of_faces
 
 
+def keep(wanted: Data, elements: NDArray[np.int64], carried: Data) -> None:
+    """The first ones of the result are these elements of the input, and have its values."""
+    for name, values in wanted.items():
+        if name != Mesh.normals:
+            carried[name][:len(elements)] = values[elements]
+
+
 def _is_colour(values: NDArray[Any]) -> bool:
     return values.dtype == np.uint8 and values.ndim == 2 and values.shape[1] in (3, 4)
 

@@ -1,0 +1,2 @@
+# `#V`, a number of vertices, is no link.
+/\/\/!/s/#/\\#/g
