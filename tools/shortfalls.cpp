@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "remesh/io/rounding_loss.h"
+#include "remesh/io/write_mesh.h"
 
 namespace cli {
 namespace {
