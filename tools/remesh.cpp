@@ -37,10 +37,10 @@ constexpr const char* footer =
     "  remesh part.stl --edge-length 2% --adaptive part.obj\n"
     "  remesh part.off --sites sites.txt part.obj --report - | jq .\n"
     "  remesh *.obj --out-dir out -n 2000 --report out.json\n\n"
-    "With --out-dir each mesh becomes DIR/NAME, NAME being that of the input; .ply replaces an\n"
-    "extension that cannot be written. A mesh that fails does not stop the rest; the failures are\n"
-    "listed at the end. An interruption keeps the meshes that are finished. --report gets a JSON\n"
-    "array with the report of each mesh.\n\n";
+    "With --out-dir each mesh becomes DIR/NAME, NAME being that of the input; .ply\n"
+    "replaces an extension that cannot be written. A mesh that fails does not stop\n"
+    "the rest; the failures are listed at the end. An interruption keeps the meshes\n"
+    "that are finished. --report gets a JSON array with the report of each mesh.\n\n";
 
 // Of remesh only: see cli::exit_code_help.
 constexpr const char* batch_exit_code_help =

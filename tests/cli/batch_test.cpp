@@ -96,6 +96,20 @@ TEST_F(RemeshBatch, AnExtensionThatCannotBeWrittenBecomesPly) {
     EXPECT_EQ(report_at("r.json")[0]["output_path"], at("out/mesh.ply"));
 }
 
+TEST_F(RemeshBatch, AFormatNamesAllOutputs) {
+    const std::string a = put("a.off", shapes::sphere(2)), b = put("b.old.stl", shapes::cube());
+    const auto outcome = remesh({a, b, "-n", "20", "--out-dir", at("out"), "--to", "obj"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(remesh::read_mesh(at("out/a.obj")).mesh.positions.size(), 20u);
+    EXPECT_EQ(remesh::read_mesh(at("out/b.old.obj")).mesh.positions.size(), 20u);
+    for (const std::string stream : {"-", "/dev/stdin"}) {
+        const auto refused = remesh({a, stream, "-n", "20", "--out-dir", at("new")});
+        EXPECT_EQ(refused.exit_code, 2) << stream;
+        expect_told(refused, "gives no name for a file");
+    }
+    EXPECT_FALSE(fs::exists(at("new")));
+}
+
 TEST_F(RemeshBatch, NamesThatCannotAllBeWrittenAreFoundBeforeAnyWork) {
     const std::string a = put("a.off", shapes::sphere(2)), old = bytes("a.off");
     fs::create_directory(at("other"));
