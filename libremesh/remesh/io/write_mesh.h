@@ -38,6 +38,8 @@ void write_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
 [[nodiscard]] std::string format_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
                                       const MeshAttributes& attributes,
                                       const agvd::Progress& progress = {});
+
+//! The same in the format that `path.format` names.
 [[nodiscard]] std::string format_mesh(const MeshPath& path, const agvd::MeshView& mesh,
                                       const MeshAttributes& attributes,
                                       const agvd::Progress& progress = {});
@@ -47,6 +49,8 @@ void write_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
 //! \throw agvd::IoError  the extension is unknown.
 std::vector<std::string> remove_unwritable(const std::filesystem::path& path,
                                            MeshAttributes& attributes);
+
+//! The same for the format that `path.format` names.
 std::vector<std::string> remove_unwritable(const MeshPath& path, MeshAttributes& attributes);
 
 //! Figures of what the positions lose in a format of single precision.

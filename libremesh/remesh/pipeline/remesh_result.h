@@ -72,7 +72,7 @@ struct KeptPart {
 
 //! Pairs of faces of a result that intersect.
 struct CrossingCounts {
-    agvd::Index all = 0;
+    agvd::Index all = 0;    //!< See RemeshResult::self_intersections.
     agvd::Index fresh = 0;  //!< See RemeshResult::new_self_intersections.
 };
 
