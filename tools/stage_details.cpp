@@ -112,7 +112,8 @@ std::string stage_details(const RemeshResult& result, std::size_t num_faces) {
     for (const auto& [stage, seconds] : result.seconds) {
         char start[64];
         std::snprintf(start, sizeof start, "%-10s%7.2f s  ", remesh::stage_name(stage), seconds);
-        text += (text.empty() ? "" : "\n") + std::string(start) + after(stage, result, num_faces);
+        if (!text.empty()) text += '\n';
+        text += start + after(stage, result, num_faces);
     }
     return text;
 }
