@@ -68,8 +68,10 @@ CurveMeasure measure_curve(const agvd::Surface& surface, const Curve& curve, dou
     return result;
 }
 
-// The place with `count` spacings before it.
+// The place with `count` spacings before it. On a closed curve it may lie in the second turn.
 double place_at(const CurveMeasure& measure, double count) {
+    const double whole = measure.count.back();
+    if (count > whole) return measure.place.back() + place_at(measure, count - whole);
     const std::vector<double>& spacings = measure.count;
     const auto after = std::upper_bound(spacings.begin() + 1, spacings.end() - 1, count);
     const auto i = static_cast<std::size_t>(after - spacings.begin()) - 1;

@@ -150,6 +150,25 @@ TEST(CurveSites, StraightCurvesAreDividedEvenly) {
     }
 }
 
+// The first site of a closed curve lies in the middle of its first edge, which has several here.
+TEST(CurveSites, ClosedCurvesAreDividedEvenlyAllAround) {
+    const Placed cylinder = on_cylinder(.05);
+    ASSERT_EQ(cylinder.network.curves.size(), 2u);
+    for (Index c = 0; c < 2; ++c) {
+        const Curve& curve = cylinder.network.curves[c];
+        ASSERT_TRUE(curve.is_closed());
+        const Index first = cylinder.sites.first_of_curve[c];
+        const Index last = cylinder.sites.first_of_curve[c + 1];
+        ASSERT_GT(last - first, 3 * curve.num_edges());
+        const double interval = curve.length() / (last - first);
+        double before = cylinder.sites.along[last - 1] - curve.length();
+        for (Index g = first; g < last; ++g) {
+            EXPECT_NEAR(cylinder.sites.along[g] - before, interval, 1e-9) << g - first;
+            before = cylinder.sites.along[g];
+        }
+    }
+}
+
 TEST(CurveSites, BendsHaveMoreSites) {
     const Placed box = on_box(.2);
     for (const Curve& curve : box.network.curves) {
