@@ -134,7 +134,9 @@ private:
 // A name that is one word, as PLY wants it.
 std::string as_word(const std::string& name) {
     std::string word = name.empty() ? "array" : name;
-    for (char& c : word) c = c > ' ' && c != '\x7f' ? c : '_';
+    for (char& c : word) {
+        if ((c >= 0 && c <= ' ') || c == '\x7f') c = '_';
+    }
     return word;
 }
 

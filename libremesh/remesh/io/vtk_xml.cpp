@@ -101,7 +101,10 @@ private:
                                   .num_lines = value_of(tag, "NumberOfLines"),
                                   .num_strips = value_of(tag, "NumberOfStrips"),
                                   .num_polys = value_of(tag, "NumberOfPolys"),
-                                  .num_cells = value_of(tag, "NumberOfCells")});
+                                  .num_cells = value_of(tag, "NumberOfCells"),
+                                  .normals_of_points = {},
+                                  .texture_of_points = {},
+                                  .normals_of_cells = {}});
     }
 
     void read_section(const XmlTag& tag) {

@@ -12,13 +12,18 @@ namespace {
 
 constexpr const char* array_is_truncated = "the file ends within it, or it is no base64";
 
+// Points often have no name.
+std::string shown(const VtkXmlArray& array) {
+    return "array " + (array.name.empty() ? "" : in_quotes(array.name) + " ") + "of " +
+           array.section;
+}
+
 }  // namespace
 
 VtkArray VtkXmlArrays::read(const VtkXmlArray& array) {
     VtkArray result{.name = array.name, .type = find_vtk_xml_type(array.type), .offset = array.tag};
     if (result.type == nullptr) {
-        file_.fail_malformed(array.tag, "array " + in_quotes(array.name) + " of " + array.section +
-                                            " has the type " + in_quotes(array.type) +
+        file_.fail_malformed(array.tag, shown(array) + " has the type " + in_quotes(array.type) +
                                             ", which is not supported; export the file without it");
     }
     result.num_components = static_cast<std::size_t>(
@@ -48,8 +53,7 @@ std::optional<std::uint64_t> VtkXmlArrays::count(const std::string& text, const 
 }
 
 void VtkXmlArrays::fail(const VtkXmlArray& array, const std::string& text) const {
-    file_.fail_malformed(array.tag, "array " + in_quotes(array.name) + " of " + array.section +
-                                        ": " + text + "; export the file again");
+    file_.fail_malformed(array.tag, shown(array) + ": " + text + "; export the file again");
 }
 
 void VtkXmlArrays::read_text(const VtkXmlArray& array, VtkArray& result) {
@@ -81,6 +85,7 @@ std::uint64_t VtkXmlArrays::take_count(const VtkXmlArray& array, ByteSource& sou
 
 // The first count is that of bytes, or of compressed blocks.
 void VtkXmlArrays::read_bytes(const VtkXmlArray& array, ByteSource source, VtkArray& result) {
+    if (source.is_at_end()) return;  // Some writers leave out the counts of an empty array.
     const std::uint64_t first = take_count(array, source);
     std::string unpacked;
     std::string_view bytes;

@@ -140,7 +140,7 @@ private:
                                                 "), but not the arrays that make them; export the "
                                                 "file again");
         }
-        VtkCells cells{.corners = arrays_.read(*corners), .types = {type}};
+        VtkCells cells{.corners = arrays_.read(*corners), .ends = {}, .types = {type}};
         const VtkArray offsets = arrays_.read(*ends);
         require_count(*ends, offsets, announced);
         cells.ends = ends_of_cells(offsets, 0, cells.corners.values.size(), file_);

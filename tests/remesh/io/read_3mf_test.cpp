@@ -69,7 +69,7 @@ std::string one_square(const std::string& item) {
 }
 
 remesh::MeshFile with_attributes(const std::string& bytes) {
-    return remesh::read_3mf({.path = "a.3mf", .bytes = bytes, .with_attributes = true});
+    return read_bytes("a.3mf", bytes, true);
 }
 
 }  // namespace
@@ -213,10 +213,10 @@ TEST_F(Read3mf, WrongPackagesAreRefused) {
 }
 
 TEST_F(Read3mf, WrongModelsAreRefused) {
-    const auto expect_refused = [](const std::string& content,
-                                   const std::vector<std::string>& words,
+    const auto expect_refused = [](const std::string& content, std::vector<std::string> words,
                                    const std::string& attributes = "") {
-        expect_error<IoError>("a.3mf: 3D/Main.model: line ", file_of(content, attributes), words);
+        words.emplace_back("a.3mf: 3D/Main.model: line ");
+        expect_error<IoError>("a.3mf", file_of(content, attributes), words);
     };
     const std::string good = "<resources>" + object(1, square) + "</resources>";
     expect_refused(good, {"no item"});

@@ -36,7 +36,9 @@ struct StoredPart {
         const std::uint32_t shown = is_large ? 0xFFFFFFFF : size;
         std::string extra;
         if (is_large) {
-            for (const std::uint16_t field : {9, 2, 0, 1, 24}) remesh::append(extra, field);
+            for (const int field : {9, 2, 0, 1, 24}) {
+                remesh::append(extra, static_cast<std::uint16_t>(field));
+            }
             for (const std::uint64_t number : {size, size, 0u}) remesh::append(extra, number);
         }
         std::string bytes = "PK\3\4" + fields;
