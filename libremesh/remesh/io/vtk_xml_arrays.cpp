@@ -85,7 +85,8 @@ std::uint64_t VtkXmlArrays::take_count(const VtkXmlArray& array, ByteSource& sou
 
 // The first count is that of bytes, or of compressed blocks.
 void VtkXmlArrays::read_bytes(const VtkXmlArray& array, ByteSource source, VtkArray& result) {
-    if (source.is_at_end()) return;  // Some writers leave out the counts of an empty array.
+    // Some writers leave out the count of an empty array.
+    if (array.format == "binary" && source.is_at_end()) return;
     const std::uint64_t first = take_count(array, source);
     std::string unpacked;
     std::string_view bytes;
