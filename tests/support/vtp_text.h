@@ -46,8 +46,10 @@ public:
         constexpr const char* formats[] = {"ascii", "binary", "appended", "appended"};
         text_ += "<DataArray " + attributes + " format='" + formats[style_.encoding] + "'";
         if (style_.is_appended()) text_ += " offset='" + std::to_string(appended_.size()) + "'";
-        // VTK has keys of its pipeline there.
-        text_ += ">\n<InformationKey name='L2' location='vtkDataArray'>5 6\n</InformationKey>\n";
+        // VTK has keys of its pipeline behind the numbers, others may have them before.
+        const std::string key =
+            "\n<InformationKey name='L2' location='vtkDataArray'>5 6\n</InformationKey>\n";
+        text_ += ">\n" + (style_.is_wide ? key : "");
         if (style_.encoding == VtpStyle::Ascii) {
             std::ostringstream numbers;
             numbers.precision(17);
@@ -58,7 +60,7 @@ public:
             for (const T value : values) put(value, bytes);
             (style_.is_appended() ? appended_ : text_) += encoded(bytes);
         }
-        text_ += "</DataArray>\n";
+        text_ += (style_.is_wide ? "" : key) + "</DataArray>\n";
     }
 
     [[nodiscard]] std::string finish() const {

@@ -29,6 +29,8 @@ public:
             read_section(tag);
         } else if (depth == 4 && is_in_mesh_ && is_in_piece_) {
             read_array(tag);
+        } else if (depth == 5 && is_in_mesh_ && is_in_piece_) {
+            end_text(tag.begin);
         }
         return true;
     }
@@ -36,10 +38,8 @@ public:
     void end(std::size_t at, std::size_t behind) override {
         --depth_;
         if (!is_in_mesh_ || !is_in_piece_) return;
-        VtkXmlPiece& piece = result_.pieces.back();
-        if (depth_ == 4) piece.arrays.back().end = at;
-        // Keys of VTK's pipeline stand before the numbers.
-        if (depth_ == 5) piece.arrays.back().begin = behind;
+        if (depth_ == 4) end_text(at);
+        if (depth_ == 5) skip_key(behind);
     }
 
     VtkXmlFile finish() && {
@@ -50,6 +50,17 @@ public:
 private:
     [[noreturn]] void fail(std::size_t offset, const std::string& text) const {
         file_.fail_malformed(offset, text + "; export the file again");
+    }
+
+    // The numbers of an array stand before or behind the keys of VTK's pipeline in it.
+    void end_text(std::size_t end) {
+        VtkXmlArray& array = result_.pieces.back().arrays.back();
+        if (array.end != array.begin) return;
+        if (file_.bytes.find_first_not_of(" \t\r\n", array.begin) < end) array.end = end;
+    }
+    void skip_key(std::size_t behind) {
+        VtkXmlArray& array = result_.pieces.back().arrays.back();
+        if (array.end == array.begin) array.begin = array.end = behind;
     }
 
     void read_root(const XmlTag& tag) {

@@ -164,7 +164,7 @@ TEST_F(Vtp, PiecesBecomeOneMesh) {
     ASSERT_EQ(file.attributes.declined.size(), 1u);
     EXPECT_EQ(file.attributes.declined[0].name, "vertex first");
     // A corner must not reach into the piece before or after its own.
-    expect_error<InvalidInput>(replaced(text.finish(), "0 2 1 </DataArray", "0 2 3 </DataArray"),
+    expect_error<InvalidInput>(replaced(text.finish(), "0 2 1 \n<Info", "0 2 3 \n<Info"),
                                {"point 3", "only 3 points"});
 }
 
@@ -268,17 +268,17 @@ TEST_F(Vtp, WrongArraysAreRefused) {
     expect_io_error("NumberOfPolys='2'", "NumberOfPolys='99999999999999999999'", {"whole number"});
     expect_io_error("7 9 8 -3", "7 9 8", {"'part id' of CellData", "3 numbers for 4"});
     expect_io_error("7 9 8 -3", "7 9 x -3", {"expected a number", "'x'"});
-    expect_io_error("3 7 </", "3 8 </", {"offset of cell 1"});
-    expect_io_error("3 7 </", "5 3 </", {"offset of cell 1"});
-    expect_io_error("3 7 </", "-1 7 </", {"offset of cell 0"});
-    expect_io_error("3 7 </", "nan 7 </", {"offset of cell 0"});
-    expect_io_error("3 7 </", "3 6 </", {"last offset"});
-    expect_error<InvalidInput>(replaced(ascii, "0 1 3 2 </", "0 1 3 5 </"),
+    expect_io_error("3 7 \n<", "3 8 \n<", {"offset of cell 1"});
+    expect_io_error("3 7 \n<", "5 3 \n<", {"offset of cell 1"});
+    expect_io_error("3 7 \n<", "-1 7 \n<", {"offset of cell 0"});
+    expect_io_error("3 7 \n<", "nan 7 \n<", {"offset of cell 0"});
+    expect_io_error("3 7 \n<", "3 6 \n<", {"last offset"});
+    expect_error<InvalidInput>(replaced(ascii, "0 1 3 2 \n<", "0 1 3 5 \n<"),
                                {"'connectivity' of Polys", "point 5", "only 5 points"});
-    for (const char* wrong : {"0 1 3 -1 </", "0 1 3 nan </", "0 1 3 1e30 </"}) {
-        expect_error<InvalidInput>(replaced(ascii, "0 1 3 2 </", wrong), {"of Polys"});
+    for (const char* wrong : {"0 1 3 -1 \n<", "0 1 3 nan \n<", "0 1 3 1e30 \n<"}) {
+        expect_error<InvalidInput>(replaced(ascii, "0 1 3 2 \n<", wrong), {"of Polys"});
     }
-    expect_io_error("0 1 3 2 </", "0 1 3 1.5 </", {"whole number"});
+    expect_io_error("0 1 3 2 \n<", "0 1 3 1.5 \n<", {"whole number"});
     expect_error<InvalidInput>(replaced(ascii, "0 1 0.1", "0 nan 0.1"), {"point 2", "finite"});
     const std::size_t begin = ascii.find("<Points>"), end = ascii.find("</Points>");
     expect_error<IoError>(ascii.substr(0, begin + 8) + ascii.substr(end), {"no array of Points"});
