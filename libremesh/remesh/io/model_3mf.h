@@ -2,7 +2,6 @@
 //! A model part of a 3MF file, before its objects are put together. Private to the reader.
 #pragma once
 
-#include <Eigen/Geometry>
 #include <map>
 #include <string>
 #include <vector>
