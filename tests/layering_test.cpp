@@ -38,6 +38,8 @@ constexpr Package packages[] = {
     {"OpenMesh/", R"(remesh/io/(.*\.cpp|openmesh_exchange\.h))"},
     {"nlohmann/", R"(remesh/io/(.*\.cpp|glb_container\.h))"},
     {"fast_float/", R"(remesh/io/(.*\.cpp|text_scanner\.h))"},
+    {"expat.h", R"(remesh/io/xml_reader\.cpp)"},
+    {"zlib.h", R"(remesh/io/zlib_stream\.h)"},
     {"sys/", R"(remesh/io/.*\.cpp)"},
 };
 

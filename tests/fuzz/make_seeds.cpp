@@ -14,6 +14,7 @@
 #include "support/dice.h"
 #include "support/points.h"
 #include "support/shapes.h"
+#include "support/vtp_text.h"
 
 namespace {
 
@@ -101,6 +102,8 @@ void put_meshes(Seeds& seeds) {
         seeds.put("read_stl", remesh::format_mesh("a.stl", mesh.view()));
         seeds.put("read_stl", ascii_stl(mesh));
         seeds.put("read_vtk", remesh::format_mesh("a.vtk", mesh.view()));
+        seeds.put("read_vtp", remesh::format_mesh("a.vtp", mesh.view()));
+        seeds.put("read_3mf", remesh::format_mesh("a.3mf", mesh.view()));
         seeds.put("read_medit", remesh::format_mesh("a.mesh", mesh.view()));
         seeds.put("read_glb", remesh::format_mesh("a.glb", mesh.view()));
         seeds.put("read_gzip", remesh::pack_gzip(ascii_ply(mesh), {}));
@@ -174,6 +177,50 @@ void put_meshes(Seeds& seeds) {
               "f 4 3 5 1 2\n");
 }
 
+std::string small_vtp(const VtpStyle& style) {
+    VtpText text(style);
+    text.add(
+        "<PolyData><Piece NumberOfPoints='4' NumberOfLines='1' NumberOfStrips='1' "
+        "NumberOfPolys='1'><PointData Normals='n'>");
+    text.array<float>("type='Float32' Name='heat'", {.5f, 1, 2, 3});
+    text.add("</PointData><CellData>");
+    text.array<std::int64_t>("type='Int64' Name='part'", {7, 9, 8});
+    text.add("</CellData><Points>");
+    text.array<float>("type='Float32' NumberOfComponents='3'",
+                      {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0});
+    text.add("</Points><Polys>");
+    text.array<std::int32_t>("type='Int32' Name='connectivity'", {0, 1, 3, 2});
+    text.array<std::int32_t>("type='Int32' Name='offsets'", {4});
+    text.add("</Polys><Strips>");
+    text.array<std::int32_t>("type='Int32' Name='connectivity'", {1, 3, 2});
+    text.array<std::int32_t>("type='Int32' Name='offsets'", {3});
+    text.add("</Strips><Lines>");
+    text.array<std::int32_t>("type='Int32' Name='connectivity'", {0, 1});
+    text.array<std::int32_t>("type='Int32' Name='offsets'", {2});
+    text.add("</Lines></Piece></PolyData>");
+    return text.finish();
+}
+
+void put_packages(Seeds& seeds) {
+    for (const auto encoding :
+         {VtpStyle::Ascii, VtpStyle::Binary, VtpStyle::Base64, VtpStyle::Raw}) {
+        seeds.put("read_vtp", small_vtp({.encoding = encoding, .order = std::endian::big}));
+        seeds.put("read_vtp",
+                  small_vtp({.encoding = encoding, .is_wide = true, .is_packed = true}));
+    }
+    seeds.put("read_3mf",
+              "<model xmlns='http://schemas.microsoft.com/3dmanufacturing/core/2015/02' "
+              "xmlns:m='http://schemas.microsoft.com/3dmanufacturing/material/2015/02'><resources>"
+              "<basematerials id='5'><base name='a'/></basematerials><m:colorgroup id='6'>"
+              "<m:color color='#FF0000'/></m:colorgroup><object id='1' pid='5' pindex='0' name='b'>"
+              "<mesh><vertices><vertex x='0' y='0' z='0'/><vertex x='1' y='0' z='0'/>"
+              "<vertex x='0' y='1' z='0'/></vertices><triangles><triangle v1='0' v2='1' v3='2'/>"
+              "<triangle v1='2' v2='1' v3='0' pid='6' p1='0'/></triangles></mesh></object>"
+              "<object id='2'><components><component objectid='1'/><component objectid='1' "
+              "transform='1 0 0 0 -1 0 0 0 1 5 0 0'/></components></object></resources><build>"
+              "<item objectid='2' transform='2 0 0 0 2 0 0 0 2 0 0 0'/></build></model>");
+}
+
 void put_sites(Seeds& seeds) {
     seeds.put("read_sites", "# sites\nv 0\nv 15 # the last one\nf 17 .25 .25 .5\nf 0 1 0 0\n");
     seeds.put("read_sites", "p 0.5 0.5 0\r\np -1 2e0 +.3\rp 1e308 0 0\n\xEF\xBB\xBF");
@@ -214,6 +261,7 @@ int main(int argc, char** argv) {
     if (argc != 2) return 2;
     Seeds seeds(argv[1]);
     put_meshes(seeds);
+    put_packages(seeds);
     put_sites(seeds);
     put_shapes(seeds);
 }

@@ -10,17 +10,18 @@
 namespace texts {
 
 //! The result of read_mesh for a file `name` with these bytes; in memory, as disks are slow.
-[[nodiscard]] inline remesh::MeshFile read_bytes(const std::string& name,
-                                                 const std::string& bytes) {
-    return remesh::require_format({name}).read({.path = name, .bytes = bytes});
+[[nodiscard]] inline remesh::MeshFile read_bytes(const std::string& name, const std::string& bytes,
+                                                 bool with_attributes = false) {
+    return remesh::require_format({name}).read(
+        {.path = name, .bytes = bytes, .with_attributes = with_attributes});
 }
 
 //! Expects an error of type E that names the file and has all of `words` in its text.
 template <typename E>
 void expect_error(const std::string& name, const std::string& bytes,
-                  const std::vector<std::string>& words) {
+                  const std::vector<std::string>& words, bool with_attributes = false) {
     try {
-        static_cast<void>(read_bytes(name, bytes));
+        static_cast<void>(read_bytes(name, bytes, with_attributes));
         ADD_FAILURE() << "read without complaint:\n" << bytes.substr(0, 200);
     } catch (const E& error) {
         const std::string text = error.what();

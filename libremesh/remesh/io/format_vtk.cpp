@@ -1,13 +1,12 @@
 // Writes legacy VTK of version 3.0, which all programs read: binary POLYDATA with coordinates in
-// double. Colours become one array of bytes, every other attribute an array of its own.
+// double.
 
-#include <algorithm>
 #include <array>
 
 #include "agvd/core/error.h"
-#include "remesh/io/append_number.h"
+#include "remesh/io/byte_order.h"
 #include "remesh/io/formats.h"
-#include "remesh/io/text_colors.h"
+#include "remesh/io/vtk_output.h"
 #include "remesh/transfer/vertex_normals.h"
 
 namespace remesh {
@@ -42,36 +41,15 @@ std::string array_head(const std::string& name, std::size_t num_components, std:
            ' ' + vtk_name_of(type) + '\n';
 }
 
-void append_colors(const std::vector<const Attribute*>& colors, std::size_t count,
-                   agvd::Ticker& ticker, std::string& bytes) {
-    bytes +=
-        array_head(colors.size() == 4 ? "RGBA" : "RGB", colors.size(), count, NumberType::UInt8);
-    for (std::size_t i = 0; i < count; ++i) {
-        ticker.tick();
-        for (const Attribute* part : colors) {
-            append_number(bytes, NumberType::UInt8, 255 * intensity(*part, i), vtk_order);
-        }
-    }
-    bytes += '\n';
-}
-
 void append_attributes(const char* section, const std::vector<Attribute>& attributes,
                        std::size_t count, agvd::Ticker& ticker, std::string& bytes) {
-    if (attributes.empty()) return;
-    const std::vector<const Attribute*> colors = colors_of(attributes);
-    const std::size_t num_arrays =
-        colors.empty() ? attributes.size() : attributes.size() - colors.size() + 1;
+    const std::vector<VtkOutputArray> arrays = arrays_of(attributes);
+    if (arrays.empty()) return;
     bytes += section;
-    bytes += "FIELD FieldData " + std::to_string(num_arrays) + '\n';
-    if (!colors.empty()) append_colors(colors, count, ticker, bytes);
-    for (const Attribute& attribute : attributes) {
-        if (std::find(colors.begin(), colors.end(), &attribute) != colors.end()) continue;
-        const NumberType type = attribute.is_intensity ? NumberType::Float32 : attribute.type;
-        bytes += array_head(attribute.name, 1, count, type);
-        for (const double value : attribute.values) {
-            ticker.tick();
-            append_number(bytes, type, value, vtk_order);
-        }
+    bytes += "FIELD FieldData " + std::to_string(arrays.size()) + '\n';
+    for (const VtkOutputArray& array : arrays) {
+        bytes += array_head(array.name, array.parts.size(), count, array.type);
+        append_values(array, count, vtk_order, ticker, bytes);
         bytes += '\n';
     }
 }

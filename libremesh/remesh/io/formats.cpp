@@ -24,16 +24,15 @@ constexpr MeshFormat formats[] = {
     {"off", read_off, format_off, off_holds, true, any_double},
     {"stl", read_stl, format_stl, holds_none, false, any_float},
     {"vtk", read_vtk, format_vtk, holds_all, true, any_double},
+    {"vtp", read_vtp, format_vtp, holds_all, true, any_double},
     {"mesh", read_medit, format_medit, medit_holds, false, any_double},
+    {"3mf", read_3mf, format_3mf, holds_none, false, any_double},
     {"glb", read_glb, format_glb, glb_holds, true, any_float}};
 
 }  // namespace
 
 std::string lower_extension(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    // Not std::tolower, which depends on the locale.
-    for (char& c : extension) c = 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    return extension;
+    return in_lower_case(path.extension().string());
 }
 
 void attach(MeshAttributes attributes, MeshFile& file) {

@@ -17,8 +17,10 @@ namespace remesh {
 [[nodiscard]] MeshFile read_off(SourceFile file);
 [[nodiscard]] MeshFile read_stl(SourceFile file);
 [[nodiscard]] MeshFile read_vtk(SourceFile file);
+[[nodiscard]] MeshFile read_vtp(SourceFile file);
 [[nodiscard]] MeshFile read_medit(SourceFile file);
 [[nodiscard]] MeshFile read_glb(SourceFile file);
+[[nodiscard]] MeshFile read_3mf(SourceFile file);
 
 //! Unless it is empty.
 inline void add_warning(const std::string& text, MeshFile& file) {
@@ -39,9 +41,13 @@ void attach(MeshAttributes attributes, MeshFile& file);
                                      agvd::Ticker ticker);
 [[nodiscard]] std::string format_vtk(const agvd::MeshView& mesh, const MeshAttributes& attributes,
                                      agvd::Ticker ticker);
+[[nodiscard]] std::string format_vtp(const agvd::MeshView& mesh, const MeshAttributes& attributes,
+                                     agvd::Ticker ticker);
 [[nodiscard]] std::string format_medit(const agvd::MeshView& mesh, const MeshAttributes& attributes,
                                        agvd::Ticker ticker);
 [[nodiscard]] std::string format_glb(const agvd::MeshView& mesh, const MeshAttributes& attributes,
+                                     agvd::Ticker ticker);
+[[nodiscard]] std::string format_3mf(const agvd::MeshView& mesh, const MeshAttributes& attributes,
                                      agvd::Ticker ticker);
 
 //! See MeshFormat::holds.

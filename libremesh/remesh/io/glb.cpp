@@ -8,6 +8,7 @@
 #include <map>
 #include <utility>
 
+#include "remesh/io/face_labels.h"
 #include "remesh/io/formats.h"
 #include "remesh/io/glb_container.h"
 #include "remesh/io/polygon_soup.h"
@@ -226,11 +227,7 @@ private:
                        : "material_" + std::to_string(*material);
             has_materials_ = true;
         }
-        // As text formats hold it: on one line, and a backslash would join that with the next one.
-        std::erase_if(name, [](char c) { return (c >= 0 && c < ' ') || c == '\\'; });
-        const auto [entry, is_new] = material_.try_emplace(name, material_names_.size());
-        if (is_new) material_names_.push_back(name);
-        materials_.resize(materials_.size() + num_faces, static_cast<double>(entry->second));
+        materials_.add(materials_.number_of(std::move(name)), num_faces);
     }
 
     MeshAttributes finish_attributes(std::size_t num_vertices) {
@@ -239,10 +236,7 @@ private:
         for (const auto& [name, reason] : declined_) attributes.declined.push_back({name, reason});
         std::move(colors_).finish(num_vertices, ElementKind::Vertex, attributes);
         if (has_materials_) {
-            attributes.of_faces.push_back({.name = "material",
-                                           .type = NumberType::Int32,
-                                           .values = std::move(materials_),
-                                           .names = std::move(material_names_)});
+            attributes.of_faces.push_back(std::move(materials_).finish("material"));
         }
         return attributes;
     }
@@ -254,9 +248,7 @@ private:
     bool has_normals_ = false, has_materials_ = false;
     TextColors colors_;
     std::map<std::string, std::string> declined_;  // Reasons by name.
-    std::map<std::string, std::size_t> material_;  // Numbers by name.
-    std::vector<std::string> material_names_;
-    std::vector<double> materials_;  // By polygon.
+    FaceLabels materials_;
 };
 
 }  // namespace

@@ -1,78 +1,13 @@
 #include "remesh/io/gzip.h"
 
-#include <zlib.h>
-
-#include <algorithm>
-#include <new>
 #include <utility>
 #include <vector>
 
+#include "remesh/io/deflated.h"
+#include "remesh/io/zlib_stream.h"
+
 namespace remesh {
 namespace {
-
-constexpr std::size_t chunk_size = 1 << 22;
-constexpr int with_gzip_header = MAX_WBITS + 16;  // See zlib.h, deflateInit2.
-
-void require(int status) {
-    if (status != Z_OK) throw std::bad_alloc();  // The other errors are wrong arguments.
-}
-
-// A stream of zlib, with input that lies in memory.
-class ZStream {
-public:
-    explicit ZStream(std::string_view input) : left_(input) {}
-    ZStream(const ZStream&) = delete;
-    ZStream& operator=(const ZStream&) = delete;
-
-    // Fills the chunk from its beginning, as far as the input goes.
-    // \param step  inflate or deflate, with its flush mode. \return what it returned last.
-    template <typename Step>
-    int fill(std::string& chunk, const Step& step) {
-        stream_.next_out = reinterpret_cast<Bytef*>(chunk.data());
-        stream_.avail_out = static_cast<uInt>(chunk.size());
-        int status = Z_OK;
-        while (status == Z_OK && stream_.avail_out > 0) {
-            if (stream_.avail_in == 0) take_input();
-            status = step(stream_, left_.empty());
-            if (status == Z_BUF_ERROR && stream_.avail_in == 0 && !left_.empty()) status = Z_OK;
-        }
-        chunk.resize(chunk.size() - stream_.avail_out);
-        return status;
-    }
-
-    // Bytes of the input that were not used.
-    [[nodiscard]] std::size_t num_left() const { return left_.size() + stream_.avail_in; }
-    z_stream& operator*() { return stream_; }
-
-private:
-    void take_input() {
-        const std::size_t size = std::min(left_.size(), chunk_size);
-        // zlib does not write to its input.
-        stream_.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(left_.data()));
-        stream_.avail_in = static_cast<uInt>(size);
-        left_.remove_prefix(size);
-    }
-
-    z_stream stream_{};
-    std::string_view left_;
-};
-
-class Inflater : public ZStream {
-public:
-    explicit Inflater(std::string_view input) : ZStream(input) {
-        require(::inflateInit2(&**this, with_gzip_header));
-    }
-    ~Inflater() { ::inflateEnd(&**this); }
-};
-
-class Deflater : public ZStream {
-public:
-    explicit Deflater(std::string_view input) : ZStream(input) {
-        require(::deflateInit2(&**this, Z_DEFAULT_COMPRESSION, Z_DEFLATED, with_gzip_header, 8,
-                               Z_DEFAULT_STRATEGY));
-    }
-    ~Deflater() { ::deflateEnd(&**this); }
-};
 
 // Each chunk is freed as soon as it is appended, so that nothing is in memory twice.
 std::string joined_chunks(std::vector<std::string> chunks) {
@@ -87,13 +22,12 @@ std::string joined_chunks(std::vector<std::string> chunks) {
 // Unpacks one member, which begins at the offset, and goes behind it.
 void unpack_member(const SourceFile& file, std::size_t& offset, agvd::Ticker& ticker,
                    std::vector<std::string>& chunks) {
-    Inflater inflater(std::string_view(file.bytes).substr(offset));
+    Inflater inflater(std::string_view(file.bytes).substr(offset), ZlibWrapping::Gzip);
     int status = Z_OK;
     while (status == Z_OK) {
         ticker.poll();
-        chunks.emplace_back(chunk_size, '\0');
-        status = inflater.fill(
-            chunks.back(), [](z_stream& stream, bool) { return ::inflate(&stream, Z_NO_FLUSH); });
+        chunks.emplace_back(zlib_chunk_size, '\0');
+        status = inflater.unpack(chunks.back(), 0);
     }
     const std::size_t at = file.bytes.size() - inflater.num_left();
     if (status == Z_MEM_ERROR) throw std::bad_alloc();
@@ -106,6 +40,20 @@ void unpack_member(const SourceFile& file, std::size_t& offset, agvd::Ticker& ti
         file.fail_malformed(at, "the compressed data are damaged; export the file again");
     }
     offset = at;
+}
+
+std::string packed(const std::string& bytes, ZlibWrapping wrapping, agvd::Ticker& ticker) {
+    Deflater deflater(bytes, wrapping);
+    std::vector<std::string> chunks;
+    int status = Z_OK;
+    while (status == Z_OK) {
+        chunks.emplace_back(zlib_chunk_size, '\0');
+        status = deflater.fill(chunks.back(), 0, [&](z_stream& stream, bool is_last) {
+            ticker.poll();
+            return ::deflate(&stream, is_last ? Z_FINISH : Z_NO_FLUSH);
+        });
+    }
+    return joined_chunks(std::move(chunks));
 }
 
 }  // namespace
@@ -137,17 +85,40 @@ void unpack_gzip(SourceFile& file) {
 }
 
 std::string pack_gzip(const std::string& bytes, agvd::Ticker ticker) {
-    Deflater deflater(bytes);
-    std::vector<std::string> chunks;
+    return packed(bytes, ZlibWrapping::Gzip, ticker);
+}
+
+bool append_unpacked(std::string_view packed_bytes, DeflatedIn kind, std::uint64_t size,
+                     agvd::Ticker& ticker, std::string& bytes) {
+    Inflater inflater(packed_bytes,
+                      kind == DeflatedIn::Zip ? ZlibWrapping::None : ZlibWrapping::Zlib);
     int status = Z_OK;
+    // Also when all has come out: the end of the data must be there. One byte more would show.
     while (status == Z_OK) {
-        chunks.emplace_back(chunk_size, '\0');
-        status = deflater.fill(chunks.back(), [&](z_stream& stream, bool is_last) {
-            ticker.poll();
-            return ::deflate(&stream, is_last ? Z_FINISH : Z_NO_FLUSH);
-        });
+        ticker.poll();
+        const std::size_t begin = bytes.size();
+        bytes.resize(begin + static_cast<std::size_t>(
+                                 std::min<std::uint64_t>(size, zlib_chunk_size - 1) + 1));
+        status = inflater.unpack(bytes, begin);
+        if (bytes.size() - begin > size) return false;
+        size -= bytes.size() - begin;
     }
-    return joined_chunks(std::move(chunks));
+    if (status == Z_MEM_ERROR) throw std::bad_alloc();
+    return status == Z_STREAM_END && size == 0 && inflater.num_left() == 0;
+}
+
+std::string pack_for_zip(const std::string& bytes, agvd::Ticker& ticker) {
+    return packed(bytes, ZlibWrapping::None, ticker);
+}
+
+std::uint32_t crc32_of(std::string_view bytes) {
+    uLong sum = ::crc32(0, nullptr, 0);
+    while (!bytes.empty()) {
+        const std::size_t size = std::min(bytes.size(), zlib_chunk_size);
+        sum = ::crc32(sum, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uInt>(size));
+        bytes.remove_prefix(size);
+    }
+    return static_cast<std::uint32_t>(sum);
 }
 
 }  // namespace remesh

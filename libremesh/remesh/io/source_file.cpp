@@ -128,6 +128,13 @@ SourceFile load_file(const std::filesystem::path& path, agvd::Poller& poller) {
     return file;
 }
 
+std::string in_lower_case(std::string_view text) {
+    std::string lower(text);
+    // Not std::tolower, which depends on the locale.
+    for (char& c : lower) c = 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return lower;
+}
+
 std::string in_quotes(std::string_view text) {
     constexpr std::size_t longest = 40;
     std::string shown = "'";

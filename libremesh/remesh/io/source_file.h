@@ -41,6 +41,9 @@ struct SourceFile {
 //! \throw agvd::Cancelled  the poller asked for it, also while waiting for a pipe.
 [[nodiscard]] SourceFile load_file(const std::filesystem::path& path, agvd::Poller& poller);
 
+//! With ASCII letters in lower case, whatever the locale.
+[[nodiscard]] std::string in_lower_case(std::string_view text);
+
 //! The text in quotes, cut to a readable length, with unprintable bytes shown as '?'.
 [[nodiscard]] std::string in_quotes(std::string_view text);
 

@@ -16,6 +16,17 @@
 
 namespace remesh {
 
+//! The text as a number, correctly rounded, which may be infinite or NaN; nothing if it is
+//! something else.
+[[nodiscard]] inline std::optional<double> as_number(std::string_view text) {
+    if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+    const char* const end = text.data() + text.size();
+    double value = 0;
+    const auto [last, error] = fast_float::from_chars(text.data(), end, value);
+    if (error != std::errc{} || last != end) return std::nullopt;
+    return value;
+}
+
 class TextScanner {
 public:
     struct Rules {
@@ -108,14 +119,7 @@ public:
     //! The next word of this line as a number; none if it is something else.
     std::optional<double> number_or_other(const char* what) {
         if (!has_word()) fail_expecting(what);
-        const std::string_view text = rest_of_word();
-        const char* const end = text.data() + text.size();
-        double value = 0;
-        const auto [last, error] = fast_float::from_chars(
-            text.data() + (text.size() > 1 && text[0] == '+' && text[1] != '-' ? 1 : 0), end,
-            value);
-        if (error != std::errc{} || last != end) return std::nullopt;
-        return value;
+        return as_number(rest_of_word());
     }
 
     //! The next whole number of this line.

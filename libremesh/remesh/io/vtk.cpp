@@ -15,12 +15,6 @@
 namespace remesh {
 namespace {
 
-std::string in_lower_case(std::string_view word) {
-    std::string text(word);
-    for (char& c : text) c = 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    return text;
-}
-
 // "%20" stands for a blank.
 std::string decoded(std::string_view name) {
     std::string text;
@@ -265,21 +259,12 @@ private:
         expect("connectivity");
         const VtkType& type = type_name();
         cells.corners = array("CONNECTIVITY", type, size, 1);
-        double last = 0;
-        for (std::size_t i = 0; i < offsets.values.size(); ++i) {
-            const double end = offsets.values[i];
-            if (!(end >= last && end <= static_cast<double>(size) && end == std::floor(end)) ||
-                (i == 0 && end != 0)) {
-                fail("the offset of cell " + std::to_string(i) +
-                     " is not in order; export the file "
-                     "again");
-            }
-            if (i > 0) cells.ends.push_back(static_cast<std::size_t>(end));
-            last = end;
+        if (!offsets.values.empty() && offsets.values[0] != 0) {
+            fail(
+                "the offset of the first cell is not 0, so that they are not in order; export the "
+                "file again");
         }
-        if (last != static_cast<double>(size)) {
-            fail("the last offset is not the number of corners; export the file again");
-        }
+        cells.ends = ends_of_cells(offsets, 1, cells.corners.values.size(), file_);
     }
 
     void read_types() {
@@ -294,14 +279,7 @@ private:
             fail("CELL_TYPES has " + std::to_string(count) + " types for " +
                  std::to_string(cells.ends.size()) + " cells; export the file again");
         }
-        cells.types.clear();
-        cells.types.reserve(count);
-        for (std::size_t c = 0; c < count; ++c) {
-            const double type = types_->values[c];
-            const bool is_type = is_value_of(NumberType::UInt8, type);
-            cells.types.push_back(
-                VtkCell{is_type ? static_cast<std::uint8_t>(type) : std::uint8_t{0}});
-        }
+        if (types_) cells.types = types_of_cells(*types_);
     }
 
     std::string name(const char* what) {

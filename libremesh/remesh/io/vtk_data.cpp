@@ -134,7 +134,9 @@ private:
 // A name that is one word, as PLY wants it.
 std::string as_word(const std::string& name) {
     std::string word = name.empty() ? "array" : name;
-    for (char& c : word) c = c > ' ' && c != '\x7f' ? c : '_';
+    for (char& c : word) {
+        if ((c >= 0 && c <= ' ') || c == '\x7f') c = '_';
+    }
     return word;
 }
 
@@ -237,6 +239,45 @@ const VtkType* find_vtk_type(std::string_view name) {
     const auto found = std::find_if(vtk_types.begin(), vtk_types.end(),
                                     [&](const VtkType& type) { return name == type.name; });
     return found == vtk_types.end() ? nullptr : found;
+}
+
+const VtkType* find_vtk_xml_type(std::string_view name) {
+    const auto found = std::find_if(vtk_types.begin(), vtk_types.end(), [&](const VtkType& type) {
+        return !name.empty() && name == type.xml_name;
+    });
+    return found == vtk_types.end() ? nullptr : found;
+}
+
+std::vector<std::size_t> ends_of_cells(const VtkArray& offsets, std::size_t first,
+                                       std::size_t num_corners, const SourceFile& file) {
+    std::vector<std::size_t> ends;
+    agvd::Ticker ticker = file.ticker;
+    double last = 0;
+    for (std::size_t i = first; i < offsets.values.size(); ++i) {
+        ticker.tick();
+        const double end = offsets.values[i];
+        if (!(end >= last && end <= static_cast<double>(num_corners) && end == std::floor(end))) {
+            file.fail_malformed(offsets.offset, "the offset of cell " + std::to_string(i - first) +
+                                                    " is not in order; export the file again");
+        }
+        ends.push_back(static_cast<std::size_t>(end));
+        last = end;
+    }
+    if (last != static_cast<double>(num_corners)) {
+        file.fail_malformed(offsets.offset,
+                            "the last offset is not the number of corners; export the file again");
+    }
+    return ends;
+}
+
+std::vector<VtkCell> types_of_cells(const VtkArray& numbers) {
+    std::vector<VtkCell> types;
+    types.reserve(numbers.values.size());
+    for (const double number : numbers.values) {
+        const bool is_type = is_value_of(NumberType::UInt8, number);
+        types.push_back(VtkCell{is_type ? static_cast<std::uint8_t>(number) : std::uint8_t{0}});
+    }
+    return types;
 }
 
 MeshFile make_mesh(VtkData data, const SourceFile& file) {

@@ -24,6 +24,8 @@ struct VtkType {
 
 //! The type of a legacy name, in lower case; nullptr: unknown.
 [[nodiscard]] const VtkType* find_vtk_type(std::string_view name);
+//! The type of a name in XML files, such as Float64; nullptr: unknown.
+[[nodiscard]] const VtkType* find_vtk_xml_type(std::string_view name);
 
 struct VtkArray {
     std::string name;
@@ -51,6 +53,16 @@ struct VtkCells {
     std::vector<VtkCell> types;     //!< By cell; a single one holds for all.
 };
 
+//! Where each cell ends in an array of corners.
+//! \param first  the offset that belongs to the first cell.
+//! \throw agvd::IoError  they are not in order, or do not end with the corners.
+[[nodiscard]] std::vector<std::size_t> ends_of_cells(const VtkArray& offsets, std::size_t first,
+                                                     std::size_t num_corners,
+                                                     const SourceFile& file);
+
+//! Numbers that are types of cells; others become one that is no face.
+[[nodiscard]] std::vector<VtkCell> types_of_cells(const VtkArray& numbers);
+
 struct VtkData {
     std::optional<VtkArray> points;
     std::vector<VtkCells> cells;  //!< In the order of the data of cells.
@@ -58,6 +70,10 @@ struct VtkData {
     std::optional<NumberType> normals = {};  //!< Of points.
     std::vector<DeclinedAttribute> declined = {};
 };
+
+//! The points, cells and arrays of an XML file of VTK.
+//! \throw agvd::IoError, agvd::InvalidInput  damaged; names the array.  \throw agvd::Cancelled
+[[nodiscard]] VtkData read_vtk_xml(const SourceFile& file);
 
 //! The mesh of all faces. Other cells are passed over with a warning.
 //! \throw agvd::IoError  counts do not fit.  \throw agvd::InvalidInput  no face is left, an index is

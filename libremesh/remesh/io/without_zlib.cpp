@@ -1,5 +1,6 @@
 // Compressed files, for a build without zlib: they are refused.
 #include "agvd/core/error.h"
+#include "remesh/io/deflated.h"
 #include "remesh/io/gzip.h"
 
 namespace remesh {
@@ -15,5 +16,15 @@ void unpack_gzip(SourceFile& file) {
 std::string pack_gzip(const std::string&, agvd::Ticker) {
     throw agvd::IoError("this program was built without zlib; write without .gz and run gzip");
 }
+
+bool append_unpacked(std::string_view, DeflatedIn, std::uint64_t, agvd::Ticker&, std::string&) {
+    return false;
+}
+
+std::string pack_for_zip(const std::string&, agvd::Ticker&) {
+    throw agvd::IoError("this program was built without zlib, which .3mf needs; write .ply");
+}
+
+std::uint32_t crc32_of(std::string_view) { return 0; }
 
 }  // namespace remesh

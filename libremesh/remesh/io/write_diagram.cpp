@@ -10,6 +10,7 @@
 #include "remesh/io/byte_order.h"
 #include "remesh/io/formats.h"
 #include "remesh/io/text_format.h"
+#include "remesh/io/vtp_writer.h"
 
 namespace remesh {
 namespace {
@@ -36,49 +37,39 @@ std::vector<Index> polyline(const Diagram& diagram, Index edge, Index first) {
 
 Index num_edges(const Diagram& diagram) { return static_cast<Index>(diagram.edges.size()); }
 
-// A named array of as many lines as there are items; row_of(i) gives the numbers of line i.
-template <typename RowOf>
-void append_array(std::string& bytes, const char* attributes, std::size_t num_lines,
-                  agvd::Ticker& ticker, const RowOf& row_of) {
-    bytes += std::string("<DataArray format=\"ascii\" ") + attributes + ">\n";
-    for (std::size_t i = 0; i < num_lines; ++i) {
-        ticker.tick(4);
-        append_line(bytes, "", row_of(i));
-    }
-    bytes += "</DataArray>\n";
-}
-
-std::string format_vtp(const Surface& surface, const Diagram& diagram, agvd::Ticker ticker) {
+std::string format_vtp_lines(const Surface& surface, const Diagram& diagram, agvd::Ticker ticker) {
     const std::size_t num_points = diagram.points.size();
     const std::size_t num_lines = diagram.edges.size();
-    std::string bytes =
-        "<?xml version=\"1.0\"?>\n"
-        "<VTKFile type=\"PolyData\" version=\"1.0\" byte_order=\"LittleEndian\">\n<PolyData>\n"
-        "<Piece NumberOfPoints=\"" +
-        std::to_string(num_points) + "\" NumberOfVerts=\"0\" NumberOfLines=\"" +
-        std::to_string(num_lines) +
-        "\" NumberOfStrips=\"0\" NumberOfPolys=\"0\">\n<PointData Scalars=\"distance\">\n";
-    append_array(bytes, "type=\"Float64\" Name=\"distance\"", num_points, ticker,
-                 [&](std::size_t p) { return std::array{diagram.point_distance[p]}; });
-    bytes += "</PointData>\n<CellData>\n";
-    append_array(bytes, "type=\"Int32\" Name=\"site_left\"", num_lines, ticker,
-                 [&](std::size_t e) { return std::array{site_number(diagram.edges[e].left)}; });
-    append_array(bytes, "type=\"Int32\" Name=\"site_right\"", num_lines, ticker,
-                 [&](std::size_t e) { return std::array{site_number(diagram.edges[e].right)}; });
-    bytes += "</CellData>\n<Points>\n";
-    append_array(bytes, "type=\"Float64\" NumberOfComponents=\"3\"", num_points, ticker,
-                 [&](std::size_t p) { return position(surface.mesh.view(), diagram.points[p]); });
-    bytes += "</Points>\n<Lines>\n";
+    VtpWriter writer({.points = num_points, .lines = num_lines});
+    writer.begin_section("PointData", " Scalars=\"distance\"");
+    writer.add_array<double>("distance", "Float64", 1, num_points, ticker,
+                             [&](std::size_t p) { return std::array{diagram.point_distance[p]}; });
+    writer.end_section();
+    writer.begin_section("CellData");
+    writer.add_array<std::int32_t>("site_left", "Int32", 1, num_lines, ticker, [&](std::size_t e) {
+        return std::array{site_number(diagram.edges[e].left)};
+    });
+    writer.add_array<std::int32_t>("site_right", "Int32", 1, num_lines, ticker, [&](std::size_t e) {
+        return std::array{site_number(diagram.edges[e].right)};
+    });
+    writer.end_section();
+    writer.begin_section("Points");
+    writer.add_array<double>("Points", "Float64", 3, num_points, ticker, [&](std::size_t p) {
+        return position(surface.mesh.view(), diagram.points[p]);
+    });
+    writer.end_section();
+    writer.begin_section("Lines");
     std::vector<std::size_t> ends;
-    append_array(bytes, "type=\"Int64\" Name=\"connectivity\"", num_lines, ticker,
-                 [&](std::size_t e) {
-                     std::vector<Index> points = polyline(diagram, static_cast<Index>(e), 0);
-                     ends.push_back((ends.empty() ? 0 : ends.back()) + points.size());
-                     return points;
-                 });
-    append_array(bytes, "type=\"Int64\" Name=\"offsets\"", num_lines, ticker,
-                 [&](std::size_t e) { return std::array{ends[e]}; });
-    return bytes + "</Lines>\n</Piece>\n</PolyData>\n</VTKFile>\n";
+    writer.add_array<std::int64_t>(
+        "connectivity", "Int64", 1, num_lines, ticker, [&](std::size_t e) {
+            std::vector<Index> points = polyline(diagram, static_cast<Index>(e), 0);
+            ends.push_back((ends.empty() ? 0 : ends.back()) + points.size());
+            return points;
+        });
+    writer.add_array<std::int64_t>("offsets", "Int64", 1, num_lines, ticker,
+                                   [&](std::size_t e) { return std::array{ends[e]}; });
+    writer.end_section();
+    return std::move(writer).finish();
 }
 
 std::string format_obj_lines(const Surface& surface, const Diagram& diagram, agvd::Ticker ticker) {
@@ -191,7 +182,7 @@ std::string format_diagram(const std::filesystem::path& path, const Surface& sur
     agvd::Poller poller(progress);
     const agvd::Ticker ticker(poller);
     const std::string extension = lower_extension(path);
-    if (extension == ".vtp") return format_vtp(surface, diagram, ticker);
+    if (extension == ".vtp") return format_vtp_lines(surface, diagram, ticker);
     if (extension == ".obj") return format_obj_lines(surface, diagram, ticker);
     if (extension == ".ply") return format_ply_diagram(surface, sites, diagram, ticker);
     throw agvd::IoError(path.string() + ": unknown extension " +

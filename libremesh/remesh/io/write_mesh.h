@@ -1,5 +1,5 @@
 //! \file
-//! Writes PLY, OBJ, OFF, STL, legacy VTK, Medit and binary glTF.
+//! Writes PLY, OBJ, OFF, STL, VTK, Medit, 3MF and binary glTF.
 #pragma once
 
 #include <filesystem>
@@ -14,8 +14,8 @@ namespace remesh {
 //! Writes a temporary file and renames it, so that a failed or interrupted run does not change an
 //! old file (see write_file_atomically). Binary little-endian PLY with double coordinates, OBJ and
 //! OFF with the shortest decimals that read back as the same double, binary STL (float by the
-//! format's nature), binary VTK with double coordinates, Medit as OBJ, GLB in float; compressed if
-//! .gz follows the extension.
+//! format's nature), binary VTK with double coordinates, Medit and 3MF as OBJ, GLB in float;
+//! compressed if .gz follows the extension.
 //!
 //! \throw agvd::IoError       the extension is unknown or the file cannot be written; says which
 //!        and why.

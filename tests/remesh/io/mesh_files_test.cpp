@@ -123,7 +123,8 @@ void expect_safe(const std::string& name, const std::string& good, std::uint64_t
 TEST(MeshFiles, DamagedOnesAreRefusedOrSafe) {
     const agvd::TriangleMesh mesh = shapes::jitter(shapes::icosahedron(), 0.01, 3);
     std::uint64_t seed = 0;
-    for (const char* name : {"a.ply", "a.obj", "a.off", "a.stl", "a.vtk", "a.mesh", "a.glb"}) {
+    for (const char* name :
+         {"a.ply", "a.obj", "a.off", "a.stl", "a.vtk", "a.vtp", "a.mesh", "a.glb"}) {
         expect_safe(name, remesh::require_format({name}).format(mesh.view(), {}, {}), ++seed, 2000);
     }
     expect_safe("b.ply", ascii_ply(mesh), ++seed, 2000);

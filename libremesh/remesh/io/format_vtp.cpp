@@ -1,0 +1,59 @@
+// Writes VTK's XML PolyData (.vtp): a piece of polygons, coordinates in double.
+
+#include <array>
+
+#include "remesh/io/formats.h"
+#include "remesh/io/vtk_output.h"
+#include "remesh/io/vtp_writer.h"
+#include "remesh/transfer/vertex_normals.h"
+
+namespace remesh {
+namespace {
+
+const char* vtp_name_of(NumberType type) {
+    constexpr std::array names = {"Int8",  "UInt8",  "Int16",   "UInt16",
+                                  "Int32", "UInt32", "Float32", "Float64"};
+    return names[static_cast<std::size_t>(type)];
+}
+
+void add_attributes(const std::vector<Attribute>& attributes, std::size_t count,
+                    agvd::Ticker& ticker, VtpWriter& writer) {
+    for (const VtkOutputArray& array : arrays_of(attributes)) {
+        std::string& bytes =
+            writer.begin_array(array.name, vtp_name_of(array.type), array.parts.size());
+        append_values(array, count, std::endian::little, ticker, bytes);
+        writer.end_array();
+    }
+}
+
+}  // namespace
+
+std::string format_vtp(const agvd::MeshView& mesh, const MeshAttributes& attributes,
+                       agvd::Ticker ticker) {
+    const std::size_t num_points = mesh.positions.size(), num_faces = mesh.triangles.size();
+    VtpWriter writer({.points = num_points, .polys = num_faces});
+    writer.begin_section("PointData", attributes.normals ? " Normals=\"Normals\"" : "");
+    if (attributes.normals) {
+        const std::vector<agvd::Vec3> normals = vertex_normals(mesh);
+        writer.add_array<float>("Normals", "Float32", 3, num_points, ticker,
+                                [&](std::size_t v) { return normals[v]; });
+    }
+    add_attributes(attributes.of_vertices, num_points, ticker, writer);
+    writer.end_section();
+    writer.begin_section("CellData");
+    add_attributes(attributes.of_faces, num_faces, ticker, writer);
+    writer.end_section();
+    writer.begin_section("Points");
+    writer.add_array<double>("Points", "Float64", 3, num_points, ticker,
+                             [&](std::size_t v) { return mesh.positions[v]; });
+    writer.end_section();
+    writer.begin_section("Polys");
+    writer.add_array<std::int64_t>("connectivity", "Int64", 1, num_faces, ticker,
+                                   [&](std::size_t f) { return mesh.triangles[f]; });
+    writer.add_array<std::int64_t>("offsets", "Int64", 1, num_faces, ticker,
+                                   [](std::size_t f) { return std::array{3 * (f + 1)}; });
+    writer.end_section();
+    return std::move(writer).finish();
+}
+
+}  // namespace remesh

@@ -1,0 +1,55 @@
+//! \file
+//! Writes VTK's XML PolyData: arrays of numbers behind XML that describes them. Private to the
+//! writers of meshes and diagrams.
+#pragma once
+
+#include <string>
+
+#include "agvd/core/poller.h"
+#include "remesh/io/byte_order.h"
+
+namespace remesh {
+
+//! The text as the value of an attribute. What XML cannot hold becomes '_'.
+[[nodiscard]] std::string xml_escaped(std::string_view text);
+
+//! One piece, little endian; arrays are appended as they are ("raw"), not compressed.
+class VtpWriter {
+public:
+    struct Counts {
+        std::size_t points = 0, lines = 0, polys = 0;
+    };
+    explicit VtpWriter(const Counts& counts);
+
+    //! A section, such as Points, and its attributes with a blank before each.
+    void begin_section(const char* name, const std::string& attributes = {});
+    void end_section();
+
+    //! \param type  "Float64", ...
+    //! \return where to append the numbers, before the next call.
+    std::string& begin_array(const std::string& name, const char* type, std::size_t num_components);
+    void end_array();
+
+    //! An array of T with as many rows as there are items; row_of(i) gives the numbers of row i.
+    template <typename T, typename RowOf>
+    void add_array(const std::string& name, const char* type, std::size_t num_components,
+                   std::size_t num_rows, agvd::Ticker& ticker, const RowOf& row_of) {
+        std::string& bytes = begin_array(name, type, num_components);
+        for (std::size_t i = 0; i < num_rows; ++i) {
+            ticker.tick();
+            for (const auto value : row_of(i)) append(bytes, static_cast<T>(value));
+        }
+        end_array();
+    }
+
+    //! The whole file's bytes.
+    [[nodiscard]] std::string finish() &&;
+
+private:
+    std::string xml_;
+    std::string data_;             // Behind the '_' of AppendedData.
+    std::string section_;          // That is open.
+    std::size_t array_begin_ = 0;  // In the data, of the one that is open: its size comes first.
+};
+
+}  // namespace remesh

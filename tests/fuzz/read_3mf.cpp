@@ -1,0 +1,20 @@
+// The reader of 3MF. Bytes that begin with "PK" are the whole file. Checksums would refuse nearly
+// all changes of such a file, so other bytes are the model part of a package.
+#include "check_reader.h"
+#include "remesh/io/zip_archive.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    std::string bytes(reinterpret_cast<const char*>(data), size);
+    if (!bytes.starts_with("PK")) {
+        agvd::Ticker ticker;
+        remesh::ZipWriter zip;
+        zip.add("_rels/.rels",
+                "<R><Relationship Target='/a.model' "
+                "Type='http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel'/></R>",
+                ticker);
+        zip.add("a.model", bytes, ticker);
+        bytes = std::move(zip).finish();
+    }
+    return fuzz::check_reader(".3mf", reinterpret_cast<const std::uint8_t*>(bytes.data()),
+                              bytes.size());
+}
