@@ -5,9 +5,12 @@
 namespace make_data {
 
 const std::vector<DataFile>& data_files() {
-    static const std::vector<DataFile> files{{"organic.ply", organic}, {"part.off", part},
-                                             {"shell.obj", shell},     {"plate.stl", plate},
-                                             {"parts.ply", parts},     {"slivers.off", slivers},
+    static const std::vector<DataFile> files{{"organic.ply", organic},
+                                             {"part.off", part},
+                                             {"shell.obj", shell},
+                                             {"plate.stl", plate},
+                                             {"parts.ply", parts},
+                                             {"slivers.off", slivers},
                                              {"ring.obj", ring, ring_texture}};
     return files;
 }

@@ -1,6 +1,6 @@
 // The shell, plate, parts, slivers and ring of data/. Shell, plate and ring are grids of points by
-// formula; parts and slivers are contours of implicit functions (contour.h), scaled, joined, or cut further.
-// The shell's coordinates are rounded to six decimals, which keeps its text file short.
+// formula; parts and slivers are contours of implicit functions (contour.h), scaled, joined, or cut
+// further. The shell's coordinates are rounded to six decimals, which keeps its text file short.
 #include "make_data/contour.h"
 #include "make_data/data_files.h"
 #include "make_data/formula.h"
@@ -169,8 +169,7 @@ TriangleMesh ring() {
     for_each_ring_face([&](const std::array<std::array<Index, 2>, 3>& corners) {
         Triangle triangle{};
         for (std::size_t k = 0; k < 3; ++k) {
-            triangle[k] =
-                corners[k][0] % ring_around * ring_rows + corners[k][1] % ring_rows;
+            triangle[k] = corners[k][0] % ring_around * ring_rows + corners[k][1] % ring_rows;
         }
         mesh.triangles.push_back(triangle);
     });

@@ -49,7 +49,9 @@ SeamFlags seam_line(double begin, double end) {
     });
 }
 
-Index count(const SeamFlags& flags) { return std::accumulate(flags.begin(), flags.end(), Index{0}); }
+Index count(const SeamFlags& flags) {
+    return std::accumulate(flags.begin(), flags.end(), Index{0});
+}
 
 Index left_at(SeamFlags flags, double spacing, const SeamFlags& is_crease = {}) {
     prune_seams(seam_square(), is_crease, spacing, flags);

@@ -11,6 +11,7 @@
 using agvd::Index;
 using agvd::Vec2;
 using remesh::CornerCoordinates;
+using remesh::find_texture_seams;
 using remesh::MeshAttributes;
 using remesh::MeshFile;
 using remesh::NumberType;
@@ -33,7 +34,8 @@ std::string complaints_of(const MeshFile& file) {
 }
 
 // Equal values, and NaN in the same places.
-void expect_same_corners(const std::vector<CornerCoordinates>& a, const std::vector<CornerCoordinates>& b) {
+void expect_same_corners(const std::vector<CornerCoordinates>& a,
+                         const std::vector<CornerCoordinates>& b) {
     ASSERT_EQ(a.size(), b.size());
     for (std::size_t f = 0; f < a.size(); ++f) {
         for (std::size_t k = 0; k < 3; ++k) {
@@ -77,17 +79,17 @@ MeshFile square_read_back(const std::string& name, const MeshAttributes& attribu
 }  // namespace
 
 TEST(Texture, ObjHasNumbersForEachCorner) {
-    const MeshFile file =
-        read_textured("a.obj",
-                 "vt 0 0\nvt 1\nvt 1 1 7\nvt 9 9\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
-                 "f 1/1 2/2/5 3/-2\nf 1/4 3/4 4//1\nf 1 3 4\nf 1/5 3/3 4/6\nvt .25 .5\nvt -3 1e3\n");
+    const MeshFile file = read_textured(
+        "a.obj",
+        "vt 0 0\nvt 1\nvt 1 1 7\nvt 9 9\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+        "f 1/1 2/2/5 3/-2\nf 1/4 3/4 4//1\nf 1 3 4\nf 1/5 3/3 4/6\nvt .25 .5\nvt -3 1e3\n");
     EXPECT_EQ(complaints_of(file), "");
     const Vec2 none = remesh::no_coordinates()[0];
     expect_same_corners({{Vec2(0, 0), Vec2(1, 0), Vec2(1, 1)},
-                 {Vec2(9, 9), Vec2(9, 9), none},
-                 {none, none, none},
-                 {Vec2(0.25, 0.5), Vec2(1, 1), Vec2(-3, 1000)}},
-                texture_of(file).corners);
+                         {Vec2(9, 9), Vec2(9, 9), none},
+                         {none, none, none},
+                         {Vec2(0.25, 0.5), Vec2(1, 1), Vec2(-3, 1000)}},
+                        texture_of(file).corners);
     EXPECT_EQ(file.mesh.positions.size(), 4u);
 }
 
@@ -109,9 +111,9 @@ TEST(Texture, CornersOfPolygonsKeepTheirs) {
 TEST(Texture, ObjWithWrongOnesIsReadWithoutThem) {
     const std::string head = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\n";
     int num_tried = 0;
-    for (const char* tail : {"vt 0 x\nf 1/1 2/2 3/3\n", "f 1/1 2/2 3/3\n", "f 1/1 2/2 3/-3\n",
-                             "f 1/1 2/2 3/0\n", "vt 0 inf\nf 1/1 2/2 3/3\n", "f 1/1 2/2 3/1-1\n",
-                             "f 1/1 2/2 3/99999999999999999999\n"}) {
+    for (const char* tail :
+         {"vt 0 x\nf 1/1 2/2 3/3\n", "f 1/1 2/2 3/3\n", "f 1/1 2/2 3/-3\n", "f 1/1 2/2 3/0\n",
+          "vt 0 inf\nf 1/1 2/2 3/3\n", "f 1/1 2/2 3/1-1\n", "f 1/1 2/2 3/99999999999999999999\n"}) {
         const MeshFile file = read_textured("a.obj", head + tail);
         EXPECT_TRUE(texture_of(file).empty()) << tail;
         EXPECT_EQ(complaints_of(file), std::string("vt") + broken) << tail;
@@ -127,12 +129,13 @@ TEST(Texture, PlyHasPairsOfVertices) {
     for (const char* names : {"s t", "u v", "texture_u texture_v", "texture_s texture_t"}) {
         const std::string name = names;
         const MeshFile file = read_textured(
-            "a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
-                     "property float z\nproperty float " +
-                         name.substr(0, name.find(' ')) + "\nproperty double " +
-                         name.substr(name.find(' ') + 1) +
-                         "\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
-                         "0 0 0 0 .5\n1 0 0 1 0\n1 1 0 1 1\n3 0 1 2\n");
+            "a.ply",
+            "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+            "property float z\nproperty float " +
+                name.substr(0, name.find(' ')) + "\nproperty double " +
+                name.substr(name.find(' ') + 1) +
+                "\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                "0 0 0 0 .5\n1 0 0 1 0\n1 1 0 1 1\n3 0 1 2\n");
         expect_same_corners(texture_of(file).corners, {{Vec2(0, 0.5), Vec2(1, 0), Vec2(1, 1)}});
         EXPECT_EQ(texture_of(file).type, NumberType::Float64);
         EXPECT_TRUE(file.attributes.of_vertices.empty());
@@ -142,12 +145,12 @@ TEST(Texture, PlyHasPairsOfVertices) {
 TEST(Texture, PlyHasListsOfFaces) {
     const auto lists = [](const std::string& faces) {
         return read_textured("a.ply",
-                        "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n"
-                        "property float y\nproperty float z\nelement face 2\n"
-                        "property list uchar float texcoord\nproperty list uchar int "
-                        "vertex_indices\nproperty int texnumber\nend_header\n"
-                        "0 0 0\n1 0 0\n1 1 0\n0 1 0\n" +
-                            faces);
+                             "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\n"
+                             "property float y\nproperty float z\nelement face 2\n"
+                             "property list uchar float texcoord\nproperty list uchar int "
+                             "vertex_indices\nproperty int texnumber\nend_header\n"
+                             "0 0 0\n1 0 0\n1 1 0\n0 1 0\n" +
+                                 faces);
     };
     const MeshFile file = lists("8 0 0 5 0 5 5 0 5 4 0 1 2 3 2\n0 3 2 1 0 3\n");
     ASSERT_EQ(texture_of(file).corners.size(), 3u);
@@ -172,9 +175,10 @@ TEST(Texture, PlyHasListsOfFaces) {
 
 TEST(Texture, OffAndVtkHaveThemAtVertices) {
     const std::vector<CornerCoordinates> wanted{{Vec2(0, 0.5), Vec2(1, 0), Vec2(0, 1)}};
-    const MeshFile off = read_textured("a.off",
-                                  "STCNOFF\n3 1 0\n0 0 0 0 0 1 255 0 0 255 0 .5\n"
-                                  "1 0 0 0 0 1 0 0 0 255 1 0\n0 1 0 0 0 1 0 0 0 255 0 1\n3 0 1 2\n");
+    const MeshFile off =
+        read_textured("a.off",
+                      "STCNOFF\n3 1 0\n0 0 0 0 0 1 255 0 0 255 0 .5\n"
+                      "1 0 0 0 0 1 0 0 0 255 1 0\n0 1 0 0 0 1 0 0 0 255 0 1\n3 0 1 2\n");
     expect_same_corners(texture_of(off).corners, wanted);
     EXPECT_EQ(off.attributes.of_vertices.size(), 4u);
     const MeshFile plain =
@@ -183,8 +187,8 @@ TEST(Texture, OffAndVtkHaveThemAtVertices) {
     EXPECT_TRUE(plain.attributes.of_vertices.empty());
     EXPECT_EQ(plain.attributes.of_faces.size(), 3u);
     for (const char* line : {"0 0 0 0", "0 0 0 0 x", "0 0 0"}) {
-        const MeshFile file = read_textured("a.off", std::string("STOFF\n3 1 0\n") + line +
-                                                    "\n1 0 0 1 0\n0 1 0 0 1\n3 0 1 2\n");
+        const MeshFile file = read_textured(
+            "a.off", std::string("STOFF\n3 1 0\n") + line + "\n1 0 0 1 0\n0 1 0 0 1\n3 0 1 2\n");
         EXPECT_EQ(complaints_of(file), std::string("ST") + broken) << line;
     }
     const std::string head =
@@ -192,8 +196,8 @@ TEST(Texture, OffAndVtkHaveThemAtVertices) {
         "0 0 0 1 0 0 0 1 0\nPOLYGONS 1 4\n3 0 1 2\nPOINT_DATA 3\nTEXTURE_COORDINATES uv ";
     const MeshFile two = read_textured("a.vtk", head + "2 double\n0 .5 1 0 0 1\n");
     expect_same_corners(texture_of(two).corners, wanted);
-    expect_same_corners(texture_of(read_textured("a.vtk", head + "3 float\n0 .5 9 1 0 9 0 1 9\n")).corners,
-                wanted);
+    expect_same_corners(
+        texture_of(read_textured("a.vtk", head + "3 float\n0 .5 9 1 0 9 0 1 9\n")).corners, wanted);
     EXPECT_NE(complaints_of(read_textured("a.vtk", head + "1 float\n0 .5 9\n")).find("vertex uv"),
               std::string::npos);
 }
@@ -231,8 +235,8 @@ TEST(Texture, GlbSplitsColoursAndNormalsAsWell) {
     ASSERT_EQ(red.size(), 6u);
     const agvd::TriangleMesh square = shapes::grid(1);
     for (std::size_t v = 0; v < 6; ++v) {
-        const auto at = std::find(square.positions.begin(), square.positions.end(),
-                                  file.mesh.positions[v]);
+        const auto at =
+            std::find(square.positions.begin(), square.positions.end(), file.mesh.positions[v]);
         ASSERT_NE(at, square.positions.end());
         EXPECT_EQ(red[v], 10.0 * static_cast<double>(at - square.positions.begin() + 1));
     }
@@ -243,7 +247,7 @@ TEST(Texture, DoublesStayDoubles) {
     attributes.texture.type = NumberType::Float64;
     for (const char* name : {"a.ply", "a.obj"}) {
         expect_same_corners(texture_of(square_read_back(name, attributes)).corners,
-                    attributes.texture.corners);
+                            attributes.texture.corners);
     }
 }
 
@@ -283,7 +287,8 @@ TEST(Texture, FormatsThatCannotHoldThemSaySo) {
         EXPECT_EQ(remesh::remove_unwritable(name, none).size(), without) << name;
     }
     MeshAttributes seam = on_square(1);
-    EXPECT_EQ(remesh::remove_unwritable("a.stl", seam), std::vector<std::string>{"corner texcoord"});
+    EXPECT_EQ(remesh::remove_unwritable("a.stl", seam),
+              std::vector<std::string>{"corner texcoord"});
     // Without asking first: left out.
     EXPECT_TRUE(texture_of(square_read_back("a.vtk", on_square(1))).empty());
     MeshAttributes few = on_square(0);
@@ -302,10 +307,9 @@ TEST(Texture, TheResultHasThemAndKeptFacesTheSameBits) {
     const agvd::TriangleMesh result{
         {grid.positions[first[0]], grid.positions[first[1]], grid.positions[first[2]]},
         {{0, 1, 2}, {2, 1, 0}}};
-    const remesh::InputMap map{{{agvd::FaceId(0), {1, 0, 0}},
-                                {agvd::FaceId(0), {0, 1, 0}},
-                                {agvd::FaceId(0), {0, 0, 1}}},
-                               {}};
+    const remesh::InputMap map{
+        {{agvd::FaceId(0), {1, 0, 0}}, {agvd::FaceId(0), {0, 1, 0}}, {agvd::FaceId(0), {0, 0, 1}}},
+        {}};
     remesh::MeshAttributes carried = transfer_attributes(input, result.view(), map);
     ASSERT_EQ(carried.texture.corners.size(), 2u);
     EXPECT_EQ(carried.texture.corners[0], input.attributes.texture.corners[0]);

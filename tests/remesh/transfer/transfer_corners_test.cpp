@@ -26,6 +26,8 @@ using agvd::TriangleMesh;
 using agvd::Vec2;
 using agvd::Vec3;
 using remesh::CornerCoordinates;
+using remesh::find_texture_seams;
+using remesh::transfer_corner_values;
 using Coordinates = std::vector<CornerCoordinates>;
 
 namespace {
@@ -95,7 +97,7 @@ Vec2 on_side(const Vec3& p, const Vec3& center) {
     const Vec3 from_middle = center - Vec3::Constant(0.5);
     from_middle.cwiseAbs().maxCoeff(&axis);
     const double side = from_middle[axis] > 0 ? 1 : 0;
-    return {2.0 * axis + p[(axis + 1) % 3] + 0.25 * p[(axis + 2) % 3],
+    return {2 * static_cast<double>(axis) + p[(axis + 1) % 3] + 0.25 * p[(axis + 2) % 3],
             10 * side + 3 * p[(axis + 2) % 3]};
 }
 
@@ -124,19 +126,16 @@ TEST(TransferCorners, LinearCoordinatesOnAPlaneComeBack) {
         return Vec2(0.3 * p.x() - 0.7 * p.y() + 5, 2 * p.y());
     };
     const TriangleMesh grid = shapes::grid(24);
-    const Textured result =
-        remeshed(grid, coordinates_of(grid, linear), {.num_samples = 400});
+    const Textured result = remeshed(grid, coordinates_of(grid, linear), {.num_samples = 400});
     EXPECT_LT(largest_error(result, linear), 1e-12);
     EXPECT_EQ(result.made.features.seam_length + result.made.features.dropped_seam_length, 0);
 }
 
 TEST(TransferCorners, ABoxWithAChartForEachSideComesBack) {
     for (const bool is_welded : {true, false}) {
-        const TriangleMesh box =
-            is_welded ? fine_cube(4) : shapes::unweld(fine_cube(4));
+        const TriangleMesh box = is_welded ? fine_cube(4) : shapes::unweld(fine_cube(4));
         for (const Index n : {8U, 60U, 600U}) {
-            const Textured result =
-                remeshed(box, coordinates_of(box, on_side), {.num_samples = n});
+            const Textured result = remeshed(box, coordinates_of(box, on_side), {.num_samples = n});
             EXPECT_LT(largest_error(result, on_side), 1e-12) << n << ' ' << is_welded;
         }
     }
@@ -189,8 +188,8 @@ TEST(TransferCorners, WithoutCurvesFacesAcrossASeamTakeOneSide) {
             const double off = std::abs(corners[f][k].x() - u);
             if (off < 1e-2) continue;
             // Beyond the seam: what the seam has on the face's side.
-            const bool is_clipped = std::abs(corners[f][k].x()) < 1e-12 ||
-                                    std::abs(corners[f][k].x() - 1) < 1e-12;
+            const bool is_clipped =
+                std::abs(corners[f][k].x()) < 1e-12 || std::abs(corners[f][k].x() - 1) < 1e-12;
             EXPECT_TRUE(is_clipped) << corners[f][k].x() << ' ' << u;
             ++num_clipped;
         }
@@ -221,8 +220,7 @@ TEST(TransferCorners, AClosedSeamPartsTheInside) {
     const ValueAt cap = [](const Vec3& p, const Vec3& center) {
         return Vec2(p.x() + (center.z() > 0.5 ? 7 : 0), p.y());
     };
-    const Textured result =
-        remeshed(sphere, coordinates_of(sphere, cap), {.num_samples = 1500});
+    const Textured result = remeshed(sphere, coordinates_of(sphere, cap), {.num_samples = 1500});
     EXPECT_EQ(result.made.features.dropped_seam_length, 0);
     Index num_inside = 0;
     for (const CornerCoordinates& corners : result.corners) {
@@ -263,8 +261,10 @@ TEST(TransferCorners, TheFansAtThePolesOfASphereDoNotSpreadCoordinates) {
     for (Index i = 0; i < around; ++i) {
         for (Index j = 0; j < rows; ++j) {
             const double a = i, b = j;
-            if (j == 0) add({{{a + 0.5, 0}, {a, 1}, {a + 1, 1}}});
-            else if (j + 1 == rows) add({{{a, b}, {a + 0.5, b + 1}, {a + 1, b}}});
+            if (j == 0)
+                add({{{a + 0.5, 0}, {a, 1}, {a + 1, 1}}});
+            else if (j + 1 == rows)
+                add({{{a, b}, {a + 0.5, b + 1}, {a + 1, b}}});
             else {
                 add({{{a, b}, {a, b + 1}, {a + 1, b + 1}}});
                 add({{{a, b}, {a + 1, b + 1}, {a + 1, b}}});
@@ -323,7 +323,7 @@ TEST(TransferCorners, WhereTheInputHasNoneTheResultHasNone) {
         }
         num_without += is_left ? 1 : 0;
     }
-    EXPECT_NEAR(num_without, result.corners.size() / 2.0, 20);
+    EXPECT_NEAR(num_without, static_cast<double>(result.corners.size()) / 2, 20);
 }
 
 TEST(TransferCorners, ACornerThatIsNearerToTheOtherSideKeepsItsOwn) {
@@ -331,29 +331,35 @@ TEST(TransferCorners, ACornerThatIsNearerToTheOtherSideKeepsItsOwn) {
     // beyond the second.
     const double angle = std::numbers::pi / 6;
     const Vec3 up(std::cos(angle), 0, std::sin(angle));
-    TriangleMesh walls{{Vec3(0, 0, 0), Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), up,
-                        up + Vec3(0, 1, 0)},
-                       {{0, 2, 1}, {2, 3, 1}, {0, 1, 4}, {4, 1, 5}}};
+    TriangleMesh walls{
+        {Vec3(0, 0, 0), Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(1, 1, 0), up, up + Vec3(0, 1, 0)},
+        {{0, 2, 1}, {2, 3, 1}, {0, 1, 4}, {4, 1, 5}}};
     const Coordinates values{{Vec2(0, 0), Vec2(1, 0), Vec2(0, 1)},
                              {Vec2(1, 0), Vec2(1, 1), Vec2(0, 1)},
                              {Vec2(5, 0), Vec2(5, 1), Vec2(6, 0)},
                              {Vec2(6, 0), Vec2(5, 1), Vec2(6, 1)}};
     EXPECT_EQ(find_texture_seams(walls.view(), values).size(), 1u);
-    const Vec3 moved = 0.5 * Vec3(std::cos(0.6 * angle), 0, std::sin(0.6 * angle));
-    const TriangleMesh result{{Vec3(0, 0.2, 0), moved + Vec3(0, 0.5, 0), Vec3(0, 0.8, 0)},
-                              {{0, 1, 2}}};
-    // The corner's place, on the other wall.
-    const std::vector<SurfacePoint> places{
-        {FaceId(0), {0.8, 0, 0.2}}, {FaceId(2), {0.05, 0.47, 0.48}}, {FaceId(0), {0.2, 0, 0.8}}};
-    const Coordinates far = transfer_corner_values(values, walls.view(), result.view(), places);
-    for (const Vec2& corner : far[0]) EXPECT_GT(corner.x(), 4.9);  // Nearest to all three.
-    TriangleMesh lower = result;
-    lower.positions[1] = 0.5 * Vec3(std::cos(0.4 * angle), 0, std::sin(0.4 * angle)) +
-                         Vec3(0, 0.5, 0);
-    const Coordinates near = transfer_corner_values(values, walls.view(), lower.view(), places);
-    EXPECT_NEAR(near[0][1].x(), 0.5 * std::cos(0.4 * angle), 1e-12);
-    EXPECT_NEAR(near[0][0].x(), 0, 1e-12);
-    EXPECT_NEAR(near[0][0].y(), 0.2, 1e-12);
+    // Its nearest point is on the second wall, but the other corners are on the first.
+    const double between = 0.6 * angle;
+    const Vec3 moved(0.5 * std::cos(between), 0.5, 0.5 * std::sin(between));
+    const SurfacePoint on_second{FaceId(2), {0.05, 0.47, 0.48}};
+    const TriangleMesh inner{{Vec3(0.3, 0.2, 0), moved, Vec3(0.3, 0.8, 0)}, {{0, 1, 2}}};
+    const std::vector<SurfacePoint> inner_places{
+        {FaceId(0), {0.5, 0.3, 0.2}}, on_second, {FaceId(1), {0.2, 0.1, 0.7}}};
+    const Coordinates own =
+        transfer_corner_values(values, walls.view(), inner.view(), inner_places);
+    EXPECT_NEAR((own[0][0] - Vec2(0.3, 0.2)).norm(), 0, 1e-12);
+    EXPECT_NEAR((own[0][1] - Vec2(moved.x(), 0.5)).norm(), 0, 1e-12);
+    EXPECT_NEAR((own[0][2] - Vec2(0.3, 0.8)).norm(), 0, 1e-12);
+    // The others lie at the seam, which belongs to both.
+    const TriangleMesh outer{{Vec3(0, 0.2, 0), moved, Vec3(0, 0.8, 0)}, {{0, 1, 2}}};
+    const std::vector<SurfacePoint> outer_places{
+        {FaceId(0), {0.8, 0, 0.2}}, on_second, {FaceId(0), {0.2, 0, 0.8}}};
+    const Coordinates other =
+        transfer_corner_values(values, walls.view(), outer.view(), outer_places);
+    EXPECT_NEAR((other[0][0] - Vec2(5, 0.2)).norm(), 0, 1e-12);
+    EXPECT_NEAR((other[0][1] - Vec2(5.48, 0.47)).norm(), 0, 1e-12);
+    EXPECT_NEAR((other[0][2] - Vec2(5, 0.8)).norm(), 0, 1e-12);
 }
 
 TEST(TransferCorners, TheRingOfDataComesBack) {

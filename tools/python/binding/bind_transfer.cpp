@@ -57,9 +57,9 @@ py::array_t<double> run_corner_values(const Doubles& values, const Doubles& posi
     std::vector<remesh::CornerCoordinates> carried;
     {
         const py::gil_scoped_release release;
-        carried = remesh::transfer_corner_values(
-            corners_of(values), view_of(positions, triangles),
-            view_of(result_positions, result_triangles), places, {.num_threads = num_threads});
+        carried = remesh::transfer_corner_values(corners_of(values), view_of(positions, triangles),
+                                                 view_of(result_positions, result_triangles),
+                                                 places, {.num_threads = num_threads});
     }
     return to_array<double>(std::move(carried), 6);
 }
