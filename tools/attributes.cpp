@@ -155,10 +155,16 @@ remesh::AttributeReport select_attributes(const AttributeArguments& arguments,
     if (arguments.transfer != "all" && arguments.transfer != "none") {
         keep_named(split(arguments.transfer), input, attributes);
     }
-    const std::string reason =
-        "." + remesh::mesh_format(output) + " files have no place for it; write .ply to keep it";
+    const std::string files = "." + remesh::mesh_format(output) + " files";
+    const bool has_texture = !attributes.texture.empty();
+    const bool has_seams = !attributes.texture.seams.empty();
     for (const std::string& name : remesh::remove_unwritable(output, attributes)) {
-        attributes.declined.push_back({name, reason});
+        const bool is_texture =
+            has_texture && name == std::string("corner ") + remesh::TextureCoordinates::name;
+        attributes.declined.push_back(
+            {name, files + " have no place for " +
+                       (is_texture && has_seams ? "texture coordinates with seams" : "it") +
+                       "; write .ply to keep it"});
     }
     move_material_files(input, output.path, attributes.material_files);
     warn_of(attributes.declined, console);

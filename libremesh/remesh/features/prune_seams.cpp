@@ -10,8 +10,10 @@ using agvd::Index;
 using agvd::no_index;
 using agvd::Surface;
 
-// In spacings. A patch that is narrower has hardly a vertex that is not on its border.
-constexpr double least_width = 1.5;
+// In spacings. Narrower patches have few vertices that are not on their border: at 1.5, spot's
+// remesh with 500 vertices is 4 % of the diagonal off its surface, at 2.5 as far as without seams,
+// 1 %.
+constexpr double least_width = 2.5;
 constexpr double least_spur = 2;  // In spacings, as for junctions.
 
 double area_of(const Surface& surface, Index face) {

@@ -10,7 +10,7 @@
 
 namespace remesh {
 
-//! Seams part the surface into charts. Those around a chart narrower than 1.5 spacings, as twice
+//! Seams part the surface into charts. Those around a chart narrower than 2.5 spacings, as twice
 //! its area over the length of its seams tells, are left out; then chains with a free end that are
 //! shorter than two spacings.
 //!

@@ -44,7 +44,7 @@ std::string label_comments(const MeshAttributes& attributes) {
 }
 
 NumberType stored_type(const TextureCoordinates& texture) {
-    return texture.type == NumberType::Float32 ? NumberType::Float32 : NumberType::Float64;
+    return texture.type == NumberType::Float64 ? NumberType::Float64 : NumberType::Float32;
 }
 
 std::string texture_property(const TextureCoordinates& texture) {

@@ -39,7 +39,9 @@ struct TextureCoordinates {
     //! What they are called among the attributes, as in PLY.
     static constexpr const char* name = "texcoord";
 
-    NumberType type = NumberType::Float64;        //!< That of the file.
+    //! That of the file; unset: decimals of a text, which binary PLY and GLB store as float, as
+    //! most programs read no others.
+    std::optional<NumberType> type = {};
     std::vector<CornerCoordinates> corners = {};  //!< #F: one for each triangle; empty: none.
     //! Of an input: find_texture_seams. Where there are none, each vertex has one value.
     std::vector<std::array<agvd::Index, 2>> seams = {};

@@ -12,9 +12,9 @@ namespace remesh {
 
 //! Texture coordinates as in the file.
 struct SoupTexture {
-    std::vector<agvd::Vec2> values;  //!< Shared by corners.
-    NumberType type = NumberType::Float64;
-    bool is_of_vertices = false;  //!< Value i belongs to vertex i.
+    std::vector<agvd::Vec2> values;       //!< Shared by corners.
+    std::optional<NumberType> type = {};  //!< See TextureCoordinates.
+    bool is_of_vertices = false;          //!< Value i belongs to vertex i.
     //! Otherwise by corner, in the order of the polygons: its value, or no_index. Corners beyond
     //! the end have none.
     std::vector<agvd::Index> of_corner;

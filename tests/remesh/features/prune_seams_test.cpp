@@ -60,11 +60,11 @@ Index left_at(SeamFlags flags, double spacing, const SeamFlags& is_crease = {}) 
 
 }  // namespace
 
-TEST(PruneSeams, ChartsNarrowerThanOneAndAHalfSpacingsAreLeftOut) {
+TEST(PruneSeams, ChartsNarrowerThanTwoAndAHalfSpacingsAreLeftOut) {
     const SeamFlags narrow = strip(0.5, 0.6);
     ASSERT_EQ(count(narrow), 80u);
-    EXPECT_EQ(left_at(narrow, 0.1 / 1.51), 80u);
-    EXPECT_EQ(left_at(narrow, 0.1 / 1.49), 0u);
+    EXPECT_EQ(left_at(narrow, 0.1 / 2.51), 80u);
+    EXPECT_EQ(left_at(narrow, 0.1 / 2.49), 0u);
     // Only what borders on the narrow one goes.
     SeamFlags two = strip(0.1, 0.5);
     const SeamFlags thin = strip(0.9, 0.95);
@@ -79,7 +79,7 @@ TEST(PruneSeams, ShortChainsWithAFreeEndAreLeftOut) {
     EXPECT_EQ(left_at(slit, 0.149), 12u);
     EXPECT_EQ(left_at(slit, 0.151), 0u);
     // From boundary to boundary no end is free, whatever the length.
-    EXPECT_EQ(left_at(seam_line(0, 1), 0.4), 40u);
+    EXPECT_EQ(left_at(seam_line(0, 1), 0.39), 40u);
     // From the boundary to a free end.
     EXPECT_EQ(left_at(seam_line(0, 0.3), 0.151), 0u);
     EXPECT_EQ(left_at(seam_line(0, 0.3), 0.149), 12u);

@@ -249,6 +249,12 @@ TEST(Texture, DoublesStayDoubles) {
         expect_same_corners(texture_of(square_read_back(name, attributes)).corners,
                             attributes.texture.corners);
     }
+    // Decimals of a text are floats in PLY, as MeshLab reads them.
+    attributes.texture.type.reset();
+    expect_same_corners(texture_of(square_read_back("a.obj", attributes)).corners,
+                        attributes.texture.corners);
+    const std::string bytes = written_square("a.ply", attributes);
+    EXPECT_NE(bytes.find("property list uchar float texcoord\n"), std::string::npos);
 }
 
 TEST(Texture, EqualOnesAreWrittenOnce) {
