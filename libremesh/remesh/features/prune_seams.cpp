@@ -1,5 +1,7 @@
 #include "remesh/features/prune_seams.h"
 
+#include <array>
+
 #include "agvd/core/union_find.h"
 #include "agvd/mesh/one_ring.h"
 
@@ -14,6 +16,8 @@ using agvd::Surface;
 // remesh with 500 vertices is 4 % of the diagonal off its surface, at 2.5 as far as without seams,
 // 1 %.
 constexpr double least_width = 2.5;
+// Specks go first, so that their borders do not make the charts around them narrow.
+constexpr std::array width_shares = {0.125, 0.25, 0.5, 1.0};
 constexpr double least_spur = 2;  // In spacings, as for junctions.
 
 double area_of(const Surface& surface, Index face) {
@@ -126,7 +130,9 @@ private:
 
 void prune_seams(const Surface& surface, std::span<const std::uint8_t> is_crease, double spacing,
                  std::vector<std::uint8_t>& is_seam, agvd::Ticker ticker) {
-    drop_narrow_charts(surface, least_width * spacing, is_seam, ticker);
+    for (const double share : width_shares) {
+        drop_narrow_charts(surface, share * least_width * spacing, is_seam, ticker);
+    }
     SpurPruner(surface, is_crease, is_seam).run(least_spur * spacing, ticker);
 }
 

@@ -11,8 +11,8 @@
 namespace remesh {
 
 //! Seams part the surface into charts. Those around a chart narrower than 2.5 spacings, as twice
-//! its area over the length of its seams tells, are left out; then chains with a free end that are
-//! shorter than two spacings.
+//! its area over the length of its seams tells, are left out, the narrowest first; then chains with
+//! a free end that are shorter than two spacings.
 //!
 //! \param is_crease  #E: a chain that ends on these, or on the boundary, has no free end there;
 //!                   empty: there are none.

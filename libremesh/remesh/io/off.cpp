@@ -45,7 +45,7 @@ void take_color(TextScanner& scan, std::size_t index, const Extras& extras, Text
     std::size_t count = 0;
     for (; scan.has_word() && count < numbers.size(); ++count) {
         const std::optional<double> number = scan.number_or_other("a number");
-        if (!number) colors.spoil();
+        if (!number && extras.color) colors.spoil();
         numbers[count] = number.value_or(0);
         if (texture != nullptr) texture->is_broken = texture->is_broken || !number;
     }

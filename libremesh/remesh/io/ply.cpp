@@ -53,8 +53,9 @@ void read_vertices(Values& values, const PlyElement& element, const PlyHeader& h
     for (const PlyProperty& property : element.properties) {
         axis_of.push_back(std::find(used.begin(), used.end(), &property) - used.begin());
     }
-    PlyAttributes others(element, ElementKind::Vertex, {used.begin(), used.end()}, file,
-                         attributes);
+    const std::array known = texture_pair(element);  // Those that do not count as well.
+    PlyAttributes others(element, ElementKind::Vertex,
+                         {axes[0], axes[1], axes[2], known[0], known[1]}, file, attributes);
     for (std::uint64_t v = 0; v < element.count; ++v) {
         soup.ticker.tick(2);
         values.begin(element, v);

@@ -11,6 +11,8 @@ using agvd::Index;
 using agvd::Surface;
 using agvd::Vec3;
 
+using remesh::prune_seams;
+
 namespace {
 
 using SeamFlags = std::vector<std::uint8_t>;
@@ -71,6 +73,24 @@ TEST(PruneSeams, ChartsNarrowerThanTwoAndAHalfSpacingsAreLeftOut) {
     for (std::size_t e = 0; e < two.size(); ++e) two[e] |= thin[e];
     ASSERT_EQ(count(two), 160u);
     EXPECT_EQ(left_at(two, 0.05), 80u);
+}
+
+TEST(PruneSeams, SpecksGoWithoutTheChartsAroundThem) {
+    // Every third square of three rows is a chart of its own.
+    SeamFlags flags = seam_line(0, 1);
+    for (Index e = 0; e < flags.size(); ++e) {
+        const Index h = seam_square().edge_half[e];
+        for (const Index side : {h, seam_square().twin[h]}) {
+            if (side == agvd::no_index) continue;
+            const Index quad = Surface::face(side) / 2;
+            const Index twin = seam_square().twin[side];
+            const Index other = twin == agvd::no_index ? quad : Surface::face(twin) / 2;
+            const bool is_speck = quad % 3 == 0 && quad % 40 > 0 && (quad / 40) % 12 == 4;
+            if (is_speck && other != quad) flags[e] = 1;
+        }
+    }
+    ASSERT_GT(count(flags), 150u);
+    EXPECT_EQ(left_at(flags, 0.15), 40u);
 }
 
 TEST(PruneSeams, ShortChainsWithAFreeEndAreLeftOut) {

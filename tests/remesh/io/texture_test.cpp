@@ -238,7 +238,8 @@ TEST(Texture, GlbSplitsColoursAndNormalsAsWell) {
         const auto at =
             std::find(square.positions.begin(), square.positions.end(), file.mesh.positions[v]);
         ASSERT_NE(at, square.positions.end());
-        EXPECT_EQ(red[v], 10.0 * static_cast<double>(at - square.positions.begin() + 1));
+        EXPECT_NEAR(255 * red[v], 10.0 * static_cast<double>(at - square.positions.begin() + 1),
+                    1e-9);
     }
 }
 
