@@ -18,7 +18,7 @@ using agvd::Surface;
 constexpr double least_width = 2.5;
 // Specks go first, so that their borders do not make the charts around them narrow.
 constexpr std::array width_shares = {0.125, 0.25, 0.5, 1.0};
-constexpr double least_spur = 2;  // In spacings, as for junctions.
+constexpr double least_seam_spur = 2;  // In spacings, as for junctions.
 
 double area_of(const Surface& surface, Index face) {
     const auto& [a, b, c] = surface.mesh.triangles[face];
@@ -133,7 +133,7 @@ void prune_seams(const Surface& surface, std::span<const std::uint8_t> is_crease
     for (const double share : width_shares) {
         drop_narrow_charts(surface, share * least_width * spacing, is_seam, ticker);
     }
-    SpurPruner(surface, is_crease, is_seam).run(least_spur * spacing, ticker);
+    SpurPruner(surface, is_crease, is_seam).run(least_seam_spur * spacing, ticker);
 }
 
 }  // namespace remesh

@@ -21,8 +21,8 @@ using agvd::Vec2;
 using agvd::Vec3;
 using detail::NearestOnSheet;
 
-constexpr Index grain = 64;
-constexpr int num_steps = 4;  // From a face's centroid to a corner.
+constexpr Index corner_grain = 64;
+constexpr int steps_to_corner = 4;  // From a face's centroid to a corner.
 // As a share of an edge of the result: places of a vertex are compared within a ball that is never
 // smaller than this.
 constexpr double least_radius = 1e-6;
@@ -95,12 +95,12 @@ private:
         FacePlaces found;
         for (std::size_t k = 0; k < 3; ++k) {
             found[k] = start;
-            for (int step = 1; step <= num_steps; ++step) {
+            for (int step = 1; step <= steps_to_corner; ++step) {
                 const Vec3& target = result_.positions[t[k]];
                 const Vec3 point =
-                    step == num_steps
+                    step == steps_to_corner
                         ? target
-                        : Vec3(start.position + (target - start.position) * step / num_steps);
+                        : Vec3(start.position + (target - start.position) * step / steps_to_corner);
                 found[k] = cut_.query(point, cut_.walk(point, found[k].point), seen);
             }
         }
@@ -170,7 +170,7 @@ std::vector<CornerCoordinates> transfer_corner_values(std::span<const CornerCoor
     const CornerFinder finder(result, places, sheet, cut);
     std::vector<FacePlaces> found(num_faces);
     agvd::parallel_chunks(
-        num_faces, grain, options.num_threads,
+        num_faces, corner_grain, options.num_threads,
         [&](Index, Index begin, Index end) {
             NearestOnSheet::Seen seen;
             for (Index f = begin; f < end; ++f) found[f] = finder.find(f, seen);
@@ -178,7 +178,7 @@ std::vector<CornerCoordinates> transfer_corner_values(std::span<const CornerCoor
         poller);
     const std::vector<std::vector<Index>> corners = corners_by_vertex(result);
     agvd::parallel_chunks(
-        static_cast<Index>(corners.size()), grain, options.num_threads,
+        static_cast<Index>(corners.size()), corner_grain, options.num_threads,
         [&](Index, Index begin, Index end) {
             NearestOnSheet::Seen seen;
             for (Index v = begin; v < end; ++v) {

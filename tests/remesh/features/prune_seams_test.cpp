@@ -76,7 +76,7 @@ TEST(PruneSeams, ChartsNarrowerThanTwoAndAHalfSpacingsAreLeftOut) {
 }
 
 TEST(PruneSeams, SpecksGoWithoutTheChartsAroundThem) {
-    // Every third square of three rows is a chart of its own.
+    // Every third square of three columns is a chart of its own.
     SeamFlags flags = seam_line(0, 1);
     for (Index e = 0; e < flags.size(); ++e) {
         const Index h = seam_square().edge_half[e];
@@ -85,11 +85,12 @@ TEST(PruneSeams, SpecksGoWithoutTheChartsAroundThem) {
             const Index quad = Surface::face(side) / 2;
             const Index twin = seam_square().twin[side];
             const Index other = twin == agvd::no_index ? quad : Surface::face(twin) / 2;
-            const bool is_speck = quad % 3 == 0 && quad % 40 > 0 && (quad / 40) % 12 == 4;
+            const Index row = quad % 40;
+            const bool is_speck = quad % 3 == 0 && quad / 40 % 12 == 4 && (row < 17 || row > 22);
             if (is_speck && other != quad) flags[e] = 1;
         }
     }
-    ASSERT_GT(count(flags), 150u);
+    ASSERT_GT(count(flags), 150u);  // Too much for the two halves.
     EXPECT_EQ(left_at(flags, 0.15), 40u);
 }
 
