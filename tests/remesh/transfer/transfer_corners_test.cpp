@@ -362,6 +362,31 @@ TEST(TransferCorners, ACornerThatIsNearerToTheOtherSideKeepsItsOwn) {
     EXPECT_NEAR((other[0][2] - Vec2(5, 0.8)).norm(), 0, 1e-12);
 }
 
+TEST(TransferCorners, AVertexBetweenTwoSlopesHasOneValue) {
+    // A tent, and two triangles with a seam elsewhere. The vertex is as near to both slopes.
+    const TriangleMesh input{
+        {Vec3(-1, 0, 0), Vec3(-1, 1, 0), Vec3(0, 0, 1), Vec3(0, 1, 1), Vec3(1, 0, 0), Vec3(1, 1, 0),
+         Vec3(9, 0, 0), Vec3(8, 0, 0), Vec3(8, 1, 0), Vec3(9, 1, 0)},
+        {{0, 2, 3}, {0, 3, 1}, {2, 4, 5}, {2, 5, 3}, {6, 7, 8}, {6, 8, 9}}};
+    const Coordinates values = coordinates_of(input, [](const Vec3& p, const Vec3& center) {
+        return Vec2(p.x() + (center.x() > 8.5 ? 1 : 0), p.y());
+    });
+    ASSERT_EQ(find_texture_seams(input.view(), values).size(), 1u);
+    const TriangleMesh result{{Vec3(0, 0.5, 0.8), Vec3(-0.5, 0.2, 0.5), Vec3(0.5, 0.2, 0.5),
+                               Vec3(0.5, 0.8, 0.5), Vec3(-0.5, 0.8, 0.5)},
+                              {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}}};
+    const std::vector<SurfacePoint> places{{FaceId(0), {0.1, 0.4, 0.5}},
+                                           {FaceId(0), {0.5, 0.3, 0.2}},
+                                           {FaceId(2), {0.5, 0.3, 0.2}},
+                                           {FaceId(3), {0.2, 0.5, 0.3}},
+                                           {FaceId(1), {0.2, 0.5, 0.3}}};
+    const Coordinates corners = transfer_corner_values(values, input.view(), result.view(), places);
+    for (const CornerCoordinates& of_face : corners) {
+        EXPECT_EQ(of_face[0], corners[0][0]);
+        EXPECT_NEAR((of_face[0] - Vec2(-0.1, 0.5)).norm(), 0, 1e-12);
+    }
+}
+
 TEST(TransferCorners, TheRingOfDataComesBack) {
     const remesh::MeshFile ring =
         remesh::read_mesh(AGVD_DATA_DIR "/ring.obj", remesh::ReadOptions{.with_attributes = true});
