@@ -57,6 +57,7 @@ void keep_named(const std::vector<std::string>& names, const std::filesystem::pa
         for (const remesh::Attribute& attribute : *kind) all.push_back({.name = attribute.name});
     }
     if (attributes.normals) all.push_back({.name = "normals"});
+    if (!attributes.texture.empty()) all.push_back({.name = remesh::TextureCoordinates::name});
     const auto is_named = [&](const std::string& name) {
         return std::find(names.begin(), names.end(), name) != names.end();
     };
@@ -68,6 +69,7 @@ void keep_named(const std::vector<std::string>& names, const std::filesystem::pa
         std::erase_if(*kind, [&](const auto& attribute) { return !is_named(attribute.name); });
     }
     if (!is_named("normals")) attributes.normals.reset();
+    if (!is_named(remesh::TextureCoordinates::name)) attributes.texture = {};
     attributes.declined.clear();
 }
 
@@ -77,6 +79,9 @@ std::vector<std::string> names_in(const remesh::MeshAttributes& attributes) {
         names.push_back("vertex " + attribute.name);
     if (attributes.normals) names.emplace_back("vertex normals");
     for (const auto& attribute : attributes.of_faces) names.push_back("face " + attribute.name);
+    if (!attributes.texture.empty()) {
+        names.push_back(std::string("corner ") + remesh::TextureCoordinates::name);
+    }
     return names;
 }
 
@@ -111,8 +116,10 @@ void warn_of(const std::vector<remesh::DeclinedAttribute>& declined, Console& co
 void add_attribute_options(CLI::App& app, AttributeArguments& arguments) {
     start_group(app, heading::attributes);
     app.add_option("--transfer", arguments.transfer,
-                   "What the output gets of the input's colours, labels and other properties of "
-                   "vertices and faces: all, none, or names such as quality,material")
+                   "What the output gets of the input's colours, labels, texture coordinates and "
+                   "other properties of vertices and faces: all, none, or names such as "
+                   "quality,material,texcoord. Seams of texture coordinates that it gets become "
+                   "chains of edges")
         ->type_name("all|none|NAMES")
         ->capture_default_str();
     app.add_option("--map", arguments.map,
@@ -148,10 +155,16 @@ remesh::AttributeReport select_attributes(const AttributeArguments& arguments,
     if (arguments.transfer != "all" && arguments.transfer != "none") {
         keep_named(split(arguments.transfer), input, attributes);
     }
-    const std::string reason =
-        "." + remesh::mesh_format(output) + " files have no place for it; write .ply to keep it";
+    const std::string files = "." + remesh::mesh_format(output) + " files";
+    const bool has_texture = !attributes.texture.empty();
+    const bool has_seams = !attributes.texture.seams.empty();
     for (const std::string& name : remesh::remove_unwritable(output, attributes)) {
-        attributes.declined.push_back({name, reason});
+        const bool is_texture =
+            has_texture && name == std::string("corner ") + remesh::TextureCoordinates::name;
+        attributes.declined.push_back(
+            {name, files + " have no place for " +
+                       (is_texture && has_seams ? "texture coordinates with seams" : "it") +
+                       "; write .ply to keep it"});
     }
     move_material_files(input, output.path, attributes.material_files);
     warn_of(attributes.declined, console);
@@ -176,7 +189,8 @@ remesh::MeshAttributes carry_attributes(const AttributeArguments& arguments,
     if (!arguments.map.empty()) {
         files.push_back({arguments.map, remesh::format_map(input, map.vertices)});
     }
-    remesh::MeshAttributes carried = remesh::transfer_attributes(input, map);
+    remesh::MeshAttributes carried = remesh::transfer_attributes(
+        input, result.mesh.view(), map, {.num_threads = num_threads, .progress = progress});
     remesh::keep_attributes(input.attributes, result.kept.vertices, result.kept.faces, carried);
     return carried;
 }

@@ -5,7 +5,7 @@
 
 #include "cli.h"
 #include "make_data/data_files.h"
-#include "remesh/io/write_mesh.h"
+#include "remesh/io/atomic_file.h"
 
 int main(int argc, char** argv) {
     std::filesystem::path folder;
@@ -15,7 +15,7 @@ int main(int argc, char** argv) {
         ->check(CLI::ExistingDirectory);
     return cli::run(app, argc, argv, [&] {
         for (const make_data::DataFile& file : make_data::data_files()) {
-            remesh::write_mesh(folder / file.name, file.make().view());
+            remesh::write_file_atomically(folder / file.name, format(file));
             cli::stop_if_interrupted();
         }
     });

@@ -297,6 +297,7 @@ cli::Products make_products(const Arguments& arguments, cli::Console& console) {
                                   .features = arguments.features,
                                   .feature_angle = arguments.feature_angle,
                                   .face_labels = std::move(labels),
+                                  .texture_seams = input.attributes.texture.seams,
                                   .junctions = arguments.junctions,
                                   .region = std::move(region),
                                   .seed = arguments.sampling.seed,

@@ -1,5 +1,6 @@
 #include "shortfalls.h"
 
+#include <cmath>
 #include <string>
 
 #include "remesh/io/write_mesh.h"
@@ -71,12 +72,23 @@ void warn_of_bounds(const remesh::SizingResult& sizes, const remesh::Sizing& wan
     }
 }
 
+void warn_of_seams(const remesh::FeatureCounts& counts, Console& console) {
+    constexpr double least_share = 0.01;
+    const double all = counts.seam_length + counts.dropped_seam_length;
+    if (!(counts.dropped_seam_length > least_share * all)) return;
+    console.warn(std::to_string(std::lround(100 * counts.dropped_seam_length / all)) +
+                 " % of the seams of texture coordinates are too short or too close to each other "
+                 "to be edges of the result, whose faces there have coordinates of one side only; "
+                 "use more --samples");
+}
+
 }  // namespace
 
 void warn_of_shortfalls(const remesh::RemeshResult& result, const remesh::RemeshOptions& options,
                         bool strict, Console& console) {
     judge(result, strict, console);
     warn_of_junctions(result.junctions, options.junctions, console);
+    warn_of_seams(result.features, console);
     warn_of_bounds(result.sizing, options.sizing, console);
 }
 

@@ -21,5 +21,7 @@
 #include "remesh/relax/relax_sites.h"
 #include "remesh/sampling/sample_sites.h"
 #include "remesh/transfer/map_to_input.h"
+#include "remesh/transfer/texture_seams.h"
+#include "remesh/transfer/transfer_corners.h"
 #include "remesh/transfer/transfer_values.h"
 #include "remesh/transfer/vertex_normals.h"

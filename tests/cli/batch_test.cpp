@@ -267,7 +267,7 @@ TEST_F(RemeshBatch, WhatIsRefusedBeforeTheWorkAndInterruptionsLeaveTheReport) {
 
 TEST_F(RemeshBatch, WarningsAreInTheReportOfTheirMesh) {
     const std::string textured =
-        put("textured.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n");
+        put("textured.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 nan\nf 1/1 2/2 3/3\n");
     const std::string plain = put("plain.off", shapes::sphere(2));
     const auto outcome =
         remesh({textured, plain, "-n", "20", "--out-dir", at("out"), "--report", at("r.json")});

@@ -47,6 +47,18 @@ inline void check_mesh_file(const remesh::MeshFile& file) {
     for (const remesh::Attribute& attribute : file.attributes.of_faces) {
         require(attribute.values.size() == triangles.size(), "each face has its value");
     }
+    const remesh::TextureCoordinates& texture = file.attributes.texture;
+    require(texture.empty() || texture.corners.size() == triangles.size(),
+            "each face has its texture coordinates");
+    for (const remesh::CornerCoordinates& corners : texture.corners) {
+        for (const agvd::Vec2& corner : corners) {
+            require(corner.allFinite() || (corner.array() != corner.array()).all(),
+                    "texture coordinates are finite, or none");
+        }
+    }
+    for (const auto& [a, b] : texture.seams) {
+        require(std::max(a, b) < positions.size(), "ends of seams are in range");
+    }
     require(file.face_polygon.size() == triangles.size(), "each face has its polygon");
     require(std::ranges::is_sorted(file.face_polygon), "polygons are in order");
 }

@@ -92,6 +92,33 @@ std::string ascii_stl(const TriangleMesh& mesh) {
     return text.str();
 }
 
+// Texture coordinates with a seam, without one, and with faces that have none.
+void put_textures(Seeds& seeds) {
+    const TriangleMesh mesh = shapes::grid(2);
+    remesh::MeshAttributes attributes;
+    for (const agvd::Triangle& t : mesh.triangles) {
+        const auto at = [&](Index v) { return agvd::Vec2(mesh.positions[v].head<2>()); };
+        attributes.texture.corners.push_back({at(t[0]), at(t[1]), at(t[2])});
+    }
+    seeds.put("read_off", remesh::format_mesh("a.off", mesh.view(), attributes));
+    seeds.put("read_vtk", remesh::format_mesh("a.vtk", mesh.view(), attributes));
+    for (agvd::Vec2& corner : attributes.texture.corners[3]) corner.x() += 1;
+    attributes.texture.corners[5] = remesh::no_coordinates();
+    for (const auto& [target, name] :
+         {std::pair("read_ply", "a.ply"), {"read_obj", "a.obj"}, {"read_glb", "a.glb"}}) {
+        seeds.put(target, remesh::format_mesh(name, mesh.view(), attributes));
+    }
+    seeds.put("read_ply",
+              "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+              "property float z\nproperty float s\nproperty double t\nelement face 2\n"
+              "property list uchar float texcoord\nproperty list uchar int vertex_indices\n"
+              "property int texnumber\nend_header\n0 0 0 0 0\n1 0 0 1 0\n1 1 0 1 1\n0 1 0 0 1\n"
+              "8 0 0 1 0 1 1 0 1 4 0 1 2 3 0\n0 3 0 1 2 1\n");
+    seeds.put("read_obj",
+              "vt 0 0\nvt 1\nvt 1 1 0\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1/1 2/-2 3/3/1\n"
+              "f 4//1 1/4 3\nvt .5 -2\nf 1/1 3/3 2/2 4/4\n");
+}
+
 void put_meshes(Seeds& seeds) {
     for (const TriangleMesh& mesh : {shapes::tetrahedron(), shapes::grid(2), shapes::cube()}) {
         seeds.put("read_ply", remesh::format_mesh("a.ply", mesh.view()));
@@ -262,6 +289,7 @@ int main(int argc, char** argv) {
     Seeds seeds(argv[1]);
     put_meshes(seeds);
     put_packages(seeds);
+    put_textures(seeds);
     put_sites(seeds);
     put_shapes(seeds);
 }

@@ -2,9 +2,11 @@
 //! The meshes of data/, each made by formula.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "agvd/mesh/mesh_view.h"
+#include "remesh/transfer/texture_seams.h"
 
 namespace make_data {
 
@@ -21,10 +23,18 @@ namespace make_data {
 //! A closed surface with many slivers, but no degenerate face.
 [[nodiscard]] agvd::TriangleMesh slivers();
 
+//! A torus of radii 1 and .4 around y.
+[[nodiscard]] agvd::TriangleMesh ring();
+//! Its texture coordinates: turns around the axis, and around the tube. Both jump from 1 to 0.
+[[nodiscard]] std::vector<remesh::CornerCoordinates> ring_texture();
+
 struct DataFile {
     const char* name;  //!< In data/; the extension gives the format.
     agvd::TriangleMesh (*make)();
+    std::vector<remesh::CornerCoordinates> (*texture)() = nullptr;  //!< Null: it has none.
 };
+//! The bytes of the file.
+[[nodiscard]] std::string format(const DataFile& file);
 [[nodiscard]] const std::vector<DataFile>& data_files();
 
 }  // namespace make_data

@@ -1,6 +1,6 @@
-// The shell, plate, parts and slivers of data/. Shell and plate are grids of points by formula;
-// parts and slivers are contours of implicit functions (contour.h), scaled, joined, or cut further.
-// The shell's coordinates are rounded to six decimals, which keeps its text file short.
+// The shell, plate, parts, slivers and ring of data/. Shell, plate and ring are grids of points by
+// formula; parts and slivers are contours of implicit functions (contour.h), scaled, joined, or cut
+// further. The shell's coordinates are rounded to six decimals, which keeps its text file short.
 #include "make_data/contour.h"
 #include "make_data/data_files.h"
 #include "make_data/formula.h"
@@ -32,6 +32,21 @@ double rounded_cube(const Vec3& p) { return p.cwiseAbs2().squaredNorm() - 1; }
 double frame(const Vec3& p) {
     const Vec3 square = p.cwiseAbs2();
     return square.squaredNorm() - 5 * square.sum() + 11.8;
+}
+
+constexpr Index ring_around = 64, ring_rows = 32;
+
+// Calls add(corners) for each face of the ring; a corner is a column and a row.
+template <typename Add>
+void for_each_ring_face(const Add& add) {
+    using Corner = std::array<Index, 2>;
+    for (Index i = 0; i < ring_around; ++i) {
+        for (Index j = 0; j < ring_rows; ++j) {
+            const Corner a{i, j}, b{i + 1, j}, c{i + 1, j + 1}, d{i, j + 1};
+            add(std::array{a, c, b});
+            add(std::array{a, d, c});
+        }
+    }
 }
 
 }  // namespace
@@ -137,6 +152,40 @@ TriangleMesh parts() {
         }
     }
     return mesh;
+}
+
+TriangleMesh ring() {
+    TriangleMesh mesh;
+    for (Index i = 0; i < ring_around; ++i) {
+        const Vec2 turn = unit_circle(static_cast<double>(i) / ring_around);
+        for (Index j = 0; j < ring_rows; ++j) {
+            const Vec2 tube = unit_circle(static_cast<double>(j) / ring_rows);
+            const double radius = 1 + 0.4 * tube.x();
+            mesh.positions.emplace_back(six_decimals(radius * turn.x()),
+                                        six_decimals(0.4 * tube.y()),
+                                        six_decimals(radius * turn.y()));
+        }
+    }
+    for_each_ring_face([&](const std::array<std::array<Index, 2>, 3>& corners) {
+        Triangle triangle{};
+        for (std::size_t k = 0; k < 3; ++k) {
+            triangle[k] = corners[k][0] % ring_around * ring_rows + corners[k][1] % ring_rows;
+        }
+        mesh.triangles.push_back(triangle);
+    });
+    return mesh;
+}
+
+std::vector<remesh::CornerCoordinates> ring_texture() {
+    std::vector<remesh::CornerCoordinates> texture;
+    for_each_ring_face([&](const std::array<std::array<Index, 2>, 3>& corners) {
+        const auto at = [&](std::size_t k) {
+            return Vec2(static_cast<double>(corners[k][0]) / ring_around,
+                        static_cast<double>(corners[k][1]) / ring_rows);
+        };
+        texture.push_back({at(0), at(1), at(2)});
+    });
+    return texture;
 }
 
 TriangleMesh slivers() {

@@ -1,7 +1,9 @@
-// Writes OBJ: vertices with colours and normals, faces with materials, groups and objects.
+// Writes OBJ: vertices with colours and normals, texture coordinates, each once, and faces with
+// materials, groups and objects.
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <utility>
 
 #include "remesh/io/formats.h"
@@ -39,6 +41,53 @@ void append_labels(std::string& bytes, const std::vector<Attribute>& of_faces, s
     }
 }
 
+// Numbers of texture coordinates, from 1.
+class ObjTexture {
+public:
+    // Appends the lines vt.
+    ObjTexture(const TextureCoordinates& texture, agvd::Ticker& ticker, std::string& bytes) {
+        const bool is_single = texture.type == NumberType::Float32;
+        for (const CornerCoordinates& corners : texture.corners) {
+            ticker.tick(4);
+            for (const agvd::Vec2& p : corners) {
+                if (!is_whole(corners)) {
+                    number_.push_back(0);
+                    continue;
+                }
+                const auto [known, is_new] = known_.try_emplace({p.x(), p.y()}, known_.size() + 1);
+                number_.push_back(known->second);
+                if (!is_new) continue;
+                if (is_single) {
+                    append_line(bytes, "vt ", p.cast<float>().eval());
+                } else {
+                    append_line(bytes, "vt ", p);
+                }
+            }
+        }
+    }
+
+    // 0: there is none.
+    [[nodiscard]] std::size_t operator()(std::size_t face, std::size_t corner) const {
+        return number_.empty() ? 0 : number_[3 * face + corner];
+    }
+
+private:
+    std::map<std::pair<double, double>, std::size_t> known_;
+    std::vector<std::size_t> number_;
+};
+
+void append_face(std::string& bytes, const agvd::Triangle& triangle, std::size_t face,
+                 bool has_normals, const ObjTexture& texture) {
+    bytes += 'f';
+    for (std::size_t k = 0; k < 3; ++k) {
+        const std::string number = std::to_string(triangle[k] + 1ull);
+        bytes.append(" ").append(number);
+        if (texture(face, k) > 0) bytes.append("/").append(std::to_string(texture(face, k)));
+        if (has_normals) bytes.append(texture(face, k) > 0 ? "/" : "//").append(number);
+    }
+    bytes += '\n';
+}
+
 }  // namespace
 
 bool obj_holds(const Attribute& attribute, ElementKind kind, const MeshAttributes& all) {
@@ -66,20 +115,11 @@ std::string format_obj(const agvd::MeshView& mesh, const MeshAttributes& attribu
             append_line(bytes, "vn ", normal.cast<float>().eval());
         }
     }
+    const ObjTexture texture(attributes.texture, ticker, bytes);
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
         ticker.tick();
         append_labels(bytes, attributes.of_faces, f);
-        if (!attributes.normals) {
-            const auto& [a, b, c] = mesh.triangles[f];
-            append_line(bytes, "f ", std::array<std::uint64_t, 3>{a + 1ull, b + 1ull, c + 1ull});
-            continue;
-        }
-        bytes += 'f';
-        for (const agvd::Index v : mesh.triangles[f]) {
-            const std::string number = std::to_string(v + 1ull);
-            bytes.append(" ").append(number).append("//").append(number);
-        }
-        bytes += '\n';
+        append_face(bytes, mesh.triangles[f], f, attributes.normals.has_value(), texture);
     }
     return bytes;
 }

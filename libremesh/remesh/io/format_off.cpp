@@ -1,5 +1,5 @@
-// Writes OFF; with colours of vertices COFF, with normals NOFF. Colours of uchar are whole numbers,
-// others lie between 0 and 1.
+// Writes OFF; with colours of vertices COFF, with normals NOFF, with texture coordinates STOFF.
+// Colours of uchar are whole numbers, others lie between 0 and 1.
 
 #include <array>
 
@@ -48,15 +48,17 @@ std::string format_off(const agvd::MeshView& mesh, const MeshAttributes& attribu
     const auto face_colors = colors_of(attributes.of_faces);
     std::vector<agvd::Vec3> normals;
     if (attributes.normals) normals = vertex_normals(mesh);
-    std::string bytes = std::string(vertex_colors.empty() ? "" : "C") +
-                        (normals.empty() ? "" : "N") + "OFF\n" +
-                        std::to_string(mesh.positions.size()) + ' ' +
+    const std::vector<agvd::Vec2> texture = coordinates_of_vertices(mesh, attributes.texture);
+    std::string bytes = std::string(texture.empty() ? "" : "ST") +
+                        (vertex_colors.empty() ? "" : "C") + (normals.empty() ? "" : "N") +
+                        "OFF\n" + std::to_string(mesh.positions.size()) + ' ' +
                         std::to_string(mesh.triangles.size()) + " 0\n";
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         ticker.tick(4);
         append_line(bytes, "", mesh.positions[v]);
         if (!normals.empty()) append_to_line(bytes, normals[v].cast<float>().eval());
         append_color(bytes, vertex_colors, v);
+        if (!texture.empty()) append_to_line(bytes, texture[v]);
     }
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
         ticker.tick();

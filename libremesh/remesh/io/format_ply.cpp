@@ -1,4 +1,5 @@
-// Writes PLY: coordinates in double, attributes under their names and types.
+// Writes PLY: coordinates in double, attributes under their names and types, texture coordinates as
+// a list of each face.
 
 #include "remesh/io/append_number.h"
 #include "remesh/io/formats.h"
@@ -42,6 +43,26 @@ std::string label_comments(const MeshAttributes& attributes) {
     return text;
 }
 
+NumberType stored_type(const TextureCoordinates& texture) {
+    return texture.type == NumberType::Float64 ? NumberType::Float64 : NumberType::Float32;
+}
+
+std::string texture_property(const TextureCoordinates& texture) {
+    if (texture.empty()) return "";
+    return std::string("property list uchar ") + name_of(stored_type(texture)) + ' ' +
+           TextureCoordinates::name + '\n';
+}
+
+void append_texture(std::string& bytes, const TextureCoordinates& texture, std::size_t face) {
+    if (texture.empty()) return;
+    const CornerCoordinates& corners = texture.corners[face];
+    append(bytes, std::uint8_t{is_whole(corners) ? std::uint8_t{6} : std::uint8_t{0}});
+    if (!is_whole(corners)) return;
+    for (const agvd::Vec2& corner : corners) {
+        for (const double x : corner) append_number(bytes, stored_type(texture), x);
+    }
+}
+
 void append_values(std::string& bytes, const std::vector<Attribute>& attributes, std::size_t i) {
     for (const Attribute& attribute : attributes) {
         const double value = attribute.values[i];
@@ -61,7 +82,8 @@ std::string format_ply(const agvd::MeshView& mesh, const MeshAttributes& attribu
                         normal_properties(attributes) + properties_of(attributes.of_vertices) +
                         "element face " + std::to_string(mesh.triangles.size()) +
                         "\nproperty list uchar " + index_type + " vertex_indices\n" +
-                        properties_of(attributes.of_faces) + "end_header\n";
+                        texture_property(attributes.texture) + properties_of(attributes.of_faces) +
+                        "end_header\n";
     std::vector<agvd::Vec3> normals;
     if (attributes.normals) normals = vertex_normals(mesh);
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
@@ -76,6 +98,7 @@ std::string format_ply(const agvd::MeshView& mesh, const MeshAttributes& attribu
         ticker.tick();
         append(bytes, std::uint8_t{3});
         for (const agvd::Index v : mesh.triangles[f]) append(bytes, v);
+        append_texture(bytes, attributes.texture, f);
         append_values(bytes, attributes.of_faces, f);
     }
     return bytes;

@@ -1,5 +1,5 @@
 // Writes legacy VTK of version 3.0, which all programs read: binary POLYDATA with coordinates in
-// double.
+// double. Texture coordinates belong to points.
 
 #include <array>
 
@@ -81,6 +81,18 @@ std::string format_vtk(const agvd::MeshView& mesh, const MeshAttributes& attribu
         of_points.clear();
         for (const agvd::Vec3& normal : vertex_normals(mesh)) {
             for (const double x : normal) append(bytes, static_cast<float>(x), vtk_order);
+        }
+        bytes += '\n';
+    }
+    if (const auto texture = coordinates_of_vertices(mesh, attributes.texture); !texture.empty()) {
+        const NumberType type = attributes.texture.type == NumberType::Float32
+                                    ? NumberType::Float32
+                                    : NumberType::Float64;
+        bytes += of_points + "TEXTURE_COORDINATES " + TextureCoordinates::name + " 2 " +
+                 vtk_name_of(type) + '\n';
+        of_points.clear();
+        for (const agvd::Vec2& p : texture) {
+            for (const double x : p) append_number(bytes, type, x, vtk_order);
         }
         bytes += '\n';
     }

@@ -19,15 +19,15 @@ bool holds_all(const Attribute&, ElementKind, const MeshAttributes&) { return tr
 bool holds_none(const Attribute&, ElementKind, const MeshAttributes&) { return false; }
 
 constexpr MeshFormat formats[] = {
-    {"ply", read_ply, format_ply, holds_all, true, any_double},
-    {"obj", read_obj, format_obj, obj_holds, true, any_double},
-    {"off", read_off, format_off, off_holds, true, any_double},
-    {"stl", read_stl, format_stl, holds_none, false, any_float},
-    {"vtk", read_vtk, format_vtk, holds_all, true, any_double},
-    {"vtp", read_vtp, format_vtp, holds_all, true, any_double},
-    {"mesh", read_medit, format_medit, medit_holds, false, any_double},
-    {"3mf", read_3mf, format_3mf, holds_none, false, any_double},
-    {"glb", read_glb, format_glb, glb_holds, true, any_float}};
+    {"ply", read_ply, format_ply, holds_all, true, TexturePlace::Corners, any_double},
+    {"obj", read_obj, format_obj, obj_holds, true, TexturePlace::Corners, any_double},
+    {"off", read_off, format_off, off_holds, true, TexturePlace::Vertices, any_double},
+    {"stl", read_stl, format_stl, holds_none, false, TexturePlace::Nothing, any_float},
+    {"vtk", read_vtk, format_vtk, holds_all, true, TexturePlace::Vertices, any_double},
+    {"vtp", read_vtp, format_vtp, holds_all, true, TexturePlace::Nothing, any_double},
+    {"mesh", read_medit, format_medit, medit_holds, false, TexturePlace::Nothing, any_double},
+    {"3mf", read_3mf, format_3mf, holds_none, false, TexturePlace::Nothing, any_double},
+    {"glb", read_glb, format_glb, glb_holds, true, TexturePlace::Corners, any_float}};
 
 }  // namespace
 
@@ -36,11 +36,35 @@ std::string lower_extension(const std::filesystem::path& path) {
 }
 
 void attach(MeshAttributes attributes, MeshFile& file) {
+    attributes.texture = std::move(file.attributes.texture);
+    attributes.declined.insert(attributes.declined.begin(), file.attributes.declined.begin(),
+                               file.attributes.declined.end());
     file.attributes = std::move(attributes);
     // Otherwise each polygon is a triangle.
     if (file.polygons > 0 || file.dropped_polygons > 0) {
         spread_to_triangles(file.face_polygon, file.attributes.of_faces);
     }
+}
+
+std::vector<agvd::Vec2> coordinates_of_vertices(const agvd::MeshView& mesh,
+                                                const TextureCoordinates& texture) {
+    if (texture.empty()) return {};
+    const CornerAgreement agree(texture.corners);
+    constexpr std::size_t none = ~std::size_t{0};
+    std::vector<std::size_t> first(mesh.positions.size(), none);  // 3 face + corner
+    std::vector<agvd::Vec2> result(mesh.positions.size(), no_coordinates()[0]);
+    for (agvd::Index f = 0; f < mesh.triangles.size(); ++f) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const agvd::Index v = mesh.triangles[f][k];
+            if (first[v] == none) {
+                first[v] = 3 * std::size_t{f} + k;
+                result[v] = texture.corners[f][k];
+            } else if (!agree(f, k, static_cast<agvd::Index>(first[v] / 3), first[v] % 3)) {
+                return {};
+            }
+        }
+    }
+    return result;
 }
 
 std::string names_of_formats(const char* mark) {

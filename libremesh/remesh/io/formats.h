@@ -27,7 +27,8 @@ inline void add_warning(const std::string& text, MeshFile& file) {
     if (!text.empty()) file.warnings.push_back(text);
 }
 
-//! Gives a file the attributes that were read with it; those of faces belong to polygons yet.
+//! Gives a file the attributes that were read with it, besides its texture coordinates; those of
+//! faces belong to polygons yet.
 void attach(MeshAttributes attributes, MeshFile& file);
 
 //! The whole file's bytes. Attributes that the format cannot hold are left out.
@@ -50,6 +51,11 @@ void attach(MeshAttributes attributes, MeshFile& file);
 [[nodiscard]] std::string format_3mf(const agvd::MeshView& mesh, const MeshAttributes& attributes,
                                      agvd::Ticker ticker);
 
+//! #V: the coordinates of each vertex, those of its first corner (none: NaN). Empty if it has
+//! several, or if there are none.
+[[nodiscard]] std::vector<agvd::Vec2> coordinates_of_vertices(const agvd::MeshView& mesh,
+                                                              const TextureCoordinates& texture);
+
 //! See MeshFormat::holds.
 [[nodiscard]] bool obj_holds(const Attribute& attribute, ElementKind kind,
                              const MeshAttributes& all);
@@ -60,6 +66,9 @@ void attach(MeshAttributes attributes, MeshFile& file);
 [[nodiscard]] bool glb_holds(const Attribute& attribute, ElementKind kind,
                              const MeshAttributes& all);
 
+//! What has texture coordinates of its own.
+enum class TexturePlace { Nothing, Vertices, Corners };
+
 struct MeshFormat {
     const char* name;  //!< Lower case; the extension without its dot.
     MeshFile (*read)(SourceFile);
@@ -67,7 +76,8 @@ struct MeshFormat {
     //! Whether it can hold an attribute, one of `all`.
     bool (*holds)(const Attribute&, ElementKind, const MeshAttributes& all);
     bool has_normals;  //!< At vertices.
-    double largest;    //!< Coordinate that it can hold.
+    TexturePlace texture;
+    double largest;  //!< Coordinate that it can hold.
 
     //! Whether coordinates are stored in single precision.
     [[nodiscard]] bool is_single() const { return largest < std::numeric_limits<double>::max(); }

@@ -1,6 +1,6 @@
 // Binary glTF 2.0 (.glb): the triangles of all nodes of the scene, with their transforms applied.
-// Colours of vertices and materials of triangles are attributes (format: Khronos Group, glTF 2.0
-// Specification).
+// Colours of vertices, texture coordinates and materials of triangles are attributes (format:
+// Khronos Group, glTF 2.0 Specification).
 
 #include <algorithm>
 #include <array>
@@ -20,6 +20,8 @@ namespace {
 
 using agvd::Vec3;
 using Transform = Eigen::Affine3d;
+
+constexpr const char* texture_name = "TEXCOORD_0";
 
 constexpr std::uint64_t mode_triangles = 4, mode_strip = 5, mode_fan = 6;
 
@@ -95,7 +97,8 @@ private:
     }
 
     void read_mesh(std::uint64_t index, const Transform& transform) {
-        std::map<std::uint64_t, std::size_t> first_vertex;  // By accessor: primitives may share it.
+        // By accessor: primitives may share them.
+        std::map<std::uint64_t, std::size_t> first_vertex, first_coordinates;
         for (const nlohmann::json& primitive : glb_.list(glb_.at("meshes", index), "primitives")) {
             if (!primitive.is_object()) glb_.fail("a primitive is no object");
             const std::uint64_t mode = glb_.number(primitive, "mode").value_or(mode_triangles);
@@ -113,9 +116,16 @@ private:
                 first_vertex.try_emplace(*positions, soup_.positions.size());
             if (is_new) read_vertices(*positions, *attributes, transform);
             const std::uint64_t count = glb_.array(*positions).num_rows;
-            const std::size_t num_before = soup_.num_polygons();
+            const std::size_t num_before = soup_.num_polygons(), num_corners = soup_.num_corners();
             read_faces(primitive, mode, entry->second, count, transform.linear().determinant() < 0);
             add_materials(primitive, soup_.num_polygons() - num_before);
+            if (!file_.with_attributes) continue;
+            if (const auto texture = glb_.number(*attributes, texture_name)) {
+                const auto [coordinates, is_first] =
+                    first_coordinates.try_emplace(*texture, soup_.texture.values.size());
+                if (is_first) read_texture(glb_.array(*texture));
+                set_texture(num_corners, entry->second, coordinates->second, count);
+            }
         }
     }
 
@@ -147,11 +157,34 @@ private:
                 read_colors(glb_.array(accessor.get<std::uint64_t>()), first, count);
             } else if (name == "NORMAL") {
                 has_normals_ = true;
-            } else {
-                declined_[name] = name.starts_with("TEXCOORD_")
-                                      ? "texture coordinates are not carried over"
-                                      : "only positions, normals and COLOR_0 are carried over";
+            } else if (name != texture_name) {
+                declined_[name] =
+                    "only positions, normals, TEXCOORD_0 and COLOR_0 are carried over";
             }
+        }
+    }
+
+    // Files count v downwards.
+    void read_texture(const GlbArray& array) {
+        SoupTexture& texture = soup_.texture;
+        texture.name = texture_name;
+        texture.type = NumberType::Float32;
+        texture.is_broken = texture.is_broken || array.num_columns != 2;
+        for (std::uint64_t row = 0; row < array.num_rows && !texture.is_broken; ++row) {
+            soup_.ticker.tick();
+            texture.add(glb_.value(array, row, 0), 1 - glb_.value(array, row, 1));
+        }
+    }
+
+    // Of the corners since the first `num_before`.
+    // \param first_vertex, first  what a primitive of `count` vertices calls 0.
+    void set_texture(std::size_t num_before, std::size_t first_vertex, std::size_t first,
+                     std::uint64_t count) {
+        SoupTexture& texture = soup_.texture;
+        texture.is_broken = texture.is_broken || texture.values.size() - first < count;
+        for (std::size_t c = num_before; c < soup_.num_corners() && !texture.is_broken; ++c) {
+            texture.set_corner(c + 1,
+                               static_cast<agvd::Index>(first + soup_.corner(c) - first_vertex));
         }
     }
 

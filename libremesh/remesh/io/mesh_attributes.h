@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "agvd/core/types.h"
+#include "remesh/transfer/texture_seams.h"
 
 namespace remesh {
 
@@ -33,6 +34,22 @@ struct Attribute {
     bool is_intensity = false;
 };
 
+//! Texture coordinates. Formats that count v downwards (GLB) are turned round.
+struct TextureCoordinates {
+    //! What they are called among the attributes, as in PLY.
+    static constexpr const char* name = "texcoord";
+
+    //! That of the file; unset: decimals of a text, which binary PLY and GLB store as float, as
+    //! most programs read no others.
+    std::optional<NumberType> type = {};
+    std::vector<CornerCoordinates> corners = {};  //!< #F: one for each triangle; empty: none.
+    //! Of an input: find_texture_seams. Where there are none, each vertex has one value.
+    std::vector<std::array<agvd::Index, 2>> seams = {};
+
+    //! Whether there are none.
+    [[nodiscard]] bool empty() const { return corners.empty(); }
+};
+
 //! What a file holds and cannot be carried over.
 struct DeclinedAttribute {
     std::string name;    //!< Of the property.
@@ -43,14 +60,17 @@ struct DeclinedAttribute {
 struct MeshAttributes {
     std::vector<Attribute> of_vertices = {};  //!< #V values each.
     std::vector<Attribute> of_faces = {};     //!< #F values each: one for each triangle.
+    TextureCoordinates texture = {};          //!< Of the triangles' corners.
     //! The type of the file's normals at vertices, which are not stored: those of a result are
     //! computed anew.
     std::optional<NumberType> normals = {};
     std::vector<std::string> material_files = {};  //!< OBJ: the names behind each mtllib.
-    std::vector<DeclinedAttribute> declined = {};  //!< Such as texture coordinates.
+    std::vector<DeclinedAttribute> declined = {};  //!< Such as normals of faces.
 
     //! Whether nothing is stored.
-    [[nodiscard]] bool empty() const { return of_vertices.empty() && of_faces.empty(); }
+    [[nodiscard]] bool empty() const {
+        return of_vertices.empty() && of_faces.empty() && texture.empty();
+    }
 };
 
 //! The attribute of that name, or nullptr.

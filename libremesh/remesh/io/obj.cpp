@@ -1,7 +1,7 @@
 // Wavefront OBJ: vertices (v, also with colours) and faces (f), materials, groups and objects;
-// every other statement is skipped, and so are texture coordinates and normals of a corner:
-// vertices are never split along their seams (format: Wavefront, Advanced Visualizer Manual,
-// appendix B1).
+// texture coordinates of corners (vt); every other statement is skipped, and so are normals of a
+// corner: vertices are never split along their seams (format: Wavefront, Advanced Visualizer
+// Manual, appendix B1).
 
 #include "remesh/io/formats.h"
 #include "remesh/io/obj_attributes.h"
@@ -11,14 +11,21 @@
 namespace remesh {
 namespace {
 
-// A corner's vertex, from 0: the file counts from 1, or with negative numbers back from the last
-// vertex so far. What follows it (/vt, //vn, /vt/vn) must look like that and is not used.
-std::int64_t read_corner(TextScanner& scan, const SourceFile& file, std::size_t num_vertices) {
+struct ObjCorner {
+    std::int64_t vertex;         // From 0.
+    std::string_view rest = {};  // What follows it: vt, /vn or vt/vn.
+};
+
+// The file counts from 1, or with negative numbers back from the last vertex so far. What follows
+// (/vt, //vn, /vt/vn) must look like that.
+ObjCorner read_corner(TextScanner& scan, const SourceFile& file, std::size_t num_vertices) {
+    ObjCorner corner{};
     const std::size_t start = scan.offset();
     const std::int64_t number = scan.integer("a corner (v, v/vt, v//vn or v/vt/vn)", '/');
     const std::size_t slash = scan.offset();
     if (scan.take("/")) {
-        if (scan.rest_of_word().find_first_not_of("0123456789-/") != std::string_view::npos) {
+        corner.rest = scan.rest_of_word();
+        if (corner.rest.find_first_not_of("0123456789-/") != std::string_view::npos) {
             file.fail_malformed(slash,
                                 "expected texture and normal numbers after a corner's '/'; "
                                 "correct the line, or export the file again");
@@ -32,7 +39,24 @@ std::int64_t read_corner(TextScanner& scan, const SourceFile& file, std::size_t 
                                                          " vertices come before it") +
                                       "; correct the face, or export the file again");
     }
-    return number > 0 ? number - 1 : count + number;
+    corner.vertex = number > 0 ? number - 1 : count + number;
+    return corner;
+}
+
+// The texture coordinates of the last corner so far. Those that do not exist are found at the end.
+void take_coordinates(std::string_view rest, PolygonSoup& soup) {
+    rest = rest.substr(0, rest.find('/'));
+    if (rest.empty()) return;
+    std::int64_t number = 0;
+    const auto [last, error] = std::from_chars(rest.data(), rest.data() + rest.size(), number);
+    SoupTexture& texture = soup.texture;
+    if (number < 0) number += static_cast<std::int64_t>(texture.values.size()) + 1;
+    if (error != std::errc{} || last != rest.data() + rest.size() || number < 1 ||
+        number > agvd::no_index) {
+        texture.is_broken = true;
+        return;
+    }
+    texture.set_corner(soup.num_corners(), static_cast<agvd::Index>(number - 1));
 }
 
 }  // namespace
@@ -48,10 +72,14 @@ MeshFile read_obj(SourceFile file) {
         if (statement == "v") {
             soup.positions.push_back(scan.point());
             if (scan.has_word()) attributes.take_color(soup.positions.size() - 1, scan);
+        } else if (statement == "vt") {
+            attributes.take_texture(scan, soup.texture);
         } else if (statement == "f") {
             while (scan.has_word()) {
                 const std::size_t start = scan.offset();
-                soup.add_corner(read_corner(scan, file, soup.positions.size()), start);
+                const ObjCorner corner = read_corner(scan, file, soup.positions.size());
+                soup.add_corner(corner.vertex, start);
+                if (attributes.is_wanted()) take_coordinates(corner.rest, soup);
             }
             soup.end_polygon();
         } else {

@@ -30,9 +30,21 @@ void ObjAttributes::take_color(std::size_t vertex, TextScanner& scan) {
     if (count > 1) colors_.take(vertex, std::span(numbers).first(count));
 }
 
+void ObjAttributes::take_texture(TextScanner& scan, SoupTexture& texture) const {
+    if (!is_wanted_) return;
+    texture.name = "vt";
+    std::array<double, 2> numbers{};
+    for (double& number : numbers) {
+        if (!scan.has_word()) break;
+        const std::optional<double> read = scan.number_or_other("a number");
+        texture.is_broken = texture.is_broken || !read;
+        number = read.value_or(0);
+    }
+    texture.add(numbers[0], numbers[1]);
+}
+
 void ObjAttributes::take(std::string_view statement, std::size_t num_polygons, TextScanner& scan) {
     if (!is_wanted_) return;
-    has_texture_ = has_texture_ || statement == "vt";
     has_normals_ = has_normals_ || statement == "vn";
     if (statement == "mtllib") material_files_.push_back(name_on(scan));
     for (Labels& labels : labels_) {
@@ -52,9 +64,6 @@ MeshAttributes ObjAttributes::finish(std::size_t num_vertices, std::size_t num_p
     MeshAttributes attributes;
     attributes.material_files = std::move(material_files_);
     if (has_normals_) attributes.normals = NumberType::Float32;
-    if (has_texture_) {
-        attributes.declined.push_back({"vt", "texture coordinates are not carried over"});
-    }
     std::move(colors_).finish(num_vertices, ElementKind::Vertex, attributes);
     for (Labels& labels : labels_) {
         if (labels.names.empty()) continue;

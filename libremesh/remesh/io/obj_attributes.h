@@ -5,6 +5,7 @@
 #include <array>
 #include <map>
 
+#include "remesh/io/polygon_soup.h"
 #include "remesh/io/text_colors.h"
 #include "remesh/io/text_scanner.h"
 
@@ -18,9 +19,14 @@ public:
     //! The words behind a vertex's coordinates: three are a colour, one is a weight.
     void take_color(std::size_t vertex, TextScanner& scan);
 
-    //! Any other statement than v and f.
+    //! The coordinates behind vt: a second one may be missing, a third one does not count.
+    void take_texture(TextScanner& scan, SoupTexture& texture) const;
+
+    //! Any other statement than v, vt and f.
     //! \param num_polygons  before it.
     void take(std::string_view statement, std::size_t num_polygons, TextScanner& scan);
+
+    [[nodiscard]] bool is_wanted() const { return is_wanted_; }
 
     //! All attributes; those of faces have a value for each polygon.
     [[nodiscard]] MeshAttributes finish(std::size_t num_vertices, std::size_t num_polygons) &&;
@@ -39,7 +45,7 @@ private:
     };
 
     bool is_wanted_;
-    bool has_texture_ = false, has_normals_ = false;
+    bool has_normals_ = false;
     TextColors colors_;
     std::array<Labels, 3> labels_ = {Labels{"usemtl", "material"}, Labels{"g", "group"},
                                      Labels{"o", "object"}};

@@ -18,7 +18,7 @@ namespace {
 
 // What stands behind the coordinates of each vertex: a normal, a colour, texture coordinates.
 struct Extras {
-    bool texture, color, normal;
+    bool texture = false, color = false, normal = false;
 };
 
 Extras read_keyword(TextScanner& scan) {
@@ -38,18 +38,24 @@ Extras read_keyword(TextScanner& scan) {
 }
 
 // The color among the numbers on the rest of a line.
-void take_color(TextScanner& scan, std::size_t index, const Extras& extras, TextColors& colors) {
+// \param texture  gets the last two; null: there are none.
+void take_color(TextScanner& scan, std::size_t index, const Extras& extras, TextColors& colors,
+                SoupTexture* texture = nullptr) {
     std::array<double, 9> numbers{};
     std::size_t count = 0;
     for (; scan.has_word() && count < numbers.size(); ++count) {
         const std::optional<double> number = scan.number_or_other("a number");
-        if (!number) colors.spoil();
+        if (!number && extras.color) colors.spoil();
         numbers[count] = number.value_or(0);
+        if (texture != nullptr) texture->is_broken = texture->is_broken || !number;
     }
     const std::size_t before = extras.normal ? 3 : 0, after = extras.texture ? 2 : 0;
-    if (count > before + after) {
+    if (extras.color && count > before + after) {
         colors.take(index, std::span(numbers).subspan(before, count - before - after));
     }
+    if (texture == nullptr) return;
+    texture->is_broken = texture->is_broken || count < before + after || scan.has_word();
+    if (!texture->is_broken) texture->add(numbers[count - 2], numbers[count - 1]);
 }
 
 std::uint64_t read_count(TextScanner& scan, const char* what) {
@@ -80,11 +86,17 @@ MeshFile read_off(SourceFile file) {
     PolygonSoup soup(file, 0);
     soup.reserve(num_vertices, num_faces);
     TextColors vertex_colors, face_colors;
+    if (file.with_attributes && extras.texture) {
+        soup.texture.name = "ST";
+        soup.texture.is_of_vertices = true;
+    }
     for (std::uint64_t v = 0; v < num_vertices; ++v) {
         find_element(scan, "vertex", v, num_vertices);
         soup.ticker.tick(2);
         soup.positions.push_back(scan.point());
-        if (file.with_attributes && extras.color) take_color(scan, v, extras, vertex_colors);
+        if (file.with_attributes && (extras.color || extras.texture)) {
+            take_color(scan, v, extras, vertex_colors, extras.texture ? &soup.texture : nullptr);
+        }
         scan.skip_line();
     }
     for (std::uint64_t f = 0; f < num_faces; ++f) {
@@ -99,7 +111,8 @@ MeshFile read_off(SourceFile file) {
             soup.add_corner(scan.integer("a corner"), start);
         }
         soup.end_polygon();
-        if (file.with_attributes && scan.has_word()) take_color(scan, f, {}, face_colors);
+        if (file.with_attributes && scan.has_word())
+            take_color(scan, f, {.color = true}, face_colors);
         scan.skip_line();
     }
     (void)scan.find_word();  // Skips comments: they do not count as a rest.
@@ -108,9 +121,6 @@ MeshFile read_off(SourceFile file) {
     if (file.with_attributes) {
         MeshAttributes attributes;
         if (extras.normal) attributes.normals = NumberType::Float32;
-        if (extras.texture) {
-            attributes.declined.push_back({"ST", "texture coordinates are not carried over"});
-        }
         std::move(vertex_colors).finish(num_vertices, ElementKind::Vertex, attributes);
         std::move(face_colors).finish(num_faces, ElementKind::Face, attributes);
         attach(std::move(attributes), result);

@@ -1,6 +1,6 @@
 // PLY, ascii and both binaries: the coordinates of element "vertex", the corners of element "face",
-// and their other properties as attributes; triangle strips. Every other element is skipped
-// (format: Greg Turk, "The PLY Polygon File Format", 1994).
+// and their other properties as attributes, texture coordinates as such; triangle strips. Every
+// other element is skipped (format: Greg Turk, "The PLY Polygon File Format", 1994).
 
 #include <algorithm>
 #include <array>
@@ -9,14 +9,31 @@
 #include "remesh/io/formats.h"
 #include "remesh/io/ply_attributes.h"
 #include "remesh/io/ply_strips.h"
+#include "remesh/io/ply_texture.h"
 #include "remesh/io/polygon_soup.h"
 
 namespace remesh {
 namespace {
 
+// The coordinates of vertices, unless faces have some of their own.
+std::array<const PlyProperty*, 2> find_texture(const PlyElement& vertices, const PlyHeader& header,
+                                               const SourceFile& file, MeshAttributes& attributes) {
+    const std::array pair = texture_pair(vertices);
+    if (!file.with_attributes || pair[0] == nullptr) return {nullptr, nullptr};
+    const auto has_own = [](const PlyElement& element) {
+        return element.name == "face" && texture_list(element) != nullptr;
+    };
+    if (std::none_of(header.elements.begin(), header.elements.end(), has_own)) return pair;
+    for (const PlyProperty* one : pair) {
+        attributes.declined.push_back(
+            {"vertex " + one->name, "the faces have texture coordinates of their own"});
+    }
+    return {nullptr, nullptr};
+}
+
 template <typename Values>
-void read_vertices(Values& values, const PlyElement& element, const SourceFile& file,
-                   PolygonSoup& soup, MeshAttributes& attributes) {
+void read_vertices(Values& values, const PlyElement& element, const PlyHeader& header,
+                   const SourceFile& file, PolygonSoup& soup, MeshAttributes& attributes) {
     const std::array axes = {element.find("x"), element.find("y"), element.find("z")};
     for (const PlyProperty* axis : axes) {
         if (axis == nullptr || axis->size_type) {
@@ -24,25 +41,39 @@ void read_vertices(Values& values, const PlyElement& element, const SourceFile& 
                 0, "element vertex lacks the numbers x, y and z; export the file again");
         }
     }
-    // By property: the axis it is, or 3.
+    const std::array pair = find_texture(element, header, file, attributes);
+    if (pair[0] != nullptr) {
+        soup.texture.name = "vertex " + pair[0]->name + ' ' + pair[1]->name;
+        soup.texture.type = std::max(pair[0]->type, pair[1]->type);
+        soup.texture.is_of_vertices = true;
+    }
+    // By property: the axis it is, 3 and 4 for the texture coordinates, or 5.
+    const std::array used = {axes[0], axes[1], axes[2], pair[0], pair[1]};
     std::vector<Eigen::Index> axis_of;
     for (const PlyProperty& property : element.properties) {
-        axis_of.push_back(std::find(axes.begin(), axes.end(), &property) - axes.begin());
+        axis_of.push_back(std::find(used.begin(), used.end(), &property) - used.begin());
     }
-    PlyAttributes others(element, ElementKind::Vertex, {axes.begin(), axes.end()}, file,
-                         attributes);
+    const std::array known = texture_pair(element);  // Those that do not count as well.
+    PlyAttributes others(element, ElementKind::Vertex,
+                         {axes[0], axes[1], axes[2], known[0], known[1]}, file, attributes);
     for (std::uint64_t v = 0; v < element.count; ++v) {
         soup.ticker.tick(2);
         values.begin(element, v);
         const std::size_t start = values.offset();
         agvd::Vec3 p;
+        agvd::Vec2 coordinates(0, 0);
         for (std::size_t i = 0; i < axis_of.size(); ++i) {
             if (axis_of[i] < 3) {
                 p[axis_of[i]] = values.real(element.properties[i].type);
+            } else if (axis_of[i] < 5) {
+                const std::optional<double> number = values.attribute(element.properties[i].type);
+                soup.texture.is_broken = soup.texture.is_broken || !number;
+                coordinates[axis_of[i] - 3] = number.value_or(0);
             } else {
                 others.take(values, i);
             }
         }
+        if (pair[0] != nullptr) soup.texture.add(coordinates.x(), coordinates.y());
         if (!p.allFinite()) {
             file.fail_unusable(start, name_of(element, v) +
                                           " has a coordinate that is not finite; "
@@ -58,11 +89,22 @@ template <typename Values>
 void read_faces(Values& values, const PlyElement& element, const SourceFile& file,
                 PolygonSoup& soup, MeshAttributes& attributes) {
     const PlyProperty& corners = require_corners(element, file);
-    PlyAttributes others(element, ElementKind::Face, {&corners}, file, attributes);
+    const PlyProperty* const texture = file.with_attributes ? texture_list(element) : nullptr;
+    if (texture != nullptr) {
+        soup.texture.name = "face " + texture->name;
+        soup.texture.type = texture->type;
+    }
+    PlyAttributes others(element, ElementKind::Face, {&corners, texture}, file, attributes);
+    std::vector<double> coordinates;
     for (std::uint64_t f = 0; f < element.count; ++f) {
         values.begin(element, f);
+        const std::size_t num_before = soup.num_corners();
         for (std::size_t i = 0; i < element.properties.size(); ++i) {
             const PlyProperty& property = element.properties[i];
+            if (&property == texture) {
+                coordinates = read_texture_list(values, property, file, soup.texture);
+                continue;
+            }
             if (&property != &corners) {
                 others.take(values, i);
                 continue;
@@ -72,6 +114,9 @@ void read_faces(Values& values, const PlyElement& element, const SourceFile& fil
                 soup.add_corner(values.integer(property.type), start);
             }
             soup.end_polygon();
+        }
+        if (texture != nullptr) {
+            set_texture(coordinates, soup.num_corners() - num_before, soup);
         }
         values.end();
     }
@@ -98,7 +143,7 @@ MeshFile read_body(Values values, const PlyHeader& header, const SourceFile& fil
         begin = values.offset();
         if (element.name == "vertex" && !std::exchange(has_vertices, true)) {
             soup.reserve(element.count, 0);
-            read_vertices(values, element, file, soup, attributes);
+            read_vertices(values, element, header, file, soup, attributes);
         } else if (element.name == "face" && !std::exchange(has_faces, true)) {
             soup.reserve(0, element.count);
             read_faces(values, element, file, soup, attributes);

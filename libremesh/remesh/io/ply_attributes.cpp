@@ -1,5 +1,6 @@
 // Which properties of PLY are carried over is decided by their names, as programs use them:
-// normals are computed anew, texture coordinates would need seams, lists have no single value.
+// normals are computed anew, texture coordinates belong to corners, other lists have no single
+// value.
 #include "remesh/io/ply_attributes.h"
 
 #include <array>
@@ -9,27 +10,14 @@ namespace remesh {
 namespace {
 
 constexpr std::array normal_names = {"nx", "ny", "nz"};
-constexpr std::array texture_pairs = {std::pair{"s", "t"}, std::pair{"u", "v"},
-                                      std::pair{"texture_u", "texture_v"},
-                                      std::pair{"texture_s", "texture_t"}};
 
 bool is_normal(const std::string& name) {
     return std::find(normal_names.begin(), normal_names.end(), name) != normal_names.end();
 }
 
-// One name of a pair alone is an ordinary property.
-bool is_texture(const std::string& name, const PlyElement& element) {
-    if (name == "texcoord" || name == "texnumber") return true;
-    return std::any_of(texture_pairs.begin(), texture_pairs.end(), [&](const auto& pair) {
-        return (name == pair.first || name == pair.second) && element.find(pair.first) != nullptr &&
-               element.find(pair.second) != nullptr;
-    });
-}
-
 // Why a property is not carried over; empty: it is.
 std::string reason_against(const PlyProperty& property, const PlyElement& element,
                            ElementKind kind) {
-    if (is_texture(property.name, element)) return "texture coordinates are not carried over";
     if (property.size_type) return "lists are not carried over";
     if (kind == ElementKind::Face && is_normal(property.name)) {
         return "normals of faces are not carried over";

@@ -12,7 +12,27 @@ using agvd::Index;
 
 namespace {
 constexpr const char* export_again = "; correct the face, or export the file again";
+
+// The places in a polygon of its triangles' corners. Where a vertex comes twice, its first place.
+void append_corners(std::span<const Index> polygon, std::size_t begin,
+                    std::span<const agvd::Triangle> triangles, std::vector<std::size_t>& corner) {
+    if (polygon.size() == 3) {
+        for (std::size_t k = 0; k < 3; ++k) corner.push_back(begin + k);
+        return;
+    }
+    std::vector<std::pair<Index, std::size_t>> places;
+    for (std::size_t k = 0; k < polygon.size(); ++k) places.emplace_back(polygon[k], begin + k);
+    std::sort(places.begin(), places.end());
+    for (const agvd::Triangle& t : triangles) {
+        for (const Index v : t) {
+            corner.push_back(
+                std::lower_bound(places.begin(), places.end(), std::pair(v, std::size_t{0}))
+                    ->second);
+        }
+    }
 }
+
+}  // namespace
 
 void PolygonSoup::reserve(std::uint64_t vertices, std::uint64_t polygons) {
     // No vertex takes less than three bytes, no corner less than one.
@@ -65,6 +85,8 @@ MeshFile PolygonSoup::finish() && {
     result.mesh.positions = std::move(positions);
     result.mesh.triangles.reserve(polygon_end_.size());
     result.face_polygon.reserve(polygon_end_.size());
+    const bool has_texture = !texture.name.empty();
+    std::vector<std::size_t> corner;  // Of the triangles: its number among all corners.
     std::size_t begin = 0;
     for (Index p = 0; p < polygon_end_.size(); begin = polygon_end_[p++]) {
         ticker.tick();
@@ -74,7 +96,12 @@ MeshFile PolygonSoup::finish() && {
             continue;
         }
         if (polygon.size() > 3) ++result.polygons;
+        const std::size_t num_before = result.mesh.triangles.size();
         append_triangles(polygon, result.mesh.positions, ticker, result.mesh.triangles);
+        if (has_texture) {
+            append_corners(polygon, begin, std::span(result.mesh.triangles).subspan(num_before),
+                           corner);
+        }
         result.face_polygon.resize(result.mesh.triangles.size(), p);
     }
     if (result.mesh.triangles.empty()) {
@@ -82,7 +109,44 @@ MeshFile PolygonSoup::finish() && {
             file_.path.string() +
             ": no face of the file has three corners; export a surface, not lines");
     }
+    if (has_texture) {
+        result.attributes.texture = texture_of(result.mesh, corner);
+        if (texture.is_broken) {
+            result.attributes.declined.push_back(
+                {texture.name, "some texture coordinates are missing, or no finite numbers"});
+        }
+    }
     return result;
+}
+
+// \param corner  of each triangle's corners: its number among those of the polygons.
+TextureCoordinates PolygonSoup::texture_of(const agvd::TriangleMesh& mesh,
+                                           std::span<const std::size_t> corner) {
+    TextureCoordinates read{.type = texture.type};
+    bool has_any = false;
+    for (Index f = 0; f < mesh.triangles.size() && !texture.is_broken; ++f) {
+        ticker.tick();
+        read.corners.push_back(no_coordinates());
+        for (std::size_t k = 0; k < 3; ++k) {
+            const std::size_t c = corner[3 * std::size_t{f} + k];
+            Index value = agvd::no_index;
+            if (texture.is_of_vertices) {
+                value = mesh.triangles[f][k];
+            } else if (c < texture.of_corner.size()) {
+                value = texture.of_corner[c];
+            }
+            if (value == agvd::no_index) continue;
+            if (value >= texture.values.size()) {
+                texture.is_broken = true;
+                break;
+            }
+            read.corners[f][k] = texture.values[value];
+            has_any = has_any || read.corners[f][k].allFinite();
+        }
+    }
+    if (!has_any || texture.is_broken) return {};
+    read.seams = find_texture_seams(mesh.view(), read.corners, ticker);
+    return read;
 }
 
 }  // namespace remesh

@@ -3,11 +3,34 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "remesh/io/read_mesh.h"
 #include "remesh/io/source_file.h"
 
 namespace remesh {
+
+//! Texture coordinates as in the file.
+struct SoupTexture {
+    std::vector<agvd::Vec2> values;       //!< Shared by corners.
+    std::optional<NumberType> type = {};  //!< See TextureCoordinates.
+    bool is_of_vertices = false;          //!< Value i belongs to vertex i.
+    //! Otherwise by corner, in the order of the polygons: its value, or no_index. Corners beyond
+    //! the end have none.
+    std::vector<agvd::Index> of_corner;
+    bool is_broken = false;  //!< Some of it is no finite number, or does not exist.
+    std::string name;        //!< What the file calls them; empty: it has none.
+
+    //! The value of the last of `num_corners` corners so far.
+    void set_corner(std::size_t num_corners, agvd::Index value) {
+        of_corner.resize(num_corners - 1, agvd::no_index);
+        of_corner.push_back(value);
+    }
+    void add(double u, double v) {
+        values.emplace_back(u, v);
+        is_broken = is_broken || !values.back().allFinite();
+    }
+};
 
 class PolygonSoup {
 public:
@@ -33,12 +56,21 @@ public:
     }
 
     [[nodiscard]] std::size_t num_polygons() const { return polygon_end_.size(); }
+    [[nodiscard]] std::size_t num_corners() const { return corners_.size(); }
+    //! The vertex of a corner.
+    [[nodiscard]] agvd::Index corner(std::size_t i) const { return corners_[i]; }
 
-    //! Checks the indices against all vertices and cuts the polygons into triangles.
+    SoupTexture texture;  //!< For readers that find texture coordinates.
+
+    //! Checks the indices against all vertices and cuts the polygons into triangles. The result's
+    //! attributes are its texture coordinates.
     //! \throw agvd::InvalidInput  an index is out of range, or no triangle is left.
     [[nodiscard]] MeshFile finish() &&;
 
 private:
+    [[nodiscard]] TextureCoordinates texture_of(const agvd::TriangleMesh& mesh,
+                                                std::span<const std::size_t> corner);
+
     const SourceFile& file_;
     int first_index_;
     std::vector<agvd::Index> corners_;

@@ -148,7 +148,9 @@ Json to_json(const FeatureCounts& counts) {
             {"curves_off_given_sites", counts.uncarried_curves},
             {"samples_for_all", counts.samples_for_all},
             {"thinned_patches", counts.thinned_patches},
-            {"gave_up", counts.gave_up}};
+            {"gave_up", counts.gave_up},
+            {"texture_seam_length_mesh_units", counts.seam_length},
+            {"dropped_texture_seam_length_mesh_units", counts.dropped_seam_length}};
 }
 
 Json to_json(const JunctionCounts& counts) {
@@ -240,6 +242,7 @@ Json to_json(const RemeshOptions& options, Index num_samples) {
     object["feature_angle_degrees"] = options.feature_angle;
     object["given_feature_edges"] = options.feature_edges.size();
     object["given_face_labels"] = options.face_labels.size();
+    object["texture_seam_edges"] = options.texture_seams.size();
     object["junctions"] = junctions_name(options.junctions);
     object["init"] = init_name(options.init);
     object["seed"] = options.seed;

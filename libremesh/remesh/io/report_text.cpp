@@ -182,7 +182,9 @@ std::string why_dropped(const FeatureCounts& features) {
 
 // Empty without creases.
 std::string describe(const FeatureCounts& features) {
-    if (features.curves == 0 && features.dropped_length == 0) return "";
+    if (features.curves == 0 && features.dropped_length + features.dropped_seam_length == 0) {
+        return "";
+    }
     std::string text = "\ncreases and boundary: " + counted(features.curves, "curve") + ", " +
                        counted(features.nodes, "corner") + ", " +
                        counted(features.vertices, "vertex") + "; creases of length " +
@@ -190,6 +192,13 @@ std::string describe(const FeatureCounts& features) {
     if (features.dropped_length > 0) {
         text += ", creases of length " + fixed(features.dropped_length, 4) + " dropped (" +
                 why_dropped(features) + ")";
+    }
+    if (features.seam_length + features.dropped_seam_length > 0) {
+        text += "; texture seams of length " + fixed(features.seam_length, 4) + " kept";
+    }
+    if (features.dropped_seam_length > 0) {
+        text += ", of length " + fixed(features.dropped_seam_length, 4) +
+                " left out as too short or too close to each other";
     }
     if (features.thinned_patches > 0) {
         text += "; " + counted(features.thinned_patches, "patch") +

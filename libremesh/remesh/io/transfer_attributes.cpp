@@ -40,7 +40,8 @@ bool is_part(const std::vector<Index>& face_polygon, Index face) {
 
 }  // namespace
 
-MeshAttributes transfer_attributes(const MeshFile& input, const InputMap& map) {
+MeshAttributes transfer_attributes(const MeshFile& input, const agvd::MeshView& mesh,
+                                   const InputMap& map, const CornerOptions& options) {
     const MeshAttributes& given = input.attributes;
     MeshAttributes result{.normals = given.normals,
                           .material_files = given.material_files,
@@ -53,6 +54,12 @@ MeshAttributes transfer_attributes(const MeshFile& input, const InputMap& map) {
     for (const Attribute& attribute : given.of_faces) {
         result.of_faces.push_back(with_values(
             attribute, transfer_face_values(attribute.values, map.faces, kind_of(attribute))));
+    }
+    if (!given.texture.empty()) {
+        result.texture = {
+            .type = given.texture.type,
+            .corners = transfer_corner_values(given.texture.corners, input.mesh.view(), mesh,
+                                              map.vertices, options)};
     }
     return result;
 }
@@ -69,6 +76,9 @@ void keep_attributes(const MeshAttributes& input, std::span<const Index> vertice
     };
     keep(input.of_vertices, vertices, result.of_vertices);
     keep(input.of_faces, faces, result.of_faces);
+    for (std::size_t i = 0; i < faces.size() && !input.texture.empty(); ++i) {
+        result.texture.corners[i] = input.texture.corners[faces[i]];
+    }
 }
 
 const Attribute& require_attribute(const std::vector<Attribute>& attributes, std::string_view name,

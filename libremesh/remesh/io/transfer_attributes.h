@@ -7,16 +7,23 @@
 
 #include "remesh/io/mesh_file.h"
 #include "remesh/transfer/map_to_input.h"
+#include "remesh/transfer/transfer_corners.h"
 
 namespace remesh {
 
 //! The same attributes for the result: numbers and colours are interpolated (faces: means), labels
-//! are chosen (transfer_vertex_values, transfer_face_values).
+//! are chosen (transfer_vertex_values, transfer_face_values), texture coordinates are those of each
+//! face's side of the seams (transfer_corner_values).
 //!
-//! \param input  as read from the file.
-//! \param map    of the result; `faces` are needed only if there are attributes of faces.
-//! Cost: O(result) for each attribute.
-[[nodiscard]] MeshAttributes transfer_attributes(const MeshFile& input, const InputMap& map);
+//! \param input   as read from the file.
+//! \param result  its remesh.
+//! \param map     of the result; `faces` are needed only if there are attributes of faces.
+//! \param options  of texture coordinates.
+//! \throw agvd::Cancelled  the progress callback returned false.
+//! Cost: O(result) for each attribute; texture coordinates: see transfer_corner_values.
+[[nodiscard]] MeshAttributes transfer_attributes(const MeshFile& input,
+                                                 const agvd::MeshView& result, const InputMap& map,
+                                                 const CornerOptions& options = {});
 
 //! Gives the first vertices and faces of a result the values of the input's that they are.
 //!

@@ -143,8 +143,12 @@ private:
         } else if (keyword == "texture_coordinates") {
             const std::string title = name("a name");
             const std::uint64_t components = number_of("components");
-            array(title, type_name(), num_elements_, components);
-            decline(title, "texture coordinates are not carried over");
+            VtkArray values = array(title, type_name(), num_elements_, components);
+            if (of_ == Of::Points && (components == 2 || components == 3)) {
+                data_.texture = std::move(values);
+            } else {
+                decline(title, "only two or three texture coordinates of points are carried over");
+            }
         } else if (keyword == "vectors" || keyword == "normals" || keyword == "tensors" ||
                    keyword == "global_ids" || keyword == "pedigree_ids") {
             const std::string title = name("a name");

@@ -154,6 +154,28 @@ bool has_wrong_values(const VtkArray& array, NumberType type) {
                                             [&](double v) { return is_value_of(type, v); });
 }
 
+void require_numbers(const VtkArray& array, std::size_t num_elements, const SourceFile& file) {
+    if (array.values.size() == num_elements * array.num_components) return;
+    file.fail_malformed(array.offset, "array " + in_quotes(array.name) + " has " +
+                                          std::to_string(array.values.size()) + " numbers for " +
+                                          std::to_string(num_elements) + " elements with " +
+                                          std::to_string(array.num_components) +
+                                          " each; export the file again");
+}
+
+// A third coordinate does not count.
+void add_texture(const VtkArray& array, const SourceFile& file, PolygonSoup& soup) {
+    require_numbers(array, soup.positions.size(), file);
+    SoupTexture& texture = soup.texture;
+    texture.name = "vertex " + array.name;
+    texture.is_of_vertices = true;
+    texture.type = is_integer(array.type->type) ? NumberType::Float64 : array.type->type;
+    for (std::size_t i = 0; i < array.values.size(); i += array.num_components) {
+        soup.ticker.tick();
+        texture.add(array.values[i], array.values[i + 1]);
+    }
+}
+
 // Turns arrays into attributes.
 class ArrayReader {
 public:
@@ -166,13 +188,7 @@ public:
           target_(kind == ElementKind::Vertex ? attributes.of_vertices : attributes.of_faces) {}
 
     void take(const VtkArray& array) {
-        if (array.values.size() != num_elements_ * array.num_components) {
-            file_.fail_malformed(
-                array.offset,
-                "array " + in_quotes(array.name) + " has " + std::to_string(array.values.size()) +
-                    " numbers for " + std::to_string(num_elements_) + " elements with " +
-                    std::to_string(array.num_components) + " each; export the file again");
-        }
+        require_numbers(array, num_elements_, file_);
         const NumberType type = type_of(array);
         const bool is_color =
             type == NumberType::UInt8 && (array.num_components == 3 || array.num_components == 4);
@@ -287,7 +303,10 @@ MeshFile make_mesh(VtkData data, const SourceFile& file) {
     for (const VtkCells& group : data.cells) cells.add(group);
     const std::size_t num_points = soup.positions.size();
     MeshAttributes attributes;
-    if (file.with_attributes) attributes = read_attributes(data, cells, num_points, file);
+    if (file.with_attributes) {
+        attributes = read_attributes(data, cells, num_points, file);
+        if (data.texture) add_texture(*data.texture, file, soup);
+    }
     MeshFile result = std::move(soup).finish();
     attach(std::move(attributes), result);
     if (cells.num_others() > 0) {

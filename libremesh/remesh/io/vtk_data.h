@@ -68,6 +68,7 @@ struct VtkData {
     std::vector<VtkCells> cells;  //!< In the order of the data of cells.
     std::vector<VtkArray> of_points = {}, of_cells = {};
     std::optional<NumberType> normals = {};  //!< Of points.
+    std::optional<VtkArray> texture = {};    //!< Of points; two or three coordinates.
     std::vector<DeclinedAttribute> declined = {};
 };
 

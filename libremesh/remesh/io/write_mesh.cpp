@@ -57,6 +57,16 @@ void check(const std::filesystem::path& path, const std::vector<Attribute>& attr
     }
 }
 
+void check(const std::filesystem::path& path, const TextureCoordinates& texture,
+           std::size_t num_faces) {
+    if (texture.empty() || texture.corners.size() == num_faces) return;
+    throw agvd::InvalidInput(path.string() +
+                             ": cannot be written: there are texture coordinates "
+                             "for " +
+                             std::to_string(texture.corners.size()) + " faces instead of " +
+                             std::to_string(num_faces) + "; give three for each");
+}
+
 // Names and types.
 std::vector<Attribute> without_values(const std::vector<Attribute>& attributes) {
     std::vector<Attribute> empty;
@@ -84,6 +94,7 @@ std::string format_mesh(const MeshPath& path, const agvd::MeshView& mesh,
     check(path.path, format, mesh);
     check(path.path, attributes.of_vertices, mesh.positions.size());
     check(path.path, attributes.of_faces, mesh.triangles.size());
+    check(path.path, attributes.texture, mesh.triangles.size());
     std::string bytes = format.format(mesh, attributes, agvd::Ticker(poller));
     return is_compressed(path) ? pack_gzip(bytes, agvd::Ticker(poller)) : bytes;
 }
@@ -108,6 +119,13 @@ std::vector<std::string> remove_unwritable(const MeshPath& path, MeshAttributes&
     };
     keep_writable(attributes.of_vertices, ElementKind::Vertex);
     keep_writable(attributes.of_faces, ElementKind::Face);
+    TextureCoordinates& texture = attributes.texture;
+    const bool holds_texture = format.texture == TexturePlace::Corners ||
+                               (format.texture == TexturePlace::Vertices && texture.seams.empty());
+    if (!texture.empty() && !holds_texture) {
+        removed.push_back(std::string("corner ") + TextureCoordinates::name);
+        texture = {};
+    }
     return removed;
 }
 

@@ -32,7 +32,8 @@ void write_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
                                       const agvd::Progress& progress = {});
 
 //! The same with attributes. PLY holds all, under their names and types. Normals are those of the
-//! mesh. What the format cannot hold is left out: see remove_unwritable.
+//! mesh. What the format cannot hold is left out: see remove_unwritable; of texture coordinates
+//! those of faces with a corner that has none, but that GLB has zeros there.
 //! \throw agvd::InvalidInput  also: an attribute does not have one value for each vertex or face,
 //!        or one of its values has no name while others have.
 [[nodiscard]] std::string format_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
@@ -44,8 +45,9 @@ void write_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
                                       const MeshAttributes& attributes,
                                       const agvd::Progress& progress = {});
 
-//! Removes the attributes that the format of the path's extension cannot hold.
-//! \return what they were: "vertex quality", "face label", ...
+//! Removes the attributes that the format of the path's extension cannot hold. VTK and OFF hold
+//! texture coordinates without seams.
+//! \return what they were: "vertex quality", "face label", "corner texcoord", ...
 //! \throw agvd::IoError  the extension is unknown.
 std::vector<std::string> remove_unwritable(const std::filesystem::path& path,
                                            MeshAttributes& attributes);

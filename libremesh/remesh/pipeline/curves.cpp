@@ -8,6 +8,7 @@
 
 #include "agvd/mesh/distinct_points.h"
 #include "remesh/clean/carry_edges.h"
+#include "remesh/features/prune_seams.h"
 #include "remesh/pipeline/given_sites.h"
 #include "remesh/relax/prepared_surface.h"
 #include "remesh/sampling/given_network.h"
@@ -64,6 +65,20 @@ std::vector<std::uint8_t> find_all_creases(const CleanedInput& cleaned, double s
     return is_crease;
 }
 
+// \param found  its creases are known.
+void find_seams(const CleanedInput& cleaned, double spacing, const RemeshOptions& options,
+                const agvd::Progress& progress, FoundCurves& found) {
+    const Surface& surface = cleaned.surface;
+    agvd::Poller poller(progress);
+    found.is_seam = carry_edges(options.texture_seams, cleaned.given,
+                                {surface.mesh.view(), cleaned.face_origin}, surface);
+    for (Index e = 0; e < surface.num_edges(); ++e) {  // What cleaning has cut is boundary.
+        if (surface.twin[surface.edge_half[e]] == agvd::no_index) found.is_seam[e] = 0;
+    }
+    found.is_wide = found.is_seam;
+    prune_seams(surface, found.is_crease, spacing, found.is_wide, agvd::Ticker(poller));
+}
+
 std::pair<NetworkPlan, GivenSites> plan_with_given(const CleanedInput& cleaned,
                                                    std::vector<std::uint8_t> is_crease,
                                                    double drop_share, double spacing,
@@ -105,6 +120,25 @@ void count_plan(const NetworkPlan& plan, RemeshResult& result) {
                                          [](const Curve& curve) { return curve.is_junction(); }));
 }
 
+// Of the network's edges which are creases, and which are seams: an edge may be both.
+void count_seams(const Surface& surface, const NetworkPlan& plan, const FoundCurves& found,
+                 FeatureCounts& counts) {
+    std::vector<std::uint8_t> is_kept(surface.num_edges(), 0);
+    for (const Curve& curve : plan.network.curves) {
+        for (const Index h : curve.sides.front().half_edges) is_kept[surface.edge[h]] = 1;
+    }
+    counts.length = counts.dropped_length = counts.seam_length = counts.dropped_seam_length = 0;
+    for (Index e = 0; e < surface.num_edges(); ++e) {
+        const double length = surface.length[e];
+        if (!found.is_crease.empty() && found.is_crease[e] != 0) {
+            (is_kept[e] != 0 ? counts.length : counts.dropped_length) += length;
+        }
+        if (found.is_seam[e] != 0) {
+            (is_kept[e] != 0 ? counts.seam_length : counts.dropped_seam_length) += length;
+        }
+    }
+}
+
 }  // namespace
 
 FoundCurves find_curves(const CleanedInput& cleaned, double spacing, const StageContext& context) {
@@ -124,6 +158,10 @@ FoundCurves find_curves(const CleanedInput& cleaned, double spacing, const Stage
         found.is_crease = find_all_creases(
             cleaned, spacing, options, agvd::within(progress, cleaned_fraction, cleaned_fraction));
     }
+    if (!options.texture_seams.empty()) {
+        find_seams(cleaned, spacing, options,
+                   agvd::within(progress, cleaned_fraction, cleaned_fraction), found);
+    }
     return found;
 }
 
@@ -136,9 +174,16 @@ std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const 
     const agvd::Progress done = agvd::within(progress, cleaned_fraction, cleaned_fraction);
     result.junctions.apart_edges = result.junctions.edges;
     JunctionSet junctions = kept.has_junctions ? found.junctions : JunctionSet{};
-    if (found.is_crease.empty() && junctions.empty() && cleaned.locked.empty()) return nullptr;
+    const bool has_seams = kept.has_seams && !found.is_seam.empty();
+    if (!found.is_seam.empty()) count_seams(cleaned.surface, {}, found, result.features);
+    if (found.is_crease.empty() && !has_seams && junctions.empty() && cleaned.locked.empty()) {
+        return nullptr;
+    }
     std::vector<std::uint8_t> is_crease = found.is_crease;
     is_crease.resize(cleaned.surface.num_edges(), 0);
+    if (has_seams) {
+        for (std::size_t e = 0; e < is_crease.size(); ++e) is_crease[e] |= found.is_wide[e];
+    }
     auto plan = std::make_unique<CurvePlan>();
     if (options.sites) {
         auto [network, given] =
@@ -151,6 +196,9 @@ std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const 
                                      done, sizes, cleaned.locked);
     }
     count_plan(plan->network, result);
+    if (!found.is_seam.empty()) {
+        count_seams(cleaned.surface, plan->network, found, result.features);
+    }
     if (plan->network.sites_for_locked > 0) {
         throw TooFewSamples{options.num_samples, plan->network.sites_for_locked};
     }

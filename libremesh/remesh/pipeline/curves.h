@@ -9,9 +9,11 @@
 
 namespace remesh::detail {
 
-//! Creases and junctions of the cleaned surface.
+//! Creases, seams and junctions of the cleaned surface.
 struct FoundCurves {
     std::vector<std::uint8_t> is_crease;  //!< #E; empty: no creases are wanted.
+    //! #E: texture seams; empty: there are none. Those of `is_wide` can be curves at the spacing.
+    std::vector<std::uint8_t> is_seam, is_wide;
     JunctionSet junctions;
 
     [[nodiscard]] bool empty() const { return is_crease.empty() && junctions.empty(); }
@@ -20,6 +22,7 @@ struct FoundCurves {
 //! Which of these curves one attempt reproduces.
 struct KeptCurves {
     bool has_junctions = true;
+    bool has_seams = true;
     double drop_share = 0;  //!< Share of the creases, in [0, 1]: see plan_network.
 };
 

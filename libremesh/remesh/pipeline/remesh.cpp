@@ -116,7 +116,8 @@ void scale_back(RemeshResult& result, int exponent) {
     result.mesh = agvd::scaled(result.mesh.view(), exponent);
     Verdict& verdict = result.verdict;
     for (double* length :
-         {&result.features.length, &result.features.dropped_length, &result.sizing.mean_edge,
+         {&result.features.length, &result.features.dropped_length, &result.features.seam_length,
+          &result.features.dropped_seam_length, &result.sizing.mean_edge,
           &result.sizing.least_target, &result.sizing.largest_target,
           &result.sizing.largest_distance, &verdict.spacing, &verdict.thinnest_wall,
           &verdict.largest_distance, &verdict.diagonal}) {

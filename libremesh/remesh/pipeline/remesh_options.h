@@ -62,6 +62,10 @@ struct RemeshOptions {
     //! A label for each of the caller's faces, or empty. Edges between different labels are creases
     //! like feature_edges.
     std::vector<agvd::Index> face_labels = {};
+    //! Edges that become curves like feature_edges where the spacing permits, as pairs of the
+    //! caller's vertices: see find_texture_seams. Creases come first: if no mesh with both is
+    //! found, seams are left out.
+    std::vector<std::array<agvd::Index, 2>> texture_seams = {};
     //! Whether the sheets of the input's non-manifold edges are welded in the result. Either way
     //! the sheets have equal points there, except with given sites or Boundary::Free.
     Junctions junctions = Junctions::Apart;

@@ -114,6 +114,7 @@ RemeshOptions options_of_region(const agvd::MeshView& mesh, const RemeshOptions&
     options.locked_edges.insert(options.locked_edges.end(), region.seam_edges.begin(),
                                 region.seam_edges.end());
     options.feature_edges = numbers.edges(given.feature_edges, "feature");
+    options.texture_seams = numbers.edges(given.texture_seams, "seam");
     if (!given.face_labels.empty()) options.face_labels = take(given.face_labels, region.faces);
     if (!region.seam_edges.empty()) options.sizing = sizing_of_region(given.sizing, region);
     return options;

@@ -33,6 +33,8 @@ struct FeatureCounts {
     //! Creases were dropped because no mesh with all of them was found, or only one that
     //! self-intersects.
     bool gave_up = false;
+    double seam_length = 0;  //!< Of RemeshOptions::texture_seams that became curves, mesh units.
+    double dropped_seam_length = 0;  //!< Of the others: too close to each other, or too short.
 };
 
 //! What became of the input's edges with more than two faces.

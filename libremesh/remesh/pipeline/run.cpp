@@ -44,6 +44,11 @@ std::vector<agvd::SurfacePoint> run_attempt(CleanedInput& cleaned, const FoundCu
     const double spacing = spacing_of(cleaned, context.options);
     std::unique_ptr<const CurvePlan> plan =
         plan_curves(cleaned, found, kept, spacing, sizes, context);
+    // Of the vertices that seams take, creases come first.
+    if (kept.has_seams && !found.is_seam.empty() && !context.options.sites &&
+        context.result.features.dropped_length > 0) {
+        throw NetworkFailed();
+    }
     Domain domain = prepare_domain(cleaned, std::move(plan), spacing, sizes, context);
     const PlacedSites sites = place_sites(cleaned, domain, context);
     try {
@@ -119,7 +124,18 @@ void shorten_thin(CleanedInput& cleaned, const FoundCurves& found, const KeptCur
     best = std::move(again);
 }
 
-// Tries all creases, then fewer and fewer, at last none, until a mesh has no new
+// What is tried, in order.
+std::vector<KeptCurves> attempts_with(const FoundCurves& found, bool has_junctions) {
+    std::vector<KeptCurves> attempts;
+    if (!found.is_seam.empty()) attempts.push_back({has_junctions, true, 0});
+    for (const double drop_share : {0.0, 0.3, 0.6, 1.0}) {
+        if (drop_share > 0 && found.is_crease.empty()) break;
+        attempts.push_back({has_junctions, false, drop_share});
+    }
+    return attempts;
+}
+
+// Tries all curves, then all creases, then fewer and fewer, at last none, until a mesh has no new
 // self-intersections. If none of these gives a mesh, tries the same without junctions.
 RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cleaning,
                              const RemeshOptions& given,
@@ -136,22 +152,20 @@ RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cl
                            {options, first});
         options.num_samples = sizes.num_samples;
     }
-    const std::vector<double> drop_shares =
-        found.is_crease.empty() ? std::vector{0.0} : std::vector{0.0, 0.3, 0.6, 1.0};
     std::optional<RemeshResult> best;
     KeptCurves kept_of_best;
     std::vector<agvd::SurfacePoint> thin_places;  // Of the best.
     for (const bool has_junctions : {true, false}) {
         bool needs_none = false;  // Dropping some curves would not help.
-        for (const double drop_share : drop_shares) {
-            if (needs_none && drop_share < drop_shares.back()) continue;
+        const std::vector<KeptCurves> attempts = attempts_with(found, has_junctions);
+        for (const KeptCurves& kept : attempts) {
+            if (needs_none && &kept != &attempts.back()) continue;
             RemeshResult result = first;
-            const KeptCurves kept{has_junctions, drop_share};
             std::vector<agvd::SurfacePoint> thin;
             try {
                 thin = run_attempt(cleaned, found, kept, sizes.field.get(), max_mends,
                                    {options, result});
-                result.features.gave_up = drop_share > 0;
+                result.features.gave_up = kept.drop_share > 0;
             } catch (const NetworkFailed&) {
                 first.seconds = result.seconds;
                 continue;

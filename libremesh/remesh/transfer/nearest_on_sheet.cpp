@@ -3,12 +3,11 @@
 #include "remesh/transfer/nearest_on_sheet.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
 
-#include "agvd/core/position_hash.h"
+#include "remesh/transfer/first_at_position.h"
 
 namespace remesh::detail {
 
@@ -23,21 +22,6 @@ namespace {
 constexpr double rounding_share = 16 * std::numeric_limits<double>::epsilon();
 // The ball reaches farther than the start by this share, so that edges through the start meet it.
 constexpr double margin = 1e-9;
-
-std::vector<Index> first_at_position(std::span<const Vec3> positions, agvd::Ticker& ticker) {
-    std::vector<Index> slots(std::bit_ceil(2 * positions.size() + 1), no_index);
-    const std::size_t mask = slots.size() - 1;
-    std::vector<Index> first;
-    first.reserve(positions.size());
-    for (Index v = 0; v < positions.size(); ++v) {
-        ticker.tick(2);
-        std::size_t i = agvd::PositionHash{}(positions[v]) & mask;
-        while (slots[i] != no_index && positions[slots[i]] != positions[v]) i = (i + 1) & mask;
-        if (slots[i] == no_index) slots[i] = v;
-        first.push_back(slots[i]);
-    }
-    return first;
-}
 
 }  // namespace
 
@@ -81,15 +65,29 @@ NearestOnSheet::NearestOnSheet(const agvd::MeshView& mesh, agvd::Ticker ticker)
     }
 }
 
-// The faces of an edge.
+// The other faces at edge k of a face, but for those beyond a seam.
 template <typename Visit>
-void NearestOnSheet::for_each_neighbor(Index a, Index b, const Visit& visit) const {
-    a = point_[a];
-    b = point_[b];
+void NearestOnSheet::for_each_neighbor(Index face, std::size_t k, const Visit& visit) const {
+    const agvd::Triangle& t = mesh_.triangles[face];
+    const Index a = point_[t[k]], b = point_[t[(k + 1) % 3]];
     for (Index i = begin_[a]; i < begin_[a + 1]; ++i) {
-        const auto& [p, q, r] = mesh_.triangles[faces_[i]];
-        if (point_[p] == b || point_[q] == b || point_[r] == b) visit(faces_[i]);
+        const Index other = faces_[i];
+        const std::size_t at_b = corner_at(other, b);
+        if (at_b == 3 || other == face) continue;
+        if (agree_ != nullptr && !((*agree_)(face, k, other, corner_at(other, a)) &&
+                                   (*agree_)(face, (k + 1) % 3, other, at_b))) {
+            continue;
+        }
+        visit(other);
     }
+}
+
+// The corner of a face at a point; 3: it has none there.
+std::size_t NearestOnSheet::corner_at(Index face, Index point) const {
+    const agvd::Triangle& t = mesh_.triangles[face];
+    std::size_t k = 0;
+    while (k < 3 && point_[t[k]] != point) ++k;
+    return k;
 }
 
 agvd::ClosestPoint NearestOnSheet::closest(Index face, const Vec3& point) const {
@@ -103,11 +101,9 @@ agvd::SurfacePoint NearestOnSheet::walk(const Vec3& point, const agvd::SurfacePo
     for (bool is_nearer = true; is_nearer;) {
         is_nearer = false;
         const agvd::SurfacePoint from = best.point;
-        const agvd::Triangle& t = mesh_.triangles[from.face.value()];
         for (std::size_t k = 0; k < 3; ++k) {  // Across the edges that the point lies on.
             if (from.barycentric[(k + 2) % 3] != 0) continue;
-            for_each_neighbor(t[k], t[(k + 1) % 3], [&](Index neighbor) {
-                if (neighbor == from.face.value()) return;
+            for_each_neighbor(from.face.value(), k, [&](Index neighbor) {
                 const agvd::ClosestPoint beyond = closest(neighbor, point);
                 if (!(beyond.distance_sq < best.distance_sq)) return;
                 best = beyond;
@@ -118,32 +114,50 @@ agvd::SurfacePoint NearestOnSheet::walk(const Vec3& point, const agvd::SurfacePo
     return best.point;
 }
 
+// Visits the faces connected with one in the ball around a point, until visit() says false.
+template <typename Visit>
+void NearestOnSheet::flood(const Vec3& point, double reach, Index start, Seen& seen,
+                           const Visit& visit) const {
+    seen.clear();
+    std::vector<Index> waiting{start};
+    seen.insert(start);
+    while (!waiting.empty()) {
+        const Index face = waiting.back();
+        waiting.pop_back();
+        if (!visit(face)) return;
+        const agvd::Triangle& t = mesh_.triangles[face];
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3 &a = mesh_.positions[t[k]], &b = mesh_.positions[t[(k + 1) % 3]];
+            if (agvd::distance_to_segment(point, a, b) > reach) continue;
+            for_each_neighbor(face, k, [&](Index neighbor) {
+                if (seen.insert(neighbor)) waiting.push_back(neighbor);
+            });
+        }
+    }
+}
+
 agvd::ClosestPoint NearestOnSheet::query(const Vec3& point, const agvd::SurfacePoint& start,
                                          Seen& seen) const {
     agvd::ClosestPoint best{start, position(mesh_, start), 0};
     best.distance_sq = (best.position - point).squaredNorm();
     if (best.distance_sq <= rounding_ * rounding_) return best;
     const double reach = (1 + margin) * std::sqrt(best.distance_sq);
-    seen.clear();
-    std::vector<Index> waiting{start.face.value()};
-    seen.insert(start.face.value());
-    while (!waiting.empty()) {
-        const Index face = waiting.back();
-        waiting.pop_back();
-        const agvd::Triangle& t = mesh_.triangles[face];
-        const std::array<Vec3, 3> corners{mesh_.positions[t[0]], mesh_.positions[t[1]],
-                                          mesh_.positions[t[2]]};
+    flood(point, reach, start.face.value(), seen, [&](Index face) {
         const agvd::ClosestPoint here = closest(face, point);
         if (here.distance_sq < best.distance_sq) best = here;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const std::size_t next = (k + 1) % 3;
-            if (agvd::distance_to_segment(point, corners[k], corners[next]) > reach) continue;
-            for_each_neighbor(t[k], t[next], [&](Index neighbor) {
-                if (seen.insert(neighbor)) waiting.push_back(neighbor);
-            });
-        }
-    }
+        return true;
+    });
     return best;
+}
+
+bool NearestOnSheet::are_connected(const Vec3& point, double radius, Index a, Index b,
+                                   Seen& seen) const {
+    bool is_found = false;
+    flood(point, std::max(radius, rounding_), a, seen, [&](Index face) {
+        is_found = face == b;
+        return !is_found;
+    });
+    return is_found;
 }
 
 }  // namespace remesh::detail

@@ -7,6 +7,7 @@
 
 #include "agvd/core/poller.h"
 #include "agvd/mesh/closest_point.h"
+#include "remesh/transfer/texture_seams.h"
 
 namespace remesh::detail {
 
@@ -52,18 +53,36 @@ public:
     [[nodiscard]] agvd::SurfacePoint walk(const agvd::Vec3& point,
                                           const agvd::SurfacePoint& start) const;
 
+    //! Whether two faces are connected within a ball.
+    //! Cost: that of the faces in the ball.
+    [[nodiscard]] bool are_connected(const agvd::Vec3& center, double radius, agvd::Index a,
+                                     agvd::Index b, Seen& seen) const;
+
+    //! The same mesh where faces that do not agree at an edge are not neighbours.
+    //! \param agree  outlives the copy.
+    [[nodiscard]] NearestOnSheet cut_at_seams(const CornerAgreement& agree) const {
+        NearestOnSheet cut = *this;
+        cut.agree_ = &agree;
+        return cut;
+    }
+
     [[nodiscard]] const agvd::MeshView& mesh() const { return mesh_; }
 
 private:
     [[nodiscard]] agvd::ClosestPoint closest(agvd::Index face, const agvd::Vec3& point) const;
+    [[nodiscard]] std::size_t corner_at(agvd::Index face, agvd::Index point) const;
     template <typename Visit>
-    void for_each_neighbor(agvd::Index a, agvd::Index b, const Visit& visit) const;
+    void for_each_neighbor(agvd::Index face, std::size_t k, const Visit& visit) const;
+    template <typename Visit>
+    void flood(const agvd::Vec3& point, double reach, agvd::Index start, Seen& seen,
+               const Visit& visit) const;
 
     agvd::MeshView mesh_;
     std::vector<agvd::Index> point_;  // #V: the first vertex at the same position.
     std::vector<agvd::Index> begin_;  // #V + 1: of the faces at each such vertex.
     std::vector<agvd::Index> faces_;
-    double rounding_ = 0;  // Lengths up to this are rounding.
+    double rounding_ = 0;                     // Lengths up to this are rounding.
+    const CornerAgreement* agree_ = nullptr;  // Null: seams do not count.
 };
 
 }  // namespace remesh::detail

@@ -148,14 +148,15 @@ TEST(Attributes, WhatPlyCannotCarryIsDeclinedWithTheReason) {
                "0 0 1 .1 .2 .6 1 3 5"},
               "property list uchar float texcoord\nproperty float nx\n", {"2 .5 .5 1", "0 1"}));
     EXPECT_EQ(names_in(file.attributes.of_vertices), std::vector<std::string>{"u"});
+    EXPECT_TRUE(file.attributes.texture.empty());
     EXPECT_TRUE(file.attributes.of_faces.empty());
     EXPECT_TRUE(file.attributes.normals.has_value());
     EXPECT_EQ(declined_in(file.attributes),
-              "vertex s: texture coordinates are not carried over\n"
-              "vertex t: texture coordinates are not carried over\n"
+              "face texcoord: some texture coordinates are missing, or no finite numbers\n"
+              "vertex s: the faces have texture coordinates of their own\n"
+              "vertex t: the faces have texture coordinates of their own\n"
               "vertex near: lists are not carried over\n"
               "vertex x: another property has the same name\n"
-              "face texcoord: texture coordinates are not carried over\n"
               "face nx: normals of faces are not carried over\n");
 }
 
@@ -241,7 +242,7 @@ TEST(Attributes, ObjKeepsColoursMaterialsGroupsAndObjects) {
     EXPECT_EQ(find_attribute(found.of_faces, "material")->names,
               (std::vector<std::string>{"", "old brass", "steel"}));
     EXPECT_EQ(values_of(found.of_faces, "object"), (Values{0, 0, 0, 0, 0}));
-    EXPECT_EQ(declined_in(found), "vt: texture coordinates are not carried over\n");
+    EXPECT_EQ(declined_in(found), "");
 
     const std::string text = remesh::format_mesh("b.obj", file.mesh.view(), found);
     const MeshFile again = read_all("b.obj", text);
@@ -295,7 +296,7 @@ TEST(Attributes, OffKeepsColoursOfVerticesAndFaces) {
     EXPECT_EQ(values_of(bytes.attributes.of_vertices, "alpha"), (Values{255, 0, 255, 255}));
     EXPECT_EQ(values_of(bytes.attributes.of_faces, "red"), (Values{0, 0, 1}));
     EXPECT_TRUE(bytes.attributes.normals.has_value());
-    EXPECT_EQ(declined_in(bytes.attributes), "ST: texture coordinates are not carried over\n");
+    EXPECT_EQ(declined_in(bytes.attributes), "");
     const MeshFile again =
         read_all("b.off", remesh::format_mesh("b.off", bytes.mesh.view(), bytes.attributes));
     expect_same(again.attributes.of_vertices, bytes.attributes.of_vertices);

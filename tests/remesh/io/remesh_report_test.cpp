@@ -38,7 +38,9 @@ remesh::RemeshResult example_result() {
                        .uncarried_curves = 24,
                        .samples_for_all = 25,
                        .thinned_patches = 26,
-                       .gave_up = true};
+                       .gave_up = true,
+                       .seam_length = 1.25,
+                       .dropped_seam_length = 0.75};
     result.verdict = {.spacing = 0.5,
                       .small_components = 41,
                       .samples_for_components = 42,
@@ -148,7 +150,9 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
                                         {"curves_off_given_sites", 24},
                                         {"samples_for_all", 25},
                                         {"thinned_patches", 26},
-                                        {"gave_up", true}}));
+                                        {"gave_up", true},
+                                        {"texture_seam_length_mesh_units", 1.25},
+                                        {"dropped_texture_seam_length_mesh_units", 0.75}}));
     EXPECT_EQ(report["verdict"], json({{"spacing_mesh_units", 0.5},
                                        {"small_components", 41},
                                        {"samples_for_components", 42},

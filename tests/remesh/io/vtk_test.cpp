@@ -134,8 +134,8 @@ TEST(Vtk, ArraysBecomeAttributes) {
     EXPECT_EQ(file.attributes.normals, remesh::NumberType::Float64);
     std::vector<std::string> declined;
     for (const auto& one : file.attributes.declined) declined.push_back(one.name);
-    EXPECT_EQ(declined,
-              (std::vector<std::string>{"face n", "vertex uv", "vertex wind", "vertex x"}));
+    EXPECT_EQ(declined, (std::vector<std::string>{"face n", "vertex wind", "vertex x"}));
+    EXPECT_EQ(file.attributes.texture.corners.size(), 3u);
 }
 
 TEST(Vtk, WhatWasWrittenComesBack) {

@@ -118,6 +118,7 @@ void bind_remesh(py::module_& module) {
     options.def_readwrite("drop_components", &RemeshOptions::drop_components);
     options.def_readwrite("feature_angle", &RemeshOptions::feature_angle);
     options.def_readwrite("feature_edges", &RemeshOptions::feature_edges);
+    options.def_readwrite("texture_seams", &RemeshOptions::texture_seams);
     options.def_readwrite("seed", &RemeshOptions::seed);
     options.def_readwrite("relax_steps", &RemeshOptions::relax_steps);
     options.def_readwrite("keep_sites", &RemeshOptions::keep_sites);

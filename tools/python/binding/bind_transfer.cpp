@@ -1,6 +1,9 @@
 // Values at the vertices and faces of an input for those of its remesh.
+#include <pybind11/stl.h>
+
 #include "binding/arrays.h"
 #include "binding/bindings.h"
+#include "remesh/transfer/transfer_corners.h"
 #include "remesh/transfer/transfer_values.h"
 #include "remesh/transfer/vertex_normals.h"
 
@@ -32,6 +35,35 @@ py::array_t<double> run_face_values(const Doubles& values, const Indices& sample
     return to_array<double>(remesh::transfer_face_values(span_of(values), rows, kind_of(is_label)));
 }
 
+//! \param values  #F x 3 x 2
+std::span<const remesh::CornerCoordinates> corners_of(const Doubles& values) {
+    static_assert(sizeof(remesh::CornerCoordinates) == 6 * sizeof(double));
+    return {reinterpret_cast<const remesh::CornerCoordinates*>(values.data()),
+            static_cast<std::size_t>(values.size()) / 6};
+}
+
+std::vector<std::array<agvd::Index, 2>> run_texture_seams(const Doubles& values,
+                                                          const Doubles& positions,
+                                                          const Indices& triangles) {
+    return remesh::find_texture_seams(view_of(positions, triangles), corners_of(values));
+}
+
+//! \return #F of the result x 6
+py::array_t<double> run_corner_values(const Doubles& values, const Doubles& positions,
+                                      const Indices& triangles, const Doubles& result_positions,
+                                      const Indices& result_triangles, const Indices& faces,
+                                      const Doubles& barycentric, int num_threads) {
+    const std::vector<agvd::SurfacePoint> places = points_of(faces, barycentric);
+    std::vector<remesh::CornerCoordinates> carried;
+    {
+        const py::gil_scoped_release release;
+        carried = remesh::transfer_corner_values(corners_of(values), view_of(positions, triangles),
+                                                 view_of(result_positions, result_triangles),
+                                                 places, {.num_threads = num_threads});
+    }
+    return to_array<double>(std::move(carried), 6);
+}
+
 py::array_t<double> run_normals(const Doubles& positions, const Indices& triangles) {
     return to_array<double>(remesh::vertex_normals(view_of(positions, triangles)), 3);
 }
@@ -45,6 +77,13 @@ void bind_transfer(py::module_& module) {
                py::arg("is_label"));
     module.def("transfer_face_values", &run_face_values, py::arg("values").noconvert(),
                py::arg("samples").noconvert(), py::arg("is_label"));
+    module.def("texture_seams", &run_texture_seams, py::arg("values").noconvert(),
+               py::arg("positions").noconvert(), py::arg("triangles").noconvert());
+    module.def("transfer_corner_values", &run_corner_values, py::arg("values").noconvert(),
+               py::arg("positions").noconvert(), py::arg("triangles").noconvert(),
+               py::arg("result_positions").noconvert(), py::arg("result_triangles").noconvert(),
+               py::arg("faces").noconvert(), py::arg("barycentric").noconvert(),
+               py::arg("num_threads"));
     module.def("vertex_normals", &run_normals, py::arg("positions").noconvert(),
                py::arg("triangles").noconvert());
 }

@@ -24,6 +24,7 @@ class Options:
     drop_components: float
     feature_angle: float
     feature_edges: list[list[int]]
+    texture_seams: list[list[int]]
     seed: int
     relax_steps: int
     keep_sites: bool
@@ -77,6 +78,12 @@ def nearest_points(positions: _Floats, triangles: _Indices, points: _Floats,
 def transfer_vertex_values(values: _Floats, positions: _Floats, triangles: _Indices,
                            faces: _Indices, barycentric: _Floats, is_label: bool) -> _Floats: ...
 def transfer_face_values(values: _Floats, samples: _Indices, is_label: bool) -> _Floats: ...
+def texture_seams(values: _Floats, positions: _Floats, triangles: _Indices
+                  ) -> list[list[int]]: ...
+def transfer_corner_values(values: _Floats, positions: _Floats, triangles: _Indices,
+                           result_positions: _Floats, result_triangles: _Indices,
+                           faces: _Indices, barycentric: _Floats,
+                           num_threads: int) -> _Floats: ...
 def vertex_normals(positions: _Floats, triangles: _Indices) -> _Floats: ...
 def evaluate(positions: _Floats, triangles: _Indices, result_positions: _Floats,
              result_triangles: _Indices, samples: int, num_threads: int,

@@ -45,6 +45,8 @@ class Result:
     #: Values of the input that were carried over, by name.
     vertex_data: dict[str, NDArray[Any]]
     face_data: dict[str, NDArray[Any]]
+    #: With ``uv``: #F x 3 x 2, the texture coordinates of each face's corners; otherwise None.
+    uv: NDArray[np.float64] | None
     #: The result as what was given: an object of the same type with its data, or ``(V, F)``.
     mesh: Any
 
@@ -75,6 +77,7 @@ def remesh(
     lock: Any = None,
     strict: bool = False,
     transfer: Any = "all",
+    uv: Any = None,
     sites: Any = None,
     keep_sites: bool = False,
     init: str = "blue-noise",
@@ -131,6 +134,10 @@ def remesh(
       ``"none"``, names of them, or arrays by name with a row for each vertex or each face. Floats
       are interpolated, and so are colours (uint8, 3 or 4 columns); anything else is a label.
       Vertex values called ``Normals`` are computed anew.
+    - ``uv``: texture coordinates, #F x 3 x 2 for the corners of each face, or #V x 2. Result.uv has
+      those of the result. Seams, where faces disagree about a common corner, become chains of
+      edges, unless they are too close to each other for the spacing; the report tells. NaN where a
+      corner has none.
 
     How: ``init`` (``"blue-noise"``, ``"farthest"``, ``"random"``), ``relax`` steps, ``fit``,
     ``engine`` (``"window"``, ``"steiner"``, ``"vertex"``), ``max_error``, ``steiner_points``,
@@ -149,6 +156,11 @@ def remesh(
     ((600, 3), 1)
     >>> bool(abs(result.vertex_data["height"] - result.V[:, 2]).max() < 0.01)
     True
+    >>> turn = np.arctan2(V[F][..., 1], V[F][..., 0]) / (2 * np.pi)  # around the axis
+    >>> turn += turn < turn.max(axis=1, keepdims=True) - 0.5  # a seam where it jumps
+    >>> textured = remesh.remesh(V, F, 600, uv=np.stack([turn, V[F][..., 2]], axis=2))
+    >>> textured.uv.shape == (len(textured.F), 3, 2), bool(np.ptp(textured.uv, axis=1).max() < 0.5)
+    (True, True)
     >>> corners = V[F[result.source_face]]  # where the vertices lie on the input
     >>> places = np.einsum("ij,ijk->ik", result.barycentric, corners)
     >>> bool(abs(places - result.V).max() < 0.01)
@@ -190,7 +202,10 @@ def remesh(
     options.seed = _arrays.whole(seed, "seed", 0, 2**64 - 1)
     options.num_threads = _arrays.whole(threads, "threads", 0, 2**31 - 1)
     wanted = _transfer.wanted(mesh, transfer)
-    return _run(mesh, options, wanted, bool(strict), progress)
+    texture = _transfer.texture(mesh, uv)
+    if texture is not None:
+        options.texture_seams = _remesh.texture_seams(texture, mesh.V, mesh.F)
+    return _run(mesh, options, wanted, texture, bool(strict), progress)
 
 
 def _is_count(value: Any) -> bool:
@@ -203,8 +218,8 @@ def _is_count(value: Any) -> bool:
     return True
 
 
-def _run(mesh: _kinds.Mesh, options: _remesh.Options, wanted: _transfer.Wanted, strict: bool,
-         progress: Progress | None) -> Result:
+def _run(mesh: _kinds.Mesh, options: _remesh.Options, wanted: _transfer.Wanted,
+         texture: _arrays.Floats | None, strict: bool, progress: Progress | None) -> Result:
     if progress is not None and not callable(progress):
         raise InvalidOption(f"progress is {progress!r}; give a function of a fraction and a stage")
     (new_V, new_F, source_face, barycentric, samples, kept_vertices, kept_faces,
@@ -216,9 +231,11 @@ def _run(mesh: _kinds.Mesh, options: _remesh.Options, wanted: _transfer.Wanted, 
                                             samples)
     _transfer.keep(wanted.of_vertices, kept_vertices, of_vertices)
     _transfer.keep(wanted.of_faces, kept_faces, of_faces)
+    uv = None if texture is None else _transfer.carry_texture(
+        texture, mesh, new_V, new_F, source_face, barycentric, kept_faces, options.num_threads)
     like_V, like_F = mesh.like_given(new_V, new_F)
     return Result(like_V, like_F, source_face, barycentric, kept_vertices, kept_faces, report,
-                  of_vertices, of_faces, mesh.build(like_V, like_F, of_vertices, of_faces))
+                  of_vertices, of_faces, uv, mesh.build(like_V, like_F, of_vertices, of_faces))
 
 
 def _require_all(report: dict[str, Any]) -> None:

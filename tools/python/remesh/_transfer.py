@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _remesh
+from . import _arrays, _remesh
 from ._kinds import Data, Mesh
-from ._remesh import InvalidOption
+from ._remesh import InvalidInput, InvalidOption
 
 
 @dataclass
@@ -90,6 +90,31 @@ def keep(wanted: Data, elements: NDArray[np.int64], carried: Data) -> None:
     for name, values in wanted.items():
         if name != Mesh.normals:
             carried[name][:len(elements)] = values[elements]
+
+
+def texture(mesh: Mesh, uv: Any) -> _arrays.Floats | None:
+    """The texture coordinates of remesh(), for each corner: #F x 3 x 2."""
+    if uv is None:
+        return None
+    given = np.asarray(uv)
+    if given.dtype.kind not in "fiu":
+        raise InvalidInput(f"uv holds {given.dtype}; give numbers")
+    of_vertices, of_corners = (len(mesh.V), 2), (len(mesh.F), 3, 2)
+    if given.shape not in (of_vertices, of_corners):
+        raise InvalidInput(f"uv has the shape {given.shape}; give a pair for each corner of each "
+                           f"face, {of_corners}, or for each vertex, {of_vertices}")
+    corners = given if given.shape == of_corners else given[mesh.F]
+    return np.require(corners, np.float64, ["C", "A"])
+
+
+def carry_texture(uv: _arrays.Floats, mesh: Mesh, V: NDArray[Any], F: NDArray[Any],
+                  faces: NDArray[Any], barycentric: NDArray[Any], kept_faces: NDArray[Any],
+                  num_threads: int) -> _arrays.Floats:
+    """Those of the result, whose first faces are `kept_faces` of the input; see carry()."""
+    carried = _remesh.transfer_corner_values(uv, mesh.V, mesh.F, V, F, faces.astype(np.uint32),
+                                             barycentric, num_threads).reshape(-1, 3, 2)
+    carried[:len(kept_faces)] = uv[kept_faces]
+    return carried
 
 
 def _is_colour(values: NDArray[Any]) -> bool:
