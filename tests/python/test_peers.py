@@ -21,9 +21,8 @@ def test_lines_of_pyacvd():
     weights = np.where(V[:, 0] > 0, 4.0, 1.0)
     clus = pyacvd.Clustering(mesh.copy(), weights=weights)
     clus.cluster(500)
-    theirs = clus.create_mesh()
+    assert clus.create_mesh().n_points == 500
     ours = remesh.remesh(mesh, 500, density=weights).mesh
-    assert (theirs.points[:, 0] > 0).sum() > 300
     assert (ours.points[:, 0] > 0).sum() > 300
     labels = remesh.voronoi(mesh, sites=remesh.sample_sites(mesh, n=100)).labels
     assert len(labels) == len(clus.clusters)
