@@ -83,12 +83,16 @@ Index num_more_crossings(const RemeshResult& result) {
     return pairs - std::min(pairs, result.input_self_intersections);
 }
 
-// Fewer creases are worth fewer self-intersections, if none remain beyond the number of the input
-// or if fewer are new.
+// Intersections that follow from the input's are no reason to give up creases: meshes of other
+// faces have other numbers of them.
+bool is_fine(const RemeshResult& result) {
+    return num_more_crossings(result) == 0 || result.new_self_intersections == 0;
+}
+
+// Fewer creases are worth fewer new self-intersections.
 bool is_better(const RemeshResult& result, const RemeshResult& best) {
-    const Index more = num_more_crossings(result);
-    return more < num_more_crossings(best) &&
-           (more == 0 || result.new_self_intersections < best.new_self_intersections);
+    return num_more_crossings(result) < num_more_crossings(best) &&
+           (is_fine(result) || result.new_self_intersections < best.new_self_intersections);
 }
 
 // Whether lengths are ours to choose, for a number of samples that is given.
@@ -178,7 +182,7 @@ RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cl
                 kept_of_best = kept;
                 thin_places = std::move(thin);
             }
-            if (num_more_crossings(*best) == 0 || !has_curves) break;
+            if (is_fine(*best) || !has_curves) break;
         }
         if (best) break;
     }

@@ -4,6 +4,7 @@
 #include "remesh/pipeline/crossing_places.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/quality/self_intersections.h"
+#include "support/parts.h"
 #include "support/shapes.h"
 
 using agvd::Vec3;
@@ -70,6 +71,23 @@ TEST(Crossings, ThatFollowFromTheInputAddNoSitesAndDropNoCreases) {
     EXPECT_FALSE(result.added_because.contains(remesh::SiteReason::SelfIntersection));
     EXPECT_EQ(result.features.dropped_length, 0);
     EXPECT_FALSE(result.features.gave_up);
+}
+
+// Without creases fewer faces of these boxes intersect, fewer even than those of the input.
+TEST(Crossings, ThatFollowFromTheInputDropNoCreasesWhereThatWouldLeaveFewer) {
+    if (!has_cgal()) GTEST_SKIP() << "without CGAL";
+    const agvd::TriangleMesh boxes =
+        shapes::join(parts::box({1, 1, 1}, 1),
+                     shapes::join(shapes::moved(parts::box({1, 1.1, 1.2}, 1), Vec3(.5, .3, .2)),
+                                  shapes::moved(parts::box({.3, 2, .2}, 1), Vec3(.2, -.3, .45))));
+    const auto with = remesh::remesh(boxes.view(), {.num_samples = 60});
+    const auto without =
+        remesh::remesh(boxes.view(), {.num_samples = 60, .features = remesh::Features::Off});
+    EXPECT_GT(*with.self_intersections, with.input_self_intersections);
+    EXPECT_LE(*without.self_intersections, without.input_self_intersections);
+    EXPECT_EQ(with.new_self_intersections, 0u);
+    EXPECT_EQ(with.features.dropped_length, 0);
+    EXPECT_FALSE(with.features.gave_up);
 }
 
 // Two spheres, one just inside the other: their coarse meshes run through each other.
