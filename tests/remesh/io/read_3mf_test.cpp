@@ -52,7 +52,7 @@ std::string file_of(const std::string& content, const std::string& attributes = 
     return package({{"_rels/.rels", relations}, {"3D/Main.model", model(content, attributes)}});
 }
 
-const std::string square =
+const std::string unit_square =
     "<mesh><vertices><vertex x='0' y='0' z='0'/><vertex x='1' y='0' z='0'/>"
     "<vertex x='1' y='1' z='0'/><vertex x=' 1e-1 ' y='+1' z='-.5'/></vertices>"
     "<triangles><triangle v1='0' v2='1' v3='2'/><triangle v1='0' v2='2' "
@@ -65,7 +65,7 @@ std::string object(int id, const std::string& content, const std::string& attrib
 std::string build(const std::string& items) { return "<build>" + items + "</build>"; }
 
 std::string one_square(const std::string& item) {
-    return file_of("<resources>" + object(1, square) + "</resources>" + build(item));
+    return file_of("<resources>" + object(1, unit_square) + "</resources>" + build(item));
 }
 
 remesh::MeshFile with_attributes(const std::string& bytes) {
@@ -100,11 +100,11 @@ TEST_F(Read3mf, ComponentsArePlacedInTheirObjects) {
     const std::string parts = "<components><component objectid='1' " + moved +
                               "1 0 0'/><component objectid='1'/></components>";
     const auto file = with_attributes(
-        file_of("<resources>" + object(1, square, "name='Plate'") + object(2, parts) +
+        file_of("<resources>" + object(1, unit_square, "name='Plate'") + object(2, parts) +
                 object(3,
                        "<components><component objectid='2' transform='2 0 0 0 2 0 0 0 2 0 0 0'/>"
                        "</components>") +
-                object(4, square) + "</resources>" +
+                object(4, unit_square) + "</resources>" +
                 build("<item objectid='3' " + moved + "0 0 5'/><item objectid='4'/>")));
     ASSERT_EQ(file.mesh.positions.size(), 12u);
     EXPECT_EQ(file.mesh.positions[2], Vec3(4, 2, 5));  // Moved by 1, then doubled, then moved.
@@ -121,7 +121,7 @@ TEST_F(Read3mf, MaterialsBecomeLabels) {
         "<triangles><triangle v1='0' v2='1' v3='2'/><triangle v1='1' v2='2' v3='3' p1='0'/>"
         "<triangle v1='2' v2='3' v3='0' pid='6' p1='1' p2='1' p3='0'/>"
         "<triangle v1='3' v2='0' v3='1' pid='7' p1='0'/></triangles></mesh>";
-    const std::string mesh = square.substr(0, square.find("<triangles>")) + triangles;
+    const std::string mesh = unit_square.substr(0, unit_square.find("<triangles>")) + triangles;
     const auto file = with_attributes(file_of(
         "<resources><basematerials id='5'><base name='PLA' displaycolor='#00FF00'/>"
         "<base name='steel\\' displaycolor='#111111'/></basematerials>"
@@ -139,10 +139,11 @@ TEST_F(Read3mf, MaterialsBecomeLabels) {
 }
 
 TEST_F(Read3mf, ASingleMaterialIsALabelTooButNoSingleObject) {
-    const auto file = with_attributes(file_of(
-        "<resources><basematerials id='5'><base name='PLA' displaycolor='#00FF00'/>"
-        "</basematerials>" +
-        object(1, square, "pid='5' pindex='0'") + "</resources>" + build("<item objectid='1'/>")));
+    const auto file = with_attributes(
+        file_of("<resources><basematerials id='5'><base name='PLA' displaycolor='#00FF00'/>"
+                "</basematerials>" +
+                object(1, unit_square, "pid='5' pindex='0'") + "</resources>" +
+                build("<item objectid='1'/>")));
     ASSERT_EQ(file.attributes.of_faces.size(), 1u);
     EXPECT_EQ(file.attributes.of_faces[0].names, (std::vector<std::string>{"PLA"}));
     EXPECT_TRUE(with_attributes(one_square("<item objectid='1'/>")).attributes.empty());
@@ -152,11 +153,11 @@ TEST_F(Read3mf, SupportsAndLatticesArePassedOver) {
     const std::string lattice =
         "<b:beamlattice radius='1'><b:beams><b:beam v1='0' v2='1'/></b:beams>"
         "</b:beamlattice></mesh>";
-    const std::string beams = square.substr(0, square.find("</mesh>")) + lattice;
+    const std::string beams = unit_square.substr(0, unit_square.find("</mesh>")) + lattice;
     const auto file = read_bytes(
-        "a.3mf", file_of("<resources>" + object(1, square, "type='support'") +
-                         object(2, beams, "type='surface'") + object(3, square, "type='other'") +
-                         "</resources>" +
+        "a.3mf", file_of("<resources>" + object(1, unit_square, "type='support'") +
+                         object(2, beams, "type='surface'") +
+                         object(3, unit_square, "type='other'") + "</resources>" +
                          build("<item objectid='1'/><item objectid='2'/><item objectid='3'/>")));
     EXPECT_EQ(file.mesh.triangles.size(), 2u);
     ASSERT_EQ(file.warnings.size(), 2u);
@@ -172,7 +173,7 @@ TEST_F(Read3mf, ObjectsOfOtherPartsAreRead) {
                          "<component p:path='/3D/OBJECTS/A.model' objectid='2'/></components>") +
                   "</resources>" + build("<item objectid='8'/>"),
               " requiredextensions=' p m '");
-    const std::string part = model("<resources>" + object(1, square) +
+    const std::string part = model("<resources>" + object(1, unit_square) +
                                    object(2, "<components><component objectid='1'/></components>") +
                                    "</resources><build/>");
     const auto file = read_bytes("a.3mf", package({{"_rels/.rels", relations},
@@ -218,7 +219,7 @@ TEST_F(Read3mf, WrongModelsAreRefused) {
         words.emplace_back("a.3mf: 3D/Main.model: line ");
         expect_error<IoError>("a.3mf", file_of(content, attributes), words);
     };
-    const std::string good = "<resources>" + object(1, square) + "</resources>";
+    const std::string good = "<resources>" + object(1, unit_square) + "</resources>";
     expect_refused(good, {"no item"});
     expect_refused(good + build("<item objectid='2'/>"), {"id 2"});
     expect_refused(good + build("<item/>"), {"'item' has no objectid"});
@@ -232,9 +233,9 @@ TEST_F(Read3mf, WrongModelsAreRefused) {
             good + build(std::string("<item objectid='1' transform='") + transform + "'/>"),
             {"twelve finite numbers"});
     }
-    expect_refused("<resources>" + object(1, square) + object(1, square) + "</resources>",
+    expect_refused("<resources>" + object(1, unit_square) + object(1, unit_square) + "</resources>",
                    {"two objects"});
-    expect_refused("<resources>" + object(1, object(2, square)) + "</resources>",
+    expect_refused("<resources>" + object(1, object(2, unit_square)) + "</resources>",
                    {"inside of another"});
     expect_refused("<vertex x='1' y='2' z='3'/>", {"'vertex' is in no object"});
     const auto with_vertex = [](const std::string& vertex) {
@@ -250,7 +251,7 @@ TEST_F(Read3mf, WrongModelsAreRefused) {
 TEST_F(Read3mf, UnusableModelsAreRefused) {
     const auto expect_unusable = [](const std::string& from, const std::string& to,
                                     const std::vector<std::string>& words) {
-        std::string content = square;
+        std::string content = unit_square;
         content.replace(content.find(from), from.size(), to);
         expect_error<InvalidInput>("a.3mf",
                                    file_of("<resources>" + object(1, content) + "</resources>" +
@@ -281,7 +282,7 @@ TEST_F(Read3mf, CirclesAndTowersOfComponentsAreRefused) {
                 object(2, "<components>" + component(1) + "</components>") + "</resources>" +
                 build("<item objectid='1'/>"));
     expect_error<IoError>("a.3mf", circle, {"'object_1' is a component of itself"});
-    std::string tower = object(1, square);
+    std::string tower = object(1, unit_square);
     for (int id = 2; id < 20; ++id) {
         std::string ten;
         for (int k = 0; k < 10; ++k) ten += component(id - 1);
@@ -293,9 +294,10 @@ TEST_F(Read3mf, CirclesAndTowersOfComponentsAreRefused) {
 }
 
 TEST_F(Read3mf, PropertiesOutOfRangeAreRefused) {
-    const std::string bytes = file_of(
-        "<resources><basematerials id='5'><base name='PLA'/></basematerials>" +
-        object(1, square, "pid='5' pindex='1'") + "</resources>" + build("<item objectid='1'/>"));
+    const std::string bytes =
+        file_of("<resources><basematerials id='5'><base name='PLA'/></basematerials>" +
+                object(1, unit_square, "pid='5' pindex='1'") + "</resources>" +
+                build("<item objectid='1'/>"));
     EXPECT_THROW(static_cast<void>(with_attributes(bytes)), IoError);
     EXPECT_EQ(read_bytes("a.3mf", bytes).mesh.triangles.size(), 2u);
 }

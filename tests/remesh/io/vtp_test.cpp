@@ -24,7 +24,7 @@ protected:
     }
 };
 
-remesh::MeshFile with_arrays(const std::string& bytes) {
+remesh::MeshFile with_xml_arrays(const std::string& bytes) {
     return texts::read_bytes("a.vtp", bytes, true);
 }
 
@@ -50,7 +50,7 @@ std::vector<VtpStyle> all_styles() {
 }
 
 // A triangle and a quad, a strip of two triangles, a line; arrays of points and cells.
-std::string five_points(const VtpStyle& style) {
+std::string five_xml_points(const VtpStyle& style) {
     VtpText text(style);
     text.add(
         "<PolyData><Piece NumberOfPoints='5' NumberOfVerts='0' NumberOfLines='1' "
@@ -78,7 +78,7 @@ std::string five_points(const VtpStyle& style) {
     return text.finish();
 }
 
-const std::string ascii = five_points({});
+const std::string ascii = five_xml_points({});
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
     const std::size_t at = text.find(from);
@@ -96,7 +96,7 @@ void expect_io_error(const std::string& from, const std::string& to,
 TEST_F(Vtp, EveryEncodingIsRead) {
     for (const VtpStyle& style : all_styles()) {
         SCOPED_TRACE(style.name());
-        const auto file = with_arrays(five_points(style));
+        const auto file = with_xml_arrays(five_xml_points(style));
         EXPECT_EQ(file.mesh.positions,
                   (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0.1}, {1, 1, 0}, {0, 2, 0}}));
         ASSERT_EQ(file.mesh.triangles.size(), 5u);
@@ -122,11 +122,11 @@ TEST_F(Vtp, FilesThatEndEarlyAreRefused) {
     for (const VtpStyle& style : all_styles()) {
         if (style.is_wide) continue;
         SCOPED_TRACE(style.name());
-        const std::string whole = five_points(style);
+        const std::string whole = five_xml_points(style);
         const std::size_t last =
             style.is_appended() ? whole.find("</AppendedData") - 4 : whole.size() - 11;
         for (std::size_t size = 1; size < last; ++size) {
-            EXPECT_THROW(static_cast<void>(with_arrays(whole.substr(0, size))), agvd::Error)
+            EXPECT_THROW(static_cast<void>(with_xml_arrays(whole.substr(0, size))), agvd::Error)
                 << size;
         }
     }
@@ -155,7 +155,7 @@ TEST_F(Vtp, PiecesBecomeOneMesh) {
         text.add("</Polys></Piece>");
     }
     text.add("</PolyData>");
-    const auto file = with_arrays(text.finish());
+    const auto file = with_xml_arrays(text.finish());
     EXPECT_EQ(file.mesh.triangles, (std::vector<Triangle>{{0, 2, 1}, {3, 5, 4}}));
     EXPECT_EQ(file.mesh.positions[4], Vec3(3, 0, 0));
     ASSERT_EQ(file.attributes.of_vertices.size(), 1u);
@@ -179,7 +179,7 @@ TEST_F(Vtp, FacesOfAGridAreRead) {
     text.array<std::uint8_t>("type='UInt8' Name='types'", {5, 10, 8});
     text.add("</Cells></Piece></UnstructuredGrid>");
     const std::string good = text.finish();
-    const auto file = with_arrays(good);
+    const auto file = with_xml_arrays(good);
     ASSERT_EQ(file.mesh.triangles.size(), 3u);
     EXPECT_EQ(file.mesh.triangles[0], (Triangle{0, 1, 2}));
     EXPECT_EQ(file.warnings.size(), 1u);  // The tetrahedron.
@@ -208,7 +208,7 @@ TEST_F(Vtp, WhatWasWrittenComesBack) {
              .values = values(20, 2)});
     }
     const std::string bytes = remesh::format_mesh("a.vtp", mesh.view(), attributes);
-    const auto file = with_arrays(bytes);
+    const auto file = with_xml_arrays(bytes);
     EXPECT_EQ(file.mesh.positions, mesh.positions);
     EXPECT_EQ(file.mesh.triangles, mesh.triangles);
     EXPECT_EQ(file.attributes.normals, remesh::NumberType::Float32);
@@ -234,7 +234,7 @@ TEST_F(Vtp, NamesThatXmlCannotHoldAreChanged) {
                              "c\xFF", "d\xC3", "e\xED\xA0\x80", "f\xEF\xBF\xBF", "g\xC0\x80"}) {
         attributes.of_vertices.push_back({.name = name, .values = {1, 2, 3, 4}});
     }
-    const auto file = with_arrays(remesh::format_mesh("a.vtp", mesh.view(), attributes));
+    const auto file = with_xml_arrays(remesh::format_mesh("a.vtp", mesh.view(), attributes));
     EXPECT_EQ(remesh::names_of(file.attributes.of_vertices), "a_b, c_, d_, e___, f___, g__");
 }
 
@@ -285,7 +285,7 @@ TEST_F(Vtp, WrongArraysAreRefused) {
 }
 
 TEST_F(Vtp, WrongDataAreRefused) {
-    const std::string base64 = five_points({.encoding = VtpStyle::Base64});
+    const std::string base64 = five_xml_points({.encoding = VtpStyle::Base64});
     expect_error<IoError>(replaced(base64, "offset='0'", "offset='999999'"), {"'heat'", "behind"});
     expect_error<IoError>(replaced(base64, "offset='0'", "offset=''"), {"no offset"});
     expect_error<IoError>(replaced(base64, "offset='0'", "offset='18446744073709551615'"),
@@ -298,14 +298,14 @@ TEST_F(Vtp, WrongDataAreRefused) {
     expect_error<IoError>(replaced(base64, "_KAAAA", "_JwAAA"), {"'heat'", "39 bytes"});
     expect_error<IoError>(replaced(base64, "_KAAAA", "_IAAAA"), {"'heat'", "4 numbers for 5"});
     expect_error<IoError>(replaced(base64, "_KAAAA", "_/////"), {"'heat'", "ends within it"});
-    const std::string binary = five_points({.encoding = VtpStyle::Binary});
+    const std::string binary = five_xml_points({.encoding = VtpStyle::Binary});
     expect_error<IoError>(replaced(binary, "KAAAA", "IAAAA"), {"'heat'", "more data"});
 }
 
 TEST_F(Vtp, WrongBlocksAreRefused) {
     if (!remesh::knows_gzip()) GTEST_SKIP() << "built without zlib";
     const VtpStyle style{.encoding = VtpStyle::Raw, .is_packed = true};
-    const std::string good = five_points(style);
+    const std::string good = five_xml_points(style);
     const std::size_t data = good.find("\n_") + 2;
     // Of `heat`: the number of blocks, their size, that of the last one, that of the first one
     // packed.
@@ -324,8 +324,8 @@ TEST_F(Vtp, WrongBlocksAreRefused) {
     for (const auto& [word, value] : {std::pair{0u, 0xFFFFFFFFu}, {3u, 0xFFFFFFFFu}}) {
         expect_error<IoError>(with_word(word, value), {"'heat'", "ends within it"});
     }
-    EXPECT_THROW(static_cast<void>(with_arrays(with_word(0, 2))), IoError);
-    EXPECT_THROW(static_cast<void>(with_arrays(with_word(3, 5))), IoError);
+    EXPECT_THROW(static_cast<void>(with_xml_arrays(with_word(0, 2))), IoError);
+    EXPECT_THROW(static_cast<void>(with_xml_arrays(with_word(3, 5))), IoError);
     expect_error<IoError>(replaced(good, "vtkZLibDataCompressor", "vtkLZ4DataCompressor"),
                           {"'vtkLZ4DataCompressor'", "zlib"});
 }

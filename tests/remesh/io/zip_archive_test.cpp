@@ -79,7 +79,7 @@ std::string part_of(const std::string& bytes, const std::string& name) {
     return remesh::ZipArchive(file).read(name).bytes;
 }
 
-void expect_refused(const std::string& bytes, const char* what) {
+void expect_zip_refused(const std::string& bytes, const char* what) {
     try {
         static_cast<void>(part_of(bytes, "a.txt"));
         ADD_FAILURE() << "read without complaint";
@@ -130,28 +130,28 @@ TEST_F(Zip, DamagedPartsAreRefused) {
     const std::string good = StoredPart{}.file();
     std::string damaged = good;
     damaged[good.find("some")] = 'S';
-    expect_refused(damaged, "'a.txt' is damaged");
-    expect_refused(StoredPart{.name = "b.txt"}.file(), "no part 'a.txt'");
-    expect_refused(StoredPart{.flags = 1}.file(), "encrypted");
-    expect_refused(StoredPart{.method = 12}.file(), "method 12");
-    expect_refused(StoredPart{.method = 8}.file(), "damaged");
+    expect_zip_refused(damaged, "'a.txt' is damaged");
+    expect_zip_refused(StoredPart{.name = "b.txt"}.file(), "no part 'a.txt'");
+    expect_zip_refused(StoredPart{.flags = 1}.file(), "encrypted");
+    expect_zip_refused(StoredPart{.method = 12}.file(), "method 12");
+    expect_zip_refused(StoredPart{.method = 8}.file(), "damaged");
     for (const std::size_t field : {12u, 16u}) {  // Size and begin of the directory.
         std::string bytes = good;
         bytes.replace(good.rfind("PK\5\6") + field, 4, 4, '\x7f');
-        expect_refused(bytes, "truncated or damaged");
+        expect_zip_refused(bytes, "truncated or damaged");
     }
     const std::size_t entry = good.find("PK\1\2");
     for (const std::size_t field : {20u, 24u, 42u}) {  // Both sizes, and where the part begins.
         std::string bytes = good;
         bytes.replace(entry + field, 4, 4, '\x7f');
-        expect_refused(bytes, "damaged");
+        expect_zip_refused(bytes, "damaged");
     }
     std::string twice = good;
     const std::size_t end = good.rfind("PK\5\6");
     const std::string directory = good.substr(entry, end - entry);
     twice.insert(end, directory);
     twice[end + directory.size() + 12] = static_cast<char>(2 * directory.size());
-    expect_refused(twice, "two parts");
+    expect_zip_refused(twice, "two parts");
 }
 
 // The announced size is small; then it is right, and the callback stops.
@@ -164,5 +164,5 @@ TEST_F(Zip, AHugeContentIsStopped) {
     remesh::SourceFile file{.path = "a", .bytes = bytes, .ticker = agvd::Ticker(poller)};
     EXPECT_THROW(static_cast<void>(remesh::ZipArchive(file).read("a.txt")), agvd::Cancelled);
     bytes.replace(bytes.rfind("PK\1\2") + 24, 4, std::string("\x10\0\0\0", 4));
-    expect_refused(bytes, "'a.txt' is damaged");
+    expect_zip_refused(bytes, "'a.txt' is damaged");
 }
