@@ -22,6 +22,8 @@ const char* to_text(SiteReason reason) {
             return "meets twice, each time with the same third cell,";
         case SiteReason::NoSite:
             return "no site on a component";
+        case SiteReason::MissingVertex:
+            return "samples lie on others";
         case SiteReason::SelfIntersection:
             return "self-intersects";
     }
@@ -48,6 +50,8 @@ const char* place_text(SiteReason reason) {
             return "between cells that meet twice, each time with the same third cell";
         case SiteReason::NoSite:
             return "on components without a site";
+        case SiteReason::MissingVertex:
+            return "in large cells, for samples that lie on others";
         case SiteReason::SelfIntersection:
             return "where the mesh self-intersected";
     }

@@ -31,6 +31,8 @@ struct RoundSites {
 // As a multiple of the input's pairs. Rounds at pairs that follow from these have come down to
 // their number in 4 of 50 attempts on damaged meshes, each time from at most twice that number.
 constexpr std::size_t few_more = 2;
+// Most rounds that add sites for those that lie on others or own nothing, as on needles.
+constexpr int max_refills = 4;
 
 // Frees what only the Delaunay stage and those before read: after it Voronoi vertices suffice.
 void drop_points(agvd::Diagram& diagram) {
@@ -49,6 +51,7 @@ struct Candidate {
     PlacedDual placed;
     std::optional<CrossingFaces> crossings;
     Index num_removed = 0;
+    Index num_missing = 0;  // Vertices; more sites may bring them.
     DelaunayCounts flips;
 };
 
@@ -70,7 +73,7 @@ public:
 
     BuiltMesh run(int most_mends) {
         for (int mends = 0;; ++mends) {
-            Candidate candidate = build_candidate();
+            Candidate candidate = build_full_candidate();
             if (candidate.fault != Fault::None) {
                 if (mends == 0) fail(candidate);
                 break;
@@ -87,6 +90,17 @@ public:
     }
 
 private:
+    // Vertices are missing where sites of thinned components lie on each other. Others get sites
+    // for them.
+    Candidate build_full_candidate() {
+        Candidate candidate = build_candidate();
+        for (int refills = 0; refills < max_refills && candidate.num_missing > 0; ++refills) {
+            if (!add_sites_in_largest_cells(candidate.num_missing, candidate.dual)) break;
+            candidate = build_candidate();
+        }
+        return candidate;
+    }
+
     Candidate build_candidate() {
         Candidate candidate;
         ValidDual& dual = candidate.dual;
@@ -102,6 +116,7 @@ private:
             candidate.fault = Fault::TooManyVertices;
             return candidate;
         }
+        candidate.num_missing = num_missing(dual);
         candidate.flips = flip_edges(dual);
         drop_points(dual.diagram);
         if (domain_.plan) candidate.placed.patches = join_patches(dual, placed_.curves);
@@ -289,6 +304,40 @@ private:
         context_.result.added_because[SiteReason::SelfIntersection] +=
             static_cast<Index>(places.size());
         return true;
+    }
+
+    [[nodiscard]] Index num_missing(const ValidDual& dual) const {
+        // Curves have other ways to the number, and given sites may own nothing.
+        if (domain_.plan || context_.options.sites) return 0;
+        const auto count = static_cast<Index>(dual.mesh.points.size());
+        return count < *target_ ? *target_ - count : 0;
+    }
+
+    // Adds sites at the farthest Voronoi vertices of the largest cells of components that are not
+    // thinned. False if there are no such places.
+    bool add_sites_in_largest_cells(Index count, const ValidDual& dual) {
+        const std::vector<Index> farthest = farthest_voronoi_vertices(dual.diagram);
+        std::vector<Index> cells;
+        for (Index s = 0; s < farthest.size(); ++s) {
+            if (farthest[s] == no_index) continue;
+            const Index part = domain_.component[sites_.on_base[s].face.value()];
+            if (!is_thinned_[part]) cells.push_back(s);
+        }
+        const std::vector<double>& area = dual.diagram.cell_area;
+        std::stable_sort(cells.begin(), cells.end(),
+                         [&](Index a, Index b) { return area[a] > area[b]; });
+        std::vector<Index> places;
+        for (const Index s : cells) {
+            if (places.size() == count) break;
+            if (std::find(places.begin(), places.end(), farthest[s]) == places.end()) {
+                places.push_back(farthest[s]);
+            }
+        }
+        for (const Index v : places) sites_.on_base.push_back(dual.diagram.vertices[v]);
+        context_.result.sites_added += static_cast<Index>(places.size());
+        context_.result.added_because[SiteReason::MissingVertex] +=
+            static_cast<Index>(places.size());
+        return !places.empty();
     }
 
     void mend_best() {

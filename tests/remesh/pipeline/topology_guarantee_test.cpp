@@ -161,6 +161,27 @@ TEST(TopologyGuarantee, ALatticeOfGenusThirtyKeepsItsTunnels) {
     }
 }
 
+// Sites of needles that are thinned lie on each other.
+TEST(TopologyGuarantee, NeedlesBesideALargeFaceKeepTheNumberOfVertices) {
+    agvd::TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+    for (Index needle = 1; needle <= 3; ++needle) {
+        const auto first = static_cast<Index>(mesh.positions.size());
+        for (const auto& [x, y] : {std::array{0.0, 0.0}, {1.0, 0.0}, {0.5, 1e-12}}) {
+            mesh.positions.emplace_back(x, y, needle);
+        }
+        mesh.triangles.push_back({first, first + 1, first + 2});
+    }
+    remesh::RemeshOptions options{.num_samples = 100};
+    const remesh::RemeshResult result = remesh::remesh(mesh.view(), options);
+    EXPECT_EQ(result.mesh.positions.size(), 100u);
+    EXPECT_EQ(result.components_thinned, 3u);
+    // The four faces hold 98 without these two.
+    const auto added = result.added_because.find(remesh::SiteReason::MissingVertex);
+    ASSERT_NE(added, result.added_because.end());
+    EXPECT_EQ(added->second, result.sites_added);
+    EXPECT_GE(added->second, 2u);
+}
+
 TEST(TopologyGuarantee, ComponentsGoOnlyWhenAsked) {
     TriangleMesh small = shapes::sphere(1);
     for (Vec3& p : small.positions) p = 0.01 * p + Vec3(5, 0, 0);
