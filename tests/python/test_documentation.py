@@ -88,7 +88,7 @@ def test_stubs_have_the_functions_of_the_extension():
 
     stubs = arguments_of_stubs()
     functions = {name: f for name, f in vars(_remesh).items() if inspect.isbuiltin(f)}
-    assert set(stubs) == set(functions) and len(stubs) == 12
+    assert set(stubs) == set(functions) and len(stubs) == 14
     for name, function in functions.items():
         assert arguments(function) == stubs[name], name
 

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "agvd/core/error.h"
+#include "remesh/io/append_number.h"
 #include "remesh/io/byte_order.h"
 #include "remesh/io/formats.h"
 #include "remesh/io/vtk_output.h"
