@@ -48,7 +48,7 @@ TEST_F(RemeshTexture, IsCarriedOverAndNoFaceSpansASeam) {
 }
 
 TEST_F(RemeshTexture, TheReportTellsOfSeams) {
-    result("out.ply", {"--report", at("r.json")});
+    static_cast<void>(result("out.ply", {"--report", at("r.json")}));
     const auto report = nlohmann::json::parse(bytes("r.json"));
     EXPECT_EQ(report["attributes"]["carried"], nlohmann::json({"corner texcoord"}));
     EXPECT_EQ(report["options"]["texture_seam_edges"], 96);

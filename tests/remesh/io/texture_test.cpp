@@ -305,7 +305,8 @@ TEST(Texture, FormatsThatCannotHoldThemSaySo) {
 
 TEST(Texture, TheResultHasThemAndKeptFacesTheSameBits) {
     const agvd::TriangleMesh grid = shapes::grid(8);
-    MeshFile input{.mesh = grid, .face_polygon = {}};
+    MeshFile input;
+    input.mesh = grid;
     for (const agvd::Triangle& t : grid.triangles) {
         const auto at = [&](Index v) { return Vec2(grid.positions[v].head<2>() / 3); };
         input.attributes.texture.corners.push_back({at(t[0]), at(t[1]), at(t[2])});
