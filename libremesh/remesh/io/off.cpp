@@ -1,9 +1,10 @@
 // OFF, and COFF, NOFF, STOFF: coordinates, corners, and colours of both; normals and texture
 // coordinates are skipped (format: Geomview manual, "OFF Files").
 //
-// Reads one element from each line, as every writer does it; the rest of a line after a vertex's
-// coordinates or a face's corners is optional. A file with another layout runs out of lines, which
-// is an error.
+// Reads one element from each line, as most writers do it; the rest of a line after a vertex's
+// coordinates or a face's corners is optional. The corners of a face may go on over the next lines,
+// which hold nothing else: otherwise a line that lacks a corner would take one from the next face.
+// A file with another layout runs out of lines, which is an error.
 
 #include <array>
 #include <utility>
@@ -107,8 +108,15 @@ MeshFile read_off(SourceFile file) {
             file.fail_malformed(start,
                                 "face " + std::to_string(f) +
                                     " has a negative number of corners; export the file again");
+        bool goes_on = false;
         for (std::int64_t k = 0; k < corners; ++k) {
+            if (!scan.has_word()) goes_on = scan.find_word();
             soup.add_corner(scan.integer("a corner"), start);
+        }
+        if (goes_on && scan.has_word()) {
+            file.fail_malformed(start, "face " + std::to_string(f) + " has fewer than " +
+                                           std::to_string(corners) +
+                                           " corners; correct the line, or export the file again");
         }
         soup.end_polygon();
         if (file.with_attributes && scan.has_word())

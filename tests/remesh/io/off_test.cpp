@@ -95,6 +95,21 @@ TEST(Off, TruncatedFilesAreRefused) {
                           {"line 3", "coordinate", "end of the line"});
 }
 
+TEST(Off, CornersOfAFaceMayGoOverSeveralLines) {
+    const auto file = read_bytes("a.off", "OFF\n4 2 0\n" + three_vertices +
+                                              "1 1 0\n3\n0\n\n1 # a comment\n2\n\n3 2 \n1 3\n");
+    EXPECT_EQ(file.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {2, 1, 3}}));
+}
+
+TEST(Off, MissingCornersAreNotTakenFromTheNextFace) {
+    for (const char* first : {"3 0 1\n", "3 0\n", "3\n"}) {
+        expect_error<IoError>("a.off", "OFF\n3 2 0\n" + three_vertices + first + "3 0 1 2\n",
+                              {"line 6", "face 0 has fewer than 3 corners"});
+    }
+    expect_error<IoError>("a.off", "OFF\n3 1 0\n" + three_vertices + "3 0 1\n",
+                          {"a corner", "end of the file"});
+}
+
 TEST(Off, SeveralElementsOnALineAreRefusedNotMisread) {
     expect_error<IoError>("a.off", "OFF\n3 2 0\n0 0 0 1 0 0 0 1 0\n3 0 1 2\n3 0 1 2\n", {"line"});
     expect_error<IoError>("a.off", "OFF\n3 2 0\n" + three_vertices + "3 0 1 2 3 0 1 2\n",
