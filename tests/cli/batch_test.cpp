@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "cli/remesh_program.h"
 #include "remesh/io/read_mesh.h"
-#include "support/scratch.h"
 #include "support/shapes.h"
 
 namespace fs = std::filesystem;
@@ -14,12 +14,8 @@ using nlohmann::json;
 
 namespace {
 
-class RemeshBatch : public Scratch {
+class RemeshBatch : public Remesh {
 protected:
-    [[nodiscard]] static process::Outcome remesh(std::vector<std::string> arguments,
-                                                 const process::Options& options = {}) {
-        return run(REMESH_PROGRAM, std::move(arguments), options);
-    }
     [[nodiscard]] json report_at(const std::string& name) const { return json::parse(bytes(name)); }
     void expect_told(const process::Outcome& outcome, const std::string& text) {
         EXPECT_NE(outcome.err.find(text), std::string::npos) << text << " is not in\n"

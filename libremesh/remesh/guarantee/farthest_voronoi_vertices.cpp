@@ -1,5 +1,7 @@
 #include "remesh/guarantee/farthest_voronoi_vertices.h"
 
+#include <algorithm>
+
 namespace remesh {
 
 using agvd::Index;
@@ -18,6 +20,26 @@ std::vector<Index> farthest_voronoi_vertices(const agvd::Diagram& diagram) {
         }
     }
     return farthest;
+}
+
+std::vector<Index> places_in_largest_cells(const agvd::Diagram& diagram, std::size_t count,
+                                           const std::function<bool(Index site)>& divides) {
+    const std::vector<Index> farthest = farthest_voronoi_vertices(diagram);
+    std::vector<Index> cells;
+    for (Index s = 0; s < farthest.size(); ++s) {
+        if (farthest[s] != no_index && (!divides || divides(s))) cells.push_back(s);
+    }
+    std::stable_sort(cells.begin(), cells.end(),
+                     [&](Index a, Index b) { return diagram.cell_area[a] > diagram.cell_area[b]; });
+    std::vector<Index> places;
+    std::vector<bool> is_taken(diagram.vertices.size(), false);
+    for (const Index s : cells) {
+        if (places.size() == count) break;
+        if (is_taken[farthest[s]]) continue;
+        is_taken[farthest[s]] = true;
+        places.push_back(farthest[s]);
+    }
+    return places;
 }
 
 }  // namespace remesh

@@ -1,6 +1,9 @@
 //! \file
-//! The farthest Voronoi vertex of each cell.
+//! The farthest Voronoi vertex of each cell: a place for another site.
 #pragma once
+
+#include <functional>
+#include <vector>
 
 #include "agvd/diagram/diagram.h"
 
@@ -9,5 +12,14 @@ namespace remesh {
 //! #sites: for each cell its Voronoi vertex farthest from the site (the first of equals); no_index
 //! for cells without one. Cost: O(size of the complex).
 [[nodiscard]] std::vector<agvd::Index> farthest_voronoi_vertices(const agvd::Diagram& diagram);
+
+//! The farthest Voronoi vertices of the largest cells, the largest cell first, each once.
+//!
+//! \param count    at most so many.
+//! \param divides  whether a site's cell may be divided; empty: all may.
+//! Cost: O(size of the complex + #sites log #sites).
+[[nodiscard]] std::vector<agvd::Index> places_in_largest_cells(
+    const agvd::Diagram& diagram, std::size_t count,
+    const std::function<bool(agvd::Index site)>& divides = {});
 
 }  // namespace remesh

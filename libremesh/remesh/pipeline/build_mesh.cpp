@@ -5,6 +5,7 @@
 #include "remesh/pipeline/build_mesh.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 
 #include "agvd/mesh/point_faces.h"
@@ -95,7 +96,7 @@ private:
     Candidate build_full_candidate() {
         Candidate candidate = build_candidate();
         for (int refills = 0; refills < max_refills && candidate.num_missing > 0; ++refills) {
-            if (!add_sites_in_largest_cells(candidate.num_missing, candidate.dual)) break;
+            if (!add_missing(candidate.num_missing, candidate.dual)) break;
             candidate = build_candidate();
         }
         return candidate;
@@ -298,11 +299,8 @@ private:
         if (places.empty()) return false;
         std::sort(places.begin(), places.end());
         places.erase(std::unique(places.begin(), places.end()), places.end());
-        for (const Index v : places) sites_.on_base.push_back(dual.diagram.vertices[v]);
+        add_sites(places, SiteReason::SelfIntersection, dual);
         sites_.is_wanted.resize(sites_.on_base.size(), true);
-        context_.result.sites_added += static_cast<Index>(places.size());
-        context_.result.added_because[SiteReason::SelfIntersection] +=
-            static_cast<Index>(places.size());
         return true;
     }
 
@@ -313,31 +311,23 @@ private:
         return count < *target_ ? *target_ - count : 0;
     }
 
-    // Adds sites at the farthest Voronoi vertices of the largest cells of components that are not
-    // thinned. False if there are no such places.
-    bool add_sites_in_largest_cells(Index count, const ValidDual& dual) {
-        const std::vector<Index> farthest = farthest_voronoi_vertices(dual.diagram);
-        std::vector<Index> cells;
-        for (Index s = 0; s < farthest.size(); ++s) {
-            if (farthest[s] == no_index) continue;
-            const Index part = domain_.component[sites_.on_base[s].face.value()];
-            if (!is_thinned_[part]) cells.push_back(s);
-        }
-        const std::vector<double>& area = dual.diagram.cell_area;
-        std::stable_sort(cells.begin(), cells.end(),
-                         [&](Index a, Index b) { return area[a] > area[b]; });
-        std::vector<Index> places;
-        for (const Index s : cells) {
-            if (places.size() == count) break;
-            if (std::find(places.begin(), places.end(), farthest[s]) == places.end()) {
-                places.push_back(farthest[s]);
-            }
-        }
+    // Divides the largest cells of components that are not thinned. False if there are none.
+    bool add_missing(Index count, const ValidDual& dual) {
+        const std::vector<Index> places =
+            places_in_largest_cells(dual.diagram, count, [&](Index site) {
+                return !is_thinned_[domain_.component[sites_.on_base[site].face.value()]];
+            });
+        if (places.empty()) return false;
+        add_sites(places, SiteReason::MissingVertex, dual);
+        return true;
+    }
+
+    // \param places  vertices of the diagram.
+    void add_sites(std::span<const Index> places, SiteReason reason, const ValidDual& dual) {
         for (const Index v : places) sites_.on_base.push_back(dual.diagram.vertices[v]);
-        context_.result.sites_added += static_cast<Index>(places.size());
-        context_.result.added_because[SiteReason::MissingVertex] +=
-            static_cast<Index>(places.size());
-        return !places.empty();
+        const auto count = static_cast<Index>(places.size());
+        context_.result.sites_added += count;
+        context_.result.added_because[reason] += count;
     }
 
     void mend_best() {

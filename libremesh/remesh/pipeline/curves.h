@@ -15,8 +15,6 @@ struct FoundCurves {
     //! #E: texture seams; empty: there are none. Those of `is_wide` can be curves at the spacing.
     std::vector<std::uint8_t> is_seam, is_wide;
     JunctionSet junctions;
-
-    [[nodiscard]] bool empty() const { return is_crease.empty() && junctions.empty(); }
 };
 
 //! Which of these curves one attempt reproduces.

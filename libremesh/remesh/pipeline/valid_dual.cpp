@@ -203,17 +203,16 @@ private:
     // vertices of the largest cells. The dual drops given sites that own nothing.
     void move_empty_sites(BoundaryFixes& fixes) const {
         if (options_.sites) return;
-        const std::vector<double>& area = dual_.diagram.cell_area;
-        std::vector<Index> empty, owning;
-        for (Index s = 0; s < sites_.size(); ++s) (area[s] > 0 ? owning : empty).push_back(s);
-        if (owning.size() >= options_.num_samples) return;
-        empty.resize(std::min<std::size_t>(empty.size(), options_.num_samples - owning.size()));
-        std::stable_sort(owning.begin(), owning.end(),
-                         [&](Index a, Index b) { return area[a] > area[b]; });
-        const std::vector<Index> farthest = farthest_voronoi_vertices(dual_.diagram);
-        std::erase_if(owning, [&](Index s) { return farthest[s] == no_index; });
-        for (std::size_t i = 0; i < std::min(empty.size(), owning.size()); ++i) {
-            fixes.moved.emplace_back(empty[i], dual_.diagram.vertices[farthest[owning[i]]]);
+        std::vector<Index> empty;
+        for (Index s = 0; s < sites_.size(); ++s) {
+            if (!(dual_.diagram.cell_area[s] > 0)) empty.push_back(s);
+        }
+        const std::size_t num_owning = sites_.size() - empty.size();
+        if (empty.empty() || num_owning >= options_.num_samples) return;
+        const std::vector<Index> places = places_in_largest_cells(
+            dual_.diagram, std::min(empty.size(), options_.num_samples - num_owning));
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            fixes.moved.emplace_back(empty[i], dual_.diagram.vertices[places[i]]);
         }
     }
 

@@ -1,0 +1,149 @@
+// The program `remesh`: numbers of vertices, lengths and distances.
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "cli/remesh_program.h"
+#include "remesh/io/read_mesh.h"
+#include "support/shapes.h"
+
+namespace {
+
+TEST_F(Remesh, TheNumberOfVerticesIsGivenInManyWays) {
+    const std::string in = put("in.off", shapes::sphere(4));  // 2562 vertices.
+    const auto report_with = [&](std::vector<std::string> extra) {
+        extra.insert(extra.begin(), {in, at("out.off"), "-q", "--relax", "10", "--report", "-"});
+        const auto outcome = remesh(extra);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return nlohmann::json::parse(outcome.out);
+    };
+    EXPECT_EQ(report_with({"-n", "2e2"})["output_vertices"], 200);
+    EXPECT_EQ(report_with({"-n", "10%"})["output_vertices"], 256);
+    EXPECT_EQ(report_with({"--faces", "400"})["output_faces"], 400);
+    for (const char* option : {"--edge-length", "--hsiz"}) {
+        const auto report = report_with({option, "5%"});
+        const double length = 0.05 * 2 * std::sqrt(3.);  // The box of the sphere is a cube.
+        EXPECT_NEAR(report["options"]["sizing"]["edge_length_mesh_units"], length, 1e-3);
+        EXPECT_NEAR(report["sizing"]["mean_edge_mesh_units"].get<double>() / length, 1, 0.02);
+        EXPECT_EQ(report["sizing"]["samples"], report["output_vertices"]);
+        EXPECT_TRUE(report["sizing"]["least_target_mesh_units"].is_null());
+    }
+    EXPECT_NEAR(report_with({"--edge-length", ".2"})["sizing"]["mean_edge_mesh_units"], 0.2, 0.004);
+}
+
+TEST_F(Remesh, AdaptiveEdgesKeepTheirBounds) {
+    const std::string in = put("in.off", shapes::torus(80, 40));
+    const auto outcome = remesh({in, at("out.off"), "-n", "500", "--adaptive", "--hmin", ".1",
+                                 "--hmax", "6%", "--hgrad", "1.2", "--report", "-"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto report = nlohmann::json::parse(outcome.out);
+    EXPECT_EQ(report["output_vertices"], 500);
+    EXPECT_EQ(report["options"]["sizing"]["adaptive"], true);
+    EXPECT_EQ(report["options"]["sizing"]["gradation"], 1.2);
+    EXPECT_EQ(report["options"]["sizing"]["min_edge_mesh_units"], 0.1);
+    EXPECT_GE(report["sizing"]["least_target_mesh_units"], 0.099);
+    EXPECT_LE(report["sizing"]["largest_target_mesh_units"],
+              1.01 * report["options"]["sizing"]["max_edge_mesh_units"].get<double>());
+    EXPECT_NE(outcome.err.find("targets from "), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.err.find("warning"), std::string::npos) << outcome.err;
+    const auto narrow = remesh({in, at("out.off"), "-n", "500", "--adaptive", "--hmax", ".05"});
+    EXPECT_EQ(narrow.exit_code, 0) << narrow.err;
+    EXPECT_NE(narrow.err.find("too few for --max-edge"), std::string::npos) << narrow.err;
+    const auto wide = remesh({in, at("out.off"), "-n", "500", "--adaptive", "--hmin", ".5"});
+    EXPECT_EQ(wide.exit_code, 0) << wide.err;
+    EXPECT_NE(wide.err.find("too many for --min-edge"), std::string::npos) << wide.err;
+}
+
+TEST_F(Remesh, ADistanceIsKeptOrTheReasonTold) {
+    const std::string in = put("in.off", shapes::sphere(4));
+    const auto outcome = remesh({in, at("out.off"), "--max-distance", ".5%", "--report", "-"});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    const auto report = nlohmann::json::parse(outcome.out);
+    const double limit = report["options"]["sizing"]["max_distance_mesh_units"];
+    EXPECT_NEAR(limit, 0.005 * 2 * std::sqrt(3.), 1e-4);
+    EXPECT_LE(report["sizing"]["largest_distance_mesh_units"], limit);
+    EXPECT_GT(report["sizing"]["largest_distance_mesh_units"], limit / 4);
+    EXPECT_LE(report["verdict"]["largest_distance_mesh_units"], limit);
+    put("old.off", "old");
+    const auto refused = remesh({in, at("old.off"), "--hausd", "1e-13"});
+    EXPECT_EQ(refused.exit_code, 2) << refused.err;
+    EXPECT_NE(refused.err.find("use longer ones"), std::string::npos) << refused.err;
+    EXPECT_EQ(bytes("old.off"), "old");
+}
+
+// Edges of .2 on one half of a plate, of .05 on the other.
+TEST_F(Remesh, PropertiesOfVerticesGiveLengthsAndDensities) {
+    const agvd::TriangleMesh plate = shapes::grid(20);
+    std::ostringstream text;
+    text << "ply\nformat ascii 1.0\nelement vertex " << plate.positions.size()
+         << "\nproperty double x\nproperty double y\nproperty double z\nproperty float size\n"
+         << "property float weight\nelement face " << plate.triangles.size()
+         << "\nproperty list uchar int vertex_indices\nend_header\n";
+    for (const agvd::Vec3& p : plate.positions) {
+        const bool is_fine = p.x() > 0.5;
+        text << p.x() << ' ' << p.y() << ' ' << p.z() << (is_fine ? " .05 16\n" : " .2 1\n");
+    }
+    for (const auto& [a, b, c] : plate.triangles) text << "3 " << a << ' ' << b << ' ' << c << '\n';
+    const std::string in = put("in.ply", text.str());
+    const auto share_of_fine = [&](const std::vector<std::string>& options) {
+        std::vector<std::string> arguments{in, at("out.off")};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const auto outcome = remesh(arguments);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        const auto result = remesh::read_mesh(at("out.off")).mesh;
+        const auto fine = std::count_if(result.positions.begin(), result.positions.end(),
+                                        [](const agvd::Vec3& p) { return p.x() > 0.5; });
+        return std::pair(static_cast<double>(fine) / static_cast<double>(result.positions.size()),
+                         result.positions.size());
+    };
+    // Half the area holds 230 vertices and, but for the transition, the other 15.
+    const auto [share, count] = share_of_fine({"--sizing", "size"});
+    EXPECT_GT(share, 0.7);
+    EXPECT_GT(count, 200u);
+    EXPECT_LT(count, 450u);
+    const auto [scaled_share, scaled_count] = share_of_fine({"--sizing", "size", "-n", "100"});
+    EXPECT_GT(scaled_share, 0.6);
+    EXPECT_EQ(scaled_count, 100u);
+    EXPECT_GT(share_of_fine({"--density", "weight", "-n", "300"}).first, 0.7);
+    EXPECT_NEAR(share_of_fine({"-n", "300"}).first, 0.5, 0.05);
+    const auto unknown = remesh({in, at("out.off"), "--sizing", "nothing"});
+    EXPECT_EQ(unknown.exit_code, 2) << unknown.err;
+    EXPECT_NE(unknown.err.find("size"), std::string::npos) << unknown.err;
+    EXPECT_NE(unknown.err.find("in.ply has no vertex property"), std::string::npos) << unknown.err;
+}
+
+TEST_F(Remesh, WrongNumbersAndLengthsAreRefused) {
+    const std::string in = put("in.off", shapes::sphere(2));
+    const std::vector<std::string> wrong[] = {{"-n", "0"},
+                                              {"-n", "1.5"},
+                                              {"-n", "5e9"},
+                                              {"-n", "-3"},
+                                              {"-n", "ten"},
+                                              {"-n", "0%"},
+                                              {"-n", "1e-5%"},
+                                              {"--faces", "0"},
+                                              {"--faces", "10%"},
+                                              {"--edge-length", "0"},
+                                              {"--edge-length", "nan"},
+                                              {"--edge-length", "1mm"},
+                                              {"--hmin", ".1"},
+                                              {"--hgrad", "2"},
+                                              {"--max-distance", "0"},
+                                              {"-n", "100", "--max-distance", "1%"},
+                                              {"--adaptive", "--sizing", "size"},
+                                              {"--adaptive", "--hgrad", ".9"},
+                                              {"-n", "100", "--faces", "100"},
+                                              {"-n", "100", "--edge-length", ".1"},
+                                              {"--faces", "100", "--edge-length", ".1"},
+                                              {"--adaptive", "--hmin", "2", "--hmax", "1"}};
+    for (std::vector<std::string> arguments : wrong) {
+        const std::string first = arguments[0] + ' ' + arguments[1];
+        arguments.insert(arguments.begin(), {in, at("never.off")});
+        const auto outcome = remesh(arguments);
+        EXPECT_EQ(outcome.exit_code, 2) << first << outcome.err;
+        EXPECT_NE(outcome.err, "");
+    }
+}
+
+}  // namespace
