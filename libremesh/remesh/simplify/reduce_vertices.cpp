@@ -1,5 +1,5 @@
 // Collapses the shortest edges first, from a queue that holds the cheapest allowed collapse of each
-// vertex. Every collapse meets the link condition ([dey1999]), which keeps the topology. Four
+// vertex. Every collapse meets the link condition ([dey1999]), which keeps the topology. Five
 // passes over all edges ask less and less of the shape, and each begins only if the one before has
 // not reached the target.
 #include "remesh/simplify/reduce_vertices.h"
@@ -27,8 +27,9 @@ struct Demands {
     std::size_t most_faces;
     bool releases_kept;
 };
-constexpr std::array<Demands, 4> passes = {{{0.5, 0.3, 9, false},
+constexpr std::array<Demands, 5> passes = {{{0.5, 0.3, 9, false},
                                             {0.0, 0.05, 14, false},
+                                            {0.0, 1e-9, no_index, false},  // Of slivers.
                                             {-2.0, -1.0, no_index, false},
                                             {-2.0, -1.0, no_index, true}}};
 

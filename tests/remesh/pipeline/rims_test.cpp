@@ -142,7 +142,7 @@ TEST(Rims, HolesSmallerThanTheSpacingHaveNoThinTrianglesAroundThem) {
 
 // The loops need more sites than the coarse level has.
 TEST(Rims, SamplesThatAreEnoughForManyHolesAreNotRefused) {
-    const TriangleMesh mesh = sphere_with_holes(5, 40);
+    const TriangleMesh mesh = sphere_with_holes(4, 40);
     const RemeshOptions options{.num_samples = 400};
     expect_valid(mesh, options, remesh::remesh(mesh.view(), options));
 }

@@ -73,28 +73,23 @@ double mean_edge(const TriangleMesh& mesh) {  // Closed.
 
 TEST(Sizing, EdgesFollowAFieldThatVariesTenfold) {
     const TriangleMesh mesh = shapes::torus(160, 64, tube);
-    Index num_tried = 0;
-    for (const bool is_density : {false, true}) {
-        for (const remesh::Init init : {remesh::Init::BlueNoise, remesh::Init::Farthest}) {
-            RemeshOptions options{.num_samples = 2000, .init = init};
-            (is_density ? options.sizing.densities : options.sizing.target_lengths) =
-                values_of(mesh);
-            if (is_density) {
-                for (double& value : options.sizing.densities) value = 7 / (value * value);
-            }
-            const RemeshResult result = remesh::remesh(mesh.view(), options);
-            EXPECT_EQ(result.mesh.positions.size(), 2000u);
-            EXPECT_EQ(remesh::analyze_topology(result.mesh.view()).genus(), 1);
-            const auto [low, high] = percentiles(result.mesh, factor_for(mesh, 2000));
-            EXPECT_GT(low, 0.8);
-            EXPECT_LT(high, 1.28);
-            EXPECT_NEAR(result.sizing.low_ratio, low, 0.05);
-            EXPECT_NEAR(result.sizing.high_ratio, high, 0.05);
-            EXPECT_NEAR(result.sizing.largest_target / result.sizing.least_target, 10, 0.8);
-            ++num_tried;
+    for (const auto& [is_density, init] :
+         {std::pair(false, remesh::Init::BlueNoise), {true, remesh::Init::Farthest}}) {
+        RemeshOptions options{.num_samples = 2000, .init = init};
+        (is_density ? options.sizing.densities : options.sizing.target_lengths) = values_of(mesh);
+        if (is_density) {
+            for (double& value : options.sizing.densities) value = 7 / (value * value);
         }
+        const RemeshResult result = remesh::remesh(mesh.view(), options);
+        EXPECT_EQ(result.mesh.positions.size(), 2000u);
+        EXPECT_EQ(remesh::analyze_topology(result.mesh.view()).genus(), 1);
+        const auto [low, high] = percentiles(result.mesh, factor_for(mesh, 2000));
+        EXPECT_GT(low, 0.8);
+        EXPECT_LT(high, 1.28);
+        EXPECT_NEAR(result.sizing.low_ratio, low, 0.05);
+        EXPECT_NEAR(result.sizing.high_ratio, high, 0.05);
+        EXPECT_NEAR(result.sizing.largest_target / result.sizing.least_target, 10, 0.8);
     }
-    EXPECT_EQ(num_tried, 4u);
 }
 
 TEST(Sizing, AFieldOnBoundaryAndCreasesIsFollowedThere) {
@@ -200,17 +195,15 @@ TEST(Sizing, ThreadsChangeNothing) {
                 if (!is_adaptive) options.sizing.target_lengths = values_of(*mesh);
                 options.num_threads = 1;
                 const RemeshResult one = remesh::remesh(mesh->view(), options);
-                for (const int num_threads : {2, 4}) {
-                    options.num_threads = num_threads;
-                    const RemeshResult more = remesh::remesh(mesh->view(), options);
-                    EXPECT_EQ(more.mesh.positions, one.mesh.positions);
-                    EXPECT_EQ(more.mesh.triangles, one.mesh.triangles);
-                    ++num_tried;
-                }
+                options.num_threads = 4;
+                const RemeshResult more = remesh::remesh(mesh->view(), options);
+                EXPECT_EQ(more.mesh.positions, one.mesh.positions);
+                EXPECT_EQ(more.mesh.triangles, one.mesh.triangles);
+                ++num_tried;
             }
         }
     }
-    EXPECT_EQ(num_tried, 16u);
+    EXPECT_EQ(num_tried, 8u);
 }
 
 TEST(Sizing, LengthsFollowVerticesThatAreWelded) {

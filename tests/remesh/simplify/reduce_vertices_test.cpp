@@ -94,6 +94,18 @@ TEST(ReduceVertices, TakesTheShortestEdgeFirst) {
     EXPECT_TRUE(gone[0] == 12 || gone[0] == 13) << gone[0];
 }
 
+// A needle with a vertex M in the middle of its longest side AB and an inner vertex Y near A. The
+// shortest collapse, Y into A, would leave the face AMB, whose corners lie on one line.
+TEST(ReduceVertices, NeedlesGetNoFaceWithoutArea) {
+    enum : agvd::Index { a, m, b, c, y };
+    const std::vector<agvd::Vec3> positions{
+        {0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {-1, 0.04, 0}, {0.1, 0.01, 0}};
+    std::vector<agvd::Triangle> triangles{{a, m, y}, {m, b, y}, {b, c, y}, {c, a, y}};
+    const std::vector<std::uint8_t> keep{1, 1, 1, 1, 0};
+    EXPECT_EQ(reduce_vertices(positions, triangles, 4, keep), (std::vector<agvd::Index>{y}));
+    EXPECT_EQ(triangles, (std::vector<agvd::Triangle>{{b, c, m}, {c, a, m}}));
+}
+
 TEST(ReduceVertices, KeepsTheVerticesToBeKeptAsLongAsOthersCanGo) {
     const TriangleMesh mesh = shapes::sphere(2);
     std::vector<std::uint8_t> keep(mesh.positions.size(), 0);
