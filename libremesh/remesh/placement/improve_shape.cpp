@@ -24,8 +24,10 @@ using agvd::Triangle;
 using agvd::Vec3;
 
 // Triangles below detail::low_quality are improved first; then those below this, without
-// plane_cost.
-constexpr double poor_quality = 0.62;
+// plane_cost. Medians of nine meshes, N = 2000, with .63 and .62 (with .7 and .66): smallest
+// quality .633 (.682), smallest angle 33.0 (35.6), largest 97.7 (92.7) degrees; RMS distance .0491
+// % (same).
+constexpr double poor_quality = 0.66;
 // Quality that a move must gain if it leaves the planes of the cell by the mean length of the edges
 // around the vertex; at other distances in proportion to the square.
 constexpr double plane_cost = 30;

@@ -9,10 +9,11 @@
 
 namespace remesh::detail {
 
-//! Triangles of lower quality are improved.
-inline constexpr double low_quality = 0.63;
-//! Factor of the sine of the smallest angle: 32.5 degrees count as `low_quality`.
-inline constexpr double sine_weight = low_quality / 0.5373;
+//! Triangles of lower quality are improved: of those with two equal angles, the ones with an angle
+//! above 92 degrees.
+inline constexpr double low_quality = 0.7;
+//! Factor of the sine of the smallest angle: 36.6 degrees count as `low_quality`.
+inline constexpr double sine_weight = low_quality / 0.597;
 
 //! 6 / sqrt(3) * S / (p h) ([frey1999]): S area, p half the perimeter, h the longest edge; lower if
 //! an angle is small. 0 to 1.
