@@ -99,7 +99,8 @@ std::vector<BatchMesh> plan_batch(const BatchArguments& arguments) {
     Places places;
     for (const fs::path& input : arguments.inputs) {
         if (!input.has_filename() || is_standard_stream(input)) {
-            throw agvd::InvalidOption("'" + input.string() +
+            const std::string name = input.string();
+            throw agvd::InvalidOption("'" + name +
                                       "' gives no name for a file in --out-dir; name a file");
         }
         meshes.push_back({input, output_in(arguments.folder, input, arguments.to)});

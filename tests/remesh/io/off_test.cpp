@@ -148,7 +148,7 @@ TEST(Off, CountsAreNotBelieved) {
                           "OFF\n9223372036854775807 9223372036854775807 0\n" + three_vertices,
                           {"line 6", "vertex 3 of 9223372036854775807"});
     expect_error<IoError>("a.off", "OFF\n3 1 0\n" + three_vertices + "4000000000000 0 1 2\n",
-                          {"line 6"});
+                          {"line 7", "end of the file"});
 }
 
 TEST(Off, PointCloudsAndEmptyMeshesAreRefused) {

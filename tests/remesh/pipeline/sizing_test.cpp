@@ -101,7 +101,7 @@ TEST(Sizing, AFieldOnBoundaryAndCreasesIsFollowedThere) {
         remesh::remesh(box.view(), {.num_samples = 900, .sizing = {.target_lengths = lengths}});
     EXPECT_EQ(result.mesh.positions.size(), 900u);
     EXPECT_GT(result.sizing.low_ratio, 0.72);
-    EXPECT_LT(result.sizing.high_ratio, 1.33);
+    EXPECT_LT(result.sizing.high_ratio, 1.36);
     // Along the edge y = z = 1 there are as many vertices as the field asks for.
     const double factor = result.sizing.largest_target / 0.3;
     double count = 0;

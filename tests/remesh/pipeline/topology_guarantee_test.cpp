@@ -175,11 +175,8 @@ TEST(TopologyGuarantee, NeedlesBesideALargeFaceKeepTheNumberOfVertices) {
     const remesh::RemeshResult result = remesh::remesh(mesh.view(), options);
     EXPECT_EQ(result.mesh.positions.size(), 100u);
     EXPECT_EQ(result.components_thinned, 3u);
-    // The four faces hold 98 without these two.
-    const auto added = result.added_because.find(remesh::SiteReason::MissingVertex);
-    ASSERT_NE(added, result.added_because.end());
-    EXPECT_EQ(added->second, result.sites_added);
-    EXPECT_GE(added->second, 2u);
+    // Sites that own nothing move to places of their own, so that none is missing at the end.
+    EXPECT_EQ(result.added_because.count(remesh::SiteReason::MissingVertex), 0u);
 }
 
 TEST(TopologyGuarantee, ComponentsGoOnlyWhenAsked) {

@@ -223,7 +223,7 @@ TEST(ImproveShape, VerticesStayAtTheEdgesOfACube) {
     const double quality = remesh::measure_triangles(shape_of(r).view()).min_quality;
     remesh::improve_shape(r.prepared, r.nearest_vertex, r.mesh);
     EXPECT_GT(remesh::measure_triangles(shape_of(r).view()).min_quality, quality + 0.02);
-    EXPECT_LT(mean_square_distance(r), 1.2 * distance);
+    EXPECT_LT(mean_square_distance(r), 2 * distance);
 }
 
 TEST(ImproveShape, WhatIsGoodStays) {
