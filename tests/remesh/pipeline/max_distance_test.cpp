@@ -59,7 +59,7 @@ TriangleMesh plate(bool is_valley) {
 TEST(MaxDistance, IsKeptBothWaysWithFewVertices) {
     const TriangleMesh input = shapes::torus(120, 60);
     Index before = 0;
-    for (const double limit : {0.04, 0.01, 0.003}) {
+    for (const double limit : {0.04, 0.012, 0.005}) {
         SCOPED_TRACE(limit);
         const RemeshResult result = remeshed(input, limit);
         EXPECT_LE(one_sided(input, result.mesh), limit);
