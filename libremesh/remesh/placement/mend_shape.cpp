@@ -37,11 +37,10 @@ constexpr agvd::Index most_moved = 8;
 // Budgets for each initially bad triangle: where all are bad, work would not end. Lips use half of
 // them.
 constexpr std::size_t edits_for_each = 3, slides_for_each = 200;
-// So many triangles have the whole budget, the others fewer slides: organic meshes have some 20
-// bad triangles at most, thin walls over a thousand, which took 40 s on a mesh of 4418 faces.
+// This many bad triangles get the whole budget; each further one gets fewer slides. Organic meshes
+// have at most some 20 bad triangles. Thin walls have over a thousand, which took 40 s on a mesh of
+// 4418 faces.
 constexpr std::size_t paid_in_full = 64, slides_for_others = 25;
-// Budgets are for no more bad triangles than there are good ones, or `paid_in_full`: where nearly
-// all are bad, as on spikes, mending gains nothing. Without this a mesh of 3492 faces took 80 s.
 // A slide takes some 16 steps of at most an edge's length. Where its walks cross more edges of the
 // surface than these would on faces of even size, or more than the least number, it counts as
 // several slides. At spikes walks run around for ever: without this a mesh of 13 faces took 14 s.
@@ -72,6 +71,8 @@ public:
     bool run() {
         const EditedMesh::Mark start = mesh_.mark();
         const std::size_t num_bad = bad_faces().size();
+        // Where nearly all triangles are bad, as on spikes, mending gains nothing. Without this
+        // limit a mesh of 3492 faces took 80 s.
         const std::size_t num_paid =
             std::min(num_bad, std::max(mesh_.num_faces() - num_bad, paid_in_full));
         const std::size_t num_full = std::min(num_paid, paid_in_full);

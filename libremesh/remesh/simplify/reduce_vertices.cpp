@@ -27,11 +27,12 @@ struct Demands {
     std::size_t most_faces;
     bool releases_kept;
 };
-constexpr std::array<Demands, 5> passes = {{{0.5, 0.3, 9, false},
-                                            {0.0, 0.05, 14, false},
-                                            {0.0, 1e-9, no_index, false},  // Of slivers.
-                                            {-2.0, -1.0, no_index, false},
-                                            {-2.0, -1.0, no_index, true}}};
+constexpr std::array<Demands, 5> passes = {
+    {{0.5, 0.3, 9, false},
+     {0.0, 0.05, 14, false},
+     {0.0, 1e-9, no_index, false},  // Slivers, none without area.
+     {-2.0, -1.0, no_index, false},
+     {-2.0, -1.0, no_index, true}}};
 
 struct Collapse {
     double cost;

@@ -44,7 +44,7 @@ TEST(Remesh, KeepsTheTopologyOfManySurfaces) {
     };
     const bool is_long = std::getenv("AGVD_LONG") != nullptr;
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
-        for (const Index samples : {40u, 150u, 400u}) {
+        for (const Index samples : {40u, 150u, is_long ? 600u : 400u}) {
             for (const auto init :
                  {remesh::Init::BlueNoise, remesh::Init::Random, remesh::Init::Farthest}) {
                 for (std::uint64_t seed = 1; seed <= (is_long ? 20u : 1u); ++seed) {

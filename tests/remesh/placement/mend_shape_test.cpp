@@ -31,6 +31,14 @@ TriangleMesh uneven_tube() {
     return mesh;
 }
 
+// How often mending polls: its work, whatever the machine.
+Index polls_of_mending(MovableMesh& mesh) {
+    Index polls = 0;
+    (void)mend_shape(mesh.surface, mesh.mobility, mesh.hard, mesh.placed,
+                     [&](double) { return ++polls > 0; });
+    return polls;
+}
+
 TEST(MendShape, GoodTrianglesStayAsTheyAre) {
     MovableMesh placed(shapes::sphere(3));
     const std::vector<Triangle> before = placed.placed.triangles;
@@ -67,9 +75,7 @@ TEST(MendShape, LongWalksUseUpTheBudget) {
     placed.placed.points.resize(coarse.positions.size());
     placed.placed.offsets.resize(coarse.positions.size());
     placed.mobility.resize(coarse.positions.size());
-    Index polls = 0;
-    (void)mend_shape(placed.surface, placed.mobility, placed.hard, placed.placed,
-                     [&](double) { return ++polls > 0; });
+    const Index polls = polls_of_mending(placed);
     EXPECT_GT(polls, 0u);
     EXPECT_LT(polls, 300u);
 }
@@ -80,9 +86,7 @@ TEST(MendShape, ANeedleWhereAllIsBadEndsSoon) {
     TriangleMesh mesh = shapes::sphere(3);
     for (Vec3& p : mesh.positions) p.z() *= 1000;
     MovableMesh placed(mesh);
-    Index polls = 0;
-    (void)mend_shape(placed.surface, placed.mobility, placed.hard, placed.placed,
-                     [&](double) { return ++polls > 0; });
+    const Index polls = polls_of_mending(placed);
     EXPECT_GT(polls, 0u);
     EXPECT_LT(polls, 1000u);
 }
@@ -94,9 +98,7 @@ TEST(MendShape, ManyBadTrianglesHaveSmallerBudgets) {
     for (Vec3& p : needle.positions) p = Vec3(3 + p.x() / 100, p.y() / 100, 4 * p.z());
     const TriangleMesh mesh = shapes::join(shapes::sphere(3), needle);
     MovableMesh placed(mesh);
-    Index polls = 0;
-    (void)mend_shape(placed.surface, placed.mobility, placed.hard, placed.placed,
-                     [&](double) { return ++polls > 0; });
+    const Index polls = polls_of_mending(placed);
     EXPECT_GT(polls, 0u);
     EXPECT_LT(polls, 3000u);
 }
