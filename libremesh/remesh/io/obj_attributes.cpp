@@ -31,15 +31,17 @@ void ObjAttributes::take_color(std::size_t vertex, TextScanner& scan) {
 }
 
 void ObjAttributes::take_texture(TextScanner& scan, SoupTexture& texture) const {
-    if (!is_wanted_) return;
-    texture.name = "vt";
     std::array<double, 2> numbers{};
+    bool is_broken = false;
     for (double& number : numbers) {
-        if (!scan.has_word()) break;
+        if (!scan.has_word()) break;  // Joined lines are passed over, wanted or not.
         const std::optional<double> read = scan.number_or_other("a number");
-        texture.is_broken = texture.is_broken || !read;
+        is_broken = is_broken || !read;
         number = read.value_or(0);
     }
+    if (!is_wanted_) return;
+    texture.name = "vt";
+    texture.is_broken = texture.is_broken || is_broken;
     texture.add(numbers[0], numbers[1]);
 }
 

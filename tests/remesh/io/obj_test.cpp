@@ -58,6 +58,14 @@ TEST(Obj, LinesMayBeJoinedAndEndedInAnyWay) {
     }
 }
 
+TEST(Obj, JoinedTextureLinesEndAtTheSamePlaceWithAndWithoutAttributes) {
+    for (const bool with_attributes : {false, true}) {
+        const auto file = read_bytes("a.obj", four + "vt 0 \\\nv 9\nf 1 2 3\n", with_attributes);
+        EXPECT_EQ(file.mesh.positions.size(), 4u);
+        EXPECT_EQ(file.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
+    }
+}
+
 TEST(Obj, ACommentThatEndsInABackslashSwallowsNothing) {
     const auto file =
         read_bytes("a.obj", "# C:\\temp\\\nv 0 0 0\nv 1 0 0 # here\\\nv 1 1 0\nf 1 2 3");
