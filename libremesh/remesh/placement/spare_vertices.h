@@ -1,0 +1,62 @@
+//! \file
+//! The count of vertices while triangles are mended. Private to mending.
+#pragma once
+
+#include <tuple>
+#include <vector>
+
+#include "remesh/placement/shape_steps.h"
+
+namespace remesh::detail {
+
+//! Collapses leave spare vertices, splits need them. Balances the count by edits elsewhere.
+class SpareVertices {
+public:
+    //! \param mesh, steps, ticker  outlive this.
+    //! \param wanted  of `steps`: all triangles that edits touch here keep at least this quality.
+    SpareVertices(EditedMesh& mesh, ShapeSteps& steps, double wanted, agvd::Ticker& ticker)
+        : mesh_(mesh), steps_(steps), ticker_(ticker), wanted_(wanted) {}
+
+    //! Begins at 0.
+    //! \param elsewhere  least quality of triangles, before and after, where collapse_one()
+    //!                   removes a vertex.
+    void restart(double elsewhere);
+
+    //! Vertices that were removed and not yet added elsewhere; below 0: to be removed.
+    [[nodiscard]] int count() const { return count_; }
+    //! Counts a split (-1) or a collapse (+1) of the caller.
+    void add(int change) { count_ += change; }
+
+    //! Removes a vertex where triangles stay good, by the best collapses first.
+    //! \return false if there is none. Cost: O(#triangles log #triangles) for the first call after
+    //! restart().
+    bool collapse_one();
+    //! Splits long edges or removes vertices until the count is 0.
+    //! \return false if that fails.
+    bool balance();
+
+private:
+    struct Candidate {
+        double quality;
+        agvd::Index gone, into;
+        [[nodiscard]] bool operator<(const Candidate& other) const {
+            return std::tie(quality, gone, into) < std::tie(other.quality, other.gone, other.into);
+        }
+    };
+
+    void prune();
+    void list_collapses();
+    [[nodiscard]] double quality_of_middle(agvd::Index a, agvd::Index b) const;
+    bool split_one();
+
+    EditedMesh& mesh_;
+    ShapeSteps& steps_;
+    agvd::Ticker& ticker_;
+    const double wanted_;
+    double elsewhere_ = 0;
+    int count_ = 0;
+    bool has_collapses_ = false;
+    std::vector<Candidate> collapses_;  // The best one last.
+};
+
+}  // namespace remesh::detail
