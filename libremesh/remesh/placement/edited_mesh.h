@@ -27,6 +27,13 @@ public:
         std::uint8_t hard = 0;
         bool is_there = false;
         double quality = 0;  //!< shape_quality(); 1 less if the face points against the surface.
+
+        [[nodiscard]] bool is_hard(agvd::Index k) const { return (hard >> k & 1U) != 0; }
+        //! `hard` for edges from corner 0, 1 and 2.
+        [[nodiscard]] static std::uint8_t hard_bits(bool first, bool second, bool third) {
+            return static_cast<std::uint8_t>((first ? 1U : 0U) | (second ? 2U : 0U) |
+                                             (third ? 4U : 0U));
+        }
     };
     //! A state to which edits can be undone.
     struct Mark {

@@ -111,7 +111,7 @@ ShapeSteps::Ways ShapeSteps::ways_of(Index v) const {
             ways.to_mean += way;
             ways.length += way.norm();
             ++count;
-            if (!is_free && (face.hard >> k & 1U) != 0 && way.norm() > 0) {
+            if (!is_free && face.is_hard(k) && way.norm() > 0) {
                 ways.steps.push_back(way.normalized());
             }
         }
