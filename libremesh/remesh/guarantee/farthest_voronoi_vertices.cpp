@@ -22,12 +22,11 @@ std::vector<Index> farthest_voronoi_vertices(const agvd::Diagram& diagram) {
     return farthest;
 }
 
-std::vector<Index> places_in_largest_cells(const agvd::Diagram& diagram, std::size_t count,
-                                           const std::function<bool(Index site)>& divides) {
+std::vector<Index> places_in_largest_cells(const agvd::Diagram& diagram, std::size_t count) {
     const std::vector<Index> farthest = farthest_voronoi_vertices(diagram);
     std::vector<Index> cells;
     for (Index s = 0; s < farthest.size(); ++s) {
-        if (farthest[s] != no_index && (!divides || divides(s))) cells.push_back(s);
+        if (farthest[s] != no_index) cells.push_back(s);
     }
     std::stable_sort(cells.begin(), cells.end(),
                      [&](Index a, Index b) { return diagram.cell_area[a] > diagram.cell_area[b]; });

@@ -2,7 +2,6 @@
 //! The farthest Voronoi vertex of each cell: a place for another site.
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "agvd/diagram/diagram.h"
@@ -15,11 +14,9 @@ namespace remesh {
 
 //! The farthest Voronoi vertices of the largest cells, the largest cell first, each once.
 //!
-//! \param count    at most so many.
-//! \param divides  whether a site's cell may be divided; empty: all may.
+//! \param count  at most so many.
 //! Cost: O(size of the complex + #sites log #sites).
-[[nodiscard]] std::vector<agvd::Index> places_in_largest_cells(
-    const agvd::Diagram& diagram, std::size_t count,
-    const std::function<bool(agvd::Index site)>& divides = {});
+[[nodiscard]] std::vector<agvd::Index> places_in_largest_cells(const agvd::Diagram& diagram,
+                                                               std::size_t count);
 
 }  // namespace remesh

@@ -22,8 +22,6 @@ const char* to_text(SiteReason reason) {
             return "meets twice, each time with the same third cell,";
         case SiteReason::NoSite:
             return "no site on a component";
-        case SiteReason::MissingVertex:
-            return "samples lie on others";
         case SiteReason::SelfIntersection:
             return "self-intersects";
     }
@@ -50,8 +48,6 @@ const char* place_text(SiteReason reason) {
             return "between cells that meet twice, each time with the same third cell";
         case SiteReason::NoSite:
             return "on components without a site";
-        case SiteReason::MissingVertex:
-            return "in large cells, for samples that lie on others";
         case SiteReason::SelfIntersection:
             return "where the mesh self-intersected";
     }

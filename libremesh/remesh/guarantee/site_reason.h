@@ -17,7 +17,6 @@ enum class SiteReason : std::uint8_t {
     BoundaryTwice,       //!< It meets the boundary in more than one arc.
     SameThirdCell,       //!< Two Voronoi vertices have the same three cells.
     NoSite,              //!< A component has no site.
-    MissingVertex,       //!< A sample of a thinned component lies on another one.
     SelfIntersection,    //!< The mesh self-intersects there.
 };
 

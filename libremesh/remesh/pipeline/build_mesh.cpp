@@ -32,8 +32,6 @@ struct RoundSites {
 // As a multiple of the input's pairs. Rounds at pairs that follow from these have come down to
 // their number in 4 of 50 attempts on damaged meshes, each time from at most twice that number.
 constexpr std::size_t few_more = 2;
-// Most rounds that add sites for those that lie on others or own nothing, as on needles.
-constexpr int max_refills = 4;
 
 // Frees what only the Delaunay stage and those before read: after it Voronoi vertices suffice.
 void drop_points(agvd::Diagram& diagram) {
@@ -52,7 +50,6 @@ struct Candidate {
     PlacedDual placed;
     std::optional<CrossingFaces> crossings;
     Index num_removed = 0;
-    Index num_missing = 0;  // Vertices; more sites may bring them.
     DelaunayCounts flips;
 };
 
@@ -74,7 +71,7 @@ public:
 
     BuiltMesh run(int most_mends) {
         for (int mends = 0;; ++mends) {
-            Candidate candidate = build_full_candidate();
+            Candidate candidate = build_candidate();
             if (candidate.fault != Fault::None) {
                 if (mends == 0) fail(candidate);
                 break;
@@ -91,17 +88,6 @@ public:
     }
 
 private:
-    // Vertices are missing where sites of thinned components lie on each other. Others get sites
-    // for them.
-    Candidate build_full_candidate() {
-        Candidate candidate = build_candidate();
-        for (int refills = 0; refills < max_refills && candidate.num_missing > 0; ++refills) {
-            if (!add_missing(candidate.num_missing, candidate.dual)) break;
-            candidate = build_candidate();
-        }
-        return candidate;
-    }
-
     Candidate build_candidate() {
         Candidate candidate;
         ValidDual& dual = candidate.dual;
@@ -117,7 +103,6 @@ private:
             candidate.fault = Fault::TooManyVertices;
             return candidate;
         }
-        candidate.num_missing = num_missing(dual);
         candidate.flips = flip_edges(dual);
         drop_points(dual.diagram);
         if (domain_.plan) candidate.placed.patches = join_patches(dual, placed_.curves);
@@ -301,24 +286,6 @@ private:
         places.erase(std::unique(places.begin(), places.end()), places.end());
         add_sites(places, SiteReason::SelfIntersection, dual);
         sites_.is_wanted.resize(sites_.on_base.size(), true);
-        return true;
-    }
-
-    [[nodiscard]] Index num_missing(const ValidDual& dual) const {
-        // Curves have other ways to the number, and given sites may own nothing.
-        if (domain_.plan || context_.options.sites) return 0;
-        const auto count = static_cast<Index>(dual.mesh.points.size());
-        return count < *target_ ? *target_ - count : 0;
-    }
-
-    // Divides the largest cells of components that are not thinned. False if there are none.
-    bool add_missing(Index count, const ValidDual& dual) {
-        const std::vector<Index> places =
-            places_in_largest_cells(dual.diagram, count, [&](Index site) {
-                return !is_thinned_[domain_.component[sites_.on_base[site].face.value()]];
-            });
-        if (places.empty()) return false;
-        add_sites(places, SiteReason::MissingVertex, dual);
         return true;
     }
 

@@ -34,7 +34,5 @@ TEST(FarthestVoronoiVertices, OfTheLargestCellsComeFirstAndOnce) {
     const agvd::Diagram diagram = five_cells();
     EXPECT_EQ(remesh::places_in_largest_cells(diagram, 9), (std::vector<Index>{1, 2}));
     EXPECT_EQ(remesh::places_in_largest_cells(diagram, 1), (std::vector<Index>{1}));
-    EXPECT_EQ(remesh::places_in_largest_cells(diagram, 9, [](Index site) { return site == 0; }),
-              (std::vector<Index>{2}));
     EXPECT_TRUE(remesh::places_in_largest_cells(diagram, 0).empty());
 }
