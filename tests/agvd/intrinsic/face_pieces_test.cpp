@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+
 #include "agvd/mesh/face_area.h"
 #include "support/shapes.h"
 
@@ -116,6 +119,49 @@ TEST(FacePieces, FacesThatAreFlatInSpaceAreOnePiece) {
         });
         EXPECT_EQ(count, 1u);
     }
+}
+
+// Faces of a rolled sheet of needles have too many parts: they get points inside them, evenly
+// spread.
+TEST(FacePieces, FacesOfManyNeedlesHavePointsInside) {
+    constexpr Index columns = 400, rows = 4;
+    TriangleMesh sheet;
+    for (Index i = 0; i <= columns; ++i) {
+        const double angle = static_cast<double>(i) / columns;
+        for (Index j = 0; j <= rows; ++j) {
+            sheet.positions.emplace_back(std::cos(angle), std::sin(angle), 0.25 * j);
+            if (i == 0 || j == 0) continue;
+            const Index d = i * (rows + 1) + j, c = d - 1, b = d - (rows + 1), a = b - 1;
+            sheet.triangles.insert(sheet.triangles.end(), {{a, c, d}, {a, d, b}});
+        }
+    }
+    const Surface surface = build_surface(sheet.view());
+    const IntrinsicTriangulation base(surface, {.min_length = 0.3});
+    const FacePieces pieces(base, 1e-3);
+    const auto unrolled = [](const Vec3& p) { return Vec2(std::atan2(p.y(), p.x()), p.z()); };
+    const auto area = [](const Vec2& a, const Vec2& b, const Vec2& c) {
+        return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
+    };
+    Index num_spread = 0;
+    for (Index f = 0; f < base.surface().num_faces(); ++f) {
+        std::array<Vec2, 3> corner;
+        for (std::size_t k = 0; k < 3; ++k) {
+            corner[k] = unrolled(sheet.positions[base.surface().mesh.triangles[f][k]]);
+        }
+        const double whole = area(corner[0], corner[1], corner[2]);
+        if (whole < 0.1) continue;  // Fewer parts.
+        Index count = 0;
+        pieces.for_each(f, [&](const SurfacePiece& piece) {
+            ++count;
+            const Vec2 p = unrolled(piece.position);
+            for (std::size_t k = 0; k < 3; ++k) {
+                EXPECT_GT(area(p, corner[(k + 1) % 3], corner[(k + 2) % 3]), 0.005 * whole);
+            }
+        });
+        EXPECT_EQ(count, 16u);
+        ++num_spread;
+    }
+    EXPECT_EQ(num_spread, 2u);
 }
 
 TEST(FacePieces, AreTheSameForAnyNumberOfThreads) {

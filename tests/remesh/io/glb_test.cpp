@@ -187,6 +187,11 @@ TEST(Glb, WhatWasWrittenComesBackInFloat) {
     }
 }
 
+TEST(Glb, MeshesWithoutFacesAreNotWritten) {
+    const agvd::TriangleMesh points{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}};
+    EXPECT_THROW((void)remesh::format_mesh("a.glb", points.view()), agvd::InvalidInput);
+}
+
 TEST(Glb, TruncatedFilesAreRefused) {
     const std::string bytes = glb(square().dump(), square_data);
     for (std::size_t size = 1; size < bytes.size(); ++size) {

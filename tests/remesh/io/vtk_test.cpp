@@ -108,6 +108,17 @@ TEST(Vtk, BinaryIsRead) {
     }
 }
 
+TEST(Vtk, FieldsOfTheWholeFileArePassedOver) {
+    const auto file = with_arrays(poly +
+                                  "FIELD FieldData 2\nTIME 1 1 double\n.5\ncycle 1 1 int\n7\n"
+                                  "POLYGONS 1 4\n3 0 1 3\nCELL_DATA 1\nSCALARS a int\n"
+                                  "LOOKUP_TABLE default\n9\n");
+    ASSERT_EQ(file.attributes.of_faces.size(), 1u);
+    EXPECT_EQ(file.attributes.of_faces[0].values, (std::vector<double>{9}));
+    EXPECT_TRUE(file.attributes.of_vertices.empty());
+    EXPECT_TRUE(file.attributes.declined.empty());
+}
+
 TEST(Vtk, ArraysBecomeAttributes) {
     const auto file =
         with_arrays(poly +

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "agvd/core/error.h"
+#include "remesh/pipeline/locked.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/quality/triangle_quality.h"
 #include "remesh/topology/topology.h"
@@ -169,6 +170,29 @@ TEST(Locked, VerticesOfOneRegionStay) {
     }
     EXPECT_GT(num_inside, 10);
     EXPECT_TRUE(remesh::analyze_topology(result.mesh.view()).is_manifold);
+}
+
+TEST(Locked, WhatTheResultLostIsNoticed) {
+    using remesh::detail::find_locked;
+    using remesh::detail::has_locked;
+    const agvd::TriangleMesh cube = shapes::cube();
+    const agvd::Surface surface = agvd::build_surface(cube.view());
+    const agvd::Index h = surface.edge_half[0];
+    const agvd::Index a = surface.tail(h), b = surface.head(h);
+    const remesh::LockedElements corners = find_locked(cube.view(), {{a, b}}, {}, surface);
+    const remesh::LockedElements edge = find_locked(cube.view(), {}, {{{a, b}}}, surface);
+    agvd::TriangleMesh result = cube;
+    EXPECT_TRUE(has_locked(surface, corners, result));
+    EXPECT_TRUE(has_locked(surface, edge, result));
+    result.positions[b].x() += 1e-9;
+    EXPECT_FALSE(has_locked(surface, corners, result));
+    EXPECT_FALSE(has_locked(surface, edge, result));
+    result = cube;  // Both vertices are there, but not the edge.
+    std::erase_if(result.triangles, [&](const agvd::Triangle& t) {
+        return std::count(t.begin(), t.end(), a) + std::count(t.begin(), t.end(), b) == 2;
+    });
+    EXPECT_TRUE(has_locked(surface, corners, result));
+    EXPECT_FALSE(has_locked(surface, edge, result));
 }
 
 TEST(Locked, CoordinatesOfAnySizeStay) {
