@@ -47,9 +47,7 @@ public:
         const double real_area = agvd::surface_area(surface);
         mean_ = std::sqrt(real_area / (area > 0 ? area : 1));
         longest_ = sizing.max_edge;
-        if (sizing.is_adaptive && area > 0) {
-            longest_ = std::min(longest_, std::max(longest_of_mean * mean_, sizing.min_edge));
-        }
+        if (sizing.is_adaptive && area > 0) longest_ = std::min(longest_, longest_of_mean * mean_);
         if (!least.empty()) find_bounds(least);
     }
 
