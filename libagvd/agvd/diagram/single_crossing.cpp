@@ -1,7 +1,8 @@
 // Notation: f_a and f_b are the distances from two sites along the segment [0, length], each the
 // least over the site's relays. [lo, hi] brackets a root of f_a - f_b: a is nearer at lo, b at hi.
-// Newton steps find the root; tangents at the root against chords to the ends of the segment prove
-// that it is the only one, since distances along a segment are convex.
+// Newton steps find the root. Tangents at the root against chords to the ends of the segment prove
+// that it is the only one: distances through one relay are convex. f_a and f_b are not, so that
+// chords are those of the relays that are nearest at the root.
 #include "agvd/diagram/single_crossing.h"
 
 #include <algorithm>
@@ -58,16 +59,18 @@ void sample_all(const Search& search, double x, Samples& samples) {
 // \param clear  differences below this decide nothing.
 bool is_only_change(const Search& search, const Samples& samples, const SingleCrossing& root,
                     double clear) {
+    const double a_lo = value_at(search.relays[samples.best_a], 0);
+    const double b_hi = value_at(search.relays[samples.best_b], search.length);
     for (std::size_t i = 0; i < search.relays.size(); ++i) {
         const LineSample& s = samples.of[i];
         const double at_start = s.value - s.slope * root.at;
         const double at_end = s.value + s.slope * (search.length - root.at);
         const Index site = search.relays[i].site;
-        const bool is_above = site == search.b   ? at_start >= search.a_lo - clear
-                              : site == search.a ? at_end >= search.b_hi - clear
-                                                 : s.value >= root.distance + clear &&
-                                                       at_start >= search.a_lo + clear &&
-                                                       at_end >= search.b_hi + clear;
+        const bool is_above = site == search.b ? at_start >= a_lo - clear
+                              : site == search.a
+                                  ? at_end >= b_hi - clear
+                                  : s.value >= root.distance + clear && at_start >= a_lo + clear &&
+                                        at_end >= b_hi + clear;
         if (!is_above) return false;
     }
     return true;

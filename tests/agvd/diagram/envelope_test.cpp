@@ -105,6 +105,21 @@ TEST(Envelope, ASiteCloseToTheSegmentHasAnIntervalInsideAnothersTwo) {
     EXPECT_NEAR(intervals[0].end + intervals[1].end, 1, 1e-9);
 }
 
+// Two relays of one site, which wins on both sides of the other one's first interval.
+TEST(Envelope, ASecondRelayOfASiteMayWinBeyondTheCrossing) {
+    auto relays = relays_of({{0, 0.1, 0}, {2, 1, 0}, {1.6, 0.05, 0.95}});
+    relays[2].site = 0;
+    EXPECT_FALSE(find_single_crossing(relays, length, 0, 1));
+    const auto intervals = envelope_of(relays);
+    ASSERT_EQ(intervals.size(), 4u);
+    EXPECT_NEAR(intervals[0].end, 1.2475 / length, 1e-9);
+    for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(intervals[i].site, i % 2);
+    for (const std::size_t i : {1U, 2U}) {
+        const double x = length * intervals[i].end;
+        EXPECT_NEAR(sample(relays[1], x).value, sample(relays[2], x).value, 1e-9);
+    }
+}
+
 TEST(Envelope, AThirdSiteBetweenIsNoSingleCrossing) {
     const auto relays = relays_of({{0, 1, 0}, {1, 0.2, 0}, {2, 1, 0}});
     EXPECT_FALSE(find_single_crossing(relays, length, 0, 2));

@@ -429,6 +429,33 @@ TEST(Relaxation, SitesAreDrawnToThePlanesOfTheirCells) {
     EXPECT_LT(distance_after_steps(cells), 0.9 * distance_after_steps(without_planes));
 }
 
+TEST(Relaxation, CellsTellHowBentTheyAre) {
+    const auto bending_of = [](const agvd::TriangleMesh& mesh, std::initializer_list<Vec3> places) {
+        const Surface surface = agvd::build_surface(mesh.view());
+        const PreparedSurface prepared(surface, unrefined);
+        std::vector<SurfacePoint> sites;
+        for (const Vec3& place : places) {
+            const auto nearest = std::min_element(
+                mesh.positions.begin(), mesh.positions.end(), [&](const Vec3& a, const Vec3& b) {
+                    return (a - place).norm() < (b - place).norm();
+                });
+            sites.push_back(
+                agvd::point_at(surface, static_cast<Index>(nearest - mesh.positions.begin())));
+        }
+        const agvd::DistanceBounds labels = remesh::detail::label_vertices(prepared, sites, 1);
+        return remesh::detail::measure_cells(prepared, labels, static_cast<Index>(sites.size()), 1)
+            .bending;
+    };
+    const agvd::TriangleMesh sphere = shapes::sphere(4);
+    EXPECT_NEAR(bending_of(sphere, {{0, 0, 1}})[0], 1, 1e-9);
+    for (const double bending : bending_of(sphere, {{0, 0, 1}, {0, 0, -1}})) {
+        EXPECT_NEAR(bending, 0.5, 0.01);
+    }
+    for (const double bending : bending_of(shapes::grid(20), {{0, 0, 0}, {1, 1, 0}})) {
+        EXPECT_NEAR(bending, 0, 1e-9);
+    }
+}
+
 TEST(Relaxation, CellsMeasureTheSameForAnyNumberOfThreads) {
     const Surface surface =
         agvd::build_surface(shapes::jitter(shapes::torus(60, 30), 0.01, 3).view());
