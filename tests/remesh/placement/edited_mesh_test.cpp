@@ -110,6 +110,13 @@ TEST(EditedMesh, AnyCollapsesKeepTheBoundaryHard) {
     EXPECT_EQ(num_hard, remesh::rim_of(result.triangles).size());
 }
 
+TEST(EditedMesh, TheLastTriangleStays) {
+    const Sample sample(TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}});
+    EditedMesh edited = sample.edited();
+    for (const Index gone : {0U, 1U, 2U}) EXPECT_FALSE(edited.collapse(gone, (gone + 1) % 3));
+    EXPECT_EQ(sample.result(edited).triangles.size(), 1u);
+}
+
 TEST(EditedMesh, VerticesOnTheBoundaryMoveAlongItOnly) {
     const TriangleMesh mesh = shapes::tube(24, 6);
     const Sample sample(mesh);

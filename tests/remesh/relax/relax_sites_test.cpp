@@ -402,6 +402,23 @@ TEST(RelaxSites, WrongOptionsAndSitesAreRefused) {
                  agvd::Cancelled);
 }
 
+// Steps tell a larger fraction; what lies between them, such as labels, asks again at the same one.
+TEST(RelaxSites, ProgressIsAskedBetweenStepsToo) {
+    const Surface surface = agvd::build_surface(shapes::torus(200, 100).view());
+    const PreparedSurface prepared(surface, unrefined);
+    const auto start = sample_sites(surface, {.num_samples = 50});
+    std::vector<double> told;
+    (void)relax_sites(prepared, start, {.steps = 12, .progress = [&](double fraction) {
+                                            told.push_back(fraction);
+                                            return true;
+                                        }});
+    ASSERT_FALSE(told.empty());
+    EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+    EXPECT_GT(told.back(), 0.9);
+    EXPECT_LE(told.back(), 1);
+    EXPECT_GT(std::count(told.begin(), told.end(), told[told.size() / 2]), 1);
+}
+
 TEST(Relaxation, SitesAreDrawnToThePlanesOfTheirCells) {
     agvd::TriangleMesh cube = shapes::cube();
     for (int i = 0; i < 5; ++i) cube = shapes::subdivide(cube);
