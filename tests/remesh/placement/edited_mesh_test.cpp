@@ -59,6 +59,42 @@ TEST(EditedMesh, AVertexWhoseWalkIsCutOffStays) {
     EXPECT_EQ(edited.num_crossings(), 2002u);
 }
 
+// A loss of quality is allowed here: it is the normals that end the moves.
+TEST(EditedMesh, MovesTurnNoNormalFar) {
+    const Sample sample(shapes::sphere(1));
+    EditedMesh edited = sample.edited();
+    const auto normals_at = [&](Index v) {
+        std::vector<Vec3> normals;
+        for (const Index f : edited.faces_at(v)) {
+            const auto& [a, b, c] = edited.face(f).corner;
+            normals.push_back(
+                (edited.at(b) - edited.at(a)).cross(edited.at(c) - edited.at(a)).normalized());
+        }
+        return normals;
+    };
+    Index num_moved = 0, num_stayed = 0;
+    for (Index v = 0; v < edited.num_vertices(); ++v) {
+        const Triangle corner = edited.face(edited.faces_at(v)[0]).corner;
+        const Vec3 way = edited.at(corner[corner[0] == v ? 1 : 0]) - edited.at(v);
+        for (const double share : {0.2, 0.6, 0.9, 1.1, 2.}) {
+            const EditedMesh::Mark mark = edited.mark();
+            const std::vector<Vec3> before = normals_at(v);
+            if (edited.move(v, share * way, -2)) {
+                ++num_moved;
+                const std::vector<Vec3> after = normals_at(v);
+                for (std::size_t i = 0; i < before.size(); ++i) {
+                    EXPECT_GT(before[i].dot(after[i]), 0.5);
+                }
+            } else {
+                ++num_stayed;
+            }
+            edited.take_back(mark);
+        }
+    }
+    EXPECT_GT(num_moved, 40u);
+    EXPECT_GT(num_stayed, 40u);
+}
+
 TEST(EditedMesh, HardEdgesAreNotFlipped) {
     const TriangleMesh mesh = shapes::sphere(1);
     Sample sample(mesh);

@@ -46,6 +46,17 @@ TEST(NetworkPlan, CurvesAndPatchesHaveTheSameSpacing) {
     }
 }
 
+// Walls that are far thinner than the spacing have no inner sites, and not less than none.
+TEST(NetworkPlan, NarrowPatchesTakeNoSitesFromOthers) {
+    const Surface surface = agvd::build_surface(parts::box({10, 10, 0.02}, 4).view());
+    for (const Index n : {300u, 1000u}) {
+        const double spacing = plan_of(surface, n).spacing;
+        const double on_curves = 80 / spacing;
+        const double inside = 100 / (std::sqrt(3.) / 2 * spacing * spacing) - 40 / (2 * spacing);
+        EXPECT_NEAR((on_curves + 2 * inside) / n, 1, 0.04);
+    }
+}
+
 TEST(NetworkPlan, ShortCreasesGoFirstWhereSitesAreTooFew) {
     const Surface surface = agvd::build_surface(parts::box({4, 3, 1}, 2).view());
     const NetworkPlan plan = plan_of(surface, 7);
