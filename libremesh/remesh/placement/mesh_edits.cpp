@@ -218,8 +218,6 @@ bool EditedMesh::may_collapse(Index gone, Index into) const {
             return false;
         }
     }
-    // A lone triangle has no other face at its apex.
-    if (num_apexes == 1 && fans_[apex[0]].size() == 1) return false;
     std::sort(ring.begin(), ring.end());
     ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
     const auto num_common = static_cast<std::size_t>(std::count_if(
