@@ -66,11 +66,15 @@ bool is_only_change(const Search& search, const Samples& samples, const SingleCr
         const double at_start = s.value - s.slope * root.at;
         const double at_end = s.value + s.slope * (search.length - root.at);
         const Index site = search.relays[i].site;
-        const bool is_above = site == search.b ? at_start >= a_lo - clear
-                              : site == search.a
-                                  ? at_end >= b_hi - clear
-                                  : s.value >= root.distance + clear && at_start >= a_lo + clear &&
-                                        at_end >= b_hi + clear;
+        bool is_above = false;
+        if (site == search.b) {
+            is_above = at_start >= a_lo - clear;
+        } else if (site == search.a) {
+            is_above = at_end >= b_hi - clear;
+        } else {
+            is_above = s.value >= root.distance + clear && at_start >= a_lo + clear &&
+                       at_end >= b_hi + clear;
+        }
         if (!is_above) return false;
     }
     return true;

@@ -5,13 +5,11 @@
 #include <algorithm>
 
 #include "remesh/placement/shape_quality.h"
-#include "remesh/relax/walk.h"
 
 namespace remesh::detail {
 
 using agvd::Index;
 using agvd::no_index;
-using agvd::SurfacePoint;
 using agvd::Triangle;
 using agvd::Vec3;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "remesh/placement/slide_steps.h"
 
@@ -43,13 +44,19 @@ bool ShapeSteps::is_bad(Index f) const {
                        [&](Index v) { return mesh_.mobility(v) != Mobility::Fixed; });
 }
 
-std::vector<std::pair<double, Index>> ShapeSteps::bad_faces() const {
+std::vector<std::pair<double, Index>> ShapeSteps::bad_among(std::span<const Index> faces) const {
     std::vector<std::pair<double, Index>> bad;
-    for (Index f = 0; f < mesh_.num_faces(); ++f) {
+    for (const Index f : faces) {
         if (is_bad(f)) bad.emplace_back(mesh_.face(f).quality, f);
     }
     std::sort(bad.begin(), bad.end());
     return bad;
+}
+
+std::vector<std::pair<double, Index>> ShapeSteps::bad_faces() const {
+    std::vector<Index> all(mesh_.num_faces());
+    std::iota(all.begin(), all.end(), Index{0});
+    return bad_among(all);
 }
 
 ShapeGain ShapeSteps::gain_since(const EditedMesh::Mark& mark) {
@@ -149,13 +156,8 @@ bool ShapeSteps::move_to_mean(Index v) { return mesh_.move(v, ways_of(v).to_mean
 void ShapeSteps::relax(const EditedMesh::Mark& mark) {
     for (int sweep = 0; sweep < most_sweeps; ++sweep) {
         mesh_.changed_since(mark, changed_, before_);
-        std::vector<std::pair<double, Index>> bad;
-        for (const Index f : changed_) {
-            if (is_bad(f)) bad.emplace_back(mesh_.face(f).quality, f);
-        }
-        std::sort(bad.begin(), bad.end());
         bool is_better = false;
-        for (const auto& [quality, f] : bad) {
+        for (const auto& [quality, f] : bad_among(changed_)) {
             if (is_bad(f)) is_better = improve(f) || is_better;
         }
         if (!is_better) return;

@@ -2,6 +2,7 @@
 //! Steps that improve the triangles of an edited mesh, and what they gain. Private to mending.
 #pragma once
 
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -61,6 +62,9 @@ private:
         double length = 0;
     };
 
+    // The bad ones of some faces, the worst first.
+    [[nodiscard]] std::vector<std::pair<double, agvd::Index>> bad_among(
+        std::span<const agvd::Index> faces) const;
     [[nodiscard]] Ways ways_of(agvd::Index v) const;
     bool try_flip(agvd::Index f, agvd::Index k);
     bool slide(agvd::Index v);
