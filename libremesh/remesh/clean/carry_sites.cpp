@@ -135,7 +135,7 @@ void check_site(const SurfacePoint& site, std::size_t number, Index num_faces) {
 
 std::vector<SurfacePoint> to_cleaned(const std::vector<SurfacePoint>& sites, const MeshView& mesh,
                                      const CleanedView& clean) {
-    CleanedSurface surface(mesh, clean);
+    CleanedSurface surface(clean.welded(mesh), clean);
     std::vector<SurfacePoint> carried;
     carried.reserve(sites.size());
     for (std::size_t i = 0; i < sites.size(); ++i) {
@@ -152,7 +152,7 @@ std::vector<SurfacePoint> to_cleaned(const std::vector<SurfacePoint>& sites, con
     return carried;
 }
 
-std::vector<SurfacePoint> to_original(const std::vector<SurfacePoint>& sites, const MeshView& mesh,
+std::vector<SurfacePoint> to_original(const std::vector<SurfacePoint>& sites, const MeshView& given,
                                       const CleanedView& clean) {
     if (clean.face_origin.empty()) {
         std::vector<SurfacePoint> carried;
@@ -160,13 +160,14 @@ std::vector<SurfacePoint> to_original(const std::vector<SurfacePoint>& sites, co
         for (const SurfacePoint& site : sites) carried.push_back(normalized(site));
         return carried;
     }
+    const MeshView mesh = clean.welded(given);
     const MeshView& cleaned = clean.mesh;
     const double reach_sq = squared_reach(cleaned);
     std::optional<agvd::ClosestPointTree> tree;  // Few meshes need it.
     std::vector<SurfacePoint> carried;
     carried.reserve(sites.size());
-    for (const SurfacePoint& given : sites) {
-        const SurfacePoint site = normalized(given);
+    for (const SurfacePoint& on_cleaned : sites) {
+        const SurfacePoint site = normalized(on_cleaned);
         const Index origin = clean.face_origin[site.face.value()];
         const std::array<Vec3, 3> corners = corners_of(mesh, origin);
         if (const auto same =

@@ -8,7 +8,7 @@ namespace remesh {
 
 //! How many elements each step of the repair touched.
 struct CleanCounts {
-    agvd::Index welded_vertices = 0;    //!< Merged into another vertex at the same position.
+    agvd::Index welded_vertices = 0;    //!< Merged into another vertex at the same place.
     agvd::Index degenerate_faces = 0;   //!< Dropped: repeated corner, or no area.
     agvd::Index absorbed_faces = 0;     //!< Without area, removed by an edge flip: no hole is left.
     agvd::Index duplicate_faces = 0;    //!< Dropped: same three corners as an earlier face.

@@ -13,6 +13,7 @@
 #include "agvd/core/error.h"
 #include "agvd/core/parallel.h"
 #include "agvd/mesh/scale.h"
+#include "remesh/clean/places.h"
 #include "remesh/clean/soup.h"
 
 namespace remesh {
@@ -85,12 +86,15 @@ std::optional<CleanResult> take_clean(const agvd::MeshView& mesh, int num_thread
         ticker.tick();
         is_boundary[v] = twin[outgoing[v]] == no_index;
     }
-    if (share_positions(mesh.positions, is_boundary, ticker))
-        return std::nullopt;  // Possibly a crack.
+    const std::vector<Index> place = find_places(mesh, is_boundary, ticker);
+    for (Index v = 0; v < place.size(); ++v) {
+        if (place[v] != no_index && place[v] != v) return std::nullopt;  // Possibly a crack.
+    }
     Soup soup = as_soup(mesh, ticker);
     return CleanResult{{std::move(soup.positions), std::move(soup.triangles)},
                        std::move(soup.vertex_origin),
                        std::move(soup.face_origin),
+                       {},
                        {},
                        *std::move(found)};
 }
@@ -227,6 +231,7 @@ CleanResult clean_input(const agvd::MeshView& mesh, int num_threads,
     return {{std::move(soup.positions), std::move(soup.triangles)},
             std::move(soup.vertex_origin),
             std::move(soup.face_origin),
+            std::move(soup.welded_positions),
             soup.counts,
             {}};
 }

@@ -19,6 +19,9 @@ struct CleanResult {
     //! #F: the input face in which each face lies (it may be part of it, or have its corners in
     //! another order).
     std::vector<agvd::Index> face_origin;
+    //! #V of the input, if welding moved vertices (else empty): its positions with those that were
+    //! welded at one place.
+    std::vector<agvd::Vec3> welded_positions;
     CleanCounts counts;  //!< What was repaired.
     //! agvd::find_connectivity(mesh) if nothing had to be repaired; otherwise empty.
     agvd::Connectivity connectivity;
@@ -27,21 +30,32 @@ struct CleanResult {
 //! A cleaned mesh and the origins of its faces, for functions that carry points and edges over.
 //! Refers to arrays that the caller owns, such as those of a CleanResult.
 struct CleanedView {
-    agvd::MeshView mesh;                       //!< What agvd::build_surface accepts.
-    std::span<const agvd::Index> face_origin;  //!< See CleanResult; empty: nothing was changed.
+    agvd::MeshView mesh;                           //!< What agvd::build_surface accepts.
+    std::span<const agvd::Index> face_origin;      //!< See CleanResult; empty: nothing was changed.
+    std::span<const agvd::Vec3> welded_positions;  //!< See CleanResult.
 
     //! Of a result, which must outlive this.
     CleanedView(const CleanResult& clean)
-        : mesh(clean.mesh.view()), face_origin(clean.face_origin) {}
-    //! Of arrays, which must outlive this.
+        : mesh(clean.mesh.view()),
+          face_origin(clean.face_origin),
+          welded_positions(clean.welded_positions) {}
+    //! Of arrays, which must outlive this; welding moved nothing.
     CleanedView(const agvd::MeshView& cleaned, std::span<const agvd::Index> origin)
         : mesh(cleaned), face_origin(origin) {}
+
+    //! The mesh that was cleaned, with its welded positions if there are any.
+    //! \param given  what clean_input() got.
+    [[nodiscard]] agvd::MeshView welded(const agvd::MeshView& given) const {
+        if (welded_positions.empty()) return given;
+        return {welded_positions, given.triangles};
+    }
 };
 
-//! Repairs in this order, without moving anything:
-//! 1. Boundary edges between the same two positions are welded: cracks and soups close, while parts
-//!    that touch at a point, and closed parts that touch anywhere, stay apart. Zero-length edges
-//!    collapse.
+//! Repairs in this order, without moving anything but what 1. says:
+//! 1. Boundary edges between the same two places are welded: cracks and soups close, while parts
+//!    that touch at a point, and closed parts that touch anywhere, stay apart. Positions are one
+//!    place if they are equal, or differ by a millionth of the mesh's longest side at most and by a
+//!    hundredth of each edge there; the first one stays. Zero-length edges collapse.
 //! 2. Faces with a repeated corner and duplicate faces (the first stays) are dropped.
 //! 3. Faces connected through edges of two faces are oriented alike. Consistent pieces are not
 //!    turned. Otherwise a clear majority (3/4) wins; without one, closed pieces are turned outward,

@@ -18,8 +18,9 @@ namespace remesh::detail {
 struct Soup {
     std::vector<agvd::Vec3> positions;
     std::vector<agvd::Triangle> triangles;
-    std::vector<agvd::Index> vertex_origin;  //!< #V: input vertex.
-    std::vector<agvd::Index> face_origin;    //!< #F: input face.
+    std::vector<agvd::Index> vertex_origin;         //!< #V: input vertex.
+    std::vector<agvd::Index> face_origin;           //!< #F: input face.
+    std::vector<agvd::Vec3> welded_positions = {};  //!< See CleanResult.
     CleanCounts counts;
     agvd::Ticker ticker = {};  //!< Of clean_input(): every pass ticks it.
 
@@ -44,10 +45,7 @@ void erase_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<agvd:
 // The passes, in the order in which they run. Those that return bool tell whether they changed a
 // triangle, so that sides must be sorted again.
 
-//! Whether two of the wanted vertices have the same position.
-[[nodiscard]] bool share_positions(std::span<const agvd::Vec3> positions,
-                                   const std::vector<bool>& is_wanted, agvd::Ticker& ticker);
-//! Boundary edges between the same two positions become one edge.
+//! Boundary edges between the same two places (find_places) become one edge.
 bool weld_cracks(Soup& soup, std::span<const EdgeSide> sides);
 //! Different corners of a face at one position become one vertex.
 bool collapse_zero_edges(Soup& soup);

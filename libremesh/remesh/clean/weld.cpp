@@ -1,9 +1,9 @@
-// Merges vertices at one position: along cracks, and at the ends of zero-length edges.
+// Merges vertices at one place: along cracks, and at the ends of zero-length edges.
 #include <algorithm>
 
 #include "agvd/core/edge_key.h"
-#include "agvd/core/position_hash.h"
 #include "agvd/core/union_find.h"
+#include "remesh/clean/places.h"
 #include "remesh/clean/soup.h"
 
 namespace remesh::detail {
@@ -12,26 +12,6 @@ namespace {
 using agvd::Index;
 using agvd::no_index;
 using agvd::Vec3;
-
-// For each vertex that `is_wanted`, the first such vertex at its position.
-std::vector<Index> first_at_position(std::span<const Vec3> positions,
-                                     const std::vector<bool>& is_wanted, agvd::Ticker& ticker) {
-    const auto wanted =
-        static_cast<std::size_t>(std::count(is_wanted.begin(), is_wanted.end(), true));
-    std::vector<Index> table(std::bit_ceil(2 * wanted + 1), no_index);  // Open addressing.
-    std::vector<Index> first(positions.size(), no_index);
-    for (Index v = 0; v < positions.size(); ++v) {
-        ticker.tick();
-        if (!is_wanted[v]) continue;
-        std::size_t slot = agvd::PositionHash{}(positions[v]) & (table.size() - 1);
-        while (table[slot] != no_index && positions[table[slot]] != positions[v]) {
-            slot = (slot + 1) & (table.size() - 1);
-        }
-        if (table[slot] == no_index) table[slot] = v;
-        first[v] = table[slot];
-    }
-    return first;
-}
 
 // Replaces the vertices of each set by one, and counts those that go.
 // \param num_merged  how many unions there were.
@@ -45,16 +25,17 @@ bool apply(agvd::UnionFind& sets, Index num_merged, Soup& soup) {
     return true;
 }
 
-}  // namespace
-
-bool share_positions(std::span<const Vec3> positions, const std::vector<bool>& is_wanted,
-                     agvd::Ticker& ticker) {
-    const std::vector<Index> first = first_at_position(positions, is_wanted, ticker);
-    for (Index v = 0; v < first.size(); ++v) {
-        if (first[v] != no_index && first[v] != v) return true;
+// Vertices of a set that have other positions than its root get that of the root.
+void keep_welded_positions(agvd::UnionFind& sets, Soup& soup) {
+    for (Index v = 0; v < soup.positions.size(); ++v) {
+        const Index root = sets.root(v);
+        if (soup.positions[root] == soup.positions[v]) continue;
+        if (soup.welded_positions.empty()) soup.welded_positions = soup.positions;
+        soup.welded_positions[v] = soup.positions[root];
     }
-    return false;
 }
+
+}  // namespace
 
 // Only edges are welded, and only boundary edges: parts that touch at a point, and closed parts
 // that touch anywhere, are manifold as they are.
@@ -68,7 +49,8 @@ bool weld_cracks(Soup& soup, std::span<const EdgeSide> sides) {
 
     std::vector<bool> is_boundary(soup.positions.size(), false);
     for (const EdgeSide& side : open) is_boundary[side.low()] = is_boundary[side.high()] = true;
-    const std::vector<Index> place = first_at_position(soup.positions, is_boundary, soup.ticker);
+    const std::vector<Index> place =
+        find_places({soup.positions, soup.triangles}, is_boundary, soup.ticker);
     for (EdgeSide& side : open) {
         side.ends = agvd::edge_key(place[side.low()], place[side.high()]);
     }
@@ -89,6 +71,7 @@ bool weld_cracks(Soup& soup, std::span<const EdgeSide> sides) {
             }
         }
     });
+    keep_welded_positions(sets, soup);
     return apply(sets, num_merged, soup);
 }
 

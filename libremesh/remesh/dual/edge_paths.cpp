@@ -21,8 +21,8 @@ using agvd::SurfacePoint;
 
 namespace {
 
-// Few tasks, as a search in a task needs memory for each vertex of the surface: with 128 paths a task
-// 100 000 vertices took 10 to 20 s, with these .7 s.
+// Few tasks, as a search in a task needs memory for each vertex of the surface: with 128 paths a
+// task 100 000 vertices took 10 to 20 s, with these 1 to 2 s.
 constexpr Index most_tasks = 64, fewest_paths_per_task = 128;
 // Relative to the longest side, as lengths are sums of a few square roots.
 constexpr double length_tolerance = 1e-12;

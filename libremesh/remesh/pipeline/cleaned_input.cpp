@@ -32,7 +32,12 @@ CleanedInput clean_stage(const InputMesh& input, const StageContext& context) {
     CleanResult clean = clean_input(input.view, options.num_threads, agvd::within(progress, 0, 0));
     result.cleaned = clean.counts;
     const agvd::Progress half = agvd::within(progress, cleaned_fraction / 2, cleaned_fraction / 2);
-    CleanedInput cleaned{.given = input.view};
+    CleanedInput cleaned;
+    cleaned.given = input.view;
+    if (!clean.welded_positions.empty()) {
+        cleaned.welded_positions = std::move(clean.welded_positions);
+        cleaned.given.positions = cleaned.welded_positions;
+    }
     cleaned.topology = topology_of(clean, options.num_threads, half);
     if (options.drop_components > 0) {
         result.components_dropped =

@@ -17,7 +17,9 @@ struct InputMesh {
 
 //! The input after cleaning.
 struct CleanedInput {
-    agvd::MeshView given;                         //!< The caller's mesh; empty if it was released.
+    std::vector<agvd::Vec3> welded_positions = {};  //!< See CleanResult.
+    //! The caller's mesh, with welded positions if there are any; empty if it was released.
+    agvd::MeshView given = {};
     agvd::Surface surface = {};                   //!< Of the cleaned mesh.
     std::vector<agvd::Index> vertex_origin = {};  //!< See CleanResult; empty: nothing was changed.
     std::vector<agvd::Index> face_origin = {};    //!< Likewise.

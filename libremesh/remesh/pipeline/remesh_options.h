@@ -69,8 +69,8 @@ struct RemeshOptions {
     //! Whether the sheets of the input's non-manifold edges are welded in the result. Either way
     //! the sheets have equal points there, except with given sites or Boundary::Free.
     Junctions junctions = Junctions::Apart;
-    //! Vertices of the caller that stay where they are, bit for bit, as vertices of the result. Not
-    //! with `sites`.
+    //! Vertices of the caller that stay where they are, bit for bit, as vertices of the result;
+    //! those that cleaning welds (clean_input), at their common place. Not with `sites`.
     std::vector<agvd::Index> locked = {};
     //! Edges that stay edges of the result, as pairs of the caller's vertices; their ends stay too.
     std::vector<std::array<agvd::Index, 2>> locked_edges = {};

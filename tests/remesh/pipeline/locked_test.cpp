@@ -244,3 +244,20 @@ TEST(Locked, AnyNumberOfThreadsGivesTheSameBytes) {
         EXPECT_EQ(more.mesh.triangles, one.mesh.triangles);
     }
 }
+
+// Cleaning welds vertices that differ by rounding: those that are locked stay where it puts them.
+TEST(Locked, VerticesThatWeldingMovesStayAtTheirPlace) {
+    const TriangleMesh model = shapes::torus(30, 20);
+    const TriangleMesh soup = shapes::jitter(shapes::unweld(model), 1e-8, 3);
+    RemeshOptions options{.num_samples = 300};
+    for (Index v = 0; v < soup.positions.size(); v += 97) options.locked.push_back(v);
+    const RemeshResult result = remesh::remesh(soup.view(), options);
+    EXPECT_EQ(result.mesh.positions.size(), 300u);
+    for (const Index v : options.locked) {
+        double least = 1;
+        for (const Vec3& p : result.mesh.positions) {
+            least = std::min(least, (p - soup.positions[v]).norm());
+        }
+        EXPECT_LE(least, 1e-7) << v;
+    }
+}

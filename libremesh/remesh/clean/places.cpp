@@ -1,0 +1,153 @@
+// Equal positions are found by a hash table. The first of each set then goes into the cells of a
+// grid, and is compared with those that went there before and lie within its reach.
+#include "remesh/clean/places.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "agvd/core/position_hash.h"
+#include "agvd/core/union_find.h"
+#include "agvd/mesh/scale.h"
+
+namespace remesh::detail {
+namespace {
+
+using agvd::Index;
+using agvd::no_index;
+using agvd::Vec3;
+
+constexpr double share_of_size = 1e-6;
+constexpr double share_of_edge = 1e-2;
+// Vertices with a smaller share of the median's reach have to be equal: a cell could hold any
+// number of them.
+constexpr double least_reach = 1.0 / 8;
+// Of a grid's cell, in reaches: with 8 a vertex looks at two cells in the mean.
+constexpr double cell_size = 8;
+
+// For each wanted vertex, the first such vertex with the same position.
+std::vector<Index> first_at_position(std::span<const Vec3> positions,
+                                     const std::vector<bool>& is_wanted, agvd::Ticker& ticker) {
+    const auto wanted =
+        static_cast<std::size_t>(std::count(is_wanted.begin(), is_wanted.end(), true));
+    std::vector<Index> table(std::bit_ceil(2 * wanted + 1), no_index);  // Open addressing.
+    std::vector<Index> first(positions.size(), no_index);
+    for (Index v = 0; v < positions.size(); ++v) {
+        ticker.tick();
+        if (!is_wanted[v]) continue;
+        std::size_t slot = agvd::PositionHash{}(positions[v]) & (table.size() - 1);
+        while (table[slot] != no_index && positions[table[slot]] != positions[v]) {
+            slot = (slot + 1) & (table.size() - 1);
+        }
+        if (table[slot] == no_index) table[slot] = v;
+        first[v] = table[slot];
+    }
+    return first;
+}
+
+// By first vertex: a share of the shortest edge at its position, zero-length ones apart.
+std::vector<double> find_reaches(const agvd::MeshView& mesh, std::span<const Index> first,
+                                 agvd::Ticker& ticker) {
+    std::vector<double> reach(first.size(), agvd::infinity);
+    for (const agvd::Triangle& t : mesh.triangles) {
+        ticker.tick();
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index a = first[t[k]], b = first[t[(k + 1) % 3]];
+            if (a == no_index && b == no_index) continue;
+            const double length = (mesh.positions[t[k]] - mesh.positions[t[(k + 1) % 3]]).norm();
+            if (length == 0) continue;
+            for (const Index end : {a, b}) {
+                if (end != no_index) reach[end] = std::min(reach[end], share_of_edge * length);
+            }
+        }
+    }
+    return reach;
+}
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+// Vertices by cell. A slot may hold those of several cells.
+class Grid {
+public:
+    Grid(const Vec3& low, double cell, std::size_t num_vertices)
+        : low_(low), cell_(cell), first_(std::bit_ceil(2 * num_vertices), no_index) {}
+
+    // Calls visit(vertex) for all that were added within `radius` of p, and maybe some others.
+    // \param radius  less than half a cell.
+    template <typename Visit>
+    void visit_near(const Vec3& p, double radius, const Visit& visit) const {
+        std::array<std::size_t, 8> seen;
+        std::size_t num_seen = 0;
+        for (int corner = 0; corner < 8; ++corner) {
+            const Vec3 side(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+            const std::size_t slot = slot_of(p + radius * side);
+            const auto end = seen.begin() + static_cast<std::ptrdiff_t>(num_seen);
+            if (std::find(seen.begin(), end, slot) != end) continue;
+            seen[num_seen++] = slot;
+            for (Index i = first_[slot]; i != no_index; i = entries_[i].next) {
+                visit(entries_[i].vertex);
+            }
+        }
+    }
+
+    void add(const Vec3& p, Index vertex) {
+        Index& first = first_[slot_of(p)];
+        entries_.push_back({vertex, first});
+        first = static_cast<Index>(entries_.size() - 1);
+    }
+
+private:
+    struct Entry {
+        Index vertex, next;
+    };
+
+    [[nodiscard]] std::size_t slot_of(const Vec3& p) const {
+        const Vec3 cell = ((p - low_) / cell_).array().floor();
+        return agvd::PositionHash{}(cell) & (first_.size() - 1);
+    }
+
+    Vec3 low_;
+    double cell_;
+    std::vector<Index> first_;  // By slot: the entry added last.
+    std::vector<Entry> entries_;
+};
+
+}  // namespace
+
+std::vector<Index> find_places(const agvd::MeshView& mesh, const std::vector<bool>& is_wanted,
+                               agvd::Ticker& ticker) {
+    std::vector<Index> place = first_at_position(mesh.positions, is_wanted, ticker);
+    const std::vector<double> reach = find_reaches(mesh, place, ticker);
+    std::vector<double> finite;
+    for (const double r : reach) {
+        if (r < agvd::infinity) finite.push_back(r);
+    }
+    if (finite.empty()) return place;
+    const agvd::MeshBox box = agvd::box_of(mesh);
+    const double most = std::min(median(std::move(finite)), share_of_size * box.longest_side());
+    if (!(most > 0)) return place;
+
+    agvd::UnionFind sets(place.size());
+    Grid grid(box.low, cell_size * most, place.size());
+    for (Index v = 0; v < place.size(); ++v) {
+        ticker.tick();
+        if (place[v] != v || reach[v] < least_reach * most) continue;
+        const Vec3& p = mesh.positions[v];
+        grid.visit_near(p, most, [&](Index other) {
+            const double limit = std::min({reach[v], reach[other], most});
+            if ((mesh.positions[other] - p).norm() <= limit) (void)sets.unite(v, other);
+        });
+        grid.add(p, v);
+    }
+    for (Index& v : place) {
+        if (v != no_index) v = sets.root(v);
+    }
+    return place;
+}
+
+}  // namespace remesh::detail
