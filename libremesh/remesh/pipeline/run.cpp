@@ -237,6 +237,15 @@ std::string describe_enough(CleanedInput& cleaned, const RemeshResult& after_cle
     return "use more than " + std::to_string(more.num_samples) + " samples";
 }
 
+// More for the text of an error: few faces for each component are a soup with gaps.
+std::string describe_gaps(const CleanedInput& cleaned) {
+    const std::size_t components = cleaned.topology.components.size();
+    const Index faces = cleaned.surface.num_faces();
+    if (components == 1 || 2 * components <= faces) return "";
+    return "; its " + std::to_string(faces) + " faces are " + std::to_string(components) +
+           " components: if they belong together, weld their vertices first";
+}
+
 }  // namespace
 
 RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
@@ -278,7 +287,8 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
                                      ? "the topology of the mesh; "
                                      : "the topology and the vertices that stay; ";
         throw agvd::ConstraintUnmet(who + " are too few for " + what +
-                                    describe_enough(cleaned, result, options, failure.reached));
+                                    describe_enough(cleaned, result, options, failure.reached) +
+                                    describe_gaps(cleaned));
     }
     result.input_topology = std::move(cleaned.topology);
     return result;

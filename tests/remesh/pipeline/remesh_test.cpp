@@ -119,8 +119,10 @@ TEST(Remesh, TooFewSamplesForManyPartsAreRefusedAtOnce) {
     } catch (const ConstraintUnmet& error) {
         text = error.what();
     }
-    EXPECT_EQ(text,
-              "100 samples are too few for the topology of the mesh; use 12000 samples or more");
+    EXPECT_EQ(
+        text,
+        "100 samples are too few for the topology of the mesh; use 12000 samples or more; its "
+        "4000 faces are 4000 components: if they belong together, weld their vertices first");
     EXPECT_EQ(stages, std::set{remesh::Stage::Clean});
 }
 
