@@ -64,8 +64,8 @@ TEST(EdgePaths, OfCellsApartAreShortestHoweverLong) {
             EXPECT_NEAR(paths[e].length, lengths[e], 1e-9 * strip.length) << e;
             EXPECT_TRUE(paths[e].is_locally_shortest);
         }
-        // A joined path starts at the right site, a searched one at the left.
-        EXPECT_EQ(paths[1].from, num_squares == 2500 ? 0u : 2u);
+        // A joined path starts at the left site, a searched one at the right.
+        EXPECT_EQ(paths[1].from, num_squares == 2500 ? 2u : 0u);
         EXPECT_NEAR(static_cast<double>(paths[1].strip.crossed.size()), 2 * strip.length, 2);
     }
 }
