@@ -64,7 +64,7 @@ TriangleMesh grids_with_gap(Index fineness, double gap) {
 }
 
 // A small triangle, so far away that a millionth of the size is `reach`.
-TriangleMesh with_size(TriangleMesh mesh, double reach) {
+TriangleMesh with_size(const TriangleMesh& mesh, double reach) {
     const Vec3 far(1e6 * reach, 0, 0);
     return shapes::join(mesh, {{far, far + Vec3(0, 1, 0), far + Vec3(-1, 0, 0)}, {{0, 1, 2}}});
 }

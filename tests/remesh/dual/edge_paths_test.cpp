@@ -58,7 +58,8 @@ TEST(EdgePaths, OfCellsApartAreShortestHoweverLong) {
         const Strip strip(num_squares);
         const std::vector<EdgePath> paths = strip.paths();
         ASSERT_EQ(paths.size(), 3u);
-        const double half = static_cast<double>(num_squares / 2);
+        const Index middle = num_squares / 2;
+        const auto half = static_cast<double>(middle);
         const double lengths[] = {half, strip.length, strip.length - half};
         for (std::size_t e = 0; e < 3; ++e) {
             EXPECT_NEAR(paths[e].length, lengths[e], 1e-9 * strip.length) << e;
