@@ -172,6 +172,18 @@ void ClosestPointTree::build(const std::vector<Vec3>& centers, std::vector<Index
 }
 
 ClosestPoint ClosestPointTree::query(const Vec3& point) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return search(point, infinity, -infinity);
+}
+
+bool ClosestPointTree::is_within(const Vec3& point, double distance) const {
+    const double most_sq = distance * distance;
+    return search(point, most_sq, most_sq).distance_sq <= most_sq;
+}
+
+// Looks at what is no farther than `most_sq`, and ends at the first point that is no farther than
+// `enough_sq`.
+ClosestPoint ClosestPointTree::search(const Vec3& point, double most_sq, double enough_sq) const {
     ClosestPoint best;
     best.distance_sq = std::numeric_limits<double>::infinity();
     const auto distance_sq = [&](Index node) {
@@ -184,8 +196,9 @@ ClosestPoint ClosestPointTree::query(const Vec3& point) const {
     std::array<Waiting, 64> stack;  // One per level; halving keeps it below 32.
     std::size_t waiting = 0;
     stack[waiting++] = {distance_sq(0), 0};
-    while (waiting > 0) {
+    while (waiting > 0 && best.distance_sq > enough_sq) {
         const auto [distance, self] = stack[--waiting];
+        if (distance > most_sq) continue;
         if (distance > best.distance_sq) continue;  // An equally near box may hold a lower face.
         const Node& node = nodes_[self];
         if (node.right == 0) {

@@ -36,8 +36,13 @@ public:
     //! this.
     //! Cost: O(log n) near the surface.
     [[nodiscard]] ClosestPoint query(const Vec3& point) const;
+    //! Whether a point of the mesh is so near, or nearer. Any thread may call this.
+    //! Cost: less than that of query(), as the first such point ends it.
+    //! \param distance  mesh units, >= 0.
+    [[nodiscard]] bool is_within(const Vec3& point, double distance) const;
 
 private:
+    [[nodiscard]] ClosestPoint search(const Vec3& point, double most_sq, double enough_sq) const;
     struct Node {
         Index begin, end;  // Slots of the triangles below.
         Index right = 0;   // Second child (the first follows its parent); 0 for a leaf.

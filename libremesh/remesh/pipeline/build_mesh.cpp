@@ -72,6 +72,7 @@ public:
     BuiltMesh run(int most_mends) {
         for (int mends = 0;; ++mends) {
             Candidate candidate = build_candidate();
+            ++best_.num_rounds;
             if (candidate.fault != Fault::None) {
                 if (mends == 0) fail(candidate);
                 break;

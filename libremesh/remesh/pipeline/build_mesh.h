@@ -17,6 +17,7 @@ struct BuiltMesh {
     std::optional<CrossingCounts> self_intersections;  //!< Unset without CGAL.
     //! On the surface of the domain: see ValidDual; of the first round.
     std::vector<agvd::SurfacePoint> thin_places;
+    int num_rounds = 0;  //!< Rounds that were built.
 };
 
 //! Builds the mesh of the sites. While it self-intersects more often than the input, and where that

@@ -76,7 +76,7 @@ FacePairs CrossingPlaces::pairs_elsewhere(const agvd::MeshView& mesh,
         const Corners place = crossing_place(a, b);
         const double reach = std::max(longest_edge(a), longest_edge(b));
         const Vec3 middle = (place[0] + place[1]) / 2;
-        if (places_.query(middle).distance_sq > reach * reach) elsewhere.emplace_back(f, g);
+        if (!places_.is_within(middle, reach)) elsewhere.emplace_back(f, g);
     }
     return elsewhere;
 }

@@ -31,17 +31,26 @@ void unfit(Index v, const CurveSites& curves, PlacedDual& placed) {
 }  // namespace
 
 std::optional<CrossingFaces> CrossingFinder::find(const PlacedDual& placed) {
+    std::optional<FacePairs> all = find_all(placed);
+    if (!all) return std::nullopt;
+    return tell_fresh(placed, *std::move(all));
+}
+
+std::optional<FacePairs> CrossingFinder::find_all(const PlacedDual& placed) {
     const StageClock clock(Stage::Check, context_.result);
     agvd::poll(progress_of(Stage::Check, context_.options), 0);
-    const agvd::TriangleMesh mesh = welded_mesh(domain_, placed);
-    std::optional<FacePairs> all = find_in(mesh.view(), context_.options);
-    if (!all) return std::nullopt;
-    if (!all->empty() && !has_searched_input_) find_in_input();
-    CrossingFaces found{*std::move(all), {}};
-    if (found.all.size() > context_.result.input_self_intersections) {
-        found.fresh =
-            input_places_ ? input_places_->pairs_elsewhere(mesh.view(), found.all) : found.all;
-    }
+    std::optional<FacePairs> all = find_in(welded_mesh(domain_, placed).view(), context_.options);
+    if (all && !all->empty() && !has_searched_input_) find_in_input();
+    return all;
+}
+
+CrossingFaces CrossingFinder::tell_fresh(const PlacedDual& placed, FacePairs all) {
+    const StageClock clock(Stage::Check, context_.result);
+    CrossingFaces found{std::move(all), {}};
+    if (found.all.size() <= context_.result.input_self_intersections) return found;
+    found.fresh = input_places_ ? input_places_->pairs_elsewhere(
+                                      welded_mesh(domain_, placed).view(), found.all)
+                                : found.all;
     return found;
 }
 
@@ -70,20 +79,21 @@ bool is_hopeless(std::size_t num_pairs, const StageContext& context) {
 
 std::optional<CrossingFaces> unfit_crossings(CrossingFinder& finder, const CurveSites& curves,
                                              PlacedDual& placed, RemeshResult& result) {
-    std::optional<CrossingFaces> crossings = finder.find(placed);
+    std::optional<FacePairs> crossings = finder.find_all(placed);
     result.unfitted_vertices = 0;
-    for (int round = 0; round < max_unfits && crossings && !crossings->all.empty(); ++round) {
+    for (int round = 0; round < max_unfits && crossings && !crossings->empty(); ++round) {
         bool is_changed = false;
-        for_each_corner(crossings->all, placed.mesh.triangles, [&](Index v) {
+        for_each_corner(*crossings, placed.mesh.triangles, [&](Index v) {
             if (placed.mesh.offsets[v].isZero(0)) return;
             unfit(v, curves, placed);
             ++result.unfitted_vertices;
             is_changed = true;
         });
         if (!is_changed) break;
-        crossings = finder.find(placed);
+        crossings = finder.find_all(placed);
     }
-    return crossings;
+    if (!crossings) return std::nullopt;
+    return finder.tell_fresh(placed, *std::move(crossings));
 }
 
 }  // namespace remesh::detail

@@ -40,6 +40,10 @@ public:
     //! \return unset without CGAL.
     //! Cost: that of find_self_intersections.
     [[nodiscard]] std::optional<CrossingFaces> find(const PlacedDual& placed);
+    //! The first step of find(): all pairs.
+    [[nodiscard]] std::optional<FacePairs> find_all(const PlacedDual& placed);
+    //! The second one: tells which of them are fresh.
+    [[nodiscard]] CrossingFaces tell_fresh(const PlacedDual& placed, FacePairs all);
 
 private:
     void find_in_input();

@@ -1,6 +1,10 @@
 #include "remesh/pipeline/domain.h"
 
+#include <algorithm>
+#include <sstream>
 #include <utility>
+
+#include "agvd/core/error.h"
 
 namespace remesh::detail {
 namespace {
@@ -9,6 +13,36 @@ PreparedSurface prepare(CleanedInput& cleaned, const CurvePlan* plan, double spa
                         const SizeField* sizes, int num_threads, const agvd::Progress& progress) {
     if (plan != nullptr) return {plan->network.cut.surface, spacing, num_threads, progress, sizes};
     return {std::move(cleaned.surface), spacing, num_threads, progress, sizes};
+}
+
+// How many times as long as high a face is.
+double thinness(const agvd::Surface& surface, agvd::Index face) {
+    double most = 0;
+    for (agvd::Index h = 3 * face; h < 3 * face + 3; ++h) {
+        most = std::max(most, surface.length_of(h) / surface.apex_of(h).y());
+    }
+    return most;
+}
+
+// Flips to the base's Delaunay triangulation end only where rounding turns edges around parts that
+// are 10^12 times as long as wide: there they unwind one turn after another. Without the refinement
+// that follows, all later stages would take minutes, and the result would be far off.
+[[noreturn]] void refuse_thin_parts(const agvd::Surface& surface, const CleanedInput& cleaned) {
+    agvd::Index thinnest = 0;
+    double most = 0;
+    for (agvd::Index f = 0; f < surface.num_faces(); ++f) {
+        const double thin = thinness(surface, f);
+        if (thin <= most) continue;
+        most = thin;
+        thinnest = f;
+    }
+    std::ostringstream text;
+    text.precision(1);
+    text << "face " << (cleaned.face_origin.empty() ? thinnest : cleaned.face_origin[thinnest])
+         << " is " << std::scientific << most
+         << " times as long as high, and coordinates in double have too few digits for distances "
+            "on such parts; remove this part, and others like it, or make them wider";
+    throw agvd::InvalidInput(text.str());
 }
 
 }  // namespace
@@ -33,6 +67,7 @@ Domain prepare_domain(CleanedInput& cleaned, std::unique_ptr<const CurvePlan> pl
     }
     domain.component =
         parts_of_base(domain.prepared.base, domain.parts->face_component, agvd::within(all, 1, 1));
+    if (!domain.prepared.base.counts().is_delaunay) refuse_thin_parts(*domain.whole, cleaned);
     result.refined_faces = domain.base().num_faces();
     return domain;
 }

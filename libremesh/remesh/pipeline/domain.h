@@ -25,6 +25,8 @@ struct Domain {
 
 //! \param cleaned  outlives the domain. Without a plan its surface moves into the domain (see
 //!                 give_back).
+//! \throw InvalidInput  a part of the surface is too thin for double precision: it has no base that
+//!        is Delaunay.
 //! Cost: that of PreparedSurface.
 [[nodiscard]] Domain prepare_domain(CleanedInput& cleaned, std::unique_ptr<const CurvePlan> plan,
                                     double spacing, const SizeField* sizes,

@@ -12,6 +12,8 @@
 #include "remesh/pipeline/meet_distance.h"
 #include "remesh/pipeline/sample_count.h"
 #include "remesh/pipeline/sizes.h"
+#include "remesh/pipeline/thin_lengths.h"
+#include "remesh/pipeline/work_limit.h"
 #include "remesh/sampling/minimum_samples.h"
 
 namespace remesh::detail {
@@ -36,23 +38,30 @@ Verdict judge(const agvd::MeshView& cleaned, const agvd::MeshView& mesh, const T
 }
 
 // All stages after cleaning, in their order: cleaned surface, curves, domain, sites, mesh.
+//
+// \param work  ends rounds that add sites at self-intersections.
 // \return where cells wrapped around thin parts (ValidDual).
 // \throw TooFewSamples, NetworkFailed; `cleaned` is unchanged then.
 std::vector<agvd::SurfacePoint> run_attempt(CleanedInput& cleaned, const FoundCurves& found,
                                             const KeptCurves& kept, const SizeField* sizes,
-                                            int most_mends, const StageContext& context) {
+                                            WorkLimit& work, const StageContext& context) {
     const double spacing = spacing_of(cleaned, context.options);
     std::unique_ptr<const CurvePlan> plan =
         plan_curves(cleaned, found, kept, spacing, sizes, context);
     // Of the vertices that seams take, creases come first.
     if (kept.has_seams && !found.is_seam.empty() && !context.options.sites &&
         context.result.features.dropped_length > 0) {
-        throw NetworkFailed();
+        throw NetworkFailed{};
     }
     Domain domain = prepare_domain(cleaned, std::move(plan), spacing, sizes, context);
+    const Index base_faces = domain.base().num_faces();
+    work.add(base_faces);
     const PlacedSites sites = place_sites(cleaned, domain, context);
+    work.add(base_faces);
     try {
-        BuiltMesh built = build_mesh(domain, sites, most_mends, context);
+        BuiltMesh built =
+            build_mesh(domain, sites, std::min(max_mends, work.num_left(base_faces)), context);
+        for (int round = 1; round < built.num_rounds; ++round) work.add(base_faces);
         const Topology topology = check_result(cleaned, domain, sites.chain, built, context);
         const agvd::MeshView cleaned_mesh = domain.whole->mesh.view();
         context.result.sizing =
@@ -102,18 +111,23 @@ bool may_shorten(const RemeshOptions& options) {
            sizing.edge_length == 0 && sizing.max_error == 0 && sizing.max_distance == 0;
 }
 
-// A rod that is thinner than the spacing gets shorter by some edges.
-bool has_lost_part(const Verdict& verdict) { return verdict.largest_distance > verdict.spacing; }
+// A rod that is thinner than the spacing gets shorter by some edges. Shorter edges do not help if
+// those of half a spacing, on a part as long as what was lost, take more than all thin parts get:
+// without this limit, meshes with spikes took twice as long, and lost as much.
+bool has_lost_part(const Verdict& verdict, Index num_samples) {
+    const double most_lost = most_for_thin * num_samples / vertices_around * verdict.spacing / 2;
+    return verdict.largest_distance > verdict.spacing && verdict.largest_distance < most_lost;
+}
 
 // Runs an attempt again with shorter edges on thin parts, where cells wrapped around them, and
 // keeps the better result.
 void shorten_thin(CleanedInput& cleaned, const FoundCurves& found, const KeptCurves& kept,
                   std::span<const agvd::SurfacePoint> thin_places, const RemeshOptions& options,
-                  RemeshResult again, RemeshResult& best) {
+                  WorkLimit& work, RemeshResult again, RemeshResult& best) {
     try {
         const RunSizes sizes = find_sizes(cleaned, found, spacing_of(cleaned, options), {},
                                           thin_places, {options, again});
-        run_attempt(cleaned, found, kept, sizes.field.get(), max_mends, {options, again});
+        run_attempt(cleaned, found, kept, sizes.field.get(), work, {options, again});
     } catch (const TooFewSamples&) {
         return;
     } catch (const NetworkFailed&) {
@@ -156,6 +170,7 @@ RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cl
                            {options, first});
         options.num_samples = sizes.num_samples;
     }
+    WorkLimit work(cleaned.surface.num_faces(), options.num_samples);
     std::optional<RemeshResult> best;
     KeptCurves kept_of_best;
     std::vector<agvd::SurfacePoint> thin_places;  // Of the best.
@@ -163,12 +178,14 @@ RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cl
         bool needs_none = false;  // Dropping some curves would not help.
         const std::vector<KeptCurves> attempts = attempts_with(found, has_junctions);
         for (const KeptCurves& kept : attempts) {
-            if (needs_none && &kept != &attempts.back()) continue;
+            const bool is_last = &kept == &attempts.back();
+            if (!is_last && (needs_none || (work.is_spent() && !best))) continue;
+            if (work.is_spent() && best) break;
             RemeshResult result = first;
             std::vector<agvd::SurfacePoint> thin;
             try {
-                thin = run_attempt(cleaned, found, kept, sizes.field.get(), max_mends,
-                                   {options, result});
+                thin =
+                    run_attempt(cleaned, found, kept, sizes.field.get(), work, {options, result});
                 result.features.gave_up = kept.drop_share > 0;
             } catch (const NetworkFailed&) {
                 first.seconds = result.seconds;
@@ -189,9 +206,10 @@ RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cl
     // Only what is locked can make all attempts fail.
     if (!best) throw TooFewSamples{options.num_samples, options.num_samples + 1};
     best->seconds = first.seconds;
-    if (!thin_places.empty() && may_shorten(options) && has_lost_part(best->verdict) &&
+    if (!thin_places.empty() && may_shorten(options) && !work.is_spent() &&
+        has_lost_part(best->verdict, options.num_samples) &&
         !is_hopeless(best->self_intersections.value_or(0), {options, *best})) {
-        shorten_thin(cleaned, found, kept_of_best, thin_places, options, first, *best);
+        shorten_thin(cleaned, found, kept_of_best, thin_places, options, work, first, *best);
     }
     return *std::move(best);
 }
@@ -226,7 +244,8 @@ std::string describe_enough(CleanedInput& cleaned, const RemeshResult& after_cle
             if (!cleaned.locked.empty()) {
                 sizes = find_sizes(cleaned, {}, spacing_of(cleaned, more), {}, {}, {more, result});
             }
-            run_attempt(cleaned, {}, {}, sizes.field.get(), 0, {more, result});
+            WorkLimit work = WorkLimit::spent();
+            run_attempt(cleaned, {}, {}, sizes.field.get(), work, {more, result});
             return "use " + std::to_string(reached) + " samples, which were tried and work";
         } catch (const TooFewSamples& failure) {
             reached = std::max(failure.reached, reached + reached / 4 + 1);

@@ -14,8 +14,9 @@ using agvd::Vec3;
 void SpareVertices::restart(double elsewhere) {
     count_ = 0;
     elsewhere_ = elsewhere;
-    has_collapses_ = false;
+    has_collapses_ = has_edges_ = false;
     collapses_.clear();
+    edges_ = {};
 }
 
 bool SpareVertices::balance() {
@@ -110,24 +111,34 @@ double SpareVertices::quality_of_middle(Index a, Index b) const {
     return worst;
 }
 
+// Lists the edges whose half-edge from the lower vertex lies in a face.
+void SpareVertices::push_edges(Index face) {
+    const Triangle& t = mesh_.face(face).corner;
+    for (Index k = 0; k < 3; ++k) {
+        const Index a = t[k], b = t[(k + 1) % 3];
+        if (a < b) edges_.push({(mesh_.at(a) - mesh_.at(b)).squaredNorm(), face, k});
+    }
+}
+
 // Splits the longest edge that can be split well.
 bool SpareVertices::split_one() {
-    std::vector<std::pair<double, std::pair<Index, Index>>> longest;
-    for (Index f = 0; f < mesh_.num_faces(); ++f) {
-        const EditedMesh::Face& face = mesh_.face(f);
-        if (!face.is_there) continue;
-        for (Index k = 0; k < 3; ++k) {
-            const Index a = face.corner[k], b = face.corner[(k + 1) % 3];
-            if (a < b) {
-                longest.push_back({-(mesh_.at(a) - mesh_.at(b)).squaredNorm(), {f, k}});
-            }
+    if (!has_edges_) {
+        has_edges_ = true;
+        for (Index f = 0; f < mesh_.num_faces(); ++f) {
+            if (mesh_.face(f).is_there) push_edges(f);
         }
     }
-    std::sort(longest.begin(), longest.end());
-    for (const auto& [length, edge] : longest) {
+    while (!edges_.empty()) {
+        const auto [square, face, k] = edges_.top();
+        edges_.pop();
+        if (!mesh_.face(face).is_there) continue;
+        const Triangle& t = mesh_.face(face).corner;
+        const Index a = t[k], b = t[(k + 1) % 3];
+        if (a > b || (mesh_.at(a) - mesh_.at(b)).squaredNorm() != square) continue;
         const EditedMesh::Mark before = mesh_.mark();
-        if (steps_.edit({edge.first, edge.second, true, false}) &&
-            steps_.worst_since(before) >= wanted_) {
+        if (steps_.edit({face, k, true, false}) && steps_.worst_since(before) >= wanted_) {
+            mesh_.changed_since(before, changed_, before_);
+            for (const Index changed : changed_) push_edges(changed);
             --count_;
             return true;
         }

@@ -2,6 +2,7 @@
 //! The count of vertices while triangles are mended. Private to mending.
 #pragma once
 
+#include <queue>
 #include <tuple>
 #include <vector>
 
@@ -32,7 +33,7 @@ public:
     //! restart().
     bool collapse_one();
     //! Splits long edges or removes vertices until the count is 0.
-    //! \return false if that fails.
+    //! \return false if that fails. Cost: O(log #edges) and a trial for each edge and each change.
     bool balance();
 
 private:
@@ -44,8 +45,19 @@ private:
         }
     };
 
+    struct LongEdge {
+        double square;  // Of its length.
+        agvd::Index face, k;
+        // The longest one is on top of a heap; of equal ones the first.
+        [[nodiscard]] bool operator<(const LongEdge& other) const {
+            return square != other.square ? square < other.square
+                                          : std::tie(face, k) > std::tie(other.face, other.k);
+        }
+    };
+
     void prune();
     void list_collapses();
+    void push_edges(agvd::Index face);
     [[nodiscard]] double quality_of_middle(agvd::Index a, agvd::Index b) const;
     bool split_one();
 
@@ -55,8 +67,12 @@ private:
     const double wanted_;
     double elsewhere_ = 0;
     int count_ = 0;
-    bool has_collapses_ = false;
+    bool has_collapses_ = false, has_edges_ = false;
     std::vector<Candidate> collapses_;  // The best one last.
+    // Edges to split. One that could not be split comes back when its face changes.
+    std::priority_queue<LongEdge> edges_;
+    std::vector<agvd::Index> changed_;
+    std::vector<double> before_;
 };
 
 }  // namespace remesh::detail

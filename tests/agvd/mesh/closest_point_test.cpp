@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "agvd/core/error.h"
 #include "agvd/core/random.h"
 #include "support/dirty_shapes.h"
@@ -74,6 +76,24 @@ TEST(ClosestPointTree, AgreesWithTryingAllFaces) {
                         1e-14);
         }
     }
+}
+
+TEST(ClosestPointTree, TellsWhetherAPointIsWithinADistance) {
+    const agvd::TriangleMesh mesh = shapes::sphere(2);
+    const ClosestPointTree tree(mesh.view());
+    int num_within = 0;
+    for (std::uint64_t i = 0; i < 200; ++i) {
+        const Vec3 query = random_point(i, 1.5);
+        const double distance = std::sqrt(tree.query(query).distance_sq);
+        EXPECT_TRUE(tree.is_within(query, distance * (1 + 1e-12)));
+        EXPECT_FALSE(tree.is_within(query, distance * (1 - 1e-12)));
+        if (tree.is_within(query, 0.3)) ++num_within;
+        EXPECT_EQ(tree.is_within(query, 0.3), distance <= 0.3);
+    }
+    EXPECT_GT(num_within, 40);
+    EXPECT_LT(num_within, 160);
+    EXPECT_TRUE(tree.is_within(mesh.positions[0], 0));
+    EXPECT_TRUE(tree.is_within(random_point(0, 9), 100));
 }
 
 TEST(ClosestPointTree, GivesTiesOnEdgesAndVerticesToTheLowestFace) {
