@@ -149,9 +149,8 @@ TEST(ExtremeShapes, APartTooThinForDoubleIsRefused) {
         const auto face = static_cast<Index>(std::stoul(text.substr(5)));
         EXPECT_GE(face, first_of_thin);
         const Triangle& t = mesh.triangles.at(face);
-        EXPECT_TRUE(std::any_of(t.begin(), t.end(), [&](Index v) {
-            return mesh.positions[v] == thin.positions[3];
-        }));
+        EXPECT_TRUE(std::any_of(t.begin(), t.end(),
+                                [&](Index v) { return mesh.positions[v] == thin.positions[3]; }));
     }
 }
 
