@@ -339,10 +339,11 @@ private:
             dual_.mesh.points.push_back(sites_[s]);
         }
         result_.components_thinned = 0;
+        const std::vector<ThinPart> thinned = find_thinned();
         for (Index c = 0; c < triangles.size(); ++c) {
             if (has_failed_[c]) {
                 ++result_.components_thinned;
-                append_thinned(c);
+                append_thinned(thinned[c]);
                 continue;
             }
             for (const auto& [i, j, k] : triangles[c]) {
@@ -374,19 +375,36 @@ private:
                topology.components[0].same_type(wanted);
     }
 
-    // Appends the component, thinned to its sites and the extra vertices that must stay.
-    void append_thinned(Index component) {
-        std::vector<Index> faces;
+    // A component that is to be thinned.
+    struct ThinPart {
+        std::vector<Index> faces;  // Of the surface, ascending.
+        std::vector<Index> sites;  // One at each place.
+    };
+
+    // By component; empty for those that are not thinned. One pass over the faces: parts with
+    // creases may have hundreds of such patches.
+    [[nodiscard]] std::vector<ThinPart> find_thinned() const {
+        std::vector<ThinPart> parts(input_.components.size());
+        if (std::find(has_failed_.begin(), has_failed_.end(), true) == has_failed_.end()) {
+            return parts;
+        }
         for (Index f = 0; f < surface_.num_faces(); ++f) {
-            if (input_.component[f] == component) faces.push_back(f);
+            const Index component = input_.component[f];
+            if (has_failed_[component]) parts[component].faces.push_back(f);
         }
-        const auto first = static_cast<Index>(dual_.mesh.points.size());
-        std::vector<SurfacePoint> points;
         for (const Index s : agvd::distinct_points(surface_, sites_)) {
-            if (component_of(sites_[s]) != component) continue;
-            points.push_back(sites_[s]);
-            dual_.site.push_back(s);
+            const Index component = component_of(sites_[s]);
+            if (has_failed_[component]) parts[component].sites.push_back(s);
         }
+        return parts;
+    }
+
+    // Appends the component, thinned to its sites and the extra vertices that must stay.
+    void append_thinned(const ThinPart& thinned) {
+        const std::vector<Index>& faces = thinned.faces;
+        const auto first = static_cast<Index>(dual_.mesh.points.size());
+        std::vector<SurfacePoint> points = agvd::points_of(sites_, thinned.sites);
+        dual_.site.insert(dual_.site.end(), thinned.sites.begin(), thinned.sites.end());
         agvd::ThinnedMesh part = input_.chain.empty() ? agvd::thin(surface_, faces, points)
                                                       : thin_patch(surface_, faces, points);
         if (input_.has_locked) free_rim(surface_, points, part);
