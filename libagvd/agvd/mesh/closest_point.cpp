@@ -172,7 +172,6 @@ void ClosestPointTree::build(const std::vector<Vec3>& centers, std::vector<Index
 }
 
 ClosestPoint ClosestPointTree::query(const Vec3& point) const {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
     return search(point, infinity, -infinity);
 }
 
