@@ -197,8 +197,8 @@ ClosestPoint ClosestPointTree::search(const Vec3& point, double most_sq, double 
     stack[waiting++] = {distance_sq(0), 0};
     while (waiting > 0 && best.distance_sq > enough_sq) {
         const auto [distance, self] = stack[--waiting];
-        if (distance > most_sq) continue;
-        if (distance > best.distance_sq) continue;  // An equally near box may hold a lower face.
+        // An equally near box may hold a lower face.
+        if (distance > std::min(most_sq, best.distance_sq)) continue;
         const Node& node = nodes_[self];
         if (node.right == 0) {
             for (Index slot = node.begin; slot < node.end; ++slot) {

@@ -42,7 +42,6 @@ public:
     [[nodiscard]] bool is_within(const Vec3& point, double distance) const;
 
 private:
-    [[nodiscard]] ClosestPoint search(const Vec3& point, double most_sq, double enough_sq) const;
     struct Node {
         Index begin, end;  // Slots of the triangles below.
         Index right = 0;   // Second child (the first follows its parent); 0 for a leaf.
@@ -50,6 +49,7 @@ private:
     };
     void build(const std::vector<Vec3>& centers, std::vector<Index>& faces, Index begin, Index end,
                Ticker& ticker);
+    [[nodiscard]] ClosestPoint search(const Vec3& point, double most_sq, double enough_sq) const;
 
     std::vector<std::array<Vec3, 3>> corners_;  // Per slot, in leaf order.
     std::vector<FaceId> face_;                  // Per slot.

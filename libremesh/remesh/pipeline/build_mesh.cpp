@@ -29,6 +29,9 @@ struct RoundSites {
     std::vector<bool> is_wanted;           // By site: its vertex is removed last; may be shorter.
 };
 
+// Most rounds that add sites at self-intersections.
+constexpr int max_mends = 4;
+
 // As a multiple of the input's pairs. Rounds at pairs that follow from these have come down to
 // their number in 4 of 50 attempts on damaged meshes, each time from at most twice that number.
 constexpr std::size_t few_more = 2;
@@ -69,17 +72,19 @@ public:
         domain.prepared.pieces.reset();  // Not needed until vertices are placed.
     }
 
-    BuiltMesh run(int most_mends) {
+    BuiltMesh run(WorkLimit& work) {
+        const Index base_faces = domain_.base().num_faces();
         for (int mends = 0;; ++mends) {
+            work.add(base_faces);
             Candidate candidate = build_candidate();
-            ++best_.num_rounds;
             if (candidate.fault != Fault::None) {
                 if (mends == 0) fail(candidate);
                 break;
             }
             const std::optional<CrossingFaces> crossings = std::move(candidate.crossings);
             const ValidDual dual = keep_if_better(std::move(candidate), crossings);
-            if (!crossings || mends == most_mends || is_hopeless(crossings->all.size(), context_) ||
+            if (!crossings || mends == max_mends || work.num_left(base_faces) == 0 ||
+                is_hopeless(crossings->all.size(), context_) ||
                 !add_sites_at(pairs_to_mend(*crossings), dual)) {
                 break;
             }
@@ -326,9 +331,9 @@ private:
 
 }  // namespace
 
-BuiltMesh build_mesh(Domain& domain, const PlacedSites& sites, int most_mends,
+BuiltMesh build_mesh(Domain& domain, const PlacedSites& sites, WorkLimit& work,
                      const StageContext& context) {
-    return MeshBuilder(domain, sites, context).run(most_mends);
+    return MeshBuilder(domain, sites, context).run(work);
 }
 
 }  // namespace remesh::detail

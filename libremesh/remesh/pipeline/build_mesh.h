@@ -3,6 +3,7 @@
 #pragma once
 
 #include "remesh/pipeline/mendable_mesh.h"
+#include "remesh/pipeline/work_limit.h"
 
 namespace remesh::detail {
 
@@ -17,18 +18,17 @@ struct BuiltMesh {
     std::optional<CrossingCounts> self_intersections;  //!< Unset without CGAL.
     //! On the surface of the domain: see ValidDual; of the first round.
     std::vector<agvd::SurfacePoint> thin_places;
-    int num_rounds = 0;  //!< Rounds that were built.
 };
 
 //! Builds the mesh of the sites. While it self-intersects more often than the input, and where that
 //! does not, builds it again with more sites there, and returns the best mesh. Mends thin triangles
 //! last.
 //!
-//! \param domain      its layout is consumed.
-//! \param most_mends  most rounds that add sites at self-intersections.
+//! \param domain  its layout is consumed.
+//! \param work    counts the rounds. A round that adds sites has to fit into it.
 //! \throw TooFewSamples, or NetworkFailed if there is a plan.
 //! Cost: a propagation and a diagram for each round of build_valid_dual.
-[[nodiscard]] BuiltMesh build_mesh(Domain& domain, const PlacedSites& sites, int most_mends,
+[[nodiscard]] BuiltMesh build_mesh(Domain& domain, const PlacedSites& sites, WorkLimit& work,
                                    const StageContext& context);
 
 }  // namespace remesh::detail

@@ -24,9 +24,9 @@ double thinness(const agvd::Surface& surface, agvd::Index face) {
     return most;
 }
 
-// Flips to the base's Delaunay triangulation end only where rounding turns edges around parts that
-// are 10^12 times as long as wide: there they unwind one turn after another. Without the refinement
-// that follows, all later stages would take minutes, and the result would be far off.
+// For a base that is not Delaunay, since flips reached their limit. Rounding tilts edges around
+// parts that are 10^12 times as long as wide, and flips unwind these edges one turn after another.
+// Such a base is not refined: all later stages take minutes on it, and the result is far off.
 [[noreturn]] void refuse_thin_parts(const agvd::Surface& surface, const CleanedInput& cleaned) {
     agvd::Index thinnest = 0;
     double most = 0;

@@ -12,7 +12,6 @@
 #include "remesh/pipeline/meet_distance.h"
 #include "remesh/pipeline/sample_count.h"
 #include "remesh/pipeline/sizes.h"
-#include "remesh/pipeline/thin_lengths.h"
 #include "remesh/pipeline/work_limit.h"
 #include "remesh/sampling/minimum_samples.h"
 
@@ -20,9 +19,6 @@ namespace remesh::detail {
 namespace {
 
 using agvd::Index;
-
-// Most rounds that add sites at self-intersections.
-constexpr int max_mends = 4;
 
 double spacing_of(const CleanedInput& cleaned, const RemeshOptions& options) {
     return mean_spacing(cleaned.surface,
@@ -39,7 +35,7 @@ Verdict judge(const agvd::MeshView& cleaned, const agvd::MeshView& mesh, const T
 
 // All stages after cleaning, in their order: cleaned surface, curves, domain, sites, mesh.
 //
-// \param work  ends rounds that add sites at self-intersections.
+// \param work  counts the attempt.
 // \return where cells wrapped around thin parts (ValidDual).
 // \throw TooFewSamples, NetworkFailed; `cleaned` is unchanged then.
 std::vector<agvd::SurfacePoint> run_attempt(CleanedInput& cleaned, const FoundCurves& found,
@@ -54,14 +50,10 @@ std::vector<agvd::SurfacePoint> run_attempt(CleanedInput& cleaned, const FoundCu
         throw NetworkFailed{};
     }
     Domain domain = prepare_domain(cleaned, std::move(plan), spacing, sizes, context);
-    const Index base_faces = domain.base().num_faces();
-    work.add(base_faces);
+    work.add(domain.base().num_faces());
     const PlacedSites sites = place_sites(cleaned, domain, context);
-    work.add(base_faces);
     try {
-        BuiltMesh built =
-            build_mesh(domain, sites, std::min(max_mends, work.num_left(base_faces)), context);
-        for (int round = 1; round < built.num_rounds; ++round) work.add(base_faces);
+        BuiltMesh built = build_mesh(domain, sites, work, context);
         const Topology topology = check_result(cleaned, domain, sites.chain, built, context);
         const agvd::MeshView cleaned_mesh = domain.whole->mesh.view();
         context.result.sizing =
@@ -111,13 +103,8 @@ bool may_shorten(const RemeshOptions& options) {
            sizing.edge_length == 0 && sizing.max_error == 0 && sizing.max_distance == 0;
 }
 
-// A rod that is thinner than the spacing gets shorter by some edges. Shorter edges do not help if
-// those of half a spacing, on a part as long as what was lost, take more than all thin parts get:
-// without this limit, meshes with spikes took twice as long, and lost as much.
-bool has_lost_part(const Verdict& verdict, Index num_samples) {
-    const double most_lost = most_for_thin * num_samples / vertices_around * verdict.spacing / 2;
-    return verdict.largest_distance > verdict.spacing && verdict.largest_distance < most_lost;
-}
+// A rod that is thinner than the spacing gets shorter by some edges.
+bool has_lost_part(const Verdict& verdict) { return verdict.largest_distance > verdict.spacing; }
 
 // Runs an attempt again with shorter edges on thin parts, where cells wrapped around them, and
 // keeps the better result.
@@ -179,8 +166,8 @@ RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cl
         const std::vector<KeptCurves> attempts = attempts_with(found, has_junctions);
         for (const KeptCurves& kept : attempts) {
             const bool is_last = &kept == &attempts.back();
-            if (!is_last && (needs_none || (work.is_spent() && !best))) continue;
             if (work.is_spent() && best) break;
+            if (!is_last && (needs_none || work.is_spent())) continue;
             RemeshResult result = first;
             std::vector<agvd::SurfacePoint> thin;
             try {
@@ -207,7 +194,7 @@ RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cl
     if (!best) throw TooFewSamples{options.num_samples, options.num_samples + 1};
     best->seconds = first.seconds;
     if (!thin_places.empty() && may_shorten(options) && !work.is_spent() &&
-        has_lost_part(best->verdict, options.num_samples) &&
+        has_lost_part(best->verdict) &&
         !is_hopeless(best->self_intersections.value_or(0), {options, *best})) {
         shorten_thin(cleaned, found, kept_of_best, thin_places, options, work, first, *best);
     }

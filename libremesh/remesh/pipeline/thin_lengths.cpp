@@ -14,12 +14,14 @@ namespace {
 
 using agvd::Index;
 
+constexpr double vertices_around = 5;
 constexpr double shortest_of_spacing = 0.125;
 // Cells that wrap around a rod lie next to cells that fit: all within so many spacings are looked
 // at.
 constexpr double reach_of_place = 3;
 // Patches that measure curvature have to be narrower than the rod.
 constexpr double patches_per_site = 32;
+constexpr double most_of_sites = 0.25;
 
 }  // namespace
 
@@ -54,7 +56,7 @@ std::vector<double> thin_lengths(const agvd::IntrinsicTriangulation& base,
         }
     }
     num_thin *= 2 / std::numbers::sqrt3;
-    const double excess = num_thin / (most_for_thin * num_sites);
+    const double excess = num_thin / (most_of_sites * num_sites);
     if (excess > 1) {
         for (double& l : length) l *= std::sqrt(excess);
     }

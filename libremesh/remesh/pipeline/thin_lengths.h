@@ -7,13 +7,8 @@
 
 namespace remesh::detail {
 
-//! Vertices that lie around a thin part.
-inline constexpr double vertices_around = 5;
-//! Most of the sites that thin parts get, as a share.
-inline constexpr double most_for_thin = 0.25;
-
-//! Lengths with which some vertices_around lie around a thin part, such as a rod. They are at least
-//! an eighth of the spacing, and longer if the thin parts took more than most_for_thin.
+//! Lengths with which some five vertices lie around a thin part, such as a rod. They are at least
+//! an eighth of the spacing, and longer if the thin parts took more than a quarter of the sites.
 //!
 //! \param places   on base.input(): where cells wrap around such parts.
 //! \param joined   see limit_growth.

@@ -401,12 +401,11 @@ private:
 
     // Appends the component, thinned to its sites and the extra vertices that must stay.
     void append_thinned(const ThinPart& thinned) {
-        const std::vector<Index>& faces = thinned.faces;
         const auto first = static_cast<Index>(dual_.mesh.points.size());
         std::vector<SurfacePoint> points = agvd::points_of(sites_, thinned.sites);
         dual_.site.insert(dual_.site.end(), thinned.sites.begin(), thinned.sites.end());
-        agvd::ThinnedMesh part = input_.chain.empty() ? agvd::thin(surface_, faces, points)
-                                                      : thin_patch(surface_, faces, points);
+        agvd::ThinnedMesh part = input_.chain.empty() ? agvd::thin(surface_, thinned.faces, points)
+                                                      : thin_patch(surface_, thinned.faces, points);
         if (input_.has_locked) free_rim(surface_, points, part);
         points.insert(points.end(), part.extra.begin(), part.extra.end());
         dual_.mesh.points.insert(dual_.mesh.points.end(), points.begin(), points.end());

@@ -63,8 +63,8 @@ public:
         // Where most triangles are bad, as on spikes, mending gains nothing. Without this limit a
         // mesh of 3492 faces took 80 s.
         const std::size_t num_good = mesh_.num_faces() - num_bad;
-        const std::size_t num_paid = std::min(
-            num_bad, num_good > num_bad + paid_in_full ? num_good - num_bad : paid_in_full);
+        const std::size_t num_more_good = num_good - std::min(num_good, num_bad);
+        const std::size_t num_paid = std::min(num_bad, std::max(num_more_good, paid_in_full));
         const std::size_t num_full = std::min(num_paid, paid_in_full);
         const std::size_t num_slides =
             slides_for_each * num_full + slides_for_others * (num_paid - num_full);

@@ -39,6 +39,13 @@ Index polls_of_mending(MovableMesh& mesh) {
     return polls;
 }
 
+// Of a ball pressed to a needle, where all is bad, beside one of 1280 good triangles.
+Index polls_beside_a_ball(TriangleMesh needle) {
+    for (Vec3& p : needle.positions) p = Vec3(3 + p.x() / 100, p.y() / 100, 4 * p.z());
+    MovableMesh placed(shapes::join(shapes::sphere(3), needle));
+    return polls_of_mending(placed);
+}
+
 TEST(MendShape, GoodTrianglesStayAsTheyAre) {
     MovableMesh placed(shapes::sphere(3));
     const std::vector<Triangle> before = placed.placed.triangles;
@@ -95,11 +102,7 @@ TEST(MendShape, ANeedleWhereAllIsBadEndsSoon) {
 // With all of it mending polled 2741 times instead of 1384, and 2512 times when each spare vertex
 // tried all edges again.
 TEST(MendShape, ManyBadTrianglesHaveSmallerBudgets) {
-    TriangleMesh needle = shapes::sphere(2);
-    for (Vec3& p : needle.positions) p = Vec3(3 + p.x() / 100, p.y() / 100, 4 * p.z());
-    const TriangleMesh mesh = shapes::join(shapes::sphere(3), needle);
-    MovableMesh placed(mesh);
-    const Index polls = polls_of_mending(placed);
+    const Index polls = polls_beside_a_ball(shapes::sphere(2));
     EXPECT_GT(polls, 0u);
     EXPECT_LT(polls, 2000u);
 }
@@ -107,11 +110,7 @@ TEST(MendShape, ManyBadTrianglesHaveSmallerBudgets) {
 // Beside a ball of as many good triangles. With a part of the budget for each triangle mending
 // polled 3206 times instead of 883.
 TEST(MendShape, WhereHalfIsBadTheBudgetIsThatOfAFew) {
-    TriangleMesh needle = shapes::sphere(3);
-    for (Vec3& p : needle.positions) p = Vec3(3 + p.x() / 100, p.y() / 100, 4 * p.z());
-    const TriangleMesh mesh = shapes::join(shapes::sphere(3), needle);
-    MovableMesh placed(mesh);
-    const Index polls = polls_of_mending(placed);
+    const Index polls = polls_beside_a_ball(shapes::sphere(3));
     EXPECT_GT(polls, 0u);
     EXPECT_LT(polls, 2000u);
 }
