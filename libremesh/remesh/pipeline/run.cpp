@@ -140,6 +140,11 @@ std::vector<KeptCurves> attempts_with(const FoundCurves& found, bool has_junctio
     return attempts;
 }
 
+// Whether an attempt with fewer creases, or without seams, would differ from this one.
+bool has_more_to_drop(const KeptCurves& kept, const FeatureCounts& features) {
+    return features.curves > 0 && (kept.has_seams || features.length > 0);
+}
+
 // Tries all curves, then all creases, then fewer and fewer, at last none, until a mesh has no new
 // self-intersections. If none of these gives a mesh, tries the same without junctions.
 RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cleaning,
@@ -170,23 +175,26 @@ RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cl
             if (!is_last && (needs_none || work.is_spent())) continue;
             RemeshResult result = first;
             std::vector<agvd::SurfacePoint> thin;
+            const std::size_t done = work.done();
             try {
                 thin =
                     run_attempt(cleaned, found, kept, sizes.field.get(), work, {options, result});
                 result.features.gave_up = kept.drop_share > 0;
             } catch (const NetworkFailed&) {
                 first.seconds = result.seconds;
+                work.add_again(done);
+                if (!has_more_to_drop(kept, result.features)) break;
                 continue;
             }
             first.seconds = result.seconds;
             needs_none = is_hopeless(result.self_intersections.value_or(0), {options, result});
-            const bool has_curves = result.features.curves > 0;
+            const bool is_bare = !has_more_to_drop(kept, result.features);
             if (!best || is_better(result, *best)) {
                 best = std::move(result);
                 kept_of_best = kept;
                 thin_places = std::move(thin);
             }
-            if (is_fine(*best) || !has_curves) break;
+            if (is_fine(*best) || is_bare) break;
         }
         if (best) break;
     }

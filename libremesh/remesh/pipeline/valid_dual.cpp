@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <limits>
+#include <unordered_set>
 #include <utility>
 
+#include "agvd/core/position_hash.h"
 #include "agvd/diagram/build_diagram.h"
 #include "agvd/mesh/distinct_points.h"
 #include "agvd/mesh/point_faces.h"
@@ -225,7 +227,7 @@ private:
             is_concerned[site] = true;
         }
         result_.sites_moved += static_cast<Index>(fixes.moved.size());
-        first_new_ = sites_.size();
+        new_places_.clear();
         for (const SurfacePoint& place : fixes.added) add(place, SiteReason::BoundaryCorner);
         for (const ClosedBallViolation& violation : violations) {
             bool is_free = true;
@@ -240,12 +242,7 @@ private:
     }
 
     void add(const SurfacePoint& place, SiteReason reason) {
-        const agvd::MeshView mesh = surface_.mesh.view();
-        const Vec3 where = position(mesh, place);
-        const bool is_there =
-            std::any_of(sites_.begin() + static_cast<std::ptrdiff_t>(first_new_), sites_.end(),
-                        [&](const SurfacePoint& site) { return position(mesh, site) == where; });
-        if (is_there) return;
+        if (!new_places_.insert(position(surface_.mesh.view(), place)).second) return;
         sites_.push_back(place);
         reasons_.push_back(reason);
         ++result_.sites_added;
@@ -288,7 +285,7 @@ private:
         for (const SurfacePoint& site : sites_) {
             if (const auto v = agvd::vertex_of(surface_, site)) has_site[*v] = true;
         }
-        first_new_ = sites_.size();
+        new_places_.clear();
         for (const Index v : input_.boundary_corners) {
             const Index h = surface_.outgoing[v];
             if (has_site[v] || !progress_[input_.component[Surface::face(h)]].gave_up) continue;
@@ -296,7 +293,7 @@ private:
             corner.barycentric[h % 3] = 1;
             add(corner, SiteReason::BoundaryCorner);
         }
-        return sites_.size() > first_new_;
+        return !new_places_.empty();
     }
 
     [[nodiscard]] Index component_of(const SurfacePoint& point) const {
@@ -422,11 +419,11 @@ private:
     RemeshResult& result_;
     const std::vector<SurfacePoint> given_;  // The sites before repair.
     const std::size_t most_sites_;
-    const int first_round_;            // Of result_.repair_rounds.
-    std::vector<SiteReason> reasons_;  // Of the added sites.
-    std::vector<Progress> progress_;   // By component.
-    std::vector<bool>& has_failed_;    // By component.
-    std::size_t first_new_ = 0;        // The first site added in this round.
+    const int first_round_;                                    // Of result_.repair_rounds.
+    std::vector<SiteReason> reasons_;                          // Of the added sites.
+    std::vector<Progress> progress_;                           // By component.
+    std::vector<bool>& has_failed_;                            // By component.
+    std::unordered_set<Vec3, agvd::PositionHash> new_places_;  // Of sites added in this round.
     ValidDual dual_;
 };
 

@@ -30,6 +30,17 @@ TEST(WorkLimit, ALargeOneHasFourUsualRuns) {
     EXPECT_TRUE(limit.is_spent());
 }
 
+TEST(WorkLimit, AnAttemptThatFailsCountsTwice) {
+    WorkLimit limit(100, 1000);
+    limit.add(200'000);
+    const std::size_t done = limit.done();
+    EXPECT_EQ(done, 200'000U);
+    limit.add(100'000);
+    limit.add(50'000);
+    limit.add_again(done);
+    EXPECT_EQ(limit.done(), 500'000U);
+}
+
 TEST(WorkLimit, NothingIsLeftOfASpentOne) {
     const WorkLimit limit = WorkLimit::spent();
     EXPECT_TRUE(limit.is_spent());
