@@ -1,6 +1,8 @@
 // The program `agvd` as a process.
 #include <nlohmann/json.hpp>
 
+#include "agvd/diagram/cells.h"
+#include "remesh/io/read_diagram.h"
 #include "remesh/io/read_mesh.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
@@ -24,6 +26,22 @@ TEST_F(AgvdDiagram, WritesEveryOutputAskedFor) {
     EXPECT_NE(bytes("d.vtp").find("site_left"), std::string::npos);
     EXPECT_NE(bytes("d.obj").find("\nl "), std::string::npos);
     EXPECT_EQ(remesh::read_mesh(at("d.ply")).mesh.triangles, shapes::sphere(3).triangles);
+}
+
+// A diagram needs no topology: the cell of a single site is the whole surface.
+TEST_F(AgvdDiagram, OneAndTwoSitesDoOnAnySurface) {
+    const std::string torus = put("torus.off", shapes::torus(16, 12));
+    const std::string two_grids = put("grids.off", shapes::join(shapes::grid(2), shapes::grid(2)));
+    for (const std::string& in : {torus, two_grids}) {
+        for (const std::size_t n : {1u, 2u}) {
+            const auto outcome = diagram({in, "-n", std::to_string(n), "-o", at("d.ply"), "-q"});
+            EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+            const remesh::DiagramFile file = remesh::read_diagram(at("d.ply"));
+            EXPECT_EQ(file.sites.size(), n);
+            EXPECT_EQ(agvd::build_cells(file.diagram).neighbours.empty(),
+                      n == 1 || in == two_grids);
+        }
+    }
 }
 
 TEST_F(AgvdDiagram, SitesMayLieInDirtyMeshes) {

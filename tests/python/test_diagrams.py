@@ -66,6 +66,14 @@ def test_closed_bisectors_end_where_they_begin(sphere):
     assert np.shares_memory(line, diagram.points)
 
 
+def test_one_and_two_sites_do_on_a_torus(torus):
+    one = remesh.voronoi(*torus, remesh.sample_sites(*torus, 1), 0)
+    assert (one.labels == 0).all() and one.cell_euler[0] == 0 and len(one.bisectors) == 0
+    two = remesh.voronoi(*torus, remesh.sample_sites(*torus, 2), 0)
+    assert np.array_equal(two.neighbours_of(0), [1])
+    assert two.cell_area.sum() == pytest.approx(one.cell_area.sum())
+
+
 def test_vertices_that_no_site_reaches(sphere):
     V, F = sphere
     both = np.vstack([V, V + 10, [[50, 50, 50]]])

@@ -29,17 +29,6 @@ constexpr Index candidates_per_site = 5;
 constexpr Index least_candidates = 60;
 constexpr Index most_samples = agvd::no_index / candidates_per_site;
 
-// \throw agvd::ConstraintUnmet  num_samples is too small for the topology.
-void check_count(const std::vector<Component>& components, Index num_samples) {
-    const std::uint64_t needed = detail::needed_samples(components);
-    if (num_samples >= needed) return;
-    throw agvd::ConstraintUnmet(
-        std::to_string(num_samples) +
-        " samples are too few for the topology of the mesh (number of components: " +
-        std::to_string(components.size()) + "); use at least " + std::to_string(needed) +
-        " samples");
-}
-
 // The boundary loops of each component.
 std::vector<std::vector<std::vector<Index>>> find_loops(const agvd::Surface& surface,
                                                         const std::vector<Component>& components) {
@@ -163,13 +152,13 @@ std::vector<agvd::SurfacePoint> sample_sites(const agvd::Surface& surface,
             for (const Index h : loop) boundary_length[i] += surface.length_of(h);
         }
     }
-    check_count(components, options.num_samples);
     const std::vector<Index> quota =
         detail::share_out(components, boundary_length, options.num_samples);
 
     std::vector<agvd::SurfacePoint> sites;
     sites.reserve(options.num_samples);
     for (Index i = 0; i < components.size(); ++i) {
+        if (quota[i] == 0) continue;
         const double spacing =
             detail::spacing_of(quota[i], components[i].area(), boundary_length[i]);
         std::vector<agvd::SurfacePoint> rim;

@@ -44,7 +44,8 @@ struct SamplingOptions {
 //! Places exactly num_samples points, no two at one position, component by component (by lowest
 //! face). Every connected component first gets what its topology needs (minimum_samples); the rest
 //! is shared by area, and by length of boundary if sites lie on it. Of several components small
-//! ones get up to four times what their topology needs, so that they can be recognised. Points lie
+//! ones get up to four times what their topology needs, so that they can be recognised. Fewer
+//! samples than all topologies need are shared by size alone: components may get none. Points lie
 //! strictly inside faces, except those of Boundary::Keep, which come first: corners (find_corners),
 //! and points at equal distances between them. Blue noise is chosen from five times as many
 //! area-uniform points by weighted sample elimination ([yuksel2015]); points on opposite walls of a
@@ -54,9 +55,8 @@ struct SamplingOptions {
 //!
 //! \throw agvd::InvalidOption    num_samples < 1 or > 8e8, or num_threads < 0.
 //! \throw agvd::InvalidInput     the surface has no face.
-//! \throw agvd::ConstraintUnmet  num_samples is below the sum of minimum_samples over the
-//!        components (the text gives that sum), or a component is too small, compared with its
-//!        coordinates, to hold its share of different points.
+//! \throw agvd::ConstraintUnmet  a component is too small, compared with its coordinates, to hold
+//!        its share of different points.
 //! \throw agvd::Cancelled        the progress callback returned false.
 //! Cost: O(#F + N log N); farthest points O((#F + N) log(#F + N) log N), a few seconds for 20 000
 //! points on 100 000 faces.

@@ -92,6 +92,7 @@ std::vector<Index> share_out(const std::vector<Component>& components,
                            boundary_length[i] / (2 * spacing));
     }
     const std::uint64_t needed = needed_samples(components);
+    if (num_samples < needed) return apportion(vertices, num_samples);
     std::vector<Index> quota = apportion(vertices, num_samples - static_cast<Index>(needed));
     for (Index i = 0; i < components.size(); ++i) {
         quota[i] += minimum_samples(components[i].genus(), components[i].boundary_loops);

@@ -39,10 +39,10 @@ void lift_small(std::span<const agvd::Index> wanted, std::vector<agvd::Index>& q
 
 //! The sites of each component: what its topology needs, and a share of the rest in proportion to
 //! the vertices that a mesh of equilateral triangles would have there. Of several components small
-//! ones get up to recognisable_samples.
+//! ones get up to recognisable_samples. Fewer samples than needed_samples are all shared in that
+//! proportion, so that some components may get none.
 //!
 //! \param boundary_length  #components, mesh units: of the boundary on which sites lie.
-//! \pre num_samples is at least needed_samples.
 [[nodiscard]] std::vector<agvd::Index> share_out(const std::vector<Component>& components,
                                                  std::span<const double> boundary_length,
                                                  agvd::Index num_samples);
