@@ -23,7 +23,7 @@ std::string seconds_text(std::chrono::steady_clock::duration time) {
 }  // namespace
 
 Console::Console(const CommonOptions& options, const MemoryLimit& limit)
-    : options_(options), limit_(limit), bar_(!options.quiet) {}
+    : options_(options), memory_(limit), bar_(!options.quiet) {}
 
 void Console::detail(std::string_view text) {
     if (options_.verbose) info(text);
@@ -56,7 +56,7 @@ bool Console::progress(std::string_view stage, double fraction) {
         next_look_ = now + between_looks;
         look(stage, fraction, now);
     }
-    return !is_over_limit_ && !interrupted();
+    return !memory_.is_over() && !interrupted();
 }
 
 agvd::Progress Console::progress_of(const char* stage) {
@@ -68,39 +68,25 @@ void Console::run(const std::function<void()>& job) {
         job();
         end_stage();
     } catch (const agvd::Cancelled&) {
-        if (is_over_limit_ && !interrupted()) throw out_of_memory();
+        if (memory_.is_over() && !interrupted()) throw memory_.error(stage_);
         throw;
     } catch (const std::bad_alloc&) {
-        throw out_of_memory();
+        throw memory_.error(stage_);
     }
 }
 
 void Console::end_stage() { begin_stage("", Clock::now()); }
 
 void Console::require_memory(const char* stage, std::size_t bytes) {
-    const std::size_t needed = resident_memory() + bytes;
-    if (limit_.bytes == 0 || needed <= limit_.bytes) return;
-    is_over_limit_ = true;
     stage_ = stage;
-    throw out_of_memory("some " + format_bytes(needed) + ", ");
-}
-
-OutOfMemory Console::out_of_memory(const std::string& needed) const {
-    std::string text = "not enough memory";
-    if (is_over_limit_) {
-        text += ": the program needs " + needed + "more than the " + format_bytes(limit_.bytes) +
-                " of --memory-limit";
-    }
-    if (!stage_.empty()) text += " (stage: " + stage_ + ")";
-    text += "; " + memory_remedy(stage_, limit_.engine);
-    return OutOfMemory(is_over_limit_ ? text + ", or raise --memory-limit" : text);
+    memory_.require(stage, bytes);
 }
 
 // Keeps the name of the stage in which the limit was reached.
 void Console::look(std::string_view stage, double fraction, Clock::time_point now) {
-    if (is_over_limit_) return;
+    if (memory_.is_over()) return;
     if (stage != stage_) begin_stage(stage, now);
-    is_over_limit_ = limit_.bytes > 0 && resident_memory() > limit_.bytes;
+    static_cast<void>(memory_.check());
     overall_.update(stage, fraction);
     if (now >= next_draw_) draw_bar(now);
 }

@@ -21,12 +21,6 @@ struct CommonOptions {
     bool verbose = false;
 };
 
-//! How much memory a job may use.
-struct MemoryLimit {
-    std::size_t bytes = 0;                       //!< 0: as much as the system gives.
-    agvd::Engine engine = agvd::Engine::Window;  //!< For the remedy.
-};
-
 //! Writes messages to stderr, one on each line, and a bar for the progress of the whole run on a
 //! terminal. Also ends the job if it is interrupted or needs too much memory.
 class Console {
@@ -73,16 +67,13 @@ private:
     void begin_stage(std::string_view stage, Clock::time_point now);
     void draw_bar(Clock::time_point now);
     void write_line(const char* kind, std::string_view text);
-    // \param needed  how much, if it is known: "some 3.7G, ".
-    [[nodiscard]] OutOfMemory out_of_memory(const std::string& needed = {}) const;
 
     const CommonOptions& options_;
-    MemoryLimit limit_;
+    MemoryGuard memory_;
     std::string stage_;  // The last one reported.
     Clock::time_point start_ = Clock::now(), start_of_stage_ = start_;
     Clock::time_point last_expected_ = start_;  // When expect() was called.
     Clock::time_point next_look_, next_draw_;
-    bool is_over_limit_ = false;
     std::vector<std::string> warnings_;
     OverallProgress overall_;
     ProgressBar bar_;

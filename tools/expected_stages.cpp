@@ -3,6 +3,8 @@
 // `agvd compare` on the bunny with 200 sites.
 #include "expected_stages.h"
 
+#include <algorithm>
+#include <numbers>
 #include <system_error>
 
 namespace cli {
@@ -50,6 +52,10 @@ std::vector<ExpectedStage> stages_of_remesh(std::size_t num_faces, std::size_t n
     return stages;
 }
 
+Runs runs_of_remesh(const remesh::RemeshOptions& options) {
+    return options.sizing.max_distance > 0 ? Runs::Unknown : Runs::One;
+}
+
 std::vector<ExpectedStage> stages_of_diagram(std::size_t num_faces, std::size_t num_sites) {
     const auto faces = static_cast<double>(num_faces), sites = static_cast<double>(num_sites);
     return {{"clean", 3e-6 * faces},
@@ -64,6 +70,26 @@ std::vector<ExpectedStage> stages_of_comparison(bool is_exact) {
     if (is_exact) stages.insert(stages.end(), {{"propagate", 0.19}, {"diagram", 0.1}});
     stages.push_back({"compare", 2.4});
     return stages;
+}
+
+std::size_t estimated_samples(const remesh::RemeshOptions& options, const agvd::MeshView& mesh) {
+    const remesh::Sizing& sizing = options.sizing;
+    if (options.sites) return options.sites->size();
+    if (sizing.num_faces > 0) return sizing.num_faces / 2;
+    if (sizing.max_distance > 0 || sizing.gives_count) return 0;
+    if (!(sizing.edge_length > 0)) return options.num_samples;
+    double area = 0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const agvd::Vec3& p = mesh.positions[a];
+        area += (mesh.positions[b] - p).cross(mesh.positions[c] - p).norm() / 2;
+    }
+    const double count = 2 / std::numbers::sqrt3 * area / (sizing.edge_length * sizing.edge_length);
+    constexpr double most = 1e12;
+    return static_cast<std::size_t>(std::clamp(count, 1.0, most));
+}
+
+std::size_t least_memory(std::size_t num_faces, std::size_t num_samples) {
+    return 200 * num_faces + 3000 * num_samples;
 }
 
 }  // namespace cli

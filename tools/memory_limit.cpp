@@ -79,6 +79,29 @@ std::string format_bytes(std::size_t bytes) {
     return std::to_string(bytes);
 }
 
+bool MemoryGuard::check() {
+    is_over_ = is_over_ || (limit_.bytes > 0 && resident_memory() > limit_.bytes);
+    return is_over_;
+}
+
+void MemoryGuard::require(const std::string& stage, std::size_t bytes) {
+    const std::size_t needed = resident_memory() + bytes;
+    if (limit_.bytes == 0 || needed <= limit_.bytes) return;
+    is_over_ = true;
+    throw error(stage, "some " + format_bytes(needed) + ", ");
+}
+
+OutOfMemory MemoryGuard::error(const std::string& stage, const std::string& needed) const {
+    std::string text = "not enough memory";
+    if (is_over_) {
+        text += ": the program needs " + needed + "more than the " + format_bytes(limit_.bytes) +
+                " of --memory-limit";
+    }
+    if (!stage.empty()) text += " (stage: " + stage + ")";
+    text += "; " + memory_remedy(stage, limit_.engine);
+    return OutOfMemory(is_over_ ? text + ", or raise --memory-limit" : text);
+}
+
 std::string memory_remedy(std::string_view stage, agvd::Engine engine) {
     if (stage == "propagate") {
         switch (engine) {

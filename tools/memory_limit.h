@@ -35,6 +35,34 @@ public:
 //! As parse_bytes takes it, with three digits.
 [[nodiscard]] std::string format_bytes(std::size_t bytes);
 
+//! How much memory a job may use.
+struct MemoryLimit {
+    std::size_t bytes = 0;                       //!< 0: as much as the system gives.
+    agvd::Engine engine = agvd::Engine::Window;  //!< For the remedy.
+};
+
+//! Compares the memory of the process with a limit while a job runs.
+class MemoryGuard {
+public:
+    explicit MemoryGuard(const MemoryLimit& limit) : limit_(limit) {}
+
+    //! Looks at the memory; once it is above the limit, this stays true. Cost: some microseconds.
+    [[nodiscard]] bool check();
+    //! Whether check() has been true.
+    [[nodiscard]] bool is_over() const { return is_over_; }
+    //! Call before work that needs at least this many bytes more.
+    //! \throw OutOfMemory  the limit would be exceeded; the text tells how much is needed.
+    void require(const std::string& stage, std::size_t bytes);
+    //! What to throw where is_over(), or where the system has no more memory.
+    //! \param stage   empty: not known.
+    //! \param needed  how much, if it is known: "some 3.7G, ".
+    [[nodiscard]] OutOfMemory error(const std::string& stage, const std::string& needed = {}) const;
+
+private:
+    MemoryLimit limit_;
+    bool is_over_ = false;
+};
+
 //! What to try if a stage needs too much memory.
 //! \param stage  its name in logs.
 [[nodiscard]] std::string memory_remedy(std::string_view stage, agvd::Engine engine);

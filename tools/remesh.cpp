@@ -255,12 +255,6 @@ void check_outputs(const Arguments& arguments) {
     }
 }
 
-// Bytes that a run needs at least. Meshes of 1 000 to 100 000 faces with 9 000 to 100 000 samples
-// took 4000 to 7000 bytes a sample beyond 300 a face.
-std::size_t least_memory(std::size_t num_faces, std::size_t num_samples) {
-    return 200 * num_faces + 3000 * num_samples;
-}
-
 cli::Products make_products(const Arguments& arguments, cli::Console& console) {
     const bool wants_attributes = cli::wants_attributes(arguments.attributes) ||
                                   cli::wants_attributes(arguments.sizing) ||
@@ -322,9 +316,9 @@ cli::Products make_products(const Arguments& arguments, cli::Console& console) {
     }
     const std::size_t num_faces = input.mesh.triangles.size();
     const std::size_t num_samples = cli::estimated_samples(options, input.mesh.view());
-    console.require_memory("sample", least_memory(num_faces, num_samples));
+    console.require_memory("sample", cli::least_memory(num_faces, num_samples));
     console.expect(cli::stages_of_remesh(num_faces, num_samples, needs_input, options),
-                   options.sizing.max_distance > 0 ? cli::Runs::Unknown : cli::Runs::One);
+                   cli::runs_of_remesh(options));
     const remesh::RemeshResult result = cli::naming_file(
         arguments.input,
         [&] {
@@ -334,7 +328,9 @@ cli::Products make_products(const Arguments& arguments, cli::Console& console) {
         arguments.sites);
     console.end_stage();
     console.detail(cli::stage_details(result, num_faces));
-    cli::warn_of_shortfalls(result, options, arguments.strict, console);
+    for (const std::string& text : cli::shortfalls_of(result, options, arguments.strict)) {
+        console.warn(text);
+    }
     remesh::RunInfo info{.version = REMESH_VERSION,
                          .input_path = arguments.input.string(),
                          .output_path = arguments.output.string(),
@@ -348,7 +344,8 @@ cli::Products make_products(const Arguments& arguments, cli::Console& console) {
     const remesh::MeshPath target{arguments.output, arguments.to};
     products.files.push_back(
         {arguments.output, remesh::format_mesh(target, result.mesh.view(), carried, writing)});
-    cli::warn_of_rounding(target, result.mesh.view(), writing, console);
+    const remesh::RoundingLoss loss = remesh::rounding_loss(target, result.mesh.view(), writing);
+    if (loss.matters()) console.warn(remesh::describe(loss, target));
     if (!arguments.report.empty()) {
         info.output = remesh::measure_figures(result.mesh.view(), writing);
         info.warnings = console.warnings();

@@ -1,23 +1,33 @@
 #include "shortfalls.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "remesh/io/write_mesh.h"
+#include "agvd/core/error.h"
 
 namespace cli {
 namespace {
 
-// What the result is too coarse to show; empty: nothing.
-std::string too_small(const remesh::RemeshResult& result) {
+using Warnings = std::vector<std::string>;
+
+// What the result is too coarse to show, and how many samples would do; empty: nothing.
+std::string describe_coarseness(const remesh::RemeshResult& result) {
+    const remesh::FeatureCounts& creases = result.features;
+    const remesh::Verdict& verdict = result.verdict;
     std::string text;
-    const auto add = [&](bool is_so, const char* what) {
-        if (is_so) text += (text.empty() ? "" : ", ") + std::string(what);
+    agvd::Index enough = 0;  // 0: not known.
+    const auto add = [&](bool is_so, const char* what, agvd::Index samples) {
+        if (!is_so) return;
+        text += (text.empty() ? "" : ", ") + std::string(what);
+        enough = std::max(enough, samples);
     };
-    add(result.features.dropped_length > 0, "creases");
-    add(result.verdict.thin_walls > 0, "walls");
-    add(result.verdict.small_components > 0, "components");
-    return text;
+    add(creases.dropped_length > 0, "creases", creases.samples_for_all);
+    add(verdict.thin_walls > 0, "walls", verdict.samples_for_walls);
+    add(verdict.small_components > 0, "components", verdict.samples_for_components);
+    if (text.empty()) return text;
+    text = "the result is too coarse for some " + text + "; use more --samples";
+    return enough == 0 ? text : text + " (about " + std::to_string(enough) + " would do)";
 }
 
 // More samples help where the input does not intersect itself; elsewhere the result has the more
@@ -40,63 +50,59 @@ std::string describe_crossings(const remesh::RemeshResult& result) {
 }
 
 // \throw agvd::ConstraintUnmet  with --strict.
-void judge(const remesh::RemeshResult& result, bool strict, Console& console) {
-    if (const std::string small = too_small(result); strict && !small.empty()) {
-        throw agvd::ConstraintUnmet("the result is too coarse for some " + small +
-                                    "; use more --samples (without --strict the report tells how "
-                                    "many), or leave out --strict");
-    }
+void judge(const remesh::RemeshResult& result, bool strict, Warnings& warnings) {
+    const auto refuse = [](const std::string& text) {
+        throw agvd::ConstraintUnmet(text + ", or leave out --strict");
+    };
+    if (const std::string text = describe_coarseness(result); strict && !text.empty()) refuse(text);
     if (result.self_intersections.value_or(0) <= result.input_self_intersections) return;
     const std::string text = describe_crossings(result);
-    if (strict) throw agvd::ConstraintUnmet(text + ", or leave out --strict");
-    console.warn(text);
+    if (strict) refuse(text);
+    warnings.push_back(text);
 }
 
 void warn_of_junctions(const remesh::JunctionCounts& counts, remesh::Junctions wanted,
-                       Console& console) {
+                       Warnings& warnings) {
     if (counts.apart_edges == 0 || wanted == remesh::Junctions::Apart) return;
-    console.warn("the sheets at " + std::to_string(counts.apart_edges) +
-                 " non-manifold edges of the input could not be welded; use more --samples, and "
-                 "leave out --sites and --boundary free");
+    warnings.push_back(
+        "the sheets at " + std::to_string(counts.apart_edges) +
+        " non-manifold edges of the input could not be welded; use more --samples, and "
+        "leave out --sites and --boundary free");
 }
 
 void warn_of_bounds(const remesh::SizingResult& sizes, const remesh::Sizing& wanted,
-                    Console& console) {
+                    Warnings& warnings) {
     constexpr double tolerance = 0.02;
     const std::string count = std::to_string(sizes.num_samples) + " vertices are too ";
     if (sizes.largest_target > (1 + tolerance) * wanted.max_edge) {
-        console.warn(count + "few for --max-edge; use more, or longer edges");
+        warnings.push_back(count + "few for --max-edge; use more, or longer edges");
     }
     if (sizes.largest_target > 0 && sizes.least_target < (1 - tolerance) * wanted.min_edge) {
-        console.warn(count + "many for --min-edge; use fewer, or shorter edges");
+        warnings.push_back(count + "many for --min-edge; use fewer, or shorter edges");
     }
 }
 
-void warn_of_seams(const remesh::FeatureCounts& counts, Console& console) {
+void warn_of_seams(const remesh::FeatureCounts& counts, Warnings& warnings) {
     constexpr double least_share = 0.01;
     const double all = counts.seam_length + counts.dropped_seam_length;
     if (!(counts.dropped_seam_length > least_share * all)) return;
-    console.warn(std::to_string(std::lround(100 * counts.dropped_seam_length / all)) +
-                 " % of the seams of texture coordinates are too short or too close to each other "
-                 "to be edges of the result, whose faces there have coordinates of one side only; "
-                 "use more --samples");
+    warnings.push_back(
+        std::to_string(std::lround(100 * counts.dropped_seam_length / all)) +
+        " % of the seams of texture coordinates are too short or too close to each other "
+        "to be edges of the result, whose faces there have coordinates of one side only; "
+        "use more --samples");
 }
 
 }  // namespace
 
-void warn_of_shortfalls(const remesh::RemeshResult& result, const remesh::RemeshOptions& options,
-                        bool strict, Console& console) {
-    judge(result, strict, console);
-    warn_of_junctions(result.junctions, options.junctions, console);
-    warn_of_seams(result.features, console);
-    warn_of_bounds(result.sizing, options.sizing, console);
-}
-
-void warn_of_rounding(const remesh::MeshPath& target, const agvd::MeshView& mesh,
-                      const agvd::Progress& progress, Console& console) {
-    const std::string text =
-        remesh::describe(remesh::rounding_loss(target, mesh, progress), target);
-    if (!text.empty()) console.warn(text);
+std::vector<std::string> shortfalls_of(const remesh::RemeshResult& result,
+                                       const remesh::RemeshOptions& options, bool strict) {
+    Warnings warnings;
+    judge(result, strict, warnings);
+    warn_of_junctions(result.junctions, options.junctions, warnings);
+    warn_of_seams(result.features, warnings);
+    warn_of_bounds(result.sizing, options.sizing, warnings);
+    return warnings;
 }
 
 }  // namespace cli

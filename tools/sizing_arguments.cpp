@@ -1,8 +1,6 @@
 #include "sizing_arguments.h"
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <numbers>
 
 #include "agvd/mesh/scale.h"
 #include "help.h"
@@ -142,22 +140,6 @@ remesh::Sizing sizing_for(const SizingArguments& arguments, const std::filesyste
     take(arguments.min_edge, sizing.min_edge);
     take(arguments.max_edge, sizing.max_edge);
     return sizing;
-}
-
-std::size_t estimated_samples(const remesh::RemeshOptions& options, const agvd::MeshView& mesh) {
-    const remesh::Sizing& sizing = options.sizing;
-    if (options.sites) return options.sites->size();
-    if (sizing.num_faces > 0) return sizing.num_faces / 2;
-    if (sizing.max_distance > 0 || sizing.gives_count) return 0;
-    if (!(sizing.edge_length > 0)) return options.num_samples;
-    double area = 0;
-    for (const auto& [a, b, c] : mesh.triangles) {
-        const agvd::Vec3& p = mesh.positions[a];
-        area += (mesh.positions[b] - p).cross(mesh.positions[c] - p).norm() / 2;
-    }
-    const double count = 2 / std::numbers::sqrt3 * area / (sizing.edge_length * sizing.edge_length);
-    constexpr double most = 1e12;
-    return static_cast<std::size_t>(std::clamp(count, 1.0, most));
 }
 
 }  // namespace cli

@@ -40,10 +40,4 @@ void add_sizing_options(CLI::App& app, SizingArguments& arguments);
                                         const std::filesystem::path& path,
                                         const remesh::MeshFile& mesh);
 
-//! About how many samples a run places, before the surface is known well. Curvature does not
-//! count: with a distance it is the least number.
-//! Cost: O(#F).
-[[nodiscard]] std::size_t estimated_samples(const remesh::RemeshOptions& options,
-                                            const agvd::MeshView& mesh);
-
 }  // namespace cli

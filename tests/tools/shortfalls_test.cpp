@@ -1,0 +1,69 @@
+// What the program and the Python module warn of, from results that are filled by hand.
+#include "shortfalls.h"
+
+#include <gtest/gtest.h>
+
+#include "agvd/core/error.h"
+
+namespace {
+
+using remesh::RemeshResult;
+using Warnings = std::vector<std::string>;
+
+std::string refusal_of(const RemeshResult& result) {
+    try {
+        static_cast<void>(cli::shortfalls_of(result, {}, true));
+    } catch (const agvd::ConstraintUnmet& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(Shortfalls, AResultThatHasAllIsNeitherWarnedOfNorRefused) {
+    EXPECT_EQ(cli::shortfalls_of({}, {}, true), Warnings());
+}
+
+TEST(Shortfalls, CrossingsAreWarnedOfAndRefusedIfStrict) {
+    RemeshResult result;
+    result.self_intersections = 3;
+    EXPECT_EQ(cli::shortfalls_of(result, {}, false),
+              Warnings{"the result has 3 pairs of intersecting faces, the input has 0; use more "
+                       "--samples"});
+    EXPECT_NE(refusal_of(result).find("3 pairs"), std::string::npos) << refusal_of(result);
+    result.input_self_intersections = 3;
+    EXPECT_EQ(cli::shortfalls_of(result, {}, true), Warnings());
+}
+
+TEST(Shortfalls, ARefusalNamesTheSamplesThatWouldDoForAll) {
+    RemeshResult result;
+    result.verdict.thin_walls = 2;
+    EXPECT_EQ(refusal_of(result),
+              "the result is too coarse for some walls; use more --samples, or leave out --strict");
+    result.verdict.samples_for_walls = 700;
+    result.features.dropped_length = 1;
+    result.features.samples_for_all = 5400;
+    EXPECT_EQ(refusal_of(result),
+              "the result is too coarse for some creases, walls; use more --samples (about 5400 "
+              "would do), or leave out --strict");
+    EXPECT_EQ(cli::shortfalls_of(result, {}, false), Warnings());
+}
+
+TEST(Shortfalls, BoundsOfEdgesAndLostSeamsAndJunctionsAreWarnedOf) {
+    RemeshResult result;
+    result.sizing = {.num_samples = 50, .least_target = 1, .largest_target = 4};
+    result.features.seam_length = 3;
+    result.features.dropped_seam_length = 1;
+    result.junctions.apart_edges = 2;
+    remesh::RemeshOptions options;
+    options.junctions = remesh::Junctions::Keep;
+    options.sizing.min_edge = 2;
+    options.sizing.max_edge = 3;
+    const Warnings warnings = cli::shortfalls_of(result, options, false);
+    ASSERT_EQ(warnings.size(), 4U);
+    EXPECT_NE(warnings[0].find("2 non-manifold edges"), std::string::npos) << warnings[0];
+    EXPECT_NE(warnings[1].find("25 % of the seams"), std::string::npos) << warnings[1];
+    EXPECT_NE(warnings[2].find("few for --max-edge"), std::string::npos) << warnings[2];
+    EXPECT_NE(warnings[3].find("many for --min-edge"), std::string::npos) << warnings[3];
+}
+
+}  // namespace
