@@ -78,8 +78,12 @@ void Console::run(const std::function<void()>& job) {
 void Console::end_stage() { begin_stage("", Clock::now()); }
 
 void Console::require_memory(const char* stage, std::size_t bytes) {
-    stage_ = stage;
-    memory_.require(stage, bytes);
+    try {
+        memory_.require(stage, bytes);
+    } catch (const OutOfMemory&) {
+        stage_ = stage;
+        throw;
+    }
 }
 
 // Keeps the name of the stage in which the limit was reached.
