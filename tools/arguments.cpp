@@ -48,11 +48,7 @@ std::string check_lambda(const std::string& text) {
 
 // Checks the option; an empty text: valid.
 std::string check_samples(const std::string& text) {
-    const std::optional<Amount> amount = parse_amount(text);
-    if (amount && (amount->is_percent || (amount->value < agvd::no_index &&
-                                          amount->value == std::floor(amount->value)))) {
-        return {};
-    }
+    if (is_number_of_samples(text)) return {};
     return "the number of samples is " + text +
            "; use a whole number from 1 to 4294967294 (such as 2000 or 1e4), or a percentage of "
            "the input's vertices (such as 10%)";
@@ -152,12 +148,22 @@ std::optional<Amount> parse_amount(std::string_view text) {
     return amount;
 }
 
+bool is_number_of_samples(const std::string& text) {
+    const std::optional<Amount> amount = parse_amount(text);
+    return amount && (amount->is_percent || (amount->value < agvd::no_index &&
+                                             amount->value == std::floor(amount->value)));
+}
+
 agvd::Index num_samples_for(const DiagramArguments& arguments, std::size_t num_vertices) {
     if (arguments.sample_percent == 0) return arguments.sampling.num_samples;
-    const double share = arguments.sample_percent / 100;
-    const double count = std::round(share * static_cast<double>(num_vertices));
+    return num_samples_for(Amount{arguments.sample_percent, true}, num_vertices);
+}
+
+agvd::Index num_samples_for(const Amount& samples, std::size_t num_vertices) {
+    if (!samples.is_percent) return static_cast<agvd::Index>(samples.value);
+    const double count = std::round(samples.value / 100 * static_cast<double>(num_vertices));
     if (count >= 1 && count < agvd::no_index) return static_cast<agvd::Index>(count);
-    throw agvd::InvalidOption("--samples is " + std::to_string(arguments.sample_percent) +
+    throw agvd::InvalidOption("the number of samples is " + std::to_string(samples.value) +
                               " % of " + std::to_string(num_vertices) + " vertices, which is " +
                               (count < 1 ? "none" : "too many") +
                               "; use another percentage or a number");

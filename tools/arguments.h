@@ -38,11 +38,6 @@ struct DiagramArguments {
 //! Every engine by its name on the command line.
 [[nodiscard]] std::map<std::string, agvd::Engine> engines_by_name();
 
-//! The number of sites for a mesh, or a part of one.
-//! \param num_vertices  of which a percentage is taken. \throw agvd::InvalidOption  it gives none.
-[[nodiscard]] agvd::Index num_samples_for(const DiagramArguments& arguments,
-                                          std::size_t num_vertices);
-
 //! A number, or a percentage: 12, 1e4, .5, 20%.
 struct Amount {
     double value = 0;
@@ -50,6 +45,15 @@ struct Amount {
 };
 //! Nothing unless the text is such a number, finite and above 0.
 [[nodiscard]] std::optional<Amount> parse_amount(std::string_view text);
+
+//! Whether the text is a value of --samples.
+[[nodiscard]] bool is_number_of_samples(const std::string& text);
+
+//! The number of sites for a mesh, or a part of one.
+//! \param num_vertices  of which a percentage is taken. \throw agvd::InvalidOption  it gives none.
+[[nodiscard]] agvd::Index num_samples_for(const Amount& samples, std::size_t num_vertices);
+[[nodiscard]] agvd::Index num_samples_for(const DiagramArguments& arguments,
+                                          std::size_t num_vertices);
 
 //! Adds IN, --from, --samples, --init, --seed, --sites, --engine, --max-error, --steiner-points,
 //! --lambda,

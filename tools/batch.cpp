@@ -55,12 +55,6 @@ std::string describe(const BatchMesh& mesh, const Failure& failure) {
     return text + " (exit code " + std::to_string(failure.exit_code) + ")";
 }
 
-std::string to_array(const std::vector<std::string>& objects) {
-    std::string text;
-    for (const std::string& object : objects) text += (text.empty() ? "[\n" : ",\n") + object;
-    return text.empty() ? "[]\n" : text + "]\n";
-}
-
 // Not stopped by an interruption: what is finished is told.
 void write_reports(const fs::path& path, const std::vector<std::string>& reports) {
     if (path.empty()) return;
@@ -94,6 +88,12 @@ fs::path output_in(const fs::path& folder, const fs::path& input, const std::str
     return output;
 }
 
+std::string to_array(std::span<const std::string> objects) {
+    std::string text;
+    for (const std::string& object : objects) text += (text.empty() ? "[\n" : ",\n") + object;
+    return text.empty() ? "[]\n" : text + "]\n";
+}
+
 std::vector<BatchMesh> plan_batch(const BatchArguments& arguments) {
     std::vector<BatchMesh> meshes;
     Places places;
@@ -104,7 +104,9 @@ std::vector<BatchMesh> plan_batch(const BatchArguments& arguments) {
                                       "' gives no name for a file in --out-dir; name a file");
         }
         meshes.push_back({input, output_in(arguments.folder, input, arguments.to)});
-        add_output(meshes.back().output, input.string(), places);
+        for (const fs::path& file : level_paths(arguments.levels, meshes.back().output)) {
+            add_output(file, input.string(), places);
+        }
     }
     if (!arguments.report.empty() && arguments.report != "-") {
         add_output(arguments.report, "--report", places);
@@ -125,13 +127,14 @@ void run_batch(const BatchArguments& arguments, std::span<const BatchMesh> meshe
         remesh::require_writable(arguments.report);
     }
     std::vector<std::string> reports, failures;
-    std::size_t num_skipped = 0;
+    std::size_t num_finished = 0, num_skipped = 0;
     for (const BatchMesh& mesh : meshes) {
-        console.info("mesh " + std::to_string(reports.size() + 1) + " of " +
+        console.info("mesh " + std::to_string(num_finished + 1) + " of " +
                      std::to_string(meshes.size()) + ": " + mesh.input.string());
         const MeshOutcome outcome = run_mesh(mesh);
         if (outcome.failure && interrupted()) break;
-        reports.push_back(outcome.report);
+        ++num_finished;
+        reports.insert(reports.end(), outcome.reports.begin(), outcome.reports.end());
         if (outcome.is_skipped) ++num_skipped;
         if (outcome.failure) {
             failures.push_back(describe(mesh, *outcome.failure));
@@ -140,13 +143,13 @@ void run_batch(const BatchArguments& arguments, std::span<const BatchMesh> meshe
         if (interrupted()) break;
     }
     write_reports(arguments.report, reports);
-    std::string summary = std::to_string(reports.size() - failures.size() - num_skipped) +
-                          " done, " + std::to_string(failures.size()) + " failed";
+    std::string summary = std::to_string(num_finished - failures.size() - num_skipped) + " done, " +
+                          std::to_string(failures.size()) + " failed";
     if (num_skipped > 0) summary += ", " + std::to_string(num_skipped) + " skipped";
-    const bool is_cut_off = reports.size() < meshes.size();
+    const bool is_cut_off = num_finished < meshes.size();
     if (is_cut_off) {
-        summary = "interrupted: " + summary + ", " +
-                  std::to_string(meshes.size() - reports.size()) + " not finished";
+        summary = "interrupted: " + summary + ", " + std::to_string(meshes.size() - num_finished) +
+                  " not finished";
     }
     if (failures.empty() && !is_cut_off) return console.info(summary);
     for (const std::string& failure : failures) summary += "\n  " + failure;

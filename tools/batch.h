@@ -10,10 +10,11 @@
 #include <vector>
 
 #include "cli.h"
+#include "levels.h"
 
 namespace cli {
 
-//! A mesh to read and the file that it becomes.
+//! A mesh to read and the file that it becomes; with levels several, see level_paths.
 struct BatchMesh {
     std::filesystem::path input, output;
 };
@@ -23,6 +24,7 @@ struct BatchArguments {
     std::vector<std::filesystem::path> inputs;
     std::filesystem::path folder;  //!< Of the outputs; made if it does not exist.
     std::string to;                //!< Format of the outputs; empty: by the inputs' names.
+    LevelArguments levels = {};    //!< Of each mesh.
     std::filesystem::path report;  //!< Empty: none; "-": stdout.
     bool force = false;            //!< Outputs may replace inputs.
 };
@@ -38,6 +40,9 @@ struct BatchArguments {
                                               const std::filesystem::path& input,
                                               const std::string& format = {});
 
+//! Text of a JSON array.
+[[nodiscard]] std::string to_array(std::span<const std::string> objects);
+
 //! The outputs of all inputs, in their order. Nothing is read or written.
 //! \throw agvd::InvalidOption  two files would be written to the same place, or, without `force`,
 //!        over an input.
@@ -45,7 +50,7 @@ struct BatchArguments {
 
 //! What became of a mesh.
 struct MeshOutcome {
-    std::string report;  //!< A JSON object.
+    std::vector<std::string> reports;  //!< JSON objects; with levels one for each.
     bool is_skipped = false;
     std::optional<Failure> failure;
 };

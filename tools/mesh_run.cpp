@@ -32,10 +32,15 @@ std::string report_without_result(const MeshRun& run, const Failure& failure,
         info);
 }
 
+std::string to_report(const MeshRun& run, std::span<const std::string> objects) {
+    return run.has_levels ? to_array(objects) : objects.front();
+}
+
 void report_failure(const MeshRun& run, const Failure& failure, Console& console) {
     if (run.report.empty() || interrupted()) return;
     try {
-        write_text(run.report, report_without_result(run, failure, console));
+        write_text(run.report,
+                   to_report(run, std::vector{report_without_result(run, failure, console)}));
     } catch (const agvd::Error& error) {
         console.warn(error.what());
     }
@@ -49,9 +54,9 @@ void run_alone(const MeshRun& run, Console& console) {
         console.run([&] {
             Products products = run.make();
             if (run.report == "-") {
-                print(products.report);
+                print(to_report(run, products.reports));
             } else if (!run.report.empty()) {
-                products.files.push_back({run.report, std::move(products.report)});
+                products.files.push_back({run.report, to_report(run, products.reports)});
             }
             write(run, products, console);
         });
@@ -67,7 +72,7 @@ MeshOutcome run_in_batch(const MeshRun& run, Console& console) {
         const std::string text = run.output.string() + ": exists already; skipped";
         console.info(text);
         outcome.is_skipped = true;
-        outcome.report = report_without_result(run, {.exit_code = 0, .text = text}, console);
+        outcome.reports = {report_without_result(run, {.exit_code = 0, .text = text}, console)};
         return outcome;
     }
     try {
@@ -75,11 +80,11 @@ MeshOutcome run_in_batch(const MeshRun& run, Console& console) {
         console.run([&] {
             Products products = run.make();
             write(run, products, console);
-            outcome.report = std::move(products.report);
+            outcome.reports = std::move(products.reports);
         });
     } catch (...) {
         outcome.failure = failure_of(std::current_exception());
-        outcome.report = report_without_result(run, *outcome.failure, console);
+        outcome.reports = {report_without_result(run, *outcome.failure, console)};
     }
     return outcome;
 }

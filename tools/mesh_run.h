@@ -16,13 +16,14 @@ namespace cli {
 //! What is to be written for a mesh.
 struct Products {
     std::vector<remesh::FileContent> files;
-    std::string report;  //!< JSON; empty: not asked for.
-    std::string text;    //!< For people.
+    std::vector<std::string> reports;  //!< JSON objects, one for each result; or not asked for.
+    std::string text;                  //!< For people.
 };
 
 struct MeshRun {
-    std::filesystem::path input, output;
-    std::filesystem::path report;  //!< Empty: none; "-": stdout.
+    std::filesystem::path input, output;  //!< The output of level 0.
+    std::filesystem::path report;         //!< Empty: none; "-": stdout.
+    bool has_levels = false;              //!< The report is an array.
     bool no_clobber = false;
     std::function<void()> check_outputs;  //!< What it refuses gets no report.
     std::function<Products()> make;       //!< All the work but writing.

@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <iterator>
+#include <span>
 #include <utility>
 
 #include "arguments.h"
@@ -12,6 +14,7 @@
 #include "batch.h"
 #include "expected_stages.h"
 #include "help.h"
+#include "levels.h"
 #include "mesh_paths.h"
 #include "mesh_run.h"
 #include "region.h"
@@ -36,7 +39,8 @@ constexpr const char* footer =
     "  remesh scan.stl -n 5000 -o scan.ply --report scan.json\n"
     "  remesh part.stl --edge-length 2% --adaptive part.obj\n"
     "  remesh part.off --sites sites.txt part.obj --report - | jq .\n"
-    "  remesh *.obj --out-dir out -n 2000 --report out.json\n\n"
+    "  remesh *.obj --out-dir out -n 2000 --report out.json\n"
+    "  remesh statue.glb lod.glb --levels 8000,2000,500\n\n"
     "With --out-dir each mesh becomes DIR/NAME, NAME being that of the input; .ply\n"
     "replaces an extension that cannot be written. A mesh that fails does not stop\n"
     "the rest; the failures are listed at the end. An interruption keeps the meshes\n"
@@ -65,6 +69,7 @@ struct Arguments : cli::DiagramArguments {
     fs::path feature_edges;  // Empty: none.
     remesh::Junctions junctions = remesh::RemeshOptions{}.junctions;
     cli::SizingArguments sizing;
+    cli::LevelArguments levels;
     cli::AttributeArguments attributes;
     cli::RegionArguments region;
 };
@@ -170,6 +175,7 @@ void add_options(CLI::App& app, Arguments& arguments) {
     add_result_options(app, arguments);
     add_feature_options(app, arguments);
     cli::add_sizing_options(app, arguments.sizing);
+    cli::add_level_option(app, arguments.levels);
     cli::add_attribute_options(app, arguments.attributes);
     cli::start_group(app, cli::heading::files);
     app.add_option("--drop-components", arguments.drop_components,
@@ -226,6 +232,18 @@ void add_output_options(CLI::App& app, Arguments& arguments) {
         ->type_name("FILE|-");
 }
 
+// Those of each level, with the names of its files.
+std::vector<Arguments> arguments_of_levels(const Arguments& arguments) {
+    const std::vector<fs::path> outputs = cli::level_paths(arguments.levels, arguments.output),
+                                maps = cli::level_paths(arguments.levels, arguments.attributes.map);
+    std::vector<Arguments> levels(outputs.size(), arguments);
+    for (std::size_t level = 0; level < levels.size(); ++level) {
+        levels[level].output = outputs[level];
+        levels[level].attributes.map = maps[level];
+    }
+    return levels;
+}
+
 void check_outputs(const Arguments& arguments) {
     static_cast<void>(remesh::mesh_format({arguments.output, arguments.to}));  // Is it known?
     cli::check_one_on_stdout(arguments.output, arguments.report, "--report");
@@ -255,7 +273,17 @@ void check_outputs(const Arguments& arguments) {
     }
 }
 
-cli::Products make_products(const Arguments& arguments, cli::Console& console) {
+// What all levels are made of.
+struct Input {
+    remesh::MeshFile file;
+    remesh::AttributeReport attributes;
+    bool is_needed = true;              // After remesh() as well.
+    std::size_t num_vertices = 0;       // Of which percentages are taken.
+    remesh::RemeshOptions options;      // Of level 0.
+    std::vector<std::string> warnings;  // So far.
+};
+
+Input prepare(const Arguments& arguments, cli::Console& console) {
     const bool wants_attributes = cli::wants_attributes(arguments.attributes) ||
                                   cli::wants_attributes(arguments.sizing) ||
                                   !arguments.region.region.empty();
@@ -270,8 +298,8 @@ cli::Products make_products(const Arguments& arguments, cli::Console& console) {
     const remesh::AttributeReport attributes =
         cli::select_attributes(arguments.attributes, arguments.input,
                                {arguments.output, arguments.to}, input.attributes, console);
-    const bool needs_input = cli::needs_map(arguments.attributes, input.attributes);
-    if (!needs_input) std::vector<agvd::Index>().swap(input.face_polygon);  // Not used any more.
+    const bool needs_map = cli::needs_map(arguments.attributes, input.attributes);
+    if (!needs_map) std::vector<agvd::Index>().swap(input.face_polygon);  // Not used any more.
     console.info(cli::describe(arguments.input, input.mesh.view()));
     // Otherwise memory that half a stage has freed between its results would stay in use.
     const auto progress = [&, last = std::pair(remesh::Stage::Clean, false)](
@@ -314,16 +342,44 @@ cli::Products make_products(const Arguments& arguments, cli::Console& console) {
         options.locked = remesh::read_vertices(arguments.region.lock, input.mesh.view(),
                                                console.progress_of("read"));
     }
-    const std::size_t num_faces = input.mesh.triangles.size();
-    const std::size_t num_samples = cli::estimated_samples(options, input.mesh.view());
+    return {.file = std::move(input),
+            .attributes = attributes,
+            .is_needed = needs_map || arguments.levels.count > 1,
+            .num_vertices = num_vertices,
+            .options = std::move(options),
+            .warnings = console.warnings()};
+}
+
+// Tells the bar of the levels still to come, the last one first.
+void expect_levels(std::span<const remesh::RemeshOptions> to_come, const Input& input,
+                   cli::Console& console) {
+    const agvd::MeshView mesh = input.file.mesh.view();
+    std::vector<cli::ExpectedStage> stages;
+    for (std::size_t level = to_come.size(); level-- > 0;) {
+        const remesh::RemeshOptions& options = to_come[level];
+        const auto of_level = cli::stages_of_remesh(
+            mesh.triangles.size(), cli::estimated_samples(options, mesh), input.is_needed, options);
+        stages.insert(stages.end(), of_level.begin(), of_level.end());
+    }
+    console.expect(std::move(stages), cli::runs_of_remesh(to_come.back()));
+}
+
+// A level, or the only result.
+// \param arguments, options  of this level.
+cli::Products make_level(const Arguments& arguments, const remesh::RemeshOptions& options,
+                         Input& input, cli::Console& console) {
+    const bool is_one_of_many = arguments.levels.count > 1;
+    if (is_one_of_many) console.info("level " + arguments.output.string());
+    const std::size_t num_warnings = console.warnings().size();
+    const std::size_t num_faces = input.file.mesh.triangles.size();
+    const std::size_t num_samples = cli::estimated_samples(options, input.file.mesh.view());
     console.require_memory("sample", cli::least_memory(num_faces, num_samples));
-    console.expect(cli::stages_of_remesh(num_faces, num_samples, needs_input, options),
-                   cli::runs_of_remesh(options));
     const remesh::RemeshResult result = cli::naming_file(
-        arguments.input,
+        arguments.input.string() +
+            (is_one_of_many ? ", for " + arguments.output.string() : std::string()),
         [&] {
-            return needs_input ? remesh::remesh(input.mesh.view(), options)
-                               : remesh::remesh_moved(std::move(input.mesh), options);
+            return input.is_needed ? remesh::remesh(input.file.mesh.view(), options)
+                                   : remesh::remesh_moved(std::move(input.file.mesh), options);
         },
         arguments.sites);
     console.end_stage();
@@ -335,11 +391,11 @@ cli::Products make_products(const Arguments& arguments, cli::Console& console) {
                          .input_path = arguments.input.string(),
                          .output_path = arguments.output.string(),
                          .options = options,
-                         .attributes = attributes};
+                         .attributes = input.attributes};
     const agvd::Progress writing = console.progress_of("write");
     cli::Products products;
     const remesh::MeshAttributes carried =
-        cli::carry_attributes(arguments.attributes, input, result, arguments.common.threads,
+        cli::carry_attributes(arguments.attributes, input.file, result, arguments.common.threads,
                               console.progress_of("transfer"), products.files);
     const remesh::MeshPath target{arguments.output, arguments.to};
     products.files.push_back(
@@ -348,20 +404,50 @@ cli::Products make_products(const Arguments& arguments, cli::Console& console) {
     if (loss.matters()) console.warn(remesh::describe(loss, target));
     if (!arguments.report.empty()) {
         info.output = remesh::measure_figures(result.mesh.view(), writing);
-        info.warnings = console.warnings();
-        products.report = remesh::to_json(result, info);
+        info.warnings = input.warnings;
+        const auto more = std::span(console.warnings()).subspan(num_warnings);
+        info.warnings.insert(info.warnings.end(), more.begin(), more.end());
+        products.reports = {remesh::to_json(result, info)};
     }
     products.text = remesh::to_text(result, info);
+    return products;
+}
+
+cli::Products make_products(const Arguments& arguments, cli::Console& console) {
+    Input input = prepare(arguments, console);
+    const std::vector<Arguments> levels = arguments_of_levels(arguments);
+    std::vector<remesh::RemeshOptions> options;
+    for (std::size_t level = 0; level < levels.size(); ++level) {
+        options.push_back(
+            cli::options_of_level(arguments.levels, level, input.options, input.num_vertices));
+    }
+    cli::Products products;
+    // Coarse levels first: too few samples are found before the long work.
+    for (std::size_t level = levels.size(); level-- > 0;) {
+        expect_levels(std::span(options).first(level + 1), input, console);
+        cli::Products more = make_level(levels[level], options[level], input, console);
+        std::move(products.files.begin(), products.files.end(), std::back_inserter(more.files));
+        std::move(products.reports.begin(), products.reports.end(),
+                  std::back_inserter(more.reports));
+        if (!products.text.empty()) more.text += '\n' + products.text;
+        products = std::move(more);
+    }
     return products;
 }
 
 // \param arguments, console  outlive the run.
 cli::MeshRun run_of(const Arguments& arguments, cli::Console& console) {
     return {.input = arguments.input,
-            .output = arguments.output,
+            .output = cli::level_paths(arguments.levels, arguments.output).front(),
             .report = arguments.report,
+            .has_levels = arguments.levels.count > 1,
             .no_clobber = arguments.no_clobber,
-            .check_outputs = [&] { check_outputs(arguments); },
+            .check_outputs =
+                [&] {
+                    for (const Arguments& level : arguments_of_levels(arguments)) {
+                        check_outputs(level);
+                    }
+                },
             .make = [&] { return make_products(arguments, console); }};
 }
 
@@ -377,6 +463,7 @@ void run_many(const Arguments& arguments) {
     cli::BatchArguments batch{.inputs = {arguments.input},
                               .folder = arguments.folder,
                               .to = arguments.to,
+                              .levels = arguments.levels,
                               .report = arguments.report,
                               .force = arguments.force};
     batch.inputs.insert(batch.inputs.end(), arguments.further.begin(), arguments.further.end());
@@ -411,6 +498,7 @@ int main(int argc, char** argv) {
     add_output_options(app, arguments);
     app.footer(std::string(footer) + cli::exit_code_help + batch_exit_code_help);
     return cli::run(app, argc, argv, [&] {
+        cli::check_levels(arguments.levels, arguments.sizing);
         if (arguments.folder.empty()) {
             run_one(arguments);
         } else {

@@ -105,6 +105,11 @@ void add_sizing_options(CLI::App& app, SizingArguments& arguments) {
         ->default_str("1.3");
 }
 
+bool has_count(const SizingArguments& arguments) {
+    return arguments.samples->count() > 0 || arguments.edge || arguments.max_distance ||
+           arguments.sizing.num_faces > 0;
+}
+
 bool wants_attributes(const SizingArguments& arguments) {
     return !arguments.target_lengths.empty() || !arguments.densities.empty();
 }
@@ -127,9 +132,7 @@ remesh::Sizing sizing_for(const SizingArguments& arguments, const std::filesyste
     }
     sizing.target_lengths = values_of(arguments.target_lengths);
     sizing.densities = values_of(arguments.densities);
-    const bool has_count = arguments.samples->count() > 0 || arguments.edge ||
-                           arguments.max_distance || sizing.num_faces > 0;
-    sizing.gives_count = !sizing.target_lengths.empty() && !has_count;
+    sizing.gives_count = !sizing.target_lengths.empty() && !has_count(arguments);
     const auto [low, high] = agvd::box_of(mesh.mesh.view());
     const double percent = low.x() > high.x() ? 0 : (high - low).norm() / 100;
     const auto take = [&](const std::optional<Amount>& amount, double& length) {

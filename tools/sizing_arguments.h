@@ -30,6 +30,9 @@ struct SizingArguments {
 //! --max-edge and --gradation, after --samples and --sites.
 void add_sizing_options(CLI::App& app, SizingArguments& arguments);
 
+//! Whether an option other than --sizing says how fine the result is.
+[[nodiscard]] bool has_count(const SizingArguments& arguments);
+
 //! Whether the input must be read with its attributes.
 [[nodiscard]] bool wants_attributes(const SizingArguments& arguments);
 
