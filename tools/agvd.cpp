@@ -12,7 +12,6 @@
 #include "remesh/io/atomic_file.h"
 #include "remesh/io/read_diagram.h"
 #include "remesh/io/read_mesh.h"
-#include "remesh/io/read_sites.h"
 #include "remesh/io/report.h"
 #include "remesh/io/write_diagram.h"
 
@@ -30,14 +29,14 @@ constexpr const char* diagram_footer =
     "Examples:\n"
     "  agvd diagram bunny.ply -n 100 -o cells.vtp -o labels.ply\n"
     "  agvd diagram bunny.ply --sites sites.txt -o edges.obj\n\n"
-    "Output:\n"
-    "  .vtp  VTK PolyData: Voronoi edges and boundary arcs as polylines with the\n"
-    "        cell data site_left, site_right (-1: outside) and the point data\n"
-    "        distance\n"
-    "  .obj  the same polylines as v and l lines\n"
-    "  .ply  the cleaned mesh with the vertex properties site (-1: no site) and\n"
-    "        distance, and as further elements the sites and the diagram: what\n"
-    "        `agvd compare` reads\n\n";
+    "Output (.gz behind the extension: compressed):\n"
+    "  .vtp   VTK PolyData for ParaView: the cleaned mesh, the Voronoi edges and\n"
+    "         boundary arcs as polylines, the sites as vertices; point data site and\n"
+    "         distance, cell data site_left and site_right of the polylines\n"
+    "  .ply   the cleaned mesh with the vertex properties site (-1: no site) and\n"
+    "         distance; .vtk the same\n"
+    "  .obj   the polylines as v and l lines\n"
+    "  .agvd  everything, exactly: what `agvd compare` reads\n\n";
 
 struct DiagramArguments : cli::DiagramArguments {
     std::vector<fs::path> outputs;
@@ -45,10 +44,7 @@ struct DiagramArguments : cli::DiagramArguments {
 
 void check_outputs(const DiagramArguments& arguments) {
     for (const fs::path& output : arguments.outputs) {
-        if (!remesh::is_known_diagram_extension(output)) {
-            throw agvd::IoError(output.string() + ": unknown extension '" +
-                                output.extension().string() + "'; use .vtp, .obj or .ply");
-        }
+        remesh::check_diagram_extension(output);
         cli::check_output(output, {arguments.input, arguments.sites}, arguments.force);
         const auto same =
             std::count_if(arguments.outputs.begin(), arguments.outputs.end(),
@@ -71,12 +67,11 @@ std::vector<agvd::SurfacePoint> sample(const DiagramArguments& arguments,
 }
 
 // The sites of --sites as points of the cleaned mesh.
-std::vector<agvd::SurfacePoint> read_given_sites(const DiagramArguments& arguments,
-                                                 const agvd::MeshView& mesh,
-                                                 const remesh::CleanResult& clean,
-                                                 cli::Console& console) {
-    const std::vector<agvd::SurfacePoint> given =
-        remesh::read_sites(arguments.sites, mesh, console.progress_of("read"));
+std::vector<agvd::SurfacePoint> given_sites(const DiagramArguments& arguments,
+                                            const agvd::MeshView& mesh,
+                                            const remesh::CleanResult& clean,
+                                            cli::Console& console) {
+    const std::vector<agvd::SurfacePoint> given = cli::read_given_sites(arguments, mesh, console);
     return cli::naming_file(arguments.sites,
                             [&] { return remesh::to_cleaned(given, mesh, clean); });
 }
@@ -97,7 +92,7 @@ void run_diagram(const DiagramArguments& arguments, cli::Console& console) {
 
     const std::vector<agvd::SurfacePoint> sites =
         arguments.sites.empty() ? sample(arguments, surface, console)
-                                : read_given_sites(arguments, mesh, clean, console);
+                                : given_sites(arguments, mesh, clean, console);
     agvd::PropagationOptions propagating = arguments.propagation;
     propagating.num_threads = arguments.common.threads;
     const auto [diagram, certified_error] = cli::naming_file(
@@ -124,9 +119,9 @@ void run_diagram(const DiagramArguments& arguments, cli::Console& console) {
 
 constexpr const char* compare_footer =
     "Examples:\n"
-    "  agvd diagram bunny.ply -n 100 --engine steiner -o a.ply\n"
-    "  agvd compare a.ply exact\n"
-    "  agvd compare a.ply b.ply --report - | jq .frechet.delta\n\n"
+    "  agvd diagram bunny.ply -n 100 --engine steiner -o a.agvd\n"
+    "  agvd compare a.agvd exact\n"
+    "  agvd compare a.agvd b.agvd --report - | jq .frechet.delta\n\n"
     "Both diagrams must be of the same mesh and sites: write them with the same\n"
     "IN and --sites (or --samples, --init, --seed). `exact` builds the exact\n"
     "diagram of A's mesh and sites; a file of that name is ./exact.\n\n"
@@ -234,9 +229,9 @@ void add_compare(CLI::App& app, CompareArguments& arguments) {
     CLI::App* command = app.add_subcommand(
         "compare", "Measure the difference of a diagram from another one, or from the exact one");
     cli::start_group(*command, cli::heading::files);
-    command->add_option("A", arguments.a, "Diagram to measure: a .ply file of `agvd diagram`")
+    command->add_option("A", arguments.a, "Diagram to measure: a .agvd file of `agvd diagram`")
         ->required();
-    command->add_option("B", arguments.b, "Diagram to compare A with: a .ply file, or `exact`")
+    command->add_option("B", arguments.b, "Diagram to compare A with: a .agvd file, or `exact`")
         ->required();
     command
         ->add_option("--report,--json", arguments.report,

@@ -11,6 +11,7 @@
 
 #include "help.h"
 #include "mesh_paths.h"
+#include "remesh/io/read_sites.h"
 #include "remesh/io/write_mesh.h"
 
 namespace cli {
@@ -216,6 +217,13 @@ remesh::MeshFile read_input(const DiagramArguments& arguments, Console& console,
                                              .progress = console.progress_of("read")});
     for (const std::string& warning : file.warnings) console.warn(warning);
     return file;
+}
+
+std::vector<agvd::SurfacePoint> read_given_sites(const DiagramArguments& arguments,
+                                                 const agvd::MeshView& mesh, Console& console) {
+    remesh::SitesFile file = remesh::read_sites(arguments.sites, mesh, console.progress_of("read"));
+    for (const std::string& warning : file.warnings) console.warn(warning);
+    return std::move(file.sites);
 }
 
 std::string describe(const std::filesystem::path& path, const agvd::MeshView& mesh) {

@@ -100,6 +100,11 @@ enum class WithAttributes { No, Yes };
 [[nodiscard]] remesh::MeshFile read_input(const DiagramArguments& arguments, Console& console,
                                           WithAttributes attributes = WithAttributes::No);
 
+//! Reads --sites: points of the mesh as it was read.
+[[nodiscard]] std::vector<agvd::SurfacePoint> read_given_sites(const DiagramArguments& arguments,
+                                                               const agvd::MeshView& mesh,
+                                                               Console& console);
+
 //! "FILE: N vertices, M faces", for the log.
 [[nodiscard]] std::string describe(const std::filesystem::path& path, const agvd::MeshView& mesh);
 

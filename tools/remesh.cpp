@@ -20,7 +20,6 @@
 #include "region.h"
 #include "remesh/io/read_edges.h"
 #include "remesh/io/read_mesh.h"
-#include "remesh/io/read_sites.h"
 #include "remesh/io/read_vertices.h"
 #include "remesh/io/report.h"
 #include "remesh/io/write_mesh.h"
@@ -331,8 +330,7 @@ Input prepare(const Arguments& arguments, cli::Console& console) {
                                   .num_threads = arguments.common.threads,
                                   .progress = progress};
     if (!arguments.sites.empty()) {
-        options.sites =
-            remesh::read_sites(arguments.sites, input.mesh.view(), console.progress_of("read"));
+        options.sites = cli::read_given_sites(arguments, input.mesh.view(), console);
     }
     if (!arguments.feature_edges.empty()) {
         options.feature_edges =

@@ -19,13 +19,16 @@ protected:
 
 TEST_F(AgvdDiagram, WritesEveryOutputAskedFor) {
     const std::string in = put("in.off", shapes::sphere(3));
-    const auto outcome =
-        diagram({in, "-n", "20", "-o", at("d.vtp"), "-o", at("d.obj"), "-o", at("d.ply")});
+    const auto outcome = diagram({in, "-n", "20", "-o", at("d.vtp"), "-o", at("d.obj"), "-o",
+                                  at("d.ply"), "-o", at("d.vtk"), "-o", at("d.agvd")});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     EXPECT_EQ(outcome.out, "");
     EXPECT_NE(bytes("d.vtp").find("site_left"), std::string::npos);
     EXPECT_NE(bytes("d.obj").find("\nl "), std::string::npos);
-    EXPECT_EQ(remesh::read_mesh(at("d.ply")).mesh.triangles, shapes::sphere(3).triangles);
+    for (const char* name : {"d.ply", "d.vtk", "d.vtp"}) {
+        EXPECT_EQ(remesh::read_mesh(at(name)).mesh.triangles, shapes::sphere(3).triangles) << name;
+    }
+    EXPECT_EQ(remesh::read_diagram(at("d.agvd")).sites.size(), 20u);
 }
 
 // A diagram needs no topology: the cell of a single site is the whole surface.
@@ -34,9 +37,9 @@ TEST_F(AgvdDiagram, OneAndTwoSitesDoOnAnySurface) {
     const std::string two_grids = put("grids.off", shapes::join(shapes::grid(2), shapes::grid(2)));
     for (const std::string& in : {torus, two_grids}) {
         for (const std::size_t n : {1u, 2u}) {
-            const auto outcome = diagram({in, "-n", std::to_string(n), "-o", at("d.ply"), "-q"});
+            const auto outcome = diagram({in, "-n", std::to_string(n), "-o", at("d.agvd"), "-q"});
             EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-            const remesh::DiagramFile file = remesh::read_diagram(at("d.ply"));
+            const remesh::DiagramFile file = remesh::read_diagram(at("d.agvd"));
             EXPECT_EQ(file.sites.size(), n);
             EXPECT_EQ(agvd::build_cells(file.diagram).neighbours.empty(),
                       n == 1 || in == two_grids);
@@ -99,6 +102,18 @@ TEST_F(AgvdDiagram, ExitCodes) {
     EXPECT_EQ(diagram({in, "--sites", at("missing"), "-o", at("d.vtp")}).exit_code, 3);
 }
 
+TEST_F(AgvdDiagram, RepeatedSitesAreToldAndSitesFarFromTheMeshRefused) {
+    const std::string in = put("in.off", shapes::sphere(2));
+    const std::string sites = put("sites.txt", "v 0\nv 3\nv 0\n");
+    const auto outcome = diagram({in, "-q", "--sites", sites, "-o", at("d.ply")});
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_NE(outcome.err.find("sites.txt: line 3: the site lies exactly"), std::string::npos)
+        << outcome.err;
+    put("sites.txt", "v 0\np 0 0 9\n");
+    EXPECT_EQ(diagram({in, "--sites", sites, "-o", at("far.ply")}).exit_code, 4);
+    EXPECT_EQ(num_files(), 3u);
+}
+
 TEST_F(AgvdDiagram, AFaultySiteIsNamedWithItsFile) {
     // The last face has no area and lies apart from the others.
     const std::string in = put("in.off",
@@ -137,8 +152,8 @@ protected:
 };
 
 TEST_F(AgvdCompare, JudgesADiagramByAnotherAndByTheExactOne) {
-    const std::string coarse = diagram_file("coarse.ply", mesh_, {"-n", "12", "--engine=vertex"});
-    const std::string exact = diagram_file("exact.ply", mesh_, {"-n", "12", "--max-error", "0"});
+    const std::string coarse = diagram_file("coarse.agvd", mesh_, {"-n", "12", "--engine=vertex"});
+    const std::string exact = diagram_file("exact.agvd", mesh_, {"-n", "12", "--max-error", "0"});
     const auto by_file = figures(coarse, exact);
     EXPECT_EQ(by_file["sites"], 12);
     EXPECT_EQ(by_file["frechet"]["matched_loops"], 12);
@@ -158,7 +173,7 @@ TEST_F(AgvdCompare, JudgesADiagramByAnotherAndByTheExactOne) {
 }
 
 TEST_F(AgvdCompare, PrintsATableOrWritesAFile) {
-    const std::string a = diagram_file("a.ply", mesh_, {"-n", "5"});
+    const std::string a = diagram_file("a.agvd", mesh_, {"-n", "5"});
     const auto outcome = compare({a, "exact", "--json", at("out.json")});
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     for (const char* word : {"Frechet sum", "delta", "Hausdorff", "|dA - dB|", "5 sites"}) {
@@ -171,11 +186,11 @@ TEST_F(AgvdCompare, PrintsATableOrWritesAFile) {
 }
 
 TEST_F(AgvdCompare, OtherMeshesAndSitesAreRefused) {
-    const std::string a = diagram_file("a.ply", mesh_, {"-n", "5"});
+    const std::string a = diagram_file("a.agvd", mesh_, {"-n", "5"});
     const std::string other_mesh =
-        diagram_file("b.ply", put("other.off", shapes::sphere(3)), {"-n", "5"});
-    const std::string more_sites = diagram_file("c.ply", mesh_, {"-n", "6"});
-    const std::string other_sites = diagram_file("d.ply", mesh_, {"-n", "5", "--seed", "2"});
+        diagram_file("b.agvd", put("other.off", shapes::sphere(3)), {"-n", "5"});
+    const std::string more_sites = diagram_file("c.agvd", mesh_, {"-n", "6"});
+    const std::string other_sites = diagram_file("d.agvd", mesh_, {"-n", "5", "--seed", "2"});
     const auto expect_refused = [&](const std::string& b, const char* why) {
         const auto outcome = compare({a, b});
         EXPECT_EQ(outcome.exit_code, 4);
@@ -186,9 +201,9 @@ TEST_F(AgvdCompare, OtherMeshesAndSitesAreRefused) {
     expect_refused(more_sites, "different sites (5 and 6");
     expect_refused(other_sites, "different sites (5 and 5");
     // The sites of one are the first of the other.
-    const std::string two = diagram_file("e.ply", mesh_, {"--sites", put("s", "v 0\nv 7\n")});
+    const std::string two = diagram_file("e.agvd", mesh_, {"--sites", put("s", "v 0\nv 7\n")});
     const std::string three =
-        diagram_file("f.ply", mesh_, {"--sites", put("s", "v 0\nv 7\nv 20\n")});
+        diagram_file("f.agvd", mesh_, {"--sites", put("s", "v 0\nv 7\nv 20\n")});
     for (const auto& [first, second] : {std::pair(two, three), {three, two}}) {
         const auto outcome = compare({first, second});
         EXPECT_EQ(outcome.exit_code, 4);
@@ -197,13 +212,13 @@ TEST_F(AgvdCompare, OtherMeshesAndSitesAreRefused) {
 }
 
 TEST_F(AgvdCompare, ExitCodes) {
-    const std::string a = diagram_file("a.ply", mesh_, {"-n", "5"});
+    const std::string a = diagram_file("a.agvd", mesh_, {"-n", "5"});
     EXPECT_EQ(compare({"--help"}).exit_code, 0);
     EXPECT_EQ(compare({a}).exit_code, 2);
     EXPECT_EQ(compare({a, "exact", "--spacing", "0"}).exit_code, 2);
     EXPECT_EQ(compare({a, "exact", "--samples", "0"}).exit_code, 2);
-    EXPECT_EQ(compare({at("missing.ply"), "exact"}).exit_code, 3);
-    EXPECT_EQ(compare({a, at("missing.ply")}).exit_code, 3);
+    EXPECT_EQ(compare({at("missing.agvd"), "exact"}).exit_code, 3);
+    EXPECT_EQ(compare({a, at("missing.agvd")}).exit_code, 3);
     EXPECT_EQ(compare({a, "exact", "--report", at("no/out.json")}).exit_code, 3);
     // A mesh without a diagram, and what is no PLY at all.
     const auto outcome = compare({put("mesh.ply", shapes::sphere(1)), "exact"});
@@ -211,9 +226,9 @@ TEST_F(AgvdCompare, ExitCodes) {
     EXPECT_NE(outcome.err.find("agvd diagram"), std::string::npos) << outcome.err;
     EXPECT_EQ(compare({mesh_, "exact"}).exit_code, 3);
     // An input is never overwritten.
-    const std::string before = bytes("a.ply");
+    const std::string before = bytes("a.agvd");
     EXPECT_EQ(compare({a, "exact", "--json", a}).exit_code, 2);
-    EXPECT_EQ(bytes("a.ply"), before);
+    EXPECT_EQ(bytes("a.agvd"), before);
 }
 
 }  // namespace

@@ -258,7 +258,7 @@ void put_sites(Seeds& seeds) {
         const auto sites = points::scattered(surface, num_sites, 3);
         const agvd::Diagram diagram =
             agvd::build_diagram(surface, sites, agvd::propagate(surface, sites));
-        seeds.put("read_diagram", remesh::format_diagram("a.ply", surface, sites, diagram));
+        seeds.put("read_diagram", remesh::format_diagram("a.agvd", surface, sites, diagram));
     }
 }
 

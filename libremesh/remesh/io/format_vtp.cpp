@@ -47,12 +47,7 @@ std::string format_vtp(const agvd::MeshView& mesh, const MeshAttributes& attribu
     writer.add_array<double>("Points", "Float64", 3, num_points, ticker,
                              [&](std::size_t v) { return mesh.positions[v]; });
     writer.end_section();
-    writer.begin_section("Polys");
-    writer.add_array<std::int64_t>("connectivity", "Int64", 1, num_faces, ticker,
-                                   [&](std::size_t f) { return mesh.triangles[f]; });
-    writer.add_array<std::int64_t>("offsets", "Int64", 1, num_faces, ticker,
-                                   [](std::size_t f) { return std::array{3 * (f + 1)}; });
-    writer.end_section();
+    writer.add_cells("Polys", num_faces, ticker, [&](std::size_t f) { return mesh.triangles[f]; });
     return std::move(writer).finish();
 }
 

@@ -1,6 +1,6 @@
-// Reads the elements of write_diagram's PLY one after the other; each is checked against the counts
-// of the elements that it refers to. An index out of range, or a count that does not fit, is an
-// error that names the place in the file.
+// Reads the elements of write_diagram's .agvd one after the other; each is checked against the
+// counts of the elements that it refers to. An index out of range, or a count that does not fit, is
+// an error that names the place in the file.
 #include "remesh/io/read_diagram.h"
 
 #include <cmath>
@@ -8,6 +8,7 @@
 #include <set>
 
 #include "remesh/io/formats.h"
+#include "remesh/io/gzip.h"
 #include "remesh/io/ply_values.h"
 
 namespace remesh {
@@ -36,7 +37,7 @@ public:
                 file_.fail_malformed(
                     0, std::string("the file has no element ") + name +
                            ", so that it holds no diagram; write one with `agvd diagram MESH -o "
-                           "FILE.ply`");
+                           "FILE.agvd`");
             }
             if (count_.at(name) >= agvd::no_index) fail("there are more than 2^32 - 2 elements");
         }
@@ -156,7 +157,7 @@ private:
         if (num_found != numbers.size() + lists.size()) {
             file_.fail_malformed(0, "element " + element.name +
                                         " lacks properties of a diagram; write one with `agvd "
-                                        "diagram MESH -o FILE.ply`");
+                                        "diagram MESH -o FILE.agvd`");
         }
     }
 
@@ -206,6 +207,7 @@ private:
 DiagramFile read_diagram(const std::filesystem::path& path, const agvd::Progress& progress) {
     agvd::Poller poller(progress);
     SourceFile file = load_file(path, poller);
+    if (is_gzip(file.bytes)) unpack_gzip(file);
     DiagramFile result{.mesh = read_ply(file).mesh, .sites = {}, .diagram = {}};
     const PlyHeader header = read_ply_header(file);
     file.is_binary = header.byte_order.has_value();

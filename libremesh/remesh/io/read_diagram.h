@@ -1,5 +1,5 @@
 //! \file
-//! Reads a geodesic Voronoi diagram that write_diagram wrote as PLY.
+//! Reads a geodesic Voronoi diagram that write_diagram wrote as .agvd.
 #pragma once
 
 #include <filesystem>
@@ -18,8 +18,8 @@ struct DiagramFile {
 //! Returns the data given to write_diagram, bit for bit. Every index is in range; whether the
 //! curves form a complex is not checked.
 //!
-//! \throw agvd::IoError       the file is missing, truncated or malformed, no PLY, or a PLY without
-//!                            a diagram; the text names the file, the place and the remedy.
+//! \throw agvd::IoError       the file is missing, truncated or malformed, or holds no
+//!                            diagram; the text names the file, the place and the remedy.
 //! \throw agvd::InvalidInput  the file reads well but an index is out of range, a point is off its
 //!                            face, or counts contradict each other.
 //! \throw agvd::Cancelled     the progress callback returned false.

@@ -1,9 +1,11 @@
 #include "remesh/io/read_sites.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "agvd/mesh/closest_point.h"
+#include "remesh/io/report_words.h"
 #include "remesh/io/text_scanner.h"
 
 namespace remesh {
@@ -13,34 +15,109 @@ using agvd::Index;
 using agvd::SurfacePoint;
 
 constexpr double sum_tolerance = 1e-6;  // Seven decimals in a text file are enough.
+constexpr double told_distance = 0.01;  // Of a point from the mesh, in spacings.
+
+// The vertices that a point lies between, ascending, with their shares; the same for each face at
+// its edge or vertex.
+using Place = std::array<std::pair<Index, double>, 3>;
+
+Place place_of(const agvd::MeshView& mesh, const SurfacePoint& point) {
+    Place place;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double share = point.barycentric[k];
+        place[k] = {share == 0 ? agvd::no_index : mesh.triangles[point.face.value()][k], share};
+    }
+    std::sort(place.begin(), place.end());
+    return place;
+}
+
+double area_of(const agvd::MeshView& mesh) {
+    double area = 0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const agvd::Vec3& p = mesh.positions[a];
+        area += (mesh.positions[b] - p).cross(mesh.positions[c] - p).norm() / 2;
+    }
+    return area;
+}
 
 class SiteReader {
 public:
     SiteReader(const SourceFile& file, const agvd::MeshView& mesh, const agvd::Progress& progress)
-
         : file_(file),
           mesh_(mesh),
           progress_(progress),
           ticker_(file.ticker),
           scan_(file, 0, {.comment = '#'}) {}
 
-    std::vector<SurfacePoint> read() {
-        std::vector<SurfacePoint> sites;
+    SitesFile read() {
+        SitesFile result;
         while (scan_.find_word()) {
             ticker_.tick(16);
             start_ = scan_.offset();
-            sites.push_back(read_site());
+            starts_.push_back(start_);
+            result.sites.push_back(read_site());
             if (scan_.has_word()) scan_.fail_expecting("the end of the line");
         }
-        if (sites.empty()) {
+        if (result.sites.empty()) {
             scan_.fail_malformed(
                 "the file holds no site; write lines \"v INDEX\", \"f FACE B0 B1 B2\" or "
                 "\"p X Y Z\"");
         }
-        return sites;
+        judge_distances(result);
+        judge_repeats(result);
+        return result;
     }
 
 private:
+    // A point of the file beside the mesh.
+    struct Shift {
+        double distance = 0;
+        std::size_t start = 0;  // Of its line.
+    };
+
+    void judge_distances(SitesFile& result) const {
+        if (shifts_.empty()) return;
+        const double spacing = std::sqrt(area_of(mesh_) / static_cast<double>(result.sites.size()));
+        const auto is_nearer = [](const Shift& a, const Shift& b) {
+            return a.distance < b.distance;
+        };
+        const Shift& farthest = *std::max_element(shifts_.begin(), shifts_.end(), is_nearer);
+        const std::string text =
+            "the point is " + detail::significant(farthest.distance) + " off the mesh";
+        if (farthest.distance > spacing) {
+            file_.fail_unusable(farthest.start,
+                                text + ", more than the sites' spacing, " +
+                                    detail::significant(spacing) +
+                                    "; correct it, or give all points in the units of the mesh");
+        }
+        const auto is_told = [&](const Shift& s) { return s.distance > told_distance * spacing; };
+        const auto count =
+            static_cast<std::size_t>(std::count_if(shifts_.begin(), shifts_.end(), is_told));
+        if (count == 0) return;
+        result.warnings.push_back(file_.place(farthest.start) + text + ", the farthest of " +
+                                  detail::counted(count, "such point") +
+                                  "; the nearest point of the mesh is taken");
+    }
+
+    void judge_repeats(SitesFile& result) const {
+        std::vector<std::pair<Place, std::size_t>> places;
+        places.reserve(starts_.size());
+        for (const SurfacePoint& site : result.sites) {
+            places.emplace_back(place_of(mesh_, site), places.size());
+        }
+        std::sort(places.begin(), places.end());
+        std::size_t count = 0, first = starts_.size();
+        for (std::size_t i = 1; i < places.size(); ++i) {
+            if (places[i].first != places[i - 1].first) continue;
+            ++count;
+            first = std::min(first, places[i].second);
+        }
+        if (count == 0) return;
+        result.warnings.push_back(file_.place(starts_[first]) +
+                                  "the site lies exactly where an earlier one does, the first of " +
+                                  detail::counted(count, "such site") + "; give each place once");
+    }
+
     SurfacePoint read_site() {
         const std::string_view kind = scan_.word();
         if (kind == "v") return vertex_site();
@@ -48,7 +125,9 @@ private:
         if (kind == "p") {
             const agvd::Vec3 point = scan_.point();
             if (!tree_) tree_.emplace(mesh_, progress_);
-            return tree_->query(point).point;
+            const agvd::ClosestPoint nearest = tree_->query(point);
+            shifts_.push_back({std::sqrt(nearest.distance_sq), start_});
+            return nearest.point;
         }
         file_.fail_malformed(start_, "a site begins with v, f or p, not with " + in_quotes(kind) +
                                          "; correct the line or begin it with #");
@@ -104,14 +183,16 @@ private:
     agvd::Ticker ticker_;
     TextScanner scan_;
     std::size_t start_ = 0;                       // Of the current line's first word.
+    std::vector<std::size_t> starts_;             // Of all sites' lines.
+    std::vector<Shift> shifts_;                   // Of all `p`.
     std::vector<Index> lowest_corner_;            // #V, made for the first `v`.
     std::optional<agvd::ClosestPointTree> tree_;  // Made for the first `p`.
 };
 
 }  // namespace
 
-std::vector<SurfacePoint> read_sites(const std::filesystem::path& path, const agvd::MeshView& mesh,
-                                     const agvd::Progress& progress) {
+SitesFile read_sites(const std::filesystem::path& path, const agvd::MeshView& mesh,
+                     const agvd::Progress& progress) {
     agvd::Poller poller(progress);
     const SourceFile file = load_file(path, poller);
     return SiteReader(file, mesh, progress).read();

@@ -3,12 +3,19 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
 #include "agvd/core/progress.h"
 #include "agvd/mesh/surface_point.h"
 
 namespace remesh {
+
+//! What was read from a file of sites.
+struct SitesFile {
+    std::vector<agvd::SurfacePoint> sites;  //!< In the file's order.
+    std::vector<std::string> warnings;      //!< With the file's name and the line.
+};
 
 //! A text file with one site per line, in the order of the result; indices count from 0, as in the
 //! arrays of `mesh`:
@@ -21,16 +28,17 @@ namespace remesh {
 //! FACE is a triangle of read_mesh's result: where a file has larger polygons, each of them counts
 //! as many triangles as it was split into (see MeshFile::face_polygon). A vertex site lies in the
 //! lowest of its faces. Barycentric coordinates whose sum differs from 1 by at most 1e-6 are scaled
-//! to it.
+//! to it. Points that are off the mesh by more than a hundredth of the sites' spacing (the square
+//! root of area / sites) are a warning, and so are sites that lie exactly where earlier ones do.
 //!
 //! \param mesh  #V x 3 positions, finite; #F x 3 indices, in range; may be dirty otherwise.
 //! \throw agvd::IoError       the file cannot be read, a line is none of these, or there is no
 //!        site; the text names the file, the line and the remedy.
 //! \throw agvd::InvalidInput  an index is out of range, a vertex is in no face, a coordinate is not
-//!        finite, or barycentric coordinates are negative or do not sum to 1; names file and line.
-//! Cost: O(file size), and O(#F log #F) once for the first `p`.
-[[nodiscard]] std::vector<agvd::SurfacePoint> read_sites(const std::filesystem::path& path,
-                                                         const agvd::MeshView& mesh,
-                                                         const agvd::Progress& progress = {});
+//!        finite, barycentric coordinates are negative or do not sum to 1, or a point is off the
+//!        mesh by more than the spacing; names file and line.
+//! Cost: O(file size + n log n), and O(#F log #F) once for the first `p`.
+[[nodiscard]] SitesFile read_sites(const std::filesystem::path& path, const agvd::MeshView& mesh,
+                                   const agvd::Progress& progress = {});
 
 }  // namespace remesh

@@ -1,5 +1,5 @@
 //! \file
-//! Numbers and counts as text, the same in any locale. Private to the reports.
+//! Numbers and counts as text, the same in any locale. Private.
 #pragma once
 
 #include <iomanip>

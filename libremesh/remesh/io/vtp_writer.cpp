@@ -1,7 +1,5 @@
 #include "remesh/io/vtp_writer.h"
 
-#include <cstdint>
-
 namespace remesh {
 namespace {
 
@@ -54,9 +52,9 @@ VtpWriter::VtpWriter(const Counts& counts)
           "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
           "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n<Piece "
           "NumberOfPoints=\"" +
-          std::to_string(counts.points) + "\" NumberOfVerts=\"0\" NumberOfLines=\"" +
-          std::to_string(counts.lines) + "\" NumberOfStrips=\"0\" NumberOfPolys=\"" +
-          std::to_string(counts.polys) + "\">\n") {}
+          std::to_string(counts.points) + "\" NumberOfVerts=\"" + std::to_string(counts.verts) +
+          "\" NumberOfLines=\"" + std::to_string(counts.lines) +
+          "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + std::to_string(counts.polys) + "\">\n") {}
 
 void VtpWriter::begin_section(const char* name, const std::string& attributes) {
     section_ = name;

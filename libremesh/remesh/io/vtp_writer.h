@@ -3,7 +3,10 @@
 //! writers of meshes and diagrams.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "agvd/core/poller.h"
 #include "remesh/io/byte_order.h"
@@ -17,7 +20,7 @@ namespace remesh {
 class VtpWriter {
 public:
     struct Counts {
-        std::size_t points = 0, lines = 0, polys = 0;
+        std::size_t points = 0, verts = 0, lines = 0, polys = 0;
     };
     explicit VtpWriter(const Counts& counts);
 
@@ -40,6 +43,23 @@ public:
             for (const auto value : row_of(i)) append(bytes, static_cast<T>(value));
         }
         end_array();
+    }
+
+    //! A section of cells, such as Polys; corners_of(i) gives the points of cell i.
+    template <typename CornersOf>
+    void add_cells(const char* section, std::size_t num_cells, agvd::Ticker& ticker,
+                   const CornersOf& corners_of) {
+        std::vector<std::size_t> ends;
+        ends.reserve(num_cells);
+        begin_section(section);
+        add_array<std::int64_t>("connectivity", "Int64", 1, num_cells, ticker, [&](std::size_t i) {
+            const auto corners = corners_of(i);
+            ends.push_back((ends.empty() ? 0 : ends.back()) + corners.size());
+            return corners;
+        });
+        add_array<std::int64_t>("offsets", "Int64", 1, num_cells, ticker,
+                                [&](std::size_t i) { return std::array{ends[i]}; });
+        end_section();
     }
 
     //! The whole file's bytes.

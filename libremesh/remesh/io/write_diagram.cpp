@@ -1,14 +1,16 @@
-// Formats a diagram as VTK PolyData, OBJ lines or PLY (docs/io.md, "Diagrams"). The first two hold
-// the Voronoi edges as polylines; PLY also holds the cleaned mesh, nearest sites and distances, and
-// all that read_diagram() needs to give every bit back.
+// Formats a diagram (docs/io.md, "Diagrams"): VTK PolyData of surface, edges and sites, OBJ lines,
+// or a mesh whose vertices have labels and distances. The format .agvd is such a PLY with further
+// elements: all that read_diagram() needs to give every bit back.
 #include "remesh/io/write_diagram.h"
 
+#include <algorithm>
 #include <string>
 
 #include "agvd/core/error.h"
 #include "remesh/io/atomic_file.h"
 #include "remesh/io/byte_order.h"
 #include "remesh/io/formats.h"
+#include "remesh/io/gzip.h"
 #include "remesh/io/text_format.h"
 #include "remesh/io/vtp_writer.h"
 
@@ -19,6 +21,18 @@ using agvd::Diagram;
 using agvd::Index;
 using agvd::SiteId;
 using agvd::Surface;
+using agvd::SurfacePoint;
+
+// What is written. Refers to the caller's arrays.
+struct DrawnDiagram {
+    const Surface& surface;
+    std::span<const SurfacePoint> sites;
+    const Diagram& diagram;
+
+    [[nodiscard]] agvd::Vec3 position(const SurfacePoint& point) const {
+        return agvd::position(surface.mesh.view(), point);
+    }
+};
 
 // In files -1 stands for a missing id.
 std::int32_t site_number(SiteId site) {
@@ -37,46 +51,91 @@ std::vector<Index> polyline(const Diagram& diagram, Index edge, Index first) {
 
 Index num_edges(const Diagram& diagram) { return static_cast<Index>(diagram.edges.size()); }
 
-std::string format_vtp_lines(const Surface& surface, const Diagram& diagram, agvd::Ticker ticker) {
-    const std::size_t num_points = diagram.points.size();
-    const std::size_t num_lines = diagram.edges.size();
-    VtpWriter writer({.points = num_points, .lines = num_lines});
+// Points of a file: those of the mesh, of the sites, and of the edges.
+struct LabelledPoints {
+    std::vector<agvd::Vec3> positions;
+    std::vector<std::int32_t> sites;
+    std::vector<double> distances;
+
+    void add(const agvd::Vec3& position, SiteId site, double distance) {
+        positions.push_back(position);
+        sites.push_back(site_number(site));
+        distances.push_back(distance);
+    }
+};
+
+LabelledPoints labelled_points(const DrawnDiagram& drawn, agvd::Ticker& ticker) {
+    const Diagram& diagram = drawn.diagram;
+    LabelledPoints points;
+    for (Index v = 0; v < drawn.surface.num_vertices(); ++v) {
+        ticker.tick();
+        points.add(drawn.surface.mesh.positions[v], diagram.nearest_site[v],
+                   diagram.nearest_distance[v]);
+    }
+    for (Index s = 0; s < diagram.num_sites; ++s) {
+        points.add(drawn.position(drawn.sites[s]), SiteId(s), 0);
+    }
+    for (Index e = 0; e < num_edges(diagram); ++e) {
+        for (Index p = diagram.edge_points[e]; p < diagram.edge_points[e + 1]; ++p) {
+            ticker.tick();
+            points.add(drawn.position(diagram.points[p]), diagram.edges[e].left,
+                       diagram.point_distance[p]);
+        }
+    }
+    return points;
+}
+
+// The sides of all cells of the file: sites, edges, faces.
+std::vector<std::int32_t> sides_of_cells(const DrawnDiagram& drawn,
+                                         SiteId agvd::VoronoiEdge::*side) {
+    std::vector<std::int32_t> numbers(drawn.diagram.num_sites, -1);
+    for (const agvd::VoronoiEdge& edge : drawn.diagram.edges) {
+        numbers.push_back(site_number(edge.*side));
+    }
+    numbers.resize(numbers.size() + drawn.surface.num_faces(), -1);
+    return numbers;
+}
+
+std::string format_vtp_diagram(const DrawnDiagram& drawn, agvd::Ticker ticker) {
+    const Index first_site = drawn.surface.num_vertices(), num_sites = drawn.diagram.num_sites;
+    const LabelledPoints points = labelled_points(drawn, ticker);
+    VtpWriter writer({.points = points.positions.size(),
+                      .verts = num_sites,
+                      .lines = drawn.diagram.edges.size(),
+                      .polys = drawn.surface.num_faces()});
+    const auto add_numbers = [&]<typename T>(const char* name, const char* type,
+                                             const std::vector<T>& numbers) {
+        writer.add_array<T>(name, type, 1, numbers.size(), ticker,
+                            [&](std::size_t i) { return std::array{numbers[i]}; });
+    };
     writer.begin_section("PointData", " Scalars=\"distance\"");
-    writer.add_array<double>("distance", "Float64", 1, num_points, ticker,
-                             [&](std::size_t p) { return std::array{diagram.point_distance[p]}; });
+    add_numbers("site", "Int32", points.sites);
+    add_numbers("distance", "Float64", points.distances);
     writer.end_section();
     writer.begin_section("CellData");
-    writer.add_array<std::int32_t>("site_left", "Int32", 1, num_lines, ticker, [&](std::size_t e) {
-        return std::array{site_number(diagram.edges[e].left)};
-    });
-    writer.add_array<std::int32_t>("site_right", "Int32", 1, num_lines, ticker, [&](std::size_t e) {
-        return std::array{site_number(diagram.edges[e].right)};
-    });
+    add_numbers("site_left", "Int32", sides_of_cells(drawn, &agvd::VoronoiEdge::left));
+    add_numbers("site_right", "Int32", sides_of_cells(drawn, &agvd::VoronoiEdge::right));
     writer.end_section();
     writer.begin_section("Points");
-    writer.add_array<double>("Points", "Float64", 3, num_points, ticker, [&](std::size_t p) {
-        return position(surface.mesh.view(), diagram.points[p]);
+    writer.add_array<double>("Points", "Float64", 3, points.positions.size(), ticker,
+                             [&](std::size_t p) { return points.positions[p]; });
+    writer.end_section();
+    writer.add_cells("Verts", num_sites, ticker,
+                     [&](std::size_t s) { return std::array{first_site + s}; });
+    writer.add_cells("Lines", drawn.diagram.edges.size(), ticker, [&](std::size_t e) {
+        return polyline(drawn.diagram, static_cast<Index>(e), first_site + num_sites);
     });
-    writer.end_section();
-    writer.begin_section("Lines");
-    std::vector<std::size_t> ends;
-    writer.add_array<std::int64_t>(
-        "connectivity", "Int64", 1, num_lines, ticker, [&](std::size_t e) {
-            std::vector<Index> points = polyline(diagram, static_cast<Index>(e), 0);
-            ends.push_back((ends.empty() ? 0 : ends.back()) + points.size());
-            return points;
-        });
-    writer.add_array<std::int64_t>("offsets", "Int64", 1, num_lines, ticker,
-                                   [&](std::size_t e) { return std::array{ends[e]}; });
-    writer.end_section();
+    writer.add_cells("Polys", drawn.surface.num_faces(), ticker,
+                     [&](std::size_t f) { return drawn.surface.mesh.triangles[f]; });
     return std::move(writer).finish();
 }
 
-std::string format_obj_lines(const Surface& surface, const Diagram& diagram, agvd::Ticker ticker) {
+std::string format_obj_lines(const DrawnDiagram& drawn, agvd::Ticker ticker) {
+    const Diagram& diagram = drawn.diagram;
     std::string bytes = "# Voronoi edges; before each its left and right site (-1: outside)\n";
-    for (const agvd::SurfacePoint& point : diagram.points) {
+    for (const SurfacePoint& point : diagram.points) {
         ticker.tick(4);
-        append_line(bytes, "v ", position(surface.mesh.view(), point));
+        append_line(bytes, "v ", drawn.position(point));
     }
     for (Index e = 0; e < num_edges(diagram); ++e) {
         const agvd::VoronoiEdge& edge = diagram.edges[e];
@@ -87,7 +146,23 @@ std::string format_obj_lines(const Surface& surface, const Diagram& diagram, agv
     return bytes;
 }
 
-void append_point(std::string& bytes, const agvd::SurfacePoint& point) {
+// The vertices' labels and distances.
+MeshAttributes labels_of(const Diagram& diagram) {
+    Attribute site{.name = "site", .type = NumberType::Int32};
+    for (const SiteId s : diagram.nearest_site) site.values.push_back(site_number(s));
+    return {
+        .of_vertices = {std::move(site), {.name = "distance", .values = diagram.nearest_distance}}};
+}
+
+std::string format_ply_mesh(const DrawnDiagram& drawn, agvd::Ticker ticker) {
+    return format_ply(drawn.surface.mesh.view(), labels_of(drawn.diagram), ticker);
+}
+
+std::string format_vtk_mesh(const DrawnDiagram& drawn, agvd::Ticker ticker) {
+    return format_vtk(drawn.surface.mesh.view(), labels_of(drawn.diagram), ticker);
+}
+
+void append_point(std::string& bytes, const SurfacePoint& point) {
     append(bytes, point.face.value());
     for (const double b : point.barycentric) append(bytes, b);
 }
@@ -98,20 +173,15 @@ void append_list(std::string& bytes, const Items& items, const NumberOf& number_
     for (const auto& item : items) append(bytes, number_of(item));
 }
 
-std::string ply_header(const Surface& surface, const Diagram& diagram) {
+// Of the elements behind vertices and faces.
+std::string diagram_header(const Diagram& diagram) {
     const auto element = [](const char* name, std::size_t count) {
         return std::string("element ") + name + ' ' + std::to_string(count) + '\n';
     };
     const std::string point =
         "property int face\nproperty double b0\nproperty double b1\nproperty double b2\n";
-    return "ply\nformat binary_little_endian 1.0\n"
-           "comment geodesic Voronoi diagram; -1 stands for none\n"
-           "comment vertex: site whose cell holds it, and geodesic distance from that\n" +
-           element("vertex", surface.num_vertices()) +
-           "property double x\nproperty double y\nproperty double z\n"
-           "property int site\nproperty double distance\n" +
-           element("face", surface.num_faces()) +
-           "property list uchar int vertex_indices\n"
+    return "comment geodesic Voronoi diagram; -1 stands for none\n"
+           "comment vertex: site whose cell holds it, and geodesic distance from that\n"
            "comment points lie in a face at barycentric coordinates of its corners\n" +
            element("site", diagram.num_sites) + point +
            "property double cell_area\nproperty int cell_euler\n"
@@ -125,25 +195,15 @@ std::string ply_header(const Surface& surface, const Diagram& diagram) {
            "them\n" +
            element("voronoi_vertex", diagram.vertices.size()) + point +
            "property double distance\nproperty list uint int ends\n"
-           "property list uint int sites\nend_header\n";
+           "property list uint int sites\n";
 }
 
-std::string format_ply_diagram(const Surface& surface, std::span<const agvd::SurfacePoint> sites,
-                               const Diagram& diagram, agvd::Ticker ticker) {
-    std::string bytes = ply_header(surface, diagram);
-    for (Index v = 0; v < surface.num_vertices(); ++v) {
-        ticker.tick();
-        for (const double coordinate : surface.mesh.positions[v]) append(bytes, coordinate);
-        append(bytes, site_number(diagram.nearest_site[v]));
-        append(bytes, diagram.nearest_distance[v]);
-    }
-    for (const agvd::Triangle& t : surface.mesh.triangles) {
-        ticker.tick();
-        append(bytes, std::uint8_t{3});
-        for (const Index v : t) append(bytes, v);
-    }
+std::string format_whole_diagram(const DrawnDiagram& drawn, agvd::Ticker ticker) {
+    const Diagram& diagram = drawn.diagram;
+    std::string bytes = format_ply_mesh(drawn, ticker);
+    bytes.insert(bytes.find("end_header\n"), diagram_header(diagram));
     for (Index s = 0; s < diagram.num_sites; ++s) {
-        append_point(bytes, sites[s]);
+        append_point(bytes, drawn.sites[s]);
         append(bytes, diagram.cell_area[s]);
         append(bytes, std::int32_t{diagram.cell_euler[s]});
     }
@@ -174,30 +234,45 @@ std::string format_ply_diagram(const Surface& surface, std::span<const agvd::Sur
     return bytes;
 }
 
+struct DiagramFormat {
+    std::string_view extension;
+    std::string (*format)(const DrawnDiagram&, agvd::Ticker);
+};
+constexpr DiagramFormat diagram_formats[] = {{".vtp", format_vtp_diagram},
+                                             {".ply", format_ply_mesh},
+                                             {".vtk", format_vtk_mesh},
+                                             {".obj", format_obj_lines},
+                                             {".agvd", format_whole_diagram}};
+
+const DiagramFormat& require_diagram_format(const std::filesystem::path& path) {
+    const std::string extension = lower_extension(is_compressed({path}) ? path.stem() : path);
+    for (const DiagramFormat& format : diagram_formats) {
+        if (extension == format.extension) return format;
+    }
+    throw agvd::IoError(path.string() + ": unknown extension " +
+                        in_quotes(path.extension().string()) +
+                        "; use .vtp, .ply, .vtk, .obj or .agvd");
+}
+
 }  // namespace
 
 std::string format_diagram(const std::filesystem::path& path, const Surface& surface,
-                           std::span<const agvd::SurfacePoint> sites, const Diagram& diagram,
+                           std::span<const SurfacePoint> sites, const Diagram& diagram,
                            const agvd::Progress& progress) {
     agvd::Poller poller(progress);
     const agvd::Ticker ticker(poller);
-    const std::string extension = lower_extension(path);
-    if (extension == ".vtp") return format_vtp_lines(surface, diagram, ticker);
-    if (extension == ".obj") return format_obj_lines(surface, diagram, ticker);
-    if (extension == ".ply") return format_ply_diagram(surface, sites, diagram, ticker);
-    throw agvd::IoError(path.string() + ": unknown extension " +
-                        in_quotes(path.extension().string()) + "; use .vtp, .obj or .ply");
+    std::string bytes = require_diagram_format(path).format({surface, sites, diagram}, ticker);
+    return is_compressed({path}) ? pack_gzip(bytes, ticker) : bytes;
 }
 
 void write_diagram(const std::filesystem::path& path, const Surface& surface,
-                   std::span<const agvd::SurfacePoint> sites, const Diagram& diagram,
+                   std::span<const SurfacePoint> sites, const Diagram& diagram,
                    const agvd::Progress& progress) {
     write_file_atomically(path, format_diagram(path, surface, sites, diagram, progress), progress);
 }
 
-bool is_known_diagram_extension(const std::filesystem::path& path) {
-    const std::string extension = lower_extension(path);
-    return extension == ".vtp" || extension == ".obj" || extension == ".ply";
+void check_diagram_extension(const std::filesystem::path& path) {
+    static_cast<void>(require_diagram_format(path));
 }
 
 }  // namespace remesh

@@ -9,15 +9,17 @@
 
 namespace remesh {
 
-//! Writes the format of the extension (any case), to a temporary file that is renamed:
-//! - vtp: VTK XML PolyData. Each Voronoi edge and each boundary arc of a cell is a polyline (a
-//!   closed curve repeats its first point); cell data `site_left`, `site_right` (-1: outside the
-//!   surface, which only a boundary arc has), point data `distance` from the two sites, in mesh
-//!   units.
-//! - obj: the same polylines as `v` and `l` lines, each preceded by a comment `# sites LEFT RIGHT`.
-//! - ply: everything, for read_diagram: the surface's mesh, binary little-endian, with vertex
-//!   properties `site` (int) and `distance` (double; where no site reaches, site is -1 and distance
-//!   is infinity), and as elements of their own, which other readers pass over, the sites and the
+//! Writes the format of the extension (any case; compressed if .gz follows), to a temporary file
+//! that is renamed:
+//! - vtp: VTK XML PolyData of the surface's mesh as polygons, each Voronoi edge and each boundary
+//!   arc of a cell as a polyline (a closed curve repeats its first point), and each site as a
+//!   vertex. Point data `site` (of an edge's point: on its left) and `distance` from it, in mesh
+//!   units; cell data `site_left`, `site_right` of the polylines (-1: outside the surface, which
+//!   only a boundary arc has; -1 for all other cells).
+//! - ply, vtk: the surface's mesh as write_mesh writes it, with vertex properties `site` (int) and
+//!   `distance` (double; where no site reaches, site is -1 and distance is infinity).
+//! - obj: the polylines as `v` and `l` lines, each preceded by a comment `# sites LEFT RIGHT`.
+//! - agvd: everything, for read_diagram: such a PLY, and as elements of their own the sites and the
 //!   complex. The header's comments explain them.
 //!
 //! \param sites  those that the diagram was built from.
@@ -36,7 +38,7 @@ void write_diagram(const std::filesystem::path& path, const agvd::Surface& surfa
                                          const agvd::Diagram& diagram,
                                          const agvd::Progress& progress = {});
 
-//! True for the extensions that write_diagram knows.
-[[nodiscard]] bool is_known_diagram_extension(const std::filesystem::path& path);
+//! \throw agvd::IoError  write_diagram does not know the extension; the text lists the known ones.
+void check_diagram_extension(const std::filesystem::path& path);
 
 }  // namespace remesh

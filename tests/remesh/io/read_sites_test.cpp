@@ -25,7 +25,7 @@ protected:
 
     std::vector<SurfacePoint> read(const std::string& text) {
         std::ofstream(path_, std::ios::binary) << text;
-        return read_sites(path_, mesh_.view());
+        return read_sites(path_, mesh_.view()).sites;
     }
     template <typename Error>
     void expect_error(const std::string& text, const std::string& part) {
@@ -47,7 +47,7 @@ protected:
 
 TEST_F(ReadSites, ReadsTheThreeKindsInOrder) {
     const auto sites =
-        read("# first sites\n\nv 4\r\n\tf 7 0.5 0.25 .25  # inside\np 0.3 +0.1 5\nv 8");
+        read("# first sites\n\nv 4\r\n\tf 7 0.5 0.25 .25  # inside\np 0.3 +0.1 .4\nv 8");
     ASSERT_EQ(sites.size(), 4u);
     const auto at = [&](std::size_t i) { return agvd::position(mesh_.view(), sites[i]); };
     EXPECT_EQ(at(0), Vec3(0.5, 0.5, 0));
@@ -92,6 +92,30 @@ TEST_F(ReadSites, NamesLineAndElementThatDoNotFitTheMesh) {
     expect_error<agvd::InvalidInput>("p 1 2 nan\n", "not finite");
     mesh_.positions.emplace_back(7, 7, 7);
     expect_error<agvd::InvalidInput>("v 9\n", "is in no face");
+}
+
+// Four sites on a unit square are half a unit apart.
+TEST_F(ReadSites, PointsFarOffTheMeshAreRefusedAndNearOnesTold) {
+    const std::string three = "v 0\nv 2\np 1 1 0.004\n";
+    expect_error<agvd::InvalidInput>(three + "p .5 .5 -.51", "line 4: the point is 0.51 off");
+    expect_error<agvd::InvalidInput>("p .5 .5 7\n" + three, "spacing, 0.5");
+    expect_error<agvd::InvalidInput>("p 3 .5 0\np .5 .5 2", "line 1: the point is 2 off");
+    (void)read(three + "p .5 .5 -.4");
+    const auto told = read_sites(path_, mesh_.view()).warnings;
+    ASSERT_EQ(told.size(), 1u);
+    EXPECT_NE(told[0].find("line 4: the point is 0.4 off the mesh"), std::string::npos) << told[0];
+    EXPECT_NE(told[0].find("the farthest of 1 such point"), std::string::npos) << told[0];
+    (void)read(three + "p .5 .5 1e-7");
+    EXPECT_TRUE(read_sites(path_, mesh_.view()).warnings.empty());
+}
+
+// Whichever faces and kinds of line give the point.
+TEST_F(ReadSites, RepeatedSitesAreTold) {
+    (void)read("v 4\nv 0\nf 0 0 0 1\np .5 .5 0\nf 0 .2 .3 .5\nf 0 .3 .2 .5\nv 8\n");
+    const auto told = read_sites(path_, mesh_.view()).warnings;
+    ASSERT_EQ(told.size(), 1u);
+    EXPECT_NE(told[0].find("line 3: the site lies exactly where"), std::string::npos) << told[0];
+    EXPECT_NE(told[0].find("the first of 2 such sites"), std::string::npos) << told[0];
 }
 
 TEST_F(ReadSites, RefusesAMissingFileAndAFolder) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "agvd/core/error.h"
+#include "remesh/io/gzip.h"
 #include "remesh/io/read_diagram.h"
 #include "remesh/io/read_mesh.h"
 #include "remesh/io/vtk_data.h"
@@ -57,48 +58,82 @@ TEST_F(WriteDiagram, ObjLinesCloseClosedCurvesAndNameTheSites) {
         << text;
 }
 
-TEST_F(WriteDiagram, VtpHasALineForEachEdgeWithItsSites) {
+// Points: 4 vertices of the mesh, 3 sites, 7 points of edges.
+TEST_F(WriteDiagram, VtpHasTheSurfaceTheEdgesAndTheSites) {
     const std::string text = written("d.vtp");
-    EXPECT_NE(text.find("NumberOfPoints=\"7\""), std::string::npos);
-    EXPECT_NE(text.find("NumberOfLines=\"3\""), std::string::npos);
+    EXPECT_NE(text.find("NumberOfPoints=\"14\" NumberOfVerts=\"3\" NumberOfLines=\"3\""),
+              std::string::npos);
+    EXPECT_NE(text.find("NumberOfPolys=\"2\""), std::string::npos);
     if (!remesh::knows_xml()) GTEST_SKIP() << "built without expat";
     const remesh::VtkData data =
         remesh::read_vtk_xml({.path = "d.vtp", .bytes = text, .with_attributes = true});
-    ASSERT_EQ(data.cells.size(), 1u);
-    EXPECT_EQ(data.cells[0].types, std::vector{remesh::VtkCell::Lines});
-    EXPECT_EQ(data.cells[0].corners.values, (std::vector<double>{0, 1, 2, 3, 4, 2, 5, 6}));
-    EXPECT_EQ(data.cells[0].ends, (std::vector<std::size_t>{2, 6, 8}));
+    ASSERT_EQ(data.cells.size(), 3u);
+    EXPECT_EQ(data.cells[0].corners.values, (std::vector<double>{4, 5, 6}));
+    EXPECT_EQ(data.cells[1].corners.values, (std::vector<double>{7, 8, 9, 10, 11, 9, 12, 13}));
+    EXPECT_EQ(data.cells[1].ends, (std::vector<std::size_t>{2, 6, 8}));
+    const auto& faces = surface_.mesh.triangles;
+    EXPECT_EQ(data.cells[2].corners.values,
+              (std::vector<double>{double(faces[0][0]), double(faces[0][1]), double(faces[0][2]),
+                                   double(faces[1][0]), double(faces[1][1]), double(faces[1][2])}));
     ASSERT_EQ(data.of_cells.size(), 2u);
     EXPECT_EQ(data.of_cells[0].name, "site_left");
-    EXPECT_EQ(data.of_cells[0].values, (std::vector<double>{0, 1, 0}));
-    EXPECT_EQ(data.of_cells[1].values, (std::vector<double>{1, 2, -1}));
-    ASSERT_EQ(data.of_points.size(), 1u);
-    EXPECT_EQ(data.of_points[0].name, "distance");
-    EXPECT_EQ(data.of_points[0].values, diagram_.point_distance);
-    EXPECT_EQ(data.points->values[3], 1);
-    EXPECT_EQ(data.points->values[4], 0.5);
+    EXPECT_EQ(data.of_cells[0].values, (std::vector<double>{-1, -1, -1, 0, 1, 0, -1, -1}));
+    EXPECT_EQ(data.of_cells[1].values, (std::vector<double>{-1, -1, -1, 1, 2, -1, -1, -1}));
+    ASSERT_EQ(data.of_points.size(), 2u);
+    EXPECT_EQ(data.of_points[0].name, "site");
+    EXPECT_EQ(data.of_points[0].values,
+              (std::vector<double>{2, 0, 1, -1, 0, 1, 2, 0, 0, 1, 1, 1, 0, 0}));
+    EXPECT_EQ(data.of_points[1].name, "distance");
+    EXPECT_EQ(data.of_points[1].values,
+              (std::vector<double>{0.5, 1, 2, INFINITY, 0, 0, 0, 0, 0.25, 2, 3, 4, 5, 6}));
+    const auto& coordinates = data.points->values;
+    const Vec3 site = position(surface_.mesh.view(), sites_[0]);
+    EXPECT_EQ(Vec3(coordinates[12], coordinates[13], coordinates[14]), site);
+    EXPECT_EQ(Vec3(coordinates[24], coordinates[25], coordinates[26]), Vec3(1, 0.5, 0));
 }
 
-TEST_F(WriteDiagram, PlyReadsBackAsTheMeshAndHoldsLabelsAndDistances) {
-    const std::string text = written("d.ply");
-    EXPECT_EQ(remesh::read_mesh(at("d.ply")).mesh.positions, surface_.mesh.positions);
-    EXPECT_EQ(remesh::read_mesh(at("d.ply")).mesh.triangles, surface_.mesh.triangles);
-    const std::size_t body = text.find("end_header\n") + 11;
-    constexpr std::size_t stride = 3 * sizeof(double) + sizeof(std::int32_t) + sizeof(double);
-    for (Index v = 0; v < 4; ++v) {
-        std::int32_t site = 0;
-        double distance = 0;
-        text.copy(reinterpret_cast<char*>(&site), sizeof site, body + v * stride + 24);
-        text.copy(reinterpret_cast<char*>(&distance), sizeof distance, body + v * stride + 28);
-        EXPECT_EQ(site, v == 3 ? -1 : static_cast<int>(diagram_.nearest_site[v].value()));
-        EXPECT_EQ(distance, diagram_.nearest_distance[v]);
+// Programs that know no other elements than vertices and faces fail at them (meshio, MeshLab).
+TEST_F(WriteDiagram, PlyIsAMeshWithLabelsAndDistancesAndNothingElse) {
+    const std::string header = written("d.ply").substr(0, bytes("d.ply").find("end_header"));
+    EXPECT_EQ(header,
+              "ply\nformat binary_little_endian 1.0\nelement vertex 4\n"
+              "property double x\nproperty double y\nproperty double z\n"
+              "property int site\nproperty double distance\n"
+              "element face 2\nproperty list uchar int vertex_indices\n");
+}
+
+TEST_F(WriteDiagram, MeshesHaveLabelsAndDistances) {
+    for (const char* name : {"d.ply", "d.vtk", "d.PLY"}) {
+        (void)written(name);
+        const remesh::MeshFile file =
+            remesh::read_mesh(at(name), remesh::ReadOptions{.with_attributes = true});
+        EXPECT_EQ(file.mesh.positions, surface_.mesh.positions) << name;
+        EXPECT_EQ(file.mesh.triangles, surface_.mesh.triangles) << name;
+        const auto& values = file.attributes.of_vertices;
+        ASSERT_EQ(values.size(), 2u) << name;
+        EXPECT_EQ(values[0].values, (std::vector<double>{2, 0, 1, -1})) << name;
+        EXPECT_EQ(values[1].name, "distance");
+        EXPECT_EQ(values[1].values, diagram_.nearest_distance) << name;
     }
 }
 
+TEST_F(WriteDiagram, GzBehindTheExtensionCompresses) {
+    if (!remesh::knows_gzip()) GTEST_SKIP() << "built without zlib";
+    for (const char* name : {"d.vtp", "d.obj", "d.ply", "d.vtk", "d.agvd"}) {
+        const std::string plain = written(name);
+        const std::string packed = written(name + std::string(".GZ"));
+        ASSERT_TRUE(remesh::is_gzip(packed)) << name;
+        remesh::SourceFile file{.path = name, .bytes = packed};
+        remesh::unpack_gzip(file);
+        EXPECT_EQ(file.bytes, plain) << name;
+    }
+    EXPECT_EQ(remesh::read_diagram(at("d.agvd.GZ")).sites, sites_);
+}
+
 // Compares all bytes by writing again.
-TEST_F(WriteDiagram, PlyGivesEverythingBack) {
-    const std::string text = written("d.ply");
-    const remesh::DiagramFile back = remesh::read_diagram(at("d.ply"));
+TEST_F(WriteDiagram, AgvdGivesEverythingBack) {
+    const std::string text = written("d.agvd");
+    const remesh::DiagramFile back = remesh::read_diagram(at("d.agvd"));
     EXPECT_EQ(back.diagram.num_sites, 3u);
     EXPECT_EQ(back.diagram.edge_points, diagram_.edge_points);
     EXPECT_EQ(back.diagram.vertex_offsets, diagram_.vertex_offsets);
@@ -106,15 +141,15 @@ TEST_F(WriteDiagram, PlyGivesEverythingBack) {
     EXPECT_FALSE(back.diagram.edges[2].right.is_valid());
     EXPECT_EQ(back.diagram.vertex_ends[1].edge, 2u);
     EXPECT_FALSE(back.diagram.vertex_ends[1].is_tail);
-    remesh::write_diagram(at("again.ply"), build_surface(back.mesh.view()), back.sites,
+    remesh::write_diagram(at("again.agvd"), build_surface(back.mesh.view()), back.sites,
                           back.diagram);
-    EXPECT_EQ(bytes("again.ply"), text);
+    EXPECT_EQ(bytes("again.agvd"), text);
 }
 
 TEST_F(WriteDiagram, DamagedDiagramsAreRefused) {
-    const std::string text = written("d.ply");
+    const std::string text = written("d.agvd");
     for (const std::size_t size : {text.size() - 1, text.size() - 100, text.size() / 2}) {
-        EXPECT_THROW((void)remesh::read_diagram(put("cut.ply", text.substr(0, size))), IoError);
+        EXPECT_THROW((void)remesh::read_diagram(put("cut.agvd", text.substr(0, size))), IoError);
     }
     put("mesh.ply", shapes::grid(1));
     EXPECT_THROW((void)remesh::read_diagram(at("mesh.ply")), IoError);
@@ -126,7 +161,7 @@ TEST_F(WriteDiagram, DamagedDiagramsAreRefused) {
         std::string damaged = text;
         damaged.replace(at_byte, 4, "\x7f\x7f\x7f\x7f");
         try {
-            (void)remesh::read_diagram(put("damaged.ply", damaged));
+            (void)remesh::read_diagram(put("damaged.agvd", damaged));
         } catch (const Error&) {
             ++refused;
         }
@@ -136,23 +171,24 @@ TEST_F(WriteDiagram, DamagedDiagramsAreRefused) {
 
 // Of elements without properties a file may announce any number: they have no bytes.
 TEST_F(WriteDiagram, ElementsWithoutPropertiesArePassedOver) {
-    std::string text = written("d.ply");
+    std::string text = written("d.agvd");
     text.insert(text.find("element vertex"), "element junk 9000000000000000000\n");
-    EXPECT_EQ(remesh::read_diagram(put("junk.ply", text)).sites, sites_);
+    EXPECT_EQ(remesh::read_diagram(put("junk.agvd", text)).sites, sites_);
 }
 
 TEST_F(WriteDiagram, ASecondElementOfANameIsPassedOver) {
-    std::string text = written("d.ply");
+    std::string text = written("d.agvd");
     text.insert(text.find("end_header"), "element vertex 1\nproperty char v\n");
-    const remesh::DiagramFile back = remesh::read_diagram(put("twice.ply", text + 'x'));
+    const remesh::DiagramFile back = remesh::read_diagram(put("twice.agvd", text + 'x'));
     EXPECT_EQ(back.diagram.nearest_site, diagram_.nearest_site);
 }
 
 TEST_F(WriteDiagram, OtherExtensionsAreRefused) {
     EXPECT_THROW((void)written("d.stl"), IoError);
     EXPECT_THROW((void)written("d"), IoError);
-    EXPECT_TRUE(remesh::is_known_diagram_extension("a.VTP"));
-    EXPECT_FALSE(remesh::is_known_diagram_extension("vtp"));
+    remesh::check_diagram_extension("a.VTP");
+    EXPECT_THROW(remesh::check_diagram_extension("vtp"), IoError);
+    EXPECT_THROW(remesh::check_diagram_extension("d.gz"), IoError);
 }
 
 }  // namespace

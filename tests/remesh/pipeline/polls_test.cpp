@@ -289,7 +289,7 @@ TEST_F(FilePolls, AreInReadingAndWriting) {
     }
     EXPECT_EQ(num_files(), 4u);  // No temporary is left.
     std::string sites;
-    for (int i = 0; i < 3000; ++i) sites += "p 1 0 0.5\n";
+    for (int i = 0; i < 3000; ++i) sites += "p 1 0 0\n";
     put("sites.txt", sites);
     expect_polls("sites", 3, [&](const Progress& progress) {
         (void)remesh::read_sites(at("sites.txt"), mesh.view(), progress);
@@ -306,13 +306,13 @@ TEST_F(FilePolls, AreInWritingALongText) {
 
 TEST_F(FilePolls, AreInReadingAndWritingDiagrams) {
     const Scene scene(1000);
-    for (const char* name : {"d.vtp", "d.obj", "d.ply"}) {
+    for (const char* name : {"d.vtp", "d.obj", "d.ply", "d.agvd"}) {
         expect_polls(name, 3, [&](const Progress& progress) {
             remesh::write_diagram(at(name), scene.surface, scene.sites, scene.diagram, progress);
         });
     }
     expect_polls("read", 20, [&](const Progress& progress) {
-        (void)remesh::read_diagram(at("d.ply"), progress);
+        (void)remesh::read_diagram(at("d.agvd"), progress);
     });
 }
 
