@@ -34,7 +34,7 @@ constexpr const char* diagram_footer =
     "         boundary arcs as polylines, the sites as vertices; point data site and\n"
     "         distance, cell data site_left and site_right of the polylines\n"
     "  .ply   the cleaned mesh with the vertex properties site (-1: no site) and\n"
-    "         distance; .vtk the same\n"
+    "         distance\n"
     "  .obj   the polylines as v and l lines\n"
     "  .agvd  everything, exactly: what `agvd compare` reads\n\n";
 

@@ -158,10 +158,6 @@ std::string format_ply_mesh(const DrawnDiagram& drawn, agvd::Ticker ticker) {
     return format_ply(drawn.surface.mesh.view(), labels_of(drawn.diagram), ticker);
 }
 
-std::string format_vtk_mesh(const DrawnDiagram& drawn, agvd::Ticker ticker) {
-    return format_vtk(drawn.surface.mesh.view(), labels_of(drawn.diagram), ticker);
-}
-
 void append_point(std::string& bytes, const SurfacePoint& point) {
     append(bytes, point.face.value());
     for (const double b : point.barycentric) append(bytes, b);
@@ -240,7 +236,6 @@ struct DiagramFormat {
 };
 constexpr DiagramFormat diagram_formats[] = {{".vtp", format_vtp_diagram},
                                              {".ply", format_ply_mesh},
-                                             {".vtk", format_vtk_mesh},
                                              {".obj", format_obj_lines},
                                              {".agvd", format_whole_diagram}};
 
@@ -250,8 +245,7 @@ const DiagramFormat& require_diagram_format(const std::filesystem::path& path) {
         if (extension == format.extension) return format;
     }
     throw agvd::IoError(path.string() + ": unknown extension " +
-                        in_quotes(path.extension().string()) +
-                        "; use .vtp, .ply, .vtk, .obj or .agvd");
+                        in_quotes(path.extension().string()) + "; use .vtp, .ply, .obj or .agvd");
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace remesh {
 //!   vertex. Point data `site` (of an edge's point: on its left) and `distance` from it, in mesh
 //!   units; cell data `site_left`, `site_right` of the polylines (-1: outside the surface, which
 //!   only a boundary arc has; -1 for all other cells).
-//! - ply, vtk: the surface's mesh as write_mesh writes it, with vertex properties `site` (int) and
+//! - ply: the surface's mesh as write_mesh writes it, with vertex properties `site` (int) and
 //!   `distance` (double; where no site reaches, site is -1 and distance is infinity).
 //! - obj: the polylines as `v` and `l` lines, each preceded by a comment `# sites LEFT RIGHT`.
 //! - agvd: everything, for read_diagram: such a PLY, and as elements of their own the sites and the
