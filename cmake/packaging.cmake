@@ -23,6 +23,21 @@ if(AGVD_WITH_OPENMESH)
         REQUIRES remesh LIBS -lOpenMeshCore)
 endif()
 
+# The documents go with both components, as one may be installed without the other; the C++ reference,
+# if scripts/check-docs has made it, with the libraries.
+function(agvd_install_documents folder component)
+    set(target ${CMAKE_INSTALL_DATAROOTDIR}/doc/${folder})
+    install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${target} COMPONENT ${component})
+    install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${target} COMPONENT ${component}
+        FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.svg" PATTERN "*.bib")
+endfunction()
+agvd_install_documents(libremesh-dev development)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/build/reference/html OPTIONAL COMPONENT development
+    DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/libremesh-dev)
+if(AGVD_BUILD_TOOLS)
+    agvd_install_documents(remesh programs)
+endif()
+
 # The licence goes with each component, as each may be a package of its own.
 set(copyright ${PROJECT_BINARY_DIR}/copyright)
 file(READ ${PROJECT_SOURCE_DIR}/LICENSE licence)
