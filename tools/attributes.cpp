@@ -2,8 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <map>
 
+#include "declined.h"
 #include "help.h"
 #include "remesh/io/transfer_attributes.h"
 #include "remesh/io/write_mesh.h"
@@ -98,19 +98,6 @@ void move_material_files(const std::filesystem::path& input, const std::filesyst
     }
 }
 
-// One warning for each reason.
-void warn_of(const std::vector<remesh::DeclinedAttribute>& declined, Console& console) {
-    std::map<std::string, std::string> names;
-    for (const remesh::DeclinedAttribute& one : declined) {
-        std::string& list = names[one.reason];
-        list += (list.empty() ? "" : ", ") + one.name;
-    }
-    for (const auto& [reason, list] : names) {
-        std::string text = list;
-        console.warn(text.append(": ").append(reason));
-    }
-}
-
 }  // namespace
 
 void add_attribute_options(CLI::App& app, AttributeArguments& arguments) {
@@ -155,19 +142,9 @@ remesh::AttributeReport select_attributes(const AttributeArguments& arguments,
     if (arguments.transfer != "all" && arguments.transfer != "none") {
         keep_named(split(arguments.transfer), input, attributes);
     }
-    const std::string files = "." + remesh::mesh_format(output) + " files";
-    const bool has_texture = !attributes.texture.empty();
-    const bool has_seams = !attributes.texture.seams.empty();
-    for (const std::string& name : remesh::remove_unwritable(output, attributes)) {
-        const bool is_texture =
-            has_texture && name == std::string("corner ") + remesh::TextureCoordinates::name;
-        attributes.declined.push_back(
-            {name, files + " have no place for " +
-                       (is_texture && has_seams ? "texture coordinates with seams" : "it") +
-                       "; write .ply to keep it"});
-    }
+    decline_unwritable(output, attributes);
     move_material_files(input, output.path, attributes.material_files);
-    warn_of(attributes.declined, console);
+    for (const std::string& text : describe(attributes.declined)) console.warn(text);
     return {names_in(attributes), attributes.declined, arguments.map.string()};
 }
 

@@ -52,7 +52,7 @@ def _configure():
     # The same as release, but for what the module does not need.
     subprocess.run(["cmake", *generator, "-S", ROOT, "-B", BUILD, "-DCMAKE_BUILD_TYPE=Release",
                     "-DAGVD_BUILD_PYTHON=ON", "-DAGVD_BUILD_TOOLS=OFF", "-DAGVD_BUILD_TESTS=OFF",
-                    "-DAGVD_INSTALL=OFF", f"-DPython_EXECUTABLE={sys.executable}",
+                    "-DAGVD_INSTALL=OFF", "-DAGVD_PYTHON_DIR=.", f"-DPython_EXECUTABLE={sys.executable}",
                     *shlex.split(os.environ.get("REMESH_CMAKE_ARGS", ""))], check=True)
 
 

@@ -1,7 +1,7 @@
 // Walls are found by a few queries for each vertex of the result: from a point below the surface
 // the nearest point is the vertex itself, unless another sheet lies nearer. If that sheet
 // faces the other way, it is the far side of a wall. Walls of which only one side is in the result
-// are not seen.
+// are not seen, and a face that is turned over at the vertex is no far side.
 #include "remesh/quality/verdict.h"
 
 #include <algorithm>
@@ -84,12 +84,14 @@ struct Wall {
 };
 
 // Finds walls of .1 to 1.9 times the depth.
-Wall wall_at_depth(const agvd::MeshView& mesh, const agvd::ClosestPointTree& tree,
-                   const Vec3& place, const Vec3& outward, double depth) {
+Wall wall_at_depth(const agvd::MeshView& mesh, const agvd::ClosestPointTree& tree, Index vertex,
+                   const Vec3& outward, double depth) {
+    const Vec3& place = mesh.positions[vertex];
     const agvd::ClosestPoint nearest = tree.query(place - depth * outward);
     if (!(std::sqrt(nearest.distance_sq) < clearly_nearer * depth)) return {};
     const Index face = nearest.point.face.value();
     const agvd::Triangle& triangle = mesh.triangles[face];
+    if (std::find(triangle.begin(), triangle.end(), vertex) != triangle.end()) return {};
     const Vec3& a = mesh.positions[triangle[0]];
     const Vec3 normal =
         (mesh.positions[triangle[1]] - a).cross(mesh.positions[triangle[2]] - a).normalized();
@@ -109,8 +111,7 @@ std::vector<Wall> find_walls(const agvd::MeshView& mesh, const agvd::ClosestPoin
             for (Index v = begin; v < end; ++v) {
                 double depth = shapes[v].edge_length / 2;
                 for (int i = 0; i < num_depths && !walls[v].is_thin(); ++i, depth /= 8) {
-                    walls[v] =
-                        wall_at_depth(mesh, tree, mesh.positions[v], shapes[v].normal, depth);
+                    walls[v] = wall_at_depth(mesh, tree, v, shapes[v].normal, depth);
                 }
             }
         },

@@ -73,6 +73,15 @@ TEST(Verdict, AGapIsNoWall) {
     EXPECT_EQ(judge(shapes::join(box, shapes::moved(box, {1.02, 0, 0}))).thin_walls, 0u);
 }
 
+TEST(Verdict, AFaceTurnedOverAtAVertexIsNoWall) {
+    // A vertex goes over the far edge of a face of its own, which then shows its other side.
+    TriangleMesh mesh = shapes::sphere(3);
+    const auto [a, b, c] = mesh.triangles[0];
+    const Vec3 middle = (mesh.positions[b] + mesh.positions[c]) / 2;
+    mesh.positions[a] = (mesh.positions[a] + 1.3 * (middle - mesh.positions[a])).normalized();
+    EXPECT_EQ(judge(mesh).thin_walls, 0u);
+}
+
 TEST(Verdict, ComponentsOfFewVerticesAreSmall) {
     const TriangleMesh large = shapes::sphere(3);
     TriangleMesh mesh = shapes::join(large, shapes::moved(shapes::tetrahedron(), {9, 0, 0}));

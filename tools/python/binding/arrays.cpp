@@ -47,4 +47,10 @@ py::tuple to_arrays(const std::vector<agvd::SurfacePoint>& points) {
                           to_array<double>(std::move(barycentric), 3));
 }
 
+std::span<const remesh::CornerCoordinates> corners_of(const Doubles& values) {
+    static_assert(sizeof(remesh::CornerCoordinates) == 6 * sizeof(double));
+    return {reinterpret_cast<const remesh::CornerCoordinates*>(values.data()),
+            static_cast<std::size_t>(values.size()) / 6};
+}
+
 }  // namespace python

@@ -6,11 +6,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "agvd/mesh/mesh_view.h"
 #include "agvd/mesh/surface_point.h"
+#include "remesh/transfer/texture_seams.h"
 
 namespace python {
 
@@ -40,7 +42,11 @@ template <typename Scalar>
 [[nodiscard]] std::vector<agvd::SurfacePoint> points_of(const Indices& faces,
                                                         const Doubles& barycentric);
 
-//! The reverse: a pair of arrays, k of int64 and k x 3 of double.
+//! The array's own memory.
+//! \param values  #F x 3 x 2, or none
+[[nodiscard]] std::span<const remesh::CornerCoordinates> corners_of(const Doubles& values);
+
+//! Of points_of the reverse: a pair of arrays, k of int64 and k x 3 of double.
 [[nodiscard]] py::tuple to_arrays(const std::vector<agvd::SurfacePoint>& points);
 
 //! Hands the memory over: no copy. \return #rows x columns, or #rows if `columns` is 0.

@@ -107,7 +107,8 @@ py::dict run_voronoi(const Doubles& positions, const Indices& triangles, const I
     const agvd::MeshView mesh = view_of(positions, triangles);
     const agvd::PropagationOptions options = propagation_options(engine, max_error, num_threads);
     const std::vector<agvd::SurfacePoint> sites = points_of(faces, barycentric);
-    PythonProgress progress(function);
+    PythonProgress progress(function,
+                            {{"clean", 1}, {"propagate", 1}, {"diagram", 1}, {"dual", 1}});
     DrawnDiagram drawn = progress.run([&] { return compute(mesh, sites, options, progress); });
     py::dict result;
     result["labels"] = to_numbers(drawn.labels);
@@ -133,7 +134,7 @@ py::array_t<double> run_distances(const Doubles& positions, const Indices& trian
     const agvd::MeshView mesh = view_of(positions, triangles);
     agvd::PropagationOptions options = propagation_options(engine, max_error, num_threads);
     const std::vector<agvd::SurfacePoint> given_sites = points_of(faces, barycentric);
-    PythonProgress progress(function);
+    PythonProgress progress(function, {{"clean", 1}, {"propagate", 1}});
     options.progress = progress.of("propagate");
     return to_array<double>(progress.run([&] {
         const GivenSurface given(mesh, num_threads, progress);

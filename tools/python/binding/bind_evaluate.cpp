@@ -15,7 +15,7 @@ std::string run_evaluate(const Doubles& positions, const Indices& triangles,
                          agvd::Index samples, int num_threads, const py::object& function) {
     const agvd::MeshView original = view_of(positions, triangles);
     const agvd::MeshView result = view_of(result_positions, result_triangles);
-    PythonProgress progress(function);
+    PythonProgress progress(function, {{"measure", 1}});
     return progress.run([&] {
         return remesh::to_json(remesh::evaluate(original, result,
                                                 {.samples = samples,

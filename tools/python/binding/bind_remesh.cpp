@@ -5,9 +5,12 @@
 #include "binding/bindings.h"
 #include "binding/option_names.h"
 #include "binding/python_progress.h"
+#include "binding/terms.h"
+#include "expected_stages.h"
 #include "remesh/io/report.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/transfer/map_to_input.h"
+#include "shortfalls.h"
 
 namespace python {
 namespace {
@@ -79,12 +82,36 @@ void add_propagation(OptionsClass& options) {
         [](RemeshOptions& self, int count) { self.propagation.steiner_points = count; });
 }
 
+// \param text  as --memory-limit takes it; empty: no limit.
+cli::MemoryLimit memory_limit(const std::string& text, agvd::Engine engine) {
+    if (text.empty()) return {};
+    const std::optional<std::size_t> bytes = cli::parse_bytes(text);
+    if (bytes) return {*bytes, engine};
+    throw agvd::InvalidOption("memory_limit is '" + text +
+                              "'; use a number of bytes above 0, such as '500M' or '3G', a "
+                              "percentage of what the machine has, such as '50%', or None");
+}
+
+std::vector<std::string> warnings_of(const remesh::RemeshResult& result,
+                                     const RemeshOptions& options, bool strict) {
+    std::vector<std::string> warnings = cli::shortfalls_of(result, options, strict);
+    for (std::string& text : warnings) text = in_terms_of_python(std::move(text));
+    return warnings;
+}
+
+// \param limit  see memory_limit.
 // \return positions, triangles, faces and coordinates of the vertices on the input, the samples of
 // faces on the input (#F x 16, or none), the vertices and the faces that were kept, the report.
 py::tuple run_remesh(const Doubles& positions, const Indices& triangles, RemeshOptions options,
-                     bool with_faces, const py::object& function) {
+                     bool with_faces, bool strict, const std::string& limit,
+                     const py::object& function) {
     const agvd::MeshView mesh = view_of(positions, triangles);
-    PythonProgress progress(function);
+    const std::size_t num_faces = mesh.triangles.size();
+    const std::size_t num_samples = cli::estimated_samples(options, mesh);
+    PythonProgress progress(function, cli::stages_of_remesh(num_faces, num_samples, true, options),
+                            memory_limit(limit, options.propagation.engine),
+                            cli::runs_of_remesh(options));
+    progress.require_memory("sample", cli::least_memory(num_faces, num_samples));
     options.progress = [&](remesh::Stage stage, double fraction) {
         return progress.goes_on(remesh::stage_name(stage), fraction);
     };
@@ -98,8 +125,10 @@ py::tuple run_remesh(const Doubles& positions, const Indices& triangles, RemeshO
                                    {.with_faces = with_faces,
                                     .num_threads = options.num_threads,
                                     .progress = progress.of("transfer")});
-        report = remesh::to_json(
-            made, {.version = REMESH_VERSION, .options = options, .output = std::move(output)});
+        report = remesh::to_json(made, {.version = REMESH_VERSION,
+                                        .options = options,
+                                        .output = std::move(output),
+                                        .warnings = warnings_of(made, options, strict)});
         return made;
     });
     const py::tuple places = to_arrays(map.vertices);
@@ -166,7 +195,7 @@ void bind_remesh(py::module_& module) {
     add_sizing(options, "gives_count", &Sizing::gives_count);
     module.def("remesh", &run_remesh, py::arg("positions").noconvert(),
                py::arg("triangles").noconvert(), py::arg("options"), py::arg("with_faces"),
-               py::arg("progress"));
+               py::arg("strict"), py::arg("memory_limit"), py::arg("progress"));
 }
 
 }  // namespace python

@@ -17,7 +17,7 @@ namespace {
 py::tuple run_clean(const Doubles& positions, const Indices& triangles, int num_threads,
                     const py::object& function) {
     const agvd::MeshView mesh = view_of(positions, triangles);
-    PythonProgress progress(function);
+    PythonProgress progress(function, {{"clean", 1}});
     remesh::CleanResult clean =
         progress.run([&] { return remesh::clean_input(mesh, num_threads, progress.of("clean")); });
     py::dict counts;
@@ -31,7 +31,7 @@ py::tuple run_sample(const Doubles& positions, const Indices& triangles, agvd::I
                      const std::string& init, const std::string& boundary, std::uint64_t seed,
                      int num_threads, const py::object& function) {
     const agvd::MeshView mesh = view_of(positions, triangles);
-    PythonProgress progress(function);
+    PythonProgress progress(function, {{"clean", 1}, {"sample", 1}});
     const remesh::SamplingOptions options{.num_samples = num_samples,
                                           .init = init_of(init),
                                           .boundary = boundary_of(boundary),
@@ -70,7 +70,7 @@ py::tuple run_relax(const Doubles& positions, const Indices& triangles, const In
                     const py::object& stop, int num_threads, const py::object& function) {
     const agvd::MeshView mesh = view_of(positions, triangles);
     const std::vector<agvd::SurfacePoint> sites = points_of(faces, barycentric);
-    PythonProgress progress(function);
+    PythonProgress progress(function, {{"clean", 1}, {"relax", 9}});
     StoppingRule rule(stop);
     const remesh::RelaxOptions options{.steps = steps,
                                        .tolerance = tolerance,
@@ -97,7 +97,7 @@ py::tuple run_nearest(const Doubles& positions, const Indices& triangles, const 
                       const py::object& function) {
     const agvd::MeshView mesh = view_of(positions, triangles);
     const agvd::MeshView queries = view_of(points, Indices(std::vector<py::ssize_t>{0, 3}));
-    PythonProgress progress(function);
+    PythonProgress progress(function, {{"sample", 1}});
     return to_arrays(progress.run([&] {
         const agvd::ClosestPointTree tree(mesh, progress.of("sample"));
         std::vector<agvd::SurfacePoint> nearest;

@@ -35,13 +35,6 @@ py::array_t<double> run_face_values(const Doubles& values, const Indices& sample
     return to_array<double>(remesh::transfer_face_values(span_of(values), rows, kind_of(is_label)));
 }
 
-//! \param values  #F x 3 x 2
-std::span<const remesh::CornerCoordinates> corners_of(const Doubles& values) {
-    static_assert(sizeof(remesh::CornerCoordinates) == 6 * sizeof(double));
-    return {reinterpret_cast<const remesh::CornerCoordinates*>(values.data()),
-            static_cast<std::size_t>(values.size()) / 6};
-}
-
 std::vector<std::array<agvd::Index, 2>> run_texture_seams(const Doubles& values,
                                                           const Doubles& positions,
                                                           const Indices& triangles) {

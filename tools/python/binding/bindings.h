@@ -10,6 +10,7 @@ void bind_remesh(pybind11::module_& module);    //!< Options and remesh.
 void bind_diagram(pybind11::module_& module);   //!< Diagrams and distances.
 void bind_stages(pybind11::module_& module);    //!< Cleaning, sampling, relaxation.
 void bind_transfer(pybind11::module_& module);  //!< Values of the input for the result.
+void bind_files(pybind11::module_& module);     //!< Files, and polygons.
 void bind_evaluate(pybind11::module_& module);  //!< Measures.
 
 }  // namespace python

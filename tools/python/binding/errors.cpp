@@ -1,6 +1,8 @@
 #include "binding/errors.h"
 
 #include "agvd/core/error.h"
+#include "binding/terms.h"
+#include "memory_limit.h"
 
 namespace python {
 namespace {
@@ -15,6 +17,8 @@ struct Classes {
     PyObject* invalid_sites = nullptr;
     PyObject* constraint_unmet = nullptr;
     PyObject* cancelled = nullptr;
+    PyObject* out_of_memory = nullptr;
+    PyObject* io_error = nullptr;
 };
 
 const Classes& classes(const Classes& made = {}) {
@@ -34,7 +38,7 @@ PyObject* add_class(py::module_& module, const char* name, const char* text,
 // NOLINTNEXTLINE(performance-unnecessary-value-param): the type that pybind11 asks for.
 void translate(std::exception_ptr thrown) {
     const auto raise = [](PyObject* type, const std::exception& error) {
-        PyErr_SetString(type, error.what());
+        PyErr_SetString(type, in_terms_of_python(error.what()).c_str());
     };
     try {
         if (thrown) std::rethrow_exception(thrown);
@@ -48,6 +52,10 @@ void translate(std::exception_ptr thrown) {
         raise(classes().constraint_unmet, error);
     } catch (const agvd::Cancelled& error) {
         raise(classes().cancelled, error);
+    } catch (const agvd::IoError& error) {
+        raise(classes().io_error, error);
+    } catch (const cli::OutOfMemory& error) {
+        raise(classes().out_of_memory, error);
     } catch (const agvd::Error& error) {
         raise(classes().error, error);
     }
@@ -75,6 +83,11 @@ void bind_errors(py::module_& module) {
                   py::make_tuple(error, py::handle(PyExc_RuntimeError)));
     made.cancelled = add_class(module, "Cancelled", "The progress function returned False.",
                                py::make_tuple(error));
+    made.out_of_memory =
+        add_class(module, "OutOfMemory", "More memory than memory_limit, or than the system gives.",
+                  py::make_tuple(error, py::handle(PyExc_MemoryError)));
+    made.io_error = add_class(module, "FileError", "A file cannot be read or written.",
+                              py::make_tuple(error, py::handle(PyExc_OSError)));
     classes(made);
     py::register_exception_translator(&translate);
 }

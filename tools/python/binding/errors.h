@@ -6,8 +6,8 @@
 
 namespace python {
 
-//! Adds Error, InvalidOption, InvalidInput, InvalidSites, ConstraintUnmet and Cancelled to the
-//! module, and has agvd's exceptions raised as these, with their texts.
+//! Adds Error, InvalidOption, InvalidInput, InvalidSites, ConstraintUnmet, Cancelled, OutOfMemory
+//! and FileError to the module, and has agvd's exceptions raised as these, with their texts.
 void bind_errors(pybind11::module_& module);
 
 }  // namespace python

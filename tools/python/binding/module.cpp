@@ -11,4 +11,5 @@ PYBIND11_MODULE(_remesh, module) {
     python::bind_stages(module);
     python::bind_transfer(module);
     python::bind_evaluate(module);
+    python::bind_files(module);
 }

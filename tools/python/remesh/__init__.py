@@ -7,8 +7,8 @@
     ((500, 3), (996, 3))
 
 A mesh is two arrays: ``V`` (#V x 3, any floating-point or integer type) and ``F`` (#F x 3, any
-integer type, counted from 0), or one object with ``.points`` and ``.faces`` (PyVista) or with
-``.vertices`` and ``.faces`` (trimesh). Inputs are never changed, and must not be changed by other
+integer type, counted from 0), or one object: a remesh.Mesh, as read() returns it, or a mesh of
+PyVista, VTK (vtkPolyData), meshio or trimesh. Inputs are never changed, and must not be changed by other
 threads during a call. Every function releases the interpreter, may run in several threads at
 once, and gives the same bytes for any number of threads. Ctrl-C ends a call in the main thread.
 """
@@ -16,13 +16,17 @@ once, and gives the same bytes for any number of threads. Ctrl-C ends a call in 
 from . import examples
 from ._diagrams import Voronoi, geodesic_distance, voronoi
 from ._evaluation import evaluate
+from ._files import read, write
+from ._mesh import Mesh
 from ._remesh import (
     Cancelled,
     ConstraintUnmet,
     Error,
+    FileError,
     InvalidInput,
     InvalidOption,
     InvalidSites,
+    OutOfMemory,
 )
 from ._remesh import version as __version__
 from ._remeshing import Result, remesh
@@ -33,9 +37,12 @@ __all__ = [
     "Cleaned",
     "ConstraintUnmet",
     "Error",
+    "FileError",
     "InvalidInput",
     "InvalidOption",
     "InvalidSites",
+    "Mesh",
+    "OutOfMemory",
     "Relaxed",
     "Result",
     "Sites",
@@ -45,8 +52,10 @@ __all__ = [
     "evaluate",
     "examples",
     "geodesic_distance",
+    "read",
     "relax_sites",
     "remesh",
     "sample_sites",
     "voronoi",
+    "write",
 ]

@@ -74,6 +74,20 @@ def one_each(values: Any, count: int, name: str, element: str) -> Floats:
     return np.require(given, np.float64, ["C", "A"])
 
 
+def corners(uv: Any, num_vertices: int, F: Indices) -> Floats | None:
+    """Texture coordinates of each corner, #F x 3 x 2, or none."""
+    if uv is None:
+        return None
+    given = np.asarray(uv)
+    if given.dtype.kind not in "fiu":
+        raise InvalidInput(f"uv holds {given.dtype}; give numbers")
+    of_vertices, of_corners = (num_vertices, 2), (len(F), 3, 2)
+    if given.shape not in (of_vertices, of_corners):
+        raise InvalidInput(f"uv has the shape {given.shape}; give a pair for each corner of each "
+                           f"face, {of_corners}, or for each vertex, {of_vertices}")
+    return np.require(given if given.shape == of_corners else given[F], np.float64, ["C", "A"])
+
+
 def whole(value: Any, name: str, low: int = 0, high: int = _MOST) -> int:
     """An integer, or a float that is one."""
     is_whole = isinstance(value, (int, np.integer)) or (

@@ -21,7 +21,7 @@ def count(num_vertices: int, value: Any, name: str) -> int:
     return max(1, round(num_vertices * percent / 100))
 
 
-def length(mesh: _kinds.Mesh, value: Any, name: str) -> float:
+def length(mesh: _kinds.Given, value: Any, name: str) -> float:
     """Mesh units: 0.5, or "2%" of the diagonal of the mesh."""
     share = _percent(value) if isinstance(value, str) else None
     try:
@@ -50,7 +50,7 @@ def only_one(**given: Any) -> None:
                             "them")
 
 
-def set_sizing(options: _remesh.Options, mesh: _kinds.Mesh, *, has_count: bool, adaptive: bool,
+def set_sizing(options: _remesh.Options, mesh: _kinds.Given, *, has_count: bool, adaptive: bool,
                sizing: Any, density: Any, max_distance: Any, min_edge: Any, max_edge: Any,
                gradation: Any) -> None:
     """Says where edges are how long."""
@@ -72,8 +72,11 @@ def set_sizing(options: _remesh.Options, mesh: _kinds.Mesh, *, has_count: bool, 
         options.gradation = _arrays.number(gradation, "gradation")
 
 
-def _at_vertices(mesh: _kinds.Mesh, given: Any, name: str) -> _arrays.Floats:
-    """Numbers for the vertices: an array, a function of the positions, or a name of the mesh."""
+def _at_vertices(mesh: _kinds.Given, given: Any, name: str) -> _arrays.Floats:
+    """Numbers for the vertices: an array, a function of the positions, a name of the mesh, or one
+    number for all."""
+    if np.ndim(given) == 0 and not callable(given) and not isinstance(given, str):
+        return np.full(len(mesh.V), _arrays.number(given, name))
     if callable(given):
         given = given(mesh.V.copy())
     elif isinstance(given, str):
@@ -88,12 +91,12 @@ def _named(values: _kinds.Data, given: str, name: str, element: str) -> Any:
     return values[given]
 
 
-def set_features(options: _remesh.Options, mesh: _kinds.Mesh, features: Any, feature_edges: Any,
+def set_features(options: _remesh.Options, mesh: _kinds.Given, features: Any, feature_edges: Any,
                  face_labels: Any) -> None:
     """Says which creases are kept."""
-    if isinstance(features, str):
-        options.features = features if features != "angle" else "a name"
-    elif features is None or isinstance(features, bool):
+    if features in ("auto", "off"):
+        options.features = features
+    elif features is None or isinstance(features, (bool, str)):
         raise InvalidOption(f"features is {features!r}; use 'auto', 'off' or an angle in degrees")
     else:
         options.features = "angle"
@@ -110,6 +113,8 @@ def set_features(options: _remesh.Options, mesh: _kinds.Mesh, features: Any, fea
                                 "correct or delete the edge")
         options.feature_edges = edges.reshape(-1, 2).tolist()
     if face_labels is not None:
+        if isinstance(face_labels, str):
+            face_labels = _named(mesh.data()[1], face_labels, "face_labels", "faces")
         labels = np.asarray(face_labels)
         if labels.shape != (len(mesh.F),):
             raise InvalidOption(f"face_labels has the shape {labels.shape}, but the mesh has "
@@ -118,12 +123,14 @@ def set_features(options: _remesh.Options, mesh: _kinds.Mesh, features: Any, fea
         options.set_face_labels(numbers.reshape(-1).astype(np.uint32))
 
 
-def set_kept(options: _remesh.Options, mesh: _kinds.Mesh, region: Any, lock: Any) -> int:
+def set_kept(options: _remesh.Options, mesh: _kinds.Given, region: Any, lock: Any) -> int:
     """Says what stays as it is.
 
     Returns the number of vertices of what is remeshed."""
     if lock is not None:
-        vertices = _arrays.integers(lock, "lock")
+        given = np.asarray(lock)
+        is_mask = given.dtype == bool and given.shape == (len(mesh.V),)
+        vertices = np.flatnonzero(given) if is_mask else _arrays.integers(given, "lock")
         wrong = _arrays.first_outside(vertices, len(mesh.V))
         if vertices.ndim != 1 or wrong is not None:
             what = f"has the shape {vertices.shape}" if wrong is None else (
@@ -143,7 +150,14 @@ def set_kept(options: _remesh.Options, mesh: _kinds.Mesh, region: Any, lock: Any
     return len(np.unique(mesh.F[flags]))
 
 
-def set_sites(options: _remesh.Options, mesh: _kinds.Mesh, sites: Any, keep_sites: bool) -> None:
+def memory_limit(value: Any) -> str:
+    """As the program's --memory-limit; empty: none."""
+    if value is None or isinstance(value, str):
+        return value or ""
+    return str(_arrays.whole(value, "memory_limit", 1, 2**63 - 1))
+
+
+def set_sites(options: _remesh.Options, mesh: _kinds.Given, sites: Any, keep_sites: bool) -> None:
     """Says where vertices start."""
     if sites is not None:
         options.set_sites(*_stages.take_sites(mesh, sites))

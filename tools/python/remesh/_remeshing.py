@@ -11,16 +11,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays, _kinds, _options, _remesh, _transfer
-from ._remesh import ConstraintUnmet, InvalidOption
+from ._remesh import InvalidOption
 from ._stages import Progress
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Result:
     """The result of remesh().
 
     >>> V, F = remesh.examples.sphere(3)
     >>> result = remesh.remesh(V, F, 200, region=V[F].mean(axis=1)[:, 2] > 0)
+    >>> remesh.remesh(V, F, 200)
+    <remesh.Result: 200 vertices, 396 faces>
     >>> len(result.V) - len(result.kept_vertices)  # of 200, others are on the seam
     168
     >>> bool((result.V[:len(result.kept_vertices)] == V[result.kept_vertices]).all())
@@ -40,7 +42,8 @@ class Result:
     #: the first ones of the result. Otherwise of length 0.
     kept_vertices: NDArray[np.int64]
     kept_faces: NDArray[np.int64]
-    #: What was done and found: the keys of the program's ``--report``.
+    #: What was done and found: the keys of the program's ``--report``. ``report["warnings"]`` is a
+    #: list of the texts of which the program would warn.
     report: dict[str, Any]
     #: Values of the input that were carried over, by name.
     vertex_data: dict[str, NDArray[Any]]
@@ -49,6 +52,11 @@ class Result:
     uv: NDArray[np.float64] | None
     #: The result as what was given: an object of the same type with its data, or ``(V, F)``.
     mesh: Any
+
+    def __repr__(self) -> str:
+        count = len(self.report["warnings"])
+        warnings = f", {count} warning{'s' if count > 1 else ''}" if count else ""
+        return f"<remesh.Result: {len(self.V)} vertices, {len(self.F)} faces{warnings}>"
 
 
 def remesh(
@@ -89,6 +97,7 @@ def remesh(
     delaunay: str = "intrinsic",
     seed: int = 1,
     threads: int = 0,
+    memory_limit: Any = "75%",
     progress: Progress | None = None,
 ) -> Result:
     """Replaces a mesh by a clean one whose vertices are distributed as asked for.
@@ -109,8 +118,8 @@ def remesh(
     Where:
 
     - ``adaptive``: shorter edges where the surface is curved.
-    - ``sizing``: the length of edges at each vertex (#V numbers, a function of V, or the name of
-      values of the mesh). It gives the number of vertices, too, if nothing else does; otherwise
+    - ``sizing``: the length of edges at each vertex (#V numbers, one for all, a function of V, or
+      the name of values of the mesh). It gives the number of vertices, too, if nothing else does; otherwise
       lengths count only relative to each other.
     - ``density``: likewise, vertices per area in any unit.
     - ``min_edge``, ``max_edge``, ``gradation`` (1.3): bounds of edges that differ.
@@ -119,7 +128,8 @@ def remesh(
 
     - ``features``: creases that become chains of edges: ``"auto"``, ``"off"``, or all above an
       angle in degrees. ``feature_edges``: pairs of vertices that are creases as well.
-      ``face_labels``: borders between faces of different labels are creases as well.
+      ``face_labels``: borders between faces of different labels, or of different values of the mesh
+      that have this name, are creases as well.
     - ``junctions``: ``"apart"`` or ``"keep"``; ``boundary``: ``"keep"`` or ``"free"``;
       ``topology``: ``"exact"``, or ``"add"`` to add vertices that the topology needs.
     - ``drop_components``: smaller components are dropped; a share of the area from 0 to 1.
@@ -127,7 +137,8 @@ def remesh(
       or the name of such values of the mesh. All others stay, bit for bit, and are the first ones
       of the result (Result.kept_faces). ``n``, ``faces`` and lengths count in the region, the
       vertices that it shares with other faces included. Not with ``sites`` or ``drop_components``.
-    - ``lock``: vertices that stay where they are, bit for bit. Not with ``sites``.
+    - ``lock``: vertices that stay where they are, bit for bit: their numbers, or #V truth values.
+      Not with ``sites``.
     - ``strict``: ConstraintUnmet if the result has more pairs of intersecting faces than the input,
       or is too coarse for creases, walls or components of it. Otherwise the report tells.
     - ``transfer``: values of the input for the result: ``"all"`` that the mesh object has,
@@ -144,10 +155,14 @@ def remesh(
     ``delaunay`` (``"intrinsic"``, ``"extrinsic"``, ``"off"``), ``seed``, ``threads`` (0: all
     cores; the same bytes for any number).
 
-    progress: ``progress(fraction, stage)`` is called some twenty times a second, and ends the call
-    with Cancelled if it returns something false other than None. What it raises passes through.
+    ``memory_limit``: OutOfMemory where the process would use more, before the work if that is clear
+    by then: bytes, ``"500M"``, ``"3G"``, a percentage of what the machine has, or None.
 
-    Raises InvalidOption, InvalidInput, InvalidSites, ConstraintUnmet, Cancelled, and
+    progress: ``progress(fraction, stage)`` is called some twenty times a second; fractions are those
+    of the whole call, never fall, and end with 1. It ends the call with Cancelled if it returns
+    something false other than None. What it raises passes through.
+
+    Raises InvalidOption, InvalidInput, InvalidSites, ConstraintUnmet, OutOfMemory, Cancelled, and
     KeyboardInterrupt after Ctrl-C in the main thread; all but the last are remesh.Error.
 
     >>> V, F = remesh.examples.torus()
@@ -202,10 +217,11 @@ def remesh(
     options.seed = _arrays.whole(seed, "seed", 0, 2**64 - 1)
     options.num_threads = _arrays.whole(threads, "threads", 0, 2**31 - 1)
     wanted = _transfer.wanted(mesh, transfer)
-    texture = _transfer.texture(mesh, uv)
+    texture = _transfer.texture(mesh, uv, transfer)
     if texture is not None:
         options.texture_seams = _remesh.texture_seams(texture, mesh.V, mesh.F)
-    return _run(mesh, options, wanted, texture, bool(strict), progress)
+    return _run(mesh, options, wanted, texture, bool(strict),
+                _options.memory_limit(memory_limit), progress)
 
 
 def _is_count(value: Any) -> bool:
@@ -218,15 +234,16 @@ def _is_count(value: Any) -> bool:
     return True
 
 
-def _run(mesh: _kinds.Mesh, options: _remesh.Options, wanted: _transfer.Wanted,
-         texture: _arrays.Floats | None, strict: bool, progress: Progress | None) -> Result:
+def _run(mesh: _kinds.Given, options: _remesh.Options, wanted: _transfer.Wanted,
+         texture: _arrays.Floats | None, strict: bool, memory_limit: str,
+         progress: Progress | None) -> Result:
     if progress is not None and not callable(progress):
         raise InvalidOption(f"progress is {progress!r}; give a function of a fraction and a stage")
     (new_V, new_F, source_face, barycentric, samples, kept_vertices, kept_faces,
-     text) = _remesh.remesh(mesh.V, mesh.F, options, bool(wanted.of_faces), progress)
+     text) = _remesh.remesh(mesh.V, mesh.F, options, bool(wanted.of_faces), strict, memory_limit,
+                              progress)
     report = json.loads(text)
-    if strict:
-        _require_all(report)
+    report["warnings"] = mesh.warnings + report["warnings"]
     of_vertices, of_faces = _transfer.carry(wanted, mesh, new_V, new_F, source_face, barycentric,
                                             samples)
     _transfer.keep(wanted.of_vertices, kept_vertices, of_vertices)
@@ -235,25 +252,5 @@ def _run(mesh: _kinds.Mesh, options: _remesh.Options, wanted: _transfer.Wanted,
         texture, mesh, new_V, new_F, source_face, barycentric, kept_faces, options.num_threads)
     like_V, like_F = mesh.like_given(new_V, new_F)
     return Result(like_V, like_F, source_face, barycentric, kept_vertices, kept_faces, report,
-                  of_vertices, of_faces, uv, mesh.build(like_V, like_F, of_vertices, of_faces))
-
-
-def _require_all(report: dict[str, Any]) -> None:
-    """What ``strict`` asks for, as --strict does."""
-    features, verdict = report["features"], report["verdict"]
-    needed = {"creases": (features["dropped_crease_length_mesh_units"], features["samples_for_all"]),
-              "walls": (verdict["thin_walls"], verdict["samples_for_walls"]),
-              "components": (verdict["small_components"], verdict["samples_for_components"])}
-    lost = {name: samples for name, (count, samples) in needed.items() if count > 0}
-    if lost:
-        samples = max(lost.values())
-        remedy = f"about {samples}" if samples > 0 else "more"
-        raise ConstraintUnmet(f"the result is too coarse for some {', '.join(lost)}; use {remedy} "
-                              "vertices, or leave out strict")
-    pairs, before = (report[key] or 0 for key in ("self_intersecting_pairs",
-                                                  "input_self_intersecting_pairs"))
-    if pairs > before:
-        # Where the input intersects itself, more vertices give more pairs.
-        remedy = "use more vertices" if before == 0 else "mend the input"
-        raise ConstraintUnmet(f"the result has {pairs} pairs of intersecting faces, the input has "
-                              f"{before}; {remedy}, or leave out strict")
+                  of_vertices, of_faces, uv,
+                  mesh.build(like_V, like_F, of_vertices, of_faces, uv))

@@ -71,7 +71,7 @@ class Cleaned(NamedTuple):
     repairs: dict[str, int]
 
 
-def take_sites(mesh: _kinds.Mesh, sites: Any) -> tuple[_arrays.Indices, _arrays.Floats]:
+def take_sites(mesh: _kinds.Given, sites: Any) -> tuple[_arrays.Indices, _arrays.Floats]:
     """Sites as users give them: see voronoi()."""
     if isinstance(sites, tuple) and len(sites) == 2:
         return _take_points(mesh, sites[0], sites[1])
@@ -87,7 +87,7 @@ def take_sites(mesh: _kinds.Mesh, sites: Any) -> tuple[_arrays.Indices, _arrays.
                        "barycentric coordinates (k x 3)")
 
 
-def _take_points(mesh: _kinds.Mesh, faces: Any,
+def _take_points(mesh: _kinds.Given, faces: Any,
                  barycentric: Any) -> tuple[_arrays.Indices, _arrays.Floats]:
     numbers = _arrays.integers(faces, "the sites' faces")
     places = np.asarray(barycentric)
@@ -107,7 +107,7 @@ def _check(numbers: NDArray[Any], count: int, one: str, many: str) -> None:
                            f"{count} {many}, counted from 0; correct the site")
 
 
-def _at_vertices(mesh: _kinds.Mesh,
+def _at_vertices(mesh: _kinds.Given,
                  vertices: NDArray[Any]) -> tuple[_arrays.Indices, _arrays.Floats]:
     _check(vertices, len(mesh.V), "vertex", "vertices")
     corner_of = np.full(len(mesh.V), -1, np.int64)
@@ -122,7 +122,7 @@ def _at_vertices(mesh: _kinds.Mesh,
     return (corner // 3).astype(np.uint32), barycentric
 
 
-def _nearest(mesh: _kinds.Mesh, points: NDArray[Any]) -> tuple[_arrays.Indices, _arrays.Floats]:
+def _nearest(mesh: _kinds.Given, points: NDArray[Any]) -> tuple[_arrays.Indices, _arrays.Floats]:
     places = _arrays.positions(points, "sites")
     for name, array, remedy in (("site", places, "site"), ("vertex", mesh.V, "vertex")):
         is_finite = np.isfinite(array).all(axis=1)

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _arrays, _remesh
-from ._kinds import Data, Mesh
-from ._remesh import InvalidInput, InvalidOption
+from ._kinds import Data, Given
+from ._remesh import InvalidOption
 
 
 @dataclass
@@ -22,7 +22,7 @@ class Wanted:
     of_faces: Data = field(default_factory=dict)
 
 
-def wanted(mesh: Mesh, transfer: Any) -> Wanted:
+def wanted(mesh: Given, transfer: Any) -> Wanted:
     """What ``transfer`` of remesh() asks for."""
     if transfer is None or isinstance(transfer, str):
         names: list[str] | None = None if transfer in (None, "all") else [str(transfer)]
@@ -36,7 +36,7 @@ def wanted(mesh: Mesh, transfer: Any) -> Wanted:
     raise InvalidOption(f"transfer is {transfer!r}; use 'all', 'none', names, or arrays by name")
 
 
-def _of_mesh(mesh: Mesh, names: list[str] | None) -> Wanted:
+def _of_mesh(mesh: Given, names: list[str] | None) -> Wanted:
     of_vertices, of_faces = mesh.data()
     for name in names or []:
         if name not in of_vertices and name not in of_faces:
@@ -46,7 +46,7 @@ def _of_mesh(mesh: Mesh, names: list[str] | None) -> Wanted:
                   {k: v for k, v in of_faces.items() if names is None or k in names})
 
 
-def _given(mesh: Mesh, arrays: Mapping[Any, Any]) -> Wanted:
+def _given(mesh: Given, arrays: Mapping[Any, Any]) -> Wanted:
     result = Wanted()
     for name, given in arrays.items():
         element, given = given if isinstance(given, tuple) else (None, given)
@@ -63,7 +63,7 @@ def _given(mesh: Mesh, arrays: Mapping[Any, Any]) -> Wanted:
     return result
 
 
-def carry(wanted: Wanted, mesh: Mesh, V: NDArray[Any], F: NDArray[Any], faces: NDArray[Any],
+def carry(wanted: Wanted, mesh: Given, V: NDArray[Any], F: NDArray[Any], faces: NDArray[Any],
           barycentric: NDArray[Any], samples: NDArray[Any]) -> tuple[Data, Data]:
     """The values for the result's vertices and faces.
 
@@ -76,38 +76,30 @@ def carry(wanted: Wanted, mesh: Mesh, V: NDArray[Any], F: NDArray[Any], faces: N
         return _remesh.transfer_face_values(values, samples, is_label)
 
     of_vertices = {name: _carry_one(values, at_vertices)
-                   for name, values in wanted.of_vertices.items() if name != Mesh.normals}
-    if Mesh.normals in wanted.of_vertices:
+                   for name, values in wanted.of_vertices.items() if name != Given.normals}
+    if Given.normals in wanted.of_vertices:
         normals = _remesh.vertex_normals(V, F)
-        of_vertices[Mesh.normals] = normals.astype(wanted.of_vertices[Mesh.normals].dtype)
+        of_vertices[Given.normals] = normals.astype(wanted.of_vertices[Given.normals].dtype)
     of_faces = {name: _carry_one(values, at_faces)
-                for name, values in wanted.of_faces.items() if name != Mesh.normals}
+                for name, values in wanted.of_faces.items() if name != Given.normals}
     return of_vertices, of_faces
 
 
 def keep(wanted: Data, elements: NDArray[np.int64], carried: Data) -> None:
     """The first ones of the result are these elements of the input, and have its values."""
     for name, values in wanted.items():
-        if name != Mesh.normals:
+        if name != Given.normals:
             carried[name][:len(elements)] = values[elements]
 
 
-def texture(mesh: Mesh, uv: Any) -> _arrays.Floats | None:
+def texture(mesh: Given, uv: Any, transfer: Any) -> _arrays.Floats | None:
     """The texture coordinates of remesh(), for each corner: #F x 3 x 2."""
-    if uv is None:
-        return None
-    given = np.asarray(uv)
-    if given.dtype.kind not in "fiu":
-        raise InvalidInput(f"uv holds {given.dtype}; give numbers")
-    of_vertices, of_corners = (len(mesh.V), 2), (len(mesh.F), 3, 2)
-    if given.shape not in (of_vertices, of_corners):
-        raise InvalidInput(f"uv has the shape {given.shape}; give a pair for each corner of each "
-                           f"face, {of_corners}, or for each vertex, {of_vertices}")
-    corners = given if given.shape == of_corners else given[mesh.F]
-    return np.require(corners, np.float64, ["C", "A"])
+    if uv is None and transfer == "all":
+        uv = mesh.uv
+    return _arrays.corners(uv, len(mesh.V), mesh.F)
 
 
-def carry_texture(uv: _arrays.Floats, mesh: Mesh, V: NDArray[Any], F: NDArray[Any],
+def carry_texture(uv: _arrays.Floats, mesh: Given, V: NDArray[Any], F: NDArray[Any],
                   faces: NDArray[Any], barycentric: NDArray[Any], kept_faces: NDArray[Any],
                   num_threads: int) -> _arrays.Floats:
     """Those of the result, whose first faces are `kept_faces` of the input; see carry()."""

@@ -1,0 +1,16 @@
+# By default the Python module is built where pybind11 is there. NumPy and pybind11 of the system belong to the
+# system's interpreter, not to the first in PATH.
+if(NOT Python_EXECUTABLE)
+    find_program(Python_EXECUTABLE python3 PATHS /usr/bin NO_DEFAULT_PATH)
+endif()
+macro(agvd_find_python)
+    find_package(Python 3.9 COMPONENTS Interpreter Development.Module ${ARGN})
+    find_package(pybind11 2.10 ${ARGN})
+endmacro()
+if(top_level AND NOT DEFINED AGVD_BUILD_PYTHON)
+    agvd_find_python(QUIET)
+endif()
+cmake_dependent_option(AGVD_BUILD_PYTHON "Build the Python module" "${pybind11_FOUND}" AGVD_BUILD_REMESH OFF)
+if(AGVD_BUILD_PYTHON)
+    agvd_find_python(REQUIRED)
+endif()

@@ -1,0 +1,34 @@
+#include "declined.h"
+
+#include <map>
+
+#include "remesh/io/write_mesh.h"
+
+namespace cli {
+
+std::vector<std::string> describe(const std::vector<remesh::DeclinedAttribute>& declined) {
+    std::map<std::string, std::string> names;
+    for (const remesh::DeclinedAttribute& one : declined) {
+        std::string& list = names[one.reason];
+        list += (list.empty() ? "" : ", ") + one.name;
+    }
+    std::vector<std::string> texts;
+    for (const auto& [reason, list] : names) texts.push_back(list + ": " + reason);
+    return texts;
+}
+
+void decline_unwritable(const remesh::MeshPath& output, remesh::MeshAttributes& attributes) {
+    const std::string files = "." + remesh::mesh_format(output) + " files";
+    const bool has_texture = !attributes.texture.empty();
+    const bool has_seams = !attributes.texture.seams.empty();
+    for (const std::string& name : remesh::remove_unwritable(output, attributes)) {
+        const bool is_texture =
+            has_texture && name == std::string("corner ") + remesh::TextureCoordinates::name;
+        attributes.declined.push_back(
+            {name, files + " have no place for " +
+                       (is_texture && has_seams ? "texture coordinates with seams" : "it") +
+                       "; write .ply to keep it"});
+    }
+}
+
+}  // namespace cli
