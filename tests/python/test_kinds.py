@@ -134,6 +134,53 @@ def test_values_that_fit_both_elements_need_a_name_of_one():
     assert len(result.vertex_data["x"]) == 50 and len(result.face_data["f"]) == len(result.F)
 
 
+def test_vtk_poly_data_comes_back_as_such(torus):
+    vtk = pytest.importorskip("vtkmodules.vtkCommonDataModel")
+    V, F = torus
+    mesh = given_vtk(vtk, V, F)
+    result = remesh.remesh(mesh, 300)
+    expected = remesh.remesh(V, F, 300)
+    assert type(result.mesh) is type(mesh) and np.array_equal(result.V, expected.V)
+    assert np.array_equal(np.asarray(result.mesh.GetPoints().GetData()), expected.V)
+    assert result.mesh.GetNumberOfPolys() == len(expected.F)
+    height = np.asarray(result.mesh.GetPointData().GetArray("height"))
+    assert np.abs(height - result.V[:, 2]).max() < 0.02
+    assert set(np.asarray(result.mesh.GetCellData().GetArray("side"))) == {0, 1}
+
+
+def given_vtk(vtk, V, F):
+    given = remesh._kinds.VtkMesh(vtk.vtkPolyData())
+    side = (V[F].mean(axis=1)[:, 0] > 0).astype(np.int32)
+    return given.build(V, F, {"height": V[:, 2].copy()}, {"side": side})
+
+
+def test_meshio_comes_back_as_meshio(torus):
+    meshio = pytest.importorskip("meshio")
+    V, F = torus
+    line = ("line", F[:2, :2])  # Is left out, with its values.
+    side = (V[F].mean(axis=1)[:, 0] > 0).astype(np.int32)
+    mesh = meshio.Mesh(V, [line, ("triangle", F)], point_data={"height": V[:, 2]},
+                       cell_data={"side": [np.array([7, 7]), side]})
+    result = remesh.remesh(mesh, 300)
+    assert type(result.mesh) is meshio.Mesh
+    assert np.array_equal(result.V, remesh.remesh(V, F, 300).V)
+    assert np.array_equal(result.mesh.cells_dict["triangle"], result.F)
+    assert np.abs(result.mesh.point_data["height"] - result.V[:, 2]).max() < 0.02
+    assert set(result.mesh.cell_data["side"][0]) == {0, 1}
+    with pytest.raises(remesh.InvalidInput, match="no triangle, quad or polygon, but line"):
+        remesh.remesh(meshio.Mesh(V, [line]), 300)
+
+
+def test_quads_of_meshio_are_cut_into_triangles():
+    meshio = pytest.importorskip("meshio")
+    V = np.array(np.meshgrid([0, 1], [0, 1], [0, 1])).reshape(3, -1).T.astype(float)
+    quads = np.array([[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2],
+                      [1, 3, 7, 5]])
+    mesh = meshio.Mesh(V, [("quad", quads)], cell_data={"side": [np.arange(6)]})
+    result = remesh.remesh(mesh, 100)
+    assert len(result.V) == 100 and set(result.face_data["side"]) == set(range(6))
+
+
 def test_pyvista():
     pyvista = pytest.importorskip("pyvista")
     mesh = pyvista.Sphere()
