@@ -14,6 +14,8 @@
 #include "remesh/io/read_mesh.h"
 #include "remesh/io/report.h"
 #include "remesh/io/write_diagram.h"
+#include "remesh/relax/prepared_surface.h"
+#include "shortfalls.h"
 
 namespace fs = std::filesystem;
 
@@ -83,9 +85,11 @@ void run_diagram(const DiagramArguments& arguments, cli::Console& console) {
     const agvd::MeshView mesh = input.mesh.view();
     console.info(cli::describe(arguments.input, mesh));
     console.expect(cli::stages_of_diagram(mesh.triangles.size(), arguments.sampling.num_samples));
-    const remesh::CleanResult clean = cli::naming_file(arguments.input, [&] {
-        return remesh::clean_input(mesh, arguments.common.threads, console.progress_of("clean"));
-    });
+    remesh::CleanOptions cleaning = arguments.cleaning;
+    cleaning.num_threads = arguments.common.threads;
+    cleaning.progress = console.progress_of("clean");
+    const remesh::CleanResult clean =
+        cli::naming_file(arguments.input, [&] { return remesh::clean_input(mesh, cleaning); });
     console.info(remesh::to_text(clean.counts));
     const agvd::Surface surface = agvd::build_surface(clean.mesh.view(), arguments.common.threads,
                                                       console.progress_of("clean"));
@@ -93,6 +97,8 @@ void run_diagram(const DiagramArguments& arguments, cli::Console& console) {
     const std::vector<agvd::SurfacePoint> sites =
         arguments.sites.empty() ? sample(arguments, surface, console)
                                 : given_sites(arguments, mesh, clean, console);
+    const double spacing = remesh::mean_spacing(surface, sites.size());
+    if (clean.slit_length > spacing) console.warn(cli::welded_slit_text(clean.slit_length));
     agvd::PropagationOptions propagating = arguments.propagation;
     propagating.num_threads = arguments.common.threads;
     const auto [diagram, certified_error] = cli::naming_file(

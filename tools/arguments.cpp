@@ -198,6 +198,9 @@ void add_diagram_options(CLI::App& app, DiagramArguments& arguments) {
     app.add_flag(
         "--lenient", arguments.is_lenient,
         "If a file holds more elements than its header announces, read only those announced");
+    app.add_flag("--keep-slits", arguments.cleaning.keep_slits,
+                 "Leave edges open that lie at one place, such as the two sides of a slit; by "
+                 "default they are welded");
     add_common_options(app, arguments.common);
 }
 

@@ -12,6 +12,7 @@
 
 #include "agvd/propagation/propagate.h"
 #include "cli.h"
+#include "remesh/clean/clean_input.h"
 #include "remesh/io/read_mesh.h"
 #include "remesh/sampling/sample_sites.h"
 
@@ -26,6 +27,7 @@ struct DiagramArguments {
     std::filesystem::path input;
     std::string from;             //!< Its format; empty: by the extension.
     std::filesystem::path sites;  //!< Empty: sample.
+    remesh::CleanOptions cleaning;
     remesh::SamplingOptions sampling;
     double sample_percent = 0;  //!< Of the input's vertices; 0: sampling.num_samples counts.
     agvd::PropagationOptions propagation;
@@ -55,7 +57,8 @@ struct Amount {
 [[nodiscard]] agvd::Index num_samples_for(const DiagramArguments& arguments,
                                           std::size_t num_vertices);
 
-//! Adds IN, --from, --samples, --init, --seed, --sites, --engine, --max-error, --steiner-points,
+//! Adds IN, --from, --keep-slits, --samples, --init, --seed, --sites, --engine, --max-error,
+//! --steiner-points,
 //! --lambda,
 //! --memory-limit, --force, --lenient and the common options.
 void add_diagram_options(CLI::App& app, DiagramArguments& arguments);

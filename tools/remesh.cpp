@@ -310,6 +310,7 @@ Input prepare(const Arguments& arguments, cli::Console& console) {
     };
     const std::size_t num_vertices = cli::num_vertices_in(region, input.mesh.view());
     remesh::RemeshOptions options{.num_samples = cli::num_samples_for(arguments, num_vertices),
+                                  .cleaning = arguments.cleaning,
                                   .sizing = std::move(sizing),
                                   .vertex_count = arguments.vertex_count,
                                   .boundary = arguments.sampling.boundary,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <string>
 
 #include "agvd/core/error.h"
@@ -93,12 +94,29 @@ void warn_of_seams(const remesh::FeatureCounts& counts, Warnings& warnings) {
         "use more --samples");
 }
 
+double spacing_of(const remesh::RemeshResult& result) {
+    double area = 0;
+    for (const auto& component : result.input_topology.components) area += component.area;
+    return std::sqrt(area / static_cast<double>(result.mesh.positions.size()));
+}
+
 }  // namespace
+
+std::string welded_slit_text(double length) {
+    std::ostringstream text;
+    text << "a slit of length " << length
+         << " in mesh units was welded, as its two sides lie at one place; use --keep-slits to "
+            "leave it open, unless it is a seam of a texture";
+    return text.str();
+}
 
 std::vector<std::string> shortfalls_of(const remesh::RemeshResult& result,
                                        const remesh::RemeshOptions& options, bool strict) {
     Warnings warnings;
     judge(result, strict, warnings);
+    if (result.welded_slit_length > spacing_of(result)) {
+        warnings.push_back(welded_slit_text(result.welded_slit_length));
+    }
     warn_of_junctions(result.junctions, options.junctions, warnings);
     warn_of_seams(result.features, warnings);
     warn_of_bounds(result.sizing, options.sizing, warnings);

@@ -10,7 +10,10 @@
 
 namespace cli {
 
-//! \return warnings of self-intersections that the input does not have, of sheets that should be
+//! A warning of a slit of that length, in mesh units.
+[[nodiscard]] std::string welded_slit_text(double length);
+
+//! \return warnings of slits longer than the spacing that were welded, of self-intersections that the input does not have, of sheets that should be
 //!         welded but could not be, of lost seams of texture coordinates, and of bounds of the
 //!         edges that give way to the number of vertices.
 //! \param options  as passed to remesh().

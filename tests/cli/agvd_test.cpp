@@ -1,9 +1,11 @@
 // The program `agvd` as a process.
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "agvd/diagram/cells.h"
 #include "remesh/io/read_diagram.h"
 #include "remesh/io/read_mesh.h"
+#include "support/dirty_shapes.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
 
@@ -45,6 +47,26 @@ TEST_F(AgvdDiagram, OneAndTwoSitesDoOnAnySurface) {
                       n == 1 || in == two_grids);
         }
     }
+}
+
+// The site is a quarter below the middle of the slit, the other vertex a quarter above it.
+TEST_F(AgvdDiagram, ASlitIsWeldedWithAWarningOrLeftOpen) {
+    const std::string in = put("in.off", shapes::slit_grid(8, 2, 6));
+    const auto distance_across = [&](std::vector<std::string> options, std::string& err) {
+        const std::string sites = put("s", "p .5 .25 0\n");
+        options.insert(options.begin(), {in, "-q", "--sites", sites, "-o", at("d.ply")});
+        err = diagram(options).err;
+        const remesh::MeshFile file =
+            remesh::read_mesh(at("d.ply"), remesh::ReadOptions{.with_attributes = true});
+        return file.attributes.of_vertices.at(1).values.at(4 * 9 + 6);
+    };
+    std::string err;
+    EXPECT_NEAR(distance_across({}, err), 0.5, 1e-4);
+    EXPECT_EQ(err, "") << "shorter than the spacing of one site, 1";
+    EXPECT_NEAR(distance_across({"--keep-slits"}, err), std::sqrt(0.5), 1e-4);
+    EXPECT_EQ(err, "");
+    const auto outcome = diagram({in, "-q", "-n", "20", "-o", at("d.ply")});
+    EXPECT_NE(outcome.err.find("a slit of length 0.5 "), std::string::npos) << outcome.err;
 }
 
 TEST_F(AgvdDiagram, SitesMayLieInDirtyMeshes) {

@@ -5,6 +5,7 @@
 #include "remesh/io/read_mesh.h"
 #include "remesh/io/xml_reader.h"
 #include "remesh/topology/topology.h"
+#include "support/dirty_shapes.h"
 #include "support/shapes.h"
 
 namespace {
@@ -51,6 +52,21 @@ TEST_F(Remesh, SameBytesForAnyThreadsAndLambdaButNotForAnySeed) {
     EXPECT_NE(with({"--init", "random"}), reference);
     EXPECT_NE(with({"--init", "farthest"}), reference);
     EXPECT_NE(with({"--init", "farthest"}), with({"--init", "random"}));
+}
+
+TEST_F(Remesh, ASlitIsWeldedWithAWarningOrLeftOpen) {
+    const std::string in = put("in.off", shapes::slit_grid(8, 2, 6));
+    const auto loops = [&](std::vector<std::string> options, std::string& err) {
+        options.insert(options.begin(), {in, at("out.off"), "-q", "-n", "60"});
+        err = remesh(options).err;
+        const auto mesh = remesh::read_mesh(at("out.off")).mesh;
+        return remesh::analyze_topology(mesh.view()).components.at(0).boundary_loops;
+    };
+    std::string err;
+    EXPECT_EQ(loops({}, err), 1);
+    EXPECT_NE(err.find("a slit of length 0.5 "), std::string::npos) << err;
+    EXPECT_EQ(loops({"--keep-slits"}, err), 2);
+    EXPECT_EQ(err, "");
 }
 
 TEST_F(Remesh, MoreSamplesThanVerticesWork) {

@@ -62,7 +62,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const double pieces = bytes.pick({0.0, 2.0, 5.0});
     Surface surface;
     try {
-        surface = build_surface(remesh::clean_input(fuzz::small_mesh(bytes).view(), 1).mesh.view());
+        surface = build_surface(
+            remesh::clean_input(fuzz::small_mesh(bytes).view(), {.num_threads = 1}).mesh.view());
     } catch (const InvalidInput&) {
         return 0;
     }

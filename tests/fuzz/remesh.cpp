@@ -87,7 +87,7 @@ void check_result(const TriangleMesh& mesh, const remesh::RemeshOptions& options
     require(topology.is_manifold && topology.is_oriented, "the result is a manifold");
     require(same_topology(topology, result.input_topology), "the topology is kept");
     if (options.drop_components > 0) return;
-    const TriangleMesh clean = remesh::clean_input(mesh.view(), 1).mesh;
+    const TriangleMesh clean = remesh::clean_input(mesh.view(), {.num_threads = 1}).mesh;
     require(same_topology(topology, remesh::analyze_topology(clean.view())),
             "the topology is that of the cleaned input");
 }

@@ -66,6 +66,29 @@ def test_closed_bisectors_end_where_they_begin(sphere):
     assert np.shares_memory(line, diagram.points)
 
 
+def slit_square():
+    """A slit from (.25, .5) to (.75, .5); its sides coincide."""
+    V, F = flat_square(8)
+    F = F.copy()
+    is_above = V[F, 1].mean(axis=1) > 0.5
+    for below in [i * 9 + 4 for i in (3, 4, 5)]:
+        F[is_above[:, None] & (F == below)] = len(V)
+        V = np.vstack([V, V[below]])
+    return V, F
+
+
+def test_slits_are_welded_or_left_open():
+    V, F = slit_square()
+    source, across = 4 * 9 + 2, 4 * 9 + 6
+    for call in (remesh.geodesic_distance, lambda *a, **more: remesh.voronoi(*a, **more).distances):
+        assert call(V, F, [source], 0)[across] == pytest.approx(0.5)
+        assert call(V, F, [source], 0, keep_slits=True)[across] == pytest.approx(0.5**0.5)
+    assert remesh.clean(V, F).repairs["welded_vertices"] == 3
+    assert remesh.clean(V, F, keep_slits=True).repairs["welded_vertices"] == 0
+    assert remesh.remesh(V, F, 60, keep_slits=True).report["output"]["boundary_loops"] == 2
+    assert remesh.remesh(V, F, 60).report["welded_slit_length_mesh_units"] == 0.5
+
+
 def test_one_and_two_sites_do_on_a_torus(torus):
     one = remesh.voronoi(*torus, remesh.sample_sites(*torus, 1), 0)
     assert (one.labels == 0).all() and one.cell_euler[0] == 0 and len(one.bisectors) == 0

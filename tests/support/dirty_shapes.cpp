@@ -2,6 +2,7 @@
 // area), and random damage to good meshes. The choices depend on the seed only.
 #include "support/dirty_shapes.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -88,6 +89,21 @@ TriangleMesh filled_slit(Index n) {
     for (Index i = 0; i < n; ++i) mesh.triangles.push_back({on_line(i), on_line(i + 1), 2});
     for (Index i = 0; i + 1 < n; ++i) {
         mesh.triangles.push_back({on_line(i), on_line(n), on_line(i + 1)});
+    }
+    return mesh;
+}
+
+TriangleMesh slit_grid(Index n, Index begin, Index end) {
+    TriangleMesh mesh = grid(n);
+    for (Index i = begin + (begin > 0 ? 1 : 0); i < end + (end < n ? 0 : 1); ++i) {
+        const Index below = i * (n + 1) + n / 2;
+        const auto above = static_cast<Index>(mesh.positions.size());
+        for (agvd::Triangle& t : mesh.triangles) {
+            const double height =
+                mesh.positions[t[0]].y() + mesh.positions[t[1]].y() + mesh.positions[t[2]].y();
+            if (height > 1.5) std::replace(t.begin(), t.end(), below, above);
+        }
+        mesh.positions.push_back(Vec3(mesh.positions[below]));
     }
     return mesh;
 }

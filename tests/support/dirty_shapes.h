@@ -19,6 +19,10 @@ namespace shapes {
 //! Unit square whose lower half has the middle edge whole, its upper half in `n` pieces; n - 1
 //! faces without area fill the slit.
 [[nodiscard]] agvd::TriangleMesh filled_slit(agvd::Index n);
+//! shapes::grid(n), n even, with a slit along y = 1/2 from x = begin / n to end / n, 0 <= begin <
+//! end
+//! <= n. The sides coincide; tips inside the square are one vertex.
+[[nodiscard]] agvd::TriangleMesh slit_grid(agvd::Index n, agvd::Index begin, agvd::Index end);
 //! Reproducible damage to any mesh: faces turned, repeated and deleted, corners exchanged, vertices
 //! doubled, isolated and moved onto others.
 [[nodiscard]] agvd::TriangleMesh damage(agvd::TriangleMesh mesh, agvd::Index times,

@@ -48,6 +48,20 @@ TEST(Shortfalls, ARefusalNamesTheSamplesThatWouldDoForAll) {
     EXPECT_EQ(cli::shortfalls_of(result, {}, false), Warnings());
 }
 
+// Four vertices on an area of 4 are a unit apart.
+TEST(Shortfalls, ASlitLongerThanTheSpacingIsWarnedOf) {
+    RemeshResult result;
+    result.mesh.positions.resize(4);
+    result.input_topology.components = {{.area = 1}, {.area = 3}};
+    result.welded_slit_length = 1.25;
+    EXPECT_EQ(
+        cli::shortfalls_of(result, {}, false),
+        Warnings{"a slit of length 1.25 in mesh units was welded, as its two sides lie at one "
+                 "place; use --keep-slits to leave it open, unless it is a seam of a texture"});
+    result.welded_slit_length = 0.9;
+    EXPECT_EQ(cli::shortfalls_of(result, {}, false), Warnings());
+}
+
 TEST(Shortfalls, BoundsOfEdgesAndLostSeamsAndJunctionsAreWarnedOf) {
     RemeshResult result;
     result.sizing = {.num_samples = 50, .least_target = 1, .largest_target = 4};

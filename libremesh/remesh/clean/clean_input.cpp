@@ -54,8 +54,8 @@ bool has_area(std::span<const agvd::Vec3> positions, const Triangle& t) {
 }
 
 // The input unchanged, if it has no defect. Makes linear passes only.
-std::optional<CleanResult> take_clean(const agvd::MeshView& mesh, int num_threads,
-                                      const agvd::Progress& progress) {
+std::optional<CleanResult> take_clean(const agvd::MeshView& mesh, const CleanOptions& options) {
+    const auto& [keep_slits, num_threads, progress] = options;
     agvd::Poller poller(progress);
     agvd::Ticker ticker(poller);
     std::optional<agvd::Connectivity> found = agvd::find_connectivity(mesh, num_threads, progress);
@@ -86,9 +86,11 @@ std::optional<CleanResult> take_clean(const agvd::MeshView& mesh, int num_thread
         ticker.tick();
         is_boundary[v] = twin[outgoing[v]] == no_index;
     }
-    const std::vector<Index> place = find_places(mesh, is_boundary, ticker);
-    for (Index v = 0; v < place.size(); ++v) {
-        if (place[v] != no_index && place[v] != v) return std::nullopt;  // Possibly a crack.
+    if (!keep_slits) {
+        const std::vector<Index> place = find_places(mesh, is_boundary, ticker);
+        for (Index v = 0; v < place.size(); ++v) {
+            if (place[v] != no_index && place[v] != v) return std::nullopt;  // Possibly a crack.
+        }
     }
     Soup soup = as_soup(mesh, ticker);
     return CleanResult{{std::move(soup.positions), std::move(soup.triangles)},
@@ -96,6 +98,7 @@ std::optional<CleanResult> take_clean(const agvd::MeshView& mesh, int num_thread
                        std::move(soup.face_origin),
                        {},
                        {},
+                       0,
                        *std::move(found)};
 }
 
@@ -196,18 +199,17 @@ void drop_isolated_vertices(Soup& soup) {
 
 }  // namespace detail
 
-CleanResult clean_input(const agvd::MeshView& mesh, int num_threads,
-                        const agvd::Progress& progress) {
+CleanResult clean_input(const agvd::MeshView& mesh, const CleanOptions& options) {
     using namespace detail;
-    agvd::Poller poller(progress);
+    agvd::Poller poller(options.progress);
     agvd::Ticker ticker(poller);
     check_elements(mesh, ticker);
-    const agvd::MeshBox box = agvd::box_of(mesh, num_threads);
+    const agvd::MeshBox box = agvd::box_of(mesh, options.num_threads);
     agvd::check_scale(box);
     agvd::check_digits(box);
     agvd::check_spread(mesh, box);
     agvd::check_width(mesh, ticker);
-    if (std::optional<CleanResult> clean = take_clean(mesh, num_threads, progress)) {
+    if (std::optional<CleanResult> clean = take_clean(mesh, options)) {
         return *std::move(clean);
     }
     Soup soup = as_soup(mesh, ticker);
@@ -216,7 +218,7 @@ CleanResult clean_input(const agvd::MeshView& mesh, int num_threads,
     const auto refresh = [&](bool is_changed) {
         if (is_changed) sides = sorted_edge_sides(soup.triangles, soup.ticker);
     };
-    refresh(weld_cracks(soup, sides));
+    if (!options.keep_slits) refresh(weld_cracks(soup, sides));
     const bool is_collapsed = collapse_zero_edges(soup);
     refresh(drop_repeated_corners(soup) || is_collapsed);
     refresh(drop_duplicates(soup, sides));
@@ -233,7 +235,7 @@ CleanResult clean_input(const agvd::MeshView& mesh, int num_threads,
             std::move(soup.face_origin),
             std::move(soup.welded_positions),
             soup.counts,
-            {}};
+            soup.slit_length};
 }
 
 }  // namespace remesh

@@ -23,8 +23,19 @@ struct CleanResult {
     //! welded at one place.
     std::vector<agvd::Vec3> welded_positions;
     CleanCounts counts;  //!< What was repaired.
+    //! Of the longest slit that was welded, in mesh units. A slit is a chain of boundary edges
+    //! whose two sides coincide; it begins at a vertex that both have.
+    double slit_length = 0;
     //! agvd::find_connectivity(mesh) if nothing had to be repaired; otherwise empty.
-    agvd::Connectivity connectivity;
+    agvd::Connectivity connectivity = {};
+};
+
+//! `{}` gives the defaults.
+struct CleanOptions {
+    //! Leaves boundary edges at one place open, such as the two sides of a slit.
+    bool keep_slits = false;
+    int num_threads = 0;           //!< >= 0; 0: all cores. The result is the same for any number.
+    agvd::Progress progress = {};  //!< Polled during the call; see agvd::poll.
 };
 
 //! A cleaned mesh and the origins of its faces, for functions that carry points and edges over.
@@ -56,6 +67,7 @@ struct CleanedView {
 //!    that touch at a point, and closed parts that touch anywhere, stay apart. Positions are one
 //!    place if they are equal, or differ by a millionth of the mesh's longest side at most and by a
 //!    hundredth of each edge there; the first one stays. Zero-length edges collapse.
+//!    With keep_slits only the latter happens.
 //! 2. Faces with a repeated corner and duplicate faces (the first stays) are dropped.
 //! 3. Faces connected through edges of two faces are oriented alike. Consistent pieces are not
 //!    turned. Otherwise a clear majority (3/4) wins; without one, closed pieces are turned outward,
@@ -74,9 +86,7 @@ struct CleanedView {
 //!        of scale (see agvd::check_scale) or too far from the origin, a piece is not orientable
 //!        (each names the element), or no face is left.
 //! \throw agvd::Cancelled     the progress callback returned false.
-//! \param num_threads  >= 0; 0: all cores. The result is the same for any number.
 //! Cost: O(n log n); O(n) if there is no defect.
-[[nodiscard]] CleanResult clean_input(const agvd::MeshView& mesh, int num_threads = 0,
-                                      const agvd::Progress& progress = {});
+[[nodiscard]] CleanResult clean_input(const agvd::MeshView& mesh, const CleanOptions& options = {});
 
 }  // namespace remesh

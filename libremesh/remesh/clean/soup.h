@@ -22,6 +22,7 @@ struct Soup {
     std::vector<agvd::Index> face_origin;           //!< #F: input face.
     std::vector<agvd::Vec3> welded_positions = {};  //!< See CleanResult.
     CleanCounts counts;
+    double slit_length = 0;    //!< See CleanResult.
     agvd::Ticker ticker = {};  //!< Of clean_input(): every pass ticks it.
 
     [[nodiscard]] agvd::Index num_half_edges() const {

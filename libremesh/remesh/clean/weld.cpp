@@ -35,6 +35,55 @@ void keep_welded_positions(agvd::UnionFind& sets, Soup& soup) {
     }
 }
 
+// The vertex of a boundary edge at one of its two places.
+Index end_at(const Soup& soup, std::span<const Index> place, const EdgeSide& side, Index where) {
+    const Index tail = soup.tail(side.half_edge);
+    return place[tail] == where ? tail : soup.head(side.half_edge);
+}
+
+// The vertices of each part of the mesh: faces that are joined by vertices.
+agvd::UnionFind find_parts(Soup& soup) {
+    agvd::UnionFind parts(soup.positions.size());
+    for (const agvd::Triangle& t : soup.triangles) {
+        soup.ticker.tick();
+        (void)parts.unite(t[0], t[1]);
+        (void)parts.unite(t[0], t[2]);
+    }
+    return parts;
+}
+
+// See CleanResult::slit_length. Cracks between parts are no slits, nor are seams of a part that
+// closes by welding, as their sides have ends of their own.
+// \param open  boundary edges, sorted by the places of their ends.
+double longest_slit(Soup& soup, std::span<const EdgeSide> open, std::span<const Index> place) {
+    agvd::UnionFind parts = find_parts(soup), chains(soup.positions.size());
+    std::vector<bool> is_tip(soup.positions.size(), false);
+    std::vector<double> length(soup.positions.size(), 0);  // By place, of edges from it upwards.
+    for_each_edge(open, [&](std::span<const EdgeSide> edge) {
+        soup.ticker.tick();
+        const Index low = edge[0].low(), high = edge[0].high();
+        const auto first = soup.tail(edge[0].half_edge);
+        if (edge.size() < 2 || low == high ||
+            parts.root(first) != parts.root(soup.tail(edge[1].half_edge))) {
+            return;
+        }
+        (void)chains.unite(low, high);
+        length[low] += (soup.positions[high] - soup.positions[low]).norm();
+        for (const Index where : {low, high}) {
+            if (end_at(soup, place, edge[0], where) == end_at(soup, place, edge[1], where)) {
+                is_tip[where] = true;
+            }
+        }
+    });
+    std::vector<double> of_chain(soup.positions.size(), 0);
+    for (Index v = 0; v < length.size(); ++v) of_chain[chains.root(v)] += length[v];
+    double longest = 0;
+    for (Index v = 0; v < length.size(); ++v) {
+        if (is_tip[v]) longest = std::max(longest, of_chain[chains.root(v)]);
+    }
+    return longest;
+}
+
 }  // namespace
 
 // Only edges are welded, and only boundary edges: parts that touch at a point, and closed parts
@@ -61,16 +110,14 @@ bool weld_cracks(Soup& soup, std::span<const EdgeSide> sides) {
     for_each_edge(open, [&](std::span<const EdgeSide> edge) {
         soup.ticker.tick(edge.size());
         if (edge[0].low() == edge[0].high()) return;
-        const auto end_at = [&](const EdgeSide& side, Index where) {
-            const Index tail = soup.tail(side.half_edge);
-            return place[tail] == where ? tail : soup.head(side.half_edge);
-        };
         for (const EdgeSide& side : edge.subspan(1)) {
             for (const Index where : {side.low(), side.high()}) {
-                num_merged += sets.unite(end_at(edge[0], where), end_at(side, where)) ? 1 : 0;
+                const Index kept = end_at(soup, place, edge[0], where);
+                num_merged += sets.unite(kept, end_at(soup, place, side, where)) ? 1 : 0;
             }
         }
     });
+    if (num_merged > 0) soup.slit_length = longest_slit(soup, open, place);
     keep_welded_positions(sets, soup);
     return apply(sets, num_merged, soup);
 }

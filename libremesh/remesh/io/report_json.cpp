@@ -237,6 +237,7 @@ Json to_json(const RemeshOptions& options, Index num_samples) {
     object["sizing"] = to_json(options.sizing);
     object["topology"] = options.vertex_count == VertexCount::Exact ? "exact" : "add";
     object["boundary"] = options.boundary == Boundary::Keep ? "keep" : "free";
+    object["keep_slits"] = options.cleaning.keep_slits;
     object["drop_components"] = options.drop_components;
     object["features"] = features_name(options.features);
     object["feature_angle_degrees"] = options.feature_angle;
@@ -288,6 +289,7 @@ std::string to_json(const RemeshResult& result, const RunInfo& info) {
     object["options"] = to_json(info.options, result.sizing.num_samples);
     object["attributes"] = to_json(info.attributes);
     object["input_repair"] = to_json(result.cleaned);
+    object["welded_slit_length_mesh_units"] = result.welded_slit_length;
     object["input_faces"] = result.input_topology.face_component.size();
     add_topology(object["input_topology"], result.input_topology);
     object["output_vertices"] = result.mesh.positions.size();

@@ -29,8 +29,12 @@ CleanedInput clean_stage(const InputMesh& input, const StageContext& context) {
     const StageClock clock(Stage::Clean, result);
     const agvd::Progress progress = progress_of(Stage::Clean, options);
     agvd::poll(progress, 0);
-    CleanResult clean = clean_input(input.view, options.num_threads, agvd::within(progress, 0, 0));
+    CleanOptions cleaning = options.cleaning;
+    cleaning.num_threads = options.num_threads;
+    cleaning.progress = agvd::within(progress, 0, 0);
+    CleanResult clean = clean_input(input.view, cleaning);
     result.cleaned = clean.counts;
+    result.welded_slit_length = clean.slit_length;
     const agvd::Progress half = agvd::within(progress, cleaned_fraction / 2, cleaned_fraction / 2);
     CleanedInput cleaned;
     cleaned.given = input.view;

@@ -10,6 +10,7 @@
 
 #include "agvd/mesh/surface_point.h"
 #include "agvd/propagation/propagation_options.h"
+#include "remesh/clean/clean_input.h"
 #include "remesh/dual/delaunay.h"
 #include "remesh/features/find_creases.h"
 #include "remesh/features/junctions.h"
@@ -44,6 +45,8 @@ enum class VertexCount {
 //! All lengths in mesh units. `{}` gives a good result.
 struct RemeshOptions {
     agvd::Index num_samples = 2000;  //!< Sites to place, >= 1: one output vertex each.
+    //! How the input is repaired. Its num_threads and progress are ignored: those below count.
+    CleanOptions cleaning = {};
     //! How long edges are, and where. Some of its fields decide the number of samples instead.
     Sizing sizing = {};
     VertexCount vertex_count = VertexCount::Exact;  //!< What gives way.

@@ -88,6 +88,7 @@ struct RemeshResult {
     std::vector<agvd::SurfacePoint> sites;  //!< One per output vertex: where it lies on the input
                                             //!< (faces are the caller's).
     CleanCounts cleaned;                    //!< What cleaning repaired.
+    double welded_slit_length = 0;          //!< See CleanResult::slit_length.
     Topology input_topology;                //!< Of the cleaned input.
     agvd::Index refined_faces = 0;          //!< Faces of the base, on which propagation runs.
     agvd::Index components_dropped = 0;     //!< See drop_components.

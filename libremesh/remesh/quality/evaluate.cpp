@@ -13,7 +13,7 @@ namespace {
 CleanResult clean_original(const agvd::MeshView& original, int num_threads,
                            const agvd::Progress& progress) {
     try {
-        return clean_input(original, num_threads, progress);
+        return clean_input(original, {.num_threads = num_threads, .progress = progress});
     } catch (const agvd::InvalidInput& error) {
         throw agvd::InvalidInput(std::string("original: ") + error.what());
     }

@@ -117,6 +117,36 @@ TEST(CleanInput, WeldsNegativeZeroToZero) {
     clean_to(soup, shapes::grid(2));
 }
 
+// A slit inside the square, and one from its boundary.
+TEST(CleanInput, WeldsASlitAndTellsItsLength) {
+    for (const auto& [begin, end] : {std::pair<Index, Index>(2, 6), {0, 4}, {5, 8}}) {
+        const CleanResult clean = clean_to(shapes::slit_grid(8, begin, end), shapes::grid(8));
+        EXPECT_DOUBLE_EQ(clean.slit_length, (end - begin) / 8.0);
+    }
+    TriangleMesh two = shapes::join(shapes::slit_grid(8, 2, 4), shapes::slit_grid(8, 2, 7));
+    EXPECT_DOUBLE_EQ(clean_input(two.view()).slit_length, 5 / 8.0);
+}
+
+// Whether they divide parts, or one part that closes.
+TEST(CleanInput, CracksAndSeamsAreNoSlits) {
+    EXPECT_EQ(clean_input(shapes::unweld(shapes::grid(4)).view()).slit_length, 0);
+    EXPECT_EQ(clean_input(shapes::slit_grid(8, 0, 8).view()).slit_length, 0);
+    EXPECT_EQ(clean_input(shapes::grid(4).view()).slit_length, 0);
+}
+
+TEST(CleanInput, LeavesSlitsOpenIfAskedTo) {
+    const TriangleMesh mesh = shapes::slit_grid(8, 2, 6);
+    const CleanResult clean = clean_input(mesh.view(), {.keep_slits = true});
+    EXPECT_EQ(clean.mesh.positions, mesh.positions);
+    EXPECT_EQ(clean.mesh.triangles, mesh.triangles);
+    EXPECT_EQ(clean.counts, CleanCounts());
+    EXPECT_EQ(clean.slit_length, 0);
+    // Other defects are mended all the same.
+    TriangleMesh dirty = mesh;
+    dirty.triangles.push_back(dirty.triangles[0]);
+    EXPECT_EQ(clean_input(dirty.view(), {.keep_slits = true}).mesh.triangles, mesh.triangles);
+}
+
 TEST(CleanInput, ClosesATextureSeam) {
     // A tube cut along one line, as a texture unwrapping stores it.
     TriangleMesh cut = shapes::tube(8, 3);

@@ -149,12 +149,12 @@ TEST(Polls, AreInUnevenStartsOfRelaxation) {
 TEST(Polls, AreInTheStagesOnTheirOwn) {
     const TriangleMesh mesh = sphere();
     expect_polls("take what is clean", 40, [&](const Progress& progress) {
-        (void)remesh::clean_input(mesh.view(), 1, progress);
+        (void)remesh::clean_input(mesh.view(), {.num_threads = 1, .progress = progress});
     });
     TriangleMesh dirty = mesh;
     dirty.triangles.push_back(mesh.triangles[0]);
     expect_polls("clean", 100, [&](const Progress& progress) {
-        (void)remesh::clean_input(dirty.view(), 1, progress);
+        (void)remesh::clean_input(dirty.view(), {.num_threads = 1, .progress = progress});
     });
     expect_polls("topology", 30, [&](const Progress& progress) {
         (void)remesh::analyze_topology(mesh.view(), progress);

@@ -80,8 +80,10 @@ struct DrawnDiagram {
 };
 
 DrawnDiagram compute(const agvd::MeshView& mesh, const std::vector<agvd::SurfacePoint>& given_sites,
-                     const agvd::PropagationOptions& options, PythonProgress& progress) {
-    const GivenSurface given(mesh, options.num_threads, progress);
+                     const agvd::PropagationOptions& options, bool keep_slits,
+                     PythonProgress& progress) {
+    const GivenSurface given(mesh, {.keep_slits = keep_slits, .num_threads = options.num_threads},
+                             progress);
     const agvd::Surface& surface = given.surface();
     const std::vector<agvd::SurfacePoint> sites = given.to_surface(given_sites);
     cli::BasedDiagram based = cli::based_diagram(
@@ -103,13 +105,15 @@ DrawnDiagram compute(const agvd::MeshView& mesh, const std::vector<agvd::Surface
 
 py::dict run_voronoi(const Doubles& positions, const Indices& triangles, const Indices& faces,
                      const Doubles& barycentric, const std::string& engine,
-                     std::optional<double> max_error, int num_threads, const py::object& function) {
+                     std::optional<double> max_error, bool keep_slits, int num_threads,
+                     const py::object& function) {
     const agvd::MeshView mesh = view_of(positions, triangles);
     const agvd::PropagationOptions options = propagation_options(engine, max_error, num_threads);
     const std::vector<agvd::SurfacePoint> sites = points_of(faces, barycentric);
     PythonProgress progress(function,
                             {{"clean", 1}, {"propagate", 1}, {"diagram", 1}, {"dual", 1}});
-    DrawnDiagram drawn = progress.run([&] { return compute(mesh, sites, options, progress); });
+    DrawnDiagram drawn =
+        progress.run([&] { return compute(mesh, sites, options, keep_slits, progress); });
     py::dict result;
     result["labels"] = to_numbers(drawn.labels);
     result["distances"] = to_array<double>(std::move(drawn.distances));
@@ -130,14 +134,15 @@ py::dict run_voronoi(const Doubles& positions, const Indices& triangles, const I
 py::array_t<double> run_distances(const Doubles& positions, const Indices& triangles,
                                   const Indices& faces, const Doubles& barycentric,
                                   const std::string& engine, std::optional<double> max_error,
-                                  int num_threads, const py::object& function) {
+                                  bool keep_slits, int num_threads, const py::object& function) {
     const agvd::MeshView mesh = view_of(positions, triangles);
     agvd::PropagationOptions options = propagation_options(engine, max_error, num_threads);
     const std::vector<agvd::SurfacePoint> given_sites = points_of(faces, barycentric);
     PythonProgress progress(function, {{"clean", 1}, {"propagate", 1}});
     options.progress = progress.of("propagate");
     return to_array<double>(progress.run([&] {
-        const GivenSurface given(mesh, num_threads, progress);
+        const GivenSurface given(mesh, {.keep_slits = keep_slits, .num_threads = num_threads},
+                                 progress);
         const std::vector<agvd::SurfacePoint> sites = given.to_surface(given_sites);
         const agvd::IntrinsicTriangulation base =
             cli::base_for(given.surface(), sites.size(), progress.of("clean"));
@@ -155,11 +160,11 @@ void bind_diagram(py::module_& module) {
     module.def("voronoi", &run_voronoi, py::arg("positions").noconvert(),
                py::arg("triangles").noconvert(), py::arg("faces").noconvert(),
                py::arg("barycentric").noconvert(), py::arg("engine"), py::arg("max_error"),
-               py::arg("num_threads"), py::arg("progress"));
+               py::arg("keep_slits"), py::arg("num_threads"), py::arg("progress"));
     module.def("geodesic_distance", &run_distances, py::arg("positions").noconvert(),
                py::arg("triangles").noconvert(), py::arg("faces").noconvert(),
                py::arg("barycentric").noconvert(), py::arg("engine"), py::arg("max_error"),
-               py::arg("num_threads"), py::arg("progress"));
+               py::arg("keep_slits"), py::arg("num_threads"), py::arg("progress"));
 }
 
 }  // namespace python

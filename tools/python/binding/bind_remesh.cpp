@@ -144,6 +144,9 @@ void bind_remesh(py::module_& module) {
     OptionsClass options(module, "Options");
     options.def(py::init<>());
     options.def_readwrite("num_samples", &RemeshOptions::num_samples);
+    options.def_property(
+        "keep_slits", [](const RemeshOptions& self) { return self.cleaning.keep_slits; },
+        [](RemeshOptions& self, bool keeps) { self.cleaning.keep_slits = keeps; });
     options.def_readwrite("drop_components", &RemeshOptions::drop_components);
     options.def_readwrite("feature_angle", &RemeshOptions::feature_angle);
     options.def_readwrite("feature_edges", &RemeshOptions::feature_edges);

@@ -14,12 +14,15 @@ namespace python {
 namespace {
 
 // \return positions, triangles, the vertices and the faces that they come from, counts by name.
-py::tuple run_clean(const Doubles& positions, const Indices& triangles, int num_threads,
-                    const py::object& function) {
+py::tuple run_clean(const Doubles& positions, const Indices& triangles, bool keep_slits,
+                    int num_threads, const py::object& function) {
     const agvd::MeshView mesh = view_of(positions, triangles);
     PythonProgress progress(function, {{"clean", 1}});
-    remesh::CleanResult clean =
-        progress.run([&] { return remesh::clean_input(mesh, num_threads, progress.of("clean")); });
+    remesh::CleanResult clean = progress.run([&] {
+        return remesh::clean_input(mesh, {.keep_slits = keep_slits,
+                                          .num_threads = num_threads,
+                                          .progress = progress.of("clean")});
+    });
     py::dict counts;
     for (const auto& row : remesh::detail::repair_rows) counts[row.key] = clean.counts.*row.count;
     return py::make_tuple(to_array<double>(std::move(clean.mesh.positions), 3),
@@ -39,7 +42,7 @@ py::tuple run_sample(const Doubles& positions, const Indices& triangles, agvd::I
                                           .num_threads = num_threads,
                                           .progress = progress.of("sample")};
     return to_arrays(progress.run([&] {
-        const GivenSurface given(mesh, num_threads, progress);
+        const GivenSurface given(mesh, {.num_threads = num_threads}, progress);
         return given.to_given(remesh::sample_sites(given.surface(), options));
     }));
 }
@@ -81,7 +84,7 @@ py::tuple run_relax(const Doubles& positions, const Indices& triangles, const In
                                        .progress = progress.of("relax")};
     std::vector<double> energies;
     const py::tuple places = to_arrays(progress.run([&] {
-        const GivenSurface given(mesh, num_threads, progress);
+        const GivenSurface given(mesh, {.num_threads = num_threads}, progress);
         const remesh::PreparedSurface prepared(given.surface(),
                                                remesh::mean_spacing(given.surface(), sites.size()),
                                                num_threads, progress.of("relax"));
@@ -113,7 +116,8 @@ py::tuple run_nearest(const Doubles& positions, const Indices& triangles, const 
 
 void bind_stages(py::module_& module) {
     module.def("clean", &run_clean, py::arg("positions").noconvert(),
-               py::arg("triangles").noconvert(), py::arg("num_threads"), py::arg("progress"));
+               py::arg("triangles").noconvert(), py::arg("keep_slits"), py::arg("num_threads"),
+               py::arg("progress"));
     module.def("sample_sites", &run_sample, py::arg("positions").noconvert(),
                py::arg("triangles").noconvert(), py::arg("num_samples"), py::arg("init"),
                py::arg("boundary"), py::arg("seed"), py::arg("num_threads"), py::arg("progress"));

@@ -7,10 +7,22 @@ namespace python {
 using agvd::Index;
 using agvd::SurfacePoint;
 
-GivenSurface::GivenSurface(const agvd::MeshView& mesh, int num_threads, PythonProgress& progress)
+namespace {
+
+remesh::CleanResult clean(const agvd::MeshView& mesh, remesh::CleanOptions cleaning,
+                          PythonProgress& progress) {
+    cleaning.progress = progress.of("clean");
+    return remesh::clean_input(mesh, cleaning);
+}
+
+}  // namespace
+
+GivenSurface::GivenSurface(const agvd::MeshView& mesh, remesh::CleanOptions cleaning,
+                           PythonProgress& progress)
     : mesh_(mesh),
-      clean_(remesh::clean_input(mesh, num_threads, progress.of("clean"))),
-      surface_(agvd::build_surface(clean_.mesh.view(), num_threads, progress.of("clean"))) {}
+      clean_(clean(mesh, cleaning, progress)),
+      surface_(
+          agvd::build_surface(clean_.mesh.view(), cleaning.num_threads, progress.of("clean"))) {}
 
 std::vector<SurfacePoint> GivenSurface::to_surface(const std::vector<SurfacePoint>& points) const {
     return remesh::to_cleaned(points, mesh_, clean_);

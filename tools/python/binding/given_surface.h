@@ -13,9 +13,11 @@ namespace python {
 //! the surface.
 class GivenSurface {
 public:
-    //! \param mesh  outlives this.
+    //! \param mesh      outlives this.
+    //! \param cleaning  its progress is ignored.
     //! \throw as remesh::clean_input.
-    GivenSurface(const agvd::MeshView& mesh, int num_threads, PythonProgress& progress);
+    GivenSurface(const agvd::MeshView& mesh, remesh::CleanOptions cleaning,
+                 PythonProgress& progress);
 
     [[nodiscard]] const agvd::Surface& surface() const { return surface_; }
     [[nodiscard]] std::vector<agvd::SurfacePoint> to_surface(

@@ -65,13 +65,15 @@ class Voronoi:
         return self.neighbours[self.neighbour_offsets[site]:self.neighbour_offsets[site + 1]]
 
 
-def _common(engine: str, max_error: float | None, threads: int) -> tuple[str, float | None, int]:
+def _common(engine: str, max_error: float | None, keep_slits: bool,
+            threads: int) -> tuple[str, float | None, bool, int]:
     return (engine, None if max_error is None else _arrays.number(max_error, "max_error"),
+            bool(keep_slits),
             _arrays.whole(threads, "threads", 0, 2**31 - 1))
 
 
 def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = None, *,
-            engine: str = "window", threads: int = 0,
+            engine: str = "window", keep_slits: bool = False, threads: int = 0,
             progress: Progress | None = None) -> Voronoi:
     """The geodesic Voronoi diagram of sites on a surface.
 
@@ -79,6 +81,7 @@ def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = 
     or a pair of faces (k integers) and barycentric coordinates (k x 3), such as Sites.
     max_error: distances are at most this share above exact; 0: exact; None: 0.0001.
     engine: ``"window"``, ``"steiner"`` or ``"vertex"``: see the README.
+    keep_slits: open edges at one place, such as the two sides of a slit, are not welded.
 
     >>> V, F = remesh.examples.sphere(3)
     >>> diagram = remesh.voronoi(V, F, [0, 1], max_error=0)  # the two poles of the x axis
@@ -90,16 +93,16 @@ def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = 
     mesh = _kinds.take(V, F)
     faces, barycentric = take_sites(mesh, sites)
     return Voronoi(**_remesh.voronoi(mesh.V, mesh.F, faces, barycentric,
-                                     *_common(engine, max_error, threads), progress))
+                                     *_common(engine, max_error, keep_slits, threads), progress))
 
 
 def geodesic_distance(V: Any, F: Any = None, sources: Any = None, max_error: float | None = None, *,
-                      engine: str = "window", threads: int = 0,
+                      engine: str = "window", keep_slits: bool = False, threads: int = 0,
                       progress: Progress | None = None) -> NDArray[np.float64]:
     """#V: the distance along the surface of each vertex from the nearest of the sources; infinity
     where there is none on the same component.
 
-    sources: as ``sites`` of voronoi(). max_error: likewise.
+    sources: as ``sites`` of voronoi(). max_error, engine, keep_slits: likewise.
 
     >>> V, F = remesh.examples.sphere(4)
     >>> d = remesh.geodesic_distance(V, F, [0], max_error=0)
@@ -109,4 +112,4 @@ def geodesic_distance(V: Any, F: Any = None, sources: Any = None, max_error: flo
     mesh = _kinds.take(V, F)
     faces, barycentric = take_sites(mesh, sources)
     return _remesh.geodesic_distance(mesh.V, mesh.F, faces, barycentric,
-                                     *_common(engine, max_error, threads), progress)
+                                     *_common(engine, max_error, keep_slits, threads), progress)

@@ -24,6 +24,7 @@ Row = tuple[str, str, _Floats, list[str], bool]
 
 class Options:
     num_samples: int
+    keep_slits: bool
     drop_components: float
     feature_angle: float
     feature_edges: list[list[int]]
@@ -62,13 +63,13 @@ def remesh(positions: _Floats, triangles: _Indices, options: Options, with_faces
            strict: bool, memory_limit: str, progress: _Progress) -> tuple[_Floats, _Indices, _Numbers, _Floats, _Indices, _Numbers,
                                          _Numbers, str]: ...
 def voronoi(positions: _Floats, triangles: _Indices, faces: _Indices, barycentric: _Floats,
-            engine: str, max_error: float | None, num_threads: int,
+            engine: str, max_error: float | None, keep_slits: bool, num_threads: int,
             progress: _Progress) -> dict[str, Any]: ...
 def geodesic_distance(positions: _Floats, triangles: _Indices, faces: _Indices,
                       barycentric: _Floats, engine: str, max_error: float | None,
-                      num_threads: int, progress: _Progress) -> _Floats: ...
-def clean(positions: _Floats, triangles: _Indices, num_threads: int, progress: _Progress
-          ) -> tuple[_Floats, _Indices, _Numbers, _Numbers, dict[str, int]]: ...
+                      keep_slits: bool, num_threads: int, progress: _Progress) -> _Floats: ...
+def clean(positions: _Floats, triangles: _Indices, keep_slits: bool, num_threads: int,
+          progress: _Progress) -> tuple[_Floats, _Indices, _Numbers, _Numbers, dict[str, int]]: ...
 def sample_sites(positions: _Floats, triangles: _Indices, num_samples: int, init: str,
                  boundary: str, seed: int, num_threads: int,
                  progress: _Progress) -> tuple[_Numbers, _Floats]: ...

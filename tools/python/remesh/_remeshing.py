@@ -80,6 +80,7 @@ def remesh(
     junctions: str = "apart",
     boundary: str = "keep",
     topology: str = "exact",
+    keep_slits: bool = False,
     drop_components: float = 0,
     region: Any = None,
     lock: Any = None,
@@ -132,6 +133,7 @@ def remesh(
       that have this name, are creases as well.
     - ``junctions``: ``"apart"`` or ``"keep"``; ``boundary``: ``"keep"`` or ``"free"``;
       ``topology``: ``"exact"``, or ``"add"`` to add vertices that the topology needs.
+    - ``keep_slits``: open edges at one place, such as the two sides of a slit, are not welded.
     - ``drop_components``: smaller components are dropped; a share of the area from 0 to 1.
     - ``region``: only these faces are remeshed: something other than 0 (or False) for each of them,
       or the name of such values of the mesh. All others stay, bit for bit, and are the first ones
@@ -206,6 +208,7 @@ def remesh(
     options.junctions = junctions
     options.boundary = boundary
     options.topology = topology
+    options.keep_slits = bool(keep_slits)
     options.drop_components = _arrays.number(drop_components, "drop_components")
     options.init = init
     options.relax_steps = _arrays.whole(relax, "relax", 0, 1_000_000)

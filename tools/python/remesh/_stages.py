@@ -133,9 +133,11 @@ def _nearest(mesh: _kinds.Given, points: NDArray[Any]) -> tuple[_arrays.Indices,
     return face.astype(np.uint32), barycentric
 
 
-def clean(V: Any, F: Any = None, *, threads: int = 0, progress: Progress | None = None) -> Cleaned:
+def clean(V: Any, F: Any = None, *, keep_slits: bool = False, threads: int = 0, progress: Progress | None = None) -> Cleaned:
     """Repairs a mesh as remesh() does first, without moving a vertex: welds, drops degenerate and
     duplicate faces, orients, and cuts at edges and vertices that are not manifold.
+
+    keep_slits: open edges at one place, such as the two sides of a slit, are not welded.
 
     >>> V, F = remesh.examples.sphere(1)
     >>> remesh.clean(V, np.vstack([F, F[:2]])).repairs["duplicate_faces"]
@@ -143,7 +145,7 @@ def clean(V: Any, F: Any = None, *, threads: int = 0, progress: Progress | None 
     """
     mesh = _kinds.take(V, F)
     new_V, new_F, vertices, faces, counts = _remesh.clean(
-        mesh.V, mesh.F, _arrays.whole(threads, "threads", 0, 2**31 - 1), progress)
+        mesh.V, mesh.F, bool(keep_slits), _arrays.whole(threads, "threads", 0, 2**31 - 1), progress)
     return Cleaned(*mesh.like_given(new_V, new_F), vertices, faces, counts)
 
 
