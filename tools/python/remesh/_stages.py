@@ -133,7 +133,8 @@ def _nearest(mesh: _kinds.Given, points: NDArray[Any]) -> tuple[_arrays.Indices,
     return face.astype(np.uint32), barycentric
 
 
-def clean(V: Any, F: Any = None, *, keep_slits: bool = False, threads: int = 0, progress: Progress | None = None) -> Cleaned:
+def clean(V: Any, F: Any = None, *, keep_slits: bool = False, threads: int = 0,
+          progress: Progress | None = None) -> Cleaned:
     """Repairs a mesh as remesh() does first, without moving a vertex: welds, drops degenerate and
     duplicate faces, orients, and cuts at edges and vertices that are not manifold.
 
