@@ -197,7 +197,8 @@ void add_diagram_options(CLI::App& app, DiagramArguments& arguments) {
     app.add_flag("--force", arguments.force, "Allow an output to overwrite an input");
     app.add_flag(
         "--lenient", arguments.is_lenient,
-        "If a file holds more elements than its header announces, read only those announced");
+        "Read a file that does not fit its header, and warn: of more elements those announced; PLY "
+        "with values left over on a line or header lines without a keyword; STL that announces 0");
     app.add_flag("--keep-slits", arguments.cleaning.keep_slits,
                  "Leave edges open that lie at one place, such as the two sides of a slit; by "
                  "default they are welded");

@@ -1,4 +1,5 @@
-// Writes VTK's XML PolyData (.vtp): a piece of polygons, coordinates in double.
+// Writes VTK's XML PolyData (.vtp) and UnstructuredGrid (.vtu): a piece of triangles, coordinates
+// in double.
 
 #include <array>
 
@@ -26,12 +27,10 @@ void add_attributes(const std::vector<Attribute>& attributes, std::size_t count,
     }
 }
 
-}  // namespace
-
-std::string format_vtp(const agvd::MeshView& mesh, const MeshAttributes& attributes,
-                       agvd::Ticker ticker) {
+std::string format_vtk_xml(const agvd::MeshView& mesh, const MeshAttributes& attributes,
+                           bool is_grid, agvd::Ticker ticker) {
     const std::size_t num_points = mesh.positions.size(), num_faces = mesh.triangles.size();
-    VtpWriter writer({.points = num_points, .polys = num_faces});
+    VtpWriter writer({.points = num_points, .polys = num_faces}, is_grid);
     writer.begin_section("PointData", attributes.normals ? " Normals=\"Normals\"" : "");
     if (attributes.normals) {
         const std::vector<agvd::Vec3> normals = vertex_normals(mesh);
@@ -47,8 +46,21 @@ std::string format_vtp(const agvd::MeshView& mesh, const MeshAttributes& attribu
     writer.add_array<double>("Points", "Float64", 3, num_points, ticker,
                              [&](std::size_t v) { return mesh.positions[v]; });
     writer.end_section();
-    writer.add_cells("Polys", num_faces, ticker, [&](std::size_t f) { return mesh.triangles[f]; });
+    writer.add_cells(is_grid ? "Cells" : "Polys", num_faces, ticker,
+                     [&](std::size_t f) { return mesh.triangles[f]; });
     return std::move(writer).finish();
+}
+
+}  // namespace
+
+std::string format_vtp(const agvd::MeshView& mesh, const MeshAttributes& attributes,
+                       agvd::Ticker ticker) {
+    return format_vtk_xml(mesh, attributes, false, ticker);
+}
+
+std::string format_vtu(const agvd::MeshView& mesh, const MeshAttributes& attributes,
+                       agvd::Ticker ticker) {
+    return format_vtk_xml(mesh, attributes, true, ticker);
 }
 
 }  // namespace remesh

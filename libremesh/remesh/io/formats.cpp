@@ -25,6 +25,7 @@ constexpr MeshFormat formats[] = {
     {"stl", read_stl, format_stl, holds_none, false, TexturePlace::Nothing, any_float},
     {"vtk", read_vtk, format_vtk, holds_all, true, TexturePlace::Vertices, any_double},
     {"vtp", read_vtp, format_vtp, holds_all, true, TexturePlace::Nothing, any_double},
+    {"vtu", read_vtp, format_vtu, holds_all, true, TexturePlace::Nothing, any_double},
     {"mesh", read_medit, format_medit, medit_holds, false, TexturePlace::Nothing, any_double},
     {"3mf", read_3mf, format_3mf, holds_none, false, TexturePlace::Nothing, any_double},
     {"glb", read_glb, format_glb, glb_holds, true, TexturePlace::Corners, any_float}};

@@ -44,6 +44,8 @@ void attach(MeshAttributes attributes, MeshFile& file);
                                      agvd::Ticker ticker);
 [[nodiscard]] std::string format_vtp(const agvd::MeshView& mesh, const MeshAttributes& attributes,
                                      agvd::Ticker ticker);
+[[nodiscard]] std::string format_vtu(const agvd::MeshView& mesh, const MeshAttributes& attributes,
+                                     agvd::Ticker ticker);
 [[nodiscard]] std::string format_medit(const agvd::MeshView& mesh, const MeshAttributes& attributes,
                                        agvd::Ticker ticker);
 [[nodiscard]] std::string format_glb(const agvd::MeshView& mesh, const MeshAttributes& attributes,

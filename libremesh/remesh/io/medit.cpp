@@ -1,6 +1,6 @@
-// Medit's .mesh, ascii: vertices, triangles and quadrilaterals; their references are the labels
-// `ref`. Other lists (edges, corners, tetrahedra, ...) are passed over (format: Frey, "MEDIT: an
-// interactive mesh visualization software", INRIA RT-0253, 2001).
+// Medit's .mesh, ascii: vertices, triangles and quadrilaterals, or the surface of tetrahedra and
+// the like; their references are the labels `ref`. Other lists (edges, corners, ...) are passed
+// over (format: Frey, "MEDIT: an interactive mesh visualization software", INRIA RT-0253, 2001).
 
 #include <algorithm>
 #include <array>
@@ -11,6 +11,7 @@
 #include "remesh/io/polygon_soup.h"
 #include "remesh/io/text_format.h"
 #include "remesh/io/text_scanner.h"
+#include "remesh/io/volume_surface.h"
 
 namespace remesh {
 namespace {
@@ -23,10 +24,6 @@ struct PassedOver {
     std::size_t num_numbers;
 };
 constexpr std::array passed_over = {PassedOver{"Edges", 3},
-                                    PassedOver{"Tetrahedra", 5},
-                                    PassedOver{"Hexahedra", 9},
-                                    PassedOver{"Prisms", 7},
-                                    PassedOver{"Pyramids", 6},
                                     PassedOver{"Corners", 1},
                                     PassedOver{"Ridges", 1},
                                     PassedOver{"RequiredVertices", 1},
@@ -42,10 +39,19 @@ constexpr std::array passed_over = {PassedOver{"Edges", 3},
                                     PassedOver{"TangentAtVertices", 2},
                                     PassedOver{"TangentAtEdges", 3}};
 
+struct VolumeList {
+    std::string_view keyword;
+    VolumeCell kind;
+};
+constexpr std::array volume_lists = {VolumeList{"Tetrahedra", VolumeCell::Tetrahedron},
+                                     VolumeList{"Hexahedra", VolumeCell::Hexahedron},
+                                     VolumeList{"Prisms", VolumeCell::Wedge},
+                                     VolumeList{"Pyramids", VolumeCell::Pyramid}};
+
 class MeditReader {
 public:
     explicit MeditReader(const SourceFile& file)
-        : file_(file), scan_(file, 0, {.comment = '#'}), soup_(file, 1) {}
+        : file_(file), scan_(file, 0, {.comment = '#'}), soup_(file, 1), volumes_(file) {}
 
     MeshFile read() {
         expect("MeshVersionFormatted");
@@ -64,9 +70,15 @@ public:
             if (keyword == "End") return finish();
             read_list(keyword);
         }
-        fail(
-            "the file ends without 'End'; it is truncated: export it again, or add that line if "
-            "nothing is missing");
+        if (soup_.num_polygons() == 0 && volumes_.num_cells() == 0) {
+            scan_.fail_malformed(
+                "the file ends without 'End' and without a face; it is truncated: export it again");
+        }
+        MeshFile result = finish();
+        add_warning(file_.place(scan_.offset()) +
+                        "the file ends without 'End'; its lists are complete, and are read",
+                    result);
+        return result;
     }
 
 private:
@@ -97,9 +109,14 @@ private:
         const auto* const other =
             std::find_if(passed_over.begin(), passed_over.end(),
                          [&](const PassedOver& known) { return keyword == known.keyword; });
+        const auto* const volumes =
+            std::find_if(volume_lists.begin(), volume_lists.end(),
+                         [&](const VolumeList& known) { return keyword == known.keyword; });
         const bool is_vertices = keyword == "Vertices";
         const bool is_triangles = keyword == "Triangles", is_quads = keyword == "Quadrilaterals";
-        if (!is_vertices && !is_triangles && !is_quads && other == passed_over.end()) {
+        const bool is_volumes = volumes != volume_lists.end();
+        if (!is_vertices && !is_triangles && !is_quads && !is_volumes &&
+            other == passed_over.end()) {
             fail("unknown keyword " + in_quotes(keyword) +
                  "; save the file with vertices, triangles and quadrilaterals only");
         }
@@ -108,6 +125,8 @@ private:
         for (std::int64_t i = 0; i < count; ++i) {
             if (is_vertices) {
                 read_vertex();
+            } else if (is_volumes) {
+                read_volume(volumes->kind);
             } else if (other == passed_over.end()) {
                 read_face(is_triangles ? 3 : 4);
             } else {
@@ -132,17 +151,25 @@ private:
     }
 
     void read_face(int num_corners) {
-        for (int k = 0; k < num_corners; ++k) {
-            const std::int64_t vertex = integer("a corner");
-            if (vertex == 0) {
-                file_.fail_unusable(start_,
-                                    "a face names vertex 0, but Medit counts vertices from 1; "
-                                    "correct the face, or export the file again");
-            }
-            soup_.add_corner(vertex - 1, start_);
-        }
+        for (int k = 0; k < num_corners; ++k) soup_.add_corner(corner(), start_);
         soup_.end_polygon();
         read_ref(face_refs_);
+    }
+
+    void read_volume(VolumeCell kind) {
+        soup_.ticker.tick(4);
+        for (std::size_t k = num_corners(kind); k > 0; --k) volumes_.add_corner(corner(), start_);
+        volumes_.end_cell(kind);
+        read_ref(volume_refs_);
+    }
+
+    // From 0.
+    std::int64_t corner() {
+        const std::int64_t vertex = integer("a corner");
+        if (vertex != 0) return vertex - 1;
+        file_.fail_unusable(start_,
+                            "a face or cell names vertex 0, but Medit counts vertices from 1; "
+                            "correct it, or export the file again");
     }
 
     void read_ref(std::vector<double>& refs) {
@@ -169,19 +196,25 @@ private:
     }
 
     MeshFile finish() {
+        const std::vector<std::size_t> cell_of_face = volumes_.add_to(soup_);
+        if (file_.with_attributes) {
+            for (const std::size_t cell : cell_of_face) face_refs_.push_back(volume_refs_[cell]);
+        }
         MeshFile result = std::move(soup_).finish();
         MeshAttributes attributes;
         add(std::move(vertex_refs_), attributes.of_vertices);
         add(std::move(face_refs_), attributes.of_faces);
         attach(std::move(attributes), result);
+        add_warning(volumes_.warning(cell_of_face.size()), result);
         return result;
     }
 
     const SourceFile& file_;
     TextScanner scan_;
     PolygonSoup soup_;
+    VolumeSurface volumes_;
     std::size_t start_ = 0;  // Of the word that is being read.
-    std::vector<double> vertex_refs_, face_refs_;
+    std::vector<double> vertex_refs_, face_refs_, volume_refs_;
 };
 
 bool is_reference(const Attribute& attribute) {

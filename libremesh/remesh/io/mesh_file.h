@@ -35,7 +35,9 @@ struct MeshFile {
 
 //! `{}` gives the defaults.
 struct ReadOptions {
-    //! Whole elements beyond those that the header announces are a warning, not an error.
+    //! What a reader passes over is a warning, not an error: whole elements beyond those that the
+    //! header announces; in ascii PLY values left over at the end of a line, in PLY lines of the
+    //! header without a keyword. A binary STL that announces none is read as far as it goes.
     bool is_lenient = false;
     //! Also read colours, labels and other properties. They take 8 bytes for each value.
     bool with_attributes = false;

@@ -3,6 +3,8 @@
 // corner: vertices are never split along their seams (format: Wavefront, Advanced Visualizer
 // Manual, appendix B1).
 
+#include <algorithm>
+
 #include "remesh/io/formats.h"
 #include "remesh/io/obj_attributes.h"
 #include "remesh/io/polygon_soup.h"
@@ -43,6 +45,15 @@ ObjCorner read_corner(TextScanner& scan, const SourceFile& file, std::size_t num
     return corner;
 }
 
+// Flat drawings have two coordinates: 2 or 3, as the vertex that comes next has.
+int count_coordinates(TextScanner& scan) {
+    const std::size_t start = scan.offset();
+    int count = 0;
+    while (count < 3 && !scan.word().empty()) ++count;
+    scan.go_to(start);
+    return std::max(count, 2);
+}
+
 // The texture coordinates of the last corner so far. Those that do not exist are found at the end.
 void take_coordinates(std::string_view rest, PolygonSoup& soup) {
     rest = rest.substr(0, rest.find('/'));
@@ -66,11 +77,16 @@ MeshFile read_obj(SourceFile file) {
     TextScanner scan(file, 0, {.comment = '#', .continues = true});
     PolygonSoup soup(file, 1);
     ObjAttributes attributes(file.with_attributes);
+    int num_coordinates = 3;
     while (scan.find_word()) {
         soup.ticker.tick();
         const std::string_view statement = scan.word();
         if (statement == "v") {
-            soup.positions.push_back(scan.point());
+            if (soup.positions.empty()) num_coordinates = count_coordinates(scan);
+            soup.positions.push_back(scan.point(num_coordinates));
+            if (num_coordinates == 2 && scan.has_word()) {
+                scan.fail_expecting("the end of the line, as vertices before have two coordinates");
+            }
             if (scan.has_word()) attributes.take_color(soup.positions.size() - 1, scan);
         } else if (statement == "vt") {
             attributes.take_texture(scan, soup.texture);
@@ -90,6 +106,10 @@ MeshFile read_obj(SourceFile file) {
     const std::size_t num_vertices = soup.positions.size(), num_polygons = soup.num_polygons();
     MeshFile result = std::move(soup).finish();
     attach(std::move(attributes).finish(num_vertices, num_polygons), result);
+    if (num_coordinates == 2) {
+        add_warning(file.path.string() + ": the vertices have two coordinates; z = 0 is taken",
+                    result);
+    }
     return result;
 }
 

@@ -1,15 +1,18 @@
-// OFF, and COFF, NOFF, STOFF: coordinates, corners, and colours of both; normals and texture
-// coordinates are skipped (format: Geomview manual, "OFF Files").
+// OFF, and COFF, NOFF, STOFF, as text and binary: coordinates, corners, and colours of both;
+// normals are skipped (format: Geomview manual, "OFF Files").
 //
-// Reads one element from each line, as most writers do it; the rest of a line after a vertex's
-// coordinates or a face's corners is optional. The corners of a face may go on over the next lines,
-// which hold nothing else: otherwise a line that lacks a corner would take one from the next face.
-// A file with another layout runs out of lines, which is an error.
+// Of a text reads one element from each line, as most writers do it; the rest of a line after a
+// vertex's coordinates or a face's corners is optional. The corners of a face may go on over the
+// next lines, which hold nothing else: otherwise a line that lacks a corner would take one from the
+// next face. A file with another layout runs out of lines, which is an error.
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
+#include "remesh/io/byte_order.h"
 #include "remesh/io/formats.h"
+#include "remesh/io/ply_header.h"
 #include "remesh/io/polygon_soup.h"
 #include "remesh/io/text_colors.h"
 #include "remesh/io/text_scanner.h"
@@ -17,9 +20,11 @@
 namespace remesh {
 namespace {
 
+constexpr const char* face_color = "color";
+
 // What stands behind the coordinates of each vertex: a normal, a colour, texture coordinates.
 struct Extras {
-    bool texture = false, color = false, normal = false;
+    bool texture = false, color = false, normal = false, is_binary = false;
 };
 
 Extras read_keyword(TextScanner& scan) {
@@ -32,10 +37,53 @@ Extras read_keyword(TextScanner& scan) {
     if (!scan.take("OFF") && !scan.take("off")) {
         scan.fail_expecting("the keyword OFF (or COFF, NOFF, STOFF)");
     }
-    if (scan.has_word() && scan.take("BINARY")) {
-        scan.fail_malformed("binary OFF is not supported; export the file as ascii OFF or as PLY");
+    const bool is_binary = scan.has_word() && scan.take("BINARY");
+    return {texture, color, normal, is_binary};
+}
+
+// The counts of vertices and faces. They are big endian, but some programs write the other order:
+// that in which the data fit into the file.
+PlyHeader binary_counts(const SourceFile& file, std::size_t at) {
+    constexpr std::size_t size = 3 * sizeof(std::uint32_t);  // The last one is that of edges.
+    if (file.bytes.size() - at >= size) {
+        const std::uint64_t left = file.bytes.size() - at - size;
+        for (const std::endian order : {std::endian::big, std::endian::little}) {
+            const std::uint64_t vertices = load<std::uint32_t>(&file.bytes[at], order);
+            const std::uint64_t faces = load<std::uint32_t>(&file.bytes[at + 4], order);
+            if (12 * vertices + 8 * faces > left) continue;
+            return {.byte_order = order,
+                    .elements = {{"vertex", vertices, {}}, {"face", faces, {}}},
+                    .size = at + size};
+        }
     }
-    return {texture, color, normal};
+    file.fail_malformed(at,
+                        "the file ends before the vertices and faces that it announces; it is "
+                        "truncated: export the file again");
+}
+
+// The layout is that of a binary PLY: numbers of vertices, then lists of corners, each with a list
+// of the parts of a colour, which are passed over.
+MeshFile read_binary_off(SourceFile& file, std::size_t at, const Extras& extras) {
+    file.is_binary = true;
+    at = std::min(at + (file.bytes.compare(at, 2, "\r\n") == 0 ? 2 : 1), file.bytes.size());
+    PlyHeader header = binary_counts(file, at);
+    const auto add = [&](std::initializer_list<const char*> names) {
+        for (const char* name : names) {
+            header.elements[0].properties.push_back({name, PlyType::Float32});
+        }
+    };
+    add({"x", "y", "z"});
+    if (extras.normal) add({"nx", "ny", "nz"});
+    if (extras.color) add({"red", "green", "blue", "alpha"});
+    if (extras.texture) add({"s", "t"});
+    header.elements[1].properties = {{"vertex_indices", PlyType::Int32, PlyType::Int32},
+                                     {face_color, PlyType::Float32, PlyType::Int32}};
+    MeshFile result = read_binary_ply(header, file);
+    // The list stands there without colours as well.
+    std::erase_if(result.attributes.declined, [](const DeclinedAttribute& one) {
+        return one.name == std::string("face ") + face_color;
+    });
+    return result;
 }
 
 // The color among the numbers on the rest of a line.
@@ -79,6 +127,7 @@ void find_element(TextScanner& scan, const char* kind, std::uint64_t index, std:
 MeshFile read_off(SourceFile file) {
     TextScanner scan(file, 0, {.comment = '#'});
     const Extras extras = read_keyword(scan);
+    if (extras.is_binary) return read_binary_off(file, scan.offset(), extras);
     if (!scan.find_word()) scan.fail_expecting("the number of vertices");
     const std::uint64_t num_vertices = read_count(scan, "the number of vertices");
     const std::uint64_t num_faces = read_count(scan, "the number of faces");

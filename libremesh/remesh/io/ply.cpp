@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <utility>
 
 #include "remesh/io/formats.h"
@@ -132,6 +133,17 @@ void decline_face_values(MeshAttributes& attributes) {
     attributes.of_faces.clear();
 }
 
+// What was passed over may have been read at the wrong place: faces then lack corners, and numbers
+// are next to zero.
+bool looks_misread(const MeshFile& file) {
+    constexpr double least = std::numeric_limits<float>::min();
+    return file.dropped_polygons > 0 ||
+           std::any_of(file.mesh.positions.begin(), file.mesh.positions.end(),
+                       [&](const agvd::Vec3& p) {
+                           return (p.array() != 0 && p.array().abs() < least).any();
+                       });
+}
+
 template <typename Values>
 MeshFile read_body(Values values, const PlyHeader& header, const SourceFile& file) {
     PolygonSoup soup(file, 0);
@@ -171,17 +183,29 @@ MeshFile read_body(Values values, const PlyHeader& header, const SourceFile& fil
     const std::uint64_t num_more =
         file.is_binary && size > 0 ? (file.bytes.size() - end) / size : 0;
     const std::string kind = last.name + " elements";
+    add_warning(header.warning, result);
+    add_warning(values.warning(), result);
+    if (file.is_lenient && (!result.warnings.empty() || num_more > 0) && looks_misread(result)) {
+        file.fail_malformed(header.size,
+                            "the data are not what the header announces, not even leniently: "
+                            "faces lack corners, or coordinates are next to zero; export the file "
+                            "again");
+    }
     add_warning(file.judge_rest(end, kind.c_str(), last.count, num_more), result);
     return result;
 }
 
 }  // namespace
 
+MeshFile read_binary_ply(const PlyHeader& header, const SourceFile& file) {
+    return read_body(BinaryValues(file, header), header, file);
+}
+
 MeshFile read_ply(SourceFile file) {
     const PlyHeader header = read_ply_header(file);
     if (!header.byte_order) return read_body(AsciiValues(file, header), header, file);
     file.is_binary = true;
-    return read_body(BinaryValues(file, header), header, file);
+    return read_binary_ply(header, file);
 }
 
 }  // namespace remesh

@@ -1,6 +1,5 @@
 // Reads the header line by line: the format, then elements with their properties in order. The data
-// begin behind the line of end_header; in binary files the first line of the file tells whether
-// lines end in one byte or in two, since the first datum may look like a line feed.
+// begin behind the line of end_header.
 #include "remesh/io/ply_header.h"
 
 #include <algorithm>
@@ -67,14 +66,15 @@ std::optional<std::endian> read_byte_order(TextScanner& scan, const SourceFile& 
                                    "; export as ascii, binary_little_endian or binary_big_endian");
 }
 
-// Data begin after the line end of end_header. A binary file's first datum may look like a second
-// half of it: the file's first line tells whether its lines end in two bytes.
+// Data begin after the line end of end_header. Some programs end this line in CR LF and those
+// before it in LF. Behind a lone CR the first datum may look like a line feed: only where the
+// file's first line ends in a lone CR, this one may too.
 std::size_t end_of_header(const SourceFile& file, std::size_t offset) {
     const std::string& bytes = file.bytes;
     if (offset == bytes.size()) return offset;
     const std::size_t first_end = bytes.find_first_of("\r\n");
-    const bool is_crlf = bytes.compare(first_end, 2, "\r\n") == 0;
-    return offset + (is_crlf && bytes.compare(offset, 2, "\r\n") == 0 ? 2 : 1);
+    const bool is_lone_cr = bytes[first_end] == '\r' && bytes.compare(first_end, 2, "\r\n") != 0;
+    return offset + (!is_lone_cr && bytes.compare(offset, 2, "\r\n") == 0 ? 2 : 1);
 }
 
 }  // namespace
@@ -100,6 +100,7 @@ PlyHeader read_ply_header(const SourceFile& file) {
             0, "this is not a PLY file, as it does not begin with 'ply'; check its extension");
     }
     bool has_format = false;
+    std::size_t num_unknown = 0, first_unknown = 0;  // Lines without a keyword.
     while (true) {
         scan.skip_line();
         if (!scan.find_word()) {
@@ -123,10 +124,20 @@ PlyHeader read_ply_header(const SourceFile& file) {
             header.elements.push_back(std::move(element));
         } else if (keyword == "property" && !header.elements.empty()) {
             header.elements.back().properties.push_back(read_property(scan, file));
+        } else if (keyword == "property") {
+            file.fail_malformed(start,
+                                "unexpected 'property' before an element; export the file again");
+        } else if (file.is_lenient) {
+            if (num_unknown++ == 0) first_unknown = start;
         } else {
             file.fail_malformed(start, "unexpected " + in_quotes(keyword) +
-                                           " in the header; export the file again");
+                                           " in the header; export the file again, or pass over "
+                                           "such lines (remesh and agvd diagram: --lenient)");
         }
+    }
+    if (num_unknown > 0) {
+        header.warning = file.place(first_unknown) + std::to_string(num_unknown) +
+                         " lines of the header begin with no keyword and are passed over";
     }
     if (!has_format) file.fail_malformed(0, "the header has no 'format'; export the file again");
     if (scan.has_word())

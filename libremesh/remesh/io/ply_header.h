@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "remesh/io/mesh_attributes.h"
+#include "remesh/io/mesh_file.h"
 #include "remesh/io/source_file.h"
 
 namespace remesh {
@@ -33,11 +33,16 @@ struct PlyElement {
 
 struct PlyHeader {
     std::optional<std::endian> byte_order;  //!< None: ascii.
-    std::vector<PlyElement> elements;       //!< In the order of the data.
+    std::vector<PlyElement> elements = {};  //!< In the order of the data.
     std::size_t size = 0;                   //!< Bytes up to the first datum.
+    std::string warning = {};               //!< Lines that were passed over, leniently.
 };
 
 //! \throw agvd::IoError  by line: no PLY, an unknown type or format, an element without a name, ...
 [[nodiscard]] PlyHeader read_ply_header(const SourceFile& file);
+
+//! The mesh of binary data behind a head; binary OFF has the same layout.
+//! \throw agvd::IoError, agvd::InvalidInput  as read_mesh.  \throw agvd::Cancelled
+[[nodiscard]] MeshFile read_binary_ply(const PlyHeader& header, const SourceFile& file);
 
 }  // namespace remesh

@@ -18,7 +18,8 @@ namespace remesh {
 //! readers of elements are written once: begin an element, its values, end.
 class AsciiValues {
 public:
-    AsciiValues(const SourceFile& file, const PlyHeader& header) : scan_(file, header.size, {}) {}
+    AsciiValues(const SourceFile& file, const PlyHeader& header)
+        : file_(file), scan_(file, header.size, {}) {}
 
     void begin(const PlyElement& element, std::uint64_t index) {
         if (scan_.find_word()) return;
@@ -38,16 +39,27 @@ public:
         }
     }
     void end() {
-        if (scan_.has_word()) {
+        if (!scan_.has_word()) return;
+        if (!file_.is_lenient) {
             scan_.fail_malformed(
-                "the line has more values than the header announces; write one "
-                "element on each line");
+                "the line has more values than the header announces; write one element on each "
+                "line, or pass over the others (remesh and agvd diagram: --lenient)");
         }
+        if (num_longer_++ == 0) first_longer_ = scan_.offset();
+        scan_.skip_line();
     }
     [[nodiscard]] std::size_t offset() const { return scan_.offset(); }
+    //! What was passed over; empty: nothing.
+    [[nodiscard]] std::string warning() const {
+        if (num_longer_ == 0) return {};
+        return file_.place(first_longer_) + std::to_string(num_longer_) +
+               " lines have more values than the header announces; these are passed over";
+    }
 
 private:
+    const SourceFile& file_;
     TextScanner scan_;
+    std::size_t num_longer_ = 0, first_longer_ = 0;  // Lines, and where one goes on.
 };
 
 //! The values of a binary file.
@@ -70,6 +82,7 @@ public:
     }
     void end() {}
     [[nodiscard]] std::size_t offset() const { return at_; }
+    [[nodiscard]] static std::string warning() { return {}; }
 
 private:
     const char* take(std::size_t size) {

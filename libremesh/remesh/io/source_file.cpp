@@ -1,4 +1,6 @@
 // Loads a whole file, or what a pipe delivers, into memory, and words the errors of its readers.
+// The size of a regular file is known; what a device or a pipe may bring has a limit, as it may
+// never end.
 // The line of an error is counted only when the error is thrown. Waiting for a pipe polls the
 // progress callback, so that reading can be interrupted.
 #include "remesh/io/source_file.h"
@@ -10,10 +12,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <limits>
 #include <system_error>
 
 #include "agvd/core/error.h"
 #include "remesh/io/standard_streams.h"
+#include "remesh/io/utf16.h"
 
 namespace remesh {
 namespace {
@@ -48,6 +52,14 @@ void wait_for_bytes(int fd, agvd::Poller& poller) {
     do {
         poller.poll();
     } while (::poll(&waiting, 1, between_polls) == 0);
+}
+
+// How many bytes are read before a file counts as one that never ends. Devices that end are
+// terminals; a pipe may bring a mesh of some ten million faces.
+std::size_t most_bytes(int fd, const struct stat& status) {
+    if (S_ISREG(status.st_mode)) return std::numeric_limits<std::size_t>::max() / 2;
+    constexpr std::size_t of_device = std::size_t{1} << 24, of_pipe = std::size_t{1} << 31;
+    return S_ISCHR(status.st_mode) && ::isatty(fd) == 0 ? of_device : of_pipe;
 }
 
 }  // namespace
@@ -105,25 +117,34 @@ SourceFile load_file(const std::filesystem::path& path, agvd::Poller& poller) {
     struct stat status {};
     if (::fstat(in.fd, &status) != 0) fail_to_read(path, errno);
     if (S_ISDIR(status.st_mode)) fail_to_read(path, EISDIR);
+    const std::size_t most = most_bytes(in.fd, status);
 
     // One byte more than the size, so that the end is seen without a second growth. The size of a
     // pipe is unknown: its buffer grows.
     file.bytes.resize(static_cast<std::size_t>(std::max<off_t>(status.st_size, 1 << 16)) + 1);
     std::size_t length = 0;
     while (true) {
-        constexpr std::size_t most = 1 << 24;  // Some milliseconds.
+        constexpr std::size_t most_at_once = 1 << 24;  // Some milliseconds.
         wait_for_bytes(in.fd, poller);
-        const ssize_t got =
-            ::read(in.fd, file.bytes.data() + length, std::min(most, file.bytes.size() - length));
+        const ssize_t got = ::read(in.fd, file.bytes.data() + length,
+                                   std::min(most_at_once, file.bytes.size() - length));
         if (got < 0 && (errno == EINTR || errno == EAGAIN)) continue;
         if (got < 0) fail_to_read(path, errno);
         if (got == 0) break;
         length += static_cast<std::size_t>(got);
-        if (length == file.bytes.size()) file.bytes.resize(2 * length);
+        if (length > most) {
+            throw agvd::IoError(path.string() + ": the file does not end within " +
+                                std::to_string(most >> 20) +
+                                " MB; name a file that ends, or save what a pipe brings to a file");
+        }
+        if (length == file.bytes.size()) file.bytes.resize(std::min(2 * length, most + 1));
     }
     file.bytes.resize(length);
     if (length == 0) {
         throw agvd::IoError(path.string() + ": the file is empty; export the file again");
+    }
+    if (const auto order = utf16_order(file.bytes)) {
+        file.bytes = utf8_of_utf16(file.bytes, *order, file.ticker);
     }
     return file;
 }

@@ -37,7 +37,9 @@ struct SourceFile {
     [[noreturn]] void fail_unusable(std::size_t offset, const std::string& text) const;
 };
 
-//! \throw agvd::IoError  cannot be read, or is empty; names the system's reason.
+//! A text in UTF-16 becomes UTF-8.
+//! \throw agvd::IoError  cannot be read, or is empty; names the system's reason. Or it does not
+//!        end: a device after 16 MB, a pipe or a terminal after 2 GB.
 //! \throw agvd::Cancelled  the poller asked for it, also while waiting for a pipe.
 [[nodiscard]] SourceFile load_file(const std::filesystem::path& path, agvd::Poller& poller);
 

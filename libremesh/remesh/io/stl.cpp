@@ -43,6 +43,20 @@ MeshFile finish(PolygonSoup soup, PointWelder welder, std::size_t num_corners) {
     return result;
 }
 
+// Some programs never fill the count in. \return a warning; empty: the count stands.
+std::string judge_count(const SourceFile& file, std::uint64_t announced, std::uint64_t held) {
+    const bool is_whole = (file.bytes.size() - header_size) % record_size == 0;
+    if (announced > 0 || held == 0 || !is_whole) return {};
+    const std::string text =
+        "the header announces 0 triangles, the file holds " + std::to_string(held);
+    if (!file.is_lenient) {
+        file.fail_malformed(80, text +
+                                    "; export the file again, or read those that it holds (remesh "
+                                    "and agvd diagram: --lenient)");
+    }
+    return file.place(80) + text + ", which are read";
+}
+
 MeshFile read_binary(const SourceFile& file) {
     const std::string& bytes = file.bytes;
     if (bytes.size() < header_size) {
@@ -51,14 +65,15 @@ MeshFile read_binary(const SourceFile& file) {
             "the file is too short for STL (a binary file has a header of 84 bytes, an ascii "
             "file begins with 'solid'); export the file again");
     }
-    const std::uint64_t count = load<std::uint32_t>(&bytes[80]);
-    if ((bytes.size() - header_size) / record_size < count) {
-        file.fail_malformed(
-            bytes.size(), "the file ends after " +
-                              std::to_string((bytes.size() - header_size) / record_size) + " of " +
-                              std::to_string(count) +
-                              " triangles; it is truncated: export the file again");
+    const std::uint64_t announced = load<std::uint32_t>(&bytes[80]);
+    const std::uint64_t held = (bytes.size() - header_size) / record_size;
+    if (held < announced) {
+        file.fail_malformed(bytes.size(), "the file ends after " + std::to_string(held) + " of " +
+                                              std::to_string(announced) +
+                                              " triangles; it is truncated: export the file again");
     }
+    const std::string warning = judge_count(file, announced, held);
+    const std::uint64_t count = warning.empty() ? announced : held;
     PolygonSoup soup(file, 0);
     soup.reserve(0, count);
     PointWelder welder;
@@ -78,8 +93,8 @@ MeshFile read_binary(const SourceFile& file) {
     }
     const std::size_t end = header_size + count * record_size;
     MeshFile result = finish(std::move(soup), std::move(welder), 3 * count);
-    add_warning(file.judge_rest(end, "triangles", count, (bytes.size() - end) / record_size),
-                result);
+    add_warning(warning, result);
+    add_warning(file.judge_rest(end, "triangles", count, held - count), result);
     return result;
 }
 

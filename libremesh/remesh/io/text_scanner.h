@@ -140,11 +140,11 @@ public:
         return value;
     }
 
-    //! The next three numbers of this line, finite.
-    agvd::Vec3 point() {
+    //! The next three numbers of this line, finite; or so many, and 0 for the others.
+    agvd::Vec3 point(int num_coordinates = 3) {
         const std::size_t start = offset();
-        agvd::Vec3 p;
-        for (int k = 0; k < 3; ++k) p[k] = number("a coordinate");
+        agvd::Vec3 p(0, 0, 0);
+        for (int k = 0; k < num_coordinates; ++k) p[k] = number("a coordinate");
         if (!p.allFinite()) {
             file_.fail_unusable(start,
                                 "a coordinate is not finite (NaN, infinite or beyond double "

@@ -1,4 +1,4 @@
-// Legacy VTK, ascii and binary (big endian): POLYDATA, and the faces of UNSTRUCTURED_GRID. Points,
+// Legacy VTK, ascii and binary (big endian): POLYDATA and UNSTRUCTURED_GRID. Points,
 // cells, and arrays of points and cells as attributes (format: The VTK User's Guide, "VTK File
 // Formats"; since version 5 cells are two arrays, OFFSETS and CONNECTIVITY).
 

@@ -8,6 +8,7 @@
 #include "remesh/io/byte_order.h"
 #include "remesh/io/formats.h"
 #include "remesh/io/strip_triangles.h"
+#include "remesh/io/volume_surface.h"
 
 namespace remesh {
 namespace {
@@ -56,7 +57,8 @@ void add_points(const VtkArray& points, const SourceFile& file, PolygonSoup& sou
 // Adds cells to a soup and knows which cell each polygon came from.
 class CellReader {
 public:
-    CellReader(const SourceFile& file, PolygonSoup& soup) : file_(file), soup_(soup) {}
+    CellReader(const SourceFile& file, PolygonSoup& soup)
+        : file_(file), soup_(soup), volumes_(file) {}
 
     void add(const VtkCells& cells) {
         cells_ = &cells;
@@ -68,11 +70,26 @@ public:
         }
     }
 
+    // To be called when all cells are known.
+    void add_surface() {
+        const std::vector<std::size_t> volume_of_face = volumes_.add_to(soup_);
+        num_surface_faces_ = volume_of_face.size();
+        for (const std::size_t i : volume_of_face) cell_of_polygon_.push_back(cell_of_volume_[i]);
+    }
+
+    void add_warnings(MeshFile& result) const {
+        add_warning(volumes_.warning(num_surface_faces_), result);
+        if (num_others_ == 0) return;
+        add_warning(file_.path.string() + ": " + std::to_string(num_others_) +
+                        " cells that are neither faces nor linear volumes (vertices, lines, curved "
+                        "cells) are passed over",
+                    result);
+    }
+
     [[nodiscard]] const std::vector<std::size_t>& cell_of_polygon() const {
         return cell_of_polygon_;
     }
     [[nodiscard]] std::size_t num_cells() const { return num_cells_; }
-    [[nodiscard]] std::size_t num_others() const { return num_others_; }
 
 private:
     void add_cell(VtkCell type, std::size_t begin, std::size_t end) {
@@ -96,6 +113,19 @@ private:
                 for (std::size_t k = begin; k < end; ++k) strip.add(vertex(k), offset());
                 return strip.end();
             }
+            case VtkCell::Tetrahedron:
+                return add_volume(VolumeCell::Tetrahedron, begin, end);
+            case VtkCell::Voxel:
+                require_corners(end - begin, 8);
+                for (const std::size_t k : {0u, 1u, 3u, 2u, 4u, 5u, 7u, 6u})
+                    volumes_.add_corner(vertex(begin + k), offset());
+                return end_volume(VolumeCell::Hexahedron);
+            case VtkCell::Hexahedron:
+                return add_volume(VolumeCell::Hexahedron, begin, end);
+            case VtkCell::Wedge:
+                return add_volume(VolumeCell::Wedge, begin, end);
+            case VtkCell::Pyramid:
+                return add_volume(VolumeCell::Pyramid, begin, end);
             default:
                 ++num_others_;
         }
@@ -104,6 +134,17 @@ private:
     void add_polygon(std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) soup_.add_corner(vertex(k), offset());
         soup_.end_polygon();
+    }
+
+    void add_volume(VolumeCell kind, std::size_t begin, std::size_t end) {
+        require_corners(end - begin, num_corners(kind));
+        for (std::size_t k = begin; k < end; ++k) volumes_.add_corner(vertex(k), offset());
+        end_volume(kind);
+    }
+
+    void end_volume(VolumeCell kind) {
+        volumes_.end_cell(kind);
+        cell_of_volume_.push_back(num_cells_);
     }
 
     void require_corners(std::size_t found, std::size_t needed) const {
@@ -126,9 +167,10 @@ private:
 
     const SourceFile& file_;
     PolygonSoup& soup_;
+    VolumeSurface volumes_;
     const VtkCells* cells_ = nullptr;
-    std::size_t num_cells_ = 0, num_others_ = 0;
-    std::vector<std::size_t> cell_of_polygon_;
+    std::size_t num_cells_ = 0, num_others_ = 0, num_surface_faces_ = 0;
+    std::vector<std::size_t> cell_of_polygon_, cell_of_volume_;
 };
 
 // A name that is one word, as PLY wants it.
@@ -197,10 +239,13 @@ public:
         } else if (is_color && find_attribute(target_, "red") == nullptr) {
             for (std::size_t k = 0; k < array.num_components; ++k)
                 add(color_names[k], type, array, k);
-        } else if (array.num_components != 1) {
-            decline(array.name, "arrays of several numbers are not carried over");
-        } else {
+        } else if (array.num_components == 0 || array.num_components > most_vtk_components) {
+            decline(array.name, "arrays of so many numbers for an element are not carried over");
+        } else if (array.num_components == 1) {
             add(as_word(array.name), type, array, 0);
+        } else {
+            for (std::size_t k = 0; k < array.num_components; ++k)
+                add(as_word(array.name) + '_' + std::to_string(k), type, array, k);
         }
     }
 
@@ -301,6 +346,7 @@ MeshFile make_mesh(VtkData data, const SourceFile& file) {
     if (data.points) add_points(*data.points, file, soup);
     CellReader cells(file, soup);
     for (const VtkCells& group : data.cells) cells.add(group);
+    cells.add_surface();
     const std::size_t num_points = soup.positions.size();
     MeshAttributes attributes;
     if (file.with_attributes) {
@@ -309,11 +355,7 @@ MeshFile make_mesh(VtkData data, const SourceFile& file) {
     }
     MeshFile result = std::move(soup).finish();
     attach(std::move(attributes), result);
-    if (cells.num_others() > 0) {
-        add_warning(file.path.string() + ": " + std::to_string(cells.num_others()) +
-                        " cells that are no faces (vertices, lines, volumes) are passed over",
-                    result);
-    }
+    cells.add_warnings(result);
     return result;
 }
 

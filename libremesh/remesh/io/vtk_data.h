@@ -35,7 +35,7 @@ struct VtkArray {
     std::size_t offset = 0;           //!< Where it begins in the file.
 };
 
-//! Types of cells by VTK's numbers; all others are no faces either.
+//! Types of cells by VTK's numbers; all others are passed over.
 enum class VtkCell : std::uint8_t {
     Vertices = 2,
     Lines = 4,
@@ -43,7 +43,12 @@ enum class VtkCell : std::uint8_t {
     Strip = 6,
     Polygon = 7,
     Pixel = 8,  //!< A quad whose corners are listed row by row.
-    Quad = 9
+    Quad = 9,
+    Tetrahedron = 10,
+    Voxel = 11,  //!< A hexahedron whose corners are listed row by row.
+    Hexahedron = 12,
+    Wedge = 13,
+    Pyramid = 14
 };
 
 //! Cells that stand together in the file.
@@ -76,7 +81,11 @@ struct VtkData {
 //! \throw agvd::IoError, agvd::InvalidInput  damaged; names the array.  \throw agvd::Cancelled
 [[nodiscard]] VtkData read_vtk_xml(const SourceFile& file);
 
-//! The mesh of all faces. Other cells are passed over with a warning.
+//! The components of an array that is carried over, at most.
+constexpr std::size_t most_vtk_components = 64;
+
+//! The mesh of all faces; where there are none, the surface of the volume cells, with a warning.
+//! Other cells are passed over with a warning.
 //! \throw agvd::IoError  counts do not fit.  \throw agvd::InvalidInput  no face is left, an index is
 //!        out of range, a coordinate is not finite.
 [[nodiscard]] MeshFile make_mesh(VtkData data, const SourceFile& file);

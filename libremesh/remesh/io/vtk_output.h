@@ -11,11 +11,13 @@
 
 namespace remesh {
 
-//! Colours make one array of bytes, every other attribute an array of its own.
+//! Colours make one array of bytes, "wind_0", "wind_1" and so on one array "wind", every other
+//! attribute an array of its own.
 struct VtkOutputArray {
     std::string name;
     NumberType type;
     std::vector<const Attribute*> parts;  //!< One for each component.
+    bool is_color = false;
 };
 
 //! The arrays of some attributes, which outlive them.

@@ -1,4 +1,4 @@
-// VTK's XML files: PolyData (.vtp), and the faces of UnstructuredGrid. The pieces of a file become
+// VTK's XML files: PolyData (.vtp) and UnstructuredGrid (.vtu). The pieces of a file become
 // one mesh, piece after piece.
 
 #include <algorithm>

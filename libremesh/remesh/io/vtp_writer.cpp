@@ -47,14 +47,18 @@ std::string xml_escaped(std::string_view text) {
     return escaped;
 }
 
-VtpWriter::VtpWriter(const Counts& counts)
-    : xml_(
-          "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\" version=\"1.0\" "
-          "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<PolyData>\n<Piece "
-          "NumberOfPoints=\"" +
-          std::to_string(counts.points) + "\" NumberOfVerts=\"" + std::to_string(counts.verts) +
-          "\" NumberOfLines=\"" + std::to_string(counts.lines) +
-          "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + std::to_string(counts.polys) + "\">\n") {}
+VtpWriter::VtpWriter(const Counts& counts, bool is_grid)
+    : is_grid_(is_grid),
+      kind_(is_grid ? "UnstructuredGrid" : "PolyData"),
+      xml_(std::string("<?xml version=\"1.0\"?>\n<VTKFile type=\"") + kind_ +
+           "\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<" + kind_ +
+           ">\n<Piece NumberOfPoints=\"" + std::to_string(counts.points)) {
+    const std::string polys = std::to_string(counts.polys);
+    xml_ += is_grid ? "\" NumberOfCells=\"" + polys + "\">\n"
+                    : "\" NumberOfVerts=\"" + std::to_string(counts.verts) + "\" NumberOfLines=\"" +
+                          std::to_string(counts.lines) +
+                          "\" NumberOfStrips=\"0\" NumberOfPolys=\"" + polys + "\">\n";
+}
 
 void VtpWriter::begin_section(const char* name, const std::string& attributes) {
     section_ = name;
@@ -80,7 +84,7 @@ void VtpWriter::end_array() {
 }
 
 std::string VtpWriter::finish() && {
-    xml_ += "</Piece>\n</PolyData>\n<AppendedData encoding=\"raw\">\n_";
+    xml_ += std::string("</Piece>\n</") + kind_ + ">\n<AppendedData encoding=\"raw\">\n_";
     xml_ += data_;
     return std::move(xml_) + "\n</AppendedData>\n</VTKFile>\n";
 }

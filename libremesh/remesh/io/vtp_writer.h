@@ -1,6 +1,6 @@
 //! \file
-//! Writes VTK's XML PolyData: arrays of numbers behind XML that describes them. Private to the
-//! writers of meshes and diagrams.
+//! Writes VTK's XML PolyData and UnstructuredGrid: arrays of numbers behind XML that describes
+//! them. Private to the writers of meshes and diagrams.
 #pragma once
 
 #include <array>
@@ -10,6 +10,7 @@
 
 #include "agvd/core/poller.h"
 #include "remesh/io/byte_order.h"
+#include "remesh/io/vtk_data.h"
 
 namespace remesh {
 
@@ -22,7 +23,9 @@ public:
     struct Counts {
         std::size_t points = 0, verts = 0, lines = 0, polys = 0;
     };
-    explicit VtpWriter(const Counts& counts);
+    //! \param is_grid  UnstructuredGrid, whose cells are the polys, all of them triangles; else
+    //!        PolyData.
+    explicit VtpWriter(const Counts& counts, bool is_grid = false);
 
     //! A section, such as Points, and its attributes with a blank before each.
     void begin_section(const char* name, const std::string& attributes = {});
@@ -59,6 +62,10 @@ public:
         });
         add_array<std::int64_t>("offsets", "Int64", 1, num_cells, ticker,
                                 [&](std::size_t i) { return std::array{ends[i]}; });
+        if (is_grid_) {
+            add_array<std::uint8_t>("types", "UInt8", 1, num_cells, ticker,
+                                    [](std::size_t) { return std::array{VtkCell::Triangle}; });
+        }
         end_section();
     }
 
@@ -66,6 +73,8 @@ public:
     [[nodiscard]] std::string finish() &&;
 
 private:
+    bool is_grid_;
+    const char* kind_;  // Of data.
     std::string xml_;
     std::string data_;             // Behind the '_' of AppendedData.
     std::string section_;          // That is open.

@@ -78,9 +78,37 @@ TEST(Medit, WhatWasWrittenComesBack) {
 
 TEST(Medit, TruncatedFilesAreRefused) {
     const std::string text = medit_head + four_vertices + "Triangles\n2\n1 2 3 7\n2 4 3 8\nEnd";
+    const std::size_t end_of_lists = text.size() - 4;
     for (std::size_t size = 1; size < text.size(); ++size) {
+        if (size == end_of_lists || size == end_of_lists + 1) continue;
         expect_error<IoError>("a.mesh", text.substr(0, size), {"line"});
     }
+}
+
+TEST(Medit, WithoutEndCompleteListsAreReadWithAWarning) {
+    const auto file = read_bytes("a.mesh", medit_head + four_vertices + "Triangles 1 1 2 3 7\n");
+    EXPECT_EQ(file.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
+    ASSERT_EQ(file.warnings.size(), 1u);
+    EXPECT_NE(file.warnings[0].find("without 'End'"), std::string::npos);
+}
+
+TEST(Medit, WithoutFacesTheSurfaceOfVolumesIsRead) {
+    const std::string five = "Vertices 5 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 0 1 1 1 0\n";
+    const auto file = with_references(medit_head + five +
+                                      "Tetrahedra 2 1 2 3 4 7 4 3 2 5 8 RequiredTriangles 0 End");
+    EXPECT_EQ(file.mesh.positions.size(), 5u);
+    EXPECT_EQ(
+        file.mesh.triangles,
+        (std::vector<Triangle>{{0, 1, 3}, {2, 0, 3}, {0, 2, 1}, {4, 2, 3}, {4, 1, 2}, {4, 3, 1}}));
+    EXPECT_EQ(file.attributes.of_faces.at(0).values, (std::vector<double>{7, 7, 7, 8, 8, 8}));
+    ASSERT_EQ(file.warnings.size(), 1u);
+    EXPECT_NE(file.warnings[0].find("2 volume cells: their surface is read, the 6 faces"),
+              std::string::npos)
+        << file.warnings[0];
+    expect_error<InvalidInput>("a.mesh", medit_head + five + "Tetrahedra 1 1 2 3 6 0 End",
+                               {"line 4", "last of the 5"});
+    expect_error<InvalidInput>("a.mesh", medit_head + five + "Tetrahedra 1 0 2 3 4 0 End",
+                               {"from 1"});
 }
 
 TEST(Medit, WrongFilesAreRefused) {

@@ -83,6 +83,14 @@ TEST(Obj, VerticesMayFollowTheirFaces) {
     EXPECT_EQ(read_bytes("a.obj", "f 1 2 3\n" + four).mesh.triangles[0], (Triangle{0, 1, 2}));
 }
 
+TEST(Obj, FlatDrawingsGetZeroForZAndAWarning) {
+    const auto file = read_bytes("a.obj", "v 0 0 # flat\nv 1 0\nv 1 \\\n1\nf 1 2 3\n", true);
+    EXPECT_EQ(file.mesh.positions, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}}));
+    ASSERT_EQ(file.warnings.size(), 1u);
+    EXPECT_NE(file.warnings[0].find("two coordinates; z = 0"), std::string::npos);
+    EXPECT_TRUE(file.attributes.empty());
+}
+
 TEST(Obj, IndicesOutOfRangeAreRefused) {
     expect_error<InvalidInput>("a.obj", four + "f 1 2 3\nf 1 2 5\nf 1 2 4\n",
                                {"line 6", "face 1", "vertex 5", "4 vertices", "from 1"});
@@ -97,7 +105,9 @@ TEST(Obj, IndicesOutOfRangeAreRefused) {
 TEST(Obj, WrongNumbersAreRefused) {
     expect_error<InvalidInput>("a.obj", "v 0 0 nan\n", {"line 1", "not finite"});
     expect_error<InvalidInput>("a.obj", "\nv 0 -inf 0\n", {"line 2", "not finite"});
-    expect_error<IoError>("a.obj", "v 0 0\nv 1 0 0\n", {"line 1", "end of the line"});
+    expect_error<IoError>("a.obj", "v 0 0\nv 1 0 0\n", {"line 2", "two coordinates", "'0'"});
+    expect_error<IoError>("a.obj", "v 1 0 0\nv 0 0\n", {"line 2", "end of the line"});
+    expect_error<IoError>("a.obj", "v 1\n", {"line 1", "end of the line"});
     expect_error<IoError>("a.obj", four + "f 1 2 three\n", {"line 5", "'three'"});
     expect_error<IoError>("a.obj", four + "f 1/a 2 3\n", {"line 5", "texture"});
     expect_error<IoError>("a.obj", four + "f 1.5 2 3\n", {"line 5", "'1.5'"});

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "remesh/io/byte_order.h"
 #include "support/read_text.h"
 
 using agvd::InvalidInput;
@@ -70,12 +71,43 @@ TEST(Off, CoordinatesKeepEveryDigit) {
     EXPECT_EQ(file.mesh.positions[1], Vec3(1, 0.5, 1));
 }
 
+TEST(Off, BinaryIsReadInBothByteOrders) {
+    for (const std::endian order : {std::endian::big, std::endian::little}) {
+        std::string bytes = "CNOFF BINARY\n";
+        const auto put = [&](std::initializer_list<std::int32_t> numbers) {
+            for (const std::int32_t number : numbers) remesh::append(bytes, number, order);
+        };
+        put({4, 2, 0});
+        for (const float x : {0.f, 1.f, 2.f, 3.f}) {
+            for (const float value : {x, x * x, 0.f, 0.f, 0.f, 1.f, x / 4, 0.f, 0.f, 1.f}) {
+                remesh::append(bytes, value, order);
+            }
+        }
+        put({4, 0, 1, 2, 3, 3});
+        for (const float part : {.5f, 0.f, 1.f}) remesh::append(bytes, part, order);
+        put({3, 3, 1, 0, 0});
+        const auto file = read_bytes("a.off", bytes, true);
+        EXPECT_EQ(file.mesh.positions,
+                  (std::vector<Vec3>{{0, 0, 0}, {1, 1, 0}, {2, 4, 0}, {3, 9, 0}}));
+        ASSERT_EQ(file.mesh.triangles.size(), 3u);
+        EXPECT_EQ(file.mesh.triangles[2], (Triangle{3, 1, 0}));
+        ASSERT_EQ(file.attributes.of_vertices.size(), 4u);
+        EXPECT_EQ(file.attributes.of_vertices[0].name, "red");
+        EXPECT_EQ(file.attributes.of_vertices[0].values, (std::vector<double>{0, .25, .5, .75}));
+        EXPECT_TRUE(file.attributes.declined.empty());
+        EXPECT_TRUE(file.warnings.empty());
+        for (std::size_t size = 1; size < bytes.size(); ++size) {
+            expect_error<IoError>("a.off", bytes.substr(0, size), {});
+        }
+    }
+}
+
 TEST(Off, WrongHeadersAreRefused) {
     expect_error<IoError>("a.off", "\n\n", {"line 3", "OFF"});
     expect_error<IoError>("a.off", "3 1 0\n" + three_vertices + "3 0 1 2\n",
                           {"line 1", "keyword OFF", "'3'"});
     expect_error<IoError>("a.off", "4OFF\n3 1 0\n", {"line 1", "three dimensions"});
-    expect_error<IoError>("a.off", "OFF BINARY\n3 1 0\n", {"line 1", "binary OFF"});
+    expect_error<IoError>("a.off", "OFF BINARY\n3 1 0\n", {"byte 11", "truncated"});
     expect_error<IoError>("a.off", "OFF\n3\n0 0 0\n", {"line 2", "number of faces"});
     expect_error<IoError>("a.off", "OFF\n-3 1 0\n", {"line 2", "negative"});
     expect_error<IoError>("a.off", "OFF\nthree 1 0\n", {"line 2", "number of vertices", "'three'"});

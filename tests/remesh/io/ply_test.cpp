@@ -44,6 +44,10 @@ void expect_one_ply_triangle(const std::string& bytes) {
     EXPECT_EQ(file.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}})) << bytes;
 }
 
+remesh::MeshFile read_leniently(const std::string& bytes) {
+    return remesh::read_ply({.path = "a.ply", .bytes = bytes, .is_lenient = true});
+}
+
 template <typename Real, typename Size, typename Corner>
 void expect_binary_read(const std::string& real, const std::string& size,
                         const std::string& corner) {
@@ -130,6 +134,55 @@ TEST(Ply, FacesMayPrecedeVertices) {
     expect_one_ply_triangle(
         header("ascii", "element face 1\n" + faces + "element vertex 3\n" + xyz) + "3 0 1 2\n" +
         three);
+}
+
+TEST(Ply, TheLastLineOfTheHeaderMayEndInCrLfUnderLf) {
+    std::string bytes = triangle_header("binary_little_endian");
+    bytes.insert(bytes.size() - 1, "\r");
+    for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f}) bytes += bytes_of(x, false);
+    expect_one_ply_triangle(bytes + '\3' + bytes_of(0, false) + bytes_of(1, false) +
+                            bytes_of(2, false));
+}
+
+TEST(Ply, LenientlyValuesLeftOverOnALineArePassedOver) {
+    const std::string bytes = triangle_header("ascii") + "0 0 0 255\n1 0 0 0 0\n0 1 0\n3 0 1 2 9\n";
+    expect_error<IoError>("a.ply", bytes, {"line 10", "more values", "--lenient"});
+    const auto file = read_leniently(bytes);
+    EXPECT_EQ(file.mesh.positions, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+    EXPECT_EQ(file.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
+    ASSERT_EQ(file.warnings.size(), 1u);
+    EXPECT_NE(file.warnings[0].find("line 10: 3 lines have more values"), std::string::npos)
+        << file.warnings[0];
+}
+
+TEST(Ply, LenientlyLinesOfTheHeaderWithoutAKeywordArePassedOver) {
+    std::string bytes = triangle_header("ascii") + three + "3 0 1 2\n";
+    bytes.insert(bytes.find("element"), "Created by a program\n");
+    bytes.insert(bytes.find("end_header"), "more of it\n");
+    expect_error<IoError>("a.ply", bytes, {"line 3", "'Created'", "--lenient"});
+    const auto file = read_leniently(bytes);
+    EXPECT_EQ(file.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
+    ASSERT_EQ(file.warnings.size(), 1u);
+    EXPECT_NE(file.warnings[0].find("line 3: 2 lines of the header"), std::string::npos)
+        << file.warnings[0];
+    EXPECT_THROW((void)read_leniently(header("ascii", "property int x\n")), IoError);
+}
+
+// One byte too many behind the header: the first face read has no corner, and one more is left.
+TEST(Ply, LenientlyNothingIsReadFromTheWrongPlace) {
+    std::string bytes = triangle_header("binary_little_endian") + '\n';
+    for (const float x : {0.f, 0.f, 0.f, 1.f, 0.f, 0.f, 0.f, 1.f, 0.f}) bytes += bytes_of(x, false);
+    bytes.replace(bytes.find("face 1"), 6, "face 2");
+    for (int i = 0; i < 2; ++i) {
+        bytes += '\3' + bytes_of(0, false) + bytes_of(1, false) + bytes_of(2, false);
+    }
+    expect_error<IoError>("a.ply", bytes, {"announces 2 face elements, the file holds 3"});
+    try {
+        (void)read_leniently(bytes);
+        ADD_FAILURE() << "rubbish was read";
+    } catch (const IoError& error) {
+        EXPECT_NE(std::string(error.what()).find("not even leniently"), std::string::npos);
+    }
 }
 
 TEST(Ply, BinaryDataMayBeginLikeALineEnd) {

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "remesh/io/byte_order.h"
+#include "remesh/io/read_diagram.h"
+#include "remesh/io/read_edges.h"
+#include "remesh/io/read_sites.h"
+#include "remesh/io/read_vertices.h"
 #include "remesh/io/write_mesh.h"
 #include "remesh/topology/topology.h"
 #include "support/files.h"
@@ -33,6 +38,55 @@ TEST(ReadMesh, WhatIsNoFileIsRefused) {
     EXPECT_NE(what_reading_says(folder / "a.stl").find("empty"), std::string::npos);
     expect_error<IoError>("a.step", "OFF", {"'.step'", ".ply, .obj, .off, .stl", " or .glb"});
     expect_error<IoError>("mesh", "OFF", {"unknown", "--from"});
+}
+
+TEST(ReadMesh, NoReaderFollowsAFileThatNeverEnds) {
+    const agvd::TriangleMesh mesh = shapes::tetrahedron();
+    const auto expect_refused = [](const auto& read) {
+        for (const char* path : {"/dev/zero", "/dev/full"}) {
+            try {
+                static_cast<void>(read(path));
+                ADD_FAILURE() << path << " has been read";
+            } catch (const IoError& error) {
+                EXPECT_NE(std::string(error.what()).find("does not end within 16 MB"),
+                          std::string::npos)
+                    << error.what();
+            }
+        }
+    };
+    expect_refused([](const char* path) {
+        return remesh::read_mesh(path, remesh::ReadOptions{.format = "ply"});
+    });
+    expect_refused([&](const char* path) { return remesh::read_sites(path, mesh.view()); });
+    expect_refused([&](const char* path) { return remesh::read_vertices(path, mesh.view()); });
+    expect_refused([](const char* path) { return remesh::read_edges(path); });
+    expect_refused([](const char* path) { return remesh::read_diagram(path); });
+}
+
+TEST(ReadMesh, TextsInUtf16AreRead) {
+    const std::u16string text =
+        u"\uFEFFo Gr\u00F6\u00DFe \u20AC \U0001F642 \xD800\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    const files::TemporaryFolder folder;
+    for (const std::endian order : {std::endian::little, std::endian::big}) {
+        std::string bytes;
+        for (const char16_t unit : text) {
+            remesh::append(bytes, static_cast<std::uint16_t>(unit), order);
+        }
+        files::write(folder / "a.obj", bytes);
+        const auto file =
+            remesh::read_mesh(folder / "a.obj", remesh::ReadOptions{.with_attributes = true});
+        EXPECT_EQ(file.mesh.positions.size(), 3u);
+        EXPECT_EQ(file.mesh.triangles.size(), 1u);
+        EXPECT_EQ(file.attributes.of_faces.at(0).names.at(0),
+                  "Gr\xC3\xB6\xC3\x9F"
+                  "e \xE2\x82\xAC \xF0\x9F\x99\x82 ?");
+        // A binary file with such bytes in its free header is none.
+        remesh::write_mesh(folder / "a.stl", shapes::tetrahedron().view());
+        std::string stl = files::read(folder / "a.stl");
+        stl.replace(0, 80, bytes.substr(0, 8) + std::string(72, '\0'));
+        files::write(folder / "a.stl", stl);
+        EXPECT_EQ(remesh::read_mesh(folder / "a.stl").mesh.triangles.size(), 4u);
+    }
 }
 
 TEST(ReadMesh, ExtensionsAreKnownInAnyCase) {

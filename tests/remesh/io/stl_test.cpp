@@ -77,6 +77,16 @@ TEST(Stl, BinaryThatBeginsWithSolidIsKnownByItsSize) {
                           {"byte 183", "1 of 2 triangles", "truncated"});
 }
 
+TEST(Stl, ACountOfZeroIsAnErrorThatNamesWhatTheFileHoldsAndLenientlyThatIsRead) {
+    const std::string bytes = binary("never filled in", 0, two_records);
+    expect_error<IoError>("a.stl", bytes, {"announces 0 triangles, the file holds 2", "--lenient"});
+    const auto file = remesh::read_stl({.path = "a.stl", .bytes = bytes, .is_lenient = true});
+    EXPECT_EQ(file.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}));
+    ASSERT_EQ(file.warnings.size(), 1u);
+    EXPECT_NE(file.warnings[0].find("announces 0 triangles, the file holds 2"), std::string::npos);
+    expect_error<InvalidInput>("a.stl", bytes + "x", {"neither a vertex nor a face"});
+}
+
 TEST(Stl, NearbyPointsStayApart) {
     const float next = std::nextafter(1.f, 2.f);
     const auto file = read_bytes("a.stl", binary("", 2, {0, 0, 1, 0, 0, 0, 1,    0, 0, 1, 1, 0,

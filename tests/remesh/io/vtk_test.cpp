@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "remesh/io/write_mesh.h"
+#include "remesh/topology/topology.h"
 #include "support/read_text.h"
 #include "support/shapes.h"
 
@@ -32,6 +33,14 @@ remesh::MeshFile with_arrays(const std::string& bytes) {
     return remesh::read_vtk({.path = "a.vtk", .bytes = bytes, .with_attributes = true});
 }
 
+double volume_of(const agvd::TriangleMesh& mesh) {
+    double volume = 0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        volume += mesh.positions[a].cross(mesh.positions[b]).dot(mesh.positions[c]) / 6;
+    }
+    return volume;
+}
+
 template <typename T>
 std::string big_endian(std::initializer_list<T> values) {
     std::string bytes;
@@ -57,7 +66,7 @@ TEST(Vtk, PolygonsAndStripsAreRead) {
     EXPECT_EQ(file.mesh.triangles[4], (Triangle{2, 1, 3}));
     EXPECT_EQ(file.polygons, 1u);
     ASSERT_EQ(file.warnings.size(), 1u);
-    EXPECT_NE(file.warnings[0].find("2 cells that are no faces"), std::string::npos);
+    EXPECT_NE(file.warnings[0].find("2 cells that are neither faces"), std::string::npos);
 }
 
 TEST(Vtk, FacesOfAGridAreReadAndOtherCellsPassedOver) {
@@ -128,7 +137,7 @@ TEST(Vtk, ArraysBecomeAttributes) {
                     "1 99999999999 3\nNORMALS n float\n0 0 1 0 0 1 0 0 1\n"
                     "POINT_DATA 5\nNORMALS normals double\n0 0 1 0 0 1 0 0 1 0 0 1 0 0 1\n"
                     "TEXTURE_COORDINATES uv 2 float\n0 0 0 0 0 0 0 0 0 0\n"
-                    "VECTORS wind float\n0 0 1 0 0 1 0 0 1 0 0 1 0 0 1\n"
+                    "VECTORS wind float\n0 0 1 0 0 2 0 0 3 0 0 4 0 0 5\n"
                     "COLOR_SCALARS paint 4\n1 0 0 1 0 1 0 1 0 0 1 1 1 1 1 1 .2 0 0 1\n"
                     "SCALARS x float\nLOOKUP_TABLE own\n1 2 3 4 5\nLOOKUP_TABLE own 1\n0 0 0 1\n");
     const auto& faces = file.attributes.of_faces;
@@ -138,14 +147,18 @@ TEST(Vtk, ArraysBecomeAttributes) {
     EXPECT_EQ(faces[1].values, (std::vector<double>{1.5, 1.5, 2.5}));
     EXPECT_EQ(faces[2].type, remesh::NumberType::Float64);
     const auto& vertices = file.attributes.of_vertices;
-    ASSERT_EQ(vertices.size(), 4u);
-    EXPECT_EQ(vertices[0].name, "red");
-    EXPECT_EQ(vertices[0].values, (std::vector<double>{255, 0, 0, 255, 51}));
-    EXPECT_EQ(vertices[3].name, "alpha");
+    ASSERT_EQ(vertices.size(), 7u);
+    EXPECT_EQ(vertices[0].name, "wind_0");
+    EXPECT_EQ(vertices[2].name, "wind_2");
+    EXPECT_EQ(vertices[2].type, remesh::NumberType::Float32);
+    EXPECT_EQ(vertices[2].values, (std::vector<double>{1, 2, 3, 4, 5}));
+    EXPECT_EQ(vertices[3].name, "red");
+    EXPECT_EQ(vertices[3].values, (std::vector<double>{255, 0, 0, 255, 51}));
+    EXPECT_EQ(vertices[6].name, "alpha");
     EXPECT_EQ(file.attributes.normals, remesh::NumberType::Float64);
     std::vector<std::string> declined;
     for (const auto& one : file.attributes.declined) declined.push_back(one.name);
-    EXPECT_EQ(declined, (std::vector<std::string>{"face n", "vertex wind", "vertex x"}));
+    EXPECT_EQ(declined, (std::vector<std::string>{"face n", "vertex x"}));
     EXPECT_EQ(file.attributes.texture.corners.size(), 3u);
 }
 
@@ -179,6 +192,97 @@ TEST(Vtk, WhatWasWrittenComesBack) {
     EXPECT_EQ(file.attributes.of_faces[0].values, attributes.of_faces[0].values);
 }
 
+TEST(Vtk, ArraysOfSeveralNumbersAreWrittenAsOneArray) {
+    const agvd::TriangleMesh mesh = shapes::tetrahedron();
+    remesh::MeshAttributes attributes;
+    for (const char* name : {"wind_0", "wind_1", "wind_2", "lone_0", "gap_0", "gap_2"}) {
+        attributes.of_vertices.push_back(
+            {.name = name, .values = {1, 2, 3, static_cast<double>(name[5])}});
+    }
+    const std::string bytes = remesh::format_mesh("a.vtk", mesh.view(), attributes);
+    for (const char* head : {"wind 3 4 double", "lone_0 1 4", "gap_0 1 4", "gap_2 1 4"})
+        EXPECT_NE(bytes.find(head), std::string::npos) << head;
+    const auto file = with_arrays(bytes);
+    ASSERT_EQ(file.attributes.of_vertices.size(), 6u);
+    for (std::size_t i = 0; i < 6; ++i) {
+        EXPECT_EQ(file.attributes.of_vertices[i].name, attributes.of_vertices[i].name);
+        EXPECT_EQ(file.attributes.of_vertices[i].values, attributes.of_vertices[i].values);
+    }
+}
+
+TEST(Vtk, ArraysOfMoreThan64NumbersAreDeclined) {
+    std::string bytes = poly + "POLYGONS 1 4\n3 0 1 2\nCELL_DATA 1\nFIELD f 1\nmany 65 1 int\n";
+    for (int i = 0; i < 65; ++i) bytes += "1 ";
+    const auto file = with_arrays(bytes);
+    EXPECT_TRUE(file.attributes.of_faces.empty());
+    ASSERT_EQ(file.attributes.declined.size(), 1u);
+    EXPECT_EQ(file.attributes.declined[0].name, "face many");
+}
+
+// Two cubes side by side along x, the second one cut into a wedge and what is left of it.
+TEST(Vtk, TheSurfaceOfVolumesIsReadWithItsValues) {
+    std::string points = "POINTS 12 float\n";
+    for (const char* z : {"0", "1"}) {
+        for (const char* y : {"0", "1"}) {
+            for (const char* x : {"0", "1", "2"}) {
+                points += std::string(x) + ' ' + y + ' ' + z + '\n';
+            }
+        }
+    }
+    const auto surface = [&](const std::string& cells, const std::string& types) {
+        const auto file = with_arrays(vtk_head("ASCII\nDATASET UNSTRUCTURED_GRID\n" + points +
+                                               cells + types + "CELL_DATA 3\nSCALARS part int\n" +
+                                               "LOOKUP_TABLE default\n7 8 9\n"));
+        const remesh::Topology topology = remesh::analyze_topology(file.mesh.view());
+        EXPECT_TRUE(topology.is_manifold && topology.is_oriented);
+        EXPECT_EQ(topology.boundary_loops(), 0);
+        EXPECT_NEAR(volume_of(file.mesh), 2, 1e-14);
+        EXPECT_EQ(file.mesh.triangles.size(), 20u);
+        EXPECT_EQ(file.warnings.size(), 1u);
+        std::vector<double> parts = file.attributes.of_faces.at(0).values;
+        // 5 quads of the cube; of each wedge a triangle at both ends and two quads.
+        EXPECT_EQ(std::ranges::count(parts, 7), 10);
+        EXPECT_EQ(std::ranges::count(parts, 8), 4);
+        EXPECT_EQ(std::ranges::count(parts, 9), 6);
+        return file.warnings.at(0);
+    };
+    const std::string warning =
+        surface("CELLS 3 23\n8 0 1 4 3 6 7 10 9\n6 1 4 5 7 10 11\n6 1 2 5 7 8 11\n",
+                "CELL_TYPES 3\n12 13 13\n");
+    EXPECT_NE(warning.find("3 volume cells"), std::string::npos) << warning;
+    // The same as a voxel, and cells numbered the other way round.
+    surface("CELLS 3 23\n8 0 1 3 4 6 7 9 10\n6 7 10 11 1 4 5\n6 7 8 11 1 2 5\n",
+            "CELL_TYPES 3\n11 13 13\n");
+}
+
+TEST(Vtk, TheSurfaceOfAPyramidOnATetrahedronIsRead) {
+    const auto file = read_bytes(
+        "a.vtk",
+        vtk_head("ASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 6 float\n0 0 0 1 0 0 1 1 0 0 1 0 0 0 1\n"
+                 "3 0 1\nCELLS 2 11\n5 0 1 2 3 4\n4 1 2 4 5\nCELL_TYPES 2\n14 10\n"));
+    EXPECT_EQ(file.mesh.triangles.size(), 8u);
+    EXPECT_NEAR(volume_of(file.mesh), 1. / 3 + 1. / 2, 1e-15);
+    EXPECT_NE(file.warnings.at(0).find("the 7 faces"), std::string::npos) << file.warnings[0];
+}
+
+TEST(Vtk, VolumesBesideFacesArePassedOver) {
+    const auto file =
+        read_bytes("a.vtk", unstructured + "CELLS 2 9\n4 0 1 2 3\n3 0 1 2\nCELL_TYPES 2\n10 5\n");
+    EXPECT_EQ(file.mesh.triangles, (std::vector<Triangle>{{0, 1, 2}}));
+    ASSERT_EQ(file.warnings.size(), 1u);
+    EXPECT_NE(file.warnings[0].find("1 volume cells are passed over"), std::string::npos);
+}
+
+TEST(Vtk, WrongVolumesAreRefused) {
+    const auto cells = [](const std::string& numbers) {
+        return unstructured + "CELLS 1 5\n" + numbers + "\nCELL_TYPES 1\n10\n";
+    };
+    expect_error<InvalidInput>("a.vtk", cells("4 0 1 2 5"), {"line 9", "last of the 5"});
+    expect_error<InvalidInput>("a.vtk", cells("4 0 1 2 -1"), {"cell 0", "negative"});
+    expect_error<IoError>("a.vtk", unstructured + "CELLS 1 4\n3 0 1 2\nCELL_TYPES 1\n10\n",
+                          {"3 corners instead of 4"});
+}
+
 TEST(Vtk, WrongHeadsAreRefused) {
     expect_error<IoError>("a.vtk", "<VTKFile>", {"line 1", "# vtk DataFile"});
     expect_error<IoError>("a.vtk", vtk_head("TEXT\n"), {"line 3", "'text'"});
@@ -205,7 +309,7 @@ TEST(Vtk, WrongCellsAreRefused) {
                           {"2 types for 1"});
     expect_error<IoError>("a.vtk", unstructured + "CELLS 1 3\n2 0 1\nCELL_TYPES 1\n5\n",
                           {"2 corners instead of 3"});
-    expect_error<InvalidInput>("a.vtk", unstructured + "CELLS 1 5\n4 0 1 2 3\nCELL_TYPES 1\n10\n",
+    expect_error<InvalidInput>("a.vtk", unstructured + "CELLS 1 3\n2 0 1\nCELL_TYPES 1\n21\n",
                                {"no face"});
     expect_error<InvalidInput>(
         "a.vtk", vtk_head("ASCII\nDATASET POLYDATA\nPOINTS 1 float\n0 nan 0\n"), {"not finite"});

@@ -114,7 +114,7 @@ TEST_F(Vtp, EveryEncodingIsRead) {
         EXPECT_EQ(file.attributes.of_faces[0].values, (std::vector<double>{9, 8, 8, -3, -3}));
         EXPECT_EQ(file.attributes.normals, remesh::NumberType::Float32);
         ASSERT_EQ(file.warnings.size(), 1u);
-        EXPECT_NE(file.warnings[0].find("1 cells that are no faces"), std::string::npos);
+        EXPECT_NE(file.warnings[0].find("1 cells that are neither faces"), std::string::npos);
     }
 }
 
@@ -224,6 +224,13 @@ TEST_F(Vtp, WhatWasWrittenComesBack) {
     expect_same(file.attributes.of_vertices, attributes.of_vertices);
     expect_same(file.attributes.of_faces, attributes.of_faces);
     EXPECT_EQ(remesh::format_mesh("a.vtp", file.mesh.view(), file.attributes), bytes);
+    const auto grid =
+        texts::read_bytes("a.vtu", remesh::format_mesh("a.vtu", mesh.view(), attributes), true);
+    EXPECT_EQ(grid.mesh.positions, mesh.positions);
+    EXPECT_EQ(grid.mesh.triangles, mesh.triangles);
+    EXPECT_TRUE(grid.warnings.empty());
+    expect_same(grid.attributes.of_vertices, attributes.of_vertices);
+    expect_same(grid.attributes.of_faces, attributes.of_faces);
 }
 
 TEST_F(Vtp, NamesThatXmlCannotHoldAreChanged) {
