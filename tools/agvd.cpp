@@ -251,12 +251,9 @@ void add_compare(CLI::App& app, CompareArguments& arguments) {
         ->check(CLI::Range(1e-6, 10.0).description(""))
         ->type_name("H")
         ->capture_default_str();
-    command
-        ->add_option("--samples", arguments.options.area_samples,
-                     "Number of points at which cells are compared")
-        ->check(CLI::Range(agvd::Index{1}, agvd::Index{1'000'000'000}).description(""))
-        ->type_name("N")
-        ->capture_default_str();
+    cli::add_count(*command, "--samples", "Number of points at which cells are compared",
+                   arguments.options.area_samples)
+        ->default_str(std::to_string(arguments.options.area_samples));
     command
         ->add_option("--points", arguments.points,
                      "Largest number of points of each diagram's bisectors at which |dA - dB| is "

@@ -40,6 +40,15 @@ std::string check_memory_limit(const std::string& text) {
            "; use a number of bytes above 0 (such as 500M or 2G) or a percentage (such as 50%)";
 }
 
+// Checks the option; an empty text: valid. Others would wrap around.
+std::string check_seed(const std::string& text) {
+    std::uint64_t seed = 0;
+    const char* const end = text.data() + text.size();
+    const auto [last, error] = std::from_chars(text.data(), end, seed);
+    if (error == std::errc{} && last == end) return {};
+    return "the seed is " + text + "; use a whole number from 0 to 18446744073709551615";
+}
+
 // CLI::Range lets NaN through.
 std::string check_lambda(const std::string& text) {
     double lambda = 0;
@@ -87,6 +96,7 @@ void add_site_options(CLI::App& app, DiagramArguments& arguments) {
         [&sampling](const std::string& name) { sampling.init = inits_by_name().at(name); });
     app.add_option("--seed", sampling.seed,
                    "Seed of random numbers; the same seed gives the same bytes, whatever --threads")
+        ->check(CLI::Validator(check_seed, ""))
         ->type_name("S")
         ->capture_default_str();
     app.add_option(
@@ -110,17 +120,28 @@ void add_propagation_options(CLI::App& app, agvd::PropagationOptions& propagatio
     app.add_option("--max-error", propagation.max_error, max_error_help())
         ->check(CLI::Validator(check_max_error, ""))
         ->type_name("E");
-    app.add_option("--steiner-points", propagation.steiner_points,
-                   "Steiner engine: points on each edge; more points are more exact and slower")
-        ->check(CLI::Range(0, 1000).description(""))
-        ->type_name("M")
-        ->capture_default_str();
-    app.add_option(
-           "--lambda", propagation.lambda,
-           "Steiner engine: triangles retire every L * #faces pops; a larger L takes more memory")
-        ->check(CLI::Validator(check_lambda, ""))
-        ->type_name("L")
-        ->capture_default_str();
+    const CLI::Option* const steiner_points =
+        app.add_option("--steiner-points", propagation.steiner_points,
+                       "Steiner engine: points on each edge; more points are more exact and slower")
+            ->check(CLI::Range(0, 1000).description(""))
+            ->type_name("M")
+            ->capture_default_str();
+    const CLI::Option* const lambda =
+        app.add_option("--lambda", propagation.lambda,
+                       "Steiner engine: triangles retire every L * #faces pops; a larger L takes "
+                       "more memory")
+            ->check(CLI::Validator(check_lambda, ""))
+            ->type_name("L")
+            ->capture_default_str();
+    app.parse_complete_callback([steiner_points, lambda, &propagation] {
+        if (propagation.engine == agvd::Engine::Steiner) return;
+        for (const CLI::Option* option : {steiner_points, lambda}) {
+            if (option->count() == 0) continue;
+            throw CLI::ValidationError(
+                option->get_name(),
+                "only the Steiner engine has it; add --engine steiner, or leave it out");
+        }
+    });
 }
 
 }  // namespace
@@ -151,8 +172,29 @@ std::optional<Amount> parse_amount(std::string_view text) {
 
 bool is_number_of_samples(const std::string& text) {
     const std::optional<Amount> amount = parse_amount(text);
-    return amount && (amount->is_percent || (amount->value < agvd::no_index &&
-                                             amount->value == std::floor(amount->value)));
+    return amount && (amount->is_percent || parse_count(text));
+}
+
+std::optional<agvd::Index> parse_count(std::string_view text) {
+    double value = 0;
+    const char* const end = text.data() + text.size();
+    const auto [last, error] = std::from_chars(text.data(), end, value);
+    if (error != std::errc{} || last != end || value != std::floor(value)) return std::nullopt;
+    if (!(value >= 0 && value < agvd::no_index)) return std::nullopt;
+    return static_cast<agvd::Index>(value);
+}
+
+CLI::Option* add_count(CLI::App& app, const std::string& flag, const std::string& help,
+                       agvd::Index& count) {
+    const auto check = [](const std::string& text) {
+        if (parse_count(text).value_or(0) > 0) return std::string();
+        return "the number is " + text + "; use a whole number above 0, such as 2000 or 1e4";
+    };
+    return app
+        .add_option_function<std::string>(
+            flag, [&count](const std::string& text) { count = parse_count(text).value(); }, help)
+        ->check(CLI::Validator(check, ""))
+        ->type_name("N");
 }
 
 agvd::Index num_samples_for(const DiagramArguments& arguments, std::size_t num_vertices) {

@@ -57,6 +57,13 @@ struct Amount {
 [[nodiscard]] agvd::Index num_samples_for(const DiagramArguments& arguments,
                                           std::size_t num_vertices);
 
+//! A whole number: 12, 1e4. Nothing unless the text is one, of 0 or more and below no_index.
+[[nodiscard]] std::optional<agvd::Index> parse_count(std::string_view text);
+
+//! Adds an option whose value is a whole number above 0. \param count  outlives `app`.
+CLI::Option* add_count(CLI::App& app, const std::string& flag, const std::string& help,
+                       agvd::Index& count);
+
 //! Adds IN, --from, --keep-slits, --samples, --init, --seed, --sites, --engine, --max-error,
 //! --steiner-points,
 //! --lambda,

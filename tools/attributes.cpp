@@ -123,6 +123,18 @@ bool wants_attributes(const AttributeArguments& arguments) {
     return arguments.transfer != "none" || !arguments.keep_labels.empty();
 }
 
+void check_no_label(const AttributeArguments& arguments,
+                    const std::vector<std::filesystem::path>& outputs) {
+    if (arguments.keep_labels != any_labels) return;
+    for (const std::filesystem::path& output : outputs) {
+        if (remesh::is_known_mesh_format({output, ""})) continue;
+        throw agvd::InvalidOption("'" + output.string() +
+                                  "' has no extension of a mesh; if it names labels, write "
+                                  "--keep-labels=" +
+                                  output.string());
+    }
+}
+
 std::vector<agvd::Index> labels_to_keep(const AttributeArguments& arguments,
                                         const std::filesystem::path& input,
                                         const remesh::MeshAttributes& attributes) {

@@ -25,6 +25,11 @@ void add_attribute_options(CLI::App& app, AttributeArguments& arguments);
 //! Whether the input must be read with its attributes.
 [[nodiscard]] bool wants_attributes(const AttributeArguments& arguments);
 
+//! Call before outputs are checked: "--keep-labels material" names an output, not labels.
+//! \throw agvd::InvalidOption  after --keep-labels without a name an output has no known format.
+void check_no_label(const AttributeArguments& arguments,
+                    const std::vector<std::filesystem::path>& outputs);
+
 //! Labels for RemeshOptions::face_labels, as --keep-labels wants them; empty without it.
 //! \throw agvd::InvalidOption  there are no such labels, or several; the text lists them.
 [[nodiscard]] std::vector<agvd::Index> labels_to_keep(const AttributeArguments& arguments,

@@ -5,6 +5,7 @@
 #include <signal.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <atomic>
 #include <cstdio>
 #include <new>
@@ -12,6 +13,8 @@
 #include <system_error>
 
 #include "help.h"
+#include "nearest_name.h"
+#include "option_names.h"
 #include "remesh/io/atomic_file.h"
 
 namespace cli {
@@ -56,6 +59,27 @@ void catch_signals() {
     }
 }
 
+// What is wrong with a command line; options of subcommands in use count as well.
+std::string usage_error(const CLI::App& app, const CLI::Error& error) {
+    const std::vector<std::string> extra = app.remaining(true);
+    const auto unknown = std::find_if(
+        extra.begin(), extra.end(), [](const std::string& text) { return text.starts_with('-'); });
+    const bool is_unknown = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
+    if (!is_unknown || unknown == extra.end()) return error.what();
+    std::vector<std::string> names;
+    const auto add_names = [&names](const CLI::App& of) {
+        for (const CLI::Option* option : of.get_options()) {
+            for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+        }
+    };
+    add_names(app);
+    for (const CLI::App* used : app.get_subcommands()) add_names(*used);
+    const std::string name = unknown->substr(0, unknown->find('='));
+    const std::string nearest = nearest_name(name, names);
+    return "there is no option " + name +
+           (nearest.empty() ? "" : " (did you mean " + nearest + "?)");
+}
+
 // Parses, and runs the job; help and version end here. Returns the exit code.
 ExitCode parse_and_run(CLI::App& app, int argc, const char* const* argv,
                        const std::function<void()>& job) {
@@ -89,7 +113,7 @@ void add_common_options(CLI::App& app, CommonOptions& options) {
 
 Failure failure_of(const std::exception_ptr& thrown) {
     const auto failure = [](ExitCode code, const std::string& text) {
-        return Failure{static_cast<int>(code), text};
+        return Failure{static_cast<int>(code), with_option_names(text)};
     };
     try {
         std::rethrow_exception(thrown);
@@ -123,8 +147,8 @@ int run(CLI::App& app, int argc, const char* const* argv, const std::function<vo
     start_group(app, heading::running);
     app.set_version_flag("--version", name + " " REMESH_VERSION, "Print the version and exit");
     format_help(app);
-    app.failure_message([&](const CLI::App*, const CLI::Error& error) {
-        return name + ": error: " + error.what() + "; see " + name + " --help\n";
+    app.failure_message([&](const CLI::App* failed, const CLI::Error& error) {
+        return name + ": error: " + usage_error(*failed, error) + "; see " + name + " --help\n";
     });
     catch_signals();
     try {

@@ -98,7 +98,9 @@ remesh::RemeshOptions options_of_level(const LevelArguments& arguments, std::siz
     for (double* length : {&sizing.min_edge, &sizing.max_edge, &sizing.edge_length}) {
         *length *= factor;
     }
-    for (double& length : sizing.target_lengths) length *= factor;
+    for (auto* lengths : {&sizing.target_lengths, &sizing.face_lengths}) {
+        for (double& length : *lengths) length *= factor;
+    }
     sizing.max_distance *= factor * factor;
     return options;
 }

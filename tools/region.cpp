@@ -20,6 +20,10 @@ void add_region_options(CLI::App& app, RegionArguments& arguments) {
                    "Vertices that stay where they are: lines of one vertex, counted from 0")
         ->type_name("FILE")
         ->excludes(app.get_option("--sites"));
+    start_group(app, heading::curves);
+    app.add_flag("--lock-boundary", arguments.lock_boundary,
+                 "Edges of the boundary stay as they are: none is split, none moves")
+        ->excludes(app.get_option("--sites"));
 }
 
 std::vector<std::uint8_t> region_for(const RegionArguments& arguments,

@@ -15,9 +15,10 @@ namespace cli {
 struct RegionArguments {
     std::string region;          //!< Name of a face property; empty: the whole mesh is remeshed.
     std::filesystem::path lock;  //!< Empty: no vertex is locked.
+    bool lock_boundary = false;
 };
 
-//! Adds --region and --lock, after --sites and --drop-components.
+//! Adds --region, --lock and --lock-boundary, after --sites and --drop-components.
 void add_region_options(CLI::App& app, RegionArguments& arguments);
 
 //! RemeshOptions::region as --region wants it; empty without it.

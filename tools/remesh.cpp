@@ -196,10 +196,13 @@ void add_options(CLI::App& app, Arguments& arguments) {
         ->capture_default_str();
     app.add_flag("--keep-sites", arguments.keep_sites, "Do not relax the sites of --sites")
         ->needs("--sites");
-    app.add_flag_function(
-        "--fit,!--no-fit", [&arguments](std::int64_t count) { arguments.fit = count > 0; },
+    CLI::Option* const fit = app.add_flag_callback(
+        "--fit", [&arguments] { arguments.fit = true; },
         "Let vertices leave the surface so that the triangles lie nearer to it; the default if "
         "sites are relaxed");
+    app.add_flag_callback(
+           "--no-fit", [&arguments] { arguments.fit = false; }, "Vertices stay on the surface")
+        ->excludes(fit);
 }
 
 void add_output_options(CLI::App& app, Arguments& arguments) {
@@ -321,6 +324,7 @@ Input prepare(const Arguments& arguments, cli::Console& console) {
                                   .face_labels = std::move(labels),
                                   .texture_seams = input.attributes.texture.seams,
                                   .junctions = arguments.junctions,
+                                  .lock_boundary = arguments.region.lock_boundary,
                                   .region = std::move(region),
                                   .seed = arguments.sampling.seed,
                                   .relax_steps = arguments.relax_steps,
@@ -408,6 +412,7 @@ cli::Products make_level(const Arguments& arguments, const remesh::RemeshOptions
         info.warnings.insert(info.warnings.end(), more.begin(), more.end());
         products.reports = {remesh::to_json(result, info)};
     }
+    console.detail(remesh::details_to_text(result, info));
     products.text = remesh::to_text(result, info);
     return products;
 }
@@ -453,6 +458,7 @@ cli::MeshRun run_of(const Arguments& arguments, cli::Console& console) {
 void run_one(Arguments arguments) {
     // OUT or --output.
     if (!arguments.output.empty()) arguments.further.push_back(arguments.output);
+    if (arguments.to.empty()) cli::check_no_label(arguments.attributes, arguments.further);
     arguments.output = cli::only_output(arguments.further);
     cli::Console console(arguments.common, cli::limit_of(arguments));
     cli::run_alone(run_of(arguments, console), console);

@@ -1,6 +1,7 @@
 // Compares a remeshed surface with the original.
 #include <CLI/CLI.hpp>
 
+#include "arguments.h"
 #include "cli.h"
 #include "help.h"
 #include "mesh_paths.h"
@@ -79,11 +80,9 @@ int main(int argc, char** argv) {
                    "Write the figures as JSON; - writes them to stdout")
         ->type_name("FILE|-");
     cli::start_group(app, cli::heading::accuracy);
-    app.add_option("--samples", arguments.options.samples,
-                   "Number of points to measure on each surface")
-        ->check(CLI::Range(agvd::Index{1}, agvd::Index{1'000'000'000}).description(""))
-        ->type_name("N")
-        ->capture_default_str();
+    cli::add_count(app, "--samples", "Number of points to measure on each surface",
+                   arguments.options.samples)
+        ->default_str(std::to_string(arguments.options.samples));
     cli::start_group(app, cli::heading::running);
     app.add_option("-t,--threads", arguments.options.num_threads, "Number of threads; 0: all cores")
         ->check(CLI::Range(0, 4096).description(""))

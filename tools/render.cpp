@@ -184,7 +184,9 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--view", options.view, "Turns about x, y and z in degrees; y first")
         ->expected(3)
-        ->capture_default_str();
+        ->delimiter(',')
+        ->type_name("X,Y,Z")
+        ->default_str("15,-30,0");
     app.add_flag("--wire", options.is_wire, "Draw the edges");
     app.add_option("--overlay", options.overlay, "OBJ whose `l` lines are drawn on the surface");
     app.add_option(

@@ -16,19 +16,86 @@ std::string check_length(const std::string& text) {
            "; use a number above 0, or a percentage of the diagonal of the mesh (such as 2%)";
 }
 
-// Checks the option; an empty text: valid.
-std::string check_faces(const std::string& text) {
-    const std::optional<Amount> amount = parse_amount(text);
-    if (amount && !amount->is_percent && amount->value >= 1 && amount->value < agvd::no_index) {
-        return {};
-    }
-    return "the number of faces is " + text + "; use a whole number of 1 or more";
-}
-
 std::string check_gradation(const std::string& text) {
     const std::optional<Amount> amount = parse_amount(text);
     if (amount && !amount->is_percent && amount->value >= 1) return {};
     return "the gradation is " + text + "; use a number of 1 or more (such as 1.3)";
+}
+
+// The last colon ends the value, which may have others.
+std::optional<LabelLength> parse_label_length(const std::string& text) {
+    const std::size_t equals = text.find('='), colon = text.rfind(':');
+    if (equals == 0 || equals == std::string::npos || colon == std::string::npos) return {};
+    if (colon <= equals + 1) return {};
+    const std::optional<Amount> length = parse_amount(text.substr(colon + 1));
+    if (!length) return {};
+    return LabelLength{text.substr(0, equals), text.substr(equals + 1, colon - equals - 1),
+                       *length};
+}
+
+// Checks the option; an empty text: valid.
+std::string check_label_length(const std::string& text) {
+    if (parse_label_length(text)) return {};
+    return "the value is " + text +
+           "; use NAME=VALUE:LENGTH, the length above 0 or a percentage of the diagonal of the "
+           "mesh (such as material=steel:2%)";
+}
+
+constexpr const char* other_faces = "*";
+
+// The number of a label by its name, or by its number where labels have no names.
+// \param mesh  for errors.
+double number_of_label(const remesh::Attribute& labels, const std::string& value,
+                       const std::string& mesh) {
+    const auto name = std::find(labels.names.begin(), labels.names.end(), value);
+    if (name != labels.names.end()) return static_cast<double>(name - labels.names.begin());
+    double number = 0;
+    const auto& values = labels.values;
+    if (labels.names.empty() && CLI::detail::lexical_cast(value, number) &&
+        std::find(values.begin(), values.end(), number) != values.end()) {
+        return number;
+    }
+    throw agvd::InvalidOption("--edge-length-of: no face of " + mesh + " has " + labels.name +
+                              " '" + value + "'; use " +
+                              (labels.names.empty() ? "a value of this property"
+                                                    : CLI::detail::join(labels.names, ", ")));
+}
+
+// For each face. Of several labels of a face the last one given counts.
+template <typename InMeshUnits>
+std::vector<double> lengths_by_label(const SizingArguments& arguments,
+                                     const std::filesystem::path& path,
+                                     const remesh::MeshFile& mesh,
+                                     const InMeshUnits& in_mesh_units) {
+    std::vector<double> lengths(mesh.mesh.triangles.size(), 0);
+    double rest = arguments.edge ? in_mesh_units(*arguments.edge) : 0;
+    for (const LabelLength& label : arguments.label_lengths) {
+        const double length = in_mesh_units(label.length);
+        const remesh::Attribute& labels = remesh::require_attribute(
+            mesh.attributes.of_faces, label.name,
+            "--edge-length-of: " + path.string() + " has no face property");
+        if (label.value == other_faces) {
+            rest = length;
+            continue;
+        }
+        const double wanted = number_of_label(labels, label.value, path.string());
+        for (std::size_t f = 0; f < lengths.size(); ++f) {
+            if (labels.values[f] == wanted) lengths[f] = length;
+        }
+    }
+    for (double& length : lengths) {
+        if (length > 0) continue;
+        if (rest > 0) {
+            length = rest;
+            continue;
+        }
+        throw agvd::InvalidOption("--edge-length-of: face " +
+                                  std::to_string(&length - lengths.data()) + " of " +
+                                  path.string() +
+                                  " has none of these labels; give the length of all other faces "
+                                  "by --edge-length, or by the value *");
+    }
+    return lengths;
 }
 
 CLI::Option* add_length(CLI::App& app, const std::string& flag, const std::string& help,
@@ -48,14 +115,9 @@ void add_sizing_options(CLI::App& app, SizingArguments& arguments) {
     CLI::Option* const samples = app.get_option("--samples");
     CLI::Option* const sites = app.get_option("--sites");
     arguments.samples = samples;
-    const auto take_faces = [&sizing](const std::string& text) {
-        sizing.num_faces = static_cast<agvd::Index>(parse_amount(text).value().value);
-    };
     CLI::Option* const faces =
-        app.add_option_function<std::string>("--faces", take_faces,
-                                             "Number of faces of the result, instead of --samples")
-            ->check(CLI::Validator(check_faces, ""))
-            ->type_name("N")
+        add_count(app, "--faces", "Number of faces of the result, instead of --samples",
+                  sizing.num_faces)
             ->excludes(samples)
             ->excludes(sites);
     CLI::Option* const edge =
@@ -77,19 +139,37 @@ void add_sizing_options(CLI::App& app, SizingArguments& arguments) {
     CLI::Option* const adaptive =
         app.add_flag("--adaptive", sizing.is_adaptive,
                      "Shorter edges where the surface is curved, longer ones elsewhere");
-    CLI::Option* const lengths =
-        app.add_option("--sizing", arguments.target_lengths,
-                       "Vertex property of IN (PLY) that gives the length of the edges there; with "
-                       "--samples or the like only relative to each other")
-            ->type_name("NAME")
-            ->excludes(adaptive)
-            ->excludes(distance);
-    app.add_option("--density", arguments.densities,
-                   "Vertex property of IN (PLY) that gives vertices per area, in any unit")
-        ->type_name("NAME")
+    CLI::Option* const lengths = app.add_option("--sizing", arguments.target_lengths,
+                                                "Vertex property of IN, such as of PLY or VTK, "
+                                                "that gives the length of the edges there; with "
+                                                "--samples or the like only relative to each other")
+                                     ->type_name("NAME")
+                                     ->excludes(adaptive)
+                                     ->excludes(distance);
+    CLI::Option* const densities = app.add_option("--density", arguments.densities,
+                                                  "Vertex property of IN, such as of PLY or VTK, "
+                                                  "that gives vertices per area, in any unit")
+                                       ->type_name("NAME")
+                                       ->excludes(adaptive)
+                                       ->excludes(distance)
+                                       ->excludes(lengths);
+    const auto take_labels = [&arguments](const std::vector<std::string>& texts) {
+        for (const std::string& text : texts)
+            arguments.label_lengths.push_back(parse_label_length(text).value());
+    };
+    app.add_option_function<std::vector<std::string>>(
+           "--edge-length-of", take_labels,
+           "Length of the edges on faces with this label, such as material=steel:2%; VALUE *: on "
+           "all faces that no other names; --edge-length: likewise. Repeat it for more labels. "
+           "With "
+           "--samples or --faces lengths count only relative to each other")
+        ->check(CLI::Validator(check_label_length, ""))
+        ->type_name("NAME=VALUE:L|L%")
+        ->allow_extra_args(false)
         ->excludes(adaptive)
         ->excludes(distance)
-        ->excludes(lengths);
+        ->excludes(lengths)
+        ->excludes(densities);
     add_length(app, "--min-edge,--hmin", "No edge is meant to be shorter", arguments.min_edge);
     add_length(app, "--max-edge,--hmax", "No edge is meant to be longer", arguments.max_edge);
     const auto take_gradation = [&arguments](const std::string& text) {
@@ -106,39 +186,49 @@ void add_sizing_options(CLI::App& app, SizingArguments& arguments) {
 }
 
 bool has_count(const SizingArguments& arguments) {
-    return arguments.samples->count() > 0 || arguments.edge || arguments.max_distance ||
+    const bool has_mean_edge = arguments.edge && arguments.label_lengths.empty();
+    return arguments.samples->count() > 0 || has_mean_edge || arguments.max_distance ||
            arguments.sizing.num_faces > 0;
 }
 
 bool wants_attributes(const SizingArguments& arguments) {
-    return !arguments.target_lengths.empty() || !arguments.densities.empty();
+    return !arguments.target_lengths.empty() || !arguments.densities.empty() ||
+           !arguments.label_lengths.empty();
 }
 
 remesh::Sizing sizing_for(const SizingArguments& arguments, const std::filesystem::path& path,
                           const remesh::MeshFile& mesh) {
     remesh::Sizing sizing = arguments.sizing;
-    const auto values_of = [&](const std::string& name) {
+    const auto values_of = [&](const char* option, const std::string& name) {
         if (name.empty()) return std::vector<double>();
         return remesh::require_attribute(mesh.attributes.of_vertices, name,
-                                         path.string() + " has no vertex property")
+                                         option + path.string() + " has no vertex property")
             .values;
     };
-    const bool is_even = !sizing.is_adaptive && !arguments.max_distance &&
-                         arguments.target_lengths.empty() && arguments.densities.empty();
+    const bool is_even =
+        !sizing.is_adaptive && !arguments.max_distance && !wants_attributes(arguments);
     if (is_even && (arguments.min_edge || arguments.max_edge || arguments.has_gradation)) {
         throw agvd::InvalidOption(
             "--min-edge, --max-edge and --gradation bound edges that differ; add --adaptive, "
-            "--max-distance, --sizing or --density, or leave them out");
+            "--max-distance, --sizing, --edge-length-of or --density, or leave them out");
     }
-    sizing.target_lengths = values_of(arguments.target_lengths);
-    sizing.densities = values_of(arguments.densities);
-    sizing.gives_count = !sizing.target_lengths.empty() && !has_count(arguments);
+    sizing.target_lengths = values_of("--sizing: ", arguments.target_lengths);
+    sizing.densities = values_of("--density: ", arguments.densities);
     const auto [low, high] = agvd::box_of(mesh.mesh.view());
     const double percent = low.x() > high.x() ? 0 : (high - low).norm() / 100;
-    const auto take = [&](const std::optional<Amount>& amount, double& length) {
-        if (amount) length = amount->value * (amount->is_percent ? percent : 1);
+    const auto in_mesh_units = [percent](const Amount& amount) {
+        return amount.value * (amount.is_percent ? percent : 1);
     };
-    take(arguments.edge, sizing.edge_length);
+    const auto take = [&](const std::optional<Amount>& amount, double& length) {
+        if (amount) length = in_mesh_units(*amount);
+    };
+    const bool is_by_label = !arguments.label_lengths.empty();
+    if (is_by_label) {
+        sizing.face_lengths = lengths_by_label(arguments, path, mesh, in_mesh_units);
+    } else {
+        take(arguments.edge, sizing.edge_length);
+    }
+    sizing.gives_count = !has_count(arguments) && (is_by_label || !sizing.target_lengths.empty());
     take(arguments.max_distance, sizing.max_distance);
     take(arguments.min_edge, sizing.min_edge);
     take(arguments.max_edge, sizing.max_edge);

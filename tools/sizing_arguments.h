@@ -16,17 +16,26 @@ class Option;
 
 namespace cli {
 
+//! The length of the edges on faces with a label.
+struct LabelLength {
+    std::string name;   //!< Of the face property.
+    std::string value;  //!< The label; "*": all faces that have no length otherwise.
+    Amount length;      //!< Mesh units, or percent of the diagonal.
+};
+
 struct SizingArguments {
     remesh::Sizing sizing;  //!< What needs no mesh.
     //! Mesh units, or percent of the diagonal.
     std::optional<Amount> edge, max_distance, min_edge, max_edge;
-    std::string target_lengths, densities;  //!< Names of vertex properties; empty: none.
-    bool has_gradation = false;             //!< --gradation is given.
+    std::string target_lengths, densities;   //!< Names of vertex properties; empty: none.
+    std::vector<LabelLength> label_lengths;  //!< Empty: none.
+    bool has_gradation = false;              //!< --gradation is given.
     //! --samples: if it is not given, target lengths give the number.
     const CLI::Option* samples = nullptr;
 };
 
-//! Adds --adaptive, --sizing, --density, --faces, --edge-length, --max-distance, --min-edge,
+//! Adds --adaptive, --sizing, --density, --edge-length-of, --faces, --edge-length, --max-distance,
+//! --min-edge,
 //! --max-edge and --gradation, after --samples and --sites.
 void add_sizing_options(CLI::App& app, SizingArguments& arguments);
 
@@ -38,7 +47,8 @@ void add_sizing_options(CLI::App& app, SizingArguments& arguments);
 
 //! The options for a mesh. Cost: O(#F) for the diagonal.
 //! \param path  of the mesh, for errors.
-//! \throw agvd::InvalidOption  it has no vertex property of that name; the text lists those it has.
+//! \throw agvd::InvalidOption  it has no property of that name, whose text lists those it has; or no
+//!        such label.
 [[nodiscard]] remesh::Sizing sizing_for(const SizingArguments& arguments,
                                         const std::filesystem::path& path,
                                         const remesh::MeshFile& mesh);

@@ -1,6 +1,7 @@
 // --region and --lock: a part of a mesh is remeshed, vertices stay.
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -162,6 +163,36 @@ TEST_F(RemeshRegion, LockedVerticesStay) {
                       positions.end());
         }
     }
+}
+
+TEST_F(RemeshRegion, LockedBoundariesStay) {
+    const agvd::TriangleMesh plate = shapes::jitter(shapes::grid(5), 0.05, 1);
+    const auto boundary = [](const agvd::TriangleMesh& mesh) {
+        std::map<std::pair<Index, Index>, int> count;
+        for (const agvd::Triangle& t : mesh.triangles) {
+            for (std::size_t k = 0; k < 3; ++k) ++count[std::minmax(t[k], t[(k + 1) % 3])];
+        }
+        std::set<std::set<std::array<double, 3>>> edges;
+        const auto place = [&](Index v) {
+            const Vec3& p = mesh.positions[v];
+            return std::array{p.x(), p.y(), p.z()};
+        };
+        for (const auto& [edge, faces] : count) {
+            if (faces == 1) edges.insert({place(edge.first), place(edge.second)});
+        }
+        return edges;
+    };
+    const std::string in = put("plate.off", plate);
+    const auto boundary_with = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {in, at("plate-out.ply"), "-n", "150"});
+        const auto outcome = run(REMESH_PROGRAM, options);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return boundary(remesh::read_mesh(at("plate-out.ply")).mesh);
+    };
+    const auto given = boundary(remesh::read_mesh(in).mesh);
+    EXPECT_EQ(given.size(), 20u);
+    EXPECT_EQ(boundary_with({"--lock-boundary"}), given);
+    EXPECT_NE(boundary_with({}), given);
 }
 
 TEST_F(RemeshRegion, FilesOfVerticesAreChecked) {

@@ -82,6 +82,22 @@ TEST_F(Remesh, VerboseTellsTimeMemoryAndWorkOfEachStage) {
     EXPECT_EQ(details(verbose("2")), details(text));
 }
 
+TEST_F(Remesh, WordsOfTheMethodComeWithVerboseOnly) {
+    const std::string in = put("in.off", shapes::cube());
+    const std::string brief = remesh({in, at("out.off"), "-n", "100"}).err;
+    const std::string verbose = remesh({in, at("out.off"), "-n", "100", "--verbose"}).err;
+    for (const char* word : {"creases and boundary: 12 curves", "relaxation: ", "Delaunay",
+                             "window engine", "genus 0", "propagation memory"}) {
+        EXPECT_EQ(brief.find(word), std::string::npos) << word << " in\n" << brief;
+        EXPECT_NE(verbose.find(word), std::string::npos) << word << " is missing in\n" << verbose;
+    }
+    for (const std::string* text : {&brief, &verbose}) {
+        EXPECT_NE(text->find("\ntriangles: even, smallest angle "), std::string::npos) << *text;
+        EXPECT_NE(text->find("\ndistance: farthest 0 % of the size"), std::string::npos) << *text;
+        EXPECT_NE(text->find("\ntoo small for edges of "), std::string::npos) << *text;
+    }
+}
+
 TEST_F(Remesh, HelpHasEightyColumnsWithoutATerminal) {
     const auto longest = [](const std::string& text) {
         std::istringstream lines(text);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <sstream>
 
 #include "cli/remesh_program.h"
@@ -111,6 +112,77 @@ TEST_F(Remesh, PropertiesOfVerticesGiveLengthsAndDensities) {
     EXPECT_EQ(unknown.exit_code, 2) << unknown.err;
     EXPECT_NE(unknown.err.find("size"), std::string::npos) << unknown.err;
     EXPECT_NE(unknown.err.find("in.ply has no vertex property"), std::string::npos) << unknown.err;
+}
+
+// A cube of two triangles a side: top and bottom of steel, the rest of wood.
+TEST_F(Remesh, LabelsGiveLengthsOfEdges) {
+    const agvd::TriangleMesh cube = shapes::cube();
+    std::ostringstream text;
+    for (const agvd::Vec3& p : cube.positions)
+        text << "v " << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
+    for (const auto& [a, b, c] : cube.triangles) {
+        const double z = cube.positions[a].z();
+        const bool is_flat = cube.positions[b].z() == z && cube.positions[c].z() == z;
+        text << (is_flat ? "usemtl steel\n" : "usemtl wood\n");
+        text << "f " << a + 1 << ' ' << b + 1 << ' ' << c + 1 << '\n';
+    }
+    const std::string in = put("in.obj", text.str());
+    struct MeanEdge {
+        double flat = 0, middle = 0;  // On top; on the sides, half way up.
+        std::size_t num_vertices = 0;
+    };
+    const auto mean_edge = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {in, at("out.off")});
+        const auto outcome = remesh(options);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        const agvd::TriangleMesh result = remesh::read_mesh(at("out.off")).mesh;
+        std::vector<double> flat, middle;
+        for (const agvd::Triangle& t : result.triangles) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const agvd::Vec3 &a = result.positions[t[k]], &b = result.positions[t[(k + 1) % 3]];
+                const double level = (a.z() + b.z()) / 2;
+                if (level == 1) flat.push_back((a - b).norm());
+                if (std::abs(level - 0.5) < 0.15) middle.push_back((a - b).norm());
+            }
+        }
+        const auto mean = [](const std::vector<double>& lengths) {
+            return std::accumulate(lengths.begin(), lengths.end(), 0.) /
+                   static_cast<double>(lengths.size());
+        };
+        return MeanEdge{mean(flat), mean(middle), result.positions.size()};
+    };
+    const MeanEdge two = mean_edge({"--edge-length-of", "material=steel:.05", "--edge-length-of",
+                                    "material=wood:.2", "--gradation", "2"});
+    EXPECT_NEAR(two.flat, 0.05, 0.01);
+    EXPECT_GT(two.middle, 0.12);
+    const MeanEdge rest = mean_edge(
+        {"--edge-length-of", "material=steel:.05", "--edge-length", ".2", "--gradation", "2"});
+    EXPECT_EQ(rest.num_vertices, two.num_vertices);
+    // Only relative to each other: with percentages as well.
+    const MeanEdge few = mean_edge({"-n", "400", "--edge-length-of", "material=*:4%",
+                                    "--edge-length-of", "material=steel:1%", "--gradation", "2"});
+    EXPECT_EQ(few.num_vertices, 400u);
+    EXPECT_GT(few.middle, 2 * few.flat);
+    const auto refused = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {in, at("never.off")});
+        const auto outcome = remesh(options);
+        EXPECT_EQ(outcome.exit_code, 2) << outcome.err;
+        return outcome.err;
+    };
+    EXPECT_NE(refused({"--edge-length-of", "material=tin:.1"}).find("has material 'tin'; use "),
+              std::string::npos);
+    EXPECT_NE(
+        refused({"--edge-length-of", "kind=tin:.1"}).find("no face property 'kind'; use material"),
+        std::string::npos);
+    EXPECT_NE(refused({"--edge-length-of", "material=steel:.1"})
+                  .find("by --edge-length, or by the value *"),
+              std::string::npos);
+    for (const char* wrong :
+         {"steel:.1", "material=steel", "material=:1", "=steel:1", "material=steel:0"}) {
+        EXPECT_NE(refused({"--edge-length-of", wrong}).find("use NAME=VALUE:LENGTH"),
+                  std::string::npos)
+            << wrong;
+    }
 }
 
 TEST_F(Remesh, WrongNumbersAndLengthsAreRefused) {

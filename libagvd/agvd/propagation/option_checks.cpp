@@ -39,7 +39,7 @@ void check_options(const Surface& surface, const PropagationOptions& options) {
     if (options.engine == Engine::Steiner) check_steiner_options(surface, options);
     if (options.engine == Engine::Vertex && options.max_error) {
         throw InvalidOption(
-            "the vertex engine has no error bound; leave max_error unset, or use the window or "
+            "the vertex engine has no error bound; leave out max_error, or use the window or "
             "the Steiner engine");
     }
 }

@@ -98,6 +98,10 @@ const MeshFormat* find_format(const MeshPath& path) {
 
 const MeshFormat& require_format(const MeshPath& path) {
     if (const MeshFormat* const format = find_format(path)) return *format;
+    std::error_code none;
+    if (std::filesystem::is_directory(path.path, none)) {
+        throw agvd::IoError(path.path.string() + ": is a folder; name a file");
+    }
     const std::string begin = path.path.string() + ": unknown ";
     if (!path.format.empty()) {
         throw agvd::IoError(begin + "format " + in_quotes(path.format) + "; use " +

@@ -27,7 +27,7 @@ std::string names_of(const std::vector<Attribute>& attributes) {
     for (const Attribute& attribute : attributes) {
         text += (text.empty() ? "" : ", ") + attribute.name;
     }
-    return text.empty() ? "none" : text;
+    return text;
 }
 
 bool is_color(std::string_view name) {

@@ -77,7 +77,7 @@ struct MeshAttributes {
 [[nodiscard]] const Attribute* find_attribute(const std::vector<Attribute>& attributes,
                                               std::string_view name);
 
-//! Their names, with commas; "none" if there are none.
+//! Their names, with commas.
 [[nodiscard]] std::string names_of(const std::vector<Attribute>& attributes);
 
 //! Whether the name is that of a part of a colour: red, green, blue or alpha.

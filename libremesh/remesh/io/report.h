@@ -75,8 +75,10 @@ struct ComparisonInfo {
 //! The report of `agvd compare`.
 [[nodiscard]] std::string to_json(const Comparison& comparison, const ComparisonInfo& info = {});
 
-//! The same for people, several lines without a last line end; details left to the JSON.
+//! The same for people, several lines without a last line end, in words of any user.
 [[nodiscard]] std::string to_text(const RemeshResult& result, const RunInfo& info = {});
+//! More of it, for those who know the method; likewise without a last line end.
+[[nodiscard]] std::string details_to_text(const RemeshResult& result, const RunInfo& info = {});
 //! Likewise.
 [[nodiscard]] std::string to_text(const Evaluation& evaluation, const EvaluationInfo& info = {});
 //! Likewise.

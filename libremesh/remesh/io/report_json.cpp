@@ -174,6 +174,7 @@ Json to_json(const Sizing& sizing) {
     Json object;
     object["adaptive"] = sizing.is_adaptive;
     object["given_target_lengths"] = sizing.target_lengths.size();
+    object["given_face_lengths"] = sizing.face_lengths.size();
     object["given_densities"] = sizing.densities.size();
     object["min_edge_mesh_units"] = sizing.min_edge;
     object["max_edge_mesh_units"] = sizing.max_edge;
@@ -210,7 +211,8 @@ Json to_json(const Verdict& verdict) {
         {"largest_distance_mesh_units", verdict.largest_distance},
         {"largest_distance_percent_of_diagonal", 100 * verdict.largest_distance / verdict.diagonal},
         {"farthest_point", {verdict.farthest.x(), verdict.farthest.y(), verdict.farthest.z()}},
-        {"min_angle_deg", verdict.min_angle * degrees}};
+        {"min_angle_deg", verdict.min_angle * degrees},
+        {"small_angle_percent", 100 * verdict.small_angle_share}};
 }
 
 Json to_json(const AttributeReport& attributes) {
@@ -249,6 +251,7 @@ Json to_json(const RemeshOptions& options, Index num_samples) {
     object["seed"] = options.seed;
     object["region"] = !options.region.empty();
     object["locked_vertices"] = options.locked.size();
+    object["locked_boundary"] = options.lock_boundary;
     object["given_sites"] = options.sites ? Json(options.sites->size()) : Json();
     object["relax_steps"] = options.relax_steps;
     object["keep_sites"] = options.keep_sites;

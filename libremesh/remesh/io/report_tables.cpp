@@ -63,7 +63,7 @@ void add_meshes(Table& table, const MeshFigures& a, const MeshFigures& b) {
     });
 }
 
-void add_features(Table& table, const FeatureCoverage& features) {
+void add_sharp_edges(Table& table, const FeatureCoverage& features) {
     const auto diagonals = [&](double length) { return fixed(length / features.diagonal, 3); };
     table.row("sharp edges (diagonals)", diagonals(features.length),
               diagonals(features.result_length));
@@ -74,6 +74,9 @@ void add_features(Table& table, const FeatureCoverage& features) {
     if (features.result_length > 0) {
         table.row("false sharp edges (%)", "", fixed(100 * features.false_share, 2));
     }
+}
+
+void add_corners(Table& table, const FeatureCoverage& features) {
     if (features.corners > 0)
         table.row("corners, corners kept", features.corners, features.corners_kept);
     if (features.acute_corners > 0) {
@@ -104,7 +107,12 @@ std::string to_text(const Evaluation& evaluation, const EvaluationInfo& info) {
     out << "original " << to_text(evaluation.cleaned) << "\n\n";
     add_meshes(table, evaluation.original, evaluation.result);
     table.row("topology kept", "", evaluation.topology_kept ? "yes" : "no");
-    if (evaluation.features) add_features(table, *evaluation.features);
+    // The boundary has corners without creases.
+    if (evaluation.has_creases) add_sharp_edges(table, *evaluation.features);
+    if (evaluation.features &&
+        (evaluation.has_creases || evaluation.original.topology.boundary_loops() > 0)) {
+        add_corners(table, *evaluation.features);
+    }
     if (!evaluation.distance) {
         table.row("flipped normals", "", not_measured);
         out << "\ndistance: not measured, as this build lacks CGAL";

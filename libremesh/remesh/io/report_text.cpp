@@ -1,5 +1,6 @@
-// Formats the report of a run as text for people. Each part has a function of its own. Lines for
-// things that did not happen are left out.
+// Formats the report of a run as text for people: what it means to any user (to_text), and what
+// tells more to those who know the method (details_to_text). Each part has a function of its own.
+// Lines for things that did not happen are left out.
 #include <algorithm>
 #include <cmath>
 
@@ -84,19 +85,15 @@ std::string describe(const FeatureCounts& features) {
     }
     std::string text = "\ncreases and boundary: " + counted(features.curves, "curve") + ", " +
                        counted(features.nodes, "corner") + ", " +
-                       counted(features.vertices, "vertex") + "; creases of length " +
-                       fixed(features.length, 4) + " kept";
-    if (features.dropped_length > 0) {
-        text += ", creases of length " + fixed(features.dropped_length, 4) + " dropped (" +
-                why_dropped(features) + ")";
-    }
-    if (features.seam_length + features.dropped_seam_length > 0) {
-        text += "; texture seams of length " + fixed(features.seam_length, 4) + " kept";
-    }
-    if (features.dropped_seam_length > 0) {
-        text += ", of length " + fixed(features.dropped_seam_length, 4) +
-                " left out as too short or too close to each other";
-    }
+                       counted(features.vertices, "vertex");
+    const auto add_length = [&](double length, const char* what) {
+        if (length > 0) text += "; " + significant(length) + " long: " + what;
+    };
+    add_length(features.length, "creases kept");
+    add_length(features.dropped_length, "creases dropped");
+    add_length(features.seam_length, "texture seams kept");
+    add_length(features.dropped_seam_length,
+               "texture seams left out as too short or too close to each other");
     if (features.thinned_patches > 0) {
         text += "; " + counted(features.thinned_patches, "patch") +
                 " between them thinned to the sites, because cells failed there";
@@ -140,7 +137,8 @@ std::string samples_for(agvd::Index count) {
     return "; about " + std::to_string(count) + " samples would do)";
 }
 
-std::string describe(const Verdict& verdict, const FeatureCounts& features) {
+// Parts of the input that are smaller than the result's edges; empty: none.
+std::string describe_lost(const Verdict& verdict, const FeatureCounts& features) {
     std::string small;
     const auto add = [&](const std::string& text) { small += (small.empty() ? "" : ", ") + text; };
     if (features.dropped_length > 0) {
@@ -156,13 +154,32 @@ std::string describe(const Verdict& verdict, const FeatureCounts& features) {
             std::to_string(least_component_vertices) + " vertices" +
             samples_for(verdict.samples_for_components));
     }
+    return small;
+}
+
+std::string describe_crossings(const RemeshResult& result) {
+    if (!result.self_intersections) return "crossings not counted";
+    if (*result.self_intersections == 0) return "no crossing";
+    return std::to_string(*result.self_intersections) + " pairs cross (" +
+           std::to_string(result.input_self_intersections) + " in the input)";
+}
+
+// Three lines: the shape of the triangles, the distance, and what is lost.
+std::string describe_verdict(const RemeshResult& result) {
+    const Verdict& verdict = result.verdict;
+    constexpr double most_narrow = 0.01;
+    const std::string shape =
+        verdict.small_angle_share > most_narrow
+            ? fixed(100 * verdict.small_angle_share, 1) + " % narrow (an angle below 30 degrees)"
+            : "even";
     const agvd::Vec3& at = verdict.farthest;
-    return "smaller than the spacing (" + significant(verdict.spacing) +
-           "): " + (small.empty() ? "nothing" : small) +
-           "\nlargest distance: " + significant(100 * verdict.largest_distance / verdict.diagonal) +
-           " % of the diagonal, from the input's vertex at " + significant(at.x()) + ' ' +
-           significant(at.y()) + ' ' + significant(at.z()) +
-           "\nsmallest angle: " + fixed(verdict.min_angle * degrees, 1) + " degrees";
+    const std::string lost = describe_lost(verdict, result.features);
+    return "triangles: " + shape + ", smallest angle " + fixed(verdict.min_angle * degrees, 1) +
+           " degrees; " + describe_crossings(result) + "\ndistance: farthest " +
+           significant(100 * verdict.largest_distance / verdict.diagonal) +
+           " % of the size, from the input's vertex at " + significant(at.x()) + ' ' +
+           significant(at.y()) + ' ' + significant(at.z()) + "\ntoo small for edges of " +
+           significant(verdict.spacing) + ": " + (lost.empty() ? "nothing" : lost);
 }
 
 // Empty if the file has no attributes.
@@ -179,36 +196,16 @@ std::string describe(const AttributeReport& attributes) {
 }
 
 std::string to_text(const SizingResult& sizing) {
-    std::string text = "edges: " + counted(sizing.num_samples, "sample") + ", mean edge " +
-                       significant(sizing.mean_edge);
+    std::string text = "edges: mean length " + significant(sizing.mean_edge);
     if (sizing.largest_target == 0) return text;
     return text + ", targets from " + significant(sizing.least_target) + " to " +
            significant(sizing.largest_target) + ", 90 % of the edges are " +
            fixed(sizing.low_ratio, 2) + " to " + fixed(sizing.high_ratio, 2) + " times theirs";
 }
 
-}  // namespace
-
-std::string to_text(const RemeshResult& result, const RunInfo& info) {
+// How often the number of vertices was changed, and why; empty: never.
+std::string describe_repair(const RemeshResult& result) {
     std::string text;
-    if (!info.input_path.empty()) text += "input: " + info.input_path + '\n';
-    text += to_text(result.cleaned) + '\n';
-    text += "surface: " + counted(result.input_topology.face_component.size(), "face") + ", " +
-            describe(result.input_topology) + '\n';
-    text += to_text(info.options.propagation.engine, result.certified_error) + '\n';
-    for (const RelaxLevel& level : result.relaxation) {
-        const double rise = level.energy.back() / level.energy.front() - 1;
-        text += "relaxation: " + counted(level.num_sites, "site") + ", " +
-                counted(level.energy.size() - 1, "step") + ", energy " +
-                (rise > 0 ? "raised" : "lowered") + " by " + fixed(100 * std::abs(rise), 1) +
-                " %\n";
-    }
-    text += to_text(result.sizing) + '\n';
-    text += "result: " + counted(result.mesh.positions.size(), "vertex") + ", " +
-            counted(result.mesh.triangles.size(), "face") +
-            (result.junctions.welded_edges > 0 ? "; same topology before the sheets were welded"
-                                               : "; same topology");
-    text += describe(result.kept, result.mesh.triangles.size());
     if (result.repair_rounds > 0 || result.sites_removed > 0) {
         text += "\ntopology repair: " + counted(result.sites_added, "site") + " added, " +
                 counted(result.sites_moved, "site") + " moved, " +
@@ -222,7 +219,21 @@ std::string to_text(const RemeshResult& result, const RunInfo& info) {
         text += "\n" + counted(result.components_thinned, "component") +
                 " thinned to the sites, because cells failed there";
     }
-    if (info.options.features != Features::Off) text += describe(result.features);
+    return text;
+}
+
+}  // namespace
+
+std::string to_text(const RemeshResult& result, const RunInfo& info) {
+    std::string text;
+    if (!info.input_path.empty()) text += "input: " + info.input_path + '\n';
+    text += to_text(result.cleaned);
+    text += "\nresult: " + counted(result.mesh.positions.size(), "vertex") + ", " +
+            counted(result.mesh.triangles.size(), "face") +
+            (result.junctions.welded_edges > 0 ? "; same topology before the sheets were welded"
+                                               : "; same topology");
+    text += '\n' + to_text(result.sizing);
+    text += describe(result.kept, result.mesh.triangles.size());
     text += describe(result.junctions);
     if (result.components_dropped > 0) {
         text += "\n" + counted(result.components_dropped, "component") +
@@ -232,24 +243,33 @@ std::string to_text(const RemeshResult& result, const RunInfo& info) {
         text +=
             "\n" + counted(result.sites_dropped, "site") + " dropped, because they have no cell";
     }
-    if (result.self_intersections.value_or(0) > 0) {
-        text +=
-            "\nself-intersecting pairs of faces: " + std::to_string(*result.self_intersections) +
-            " in the result, " + std::to_string(result.input_self_intersections) + " in the input";
+    text += '\n' + describe_verdict(result);
+    text += describe(info.attributes);
+    if (!info.output_path.empty()) text += "\nwritten: " + info.output_path;
+    return text;
+}
+
+std::string details_to_text(const RemeshResult& result, const RunInfo& info) {
+    std::string text = "surface: " + counted(result.input_topology.face_component.size(), "face") +
+                       ", " + describe(result.input_topology) + '\n' +
+                       to_text(info.options.propagation.engine, result.certified_error);
+    for (const RelaxLevel& level : result.relaxation) {
+        const double rise = level.energy.back() / level.energy.front() - 1;
+        text += "\nrelaxation: " + counted(level.num_sites, "site") + ", " +
+                counted(level.energy.size() - 1, "step") + ", energy " +
+                (rise > 0 ? "raised" : "lowered") + " by " + fixed(100 * std::abs(rise), 1) + " %";
     }
+    text += describe_repair(result);
+    if (info.options.features != Features::Off) text += describe(result.features);
     if (info.options.delaunay != Delaunay::Off) {
         text += '\n' + describe(result.delaunay, info.options.delaunay);
     }
-    text += '\n' + describe(result.verdict, result.features);
     text += "\ntime:";
     for (const auto& [stage, seconds] : result.seconds) {
         text += std::string(" ") + stage_name(stage) + ' ' + fixed(seconds, 2) + " s,";
     }
-    text += " total " + fixed(detail::total_seconds(result), 2) + " s; propagation memory " +
-            fixed(static_cast<double>(result.propagation_bytes) * 1e-6, 1) + " MB";
-    text += describe(info.attributes);
-    if (!info.output_path.empty()) text += "\nwritten: " + info.output_path;
-    return text;
+    return text + " total " + fixed(detail::total_seconds(result), 2) + " s; propagation memory " +
+           fixed(static_cast<double>(result.propagation_bytes) * 1e-6, 1) + " MB";
 }
 
 }  // namespace remesh

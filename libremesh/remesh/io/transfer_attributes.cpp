@@ -84,7 +84,9 @@ void keep_attributes(const MeshAttributes& input, std::span<const Index> vertice
 const Attribute& require_attribute(const std::vector<Attribute>& attributes, std::string_view name,
                                    const std::string& what) {
     if (const Attribute* const found = find_attribute(attributes, name)) return *found;
-    throw agvd::InvalidOption(what + " '" + std::string(name) + "'; use " + names_of(attributes));
+    throw agvd::InvalidOption(what + " '" + std::string(name) +
+                              (attributes.empty() ? "', nor any other; use a file that has it"
+                                                  : "'; use " + names_of(attributes)));
 }
 
 std::vector<Index> face_labels_of(const Attribute& attribute) {

@@ -12,8 +12,8 @@ namespace {
 bool refers_to_input(const RemeshOptions& options) {
     return options.sites || !options.feature_edges.empty() || !options.texture_seams.empty() ||
            !options.face_labels.empty() || !options.sizing.target_lengths.empty() ||
-           !options.sizing.densities.empty() || !options.locked.empty() ||
-           !options.locked_edges.empty();
+           !options.sizing.face_lengths.empty() || !options.sizing.densities.empty() ||
+           !options.locked.empty() || !options.locked_edges.empty();
 }
 
 Topology topology_of(const CleanResult& clean, int num_threads, const agvd::Progress& progress) {
@@ -67,8 +67,7 @@ CleanedInput clean_stage(const InputMesh& input, const StageContext& context) {
         is_unchanged ? agvd::build_surface(std::move(clean.mesh), std::move(clean.connectivity),
                                            options.num_threads, done)
                      : agvd::build_surface(clean.mesh.view(), options.num_threads, done);
-    cleaned.locked =
-        find_locked(cleaned.given, options.locked, options.locked_edges, cleaned.surface);
+    cleaned.locked = find_locked(cleaned.given, options, cleaned.surface);
     return cleaned;
 }
 

@@ -49,13 +49,39 @@ void require_vertex(const agvd::MeshView& given, Index vertex) {
         std::to_string(given.positions.size()) + " vertices, counted from 0; name one of these");
 }
 
+// Edges of several sheets at one place are no boundary: cleaning has cut the mesh there.
+void add_boundary(const agvd::Surface& surface, Places& places,
+                  std::vector<std::uint64_t>& wanted) {
+    Places of_boundary;
+    std::vector<std::pair<std::uint64_t, Index>> edges;  // Between places, and the half-edge.
+    const auto& positions = surface.mesh.positions;
+    for (Index h = 0; h < surface.twin.size(); ++h) {
+        if (surface.twin[h] != no_index) continue;
+        const Vec3 &a = positions[surface.tail(h)], &b = positions[surface.head(h)];
+        of_boundary.add(a);
+        of_boundary.add(b);
+        edges.emplace_back(agvd::edge_key(of_boundary.find(a), of_boundary.find(b)), h);
+    }
+    std::sort(edges.begin(), edges.end());
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        const auto& [edge, h] = edges[i];
+        if (i > 0 && edges[i - 1].first == edge) continue;
+        if (i + 1 < edges.size() && edges[i + 1].first == edge) continue;
+        const Vec3 &a = positions[surface.tail(h)], &b = positions[surface.head(h)];
+        places.add(a);
+        places.add(b);
+        wanted.push_back(agvd::edge_key(places.find(a), places.find(b)));
+    }
+}
+
 }  // namespace
 
-LockedElements find_locked(const agvd::MeshView& given, std::span<const Index> vertices,
-                           std::span<const std::array<Index, 2>> edges,
+LockedElements find_locked(const agvd::MeshView& given, const RemeshOptions& options,
                            const agvd::Surface& surface) {
     LockedElements locked;
-    if (vertices.empty() && edges.empty()) return locked;
+    const auto& vertices = options.locked;
+    const auto& edges = options.locked_edges;
+    if (vertices.empty() && edges.empty() && !options.lock_boundary) return locked;
     Places places;
     const auto place_of = [&](Index v) { return places.find(given.positions[v]); };
     for (const Index v : vertices) {
@@ -70,6 +96,7 @@ LockedElements find_locked(const agvd::MeshView& given, std::span<const Index> v
         }
         wanted.push_back(agvd::edge_key(place_of(ends[0]), place_of(ends[1])));
     }
+    if (options.lock_boundary) add_boundary(surface, places, wanted);
     wanted = sorted(std::move(wanted));
     std::vector<Index> place(surface.num_vertices());
     std::vector<bool> is_found(places.size(), false);
@@ -85,7 +112,7 @@ LockedElements find_locked(const agvd::MeshView& given, std::span<const Index> v
                                  " is to stay, but no face with an area has it as a corner; name "
                                  "another vertex");
     }
-    if (edges.empty()) return locked;
+    if (wanted.empty()) return locked;
     locked.is_edge.assign(surface.num_edges(), 0);
     std::vector<std::uint64_t> found;
     for (Index e = 0; e < surface.num_edges(); ++e) {

@@ -2,25 +2,21 @@
 //! What the caller locked, on the cleaned surface and in the result.
 #pragma once
 
-#include <array>
-#include <span>
-
 #include "agvd/mesh/surface.h"
 #include "remesh/features/locked_elements.h"
+#include "remesh/pipeline/remesh_options.h"
 
 namespace remesh::detail {
 
 //! Vertices are recognised by their positions, so that those that cleaning welds or copies are
 //! found: all vertices at the position of a locked one are locked.
 //!
-//! \param given    the caller's mesh.
-//! \param vertices, edges  of the caller's mesh.
+//! \param given    the caller's mesh; may be empty if only the boundary is locked.
+//! \param options  its locked, locked_edges and lock_boundary are read.
 //! \param surface  of the cleaned mesh.
 //! \throw agvd::InvalidInput  there is no such vertex or edge; the text names it.
 //! Cost: O(#surface + #locked log #locked).
-[[nodiscard]] LockedElements find_locked(const agvd::MeshView& given,
-                                         std::span<const agvd::Index> vertices,
-                                         std::span<const std::array<agvd::Index, 2>> edges,
+[[nodiscard]] LockedElements find_locked(const agvd::MeshView& given, const RemeshOptions& options,
                                          const agvd::Surface& surface);
 
 //! Whether the mesh has all that is locked, by position. Gives these vertices the same bits as

@@ -12,29 +12,40 @@
 namespace remesh {
 namespace {
 
-void check_values(const char* name, const std::vector<double>& values, std::size_t num_vertices) {
+// What has a value each.
+struct Elements {
+    const char* one;
+    const char* many;
+    std::size_t count;
+};
+
+void check_values(const char* name, const std::vector<double>& values, const Elements& elements) {
     if (values.empty()) return;
-    if (values.size() != num_vertices) {
+    if (values.size() != elements.count) {
         throw agvd::InvalidOption(std::string(name) + " has " + std::to_string(values.size()) +
-                                  " values, but the mesh has " + std::to_string(num_vertices) +
-                                  " vertices; give one for each, or none");
+                                  " values, but the mesh has " + std::to_string(elements.count) +
+                                  ' ' + elements.many + "; give one for each, or none");
     }
     const auto is_bad = [](double value) { return !(value > 0 && std::isfinite(value)); };
     const auto bad = std::find_if(values.begin(), values.end(), is_bad);
     if (bad == values.end()) return;
-    throw agvd::InvalidOption(std::string(name) + " is " + std::to_string(*bad) + " at vertex " +
-                              std::to_string(bad - values.begin()) + "; use numbers above 0");
+    throw agvd::InvalidOption(std::string(name) + " is " + std::to_string(*bad) + " at " +
+                              elements.one + ' ' + std::to_string(bad - values.begin()) +
+                              "; use numbers above 0");
 }
 
-void check_sizing(const RemeshOptions& options, std::size_t num_vertices) {
+void check_sizing(const RemeshOptions& options, std::size_t num_vertices, std::size_t num_faces) {
     const Sizing& sizing = options.sizing;
-    check_values("target_lengths", sizing.target_lengths, num_vertices);
-    check_values("densities", sizing.densities, num_vertices);
+    check_values("target_lengths", sizing.target_lengths, {"vertex", "vertices", num_vertices});
+    check_values("densities", sizing.densities, {"vertex", "vertices", num_vertices});
+    check_values("face_lengths", sizing.face_lengths, {"face", "faces", num_faces});
     const int num_fields = (sizing.is_adaptive ? 1 : 0) + (sizing.target_lengths.empty() ? 0 : 1) +
+                           (sizing.face_lengths.empty() ? 0 : 1) +
                            (sizing.densities.empty() ? 0 : 1);
     if (num_fields > 1) {
         throw agvd::InvalidOption(
-            "several of is_adaptive, target_lengths and densities are given; use one of them");
+            "several of is_adaptive, target_lengths, face_lengths and densities are given; use one "
+            "of them");
     }
     const int num_counts = (sizing.max_error > 0 ? 1 : 0) + (sizing.edge_length > 0 ? 1 : 0) +
                            (sizing.num_faces > 0 ? 1 : 0) + (sizing.gives_count ? 1 : 0) +
@@ -48,10 +59,11 @@ void check_sizing(const RemeshOptions& options, std::size_t num_vertices) {
         throw agvd::InvalidOption("max_error needs is_adaptive");
     }
     if (sizing.max_distance > 0 && num_fields > (sizing.is_adaptive ? 1 : 0)) {
-        throw agvd::InvalidOption("max_distance excludes target_lengths and densities");
+        throw agvd::InvalidOption(
+            "max_distance excludes target_lengths, face_lengths and densities");
     }
-    if (sizing.gives_count && sizing.target_lengths.empty()) {
-        throw agvd::InvalidOption("gives_count needs target_lengths");
+    if (sizing.gives_count && sizing.target_lengths.empty() && sizing.face_lengths.empty()) {
+        throw agvd::InvalidOption("gives_count needs target_lengths or face_lengths");
     }
     const auto is_length = [](double value) { return value >= 0 && std::isfinite(value); };
     if (!is_length(sizing.max_error) || !is_length(sizing.edge_length) ||
@@ -71,7 +83,9 @@ void check_sizing(const RemeshOptions& options, std::size_t num_vertices) {
 
 // Multiplies all lengths by 2^exponent.
 void scale_lengths(Sizing& sizing, int exponent) {
-    for (double& length : sizing.target_lengths) length = std::ldexp(length, exponent);
+    for (auto* lengths : {&sizing.target_lengths, &sizing.face_lengths}) {
+        for (double& length : *lengths) length = std::ldexp(length, exponent);
+    }
     for (double* length : {&sizing.min_edge, &sizing.max_edge, &sizing.edge_length,
                            &sizing.max_error, &sizing.max_distance}) {
         *length = std::ldexp(*length, exponent);
@@ -103,11 +117,13 @@ void check_options(const RemeshOptions& options, std::size_t num_vertices, std::
                                   " labels, but the mesh has " + std::to_string(num_faces) +
                                   " faces; give one for each, or none");
     }
-    if (options.sites && !(options.locked.empty() && options.locked_edges.empty())) {
+    const bool locks =
+        !options.locked.empty() || !options.locked_edges.empty() || options.lock_boundary;
+    if (options.sites && locks) {
         throw agvd::InvalidOption(
             "sites are given, and vertices or edges are locked; use one of them");
     }
-    check_sizing(options, num_vertices);
+    check_sizing(options, num_vertices, num_faces);
     agvd::check_num_threads(options.num_threads);
 }
 

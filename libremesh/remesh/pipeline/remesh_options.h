@@ -77,6 +77,8 @@ struct RemeshOptions {
     std::vector<agvd::Index> locked = {};
     //! Edges that stay edges of the result, as pairs of the caller's vertices; their ends stay too.
     std::vector<std::array<agvd::Index, 2>> locked_edges = {};
+    //! The edges of the boundary stay like locked_edges; those of non-manifold edges do not count.
+    bool lock_boundary = false;
     //! Faces to remesh: other than 0 for each of the caller's faces that is to change, or empty for
     //! all. The others stay, see KeptPart; what joins them to the changed ones is locked.
     //! num_samples, edge lengths and numbers of faces count in the region, its seam included. Not

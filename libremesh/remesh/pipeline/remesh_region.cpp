@@ -96,6 +96,7 @@ Sizing sizing_of_region(const Sizing& given, const Region& region) {
     const auto num_vertices = region.vertices.size();
     if (!given.target_lengths.empty())
         sizing.target_lengths = take(given.target_lengths, region.vertices);
+    if (!given.face_lengths.empty()) sizing.face_lengths = take(given.face_lengths, region.faces);
     if (!given.densities.empty()) sizing.densities = take(given.densities, region.vertices);
     if (!is_uniform(given) || given.max_distance > 0) return sizing;
     sizing.target_lengths.assign(num_vertices, given.edge_length > 0 ? given.edge_length : 1);

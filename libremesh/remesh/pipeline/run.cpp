@@ -3,6 +3,8 @@
 #include "remesh/pipeline/run.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <string>
 #include <utility>
 
@@ -99,7 +101,7 @@ bool is_better(const RemeshResult& result, const RemeshResult& best) {
 // Whether lengths are ours to choose, for a number of samples that is given.
 bool may_shorten(const RemeshOptions& options) {
     const Sizing& sizing = options.sizing;
-    return !options.sites && sizing.target_lengths.empty() && sizing.densities.empty() &&
+    return !options.sites && (sizing.is_adaptive || is_uniform(sizing)) &&
            sizing.edge_length == 0 && sizing.max_error == 0 && sizing.max_distance == 0;
 }
 
@@ -220,15 +222,19 @@ void require_least_samples(const Topology& topology, const RemeshOptions& option
     if (options.num_samples < needed) throw TooFewSamples{options.num_samples, needed};
 }
 
-// For the text of an error: a number of samples that was tried and works. Large numbers are not
-// tried: a run would take minutes.
-std::string describe_enough(CleanedInput& cleaned, const RemeshResult& after_cleaning,
-                            const RemeshOptions& options, Index reached) {
+struct EnoughSamples {
+    Index count = 0;
+    bool is_tried = false;    // A run with so many has given a mesh.
+    bool is_too_few = false;  // A run with so many has given none.
+};
+
+// A number of samples that works. Large numbers are not tried: a run would take minutes.
+// \param cleaned  a copy: a run that gives a mesh uses it up.
+EnoughSamples find_enough(CleanedInput cleaned, const RemeshResult& after_cleaning,
+                          const RemeshOptions& options, Index reached) {
     constexpr int max_tries = 6;
     constexpr Index most_tried = 10'000;
-    if (reached > std::max(most_tried, options.num_samples)) {
-        return "use " + std::to_string(reached) + " samples or more";
-    }
+    if (reached > std::max(most_tried, options.num_samples)) return {.count = reached};
     RemeshOptions more = options;
     more.sites.reset();
     for (int tries = 0; tries < max_tries; ++tries) {
@@ -241,14 +247,53 @@ std::string describe_enough(CleanedInput& cleaned, const RemeshResult& after_cle
             }
             WorkLimit work = WorkLimit::spent();
             run_attempt(cleaned, {}, {}, sizes.field.get(), work, {more, result});
-            return "use " + std::to_string(reached) + " samples, which were tried and work";
+            return {.count = reached, .is_tried = true};
         } catch (const TooFewSamples& failure) {
             reached = std::max(failure.reached, reached + reached / 4 + 1);
         } catch (const NetworkFailed&) {
             reached += reached / 4 + 1;
         }
     }
-    return "use more than " + std::to_string(more.num_samples) + " samples";
+    return {.count = more.num_samples, .is_too_few = true};
+}
+
+// In any locale.
+std::string three_digits(double value) {
+    char text[32];
+    const auto end = std::to_chars(text, std::end(text), value, std::chars_format::general, 3);
+    return {text, end.ptr};
+}
+
+// What is too little, and what would do, in the terms of the options.
+std::string describe_too_few(const TooFewSamples& failure, const EnoughSamples& enough,
+                             const CleanedInput& cleaned, const RemeshOptions& options) {
+    const std::string what = cleaned.locked.empty()
+                                 ? " for the topology of the mesh; use "
+                                 : " for the topology and the vertices that stay; use ";
+    const Sizing& sizing = options.sizing;
+    constexpr double rounds_down = 0.995;  // A bound times this, with three digits, is no larger.
+    const std::string most = enough.is_too_few ? "less than " : "at most ";
+    const std::string least = enough.is_too_few ? "more than " : "";
+    if (!options.sites && sizing.edge_length > 0) {
+        return "an edge length of " + three_digits(sizing.edge_length) + " is too long" + what +
+               most + three_digits(rounds_down * edge_length_for(enough.count, cleaned, options));
+    }
+    if (!options.sites && sizing.gives_count) {
+        const double share = std::sqrt(static_cast<double>(failure.asked) / enough.count);
+        return "the edge lengths given are too long" + what + "lengths " + most +
+               three_digits(rounds_down * share) + " times as long";
+    }
+    if (!options.sites && sizing.num_faces > 0) {
+        return std::to_string(sizing.num_faces) + " faces are too few" + what + least +
+               std::to_string(faces_for(enough.count, cleaned)) + " faces";
+    }
+    const std::string asked = std::to_string(failure.asked);
+    const std::string who =
+        options.sites ? "the given sites, of which " + asked + " have a cell," : asked + " samples";
+    return who + " are too few" + what + least + std::to_string(enough.count) + " samples" +
+           (enough.is_tried     ? ", which were tried and work"
+            : enough.is_too_few ? ""
+                                : " or more");
 }
 
 // More for the text of an error: few faces for each component are a soup with gaps.
@@ -289,19 +334,16 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
         if (const auto length = corrected_edge_length(result.sizing.mean_edge, options)) {
             options.sizing.edge_length = *length;
             options.num_samples = sample_count(cleaned, options);
-            require_least_samples(cleaned.topology, options);
-            result = run(options, {});
+            try {
+                require_least_samples(cleaned.topology, options);
+                result = run(options, {});
+            } catch (const TooFewSamples&) {
+                // The edges of the first result are as long as the topology allows.
+            }
         }
     } catch (const TooFewSamples& failure) {
-        const std::string asked = std::to_string(failure.asked);
-        const std::string who = options.sites
-                                    ? "the given sites, of which " + asked + " have a cell,"
-                                    : asked + " samples";
-        const std::string what = cleaned.locked.empty()
-                                     ? "the topology of the mesh; "
-                                     : "the topology and the vertices that stay; ";
-        throw agvd::ConstraintUnmet(who + " are too few for " + what +
-                                    describe_enough(cleaned, result, options, failure.reached) +
+        const EnoughSamples enough = find_enough(cleaned, result, options, failure.reached);
+        throw agvd::ConstraintUnmet(describe_too_few(failure, enough, cleaned, given) +
                                     describe_gaps(cleaned));
     }
     result.input_topology = std::move(cleaned.topology);

@@ -49,45 +49,54 @@ double vertices_for(double edge, double area, const BoundarySize& boundary) {
            boundary.locked_edges / 2.0;
 }
 
+double euler_characteristic(const CleanedInput& cleaned) {
+    double euler = 0;
+    for (const ComponentTopology& c : cleaned.topology.components) {
+        euler += 2 - 2 * c.genus - c.boundary_loops;
+    }
+    return euler;
+}
+
 // By Euler's formula F = 2 (V - X) - B, where B edges of the boundary are as long as the others, or
 // locked.
 double vertices_for_faces(double faces, const CleanedInput& cleaned) {
     const double area = agvd::surface_area(cleaned.surface);
     const BoundarySize boundary = measure_boundary(cleaned);
-    double euler = 0;
-    for (const ComponentTopology& c : cleaned.topology.components) {
-        euler += 2 - 2 * c.genus - c.boundary_loops;
-    }
     const double edge = std::sqrt(4 / std::numbers::sqrt3 * area / faces);
-    return (faces + boundary.length / edge + boundary.locked_edges) / 2 + euler;
+    return (faces + boundary.length / edge + boundary.locked_edges) / 2 +
+           euler_characteristic(cleaned);
 }
 
 // The integral of the density over the faces of the input.
-double vertices_for_targets(const CleanedInput& cleaned, const std::vector<double>& targets) {
+double vertices_for_targets(const CleanedInput& cleaned, const Sizing& sizing) {
     const auto target = [&](Index v) {
-        return targets[cleaned.vertex_origin.empty() ? v : cleaned.vertex_origin[v]];
+        return sizing.target_lengths[cleaned.vertex_origin.empty() ? v : cleaned.vertex_origin[v]];
     };
     double sum = 0;
     for (Index f = 0; f < cleaned.surface.num_faces(); ++f) {
         const auto& [a, b, c] = cleaned.surface.mesh.triangles[f];
-        const double length = (target(a) + target(b) + target(c)) / 3;
+        const double length = sizing.face_lengths.empty() ? (target(a) + target(b) + target(c)) / 3
+                                                          : face_length(cleaned, sizing, f);
         sum += agvd::face_area(cleaned.surface, f) / (length * length);
     }
     return 2 / std::numbers::sqrt3 * sum;
+}
+
+double excess_of(const RemeshOptions& options) {
+    return options.relax_steps > 0 ? relaxed_excess : unrelaxed_excess;
 }
 
 // As the sizing asks for it, whatever is locked.
 Index count_by_sizing(const CleanedInput& cleaned, const RemeshOptions& options) {
     const Sizing& sizing = options.sizing;
     if (sizing.edge_length > 0) {
-        const double excess = options.relax_steps > 0 ? relaxed_excess : unrelaxed_excess;
-        return to_count(vertices_for(sizing.edge_length / excess,
+        return to_count(vertices_for(sizing.edge_length / excess_of(options),
                                      agvd::surface_area(cleaned.surface),
                                      measure_boundary(cleaned)));
     }
     if (sizing.num_faces > 0) return to_count(vertices_for_faces(sizing.num_faces, cleaned));
     if (sizing.gives_count) {
-        return to_count(vertices_for_targets(cleaned, sizing.target_lengths));
+        return to_count(vertices_for_targets(cleaned, sizing));
     }
     return options.num_samples;
 }
@@ -117,6 +126,25 @@ Index sample_count(const CleanedInput& cleaned, const RemeshOptions& options) {
     if (options.sites || !gives_num_samples(options.sizing)) return options.num_samples;
     const Index count = count_by_sizing(cleaned, options);
     return std::max(count, least_samples(cleaned, mean_spacing(cleaned.surface, count)));
+}
+
+// The inverse of vertices_for().
+double edge_length_for(Index count, const CleanedInput& cleaned, const RemeshOptions& options) {
+    const BoundarySize boundary = measure_boundary(cleaned);
+    const double area = 2 / std::numbers::sqrt3 * agvd::surface_area(cleaned.surface);
+    const double inner = std::max(1.0, count - boundary.locked_edges / 2.0);
+    const double half = boundary.length / 4;
+    return excess_of(options) * (half + std::sqrt(half * half + inner * area)) / inner;
+}
+
+// The inverse of vertices_for_faces(), for the root of the number.
+Index faces_for(Index count, const CleanedInput& cleaned) {
+    const BoundarySize boundary = measure_boundary(cleaned);
+    const double area = 4 / std::numbers::sqrt3 * agvd::surface_area(cleaned.surface);
+    const double rest = 2 * (count - euler_characteristic(cleaned)) - boundary.locked_edges;
+    const double half = boundary.length / std::sqrt(area) / 2;
+    const double root = std::sqrt(half * half + std::max(rest, 1.0)) - half;
+    return static_cast<Index>(std::ceil(root * root));
 }
 
 std::optional<double> corrected_edge_length(double mean_edge, const RemeshOptions& options) {

@@ -6,6 +6,12 @@
 
 namespace remesh::detail {
 
+//! Sizing::face_lengths for a face of the cleaned mesh.
+[[nodiscard]] inline double face_length(const CleanedInput& cleaned, const Sizing& sizing,
+                                        agvd::Index face) {
+    return sizing.face_lengths[cleaned.face_origin.empty() ? face : cleaned.face_origin[face]];
+}
+
 //! The nearest number of samples, at least 1.
 //! \throw agvd::InvalidOption  it is above 8e8.
 [[nodiscard]] agvd::Index to_count(double vertices);
@@ -36,6 +42,13 @@ namespace remesh::detail {
 //! \param mean_edge  of the result with these options.
 [[nodiscard]] std::optional<double> corrected_edge_length(double mean_edge,
                                                           const RemeshOptions& options);
+
+//! The edge length by which so many samples come out. Cost: O(#F).
+[[nodiscard]] double edge_length_for(agvd::Index count, const CleanedInput& cleaned,
+                                     const RemeshOptions& options);
+
+//! The number of faces by which so many samples come out. Cost: O(#F).
+[[nodiscard]] agvd::Index faces_for(agvd::Index count, const CleanedInput& cleaned);
 
 //! The mean length of the edges of a mesh; 0 without faces. Cost: O(#F).
 [[nodiscard]] double mean_edge(const agvd::MeshView& mesh);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -43,6 +44,25 @@ std::vector<double> carry_values(const ValueOf& value_of, std::span<const Index>
         double value = 0;
         for (std::size_t k = 0; k < 3; ++k) value += place.barycentric[k] * values[t[k]];
         values.push_back(value);
+    }
+    return values;
+}
+
+// The least value of the faces around each vertex of the base.
+// \param value_of  of a face of the base's input.
+template <typename ValueOf>
+std::vector<double> least_of_faces(const ValueOf& value_of,
+                                   const agvd::IntrinsicTriangulation& base) {
+    const agvd::Surface& input = base.input();
+    std::vector<double> values(base.surface().num_vertices(),
+                               std::numeric_limits<double>::infinity());
+    for (Index f = 0; f < input.num_faces(); ++f) {
+        for (const Index v : input.mesh.triangles[f]) values[v] = std::min(values[v], value_of(f));
+    }
+    for (Index v = input.num_vertices(); v < values.size(); ++v) {
+        agvd::for_each_view(input, base.place_of_added(v), [&](const SurfacePoint& view) {
+            values[v] = std::min(values[v], value_of(view.face.value()));
+        });
     }
     return values;
 }
@@ -154,6 +174,8 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
             *base, static_cast<Index>(std::clamp(cells_per_site * num_sites, 1.0, 1e9)), ticker);
     } else if (is_uniform(sizing)) {
         values.assign(base->surface().num_vertices(), 1);
+    } else if (!sizing.face_lengths.empty()) {
+        values = least_of_faces([&](Index f) { return face_length(cleaned, sizing, f); }, *base);
     } else {
         const std::vector<double>& given =
             sizing.target_lengths.empty() ? sizing.densities : sizing.target_lengths;

@@ -1,11 +1,16 @@
 #include "remesh/quality/evaluate.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "agvd/core/error.h"
 #include "agvd/mesh/scale.h"
+#include "agvd/mesh/surface.h"
+#include "remesh/features/find_creases.h"
 #include "remesh/quality/self_intersections.h"
+#include "remesh/relax/prepared_surface.h"
+#include "remesh/sampling/sample_sites.h"
 
 namespace remesh {
 namespace {
@@ -38,6 +43,16 @@ void check_result(const agvd::MeshView& mesh) {
     }
 }
 
+bool has_creases(const CleanResult& original, std::size_t num_vertices, int num_threads) {
+    if (original.counts.split_edges > 0) return true;
+    const agvd::Surface surface = agvd::build_surface(original.mesh.view(), num_threads);
+    const std::vector<std::uint8_t> creases = find_creases(
+        surface, {.spacing = mean_spacing(
+                      surface, std::max<std::size_t>(SamplingOptions{}.num_samples, num_vertices)),
+                  .num_threads = num_threads});
+    return std::find(creases.begin(), creases.end(), 1) != creases.end();
+}
+
 MeshFigures measure(const agvd::MeshView& mesh, int num_threads, const agvd::Progress& progress) {
     MeshFigures figures = measure_figures(mesh, progress);
     figures.self_intersections = find_self_intersections(mesh, num_threads, progress);
@@ -60,6 +75,8 @@ Evaluation evaluate_in_scale(const agvd::MeshView& original, const agvd::MeshVie
         measure(clean.mesh.view(), options.num_threads, agvd::within(all, 0.5, 0.8));
     evaluation.result = measure(result, options.num_threads, agvd::within(all, 0.8, 0.95));
     evaluation.features = feature_coverage(clean.mesh.view(), result, agvd::within(all, 0.95, 1));
+    evaluation.has_creases =
+        evaluation.features && has_creases(clean, result.positions.size(), options.num_threads);
     const Topology& topology = evaluation.result.topology;
     evaluation.topology_kept = topology.is_manifold && topology.is_oriented &&
                                same_topology(evaluation.original.topology, topology);

@@ -42,6 +42,9 @@ struct Evaluation {
     std::optional<SurfaceDistance> distance;  //!< Unset in a build without CGAL.
     //! Unset if the original has neither sharp edges nor corners.
     std::optional<FeatureCoverage> features;
+    //! Whether the original has creases at the spacing of the result, or of 2000 vertices; or edges
+    //! with more than two faces. Otherwise its sharp edges are noise.
+    bool has_creases = false;
 };
 
 //! \param original  any mesh that remesh() takes; it is repaired first (see clean_input).

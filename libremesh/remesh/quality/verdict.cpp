@@ -207,7 +207,9 @@ Verdict judge_result(const agvd::MeshView& input, const agvd::MeshView& result,
     verdict.spacing = mean_edge_length(result);
     const agvd::MeshBox box = agvd::box_of(input, num_threads);
     verdict.diagonal = (box.high - box.low).norm();
-    verdict.min_angle = measure_triangles(result, poller.progress()).min_angle;
+    const TriangleQuality triangles = measure_triangles(result, poller.progress());
+    verdict.min_angle = triangles.min_angle;
+    verdict.small_angle_share = triangles.small_angle_share;
     judge_components(result, topology, verdict);
     const agvd::ClosestPointTree tree(result, poller.progress());
     const std::vector<VertexShape> shapes = vertex_shapes(result);

@@ -9,8 +9,8 @@
 
 namespace remesh {
 
-//! Lengths in mesh units. Where: at most one of is_adaptive, target_lengths and densities; none:
-//! all edges are equally long. How many: at most one of max_error, max_distance,
+//! Lengths in mesh units. Where: at most one of is_adaptive, target_lengths, face_lengths and
+//! densities; none: all edges are equally long. How many: at most one of max_error, max_distance,
 //! edge_length, num_faces and gives_count; none: lengths are scaled so that
 //! RemeshOptions::num_samples vertices come out.
 struct Sizing {
@@ -24,8 +24,10 @@ struct Sizing {
     //! and edges are adaptive. 0: not used.
     double max_distance = 0;
     std::vector<double> target_lengths = {};  //!< > 0, for each of the caller's vertices; or empty.
-    std::vector<double> densities = {};       //!< Likewise: vertices per area, in any unit.
-    double min_edge = 0;                      //!< >= 0: no target is shorter ...
+    //! > 0, for each of the caller's faces; or empty. Where faces meet, the least counts.
+    std::vector<double> face_lengths = {};
+    std::vector<double> densities = {};  //!< As target_lengths: vertices per area, in any unit.
+    double min_edge = 0;                 //!< >= 0: no target is shorter ...
     double max_edge = std::numeric_limits<double>::infinity();  //!< ... or longer.
     //! >= 1. Over a distance d targets grow by at most d times its logarithm.
     double gradation = 1.3;
@@ -33,13 +35,14 @@ struct Sizing {
     double edge_length = 0;
     //! > 0: faces of the result, up to a few along the boundary. 0: not used.
     agvd::Index num_faces = 0;
-    //! The number of samples follows from target_lengths, not scaled.
+    //! The number of samples follows from target_lengths or face_lengths, not scaled.
     bool gives_count = false;
 };
 
 //! Whether all edges have one target.
 [[nodiscard]] inline bool is_uniform(const Sizing& sizing) {
-    return !sizing.is_adaptive && sizing.target_lengths.empty() && sizing.densities.empty();
+    return !sizing.is_adaptive && sizing.target_lengths.empty() && sizing.face_lengths.empty() &&
+           sizing.densities.empty();
 }
 
 }  // namespace remesh

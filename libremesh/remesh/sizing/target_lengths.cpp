@@ -120,8 +120,8 @@ private:
             return length_for_error(std::numbers::sqrt2 * values_[v], sizing_.max_error);
         }
         if (sizing_.is_adaptive) return scale / std::cbrt(values_[v]);
-        if (!sizing_.target_lengths.empty()) return scale * values_[v];
-        return scale / std::sqrt(values_[v]);
+        if (!sizing_.densities.empty()) return scale / std::sqrt(values_[v]);
+        return scale * values_[v];
     }
 
     [[nodiscard]] TargetLengths at(double scale) {

@@ -50,7 +50,8 @@ remesh::RemeshResult example_result() {
                       .largest_distance = 3,
                       .farthest = {5, 6, 7},
                       .diagonal = 8,
-                      .min_angle = std::numbers::pi / 8};
+                      .min_angle = std::numbers::pi / 8,
+                      .small_angle_share = 0.125};
     result.junctions = {.edges = 31,
                         .curves = 32,
                         .vertices = 33,
@@ -92,6 +93,7 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
                      .feature_edges = {{0, 1}, {1, 2}},
                      .face_labels = {4, 5, 6},
                      .junctions = remesh::Junctions::Keep,
+                     .lock_boundary = true,
                      .seed = 9,
                      .relax_steps = 12,
                      .keep_sites = true,
@@ -108,6 +110,7 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
     EXPECT_EQ(report["options"]["features"], "angle");
     EXPECT_EQ(report["options"]["feature_angle_degrees"], 35);
     EXPECT_EQ(report["options"]["given_feature_edges"], 2);
+    EXPECT_EQ(report["options"]["locked_boundary"], true);
     EXPECT_EQ(report["options"]["given_face_labels"], 3);
     EXPECT_EQ(report["options"]["junctions"], "keep");
     EXPECT_EQ(report["options"]["fit"], false);
@@ -162,7 +165,8 @@ TEST(RemeshReport, GivesEveryFieldOfTheResult) {
                                        {"largest_distance_mesh_units", 3.0},
                                        {"largest_distance_percent_of_diagonal", 37.5},
                                        {"farthest_point", {5.0, 6.0, 7.0}},
-                                       {"min_angle_deg", 22.5}}));
+                                       {"min_angle_deg", 22.5},
+                                       {"small_angle_percent", 12.5}}));
     EXPECT_EQ(report["junctions"], json({{"input_edges", 31},
                                          {"curves", 32},
                                          {"vertices", 33},
@@ -275,23 +279,68 @@ TEST(RemeshReport, WithoutDelaunayThereAreNoFiguresOfIt) {
     const json report = json::parse(remesh::to_json(example_result(), info));
     EXPECT_EQ(report["options"]["delaunay"], "off");
     EXPECT_EQ(report["delaunay"], nullptr);
-    EXPECT_EQ(remesh::to_text(example_result(), info).find("Delaunay"), std::string::npos);
+    EXPECT_EQ(remesh::details_to_text(example_result(), info).find("Delaunay"), std::string::npos);
 }
 
-TEST(RemeshReport, TextTellsRepairTopologyTimeAndMemory) {
-    const std::string text = remesh::to_text(
-        example_result(),
-        {.input_path = "in.ply", .options = {.propagation = {.engine = agvd::Engine::Window}}});
+TEST(RemeshReport, TextIsForAnyUser) {
+    remesh::RemeshResult result = example_result();
+    result.junctions = {};
+    EXPECT_EQ(remesh::to_text(result, {.input_path = "in.ply", .output_path = "out.ply"}),
+              "input: in.ply\n"
+              "repaired: 4 split edges\n"
+              "result: 3 vertices, 1 face; same topology\n"
+              "edges: mean length 1\n"
+              "10 components dropped, because the area is too small\n"
+              "6 sites dropped, because they have no cell\n"
+              "triangles: 12.5 % narrow (an angle below 30 degrees), smallest angle 22.5 degrees; "
+              "17 pairs cross (16 in the input)\n"
+              "distance: farthest 37.5 % of the size, from the input's vertex at 5 6 7\n"
+              "too small for edges of 0.5: creases of length 2.75 (too few of the given sites lie "
+              "on 24 creases or on the boundary; with all creases no mesh was found, or only one "
+              "that self-intersects), 43 walls (thinnest 0.25; about 44 samples would do), 41 "
+              "components (fewer than 12 vertices; about 42 samples would do)\n"
+              "written: out.ply");
+}
+
+TEST(RemeshReport, TextOfAGoodResultHasAVerdictOfThreeLines) {
+    remesh::RemeshResult result;
+    result.mesh = shapes::cube();
+    result.self_intersections = 0;
+    result.sizing.mean_edge = 0.25;
+    result.verdict = {.spacing = 0.25,
+                      .largest_distance = 0.5,
+                      .farthest = {1, 2, 3},
+                      .diagonal = 8,
+                      .min_angle = std::numbers::pi / 4,
+                      .small_angle_share = 0.01};
+    EXPECT_EQ(remesh::to_text(result),
+              "repaired: nothing\n"
+              "result: 8 vertices, 12 faces; same topology\n"
+              "edges: mean length 0.25\n"
+              "triangles: even, smallest angle 45.0 degrees; no crossing\n"
+              "distance: farthest 6.25 % of the size, from the input's vertex at 1 2 3\n"
+              "too small for edges of 0.25: nothing");
+    result.self_intersections.reset();
+    EXPECT_NE(remesh::to_text(result).find("; crossings not counted\n"), std::string::npos);
+}
+
+TEST(RemeshReport, DetailsTellTopologyRepairTimeAndMemory) {
+    remesh::RemeshResult result = example_result();
+    const std::string text = remesh::details_to_text(
+        result, {.options = {.propagation = {.engine = agvd::Engine::Window}}});
     for (const char* part :
-         {"in.ply", "4 split edges", "1 component, genus 1, 0 boundary loops",
-          "distances: window engine, at most 0.0123 %", "3 vertices, 1 face", "5 sites added, ",
-          "6 sites", "4.50 % of the edges failed it before 7 flips, 1.50 % after",
-          "spacing (0.5): creases of length 2.75 (", "43 walls (thinnest 0.25; about 44 samples",
-          "41 components (fewer than 12 vertices; about 42 samples would do)",
-          "largest distance: 37.5 % of the diagonal, from the input's vertex at 5 6 7",
-          "smallest angle: 22.5 degrees", "reached their limit",
+         {"1 component, genus 1, 0 boundary loops", "distances: window engine, at most 0.0123 %",
+          "5 sites added, ", "energy lowered by 50.0 %", "14 components thinned to the sites",
+          "21 curves, 22 corners, 23 vertices; 2.5 long: creases kept; 2.75 long: creases dropped; "
+          "1.25 long: texture seams kept; 0.75 long: texture seams left out",
+          "26 patches between them thinned to the sites",
+          "4.50 % of the edges failed it before 7 flips, 1.50 % after", "reached their limit",
           "1 edge not proved locally shortest", "fails in 2 faces", "clean 0.25 s, dual 0.50 s",
           "total 0.75 s", "12.3 MB"}) {
         EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
     }
+    result.features = {.curves = 1, .nodes = 4, .vertices = 5};
+    EXPECT_NE(remesh::details_to_text(result).find("1 curve, 4 corners, 5 vertices\n"),
+              std::string::npos)
+        << "nothing on creases of no length";
 }

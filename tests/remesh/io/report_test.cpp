@@ -38,6 +38,7 @@ remesh::Evaluation example_evaluation() {
                   .acute_corners = 3,
                   .min_angle_elsewhere = std::numbers::pi / 9,
                   .diagonal = 5};
+    e.has_creases = true;
     return e;
 }
 
@@ -103,6 +104,12 @@ TEST(EvaluationReport, FeaturesAreThereWhereTheOriginalHasAny) {
     EXPECT_EQ(report["features"]["covered_percent"], nullptr);
     EXPECT_EQ(report["features"]["corners"], 8);
     EXPECT_EQ(remesh::to_text(e).find("covered"), std::string::npos);
+    e.has_creases = false;
+    for (const char* word : {"sharp", "corners", "smallest angle elsewhere"}) {
+        EXPECT_EQ(remesh::to_text(e).find(word), std::string::npos) << "sharp edges are noise";
+    }
+    e.original.topology.components[0].boundary_loops = 1;
+    EXPECT_NE(remesh::to_text(e).find("corners, corners kept"), std::string::npos);
     e.features.reset();
     report = json::parse(remesh::to_json(e));
     EXPECT_EQ(report["features"]["corners"], nullptr);

@@ -4,16 +4,19 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 
 #include "agvd/core/error.h"
+#include "remesh/clean/clean_input.h"
 #include "remesh/pipeline/locked.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/quality/triangle_quality.h"
 #include "remesh/topology/topology.h"
 #include "support/dice.h"
 #include "support/dirty_shapes.h"
+#include "support/junction_shapes.h"
 #include "support/parts.h"
 #include "support/shapes.h"
 
@@ -179,8 +182,9 @@ TEST(Locked, WhatTheResultLostIsNoticed) {
     const agvd::Surface surface = agvd::build_surface(cube.view());
     const agvd::Index h = surface.edge_half[0];
     const agvd::Index a = surface.tail(h), b = surface.head(h);
-    const remesh::LockedElements corners = find_locked(cube.view(), {{a, b}}, {}, surface);
-    const remesh::LockedElements edge = find_locked(cube.view(), {}, {{{a, b}}}, surface);
+    const remesh::LockedElements corners = find_locked(cube.view(), {.locked = {a, b}}, surface);
+    const remesh::LockedElements edge =
+        find_locked(cube.view(), {.locked_edges = {{a, b}}}, surface);
     agvd::TriangleMesh result = cube;
     EXPECT_TRUE(has_locked(surface, corners, result));
     EXPECT_TRUE(has_locked(surface, edge, result));
@@ -193,6 +197,28 @@ TEST(Locked, WhatTheResultLostIsNoticed) {
     });
     EXPECT_TRUE(has_locked(surface, corners, result));
     EXPECT_FALSE(has_locked(surface, edge, result));
+}
+
+// Where sheets meet, cleaning has cut the mesh: that is no boundary of the caller's.
+TEST(Locked, TheBoundaryIsWhereAnEdgeHasOneFace) {
+    for (const shapes::JunctionShape& shape : {shapes::tee(), shapes::cubes_with_a_wall()}) {
+        std::map<std::pair<Index, Index>, int> num_faces;
+        for (const agvd::Triangle& t : shape.mesh.triangles) {
+            for (std::size_t k = 0; k < 3; ++k) ++num_faces[std::minmax(t[k], t[(k + 1) % 3])];
+        }
+        const auto expected = std::count_if(num_faces.begin(), num_faces.end(),
+                                            [](const auto& edge) { return edge.second == 1; });
+        const agvd::Surface surface =
+            agvd::build_surface(remesh::clean_input(shape.mesh.view()).mesh.view());
+        const remesh::LockedElements locked =
+            remesh::detail::find_locked({}, {.lock_boundary = true}, surface);
+        EXPECT_EQ(std::count(locked.is_edge.begin(), locked.is_edge.end(), 1), expected)
+            << shape.name;
+    }
+    EXPECT_THROW(static_cast<void>(remesh::remesh(
+                     shapes::grid(3).view(),
+                     {.lock_boundary = true, .sites = std::vector<agvd::SurfacePoint>(1)})),
+                 agvd::InvalidOption);
 }
 
 TEST(Locked, CoordinatesOfAnySizeStay) {

@@ -121,6 +121,11 @@ TEST(Verdict, TheSmallestAngleAndTheSpacingAreThoseOfTheResult) {
     const Verdict verdict = judge(shapes::grid(8), result);
     EXPECT_NEAR(verdict.min_angle, std::numbers::pi / 4, 1e-12);
     EXPECT_NEAR(verdict.spacing, (2 + std::sqrt(2.0)) / 3 / 4, 1e-12);
+    EXPECT_EQ(verdict.small_angle_share, 0);
+    TriangleMesh mixed = result;
+    for (agvd::Vec3& p : mixed.positions)
+        p.x() *= p.x() > 0.5 ? 3 : 1;  // One column of four: 6, 3.
+    EXPECT_EQ(judge(mixed, mixed).small_angle_share, 0.5);
 }
 
 TEST(Verdict, ThreadsDoNotChangeIt) {
