@@ -52,8 +52,7 @@ FaceSamples sample_face(const agvd::MeshView& result, const agvd::Triangle& t,
         for (std::size_t k = 0; k < 3; ++k) {
             if ((at[k] - point).squaredNorm() < (at[first] - point).squaredNorm()) first = k;
         }
-        const agvd::ClosestPoint found =
-            nearest.query(point, nearest.walk(point, starts[first]), seen);
+        const agvd::ClosestPoint found = nearest.query(point, starts[first], seen);
         starts[3] = found.point;
         at[3] = found.position;
         faces[i] = found.point.face.value();

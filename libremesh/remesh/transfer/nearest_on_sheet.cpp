@@ -96,24 +96,6 @@ agvd::ClosestPoint NearestOnSheet::closest(Index face, const Vec3& point) const 
         {mesh_.positions[a], mesh_.positions[b], mesh_.positions[c]}, agvd::FaceId(face), point);
 }
 
-agvd::SurfacePoint NearestOnSheet::walk(const Vec3& point, const agvd::SurfacePoint& start) const {
-    agvd::ClosestPoint best = closest(start.face.value(), point);
-    for (bool is_nearer = true; is_nearer;) {
-        is_nearer = false;
-        const agvd::SurfacePoint from = best.point;
-        for (std::size_t k = 0; k < 3; ++k) {  // Across the edges that the point lies on.
-            if (from.barycentric[(k + 2) % 3] != 0) continue;
-            for_each_neighbor(from.face.value(), k, [&](Index neighbor) {
-                const agvd::ClosestPoint beyond = closest(neighbor, point);
-                if (!(beyond.distance_sq < best.distance_sq)) return;
-                best = beyond;
-                is_nearer = true;
-            });
-        }
-    }
-    return best.point;
-}
-
 // Visits the faces connected with one in the ball around a point, until visit() says false.
 template <typename Visit>
 void NearestOnSheet::flood(const Vec3& point, double reach, Index start, Seen& seen,

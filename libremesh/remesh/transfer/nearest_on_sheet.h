@@ -48,11 +48,6 @@ public:
     [[nodiscard]] agvd::ClosestPoint query(const agvd::Vec3& point, const agvd::SurfacePoint& start,
                                            Seen& seen) const;
 
-    //! Walks from face to face while `point` comes nearer: a start for query() from which the ball
-    //! holds few faces. Cost: O(faces passed).
-    [[nodiscard]] agvd::SurfacePoint walk(const agvd::Vec3& point,
-                                          const agvd::SurfacePoint& start) const;
-
     //! Whether two faces are connected within a ball.
     //! Cost: that of the faces in the ball.
     [[nodiscard]] bool are_connected(const agvd::Vec3& center, double radius, agvd::Index a,

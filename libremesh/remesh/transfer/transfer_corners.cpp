@@ -87,7 +87,7 @@ private:
             if (at(places_[t[k]], center).distance_sq < at(places_[t[first]], center).distance_sq)
                 first = k;
         }
-        return sheet_.query(center, sheet_.walk(center, places_[t[first]]), seen);
+        return sheet_.query(center, places_[t[first]], seen);
     }
 
     FacePlaces find_from(const ClosestPoint& start, const Triangle& t,
@@ -101,7 +101,7 @@ private:
                     step == steps_to_corner
                         ? target
                         : Vec3(start.position + (target - start.position) * step / steps_to_corner);
-                found[k] = cut_.query(point, cut_.walk(point, found[k].point), seen);
+                found[k] = cut_.query(point, found[k].point, seen);
             }
         }
         return found;
