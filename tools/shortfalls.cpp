@@ -56,10 +56,18 @@ void judge(const remesh::RemeshResult& result, bool strict, Warnings& warnings) 
         throw agvd::ConstraintUnmet(text + ", or leave out --strict");
     };
     if (const std::string text = describe_coarseness(result); strict && !text.empty()) refuse(text);
-    if (result.self_intersections.value_or(0) <= result.input_self_intersections) return;
-    const std::string text = describe_crossings(result);
-    if (strict) refuse(text);
-    warnings.push_back(text);
+    const auto tell = [&](const std::string& text) {
+        if (strict) refuse(text);
+        warnings.push_back(text);
+    };
+    if (const agvd::Index flat = result.verdict.faces_without_area; flat > 0) {
+        tell("the result has " + std::to_string(flat) + (flat == 1 ? " face" : " faces") +
+             " without area, whose corners lie on one line; "
+             "use more --samples, or other --features");
+    }
+    if (result.self_intersections.value_or(0) > result.input_self_intersections) {
+        tell(describe_crossings(result));
+    }
 }
 
 void warn_of_junctions(const remesh::JunctionCounts& counts, remesh::Junctions wanted,

@@ -31,10 +31,11 @@ std::string after_relax(const RemeshResult& result) {
     for (const remesh::RelaxLevel& level : result.relaxation) {
         const std::size_t num_steps = level.energy.size() - 1;
         text << (text.tellp() > 0 ? "; " : "") << level.num_sites << " sites, " << num_steps
-             << " steps, energy";
+             << " steps";
         for (std::size_t step = 0; step <= num_steps; ++step) {
             if (step % between != 0 && step != num_steps) continue;
-            text << ' ' << level.energy[step] / level.energy.front();
+            const auto energy = remesh::energy_share(level, step);
+            if (energy) text << (step == 0 ? ", energy " : " ") << *energy;
         }
     }
     return result.relaxation.empty() ? "sites stay as sampled" : text.str();

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -40,6 +41,7 @@ inline std::string name_of(const std::string& path, const std::string& key) {
 struct Keys {
     std::set<std::string> values;   //!< Such as "relaxation[].sites".
     std::set<std::string> objects;  //!< Keys of objects and of arrays of objects.
+    std::set<std::string> nulls;    //!< Those of the values that are null or hold a null.
 };
 
 inline void add_keys(const nlohmann::json& object, const std::string& path, Keys& keys) {
@@ -51,6 +53,10 @@ inline void add_keys(const nlohmann::json& object, const std::string& path, Keys
             add_keys(is_array ? value[0] : value, name + (is_array ? "[]" : ""), keys);
         } else {
             keys.values.insert(name);
+            const auto is_null = [](const nlohmann::json& one) { return one.is_null(); };
+            const bool has_null =
+                value.is_array() && std::any_of(value.begin(), value.end(), is_null);
+            if (value.is_null() || has_null) keys.nulls.insert(name);
         }
     }
 }
@@ -61,15 +67,16 @@ inline Keys keys_of(const std::string& report) {
     return keys;
 }
 
-//! Those in the tables under "## TITLE" for each of the titles.
-inline std::set<std::string> documented(const std::set<std::string>& titles) {
+//! Those in the tables under "## TITLE" for each of the titles, in rows that hold `word`.
+inline std::set<std::string> documented(const std::set<std::string>& titles,
+                                        const std::string& word = "") {
     std::ifstream file(std::filesystem::path(AGVD_DOCS_DIR) / "report.md");
     std::set<std::string> keys;
     static const std::regex code("`([^`]+)`");
     bool is_wanted = false;
     for (std::string line; std::getline(file, line);) {
         if (line.starts_with("## ")) is_wanted = titles.contains(line.substr(3));
-        if (!is_wanted || !line.starts_with("| `")) continue;
+        if (!is_wanted || !line.starts_with("| `") || line.find(word) == line.npos) continue;
         const std::string names = line.substr(2, line.find(" |", 2) - 2);
         for (auto i = std::sregex_iterator(names.begin(), names.end(), code);
              i != std::sregex_iterator(); ++i) {
@@ -89,6 +96,16 @@ inline void expect_documented(const std::string& report, const std::set<std::str
     for (const std::string& key : told) {
         EXPECT_TRUE(keys.values.contains(key) || keys.objects.contains(key))
             << "docs/report.md tells of " << key << ", which no report has";
+    }
+}
+
+//! Expects that no value is null but those of which the tables say so. A number that is not finite
+//! is null in a report.
+inline void expect_nulls_documented(const std::string& report,
+                                    const std::set<std::string>& titles) {
+    const std::set<std::string> told = documented(titles, "null");
+    for (const std::string& key : keys_of(report).nulls) {
+        EXPECT_TRUE(told.contains(key)) << key << " is null";
     }
 }
 

@@ -34,6 +34,15 @@ TEST(Shortfalls, CrossingsAreWarnedOfAndRefusedIfStrict) {
     EXPECT_EQ(cli::shortfalls_of(result, {}, true), Warnings());
 }
 
+TEST(Shortfalls, FacesWithoutAreaAreWarnedOfAndRefusedIfStrict) {
+    RemeshResult result;
+    result.verdict.faces_without_area = 1;
+    const Warnings warnings = cli::shortfalls_of(result, {}, false);
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_NE(warnings[0].find("has 1 face without area"), std::string::npos) << warnings[0];
+    EXPECT_NE(refusal_of(result).find("1 face without area"), std::string::npos);
+}
+
 TEST(Shortfalls, ARefusalNamesTheSamplesThatWouldDoForAll) {
     RemeshResult result;
     result.verdict.thin_walls = 2;

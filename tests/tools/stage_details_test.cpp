@@ -54,6 +54,12 @@ remesh::RemeshResult some_result() {
     return result;
 }
 
+TEST(StageDetails, LeaveOutAnEnergyThatIsNoShare) {
+    remesh::RemeshResult result = some_result();
+    result.relaxation = {{2, {0, 0, 0}}};
+    EXPECT_EQ(line_of(result, "relax"), "2 sites, 2 steps");
+}
+
 TEST(StageDetails, HasALineForEachStage) {
     const remesh::RemeshResult result = some_result();
     EXPECT_EQ(cli::stage_details(result, 12).substr(0, 32), "clean        1.50 s  12 faces, 1");

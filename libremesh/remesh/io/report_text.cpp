@@ -254,10 +254,12 @@ std::string details_to_text(const RemeshResult& result, const RunInfo& info) {
                        ", " + describe(result.input_topology) + '\n' +
                        to_text(info.options.propagation.engine, result.certified_error);
     for (const RelaxLevel& level : result.relaxation) {
-        const double rise = level.energy.back() / level.energy.front() - 1;
         text += "\nrelaxation: " + counted(level.num_sites, "site") + ", " +
-                counted(level.energy.size() - 1, "step") + ", energy " +
-                (rise > 0 ? "raised" : "lowered") + " by " + fixed(100 * std::abs(rise), 1) + " %";
+                counted(level.energy.size() - 1, "step");
+        if (const auto energy = energy_share(level, level.energy.size() - 1)) {
+            text += std::string(", energy ") + (*energy > 1 ? "raised" : "lowered") + " by " +
+                    fixed(100 * std::abs(*energy - 1), 1) + " %";
+        }
     }
     text += describe_repair(result);
     if (info.options.features != Features::Off) text += describe(result.features);

@@ -13,6 +13,7 @@
 #include "remesh/guarantee/farthest_voronoi_vertices.h"
 #include "remesh/pipeline/place_vertices.h"
 #include "remesh/pipeline/vertex_count.h"
+#include "remesh/placement/flat_faces.h"
 
 namespace remesh::detail {
 namespace {
@@ -115,6 +116,7 @@ private:
         candidate.placed.mesh =
             place_vertices(domain_, placed_.curves, dual, places_of(dual),
                            domain_.plan ? &*candidate.placed.patches : nullptr, context_);
+        flip_flat(candidate.placed);
         candidate.crossings =
             unfit_crossings(finder_, placed_.curves, candidate.placed, context_.result);
         return candidate;
@@ -155,6 +157,13 @@ private:
                 sites[s] = domain_.prepared.base.to_input(site);
             }
         }
+    }
+
+    void flip_flat(PlacedDual& placed) const {
+        agvd::TriangleMesh mesh = whole_mesh(*domain_.whole, placed);
+        flip_flat_faces(mesh.positions, mesh.triangles);
+        auto& triangles = placed.patches ? placed.patches->glued.triangles : placed.mesh.triangles;
+        triangles = std::move(mesh.triangles);
     }
 
     // Where the vertices of the dual lie on the cleaned surface.

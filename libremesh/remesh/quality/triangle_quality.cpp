@@ -1,6 +1,7 @@
 // One pass over the faces for shapes and angles, one over the edges for the Delaunay condition and
 // lengths, one for valences.
 #include "remesh/quality/triangle_quality.h"
+#include "remesh/placement/flat_faces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +59,7 @@ std::vector<double> measure_faces(const agvd::MeshView& mesh, agvd::Ticker& tick
         result.min_angle = std::min(result.min_angle, *lowest);
         result.max_angle = std::max(result.max_angle, *highest);
         small += *lowest < small_angle ? 1 : 0;
-        result.faces_without_area += shape.quality > 0 ? 0 : 1;
+        result.faces_without_area += is_flat(mesh.positions, mesh.triangles[f]) ? 1 : 0;
         for (std::size_t k = 0; k < 3; ++k) opposite[3 * f + k] = shape.angle[(k + 2) % 3];
     }
     const auto faces = static_cast<double>(mesh.triangles.size());

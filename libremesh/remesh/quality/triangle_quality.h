@@ -7,7 +7,7 @@
 
 namespace remesh {
 
-//! Angles in radians, shares in [0, 1]. A face without area has quality 0; its angles are 0 or pi.
+//! Angles in radians, shares in [0, 1]. A face of area 0 has quality 0; its angles are 0 or pi.
 struct TriangleQuality {
     //! Of Q = 6 / sqrt(3) * S / (p h): S area, p half the perimeter, h the longest edge. 1 for an
     //! equilateral triangle, 0 for a degenerate one ([frey1999]).
@@ -22,7 +22,7 @@ struct TriangleQuality {
     agvd::Index edges = 0;             //!< #E.
     //! Inner edges whose two opposite angles (measured in space) sum to more than pi.
     agvd::Index non_delaunay_edges = 0;
-    agvd::Index faces_without_area = 0;  //!< Their quality is 0.
+    agvd::Index faces_without_area = 0;  //!< Flat up to rounding: see is_flat().
 };
 
 //! Measures any mesh, manifold or not. Edges with one face or more than two are not tested for the

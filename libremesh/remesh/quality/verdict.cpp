@@ -210,6 +210,7 @@ Verdict judge_result(const agvd::MeshView& input, const agvd::MeshView& result,
     const TriangleQuality triangles = measure_triangles(result, poller.progress());
     verdict.min_angle = triangles.min_angle;
     verdict.small_angle_share = triangles.small_angle_share;
+    verdict.faces_without_area = triangles.faces_without_area;
     judge_components(result, topology, verdict);
     const agvd::ClosestPointTree tree(result, poller.progress());
     const std::vector<VertexShape> shapes = vertex_shapes(result);

@@ -25,8 +25,9 @@ struct Verdict {
     agvd::Vec3 farthest = agvd::Vec3::Zero();  //!< The vertex of the input that is so far.
     double diagonal = 0;                       //!< Of the input's bounding box.
 
-    double min_angle = 0;          //!< Radians; of the faces of the result.
-    double small_angle_share = 0;  //!< Of these faces: those with an angle below pi / 6.
+    double min_angle = 0;                //!< Radians; of the faces of the result.
+    double small_angle_share = 0;        //!< Of these faces: those with an angle below pi / 6.
+    agvd::Index faces_without_area = 0;  //!< Of these faces.
 };
 
 //! A component with fewer vertices is hard to recognise.

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "agvd/core/progress.h"
@@ -18,6 +19,13 @@ struct RelaxLevel {
     //! distance from the site, on the triangulation of the sites; mesh units to the fourth.
     std::vector<double> energy;
 };
+
+//! The energy after a step as a share of that before the first. None where the first is 0: all
+//! triangles of the sites are too thin for it.
+[[nodiscard]] inline std::optional<double> energy_share(const RelaxLevel& level, std::size_t step) {
+    if (!(level.energy.front() > 0)) return std::nullopt;
+    return level.energy[step] / level.energy.front();
+}
 
 //! `{}` gives the defaults.
 struct RelaxOptions {

@@ -126,6 +126,14 @@ TEST(Verdict, TheSmallestAngleAndTheSpacingAreThoseOfTheResult) {
     for (agvd::Vec3& p : mixed.positions)
         p.x() *= p.x() > 0.5 ? 3 : 1;  // One column of four: 6, 3.
     EXPECT_EQ(judge(mixed, mixed).small_angle_share, 0.5);
+    EXPECT_EQ(verdict.faces_without_area, 0U);
+}
+
+TEST(Verdict, FacesWithoutAreaAreCounted) {
+    TriangleMesh result = shapes::grid(4);
+    result.positions[1] = (result.positions[0] + result.positions[2]) / 2;
+    result.positions[6] = result.positions[1] + agvd::Vec3(1e-13, 0, 0);
+    EXPECT_GT(judge(shapes::grid(8), result).faces_without_area, 0U);
 }
 
 TEST(Verdict, ThreadsDoNotChangeIt) {

@@ -1,0 +1,74 @@
+// Sites on a straight curve may be neighbours in pairs: three of them then form a triangle without
+// area, the middle one on the edge between the others.
+#include "remesh/placement/flat_faces.h"
+
+#include <algorithm>
+
+#include "remesh/dual/flippable_mesh.h"
+
+namespace remesh {
+namespace {
+
+using agvd::Index;
+using agvd::Triangle;
+using agvd::Vec3;
+
+// Height over length: coordinates are rounded by a few times 1e-16 of the mesh, and edges are
+// rarely shorter than a hundred-thousandth of it.
+constexpr double most_flat = 1e-10;
+
+Index longest_side(const FlippableMesh& mesh, std::span<const Vec3> positions, Index face) {
+    const auto length_sq = [&](Index h) {
+        return (positions[mesh.tail(h)] - positions[mesh.tail(FlippableMesh::next(h))])
+            .squaredNorm();
+    };
+    Index longest = 3 * face;
+    for (const Index h : {3 * face + 1, 3 * face + 2}) {
+        if (length_sq(h) > length_sq(longest)) longest = h;
+    }
+    return longest;
+}
+
+// Flips the edge unless one of the two triangles that it leaves is flat.
+bool try_flip(FlippableMesh& mesh, std::span<const Vec3> positions, Index edge) {
+    if (!mesh.can_flip(edge)) return false;
+    const auto [h, g] = mesh.sides(edge);
+    const Index a = mesh.tail(h), b = mesh.tail(g);
+    const Index c = mesh.tail(FlippableMesh::previous(h)),
+                d = mesh.tail(FlippableMesh::previous(g));
+    if (is_flat(positions, {c, a, d}) || is_flat(positions, {d, b, c})) return false;
+    mesh.flip(edge);
+    return true;
+}
+
+}  // namespace
+
+bool is_flat(std::span<const Vec3> positions, const Triangle& triangle) {
+    const auto& [a, b, c] = triangle;
+    const Vec3 ab = positions[b] - positions[a], ac = positions[c] - positions[a];
+    const double longest_sq =
+        std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
+    return !(ab.cross(ac).norm() > most_flat * longest_sq);
+}
+
+void flip_flat_faces(std::span<const Vec3> positions, std::vector<Triangle>& triangles) {
+    std::vector<Index> flat;
+    for (Index f = 0; f < triangles.size(); ++f) {
+        if (is_flat(positions, triangles[f])) flat.push_back(f);
+    }
+    if (flat.empty()) return;
+    FlippableMesh mesh(triangles);
+    // A flip frees the next of several flat triangles in a row.
+    for (bool is_changed = true; is_changed;) {
+        is_changed = false;
+        std::erase_if(flat, [&](Index f) {
+            const bool is_done =
+                try_flip(mesh, positions, mesh.edge(longest_side(mesh, positions, f)));
+            is_changed |= is_done;
+            return is_done;
+        });
+    }
+    triangles = mesh.triangles();
+}
+
+}  // namespace remesh
