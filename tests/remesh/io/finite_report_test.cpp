@@ -27,8 +27,10 @@ void expect_finite(const std::string& text, const std::string& json, const std::
 }
 
 // \return whether there is a result.
-bool expect_finite_reports(const TriangleMesh& mesh, const remesh::RemeshOptions& options) {
+template <typename MakeMesh>
+bool expect_finite_reports(const MakeMesh& make_mesh, const remesh::RemeshOptions& options) {
     try {
+        const TriangleMesh mesh = make_mesh();
         const remesh::RemeshResult made = remesh::remesh(mesh.view(), options);
         const remesh::RunInfo info{.version = "1", .options = options};
         expect_finite(remesh::to_text(made, info), remesh::to_json(made, info), "remesh");
@@ -36,9 +38,7 @@ bool expect_finite_reports(const TriangleMesh& mesh, const remesh::RemeshOptions
         expect_finite(remesh::to_text(judged), remesh::to_json(judged, {.version = "1"}),
                       "remesh-eval");
         return true;
-    } catch (const agvd::ConstraintUnmet&) {
-        return false;
-    } catch (const agvd::InvalidInput&) {
+    } catch (const agvd::Error&) {
         return false;
     }
 }
@@ -48,14 +48,12 @@ bool expect_finite_reports(const TriangleMesh& mesh, const remesh::RemeshOptions
 TEST(FiniteReports, HoldForDamagedMeshes) {
     int num_results = 0;
     for (const char* const kind : damages::kinds()) {
-        for (const std::uint64_t seed : {1, 2}) {
-            SCOPED_TRACE(testing::Message() << kind << ", seed " << seed);
-            Dice dice(seed);
-            const TriangleMesh mesh = damages::apply(kind, shapes::torus(30, 15), dice);
-            if (expect_finite_reports(mesh, {.num_samples = 60})) ++num_results;
-        }
+        SCOPED_TRACE(kind);
+        Dice dice(1);
+        const auto damaged = [&] { return damages::apply(kind, shapes::torus(20, 10), dice); };
+        if (expect_finite_reports(damaged, {.num_samples = 60})) ++num_results;
     }
-    EXPECT_GT(num_results, static_cast<int>(damages::kinds().size()));
+    EXPECT_GT(num_results, static_cast<int>(damages::kinds().size()) / 2);
 }
 
 // A plane strip of two triangles whose sites lie in a row: all triangles of the sites are thin.
@@ -64,12 +62,13 @@ TEST(FiniteReports, HoldWhereAllTrianglesOfTheSitesAreThin) {
         TriangleMesh strip = shapes::grid(2);
         for (agvd::Vec3& p : strip.positions) p.y() *= width;
         for (const agvd::Index num_samples : {4U, 5U, 8U, 30U}) {
-            expect_finite_reports(strip, {.num_samples = num_samples});
+            static_cast<void>(
+                expect_finite_reports([&] { return strip; }, {.num_samples = num_samples}));
         }
     }
 }
 
-// Every eighth mesh of the corpus.
+// Every twentieth mesh of the corpus.
 TEST(FiniteReports, HoldForRealMeshes) {
     const std::filesystem::path folder = files::find_mesh("../corpus");
     if (!exists(folder)) GTEST_SKIP() << folder << " is absent; set AGVD_MESHES to its neighbour";
@@ -79,11 +78,11 @@ TEST(FiniteReports, HoldForRealMeshes) {
     }
     std::sort(paths.begin(), paths.end());
     int num_results = 0;
-    for (std::size_t i = 0; i < paths.size(); i += 8) {
+    for (std::size_t i = 0; i < paths.size(); i += 20) {
         SCOPED_TRACE(paths[i].string());
-        const remesh::MeshFile file = remesh::read_mesh(paths[i]);
-        if (expect_finite_reports(file.mesh, {.num_samples = 100})) ++num_results;
+        const auto read = [&] { return remesh::read_mesh(paths[i]).mesh; };
+        if (expect_finite_reports(read, {.num_samples = 100})) ++num_results;
     }
     std::printf("%d results\n", num_results);
-    EXPECT_GT(num_results, 15);
+    EXPECT_GT(num_results, 5);
 }
