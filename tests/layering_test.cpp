@@ -34,7 +34,8 @@ struct Package {
 constexpr Package packages[] = {
     {"Eigen/", R"(agvd/core/types\.h)"},
     {"tbb/", R"(agvd/core/parallel\.cpp)"},
-    {"CGAL/", R"(agvd/metrics/oracle\.cpp|remesh/quality/.*\.cpp)"},
+    {"CGAL/",
+     R"(agvd/metrics/oracle\.cpp|remesh/clean/hole_triangles\.cpp|remesh/quality/.*\.cpp)"},
     {"OpenMesh/", R"(remesh/io/(.*\.cpp|openmesh_exchange\.h))"},
     {"nlohmann/", R"(remesh/io/(.*\.cpp|glb_container\.h))"},
     {"fast_float/", R"(remesh/io/(.*\.cpp|text_scanner\.h))"},

@@ -15,7 +15,9 @@ void add_region_options(CLI::App& app, RegionArguments& arguments) {
                    "others stay as they are. --samples and lengths count in the region")
         ->type_name("NAME")
         ->excludes(app.get_option("--sites"))
-        ->excludes(app.get_option("--drop-components"));
+        ->excludes(app.get_option("--drop-components"))
+        ->excludes(app.get_option("--weld"))
+        ->excludes(app.get_option("--fill-holes"));
     app.add_option("--lock", arguments.lock,
                    "Vertices that stay where they are: lines of one vertex, counted from 0")
         ->type_name("FILE")

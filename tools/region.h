@@ -18,7 +18,8 @@ struct RegionArguments {
     bool lock_boundary = false;
 };
 
-//! Adds --region, --lock and --lock-boundary, after --sites and --drop-components.
+//! Adds --region, --lock and --lock-boundary, after --sites, --drop-components, --weld and
+//! --fill-holes.
 void add_region_options(CLI::App& app, RegionArguments& arguments);
 
 //! RemeshOptions::region as --region wants it; empty without it.

@@ -61,6 +61,7 @@ struct Arguments : cli::DiagramArguments {
     fs::path report;  // Empty: none; "-": stdout.
     remesh::VertexCount vertex_count = remesh::VertexCount::Exact;
     double drop_components = 0;
+    std::optional<cli::Amount> weld;
     bool strict = false;
     remesh::Delaunay delaunay = remesh::RemeshOptions{}.delaunay;
     remesh::Features features = remesh::RemeshOptions{}.features;
@@ -181,6 +182,16 @@ void add_options(CLI::App& app, Arguments& arguments) {
                    "Drop components with less than this percentage of the area")
         ->check(CLI::Range(0.0, 100.0).description(""))
         ->type_name("PERCENT")
+        ->capture_default_str();
+    cli::add_length(app, "--weld",
+                    "Weld vertices of the boundary within this distance, in mesh units or percent "
+                    "of the diagonal, and within less than half of each edge there",
+                    arguments.weld)
+        ->excludes(app.get_option("--keep-slits"));
+    app.add_option("--fill-holes", arguments.cleaning.fill_holes,
+                   "Fill holes of at most N edges; 0: none")
+        ->check(CLI::Range(0, 1'000'000).description(""))
+        ->type_name("N")
         ->capture_default_str();
     cli::add_region_options(app, arguments.region);
     cli::start_group(app, cli::heading::running);
@@ -334,6 +345,9 @@ Input prepare(const Arguments& arguments, cli::Console& console) {
                                   .delaunay = arguments.delaunay,
                                   .num_threads = arguments.common.threads,
                                   .progress = progress};
+    if (arguments.weld) {
+        options.cleaning.weld = cli::length_of(*arguments.weld, input.mesh.view());
+    }
     if (!arguments.sites.empty()) {
         options.sites = cli::read_given_sites(arguments, input.mesh.view(), console);
     }

@@ -98,6 +98,8 @@ std::vector<double> lengths_by_label(const SizingArguments& arguments,
     return lengths;
 }
 
+}  // namespace
+
 CLI::Option* add_length(CLI::App& app, const std::string& flag, const std::string& help,
                         std::optional<Amount>& length) {
     return app
@@ -107,7 +109,11 @@ CLI::Option* add_length(CLI::App& app, const std::string& flag, const std::strin
         ->type_name("L|L%");
 }
 
-}  // namespace
+double length_of(const Amount& length, const agvd::MeshView& mesh) {
+    if (!length.is_percent) return length.value;
+    const auto [low, high] = agvd::box_of(mesh);
+    return low.x() > high.x() ? 0 : length.value * (high - low).norm() / 100;
+}
 
 void add_sizing_options(CLI::App& app, SizingArguments& arguments) {
     start_group(app, heading::count);
@@ -214,10 +220,8 @@ remesh::Sizing sizing_for(const SizingArguments& arguments, const std::filesyste
     }
     sizing.target_lengths = values_of("--sizing: ", arguments.target_lengths);
     sizing.densities = values_of("--density: ", arguments.densities);
-    const auto [low, high] = agvd::box_of(mesh.mesh.view());
-    const double percent = low.x() > high.x() ? 0 : (high - low).norm() / 100;
-    const auto in_mesh_units = [percent](const Amount& amount) {
-        return amount.value * (amount.is_percent ? percent : 1);
+    const auto in_mesh_units = [&](const Amount& amount) {
+        return length_of(amount, mesh.mesh.view());
     };
     const auto take = [&](const std::optional<Amount>& amount, double& length) {
         if (amount) length = in_mesh_units(*amount);

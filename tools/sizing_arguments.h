@@ -34,6 +34,13 @@ struct SizingArguments {
     const CLI::Option* samples = nullptr;
 };
 
+//! Adds an option that takes a length in mesh units, or in percent of the diagonal.
+CLI::Option* add_length(CLI::App& app, const std::string& flag, const std::string& help,
+                        std::optional<Amount>& length);
+
+//! In mesh units. Cost: O(#F) for a percentage.
+[[nodiscard]] double length_of(const Amount& length, const agvd::MeshView& mesh);
+
 //! Adds --adaptive, --sizing, --density, --edge-length-of, --faces, --edge-length, --max-distance,
 //! --min-edge,
 //! --max-edge and --gradation, after --samples and --sites.

@@ -22,6 +22,7 @@ namespace {
 
 using agvd::Index;
 using agvd::InvalidInput;
+using agvd::InvalidOption;
 using agvd::no_index;
 using agvd::Triangle;
 
@@ -55,7 +56,8 @@ bool has_area(std::span<const agvd::Vec3> positions, const Triangle& t) {
 
 // The input unchanged, if it has no defect. Makes linear passes only.
 std::optional<CleanResult> take_clean(const agvd::MeshView& mesh, const CleanOptions& options) {
-    const auto& [keep_slits, num_threads, progress] = options;
+    const int num_threads = options.num_threads;
+    const agvd::Progress& progress = options.progress;
     agvd::Poller poller(progress);
     agvd::Ticker ticker(poller);
     std::optional<agvd::Connectivity> found = agvd::find_connectivity(mesh, num_threads, progress);
@@ -86,8 +88,10 @@ std::optional<CleanResult> take_clean(const agvd::MeshView& mesh, const CleanOpt
         ticker.tick();
         is_boundary[v] = twin[outgoing[v]] == no_index;
     }
-    if (!keep_slits) {
-        const std::vector<Index> place = find_places(mesh, is_boundary, ticker);
+    const bool is_open = std::ranges::find(is_boundary, true) != is_boundary.end();
+    if (is_open && options.fill_holes > 0) return std::nullopt;
+    if (!options.keep_slits) {
+        const std::vector<Index> place = find_places(mesh, is_boundary, ticker, options.weld);
         for (Index v = 0; v < place.size(); ++v) {
             if (place[v] != no_index && place[v] != v) return std::nullopt;  // Possibly a crack.
         }
@@ -102,12 +106,14 @@ std::optional<CleanResult> take_clean(const agvd::MeshView& mesh, const CleanOpt
                        *std::move(found)};
 }
 
-// Erases the marked faces and returns their number.
-Index drop_faces(Soup& soup, const std::vector<bool>& is_dead) {
-    const auto dropped = static_cast<Index>(std::count(is_dead.begin(), is_dead.end(), true));
-    std::vector<Index> no_twins;
-    if (dropped > 0) erase_faces(soup, is_dead, no_twins);
-    return dropped;
+void check_options(const CleanOptions& options) {
+    if (!(options.weld >= 0 && std::isfinite(options.weld))) {
+        throw InvalidOption("weld is " + std::to_string(options.weld) +
+                            "; use a length of 0 or more");
+    }
+    if (options.weld > 0 && options.keep_slits) {
+        throw InvalidOption("weld and keep_slits are given; leave out one of them");
+    }
 }
 
 void check_not_empty(const Soup& soup) {
@@ -150,30 +156,6 @@ bool drop_repeated_corners(Soup& soup) {
     return dropped > 0;
 }
 
-// Duplicate faces share each of their edges and have the same third corner there.
-bool drop_duplicates(Soup& soup, std::span<const EdgeSide> sides) {
-    std::vector<bool> is_dead(soup.triangles.size(), false);
-    std::vector<std::pair<Index, Index>> sheets;  // (third corner, face)
-    for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
-        soup.ticker.tick(edge.size());
-        if (edge.size() < 2) return;
-        if (edge.size() == 2 && soup.apex(edge[0].half_edge) != soup.apex(edge[1].half_edge)) {
-            return;  // By far the most frequent case.
-        }
-        sheets.clear();
-        for (const EdgeSide& side : edge) {
-            sheets.emplace_back(soup.apex(side.half_edge), side.half_edge / 3);
-        }
-        std::sort(sheets.begin(), sheets.end());
-        for (std::size_t i = 1; i < sheets.size(); ++i) {
-            if (sheets[i].first == sheets[i - 1].first) is_dead[sheets[i].second] = true;
-        }
-    });
-    const Index dropped = drop_faces(soup, is_dead);
-    soup.counts.duplicate_faces += dropped;
-    return dropped > 0;
-}
-
 void drop_isolated_vertices(Soup& soup) {
     std::vector<Index> new_vertex(soup.positions.size(), no_index);
     agvd::for_each_ticked(soup.triangles, soup.ticker, [&](const Triangle& t) {
@@ -201,6 +183,7 @@ void drop_isolated_vertices(Soup& soup) {
 
 CleanResult clean_input(const agvd::MeshView& mesh, const CleanOptions& options) {
     using namespace detail;
+    check_options(options);
     agvd::Poller poller(options.progress);
     agvd::Ticker ticker(poller);
     check_elements(mesh, ticker);
@@ -218,7 +201,7 @@ CleanResult clean_input(const agvd::MeshView& mesh, const CleanOptions& options)
     const auto refresh = [&](bool is_changed) {
         if (is_changed) sides = sorted_edge_sides(soup.triangles, soup.ticker);
     };
-    if (!options.keep_slits) refresh(weld_cracks(soup, sides));
+    if (!options.keep_slits) refresh(weld_cracks(soup, sides, options.weld));
     const bool is_collapsed = collapse_zero_edges(soup);
     refresh(drop_repeated_corners(soup) || is_collapsed);
     refresh(drop_duplicates(soup, sides));
@@ -229,6 +212,7 @@ CleanResult clean_input(const agvd::MeshView& mesh, const CleanOptions& options)
     check_not_empty(soup);
     split_vertices(soup, twin);
     drop_isolated_vertices(soup);
+    if (options.fill_holes > 0) fill_holes(soup, options.fill_holes);
 
     return {{std::move(soup.positions), std::move(soup.triangles)},
             std::move(soup.vertex_origin),

@@ -34,6 +34,13 @@ struct CleanResult {
 struct CleanOptions {
     //! Leaves boundary edges at one place open, such as the two sides of a slit.
     bool keep_slits = false;
+    //! Mesh units, >= 0: boundary vertices within this distance, and within less than half of each
+    //! edge there, are one place, so that the boundary edges between two places become one. Not
+    //! with keep_slits.
+    double weld = 0;
+    //! Boundary loops of at most so many edges are closed; 0: none. A loop stays open where no
+    //! triangles of an area are found that keep the mesh manifold.
+    agvd::Index fill_holes = 0;
     int num_threads = 0;           //!< >= 0; 0: all cores. The result is the same for any number.
     agvd::Progress progress = {};  //!< Polled during the call; see agvd::poll.
 };
@@ -68,16 +75,21 @@ struct CleanedView {
 //!    place if they are equal, or differ by a millionth of the mesh's longest side at most and by a
 //!    hundredth of each edge there; the first one stays. Zero-length edges collapse.
 //!    With keep_slits only the latter happens.
-//! 2. Faces with a repeated corner and duplicate faces (the first stays) are dropped.
+//!    CleanOptions::weld widens this.
+//! 2. Faces with a repeated corner and duplicate faces (the first stays) are dropped. Of duplicates
+//!    of opposite orientation two stay where they are the walls of bodies that touch: where most
+//!    edges at the rim of such faces have two faces of each body.
 //! 3. Faces connected through edges of two faces are oriented alike. Consistent pieces are not
 //!    turned. Otherwise a clear majority (3/4) wins; without one, closed pieces are turned outward,
 //!    and open ones follow the larger part.
 //! 4. At an edge of more than two faces the pairs that make the flattest sheets (among equals,
-//!    convex ones) stay together; the others are cut off.
+//!    convex ones) stay together; the others are cut off. Where faces of opposite orientation lie
+//!    on each other, those of one body stay together.
 //! 5. A face without area in double (its corners on one line) is absorbed: its longest edge is
 //!    flipped, so that the neighbour is split at the third corner. Where no neighbour can take it,
 //!    it is dropped.
 //! 6. Vertices with more than one fan of faces are copied for each fan; isolated ones are dropped.
+//! 7. Holes are filled if the options ask for it; a new face has the origin of one beside it.
 //!
 //! An input without these defects comes back unchanged, bit for bit and in the same order. Kept
 //! vertices and faces keep their order; copies of vertices come last.
@@ -85,6 +97,8 @@ struct CleanedView {
 //! \throw agvd::InvalidInput  an index is out of range, a coordinate is not finite, the mesh is out
 //!        of scale (see agvd::check_scale) or too far from the origin, a piece is not orientable
 //!        (each names the element), or no face is left.
+//! \throw agvd::InvalidOption  weld is negative, not finite, or given with keep_slits; there is a hole to fill, and the
+//!        build is without CGAL.
 //! \throw agvd::Cancelled     the progress callback returned false.
 //! Cost: O(n log n); O(n) if there is no defect.
 [[nodiscard]] CleanResult clean_input(const agvd::MeshView& mesh, const CleanOptions& options = {});

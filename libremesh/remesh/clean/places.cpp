@@ -20,6 +20,9 @@ using agvd::Vec3;
 
 constexpr double share_of_size = 1e-6;
 constexpr double share_of_edge = 1e-2;
+// With a tolerance: below half, so that the ends of an edge are never at one place with a third
+// vertex.
+constexpr double share_with_tolerance = 0.49;
 // Vertices with a smaller share of the median's reach have to be equal: a cell could hold any
 // number of them.
 constexpr double least_reach = 1.0 / 8;
@@ -48,7 +51,7 @@ std::vector<Index> first_at_position(std::span<const Vec3> positions,
 
 // By first vertex: a share of the shortest edge at its position, zero-length ones apart.
 std::vector<double> find_reaches(const agvd::MeshView& mesh, std::span<const Index> first,
-                                 agvd::Ticker& ticker) {
+                                 double share, agvd::Ticker& ticker) {
     std::vector<double> reach(first.size(), agvd::infinity);
     for (const agvd::Triangle& t : mesh.triangles) {
         ticker.tick();
@@ -58,7 +61,7 @@ std::vector<double> find_reaches(const agvd::MeshView& mesh, std::span<const Ind
             const double length = (mesh.positions[t[k]] - mesh.positions[t[(k + 1) % 3]]).norm();
             if (length == 0) continue;
             for (const Index end : {a, b}) {
-                if (end != no_index) reach[end] = std::min(reach[end], share_of_edge * length);
+                if (end != no_index) reach[end] = std::min(reach[end], share * length);
             }
         }
     }
@@ -120,16 +123,18 @@ private:
 }  // namespace
 
 std::vector<Index> find_places(const agvd::MeshView& mesh, const std::vector<bool>& is_wanted,
-                               agvd::Ticker& ticker) {
+                               agvd::Ticker& ticker, double tolerance) {
     std::vector<Index> place = first_at_position(mesh.positions, is_wanted, ticker);
-    const std::vector<double> reach = find_reaches(mesh, place, ticker);
+    const std::vector<double> reach =
+        find_reaches(mesh, place, tolerance > 0 ? share_with_tolerance : share_of_edge, ticker);
     std::vector<double> finite;
     for (const double r : reach) {
         if (r < agvd::infinity) finite.push_back(r);
     }
     if (finite.empty()) return place;
     const agvd::MeshBox box = agvd::box_of(mesh);
-    const double most = std::min(median(std::move(finite)), share_of_size * box.longest_side());
+    const double limit = std::max(tolerance, share_of_size * box.longest_side());
+    const double most = std::min(median(std::move(finite)), limit);
     if (!(most > 0)) return place;
 
     agvd::UnionFind sets(place.size());
@@ -139,8 +144,8 @@ std::vector<Index> find_places(const agvd::MeshView& mesh, const std::vector<boo
         if (place[v] != v || reach[v] < least_reach * most) continue;
         const Vec3& p = mesh.positions[v];
         grid.visit_near(p, most, [&](Index other) {
-            const double limit = std::min({reach[v], reach[other], most});
-            if ((mesh.positions[other] - p).norm() <= limit) (void)sets.unite(v, other);
+            const double radius = std::min({reach[v], reach[other], most});
+            if ((mesh.positions[other] - p).norm() <= radius) (void)sets.unite(v, other);
         });
         grid.add(p, v);
     }

@@ -17,9 +17,10 @@ namespace remesh::detail {
 //! that most have would crowd its cells, so these have to be equal.
 //!
 //! \param is_wanted  #V: vertices of the boundary.
+//! \param tolerance  above 0: the limits are this length, if that is more, and half of each edge.
 //! Cost: O(#F + #wanted).
 [[nodiscard]] std::vector<agvd::Index> find_places(const agvd::MeshView& mesh,
                                                    const std::vector<bool>& is_wanted,
-                                                   agvd::Ticker& ticker);
+                                                   agvd::Ticker& ticker, double tolerance = 0);
 
 }  // namespace remesh::detail

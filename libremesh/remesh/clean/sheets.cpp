@@ -1,7 +1,11 @@
 // Decides which faces belong together at non-manifold edges and vertices: the flattest pairs.
 // Vertices are then copied until vertex indices alone give these pairs. Among equally flat pairs
 // the one that bounds a convex wedge is taken, so that boxes that touch along an edge stay apart.
+// Where faces of opposite orientation lie on each other, bodies touch in a wall, which may go on
+// flat: there the pairs are those with a body between them.
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <tuple>
 
 #include "remesh/clean/soup.h"
@@ -22,38 +26,77 @@ constexpr std::size_t most_sheets = 64;
 // decide.
 constexpr double convex_bonus = 1e-3;
 
+// Faces at a smaller angle (radians) lie on each other: coordinates in single precision give 1e-5
+// where faces are a hundredth of the mesh.
+constexpr double folded_angle = 1e-4;
+
 void join(std::vector<Index>& twin, Index a, Index b) {
     twin[a] = b;
     twin[b] = a;
 }
 
-// Cosine between the normals of two faces that traverse their common edge in opposite directions.
-double flatness(const Soup& soup, Index a, Index b) {
+// The angle between two faces that traverse their common edge in opposite directions, through the
+// body that they bound: about 2 pi where they lie on each other.
+// \param is_inside_out  bodies lie on the side of the normals.
+double angle_inside(const Soup& soup, Index a, Index b, bool is_inside_out) {
     const Vec3& origin = soup.positions[soup.tail(a)];
-    const Vec3 along = soup.positions[soup.head(a)] - origin;
-    const Vec3 normal_a = along.cross(soup.positions[soup.apex(a)] - origin).normalized();
-    const Vec3 up_b = soup.positions[soup.apex(b)] - origin;
-    const Vec3 normal_b = up_b.cross(along).normalized();
-    return normal_a.dot(normal_b) + (normal_a.dot(up_b) < 0 ? convex_bonus : 0);
+    const Vec3 along = (soup.positions[soup.head(a)] - origin).normalized();
+    const Vec3 normal = along.cross(soup.positions[soup.apex(a)] - origin).normalized();
+    const Vec3 up = soup.positions[soup.apex(b)] - origin;
+    const double below = (is_inside_out ? 1 : -1) * normal.dot(up);
+    const double angle = std::atan2(below, normal.cross(along).dot(up));
+    return angle < folded_angle ? angle + 2 * std::numbers::pi : angle;
 }
 
-void pair_flattest(const Soup& soup, std::span<const EdgeSide> edge, std::vector<Index>& twin) {
+// Six times the volume that the faces enclose.
+double enclosed_volume(Soup& soup) {
+    const Vec3& origin = soup.positions[soup.triangles[0][0]];
+    double volume = 0;
+    for (const auto& [a, b, c] : soup.triangles) {
+        soup.ticker.tick();
+        volume += (soup.positions[a] - origin)
+                      .dot((soup.positions[b] - origin).cross(soup.positions[c] - origin));
+    }
+    return volume;
+}
+
+// Whether the faces have the same corners. They are the walls of two bodies, and stay apart.
+bool are_opposite(const Soup& soup, const EdgeSide& a, const EdgeSide& b) {
+    return soup.apex(a.half_edge) == soup.apex(b.half_edge);
+}
+
+// How well two faces go together. Flat pairs do best; where faces lie on each other, those with
+// the least of a body between them.
+double fitness(double angle, bool has_walls) {
+    if (has_walls) return -angle;
+    return -std::cos(angle) + (angle < std::numbers::pi ? convex_bonus : 0);
+}
+
+void pair_faces(const Soup& soup, std::span<const EdgeSide> edge, bool is_inside_out,
+                std::vector<Index>& twin) {
     if (edge.size() > most_sheets) return;
     struct Pair {
-        double flatness;
+        double angle, fitness;
         Index a, b;
     };
     std::vector<Pair> pairs;
+    bool has_walls = false;
     for (const EdgeSide& up : edge) {
         if (!soup.runs_up(up.half_edge)) continue;
         for (const EdgeSide& down : edge) {
             if (soup.runs_up(down.half_edge)) continue;
-            const Index a = up.half_edge, b = down.half_edge;
-            pairs.push_back({flatness(soup, a, b), a, b});
+            if (are_opposite(soup, up, down)) {
+                has_walls = true;
+                continue;
+            }
+            const double angle = angle_inside(soup, up.half_edge, down.half_edge, is_inside_out);
+            has_walls = has_walls || angle >= 2 * std::numbers::pi - folded_angle;
+            pairs.push_back({angle, 0, up.half_edge, down.half_edge});
         }
     }
+    for (Pair& pair : pairs) pair.fitness = fitness(pair.angle, has_walls);
     std::sort(pairs.begin(), pairs.end(), [](const Pair& p, const Pair& q) {
-        return std::tie(q.flatness, p.a, p.b) < std::tie(p.flatness, q.a, q.b);
+        return std::tie(q.fitness, p.a, p.b) < std::tie(p.fitness, q.a, q.b);
     });
     for (const Pair& pair : pairs) {
         if (twin[pair.a] == no_index && twin[pair.b] == no_index) join(twin, pair.a, pair.b);
@@ -103,12 +146,15 @@ bool is_told_by_indices(const Soup& soup, std::span<const EdgeSide> edge) {
 
 std::vector<Index> pair_sheets(Soup& soup, std::span<const EdgeSide> sides) {
     std::vector<Index> twin(soup.num_half_edges(), no_index);
+    const bool is_inside_out = enclosed_volume(soup) < 0;
     for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
         soup.ticker.tick(edge.size());
-        if (edge.size() == 2) join(twin, edge[0].half_edge, edge[1].half_edge);
+        if (edge.size() == 2 && !are_opposite(soup, edge[0], edge[1])) {
+            join(twin, edge[0].half_edge, edge[1].half_edge);
+        }
         if (edge.size() <= 2) return;
         ++soup.counts.split_edges;
-        pair_flattest(soup, edge, twin);
+        pair_faces(soup, edge, is_inside_out, twin);
     });
     return twin;
 }

@@ -1,5 +1,7 @@
 #include "remesh/clean/soup.h"
 
+#include <algorithm>
+
 namespace remesh::detail {
 
 using agvd::Index;
@@ -29,6 +31,13 @@ void erase_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<Index
         }
     }
     twin.resize(3 * std::size_t{count});
+}
+
+Index drop_faces(Soup& soup, const std::vector<bool>& is_dead) {
+    const auto dropped = static_cast<Index>(std::count(is_dead.begin(), is_dead.end(), true));
+    std::vector<Index> no_twins;
+    if (dropped > 0) erase_faces(soup, is_dead, no_twins);
+    return dropped;
 }
 
 }  // namespace remesh::detail

@@ -42,19 +42,24 @@ void check_elements(const agvd::MeshView& mesh, agvd::Ticker& ticker);
 
 //! Removes the marked faces and updates `twin` (may be empty).
 void erase_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<agvd::Index>& twin);
+//! Removes the marked faces and returns their number.
+agvd::Index drop_faces(Soup& soup, const std::vector<bool>& is_dead);
 
 // The passes, in the order in which they run. Those that return bool tell whether they changed a
 // triangle, so that sides must be sorted again.
 
 //! Boundary edges between the same two places (find_places) become one edge.
-bool weld_cracks(Soup& soup, std::span<const EdgeSide> sides);
+//! \param tolerance  see find_places.
+bool weld_cracks(Soup& soup, std::span<const EdgeSide> sides, double tolerance);
 //! Different corners of a face at one position become one vertex.
 bool collapse_zero_edges(Soup& soup);
 bool drop_repeated_corners(Soup& soup);
+//! Of faces with the same corners one stays, or two of opposite orientation where bodies touch.
 bool drop_duplicates(Soup& soup, std::span<const EdgeSide> sides);
 //! \throw agvd::InvalidInput  a component is not orientable.
 bool orient_faces(Soup& soup, std::span<const EdgeSide> sides);
 //! The twins. At an edge of more than two faces the flattest pairs stay together, the rest is cut.
+//! Where faces of opposite orientation lie on each other, those of one body stay together.
 [[nodiscard]] std::vector<agvd::Index> pair_sheets(Soup& soup, std::span<const EdgeSide> sides);
 //! Twice the least of the areas computed from the three corners of a face. agvd::build_surface
 //! rejects faces for which it is 0 or not finite.
@@ -66,5 +71,8 @@ void remove_degenerate_faces(Soup& soup, std::vector<agvd::Index>& twin);
 //! Gives every fan of faces a vertex of its own, until vertex indices alone give the twins.
 void split_vertices(Soup& soup, std::vector<agvd::Index>& twin);
 void drop_isolated_vertices(Soup& soup);
+//! Closes boundary loops of at most `most_edges` edges. A new face has the origin of one beside it.
+//! \throw agvd::InvalidOption  there is such a loop, and the build is without CGAL.
+void fill_holes(Soup& soup, agvd::Index most_edges);
 
 }  // namespace remesh::detail

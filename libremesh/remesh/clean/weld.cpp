@@ -88,7 +88,7 @@ double longest_slit(Soup& soup, std::span<const EdgeSide> open, std::span<const 
 
 // Only edges are welded, and only boundary edges: parts that touch at a point, and closed parts
 // that touch anywhere, are manifold as they are.
-bool weld_cracks(Soup& soup, std::span<const EdgeSide> sides) {
+bool weld_cracks(Soup& soup, std::span<const EdgeSide> sides, double tolerance) {
     std::vector<EdgeSide> open;
     for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
         soup.ticker.tick();
@@ -99,7 +99,7 @@ bool weld_cracks(Soup& soup, std::span<const EdgeSide> sides) {
     std::vector<bool> is_boundary(soup.positions.size(), false);
     for (const EdgeSide& side : open) is_boundary[side.low()] = is_boundary[side.high()] = true;
     const std::vector<Index> place =
-        find_places({soup.positions, soup.triangles}, is_boundary, soup.ticker);
+        find_places({soup.positions, soup.triangles}, is_boundary, soup.ticker, tolerance);
     for (EdgeSide& side : open) {
         side.ends = agvd::edge_key(place[side.low()], place[side.high()]);
     }

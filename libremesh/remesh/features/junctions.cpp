@@ -46,6 +46,20 @@ std::vector<NamedEdge> edges_at_copies(const Surface& surface, std::span<const I
     return edges;
 }
 
+// Whether the edges have the same faces beside them: inside the wall of two bodies that touch.
+bool are_inside_wall(const Surface& surface, std::span<const Index> origin,
+                     const std::vector<Index>& edges) {
+    const auto apexes = [&](Index e) {
+        const Index h = surface.edge_half[e], twin = surface.twin[h];
+        const auto apex = [&](Index side) { return origin[surface.tail(Surface::previous(side))]; };
+        std::array<Index, 2> result{apex(h), twin == agvd::no_index ? agvd::no_index : apex(twin)};
+        if (result[0] > result[1]) std::swap(result[0], result[1]);
+        return result;
+    };
+    return std::all_of(edges.begin() + 1, edges.end(),
+                       [&](Index e) { return apexes(e) == apexes(edges.front()); });
+}
+
 // The sets of vertices that are one end of the same junction edges.
 std::vector<std::vector<Index>> join_ends(const Surface& surface, std::span<const Index> origin,
                                           const std::vector<std::vector<Index>>& edges) {
@@ -86,7 +100,9 @@ JunctionSet find_junctions(const Surface& surface, std::span<const Index> vertex
              ++end) {
             group.push_back(named[end].edge);
         }
-        if (group.size() > 1) junctions.edges.push_back(std::move(group));
+        if (group.size() > 1 && !are_inside_wall(surface, vertex_origin, group)) {
+            junctions.edges.push_back(std::move(group));
+        }
     }
     if (!junctions.empty()) {
         std::sort(junctions.edges.begin(), junctions.edges.end());

@@ -32,6 +32,7 @@ struct JunctionSet {
 };
 
 //! Finds junctions: edges whose ends have the same origins were one edge. Positions do not count.
+//! Edges with the same faces on both sides are left out: they lie inside walls of two bodies.
 //!
 //! \param vertex_origin  #V: see CleanResult; empty: each vertex is its own.
 //! Cost: O(#V + #E + k log k), k = edges at vertices that have copies.

@@ -29,9 +29,11 @@ inline constexpr std::array repair_rows = {
     RepairRow{&CleanCounts::degenerate_faces, "degenerate_faces", "degenerate face"},
     RepairRow{&CleanCounts::absorbed_faces, "absorbed_faces", "absorbed face without area"},
     RepairRow{&CleanCounts::duplicate_faces, "duplicate_faces", "duplicate face"},
+    RepairRow{&CleanCounts::touching_faces, "touching_faces", "touching face"},
     RepairRow{&CleanCounts::flipped_faces, "flipped_faces", "flipped face"},
     RepairRow{&CleanCounts::split_edges, "split_edges", "split edge"},
     RepairRow{&CleanCounts::split_vertices, "split_vertices", "split vertex"},
+    RepairRow{&CleanCounts::filled_holes, "filled_holes", "filled hole"},
     RepairRow{&CleanCounts::isolated_vertices, "isolated_vertices", "isolated vertex"},
 };
 static_assert(sizeof(CleanCounts) == repair_rows.size() * sizeof(agvd::Index),

@@ -241,6 +241,8 @@ Json to_json(const RemeshOptions& options, Index num_samples) {
     object["boundary"] = options.boundary == Boundary::Keep ? "keep" : "free";
     object["keep_slits"] = options.cleaning.keep_slits;
     object["drop_components"] = options.drop_components;
+    object["weld"] = options.cleaning.weld;
+    object["fill_holes"] = options.cleaning.fill_holes;
     object["features"] = features_name(options.features);
     object["feature_angle_degrees"] = options.feature_angle;
     object["given_feature_edges"] = options.feature_edges.size();

@@ -31,16 +31,27 @@ std::vector<Index> find_places(const agvd::MeshView& mesh, agvd::Ticker& ticker)
 class RegionCutter {
 public:
     RegionCutter(const agvd::MeshView& mesh, std::span<const std::uint8_t> is_marked,
-                 agvd::Ticker& ticker)
+                 const CleanOptions& cleaning)
         : mesh_(mesh),
-          ticker_(ticker),
-          place_(find_places(mesh, ticker)),
+          cleaning_(cleaning),
+          poller_(cleaning.progress),
+          ticker_(poller_),
+          place_(find_places(mesh, ticker_)),
           is_inside_(is_marked.begin(), is_marked.end()),
           is_outer_place_(mesh.positions.size(), false) {
-        keep_flat_faces();
+        find_flat_faces();
     }
 
     Region run() {
+        while (true) {
+            Region region = divide();
+            if (flat_.empty()) return region;
+            if (!keep_flat_faces(find_torn(region))) return region;
+        }
+    }
+
+private:
+    Region divide() {
         Region region;
         std::vector<Index> number(mesh_.positions.size(), no_index);
         for (Index f = 0; f < is_inside_.size(); ++f) {
@@ -49,7 +60,7 @@ public:
             if (is_inside_[f] == 0) continue;
             for (const Index v : mesh_.triangles[f]) number[v] = 0;
         }
-        if (region.faces.empty()) {
+        if (std::ranges::none_of(region.faces, [&](Index f) { return has_area(f); })) {
             throw agvd::InvalidOption(
                 "the region has no face with an area; mark the faces to remesh with other values "
                 "than 0");
@@ -68,43 +79,78 @@ public:
         return region;
     }
 
-private:
+    [[nodiscard]] bool has_area(Index face) const {
+        return smallest_doubled_area(mesh_.positions, mesh_.triangles[face]) > 0;
+    }
     [[nodiscard]] Triangle places_of(Index face) const {
         const auto& [a, b, c] = mesh_.triangles[face];
         return {place_[a], place_[b], place_[c]};
     }
 
-    // Marked faces without area that touch a kept one are not remeshed either.
-    void keep_flat_faces() {
-        std::vector<std::pair<Index, Index>> flat;  // (place, marked face without area there)
-        std::vector<Index> reached;
+    // Calls each(key) for the edges of a face, between places.
+    template <typename Each>
+    void for_each_edge_of(const Triangle& places, const Each& each) const {
+        for (std::size_t k = 0; k < 3; ++k) {
+            each(agvd::edge_key(places[k], places[(k + 1) % 3]));
+        }
+    }
+
+    void find_flat_faces() {
         for (Index f = 0; f < is_inside_.size(); ++f) {
             ticker_.tick();
             const Triangle t = places_of(f);
             if (is_inside_[f] == 0) {
-                for (const Index p : t) reach(p, reached);
-            } else if (!(smallest_doubled_area(mesh_.positions, mesh_.triangles[f]) > 0)) {
-                for (const Index p : t) flat.emplace_back(p, f);
+                for (const Index p : t) is_outer_place_[p] = true;
+            } else if (!has_area(f)) {
+                for (const Index p : t) flat_.emplace_back(agvd::edge_key(p, p), f);
+                for_each_edge_of(t, [&](std::uint64_t edge) { flat_.emplace_back(edge, f); });
             }
         }
-        if (flat.empty()) return;
-        std::sort(flat.begin(), flat.end());
-        while (!reached.empty()) {
+        std::sort(flat_.begin(), flat_.end());
+    }
+
+    // Vertices (edge_key(v, v)) and edges of the seam that cleaning the region loses.
+    [[nodiscard]] std::vector<std::uint64_t> find_torn(const Region& region) {
+        const CleanResult clean = clean_input(region.mesh.view(), cleaning_);
+        const auto place_of = [&](Index v) { return place_[region.vertices[v]]; };
+        std::vector<std::uint64_t> left;
+        for (const auto& [a, b, c] : clean.mesh.triangles) {
             ticker_.tick();
-            const Index p = reached.back();
-            reached.pop_back();
-            auto here = std::lower_bound(flat.begin(), flat.end(), std::pair(p, Index{0}));
-            for (; here != flat.end() && here->first == p; ++here) {
+            const std::vector<Index>& origin = clean.vertex_origin;
+            const Triangle t{place_of(origin[a]), place_of(origin[b]), place_of(origin[c])};
+            for (const Index p : t) left.push_back(agvd::edge_key(p, p));
+            for_each_edge_of(t, [&](std::uint64_t edge) { left.push_back(edge); });
+        }
+        std::sort(left.begin(), left.end());
+        std::vector<std::uint64_t> torn;
+        const auto require = [&](Index a, Index b) {
+            const std::uint64_t edge = agvd::edge_key(place_of(a), place_of(b));
+            if (!std::binary_search(left.begin(), left.end(), edge)) torn.push_back(edge);
+        };
+        for (const SeamVertex& seam : region.seam) require(seam.vertex, seam.vertex);
+        for (const auto& [a, b] : region.seam_edges) require(a, b);
+        return torn;
+    }
+
+    // Faces without area there are not remeshed either, nor those that they are joined to.
+    // \return whether there are any.
+    bool keep_flat_faces(std::vector<std::uint64_t> edges) {
+        bool is_changed = false;
+        while (!edges.empty()) {
+            ticker_.tick();
+            const std::uint64_t edge = edges.back();
+            edges.pop_back();
+            auto here = std::lower_bound(flat_.begin(), flat_.end(), std::pair(edge, Index{0}));
+            for (; here != flat_.end() && here->first == edge; ++here) {
                 if (is_inside_[here->second] == 0) continue;
                 is_inside_[here->second] = 0;
-                for (const Index other : places_of(here->second)) reach(other, reached);
+                is_changed = true;
+                const Triangle t = places_of(here->second);
+                for (const Index p : t) is_outer_place_[p] = true;
+                for_each_edge_of(t, [&](std::uint64_t other) { edges.push_back(other); });
             }
         }
-    }
-    void reach(Index place, std::vector<Index>& reached) {
-        if (is_outer_place_[place]) return;
-        is_outer_place_[place] = true;
-        reached.push_back(place);
+        return is_changed;
     }
 
     // An edge between two places of the seam.
@@ -168,18 +214,24 @@ private:
     }
 
     const agvd::MeshView& mesh_;
-    agvd::Ticker& ticker_;
+    const CleanOptions& cleaning_;
+    agvd::Poller poller_;
+    agvd::Ticker ticker_;
     const std::vector<Index> place_;       // #V
     std::vector<std::uint8_t> is_inside_;  // #F
     std::vector<bool> is_outer_place_;     // By place: a corner of a kept face.
+    // (edge or vertex, marked face without area there); sorted.
+    std::vector<std::pair<std::uint64_t, Index>> flat_;
 };
 
 }  // namespace
 
 Region cut_region(const agvd::MeshView& mesh, std::span<const std::uint8_t> is_marked,
-                  agvd::Ticker& ticker) {
+                  const CleanOptions& cleaning) {
+    agvd::Poller poller(cleaning.progress);
+    agvd::Ticker ticker(poller);
     check_elements(mesh, ticker);
-    return RegionCutter(mesh, is_marked, ticker).run();
+    return RegionCutter(mesh, is_marked, cleaning).run();
 }
 
 }  // namespace remesh::detail

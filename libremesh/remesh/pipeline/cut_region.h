@@ -7,8 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "agvd/core/poller.h"
-#include "agvd/mesh/mesh_view.h"
+#include "remesh/clean/clean_input.h"
 
 namespace remesh::detail {
 
@@ -32,14 +31,17 @@ struct Region {
 };
 
 //! Vertices at equal positions count as one, so that the seam is found in meshes that are not
-//! welded as well. Marked faces without area stay where they touch kept faces, even over other such
-//! faces: cleaning would remove them and with them edges of the seam.
+//! welded as well. Marked faces without area are left to cleaning, which absorbs them. They stay
+//! where it would drop them instead, and with them an edge or a vertex of the seam: where a vertex
+//! inside the region lies on an edge of the seam.
 //!
 //! \param is_marked  #F: other than 0 for the faces to remesh.
+//! \param cleaning   of the region.
 //! \throw agvd::InvalidOption  no face is left to remesh.
-//! \throw agvd::InvalidInput   an index is out of range, or a coordinate is not finite.
-//! Cost: O(n log n).
+//! \throw agvd::InvalidInput   an index is out of range, or a coordinate is not finite; that of
+//!                             clean_input() if marked faces are without area.
+//! Cost: O(n log n), for each of few rounds if marked faces are without area.
 [[nodiscard]] Region cut_region(const agvd::MeshView& mesh, std::span<const std::uint8_t> is_marked,
-                                agvd::Ticker& ticker);
+                                const CleanOptions& cleaning);
 
 }  // namespace remesh::detail

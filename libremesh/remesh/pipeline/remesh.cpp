@@ -158,9 +158,11 @@ bool is_part(const agvd::MeshView& mesh, const RemeshOptions& options) {
             "region has " + std::to_string(region.size()) + " values, but the mesh has " +
             std::to_string(mesh.triangles.size()) + " faces; give one for each, or none");
     }
-    if (options.sites || options.drop_components > 0) {
+    if (options.sites || options.drop_components > 0 || options.cleaning.weld > 0 ||
+        options.cleaning.fill_holes > 0) {
         throw agvd::InvalidOption(
-            "a region is given, and sites or drop_components as well; leave out one of them");
+            "a region is given, and sites, drop_components, weld or fill_holes as well; leave out "
+            "one of them");
     }
     if (std::find(region.begin(), region.end(), 0) == region.end()) return false;
     check_options(options, mesh.positions.size(), mesh.triangles.size());
@@ -175,6 +177,7 @@ RemeshResult run(const detail::InputMesh& input, const RemeshOptions& options) {
     agvd::TriangleMesh normal = agvd::scaled(input.view, -exponent);
     RemeshOptions scaled_options = options;
     scale_lengths(scaled_options.sizing, -exponent);
+    scaled_options.cleaning.weld = std::ldexp(options.cleaning.weld, -exponent);
     RemeshResult result = detail::run_stages({normal.view(), &normal}, scaled_options);
     scale_back(result, exponent);
     return result;

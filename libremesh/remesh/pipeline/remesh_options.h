@@ -82,7 +82,7 @@ struct RemeshOptions {
     //! Faces to remesh: other than 0 for each of the caller's faces that is to change, or empty for
     //! all. The others stay, see KeptPart; what joins them to the changed ones is locked.
     //! num_samples, edge lengths and numbers of faces count in the region, its seam included. Not
-    //! with `sites` or drop_components.
+    //! with `sites`, drop_components, weld or fill_holes.
     std::vector<std::uint8_t> region = {};
     std::uint64_t seed = 1;  //!< Same seed, same bytes, any num_threads.
     //! Sites on the caller's mesh, instead of sampling; num_samples, init and seed are ignored.

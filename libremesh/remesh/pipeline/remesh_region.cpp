@@ -165,10 +165,10 @@ void count_crossings(const agvd::MeshView& mesh, const Region& region, const Rem
 RemeshResult remesh_region(const agvd::MeshView& mesh, const RemeshOptions& options,
                            const RemeshWhole& run) {
     const agvd::Progress progress = progress_of(Stage::Clean, options);
-    const agvd::Progress start = agvd::within(progress, 0, 0);
-    agvd::Poller poller(start);
-    agvd::Ticker ticker(poller);
-    const Region region = cut_region(mesh, options.region, ticker);
+    CleanOptions cleaning = options.cleaning;
+    cleaning.num_threads = options.num_threads;
+    cleaning.progress = agvd::within(progress, 0, 0);
+    const Region region = cut_region(mesh, options.region, cleaning);
     RemeshResult result = run(region.mesh.view(), options_of_region(mesh, options, region));
     const agvd::Progress checking = progress_of(Stage::Check, options);
     const agvd::Progress last = agvd::within(checking, 1, 1);

@@ -1,4 +1,5 @@
-// Measures that need CGAL, for a build without it: they return nothing.
+// What needs CGAL, for a build without it: these functions return nothing.
+#include "remesh/clean/hole_triangles.h"
 #include "remesh/quality/self_intersections.h"
 #include "remesh/quality/surface_distance.h"
 
@@ -11,6 +12,11 @@ std::optional<SurfaceDistance> surface_distance(const agvd::MeshView&, const agv
 
 std::optional<std::vector<std::pair<agvd::Index, agvd::Index>>> find_self_intersections(
     const agvd::MeshView&, int, const agvd::Progress&) {
+    return std::nullopt;
+}
+
+std::optional<std::vector<agvd::Triangle>> detail::triangulate_hole(std::span<const agvd::Vec3>,
+                                                                    std::span<const agvd::Vec3>) {
     return std::nullopt;
 }
 

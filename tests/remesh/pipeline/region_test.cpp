@@ -392,6 +392,45 @@ TEST(Region, FacesWithoutAreaBesideTheSeamStay) {
     EXPECT_TRUE(remesh::same_topology(topology, remesh::analyze_topology(mesh.view())));
 }
 
+// Faces without area on edges of random regions: inside they are absorbed, and at a rim whose edges
+// are their short ones. Those at a rim whose edge is the long one stay: a vertex lies on it.
+TEST(Region, FacesWithoutAreaAreAbsorbedWhereTheRimPermits) {
+    for (std::uint64_t seed = 0; seed < 4; ++seed) {
+        SCOPED_TRACE(seed);
+        TriangleMesh mesh = parts::box({1, 1, 1}, 4);
+        Mask mask = random_mask(mesh, 0.7, seed);
+        std::vector<bool> is_used(mesh.positions.size(), false);
+        Index num_absorbed = 0;
+        const auto num_faces = static_cast<Index>(mesh.triangles.size());
+        for (Index f = 0; f < num_faces; ++f) {
+            const auto [a, b, c] = mesh.triangles[f];
+            if (is_used[a] || is_used[b] || is_used[c]) continue;
+            is_used[a] = is_used[b] = is_used[c] = true;
+            const auto is_across = [&, u = a, v = b](const Triangle& t) {
+                return (t[0] == v && t[1] == u) || (t[1] == v && t[2] == u) ||
+                       (t[2] == v && t[0] == u);
+            };
+            const auto across = static_cast<std::size_t>(
+                std::find_if(mesh.triangles.begin(), mesh.triangles.end(), is_across) -
+                mesh.triangles.begin());
+            const auto middle = static_cast<Index>(mesh.positions.size());
+            mesh.positions.emplace_back((mesh.positions[a] + mesh.positions[b]) / 2);
+            mesh.triangles[f] = {a, middle, c};
+            mesh.triangles.push_back({middle, b, c});
+            mesh.triangles.push_back({a, b, middle});
+            mask.push_back(mask[f]);
+            mask.push_back(mask[across]);  // At the rim of its own part it would stay.
+            num_absorbed += mask[across];
+        }
+        ASSERT_GT(num_absorbed, 5u);
+        const RemeshResult result = expect_manifold_region(mesh, mask, {.num_samples = 300});
+        const TriangleMesh part = new_part(result);
+        EXPECT_EQ(result.cleaned.absorbed_faces, num_absorbed);
+        EXPECT_EQ(remesh::measure_triangles(part.view()).faces_without_area, 0u);
+        EXPECT_EQ(result.new_self_intersections, 0u);
+    }
+}
+
 TEST(Region, EdgesWithMoreThanTwoFacesKeepTheirFaces) {
     int num_tried = 0;
     for (const shapes::JunctionShape& shape : shapes::straight_junctions()) {

@@ -148,6 +148,12 @@ void bind_remesh(py::module_& module) {
         "keep_slits", [](const RemeshOptions& self) { return self.cleaning.keep_slits; },
         [](RemeshOptions& self, bool keeps) { self.cleaning.keep_slits = keeps; });
     options.def_readwrite("drop_components", &RemeshOptions::drop_components);
+    options.def_property(
+        "weld", [](const RemeshOptions& self) { return self.cleaning.weld; },
+        [](RemeshOptions& self, double length) { self.cleaning.weld = length; });
+    options.def_property(
+        "fill_holes", [](const RemeshOptions& self) { return self.cleaning.fill_holes; },
+        [](RemeshOptions& self, agvd::Index edges) { self.cleaning.fill_holes = edges; });
     options.def_readwrite("feature_angle", &RemeshOptions::feature_angle);
     options.def_readwrite("feature_edges", &RemeshOptions::feature_edges);
     options.def_readwrite("texture_seams", &RemeshOptions::texture_seams);

@@ -26,6 +26,8 @@ class Options:
     num_samples: int
     keep_slits: bool
     drop_components: float
+    weld: float
+    fill_holes: int
     feature_angle: float
     feature_edges: list[list[int]]
     texture_seams: list[list[int]]

@@ -82,6 +82,8 @@ def remesh(
     topology: str = "exact",
     keep_slits: bool = False,
     drop_components: float = 0,
+    weld: Any = None,
+    fill_holes: int = 0,
     region: Any = None,
     lock: Any = None,
     strict: bool = False,
@@ -135,6 +137,9 @@ def remesh(
       ``topology``: ``"exact"``, or ``"add"`` to add vertices that the topology needs.
     - ``keep_slits``: open edges at one place, such as the two sides of a slit, are not welded.
     - ``drop_components``: smaller components are dropped; a share of the area from 0 to 1.
+    - ``weld``: vertices of the boundary within this length (``"0.1%"`` of the diagonal), and within
+      less than half of each edge there, become one. ``fill_holes``: holes of at most so many edges
+      are filled. Neither with ``region``.
     - ``region``: only these faces are remeshed: something other than 0 (or False) for each of them,
       or the name of such values of the mesh. All others stay, bit for bit, and are the first ones
       of the result (Result.kept_faces). ``n``, ``faces`` and lengths count in the region, the
@@ -210,6 +215,8 @@ def remesh(
     options.topology = topology
     options.keep_slits = bool(keep_slits)
     options.drop_components = _arrays.number(drop_components, "drop_components")
+    options.weld = 0 if weld is None else _options.length(mesh, weld, "weld")
+    options.fill_holes = _arrays.whole(fill_holes, "fill_holes")
     options.init = init
     options.relax_steps = _arrays.whole(relax, "relax", 0, 1_000_000)
     options.fit = None if fit is None else bool(fit)
