@@ -139,6 +139,8 @@ TEST_F(RemeshRegion, WhatDoesNotFitIsAUsageErrorAndWritesNothing) {
              {{"--region", "marks"}, "has no property of faces 'marks'; use mark"},
              {{"--region", "mark", "--sites", sites}, "--sites"},
              {{"--region", "mark", "--drop-components", "1"}, "--drop-components"},
+             {{"--region", "mark", "--weld", "1"}, "--weld"},
+             {{"--region", "mark", "--fill-holes", "3"}, "--fill-holes"},
              {{"--lock", put("v.txt", "0\n"), "--sites", sites}, "--sites"}}) {
         const auto outcome = remesh(options);
         EXPECT_EQ(outcome.exit_code, 2) << text;

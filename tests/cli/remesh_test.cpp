@@ -69,6 +69,29 @@ TEST_F(Remesh, ASlitIsWeldedWithAWarningOrLeftOpen) {
     EXPECT_EQ(err, "");
 }
 
+TEST_F(Remesh, GapsAreWeldedAndHolesFilledIfAskedFor) {
+    const auto loops = [&] {
+        return remesh::analyze_topology(remesh::read_mesh(at("out.off")).mesh.view())
+            .boundary_loops();
+    };
+    const agvd::TriangleMesh gaps = shapes::jitter(shapes::unweld(shapes::torus(20, 10)), 1e-3, 1);
+    const std::string soup = put("soup.off", gaps);
+    EXPECT_EQ(remesh({soup, at("out.off"), "-q", "-n", "90", "--weld", "1%"}).exit_code, 0);
+    EXPECT_EQ(loops(), 0);
+    EXPECT_EQ(remesh({soup, at("none.off"), "--weld", "1%", "--keep-slits"}).exit_code, 2);
+
+    agvd::TriangleMesh open = shapes::sphere(2);
+    open.triangles.pop_back();
+    const auto filled =
+        remesh({put("open.off", open), at("out.off"), "-n", "60", "--fill-holes", "3"});
+    if (filled.err.find("CGAL") != std::string::npos) {
+        EXPECT_EQ(filled.exit_code, 2);
+        GTEST_SKIP() << "without CGAL";
+    }
+    EXPECT_NE(filled.err.find("1 filled hole"), std::string::npos) << filled.err;
+    EXPECT_EQ(loops(), 0);
+}
+
 TEST_F(Remesh, MoreSamplesThanVerticesWork) {
     const std::string in = put("in.off", shapes::icosahedron());
     EXPECT_EQ(remesh({in, at("out.off"), "-n", "300"}).exit_code, 0);
