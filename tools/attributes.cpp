@@ -70,6 +70,7 @@ void keep_named(const std::vector<std::string>& names, const std::filesystem::pa
     }
     if (!is_named("normals")) attributes.normals.reset();
     if (!is_named(remesh::TextureCoordinates::name)) attributes.texture = {};
+    if (!is_named("material")) attributes.materials = {};
     attributes.declined.clear();
 }
 
@@ -150,11 +151,13 @@ remesh::AttributeReport select_attributes(const AttributeArguments& arguments,
                                           const std::filesystem::path& input,
                                           const remesh::MeshPath& output,
                                           remesh::MeshAttributes& attributes, Console& console) {
-    if (arguments.transfer == "none") attributes = {};
+    if (arguments.transfer == "none") attributes = {.unit = attributes.unit};
     if (arguments.transfer != "all" && arguments.transfer != "none") {
         keep_named(split(arguments.transfer), input, attributes);
     }
     decline_unwritable(output, attributes);
+    const std::string unit = remesh::describe_unit(output, attributes.unit);
+    if (!unit.empty()) console.warn(unit);
     move_material_files(input, output.path, attributes.material_files);
     for (const std::string& text : describe(attributes.declined)) console.warn(text);
     return {names_in(attributes), attributes.declined, arguments.map.string()};

@@ -6,6 +6,9 @@
 #include "remesh/io/write_mesh.h"
 
 namespace cli {
+
+namespace fs = std::filesystem;
+
 namespace {
 
 constexpr const char* input_stream = "/dev/stdin";
@@ -51,6 +54,17 @@ CLI::Option* add_format_option(CLI::App& app, const std::string& name, const std
     return app.add_option(name, format, help)
         ->transform(CLI::Validator(check, ""))
         ->type_name("FORMAT");
+}
+
+void check_format(const remesh::MeshPath& output) {
+    const std::string format = remesh::mesh_format(output);
+    const fs::path& path = output.path;
+    if (output.format.empty() || !remesh::is_known_mesh_extension(path)) return;
+    const bool is_packed = path.extension() == ".gz", wants_packed = output.format.ends_with(".gz");
+    if (remesh::mesh_format({path}) == format && is_packed == wants_packed) return;
+    throw agvd::InvalidOption("--to " + output.format + " does not fit the name of the output, " +
+                              path.string() + "; leave out --to, or name the output ." +
+                              output.format);
 }
 
 bool is_standard_input(const std::filesystem::path& path) { return path == input_stream; }

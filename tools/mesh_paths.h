@@ -33,6 +33,10 @@ CLI::Option* add_mesh_outputs(CLI::App& app, const std::string& name, const std:
 CLI::Option* add_format_option(CLI::App& app, const std::string& name, const std::string& help,
                                std::string& format);
 
+//! \throw agvd::IoError  the format is unknown.
+//! \throw agvd::InvalidOption  the extension names another format than --to.
+void check_format(const remesh::MeshPath& output);
+
 [[nodiscard]] bool is_standard_input(const std::filesystem::path& path);
 //! The input or the output.
 [[nodiscard]] bool is_standard_stream(const std::filesystem::path& path);

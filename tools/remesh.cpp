@@ -258,7 +258,7 @@ std::vector<Arguments> arguments_of_levels(const Arguments& arguments) {
 }
 
 void check_outputs(const Arguments& arguments) {
-    static_cast<void>(remesh::mesh_format({arguments.output, arguments.to}));  // Is it known?
+    cli::check_format({arguments.output, arguments.to});
     cli::check_one_on_stdout(arguments.output, arguments.report, "--report");
     struct Output {
         const char* name;
@@ -283,6 +283,31 @@ void check_outputs(const Arguments& arguments) {
                                       "; choose another file");
         }
         checked.push_back(output);
+    }
+}
+
+// Adds what the file itself wants kept to what the command line does.
+void keep_wanted(const Arguments& arguments, const remesh::MeshFile& input,
+                 remesh::RemeshOptions& options, cli::Console& console) {
+    const bool has_edges =
+        !input.feature_edges.empty() && options.features != remesh::Features::Off;
+    const bool has_locks = !input.locked.empty() || !input.locked_edges.empty();
+    const std::string file = arguments.input.string() + ": ";
+    if (has_edges) {
+        options.feature_edges.insert(options.feature_edges.end(), input.feature_edges.begin(),
+                                     input.feature_edges.end());
+        console.info(file + std::to_string(input.feature_edges.size()) +
+                     " edges of the file are feature edges");
+    }
+    if (has_locks && options.sites) {
+        console.warn(file +
+                     "its corners, required vertices and required edges may move, as --sites names "
+                     "the vertices");
+    } else if (has_locks) {
+        options.locked.insert(options.locked.end(), input.locked.begin(), input.locked.end());
+        options.locked_edges = input.locked_edges;
+        console.info(file + std::to_string(input.locked.size()) + " vertices and " +
+                     std::to_string(input.locked_edges.size()) + " edges of the file are locked");
     }
 }
 
@@ -359,6 +384,7 @@ Input prepare(const Arguments& arguments, cli::Console& console) {
         options.locked = remesh::read_vertices(arguments.region.lock, input.mesh.view(),
                                                console.progress_of("read"));
     }
+    keep_wanted(arguments, input, options, console);
     return {.file = std::move(input),
             .attributes = attributes,
             .is_needed = needs_map || arguments.levels.count > 1,

@@ -4,7 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "remesh/io/gzip.h"
 #include "remesh/io/read_mesh.h"
+#include "remesh/io/xml_reader.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
 
@@ -170,6 +172,76 @@ TEST_F(RemeshAttributes, TheMapIsNeitherInputNorAnotherOutput) {
     EXPECT_EQ(num_refused, 3);
     EXPECT_EQ(remesh({at("out.ply"), "--map", at("no folder/map")}).exit_code, 3);
     EXPECT_EQ(num_files(), 1u);  // The input.
+}
+
+TEST_F(RemeshAttributes, WhatIsLostNamesTheFormatThatKeepsIt) {
+    const agvd::TriangleMesh& mesh = sphere_;
+    remesh::MeshAttributes attributes{.materials = {.json = R"({"materials": [{"name": "red"}]})"}};
+    attributes.of_faces.push_back({.name = "material",
+                                   .values = std::vector<double>(mesh.triangles.size(), 0),
+                                   .names = {"red"}});
+    const std::string in = put("in.glb", remesh::format_mesh("in.glb", mesh.view(), attributes));
+    const auto stl = run(REMESH_PROGRAM, {in, at("out.stl"), "-n", "100", "-q"});
+    EXPECT_EQ(stl.exit_code, 0) << stl.err;
+    for (const char* words :
+         {"face material: .stl files have no place for it; write .obj",
+          "material colours and images: .stl files have no place for it; write .glb",
+          "the unit of the input is the meter, .stl files count in millimeters: numbers stay"}) {
+        EXPECT_NE(stl.err.find(words), std::string::npos) << words << '\n' << stl.err;
+    }
+    const auto glb = run(REMESH_PROGRAM, {in, at("out.glb"), "-n", "100", "-q"});
+    EXPECT_EQ(glb.err, "");
+    const auto file =
+        remesh::read_mesh(at("out.glb"), remesh::ReadOptions{.with_attributes = true});
+    EXPECT_NE(file.attributes.materials.json.find("red"), std::string::npos);
+}
+
+TEST_F(RemeshAttributes, TheUnitStaysWithoutTransferToo) {
+    const std::string in =
+        put("in.3mf", remesh::format_mesh("in.3mf", sphere_.view(), {.unit = "inch"}));
+    if (!remesh::knows_xml() || !remesh::knows_gzip()) GTEST_SKIP() << "without zlib or expat";
+    const auto kept =
+        run(REMESH_PROGRAM, {in, at("out.3mf"), "-n", "100", "-q", "--transfer", "none"});
+    EXPECT_EQ(kept.err, "");
+    EXPECT_EQ(remesh::read_mesh(at("out.3mf")).attributes.unit, "inch");
+    const auto lost = run(REMESH_PROGRAM, {in, at("out.ply"), "-n", "100", "-q"});
+    EXPECT_EQ(lost.exit_code, 0) << lost.err;
+    EXPECT_NE(lost.err.find("the unit of the input is the inch"), std::string::npos) << lost.err;
+}
+
+TEST_F(RemeshAttributes, EdgesAndRequiredVerticesOfMeditAreKept) {
+    std::string text = remesh::format_mesh("in.mesh", sphere_.view());
+    const auto& [a, b, c] = sphere_.triangles[0];
+    std::ostringstream lists;
+    lists << "Edges 2 " << a + 1 << ' ' << b + 1 << " 0 " << b + 1 << ' ' << c + 1
+          << " 0 RequiredVertices 1 101\n";
+    text.insert(text.find("End"), lists.str());
+    const std::string in = put("in.mesh", text);
+    const auto run_with = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> arguments = {in,         at("out.ply"), "-n",     "200",
+                                              "--report", at("r.json"),  "--force"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        const auto outcome = run(REMESH_PROGRAM, arguments);
+        EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+        return outcome.err;
+    };
+    const auto num_feature_edges = [&] {
+        return nlohmann::json::parse(bytes("r.json"))["options"]["given_feature_edges"];
+    };
+    const auto has = [&](Index v) {
+        const auto& positions = remesh::read_mesh(at("out.ply")).mesh.positions;
+        return std::find(positions.begin(), positions.end(), sphere_.positions[v]) !=
+               positions.end();
+    };
+    const std::string err = run_with({});
+    EXPECT_NE(err.find("2 edges of the file are feature edges"), std::string::npos) << err;
+    EXPECT_NE(err.find("1 vertices and 0 edges of the file are locked"), std::string::npos) << err;
+    EXPECT_EQ(num_feature_edges(), 2);
+    EXPECT_TRUE(has(100));
+    EXPECT_TRUE(has(a) && has(c));
+    run_with({"--features", "off"});
+    EXPECT_EQ(num_feature_edges(), 0);
+    EXPECT_TRUE(has(100));
 }
 
 TEST_F(RemeshAttributes, ThreadsDoNotChangeThem) {

@@ -42,6 +42,18 @@ TEST_F(Pipes, FilesMayHaveAnyExtensionIfTheFormatIsGiven) {
     EXPECT_NE(refused.err.find("--from"), std::string::npos) << refused.err;
 }
 
+TEST_F(Pipes, AFormatThatTheNameOfTheOutputContradictsIsWrongUsage) {
+    for (const char* line :
+         {"$REMESH $IN $DIR/a.obj --to ply -n 60", "$REMESH $IN $DIR/a.ply.gz --to ply -n 60"}) {
+        const auto outcome = shell(line);
+        EXPECT_EQ(outcome.exit_code, 2) << line;
+        EXPECT_NE(outcome.err.find("leave out --to, or name the output .ply"), std::string::npos)
+            << outcome.err;
+    }
+    EXPECT_EQ(num_files(), 1u);
+    EXPECT_EQ(shell("$REMESH $IN $DIR/a.PLY --to ply -n 60").exit_code, 0);
+}
+
 TEST_F(Pipes, StreamsNeedAFormat) {
     const auto in = shell("$REMESH - $DIR/a.ply < $IN");
     EXPECT_EQ(in.exit_code, 3);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -10,13 +11,29 @@
 
 namespace remesh {
 
+//! The name without what text formats cannot hold: they have it on one line, and a backslash would
+//! join that with the next one.
+inline std::string one_line(std::string name) {
+    std::erase_if(name, [](char c) { return (c >= 0 && c < ' ') || c == '\\'; });
+    return name;
+}
+
+//! The name on one line, or with a number behind it if it is taken; takes it.
+inline std::string unique_name(const std::string& name, std::set<std::string>& taken) {
+    const std::string begin = one_line(name);
+    std::string result = begin;
+    for (std::size_t i = 2; !taken.insert(result).second; ++i) {
+        result = begin + '_' + std::to_string(i);
+    }
+    return result;
+}
+
 //! Numbers names in the order of their first use.
 class FaceLabels {
 public:
-    //! \param name  what text formats cannot hold is left out of it: they have it on one line, and
-    //!              a backslash would join that with the next one.
+    //! \param name  see one_line.
     std::size_t number_of(std::string name) {
-        std::erase_if(name, [](char c) { return (c >= 0 && c < ' ') || c == '\\'; });
+        name = one_line(std::move(name));
         const auto [entry, is_new] = numbers_.try_emplace(name, names_.size());
         if (is_new) names_.push_back(std::move(name));
         return entry->second;

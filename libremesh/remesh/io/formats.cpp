@@ -22,13 +22,18 @@ constexpr MeshFormat formats[] = {
     {"ply", read_ply, format_ply, holds_all, true, TexturePlace::Corners, any_double},
     {"obj", read_obj, format_obj, obj_holds, true, TexturePlace::Corners, any_double},
     {"off", read_off, format_off, off_holds, true, TexturePlace::Vertices, any_double},
-    {"stl", read_stl, format_stl, holds_none, false, TexturePlace::Nothing, any_float},
+    {"stl", read_stl, format_stl, holds_none, false, TexturePlace::Nothing, any_float,
+     MaterialPlace::Nothing, "millimeter"},
     {"vtk", read_vtk, format_vtk, holds_all, true, TexturePlace::Vertices, any_double},
     {"vtp", read_vtp, format_vtp, holds_all, true, TexturePlace::Nothing, any_double},
     {"vtu", read_vtp, format_vtu, holds_all, true, TexturePlace::Nothing, any_double},
     {"mesh", read_medit, format_medit, medit_holds, false, TexturePlace::Nothing, any_double},
-    {"3mf", read_3mf, format_3mf, holds_none, false, TexturePlace::Nothing, any_double},
-    {"glb", read_glb, format_glb, glb_holds, true, TexturePlace::Corners, any_float}};
+    {"3mf", read_3mf, format_3mf, holds_3mf, false, TexturePlace::Nothing, any_double,
+     MaterialPlace::Colors, ""},
+    {"glb", read_gltf, format_glb, gltf_holds, true, TexturePlace::Corners, any_float,
+     MaterialPlace::All, "meter"},
+    {"gltf", read_gltf, format_gltf, gltf_holds, true, TexturePlace::Corners, any_float,
+     MaterialPlace::All, "meter"}};
 
 }  // namespace
 

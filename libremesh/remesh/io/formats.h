@@ -19,7 +19,7 @@ namespace remesh {
 [[nodiscard]] MeshFile read_vtk(SourceFile file);
 [[nodiscard]] MeshFile read_vtp(SourceFile file);
 [[nodiscard]] MeshFile read_medit(SourceFile file);
-[[nodiscard]] MeshFile read_glb(SourceFile file);
+[[nodiscard]] MeshFile read_gltf(SourceFile file);  //!< Both kinds: the bytes tell.
 [[nodiscard]] MeshFile read_3mf(SourceFile file);
 
 //! Unless it is empty.
@@ -50,6 +50,8 @@ void attach(MeshAttributes attributes, MeshFile& file);
                                        agvd::Ticker ticker);
 [[nodiscard]] std::string format_glb(const agvd::MeshView& mesh, const MeshAttributes& attributes,
                                      agvd::Ticker ticker);
+[[nodiscard]] std::string format_gltf(const agvd::MeshView& mesh, const MeshAttributes& attributes,
+                                      agvd::Ticker ticker);
 [[nodiscard]] std::string format_3mf(const agvd::MeshView& mesh, const MeshAttributes& attributes,
                                      agvd::Ticker ticker);
 
@@ -65,8 +67,13 @@ void attach(MeshAttributes attributes, MeshFile& file);
                              const MeshAttributes& all);
 [[nodiscard]] bool medit_holds(const Attribute& attribute, ElementKind kind,
                                const MeshAttributes& all);
-[[nodiscard]] bool glb_holds(const Attribute& attribute, ElementKind kind,
+[[nodiscard]] bool gltf_holds(const Attribute& attribute, ElementKind kind,
+                              const MeshAttributes& all);
+[[nodiscard]] bool holds_3mf(const Attribute& attribute, ElementKind kind,
                              const MeshAttributes& all);
+
+//! What is kept of MeshAttributes::materials.
+enum class MaterialPlace { Nothing, Colors, All };
 
 //! What has texture coordinates of its own.
 enum class TexturePlace { Nothing, Vertices, Corners };
@@ -80,6 +87,10 @@ struct MeshFormat {
     bool has_normals;  //!< At vertices.
     TexturePlace texture;
     double largest;  //!< Coordinate that it can hold.
+    MaterialPlace materials = MaterialPlace::Nothing;
+    //! For which programs take its numbers; empty: it is stored. Otherwise one of those without an
+    //! own one, which mostly have millimetres or metres.
+    const char* unit = nullptr;
 
     //! Whether coordinates are stored in single precision.
     [[nodiscard]] bool is_single() const { return largest < std::numeric_limits<double>::max(); }

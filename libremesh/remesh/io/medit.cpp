@@ -1,10 +1,13 @@
 // Medit's .mesh, ascii: vertices, triangles and quadrilaterals, or the surface of tetrahedra and
-// the like; their references are the labels `ref`. Other lists (edges, corners, ...) are passed
-// over (format: Frey, "MEDIT: an interactive mesh visualization software", INRIA RT-0253, 2001).
+// the like; their references are the labels `ref`. Edges, of which ridges are some, are feature
+// edges; corners, required vertices and required edges are locked. Other lists (normals, ...) are
+// passed over (format: Frey, "MEDIT: an interactive mesh visualization software", INRIA RT-0253,
+// 2001).
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "remesh/io/formats.h"
@@ -23,12 +26,7 @@ struct PassedOver {
     std::string_view keyword;
     std::size_t num_numbers;
 };
-constexpr std::array passed_over = {PassedOver{"Edges", 3},
-                                    PassedOver{"Corners", 1},
-                                    PassedOver{"Ridges", 1},
-                                    PassedOver{"RequiredVertices", 1},
-                                    PassedOver{"RequiredEdges", 1},
-                                    PassedOver{"RequiredTriangles", 1},
+constexpr std::array passed_over = {PassedOver{"RequiredTriangles", 1},
                                     PassedOver{"RequiredQuadrilaterals", 1},
                                     PassedOver{"RequiredTetrahedra", 1},
                                     PassedOver{"Normals", 3},
@@ -47,6 +45,29 @@ constexpr std::array volume_lists = {VolumeList{"Tetrahedra", VolumeCell::Tetrah
                                      VolumeList{"Hexahedra", VolumeCell::Hexahedron},
                                      VolumeList{"Prisms", VolumeCell::Wedge},
                                      VolumeList{"Pyramids", VolumeCell::Pyramid}};
+
+// What is to be kept, with the file's numbers from 1.
+struct MeditKept {
+    std::vector<std::array<std::int64_t, 2>> edges;
+    std::vector<std::int64_t> required_edges, required_vertices;
+};
+
+using Edge = std::array<agvd::Index, 2>;
+
+Edge in_order(agvd::Index a, agvd::Index b) { return {std::min(a, b), std::max(a, b)}; }
+
+// Sorted, each once.
+std::vector<Edge> edges_of(const agvd::TriangleMesh& mesh) {
+    std::vector<Edge> edges;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        for (const Edge& edge : {in_order(a, b), in_order(b, c), in_order(c, a)}) {
+            edges.push_back(edge);
+        }
+    }
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
+}
 
 class MeditReader {
 public:
@@ -106,6 +127,7 @@ private:
     }
 
     void read_list(std::string_view keyword) {
+        if (read_kept(keyword)) return;
         const auto* const other =
             std::find_if(passed_over.begin(), passed_over.end(),
                          [&](const PassedOver& known) { return keyword == known.keyword; });
@@ -120,8 +142,10 @@ private:
             fail("unknown keyword " + in_quotes(keyword) +
                  "; save the file with vertices, triangles and quadrilaterals only");
         }
-        const std::int64_t count = integer("the number of elements");
-        if (count < 0) fail("the number of elements is negative; export the file again");
+        const std::int64_t count = read_count();
+        if (keyword.starts_with("Required") && count > 0) {
+            warnings_.push_back(std::string(keyword) + " are passed over");
+        }
         for (std::int64_t i = 0; i < count; ++i) {
             if (is_vertices) {
                 read_vertex();
@@ -133,6 +157,32 @@ private:
                 skip(other->num_numbers);
             }
         }
+    }
+
+    std::int64_t read_count() {
+        const std::int64_t count = integer("the number of elements");
+        if (count < 0) fail("the number of elements is negative; export the file again");
+        return count;
+    }
+
+    // \return false: the list is another one.
+    bool read_kept(std::string_view keyword) {
+        const bool is_vertices = keyword == "RequiredVertices" || keyword == "Corners";
+        const bool is_ridges = keyword == "Ridges";  // They are among the edges.
+        if (keyword != "Edges" && keyword != "RequiredEdges" && !is_vertices && !is_ridges) {
+            return false;
+        }
+        for (std::int64_t left = read_count(); left > 0; --left) {
+            soup_.ticker.tick();
+            const std::int64_t number = integer("a number from 1");
+            if (keyword == "Edges") {
+                kept_.edges.push_back({number, integer("a vertex")});
+                skip(1);
+            } else if (!is_ridges) {
+                (is_vertices ? kept_.required_vertices : kept_.required_edges).push_back(number);
+            }
+        }
+        return true;
     }
 
     void read_vertex() {
@@ -195,6 +245,55 @@ private:
             {.name = ref_name, .type = NumberType::Int32, .values = std::move(refs)});
     }
 
+    // Edges that no face has, and vertices that are in none, are left out. So are edges that are
+    // all those of the mesh: these say nothing.
+    void finish_kept(MeshFile& result) {
+        std::size_t num_missing = 0;
+        const std::vector<Edge> all =
+            kept_.edges.empty() ? std::vector<Edge>() : edges_of(result.mesh);
+        const auto found = [&](std::int64_t number) -> const Edge* {
+            if (number < 1 || number > static_cast<std::int64_t>(kept_.edges.size()))
+                return nullptr;
+            const auto [a, b] = kept_.edges[static_cast<std::size_t>(number - 1)];
+            if (std::min(a, b) < 1 || std::max(a, b) >= agvd::no_index) return nullptr;
+            const Edge edge =
+                in_order(static_cast<agvd::Index>(a - 1), static_cast<agvd::Index>(b - 1));
+            const auto place = std::lower_bound(all.begin(), all.end(), edge);
+            return place != all.end() && *place == edge ? &*place : nullptr;
+        };
+        const auto add = [&](std::int64_t number, std::vector<Edge>& edges) {
+            const Edge* const edge = found(number);
+            if (edge == nullptr) {
+                ++num_missing;
+            } else {
+                edges.push_back(*edge);
+            }
+        };
+        for (std::size_t i = 1; i <= kept_.edges.size(); ++i) {
+            add(static_cast<std::int64_t>(i), result.feature_edges);
+        }
+        for (const std::int64_t number : kept_.required_edges) add(number, result.locked_edges);
+        std::set<std::int64_t> wanted(kept_.required_vertices.begin(),
+                                      kept_.required_vertices.end());
+        std::set<agvd::Index> locked;
+        for (const agvd::Triangle& t : result.mesh.triangles) {
+            for (const agvd::Index v : t) {
+                if (wanted.contains(v + std::int64_t{1})) locked.insert(v);
+            }
+        }
+        num_missing += wanted.size() - locked.size();
+        result.locked.assign(locked.begin(), locked.end());
+        if (num_missing > 0) {
+            warnings_.push_back(std::to_string(num_missing) +
+                                " edges, corners or required vertices that are in no face are "
+                                "passed over");
+        }
+        if (!all.empty() && result.feature_edges.size() >= all.size()) {
+            warnings_.emplace_back("its edges are those of all faces, so none is a feature edge");
+            result.feature_edges.clear();
+        }
+    }
+
     MeshFile finish() {
         const std::vector<std::size_t> cell_of_face = volumes_.add_to(soup_);
         if (file_.with_attributes) {
@@ -206,6 +305,10 @@ private:
         add(std::move(face_refs_), attributes.of_faces);
         attach(std::move(attributes), result);
         add_warning(volumes_.warning(cell_of_face.size()), result);
+        finish_kept(result);
+        for (const std::string& warning : warnings_) {
+            add_warning(file_.path.string() + ": " + warning, result);
+        }
         return result;
     }
 
@@ -215,6 +318,8 @@ private:
     VolumeSurface volumes_;
     std::size_t start_ = 0;  // Of the word that is being read.
     std::vector<double> vertex_refs_, face_refs_, volume_refs_;
+    MeditKept kept_;
+    std::vector<std::string> warnings_;
 };
 
 bool is_reference(const Attribute& attribute) {

@@ -50,6 +50,17 @@ struct TextureCoordinates {
     [[nodiscard]] bool empty() const { return corners.empty(); }
 };
 
+//! How the materials look that the label `material` of faces names, in the terms of glTF 2.0.
+struct Materials {
+    //! JSON, an object: its lists `materials`, each with the name of its label, `textures`,
+    //! `samplers`, `images` and `extensionsUsed`. Empty: unknown.
+    std::string json = {};
+    std::vector<std::string> images = {};  //!< The bytes of each image (PNG, JPEG); empty: no file.
+
+    //! Whether nothing is known.
+    [[nodiscard]] bool empty() const { return json.empty(); }
+};
+
 //! What a file holds and cannot be carried over.
 struct DeclinedAttribute {
     std::string name;    //!< Of the property.
@@ -65,6 +76,10 @@ struct MeshAttributes {
     //! computed anew.
     std::optional<NumberType> normals = {};
     std::vector<std::string> material_files = {};  //!< OBJ: the names behind each mtllib.
+    Materials materials = {};                      //!< 3MF: colours; glTF: images, too.
+    //! Of length, as 3MF calls it: "millimeter", "inch", ...; that of glTF is "meter". Empty: the
+    //! format has none. Coordinates are never converted.
+    std::string unit = {};
     std::vector<DeclinedAttribute> declined = {};  //!< Such as normals of faces.
 
     //! Whether nothing is stored.

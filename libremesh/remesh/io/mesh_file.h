@@ -2,6 +2,7 @@
 //! What a mesh file holds, and how strictly it is read.
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -31,6 +32,9 @@ struct MeshFile {
     std::vector<agvd::Index> face_polygon;
     MeshAttributes attributes;          //!< With ReadOptions::with_attributes.
     std::vector<std::string> warnings;  //!< What was skipped, with the file's name.
+    //! What the file wants kept (Medit): for the members of RemeshOptions of these names.
+    std::vector<std::array<agvd::Index, 2>> feature_edges = {}, locked_edges = {};
+    std::vector<agvd::Index> locked = {};
 };
 
 //! `{}` gives the defaults.

@@ -72,6 +72,12 @@ private:
             fail(tag, "the part begins with the element " + in_quotes(tag.name) +
                           ", which is no model of 3MF");
         }
+        model_.unit = tag.find("unit").value_or(model_.unit);
+        constexpr std::array units = {"micron", "millimeter", "centimeter",
+                                      "inch",   "foot",       "meter"};
+        if (std::find(units.begin(), units.end(), model_.unit) == units.end()) {
+            fail(tag, "the unit " + in_quotes(model_.unit) + " is none of 3MF");
+        }
         // Extensions without which the model means something else.
         constexpr std::array known = {
             core_space, material_space, production_space,
@@ -104,7 +110,7 @@ private:
         } else if (tag.name == "basematerials") {
             open_group(tag, depth, false);
         } else if (tag.name == "base") {
-            add_name(tag, "name");
+            add_material(tag, "name", "displaycolor");
         }
     }
 
@@ -112,7 +118,7 @@ private:
         if (tag.name == "colorgroup") {
             open_group(tag, depth, true);
         } else if (tag.name == "color") {
-            add_name(tag, "color");
+            add_material(tag, "color", "color");
         }
     }
 
@@ -204,10 +210,11 @@ private:
         *group_ = {.first = model_.names.size(), .count = 0, .is_color = is_color};
     }
 
-    void add_name(const XmlTag& tag, const char* attribute) {
+    void add_material(const XmlTag& tag, const char* name, const char* color) {
         if (group_ == nullptr) return;
         ++group_->count;
-        model_.names.emplace_back(tag.find(attribute).value_or(""));
+        model_.names.emplace_back(tag.find(name).value_or(""));
+        model_.colors.emplace_back(tag.find(color).value_or(""));
     }
 
     [[nodiscard]] Placement3mf placement(const XmlTag& tag) const {

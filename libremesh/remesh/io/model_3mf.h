@@ -32,10 +32,12 @@ struct Object3mf {
 struct Model3mf {
     std::map<std::uint64_t, Object3mf> objects;
     std::vector<Placement3mf> items;
-    std::vector<std::string> names = {""};  //!< Of materials; the first: none.
-    bool has_lattice = false;               //!< Beams, which are not read.
-    bool has_texture = false;               //!< Properties of triangles that are not read.
-    bool has_gradients = false;             //!< Triangles whose corners have different colours.
+    std::string unit = "millimeter";
+    std::vector<std::string> names = {""};   //!< Of materials; the first: none.
+    std::vector<std::string> colors = {""};  //!< Of each, as in the file: #RRGGBB or #RRGGBBAA.
+    bool has_lattice = false;                //!< Beams, which are not read.
+    bool has_texture = false;                //!< Properties of triangles that are not read.
+    bool has_gradients = false;              //!< Triangles whose corners have different colours.
 };
 
 //! \throw agvd::IoError  no model, or one that needs an extension that is not known.

@@ -1,5 +1,6 @@
 // 3MF: the surfaces of all items of the build, each where its transforms put it. Materials and
-// objects are labels of the faces. Coordinates are those of the file, whatever its unit.
+// objects are labels of the faces. Coordinates are those of the file, whatever its unit, which is
+// kept.
 
 #include <algorithm>
 #include <map>
@@ -10,6 +11,7 @@
 #include "agvd/core/error.h"
 #include "remesh/io/face_labels.h"
 #include "remesh/io/formats.h"
+#include "remesh/io/gltf_materials.h"
 #include "remesh/io/gzip.h"
 #include "remesh/io/model_3mf.h"
 #include "remesh/io/polygon_soup.h"
@@ -60,6 +62,7 @@ public:
         }
         MeshFile result = std::move(soup_).finish();
         if (file_.with_attributes) attach(finish_attributes(), result);
+        result.attributes.unit = part.model.unit;
         add_warnings(result);
         return result;
     }
@@ -182,20 +185,33 @@ private:
             soup_.end_polygon();
         }
         if (object.triangles.empty() || !file_.with_attributes) return;
-        objects_.add(objects_.number_of(object.name), object.triangles.size());
+        objects_.add(objects_.number_of(unique_name(object.name, object_names_)),
+                     object.triangles.size());
         agvd::Index last = agvd::no_index;
         std::size_t label = 0;
         for (const agvd::Index material : object.materials) {
             soup_.ticker.tick();
-            if (material != last) label = materials_.number_of(model.names[material]);
+            if (material != last) label = label_of(model, material);
             last = material;
             materials_.add(label, 1);
         }
     }
 
+    // Materials of one name and different colours are different ones.
+    std::size_t label_of(const Model3mf& model, agvd::Index material) {
+        const std::pair key(model.names[material], model.colors[material]);
+        const auto [entry, is_new] = material_label_.try_emplace(key, 0);
+        if (!is_new) return entry->second;
+        std::string name = key.first.empty() ? key.second : key.first;
+        if (!name.empty()) name = unique_name(name, material_names_);
+        if (!key.second.empty()) colors_[name] = key.second;
+        return entry->second = materials_.number_of(name);
+    }
+
     MeshAttributes finish_attributes() {
         MeshAttributes attributes;
         if (materials_.has_names()) {
+            attributes.materials = materials_of_colors(colors_);
             attributes.of_faces.push_back(std::move(materials_).finish("material"));
         }
         if (objects_.num_labels() > 1) {
@@ -233,6 +249,9 @@ private:
     std::size_t num_placements_ = 0, num_others_ = 0;
     bool has_lattice_ = false, has_texture_ = false, has_gradients_ = false;
     FaceLabels materials_, objects_;
+    std::set<std::string> material_names_, object_names_;
+    std::map<std::pair<std::string, std::string>, std::size_t> material_label_;  // By name, colour.
+    std::map<std::string, std::string> colors_;                                  // By name.
 };
 
 }  // namespace

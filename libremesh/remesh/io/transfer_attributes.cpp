@@ -45,6 +45,8 @@ MeshAttributes transfer_attributes(const MeshFile& input, const agvd::MeshView& 
     const MeshAttributes& given = input.attributes;
     MeshAttributes result{.normals = given.normals,
                           .material_files = given.material_files,
+                          .materials = given.materials,
+                          .unit = given.unit,
                           .declined = given.declined};
     for (const Attribute& attribute : given.of_vertices) {
         result.of_vertices.push_back(

@@ -126,7 +126,29 @@ std::vector<std::string> remove_unwritable(const MeshPath& path, MeshAttributes&
         removed.push_back(std::string("corner ") + TextureCoordinates::name);
         texture = {};
     }
+    Materials& materials = attributes.materials;
+    if (!materials.empty() && format.materials == MaterialPlace::Nothing) {
+        removed.emplace_back("material colours and images");
+        materials = {};
+    } else if (!materials.images.empty() && format.materials == MaterialPlace::Colors) {
+        removed.emplace_back("material images");
+        materials.images.clear();
+    }
     return removed;
+}
+
+std::string describe_unit(const MeshPath& path, const std::string& unit) {
+    const MeshFormat& format = require_format(path);
+    const std::string of_format = format.unit == nullptr ? "" : format.unit;
+    const bool is_common = unit == "meter" || unit == "millimeter";
+    if (unit.empty() ||
+        (format.unit == nullptr ? is_common : of_format.empty() || unit == of_format))
+        return {};
+    return "the unit of the input is the " + unit + ", ." + format.name + " files " +
+           (of_format.empty() ? "have none" : "count in " + of_format + "s") +
+           ": numbers stay as they are; scale the mesh where it is used, or write .3mf, which "
+           "keeps "
+           "the unit";
 }
 
 void write_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,

@@ -1,5 +1,5 @@
 //! \file
-//! Writes PLY, OBJ, OFF, STL, VTK, Medit, 3MF and binary glTF.
+//! Writes PLY, OBJ, OFF, STL, VTK, Medit, 3MF and glTF.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@ namespace remesh {
 //! old file (see write_file_atomically). Binary little-endian PLY with double coordinates, OBJ and
 //! OFF with the shortest decimals that read back as the same double, binary STL (float by the
 //! format's nature), binary VTK with double coordinates, Medit and 3MF as OBJ, GLB in float;
-//! compressed if .gz follows the extension.
+//! GLTF with all in one file; compressed if .gz follows the extension.
 //!
 //! \throw agvd::IoError       the extension is unknown or the file cannot be written; says which
 //!        and why.
@@ -47,13 +47,18 @@ void write_mesh(const std::filesystem::path& path, const agvd::MeshView& mesh,
 
 //! Removes the attributes that the format of the path's extension cannot hold. VTK and OFF hold
 //! texture coordinates without seams.
-//! \return what they were: "vertex quality", "face label", "corner texcoord", ...
+//! \return what they were: "vertex quality", "face label", "corner texcoord", "material colours", ...
 //! \throw agvd::IoError  the extension is unknown.
 std::vector<std::string> remove_unwritable(const std::filesystem::path& path,
                                            MeshAttributes& attributes);
 
 //! The same for the format that `path.format` names.
 std::vector<std::string> remove_unwritable(const MeshPath& path, MeshAttributes& attributes);
+
+//! What happens to the unit of length: empty where the format stores it, or counts in it, or has
+//! none and the unit is the metre or the millimetre. Numbers are never converted.
+//! \param unit  MeshAttributes::unit.  \throw agvd::IoError  the format is unknown.
+[[nodiscard]] std::string describe_unit(const MeshPath& path, const std::string& unit);
 
 //! Figures of what the positions lose in a format of single precision.
 struct RoundingLoss {

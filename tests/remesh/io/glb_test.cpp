@@ -4,8 +4,10 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "remesh/io/read_mesh.h"
 #include "remesh/io/write_mesh.h"
 #include "support/read_text.h"
+#include "support/scratch.h"
 #include "support/shapes.h"
 
 using agvd::InvalidInput;
@@ -65,7 +67,7 @@ remesh::MeshFile read_square(const json& root) {
 }
 
 remesh::MeshFile with_colors(const json& root) {
-    return remesh::read_glb(
+    return remesh::read_gltf(
         {.path = "a.glb", .bytes = glb(root.dump(), square_data), .with_attributes = true});
 }
 
@@ -172,7 +174,7 @@ TEST(Glb, WhatWasWrittenComesBackInFloat) {
               std::vector<std::string>{"vertex heat"});
     const std::string bytes = remesh::format_mesh("a.glb", mesh.view(), attributes);
     EXPECT_EQ(bytes.size() % 4, 0u);
-    const auto file = remesh::read_glb({.path = "a.glb", .bytes = bytes, .with_attributes = true});
+    const auto file = remesh::read_gltf({.path = "a.glb", .bytes = bytes, .with_attributes = true});
     EXPECT_EQ(file.mesh.triangles, mesh.triangles);
     ASSERT_EQ(file.mesh.positions.size(), mesh.positions.size());
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
@@ -200,7 +202,8 @@ TEST(Glb, TruncatedFilesAreRefused) {
 }
 
 TEST(Glb, WrongContainersAreRefused) {
-    expect_error<IoError>("a.glb", "{\"asset\": {}}", {"byte 0", "'glTF'"});
+    expect_error<IoError>("a.glb", "solid a", {"byte 0", "'glTF'"});
+    expect_error<IoError>("a.gltf", R"({"asset": {"version": "1.0"}})", {"version 2.0"});
     std::string bytes = glb(square().dump(), square_data);
     bytes[4] = 1;
     expect_error<IoError>("a.glb", bytes, {"byte 4", "version 1"});
@@ -239,8 +242,10 @@ TEST(Glb, WrongAccessorsAreRefused) {
     expect_refused(changed("accessors", 1, "count", 5), {"multiple of three"});
     expect_refused(changed("accessors", 0, "sparse", json::object()), {"sparse"});
     expect_refused(changed("accessors", 0, "bufferView", 9), {"bufferViews has no element 9"});
-    expect_refused(changed("bufferViews", 0, "buffer", 1), {"another file"});
-    expect_refused(changed("buffers", 0, "uri", "a.bin"), {"another file"});
+    expect_refused(changed("bufferViews", 0, "buffer", 1), {"within the data"});
+    expect_refused(changed("buffers", 0, "uri", "/dev/zero"), {"'/dev/zero'", "beside"});
+    expect_refused(changed("buffers", 0, "uri", "https://a/b"), {"beside"});
+    expect_refused(changed("buffers", 0, "uri", "data:;base64,A*=="), {"no base64"});
 }
 
 TEST(Glb, WrongNodesAndPrimitivesAreRefused) {
@@ -272,4 +277,123 @@ TEST(Glb, WrongValuesAreRefused) {
     const float nan = std::nanf("");
     std::memcpy(&data[12], &nan, 4);
     expect_error<InvalidInput>("a.glb", glb(square().dump(), data), {"vertex 1", "not finite"});
+}
+
+namespace {
+
+// Three materials, of which two have one name; the first has an image in the buffer.
+json painted_square() {
+    json root = square();
+    root["extensionsUsed"] = {"KHR_materials_unlit"};
+    root["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 60}, {"byteLength", 7}});
+    root["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 32}});
+    root["accessors"].push_back(
+        {{"bufferView", 4}, {"componentType", 5126}, {"count", 4}, {"type", "VEC2"}});
+    root["images"] = json::parse(R"([{"bufferView": 3, "mimeType": "image/png"}])");
+    root["samplers"] = json::parse(R"([{"wrapS": 33071}])");
+    root["textures"] = json::parse(R"([{"source": 0, "sampler": 0}])");
+    root["materials"] = json::parse(R"([
+        {"name": "paint", "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}},
+         "emissiveTexture": {"index": 0, "texCoord": 1}, "extensions": {"KHR_materials_unlit": {}}},
+        {"name": "paint", "pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1]}},
+        {"name": "unused"}])");
+    root["meshes"][0]["primitives"] = json::parse(R"([
+        {"attributes": {"POSITION": 0, "TEXCOORD_0": 3}, "indices": 1, "material": 0},
+        {"attributes": {"POSITION": 0, "TEXCOORD_0": 3}, "indices": 1, "material": 1}])");
+    return root;
+}
+
+json json_of(const std::string& glb_bytes) {
+    std::uint32_t size = 0;
+    std::memcpy(&size, &glb_bytes[12], sizeof(size));
+    return json::parse(glb_bytes.substr(20, size));
+}
+
+remesh::MeshFile from_disk(const std::filesystem::path& path) {
+    return remesh::read_mesh(path, remesh::ReadOptions{.with_attributes = true});
+}
+
+class GltfFiles : public Scratch {};
+
+}  // namespace
+
+TEST(Glb, MaterialsAndImagesComeBack) {
+    const auto file = with_colors(painted_square());
+    ASSERT_EQ(file.attributes.of_faces.size(), 1u);
+    EXPECT_EQ(file.attributes.of_faces[0].names, (std::vector<std::string>{"paint", "paint_2"}));
+    ASSERT_EQ(file.attributes.materials.images.size(), 1u);
+    EXPECT_EQ(file.attributes.materials.images[0], square_data.substr(60, 7));
+    for (const char* name : {"a.glb", "a.gltf"}) {
+        remesh::MeshAttributes attributes = file.attributes;
+        EXPECT_TRUE(remesh::remove_unwritable(name, attributes).empty()) << name;
+        const std::string bytes = remesh::format_mesh(name, file.mesh.view(), attributes);
+        const auto again = read_bytes(name, bytes, true);
+        EXPECT_EQ(again.mesh.triangles.size(), 4u);
+        ASSERT_EQ(again.attributes.of_faces.size(), 1u);
+        EXPECT_EQ(again.attributes.of_faces[0].names, file.attributes.of_faces[0].names);
+        EXPECT_EQ(again.attributes.of_faces[0].values, (std::vector<double>{0, 0, 1, 1}));
+        EXPECT_EQ(again.attributes.materials.images, file.attributes.materials.images);
+        const json root = name == std::string("a.glb") ? json_of(bytes) : json::parse(bytes);
+        const json& materials = root["materials"];
+        ASSERT_EQ(materials.size(), 3u);
+        EXPECT_EQ(materials[0]["pbrMetallicRoughness"]["baseColorTexture"]["index"], 0);
+        EXPECT_FALSE(materials[0].contains("emissiveTexture"));  // It has other coordinates.
+        EXPECT_TRUE(materials[0]["extensions"].contains("KHR_materials_unlit"));
+        EXPECT_EQ(materials[1]["pbrMetallicRoughness"]["baseColorFactor"], json({1, 0, 0, 1}));
+        EXPECT_EQ(root["images"][0]["mimeType"], "image/png");
+        EXPECT_EQ(root["samplers"][0]["wrapS"], 33071);
+        EXPECT_EQ(root["extensionsUsed"], json({"KHR_materials_unlit"}));
+        const json& primitives = root["meshes"][0]["primitives"];
+        ASSERT_EQ(primitives.size(), 2u);
+        EXPECT_EQ(primitives[1]["material"], 1);
+        EXPECT_EQ(primitives[0]["attributes"], primitives[1]["attributes"]);
+    }
+}
+
+TEST(Glb, TexturesWithoutCoordinatesAreLeftOut) {
+    auto file = with_colors(painted_square());
+    file.attributes.texture = {};
+    const std::string bytes = remesh::format_mesh("a.glb", file.mesh.view(), file.attributes);
+    EXPECT_EQ(json_of(bytes)["materials"][0]["pbrMetallicRoughness"], json::object());
+}
+
+TEST(Glb, MaterialsKnownByNameOnlyAndColorsOf3mfAreWritten) {
+    auto file = read_square(square());
+    file.attributes.of_faces.push_back(
+        {.name = "material", .values = {1, 0}, .names = {"", "red"}});
+    const json root = json_of(remesh::format_mesh("a.glb", file.mesh.view(), file.attributes));
+    EXPECT_EQ(root["materials"], json::parse(R"([{"name": "red"}])"));
+    EXPECT_FALSE(root["meshes"][0]["primitives"][0].contains("material"));
+    EXPECT_EQ(root["meshes"][0]["primitives"][1]["material"], 0);
+}
+
+TEST(Glb, OtherFormatsSayThatColorsAndImagesAreLost) {
+    remesh::MeshAttributes attributes = with_colors(painted_square()).attributes;
+    EXPECT_EQ(remesh::remove_unwritable("a.3mf", attributes),
+              (std::vector<std::string>{"corner texcoord", "material images"}));
+    attributes = with_colors(painted_square()).attributes;
+    EXPECT_EQ(remesh::remove_unwritable("a.obj", attributes),
+              std::vector<std::string>{"material colours and images"});
+}
+
+TEST_F(GltfFiles, BuffersAndImagesBesideTheFileAreRead) {
+    json root = painted_square();
+    root["buffers"][0]["uri"] = "the%20data.bin";
+    root["images"][0] = {{"uri", "paint.png"}};
+    put("the data.bin", square_data);
+    put("paint.png", "\x89PNG...");
+    const auto file = from_disk(put("a.gltf", root.dump()));
+    EXPECT_EQ(file.mesh.positions[3], Vec3(1, 1, 0));
+    EXPECT_EQ(file.mesh.triangles.size(), 4u);
+    EXPECT_EQ(file.attributes.unit, "meter");
+    EXPECT_EQ(file.attributes.materials.images, std::vector<std::string>{"\x89PNG..."});
+    std::filesystem::remove(at("paint.png"));
+    const auto without = from_disk(at("a.gltf"));
+    ASSERT_EQ(without.attributes.declined.size(), 1u);
+    EXPECT_EQ(without.attributes.declined[0].name, "image 0");
+    const json kept =
+        json_of(remesh::format_mesh("b.glb", without.mesh.view(), without.attributes));
+    EXPECT_EQ(kept["images"], json::parse(R"([{"uri": "paint.png"}])"));
+    std::filesystem::remove(at("the data.bin"));
+    EXPECT_THROW(from_disk(at("a.gltf")), IoError);
 }

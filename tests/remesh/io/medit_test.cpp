@@ -128,3 +128,28 @@ TEST(Medit, WrongFilesAreRefused) {
     expect_error<InvalidInput>("a.mesh", medit_head + "Vertices 1 0 nan 0 0\nEnd", {"not finite"});
     expect_error<InvalidInput>("a.mesh", begin + "End\n", {"4 vertices but no face"});
 }
+
+TEST(Medit, EdgesAreFeatureEdgesAndCornersAndRequiredElementsAreLocked) {
+    using Edges = std::vector<std::array<agvd::Index, 2>>;
+    const std::string lists =
+        "Edges 4\n2 3 0\n2 1 5\n1 4 0\n9 1 0\nRidges 1 1\nRequiredEdges 2 2 7\n"
+        "RequiredVertices 2 4 4\nCorners 2 1 9\nRequiredTriangles 1 1\n";
+    const auto file = read_bytes(
+        "a.mesh", medit_head + lists + four_vertices + "Triangles\n2\n1 2 3 7\n2 4 3 8\nEnd");
+    EXPECT_EQ(file.feature_edges, (Edges{{1, 2}, {0, 1}}));
+    EXPECT_EQ(file.locked_edges, (Edges{{0, 1}}));
+    EXPECT_EQ(file.locked, (std::vector<agvd::Index>{0, 3}));
+    ASSERT_EQ(file.warnings.size(), 2u);
+    EXPECT_EQ(file.warnings[0], "a.mesh: RequiredTriangles are passed over");
+    EXPECT_NE(file.warnings[1].find(": 4 edges, corners or required vertices"), std::string::npos)
+        << file.warnings[1];
+}
+
+TEST(Medit, EdgesThatAreThoseOfAllFacesAreNoFeatureEdges) {
+    const auto file =
+        read_bytes("a.mesh", medit_head + four_vertices +
+                                 "Triangles 1 1 2 3 0\nEdges 3 1 2 0 2 3 0 3 1 0\nEnd");
+    EXPECT_TRUE(file.feature_edges.empty());
+    ASSERT_EQ(file.warnings.size(), 1u);
+    EXPECT_NE(file.warnings[0].find("none is a feature edge"), std::string::npos);
+}

@@ -124,7 +124,7 @@ TEST(MeshFiles, DamagedOnesAreRefusedOrSafe) {
     const agvd::TriangleMesh mesh = shapes::jitter(shapes::icosahedron(), 0.01, 3);
     std::uint64_t seed = 0;
     for (const char* name :
-         {"a.ply", "a.obj", "a.off", "a.stl", "a.vtk", "a.vtp", "a.mesh", "a.glb"}) {
+         {"a.ply", "a.obj", "a.off", "a.stl", "a.vtk", "a.vtp", "a.mesh", "a.glb", "a.gltf"}) {
         expect_safe(name, remesh::require_format({name}).format(mesh.view(), {}, {}), ++seed, 2000);
     }
     expect_safe("b.ply", ascii_ply(mesh), ++seed, 2000);

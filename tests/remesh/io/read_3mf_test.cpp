@@ -112,8 +112,9 @@ TEST_F(Read3mf, ComponentsArePlacedInTheirObjects) {
     EXPECT_EQ(file.mesh.positions[10], Vec3(1, 1, 0));
     ASSERT_EQ(file.attributes.of_faces.size(), 1u);
     EXPECT_EQ(file.attributes.of_faces[0].name, "object");
-    EXPECT_EQ(file.attributes.of_faces[0].names, (std::vector<std::string>{"Plate", "object_4"}));
-    EXPECT_EQ(file.attributes.of_faces[0].values, (std::vector<double>{0, 0, 0, 0, 1, 1}));
+    EXPECT_EQ(file.attributes.of_faces[0].names,
+              (std::vector<std::string>{"Plate", "Plate_2", "object_4"}));
+    EXPECT_EQ(file.attributes.of_faces[0].values, (std::vector<double>{0, 0, 1, 1, 2, 2}));
 }
 
 TEST_F(Read3mf, MaterialsBecomeLabels) {
@@ -300,4 +301,77 @@ TEST_F(Read3mf, PropertiesOutOfRangeAreRefused) {
                 build("<item objectid='1'/>"));
     EXPECT_THROW(static_cast<void>(with_attributes(bytes)), IoError);
     EXPECT_EQ(read_bytes("a.3mf", bytes).mesh.triangles.size(), 2u);
+}
+
+TEST_F(Read3mf, TheUnitIsKept) {
+    const auto file = read_bytes("a.3mf", one_square("<item objectid='1'/>"));
+    EXPECT_EQ(file.attributes.unit, "inch");
+    const std::string bytes = remesh::format_mesh("b.3mf", file.mesh.view(), file.attributes);
+    const auto again = read_bytes("b.3mf", bytes);
+    EXPECT_EQ(again.attributes.unit, "inch");
+    EXPECT_EQ(again.mesh.positions, file.mesh.positions);
+    std::string other = model("");
+    other.replace(other.find("inch"), 4, "mile");
+    expect_error<IoError>("a.3mf", package({{"_rels/.rels", relations}, {"3D/Main.model", other}}),
+                          {"'mile'"});
+}
+
+TEST_F(Read3mf, FormatsSayWhatBecomesOfTheUnit) {
+    const auto text = [](const char* name, const char* unit) {
+        return remesh::describe_unit({name}, unit);
+    };
+    EXPECT_EQ(text("a.3mf", "inch"), "");
+    EXPECT_NE(text("a.obj", "inch").find("is the inch, .obj files have none"), std::string::npos);
+    EXPECT_EQ(text("a.obj", "millimeter"), "");
+    EXPECT_EQ(text("a.obj", ""), "");
+    EXPECT_EQ(text("a.stl", "millimeter"), "");
+    EXPECT_NE(text("a.stl", "meter").find("count in millimeters"), std::string::npos);
+    EXPECT_NE(text("a.glb", "millimeter").find("count in meters"), std::string::npos);
+    EXPECT_EQ(text("a.gltf", "meter"), "");
+}
+
+TEST_F(Read3mf, ObjectsMaterialsAndColorsComeBack) {
+    const std::string painted = unit_square.substr(0, unit_square.find("<triangles>")) +
+                                "<triangles><triangle v1='0' v2='1' v3='2' pid='6' p1='1'/>"
+                                "<triangle v1='0' v2='2' v3='3'/></triangles></mesh>";
+    const auto file = with_attributes(file_of(
+        "<resources><basematerials id='5'><base name='&lt;PLA&gt; &amp; more' "
+        "displaycolor='#0180FF'/></basematerials><m:colorgroup id='6'><m:color color='#FF0000'/>"
+        "<m:color color='#00FF0080'/></m:colorgroup>" +
+        object(1, unit_square, "name='A' pid='5' pindex='0'") +
+        object(2, painted, "name='A' pid='6' pindex='0'") + "</resources>" +
+        build("<item objectid='1'/><item objectid='2' transform='1 0 0 0 1 0 0 0 1 5 0 0'/>")));
+    const std::string bytes = remesh::format_mesh("b.3mf", file.mesh.view(), file.attributes);
+    const auto again = with_attributes(bytes);
+    EXPECT_EQ(again.mesh.positions, file.mesh.positions);
+    EXPECT_EQ(again.mesh.triangles, file.mesh.triangles);
+    ASSERT_EQ(again.attributes.of_faces.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(again.attributes.of_faces[i].names, file.attributes.of_faces[i].names);
+        EXPECT_EQ(again.attributes.of_faces[i].values, file.attributes.of_faces[i].values);
+    }
+    EXPECT_EQ(again.attributes.of_faces[0].names,
+              (std::vector<std::string>{"<PLA> & more", "#00FF0080", "#FF0000"}));
+    EXPECT_EQ(again.attributes.of_faces[1].names, (std::vector<std::string>{"A", "A_2"}));
+    remesh::SourceFile source{.path = "b.3mf", .bytes = bytes};
+    const std::string text = remesh::ZipArchive(source).read("3D/3dmodel.model").bytes;
+    for (const char* words :
+         {"displaycolor=\"#0180FFFF\"", "displaycolor=\"#00FF0080\"", "displaycolor=\"#FF0000FF\"",
+          "<item objectid=\"2\"/>", "<item objectid=\"3\"/>"}) {
+        EXPECT_NE(text.find(words), std::string::npos) << words << text;
+    }
+}
+
+TEST_F(Read3mf, GroupsAreObjectsWhereThereAreNoOthers) {
+    const agvd::TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
+                                  {{0, 1, 2}, {0, 2, 3}}};
+    remesh::MeshAttributes attributes;
+    attributes.of_faces.push_back({.name = "group", .values = {1, 0}, .names = {"a", "b"}});
+    EXPECT_TRUE(remesh::remove_unwritable("a.3mf", attributes).empty());
+    const auto file = with_attributes(remesh::format_mesh("a.3mf", mesh.view(), attributes));
+    ASSERT_EQ(file.attributes.of_faces.size(), 1u);
+    EXPECT_EQ(file.attributes.of_faces[0].names, (std::vector<std::string>{"a", "b"}));
+    EXPECT_EQ(file.mesh.positions.size(), 6u);  // An object has vertices of its own.
+    EXPECT_EQ(file.mesh.positions[0], Vec3(0, 0, 0));
+    EXPECT_EQ(file.mesh.positions[2], Vec3(0, 1, 0));
 }

@@ -1,16 +1,19 @@
-// Binary glTF 2.0 (.glb): the triangles of all nodes of the scene, with their transforms applied.
-// Colours of vertices, texture coordinates and materials of triangles are attributes (format:
-// Khronos Group, glTF 2.0 Specification).
+// glTF 2.0 (.glb and .gltf): the triangles of all nodes of the scene, with their transforms
+// applied. Colours of vertices, texture coordinates and materials of triangles are attributes; the
+// materials are kept with their images (format: Khronos Group, glTF 2.0 Specification).
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
+#include "agvd/core/error.h"
 #include "remesh/io/face_labels.h"
 #include "remesh/io/formats.h"
-#include "remesh/io/glb_container.h"
+#include "remesh/io/gltf_document.h"
+#include "remesh/io/gltf_materials.h"
 #include "remesh/io/polygon_soup.h"
 #include "remesh/io/strip_triangles.h"
 #include "remesh/io/text_colors.h"
@@ -25,21 +28,22 @@ constexpr const char* texture_name = "TEXCOORD_0";
 
 constexpr std::uint64_t mode_triangles = 4, mode_strip = 5, mode_fan = 6;
 
-class GlbReader {
+class GltfReader {
 public:
-    explicit GlbReader(SourceFile& file) : file_(file), glb_(file), soup_(file, 0) {}
+    explicit GltfReader(SourceFile& file) : file_(file), gltf_(file), soup_(file, 0) {}
 
     MeshFile read() {
-        if (glb_.list(glb_.root(), "scenes").empty()) {
-            for (std::uint64_t m = 0; m < glb_.list(glb_.root(), "meshes").size(); ++m) {
+        if (gltf_.list(gltf_.root(), "scenes").empty()) {
+            for (std::uint64_t m = 0; m < gltf_.list(gltf_.root(), "meshes").size(); ++m) {
                 read_mesh(m, Transform::Identity());
             }
         } else {
-            read_nodes(glb_.at("scenes", glb_.number(glb_.root(), "scene").value_or(0)));
+            read_nodes(gltf_.at("scenes", gltf_.number(gltf_.root(), "scene").value_or(0)));
         }
         const std::size_t num_vertices = soup_.positions.size();
         MeshFile result = std::move(soup_).finish();
         if (file_.with_attributes) attach(finish_attributes(num_vertices), result);
+        result.attributes.unit = "meter";
         if (num_others_ > 0) {
             add_warning(file_.path.string() + ": " + std::to_string(num_others_) +
                             " primitives of points or lines are passed over",
@@ -56,41 +60,42 @@ private:
             Transform parent;
         };
         std::vector<Open> open;
-        std::vector<bool> is_seen(glb_.list(glb_.root(), "nodes").size(), false);
+        std::vector<bool> is_seen(gltf_.list(gltf_.root(), "nodes").size(), false);
         const auto push = [&](const nlohmann::json& nodes, const Transform& parent) {
             for (std::size_t i = nodes.size(); i-- > 0;) {
-                if (!nodes[i].is_number_unsigned()) glb_.fail("a node is no whole number from 0");
+                if (!nodes[i].is_number_unsigned()) gltf_.fail("a node is no whole number from 0");
                 open.push_back({nodes[i].get<std::uint64_t>(), parent});
             }
         };
-        push(glb_.list(scene, "nodes"), Transform::Identity());
+        push(gltf_.list(scene, "nodes"), Transform::Identity());
         while (!open.empty()) {
             const auto [index, parent] = open.back();
             open.pop_back();
             soup_.ticker.tick(16);
-            const nlohmann::json& node = glb_.at("nodes", index);
-            if (is_seen[index]) glb_.fail("node " + std::to_string(index) + " has several parents");
+            const nlohmann::json& node = gltf_.at("nodes", index);
+            if (is_seen[index])
+                gltf_.fail("node " + std::to_string(index) + " has several parents");
             is_seen[index] = true;
             const Transform transform = parent * transform_of(node);
-            if (const auto mesh = glb_.number(node, "mesh")) read_mesh(*mesh, transform);
-            push(glb_.list(node, "children"), transform);
+            if (const auto mesh = gltf_.number(node, "mesh")) read_mesh(*mesh, transform);
+            push(gltf_.list(node, "children"), transform);
         }
     }
 
     [[nodiscard]] Transform transform_of(const nlohmann::json& node) const {
         Transform transform = Transform::Identity();
-        if (const auto matrix = glb_.numbers(node, "matrix", 16)) {
+        if (const auto matrix = gltf_.numbers(node, "matrix", 16)) {
             transform.matrix() = Eigen::Map<const Eigen::Matrix4d>(matrix->data());
             return transform;
         }
-        if (const auto t = glb_.numbers(node, "translation", 3)) {
+        if (const auto t = gltf_.numbers(node, "translation", 3)) {
             transform.translate(Vec3((*t)[0], (*t)[1], (*t)[2]));
         }
-        if (const auto r = glb_.numbers(node, "rotation", 4)) {
+        if (const auto r = gltf_.numbers(node, "rotation", 4)) {
             const Eigen::Quaterniond rotation((*r)[3], (*r)[0], (*r)[1], (*r)[2]);
             if (rotation.norm() > 0) transform.rotate(rotation.normalized());
         }
-        if (const auto s = glb_.numbers(node, "scale", 3)) {
+        if (const auto s = gltf_.numbers(node, "scale", 3)) {
             transform.scale(Vec3((*s)[0], (*s)[1], (*s)[2]));
         }
         return transform;
@@ -99,31 +104,32 @@ private:
     void read_mesh(std::uint64_t index, const Transform& transform) {
         // By accessor: primitives may share them.
         std::map<std::uint64_t, std::size_t> first_vertex, first_coordinates;
-        for (const nlohmann::json& primitive : glb_.list(glb_.at("meshes", index), "primitives")) {
-            if (!primitive.is_object()) glb_.fail("a primitive is no object");
-            const std::uint64_t mode = glb_.number(primitive, "mode").value_or(mode_triangles);
+        for (const nlohmann::json& primitive :
+             gltf_.list(gltf_.at("meshes", index), "primitives")) {
+            if (!primitive.is_object()) gltf_.fail("a primitive is no object");
+            const std::uint64_t mode = gltf_.number(primitive, "mode").value_or(mode_triangles);
             if (mode < mode_triangles || mode > mode_fan) {
                 ++num_others_;
                 continue;
             }
             const auto attributes = primitive.find("attributes");
             if (attributes == primitive.end() || !attributes->is_object()) {
-                glb_.fail("a primitive has no attributes");
+                gltf_.fail("a primitive has no attributes");
             }
-            const auto positions = glb_.number(*attributes, "POSITION");
-            if (!positions) glb_.fail("a primitive has no positions");
+            const auto positions = gltf_.number(*attributes, "POSITION");
+            if (!positions) gltf_.fail("a primitive has no positions");
             const auto [entry, is_new] =
                 first_vertex.try_emplace(*positions, soup_.positions.size());
             if (is_new) read_vertices(*positions, *attributes, transform);
-            const std::uint64_t count = glb_.array(*positions).num_rows;
+            const std::uint64_t count = gltf_.array(*positions).num_rows;
             const std::size_t num_before = soup_.num_polygons(), num_corners = soup_.num_corners();
             read_faces(primitive, mode, entry->second, count, transform.linear().determinant() < 0);
             add_materials(primitive, soup_.num_polygons() - num_before);
             if (!file_.with_attributes) continue;
-            if (const auto texture = glb_.number(*attributes, texture_name)) {
+            if (const auto texture = gltf_.number(*attributes, texture_name)) {
                 const auto [coordinates, is_first] =
                     first_coordinates.try_emplace(*texture, soup_.texture.values.size());
-                if (is_first) read_texture(glb_.array(*texture));
+                if (is_first) read_texture(gltf_.array(*texture));
                 set_texture(num_corners, entry->second, coordinates->second, count);
             }
         }
@@ -131,16 +137,16 @@ private:
 
     void read_vertices(std::uint64_t accessor, const nlohmann::json& attributes,
                        const Transform& transform) {
-        const GlbArray array = glb_.array(accessor);
-        if (array.num_columns != 3) glb_.fail("positions do not have three coordinates");
+        const GltfArray array = gltf_.array(accessor);
+        if (array.num_columns != 3) gltf_.fail("positions do not have three coordinates");
         const std::size_t first = soup_.positions.size();
         for (std::uint64_t row = 0; row < array.num_rows; ++row) {
             soup_.ticker.tick(4);
-            const Vec3 p = transform * Vec3(glb_.value(array, row, 0), glb_.value(array, row, 1),
-                                            glb_.value(array, row, 2));
+            const Vec3 p = transform * Vec3(gltf_.value(array, row, 0), gltf_.value(array, row, 1),
+                                            gltf_.value(array, row, 2));
             if (!p.allFinite()) {
                 file_.fail_unusable(
-                    array.offset + row * array.stride,
+                    gltf_.place(array, row),
                     "vertex " + std::to_string(row) + " of accessor " + std::to_string(accessor) +
                         " has a coordinate that is not finite; correct or delete the "
                         "vertex");
@@ -154,7 +160,7 @@ private:
         for (const auto& [name, accessor] : attributes.items()) {
             if (name == "POSITION") continue;
             if (name == "COLOR_0" && accessor.is_number_unsigned()) {
-                read_colors(glb_.array(accessor.get<std::uint64_t>()), first, count);
+                read_colors(gltf_.array(accessor.get<std::uint64_t>()), first, count);
             } else if (name == "NORMAL") {
                 has_normals_ = true;
             } else if (name != texture_name) {
@@ -165,14 +171,14 @@ private:
     }
 
     // Files count v downwards.
-    void read_texture(const GlbArray& array) {
+    void read_texture(const GltfArray& array) {
         SoupTexture& texture = soup_.texture;
         texture.name = texture_name;
         texture.type = NumberType::Float32;
         texture.is_broken = texture.is_broken || array.num_columns != 2;
         for (std::uint64_t row = 0; row < array.num_rows && !texture.is_broken; ++row) {
             soup_.ticker.tick();
-            texture.add(glb_.value(array, row, 0), 1 - glb_.value(array, row, 1));
+            texture.add(gltf_.value(array, row, 0), 1 - gltf_.value(array, row, 1));
         }
     }
 
@@ -188,13 +194,13 @@ private:
         }
     }
 
-    void read_colors(const GlbArray& colors, std::size_t first, std::uint64_t count) {
-        if (colors.num_rows != count) glb_.fail("there is not one colour for each vertex");
+    void read_colors(const GltfArray& colors, std::size_t first, std::uint64_t count) {
+        if (colors.num_rows != count) gltf_.fail("there is not one colour for each vertex");
         std::array<double, 4> numbers{};
         for (std::uint64_t row = 0; row < count; ++row) {
             soup_.ticker.tick();
             for (std::size_t k = 0; k < colors.num_columns; ++k) {
-                numbers[k] = glb_.value(colors, row, k);
+                numbers[k] = gltf_.value(colors, row, k);
             }
             colors_.take(first + row, std::span(numbers).first(colors.num_columns));
         }
@@ -204,16 +210,16 @@ private:
     // \param turned  the transform is a reflection.
     void read_faces(const nlohmann::json& primitive, std::uint64_t mode, std::size_t first,
                     std::uint64_t count, bool turned) {
-        GlbArray indices{.num_rows = count};
-        const auto accessor = glb_.number(primitive, "indices");
+        GltfArray indices{.num_rows = count};
+        const auto accessor = gltf_.number(primitive, "indices");
         if (accessor) {
-            indices = glb_.array(*accessor);
-            if (indices.num_columns != 1) glb_.fail("indices have several columns");
+            indices = gltf_.array(*accessor);
+            if (indices.num_columns != 1) gltf_.fail("indices have several columns");
         }
         const auto corner = [&](std::uint64_t i) {
             if (!accessor) return Corner{static_cast<std::int64_t>(first + i), 0};
-            const std::size_t offset = indices.offset + i * indices.stride;
-            const double index = glb_.value(indices, i, 0);
+            const std::size_t offset = gltf_.place(indices, i);
+            const double index = gltf_.value(indices, i, 0);
             if (index >= 0 && index < static_cast<double>(count) && index == std::floor(index)) {
                 return Corner{static_cast<std::int64_t>(first) + static_cast<std::int64_t>(index),
                               offset};
@@ -230,7 +236,7 @@ private:
             return;
         }
         if (mode == mode_triangles && indices.num_rows % 3 != 0) {
-            glb_.fail("the number of corners of a primitive is no multiple of three");
+            gltf_.fail("the number of corners of a primitive is no multiple of three");
         }
         const bool is_fan = mode == mode_fan;
         for (std::uint64_t i = is_fan ? 1 : 0; i + (is_fan ? 1 : 2) < indices.num_rows;
@@ -252,15 +258,50 @@ private:
     void add_materials(const nlohmann::json& primitive, std::size_t num_faces) {
         if (!file_.with_attributes) return;
         std::string name;
-        if (const auto material = glb_.number(primitive, "material")) {
-            const nlohmann::json& properties = glb_.at("materials", *material);
-            const auto found = properties.find("name");
-            name = found != properties.end() && found->is_string()
-                       ? found->get<std::string>()
-                       : "material_" + std::to_string(*material);
-            has_materials_ = true;
+        if (const auto material = gltf_.number(primitive, "material")) {
+            static_cast<void>(gltf_.at("materials", *material));  // Is there such?
+            if (material_names_.empty()) name_materials();
+            name = material_names_[*material];
         }
         materials_.add(materials_.number_of(std::move(name)), num_faces);
+    }
+
+    // Different materials have different names.
+    void name_materials() {
+        std::set<std::string> taken = {""};
+        for (std::size_t m = 0; m < gltf_.list(gltf_.root(), "materials").size(); ++m) {
+            const nlohmann::json& properties = gltf_.at("materials", m);
+            const auto found = properties.find("name");
+            const bool is_named = found != properties.end() && found->is_string();
+            const std::string name = is_named ? one_line(found->get<std::string>()) : "";
+            material_names_.push_back(
+                unique_name(name.empty() ? "material_" + std::to_string(m) : name, taken));
+        }
+    }
+
+    // \param declined  gets the images that cannot be read; these keep their URI.
+    Materials finish_materials(std::vector<DeclinedAttribute>& declined) const {
+        nlohmann::json kept;
+        for (const char* key : {"materials", "textures", "samplers", "extensionsUsed"}) {
+            const nlohmann::json& all = gltf_.list(gltf_.root(), key);
+            if (!all.empty()) kept[key] = all;
+        }
+        for (std::size_t m = 0; m < material_names_.size(); ++m) {
+            kept["materials"][m]["name"] = material_names_[m];
+        }
+        Materials result;
+        for (std::size_t i = 0; i < gltf_.list(gltf_.root(), "images").size(); ++i) {
+            const nlohmann::json& image = gltf_.at("images", i);
+            kept["images"].push_back(image);
+            try {
+                result.images.push_back(gltf_.image(image));
+            } catch (const agvd::IoError& error) {
+                result.images.emplace_back();
+                declined.push_back({"image " + std::to_string(i), error.what()});
+            }
+        }
+        result.json = text_of(kept);
+        return result;
     }
 
     MeshAttributes finish_attributes(std::size_t num_vertices) {
@@ -268,24 +309,26 @@ private:
         if (has_normals_) attributes.normals = NumberType::Float32;
         for (const auto& [name, reason] : declined_) attributes.declined.push_back({name, reason});
         std::move(colors_).finish(num_vertices, ElementKind::Vertex, attributes);
-        if (has_materials_) {
+        if (!material_names_.empty()) {
+            attributes.materials = finish_materials(attributes.declined);
             attributes.of_faces.push_back(std::move(materials_).finish("material"));
         }
         return attributes;
     }
 
     SourceFile& file_;
-    GlbContainer glb_;
+    GltfDocument gltf_;
     PolygonSoup soup_;
     std::size_t num_others_ = 0;  // Primitives that are no faces.
-    bool has_normals_ = false, has_materials_ = false;
+    bool has_normals_ = false;
     TextColors colors_;
     std::map<std::string, std::string> declined_;  // Reasons by name.
+    std::vector<std::string> material_names_;      // Empty: no face has one.
     FaceLabels materials_;
 };
 
 }  // namespace
 
-MeshFile read_glb(SourceFile file) { return GlbReader(file).read(); }
+MeshFile read_gltf(SourceFile file) { return GltfReader(file).read(); }
 
 }  // namespace remesh
