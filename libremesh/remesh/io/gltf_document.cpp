@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "agvd/core/error.h"
 #include "remesh/io/byte_order.h"
 #include "remesh/io/byte_source.h"
 
@@ -170,8 +171,12 @@ std::string GltfDocument::resource(const std::string& uri) const {
     if (path.empty() || path.is_absolute() || uri.find("://") != std::string::npos) {
         fail("data lie at " + in_quotes(uri) + ", but only files beside this one are read");
     }
-    agvd::Poller poller;
-    return load_file(file_.path.parent_path() / path, poller).bytes;
+    try {
+        agvd::Poller poller;
+        return load_file(file_.path.parent_path() / path, poller).bytes;
+    } catch (const agvd::IoError&) {
+        fail("the file " + in_quotes(path.string()) + ", which it names, cannot be read");
+    }
 }
 
 std::string GltfDocument::image(const nlohmann::json& properties) const {

@@ -36,7 +36,7 @@ TEST(ReadMesh, WhatIsNoFileIsRefused) {
     EXPECT_NE(what_reading_says(folder / "folder.off").find("Is a directory"), std::string::npos);
     files::write(folder / "a.stl", "");
     EXPECT_NE(what_reading_says(folder / "a.stl").find("empty"), std::string::npos);
-    expect_error<IoError>("a.step", "OFF", {"'.step'", ".ply, .obj, .off, .stl", " or .glb"});
+    expect_error<IoError>("a.step", "OFF", {"'.step'", ".ply, .obj, .off, .stl", " or .gltf"});
     expect_error<IoError>("mesh", "OFF", {"unknown", "--from"});
 }
 
