@@ -43,7 +43,7 @@ void decline_unwritable(const remesh::MeshPath& output, remesh::MeshAttributes& 
             {name, files + " have no place for " +
                        (is_texture && has_seams ? "texture coordinates with seams" : "it") +
                        "; write " +
-                       (name.starts_with("material ")   ? ".glb"
+                       (name.starts_with("material ") ? ".glb"
                         : known_to_obj.contains(name) ? ".obj"
                                                       : ".ply") +
                        " to keep it"});
