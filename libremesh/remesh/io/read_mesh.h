@@ -11,9 +11,9 @@ namespace remesh {
 //! The format is ReadOptions::format, or that of the extension: ply (ascii and both binaries), obj
 //! (v, v/vt, v//vn and v/vt/vn, negative indices; never split along texture seams), off (OFF, COFF,
 //! NOFF, STOFF), stl (ascii, binary; welded at equal positions), vtk (legacy), vtp and vtu (VTK's
-//! XML), mesh (Medit, ascii), 3mf, glb, gltf (which may name files beside it); each also compressed with gzip. /dev/stdin is the standard
-//! input. Coordinates are kept in double. A quad is cut along the shorter of its inner diagonals, a
-//! larger polygon by clipping ears.
+//! XML), mesh (Medit, ascii), 3mf, glb, gltf (which may name files beside it); each also compressed
+//! with gzip. /dev/stdin is the standard input. Coordinates are kept in double. A quad is cut along
+//! the shorter of its inner diagonals, a larger polygon by clipping ears.
 //!
 //! \throw agvd::IoError       the file is missing, empty, unreadable, truncated, malformed or
 //!        longer than its header announces (a few stray bytes are only a warning), or the extension
