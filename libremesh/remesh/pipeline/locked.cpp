@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 #include <unordered_map>
+#include <utility>
 
 #include "agvd/core/edge_key.h"
 #include "agvd/core/error.h"
@@ -49,25 +50,29 @@ void require_vertex(const agvd::MeshView& given, Index vertex) {
         std::to_string(given.positions.size()) + " vertices, counted from 0; name one of these");
 }
 
-// Edges of several sheets at one place are no boundary: cleaning has cut the mesh there.
+// Where sheets have edges at one place, cleaning has cut the mesh: that is no boundary.
 void add_boundary(const agvd::Surface& surface, Places& places,
                   std::vector<std::uint64_t>& wanted) {
-    Places of_boundary;
-    std::vector<std::pair<std::uint64_t, Index>> edges;  // Between places, and the half-edge.
-    const auto& positions = surface.mesh.positions;
+    const auto position = [&](Index v) -> const Vec3& { return surface.mesh.positions[v]; };
+    Places ends;
     for (Index h = 0; h < surface.twin.size(); ++h) {
         if (surface.twin[h] != no_index) continue;
-        const Vec3 &a = positions[surface.tail(h)], &b = positions[surface.head(h)];
-        of_boundary.add(a);
-        of_boundary.add(b);
-        edges.emplace_back(agvd::edge_key(of_boundary.find(a), of_boundary.find(b)), h);
+        ends.add(position(surface.tail(h)));
+        ends.add(position(surface.head(h)));
+    }
+    std::vector<std::pair<std::uint64_t, Index>> edges;  // Between these places, and a half-edge.
+    for (const Index h : surface.edge_half) {
+        const Index a = ends.find(position(surface.tail(h)));
+        const Index b = ends.find(position(surface.head(h)));
+        if (a != no_index && b != no_index) edges.emplace_back(agvd::edge_key(a, b), h);
     }
     std::sort(edges.begin(), edges.end());
     for (std::size_t i = 0; i < edges.size(); ++i) {
         const auto& [edge, h] = edges[i];
-        if (i > 0 && edges[i - 1].first == edge) continue;
-        if (i + 1 < edges.size() && edges[i + 1].first == edge) continue;
-        const Vec3 &a = positions[surface.tail(h)], &b = positions[surface.head(h)];
+        const bool is_alone = (i == 0 || edges[i - 1].first != edge) &&
+                              (i + 1 == edges.size() || edges[i + 1].first != edge);
+        if (!is_alone || surface.twin[h] != no_index) continue;
+        const Vec3 &a = position(surface.tail(h)), &b = position(surface.head(h));
         places.add(a);
         places.add(b);
         wanted.push_back(agvd::edge_key(places.find(a), places.find(b)));
