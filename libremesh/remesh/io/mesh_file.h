@@ -32,9 +32,11 @@ struct MeshFile {
     std::vector<agvd::Index> face_polygon;
     MeshAttributes attributes;          //!< With ReadOptions::with_attributes.
     std::vector<std::string> warnings;  //!< What was skipped, with the file's name.
-    //! What the file wants kept (Medit): for the members of RemeshOptions of these names.
-    std::vector<std::array<agvd::Index, 2>> feature_edges = {}, locked_edges = {};
-    std::vector<agvd::Index> locked = {};
+    //! What a Medit file wants kept, for the members of RemeshOptions of these names. Edges and
+    //! ridges: pairs of vertices.
+    std::vector<std::array<agvd::Index, 2>> feature_edges = {};
+    std::vector<std::array<agvd::Index, 2>> locked_edges = {};  //!< Required edges, likewise.
+    std::vector<agvd::Index> locked = {};                       //!< Required vertices.
 };
 
 //! `{}` gives the defaults.

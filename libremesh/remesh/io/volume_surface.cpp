@@ -6,6 +6,7 @@
 
 #include "agvd/core/bucket_sort.h"
 #include "agvd/core/error.h"
+#include "remesh/io/report_words.h"
 
 namespace remesh {
 namespace {
@@ -136,8 +137,8 @@ std::vector<std::size_t> VolumeSurface::add_to(PolygonSoup& soup) const {
 std::string VolumeSurface::warning(std::size_t num_added) const {
     if (kinds_.empty()) return {};
     const std::string cells =
-        file_.path.string() + ": " + std::to_string(num_cells()) + " volume cells";
-    return num_added == 0 ? cells + " are passed over, as the file has faces of its own"
+        file_.path.string() + ": " + detail::counted(num_cells(), "volume cell");
+    return num_added == 0 ? cells + ": passed over, as the file has faces of its own"
                           : cells + ": their surface is read, the " + std::to_string(num_added) +
                                 " faces that belong to one of them only";
 }
