@@ -60,6 +60,13 @@ double enclosed_volume(Soup& soup) {
     return volume;
 }
 
+// Whether each edge has an even number of faces: an open surface encloses no volume.
+bool is_closed(std::span<const EdgeSide> sides) {
+    bool result = true;
+    for_each_edge(sides, [&](std::span<const EdgeSide> edge) { result &= edge.size() % 2 == 0; });
+    return result;
+}
+
 // Whether the faces have the same corners. They are the walls of two bodies, and stay apart.
 bool are_opposite(const Soup& soup, const EdgeSide& a, const EdgeSide& b) {
     return soup.apex(a.half_edge) == soup.apex(b.half_edge);
@@ -146,7 +153,7 @@ bool is_told_by_indices(const Soup& soup, std::span<const EdgeSide> edge) {
 
 std::vector<Index> pair_sheets(Soup& soup, std::span<const EdgeSide> sides) {
     std::vector<Index> twin(soup.num_half_edges(), no_index);
-    const bool is_inside_out = enclosed_volume(soup) < 0;
+    const bool is_inside_out = is_closed(sides) && enclosed_volume(soup) < 0;
     for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
         soup.ticker.tick(edge.size());
         if (edge.size() == 2 && !are_opposite(soup, edge[0], edge[1])) {
