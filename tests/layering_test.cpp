@@ -37,7 +37,7 @@ constexpr Package packages[] = {
     {"CGAL/",
      R"(agvd/metrics/oracle\.cpp|remesh/clean/hole_triangles\.cpp|remesh/quality/.*\.cpp)"},
     {"OpenMesh/", R"(remesh/io/(.*\.cpp|openmesh_exchange\.h))"},
-    {"nlohmann/", R"(remesh/io/(.*\.cpp|glb_container\.h))"},
+    {"nlohmann/", R"(remesh/io/(.*\.cpp|gltf_(document|materials)\.h))"},
     {"fast_float/", R"(remesh/io/(.*\.cpp|text_scanner\.h))"},
     {"expat.h", R"(remesh/io/xml_reader\.cpp)"},
     {"zlib.h", R"(remesh/io/zlib_stream\.h)"},
