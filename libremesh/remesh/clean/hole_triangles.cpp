@@ -29,6 +29,7 @@ std::optional<std::vector<agvd::Triangle>> triangulate_hole(std::span<const agvd
         to_cgal(rim), to_cgal(beyond), std::back_inserter(found),
         CGAL::parameters::do_not_use_cubic_algorithm(rim.size() > most_for_cubic_time));
     std::vector<agvd::Triangle> triangles;
+    triangles.reserve(found.size());
     for (const auto& t : found) {
         triangles.push_back({static_cast<agvd::Index>(t.first), static_cast<agvd::Index>(t.second),
                              static_cast<agvd::Index>(t.third)});
