@@ -133,11 +133,11 @@ WRONG_OPTIONS = [
     (dict(max_distance=-1), "max_distance is -1"),
     (dict(min_edge=1), "min_edge, max_edge and gradation bound edges that differ"),
     (dict(adaptive=True, gradation=0.5), "gradation is 0.5"),
-    (dict(adaptive=True, sizing=np.ones(1026)), "is_adaptive"),
+    (dict(adaptive=True, sizing=np.ones(1026)), "several of adaptive, sizing and density"),
     (dict(sizing=np.ones(5)), r"sizing has the shape \(5,\) and holds float64, but the mesh has 1026"),
     (dict(sizing="name"), "sizing: the mesh has no values 'name' of vertices; it has: none"),
-    (dict(features="sharp"), "features is 'sharp'; use auto, angle or off"),
-    (dict(features=200), "feature_angle is 200"),
+    (dict(features="sharp"), "features is 'sharp'; use 'auto', 'off' or an angle in degrees"),
+    (dict(features=200), "features is 200"),
     (dict(features=True), "features is True; use 'auto', 'off' or an angle in degrees"),
     (dict(feature_edges=[[0, 9999]]), "feature edge 0 names vertex 9999, but the mesh has only 1026"),
     (dict(feature_edges=[0, 1, 2]), r"feature_edges has the shape \(3,\)"),
@@ -175,7 +175,7 @@ def test_unknown_options_and_missing_faces_are_type_errors(sphere):
     V, F = sphere
     with pytest.raises(TypeError, match="nsamples"):
         remesh.remesh(V, F, nsamples=5)
-    with pytest.raises(TypeError, match="ndarray has no faces; give V and F, or an object with"):
+    with pytest.raises(TypeError, match="ndarray has no faces; give V and F, a remesh.Mesh, or an object of"):
         remesh.remesh(V)
 
 

@@ -24,6 +24,7 @@ constexpr Term terms[] = {
     {"num_faces", "faces"},
     {"num_threads", "threads"},
     {"is_adaptive", "adaptive"},
+    {"target_lengths, face_lengths", "sizing"},
     {"target_lengths", "sizing"},
     {"densities", "density"},
     {"relax_steps", "relax"},
