@@ -31,27 +31,35 @@ std::string describe_coarseness(const remesh::RemeshResult& result) {
     return enough == 0 ? text : text + " (about " + std::to_string(enough) + " would do)";
 }
 
+// What makes the edges of the result shorter.
+std::string finer(const remesh::RemeshOptions& options) {
+    const remesh::Sizing& sizing = options.sizing;
+    const bool has_lengths = sizing.edge_length > 0 || sizing.gives_count;
+    return has_lengths ? "shorter edges" : "more --samples";
+}
+
 // More samples help where the input does not intersect itself; elsewhere the result has the more
 // pairs the more samples there are.
-std::string describe_crossings(const remesh::RemeshResult& result) {
+std::string describe_crossings(const remesh::RemeshResult& result, const std::string& more) {
     const agvd::Index in_input = result.input_self_intersections;
     const agvd::Index fresh = result.new_self_intersections;
     const std::string text = "the result has " + std::to_string(*result.self_intersections) +
                              " pairs of intersecting faces, the input has " +
                              std::to_string(in_input);
-    if (in_input == 0) return text + "; use more --samples";
+    if (in_input == 0) return text + "; use " + more;
     if (fresh == 0) {
         const bool has_sites = result.added_because.contains(remesh::SiteReason::SelfIntersection);
-        return text + "; they are where the input intersects itself, and more --samples give more" +
+        return text + "; they are where the input intersects itself, and " + more + " give more" +
                (has_sites ? "" : ", so that no sites were added there") + "; mend the input";
     }
     return text + "; " + std::to_string(fresh) +
-           " are not where the input intersects itself: for these use more --samples, for the "
-           "others mend the input";
+           " are not where the input intersects itself: for these use " + more +
+           ", for the others mend the input";
 }
 
 // \throw agvd::ConstraintUnmet  with --strict.
-void judge(const remesh::RemeshResult& result, bool strict, Warnings& warnings) {
+void judge(const remesh::RemeshResult& result, const std::string& more, bool strict,
+           Warnings& warnings) {
     const auto refuse = [](const std::string& text) {
         throw agvd::ConstraintUnmet(text + ", or leave out --strict");
     };
@@ -63,10 +71,11 @@ void judge(const remesh::RemeshResult& result, bool strict, Warnings& warnings) 
     if (const agvd::Index flat = result.verdict.faces_without_area; flat > 0) {
         tell("the result has " + std::to_string(flat) + (flat == 1 ? " face" : " faces") +
              " without area, whose corners lie on one line; "
-             "use more --samples, or other --features");
+             "use " +
+             more + ", or other --features");
     }
     if (result.self_intersections.value_or(0) > result.input_self_intersections) {
-        tell(describe_crossings(result));
+        tell(describe_crossings(result, more));
     }
 }
 
@@ -121,7 +130,7 @@ std::string welded_slit_text(double length) {
 std::vector<std::string> shortfalls_of(const remesh::RemeshResult& result,
                                        const remesh::RemeshOptions& options, bool strict) {
     Warnings warnings;
-    judge(result, strict, warnings);
+    judge(result, finer(options), strict, warnings);
     if (result.welded_slit_length > spacing_of(result)) {
         warnings.push_back(welded_slit_text(result.welded_slit_length));
     }

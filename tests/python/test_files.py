@@ -90,12 +90,26 @@ def test_progress_runs_once_from_0_to_1(mesh):
     ({"features": "angle"}, "features is 'angle'; use 'auto', 'off' or an angle in degrees"),
     ({"features": 200}, "features is 200"),
     ({"sizing": -1}, "sizing is -1"),
-    ({"adaptive": True, "sizing": 0.1}, "several of adaptive, sizing and density"),
+    ({"adaptive": True, "sizing": 0.1}, "several of adaptive, sizing, face_sizing and density"),
     ({"face_labels": "colour"}, "face_labels: the mesh has no values 'colour' of faces; it has: "),
 ])
 def test_messages_name_what_the_caller_wrote(mesh, options, text):
     with pytest.raises(remesh.InvalidOption, match=text):
         remesh.remesh(mesh, 100, **options)
+
+
+def test_faces_have_a_sizing(mesh):
+    V, F = mesh
+    lengths = np.full(len(F), 0.2)
+    same = remesh.remesh(V, F, face_sizing=lengths)
+    assert len(same.V) == len(remesh.remesh(V, F, sizing=0.2).V)
+    lengths[V[F].mean(axis=1)[:, 0] > 0] = 0.1
+    finer = remesh.remesh(V, F, face_sizing=lengths)
+    assert (finer.V[:, 0] > 0).sum() > 2 * (finer.V[:, 0] < 0).sum()
+    with pytest.raises(remesh.InvalidOption, match=r"face_sizing has the shape \(2,\)"):
+        remesh.remesh(V, F, face_sizing=lengths[:2])
+    with pytest.raises(remesh.InvalidOption, match="face_sizing: the mesh has no values 'q'"):
+        remesh.remesh(V, F, face_sizing="q")
 
 
 def test_one_number_is_a_sizing(mesh):

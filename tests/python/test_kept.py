@@ -106,6 +106,17 @@ def test_what_does_not_fit_is_refused(sphere, options, text):
         remesh.remesh(*sphere, **options)
 
 
+def test_the_boundary_may_be_locked(sphere):
+    V, F = sphere
+    half = F[V[F].mean(axis=1)[:, 2] > 0]
+    names = np.unique(half)
+    rim = np.flatnonzero(np.isin(names, F[V[F].mean(axis=1)[:, 2] <= 0]))
+    kept = {tuple(p) for p in V[names[rim]]}
+    for is_locked in (False, True):
+        result = remesh.remesh(V, half, 200, lock_boundary=is_locked, topology="add")
+        assert (kept <= {tuple(p) for p in result.V}) == is_locked
+
+
 def test_vertices_may_be_locked_by_a_mask(sphere):
     mask = np.zeros(1026, bool)
     mask[[3, 41, 700]] = True

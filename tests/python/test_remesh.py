@@ -133,7 +133,7 @@ WRONG_OPTIONS = [
     (dict(max_distance=-1), "max_distance is -1"),
     (dict(min_edge=1), "min_edge, max_edge and gradation bound edges that differ"),
     (dict(adaptive=True, gradation=0.5), "gradation is 0.5"),
-    (dict(adaptive=True, sizing=np.ones(1026)), "several of adaptive, sizing and density"),
+    (dict(adaptive=True, sizing=np.ones(1026)), "several of adaptive, sizing, face_sizing and density"),
     (dict(sizing=np.ones(5)), r"sizing has the shape \(5,\) and holds float64, but the mesh has 1026"),
     (dict(sizing="name"), "sizing: the mesh has no values 'name' of vertices; it has: none"),
     (dict(features="sharp"), "features is 'sharp'; use 'auto', 'off' or an angle in degrees"),

@@ -34,6 +34,17 @@ TEST(Shortfalls, CrossingsAreWarnedOfAndRefusedIfStrict) {
     EXPECT_EQ(cli::shortfalls_of(result, {}, true), Warnings());
 }
 
+TEST(Shortfalls, WhereLengthsAreGivenShorterOnesAreTheAdvice) {
+    RemeshResult result;
+    result.self_intersections = 3;
+    for (const remesh::Sizing& sizing :
+         {remesh::Sizing{.edge_length = 1}, remesh::Sizing{.gives_count = true}}) {
+        EXPECT_EQ(cli::shortfalls_of(result, {.sizing = sizing}, false),
+                  Warnings{"the result has 3 pairs of intersecting faces, the input has 0; use "
+                           "shorter edges"});
+    }
+}
+
 TEST(Shortfalls, FacesWithoutAreaAreWarnedOfAndRefusedIfStrict) {
     RemeshResult result;
     result.verdict.faces_without_area = 1;

@@ -136,8 +136,11 @@ PlyHeader read_ply_header(const SourceFile& file) {
         }
     }
     if (num_unknown > 0) {
-        header.warning = file.place(first_unknown) + std::to_string(num_unknown) +
-                         " lines of the header begin with no keyword and are passed over";
+        header.warning =
+            file.place(first_unknown) + std::to_string(num_unknown) +
+            (num_unknown == 1 ? " line of the header begins with no keyword and is "
+                              : " lines of the header begin with no keyword and are ") +
+            "passed over";
     }
     if (!has_format) file.fail_malformed(0, "the header has no 'format'; export the file again");
     if (scan.has_word())

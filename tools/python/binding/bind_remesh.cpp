@@ -148,6 +148,7 @@ void bind_remesh(py::module_& module) {
         "keep_slits", [](const RemeshOptions& self) { return self.cleaning.keep_slits; },
         [](RemeshOptions& self, bool keeps) { self.cleaning.keep_slits = keeps; });
     options.def_readwrite("drop_components", &RemeshOptions::drop_components);
+    options.def_readwrite("lock_boundary", &RemeshOptions::lock_boundary);
     options.def_property(
         "weld", [](const RemeshOptions& self) { return self.cleaning.weld; },
         [](RemeshOptions& self, double length) { self.cleaning.weld = length; });
@@ -184,6 +185,12 @@ void bind_remesh(py::module_& module) {
         "set_target_lengths",
         [](RemeshOptions& self, const Doubles& values) {
             self.sizing.target_lengths = vector_of(values);
+        },
+        py::arg("values").noconvert());
+    options.def(
+        "set_face_lengths",
+        [](RemeshOptions& self, const Doubles& values) {
+            self.sizing.face_lengths = vector_of(values);
         },
         py::arg("values").noconvert());
     options.def(

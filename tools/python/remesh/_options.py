@@ -51,16 +51,22 @@ def only_one(**given: Any) -> None:
 
 
 def set_sizing(options: _remesh.Options, mesh: _kinds.Given, *, has_count: bool, adaptive: bool,
-               sizing: Any, density: Any, max_distance: Any, min_edge: Any, max_edge: Any,
-               gradation: Any) -> None:
+               sizing: Any, face_sizing: Any, density: Any, max_distance: Any, min_edge: Any,
+               max_edge: Any, gradation: Any) -> None:
     """Says where edges are how long."""
-    differs = adaptive or any(v is not None for v in (sizing, density, max_distance))
+    differs = adaptive or any(v is not None for v in (sizing, face_sizing, density, max_distance))
     if not differs and any(v is not None for v in (min_edge, max_edge, gradation)):
         raise InvalidOption("min_edge, max_edge and gradation bound edges that differ; add "
-                            "adaptive, max_distance, sizing or density, or leave them out")
+                            "adaptive, max_distance, sizing, face_sizing or density, or leave "
+                            "them out")
     options.is_adaptive = bool(adaptive)
     if sizing is not None:
         options.set_target_lengths(_at_vertices(mesh, sizing, "sizing"))
+        options.gives_count = not has_count
+    if face_sizing is not None:
+        if isinstance(face_sizing, str):
+            face_sizing = _named(mesh.data()[1], face_sizing, "face_sizing", "faces")
+        options.set_face_lengths(_arrays.one_each(face_sizing, len(mesh.F), "face_sizing", "faces"))
         options.gives_count = not has_count
     if density is not None:
         options.set_densities(_at_vertices(mesh, density, "density"))

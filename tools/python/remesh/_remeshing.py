@@ -70,6 +70,7 @@ def remesh(
     n_clusters: Any = None,
     adaptive: bool = False,
     sizing: Any = None,
+    face_sizing: Any = None,
     density: Any = None,
     min_edge: Any = None,
     max_edge: Any = None,
@@ -86,6 +87,7 @@ def remesh(
     fill_holes: int = 0,
     region: Any = None,
     lock: Any = None,
+    lock_boundary: bool = False,
     strict: bool = False,
     transfer: Any = "all",
     uv: Any = None,
@@ -122,8 +124,10 @@ def remesh(
 
     - ``adaptive``: shorter edges where the surface is curved.
     - ``sizing``: the length of edges at each vertex (#V numbers, one for all, a function of V, or
-      the name of values of the mesh). It gives the number of vertices, too, if nothing else does; otherwise
-      lengths count only relative to each other.
+      the name of values of the mesh). It gives the number of vertices, too, if nothing else does;
+      otherwise lengths count only relative to each other.
+    - ``face_sizing``: likewise, at each face (#F numbers, or the name of values of the mesh), such
+      as ``np.where(labels == 3, 0.05, 0.2)``.
     - ``density``: likewise, vertices per area in any unit.
     - ``min_edge``, ``max_edge``, ``gradation`` (1.3): bounds of edges that differ.
 
@@ -145,7 +149,7 @@ def remesh(
       of the result (Result.kept_faces). ``n``, ``faces`` and lengths count in the region, the
       vertices that it shares with other faces included. Not with ``sites`` or ``drop_components``.
     - ``lock``: vertices that stay where they are, bit for bit: their numbers, or #V truth values.
-      Not with ``sites``.
+      Not with ``sites``. ``lock_boundary``: edges of the boundary stay as they are.
     - ``strict``: ConstraintUnmet if the result has more pairs of intersecting faces than the input,
       or is too coarse for creases, walls or components of it. Otherwise the report tells.
     - ``transfer``: values of the input for the result: ``"all"`` that the mesh object has,
@@ -206,14 +210,15 @@ def remesh(
         options.max_distance = _options.length(mesh, max_distance, "max_distance")
     has_count = any(v is not None for v in (n, n_clusters, faces, edge_length, max_distance, sites))
     _options.set_sizing(options, mesh, has_count=has_count, adaptive=adaptive, sizing=sizing,
-                        density=density, max_distance=max_distance, min_edge=min_edge,
-                        max_edge=max_edge, gradation=gradation)
+                        face_sizing=face_sizing, density=density, max_distance=max_distance,
+                        min_edge=min_edge, max_edge=max_edge, gradation=gradation)
     _options.set_features(options, mesh, features, feature_edges, face_labels)
     _options.set_sites(options, mesh, sites, keep_sites)
     options.junctions = junctions
     options.boundary = boundary
     options.topology = topology
     options.keep_slits = bool(keep_slits)
+    options.lock_boundary = bool(lock_boundary)
     options.drop_components = _arrays.number(drop_components, "drop_components")
     options.weld = 0 if weld is None else _options.length(mesh, weld, "weld")
     options.fill_holes = _arrays.whole(fill_holes, "fill_holes")
