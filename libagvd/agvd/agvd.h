@@ -21,5 +21,3 @@
 #include "agvd/metrics/compare_diagrams.h"
 #include "agvd/metrics/frechet.h"
 #include "agvd/propagation/propagate.h"
-#include "agvd/update/moving_diagram.h"
-#include "agvd/update/moving_sites.h"

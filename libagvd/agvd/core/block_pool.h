@@ -26,12 +26,6 @@ class BlockPool {
 public:
     //! With released blocks.
     [[nodiscard]] Index size() const { return static_cast<Index>(elements_.size()); }
-    [[nodiscard]] std::size_t num_released() const { return num_released_; }
-    //! Whether more elements are released than in use, and not just a few.
-    [[nodiscard]] bool is_wasteful() const {
-        constexpr std::size_t least = 1024;
-        return num_released_ > least && 2 * num_released_ > elements_.size();
-    }
     void reserve(std::size_t size) { elements_.reserve(size); }
 
     [[nodiscard]] T& operator[](Index i) { return elements_[i]; }
@@ -54,7 +48,6 @@ public:
         if (count < released_.size() && !released_[count].empty()) {
             const Index begin = released_[count].back();
             released_[count].pop_back();
-            num_released_ -= count;
             std::copy(elements.begin(), elements.end(), elements_.begin() + begin);
             return {begin, count};
         }
@@ -67,13 +60,11 @@ public:
         if (block.count == 0) return;
         if (block.count >= released_.size()) released_.resize(block.count + 1);
         released_[block.count].push_back(block.begin);
-        num_released_ += block.count;
     }
 
 private:
     std::vector<T> elements_;
     std::vector<std::vector<Index>> released_;  // By count: where such blocks begin.
-    std::size_t num_released_ = 0;              // Elements.
 };
 
 }  // namespace agvd

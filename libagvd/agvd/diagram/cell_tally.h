@@ -31,7 +31,7 @@ public:
     //! The other intervals of an edge.
     void count_row(std::span<const Crossing> row, int sign);
     //! An inner point.
-    void count_inner_point(const InnerPoint& point, int sign) { count(point.site, sign); }
+    void count_inner_point(const InnerPoint& point) { count(point.site, 1); }
     //! The intervals of a cut.
     //! \param site_at_end  of its last one.
     void count_cut(std::span<const Crossing> row, Index site_at_end, int sign);
@@ -46,15 +46,13 @@ public:
     //! Sets cell_area and cell_euler.
     void write(Diagram& diagram) const;
 
+private:
     struct Cell {
-        std::int64_t area = 0;  //!< In units.
+        std::int64_t area = 0;  // In units.
         int euler = 0;
         bool is_changed = false;
     };
-    //! By site. For giving sites other numbers.
-    [[nodiscard]] std::vector<Cell>& cells() { return cells_; }
 
-private:
     void count(Index site, int change) {
         if (site != no_index) change_cell(site, change, 0);
     }

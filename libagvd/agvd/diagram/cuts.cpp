@@ -199,13 +199,13 @@ CutFace add_cut_face(const FoundCuts& found, const CutFace& cut, Index num_verti
     return result;
 }
 
-void count_cuts(const CutFace& face, int sign, DiagramParts& parts) {
+void count_cuts(const CutFace& face, DiagramParts& parts) {
     const EdgeLabels& labels = parts.labels;
     for (const InnerPoint& point : labels.inner_points[face.inner_points]) {
-        parts.tally.count_inner_point(point, sign);
+        parts.tally.count_inner_point(point);
     }
     for (const Cut& cut : labels.cuts[face.cuts]) {
-        parts.tally.count_cut(labels.crossings[cut.row], labels.point_site[cut.to.point], sign);
+        parts.tally.count_cut(labels.crossings[cut.row], labels.point_site[cut.to.point], 1);
     }
 }
 
@@ -233,26 +233,12 @@ void cut_faces(const StageInput& input, std::span<const Index> mixed, DiagramPar
         for (const CutFace& cut : part.faces) {
             labels.cut_faces.push_back(
                 add_cut_face(part, cut, input.surface.num_vertices(), labels));
-            count_cuts(labels.cut_faces.back(), 1, parts);
+            count_cuts(labels.cut_faces.back(), parts);
         }
     }
     std::inplace_merge(labels.cut_faces.begin(), labels.cut_faces.begin() + num_before,
                        labels.cut_faces.end(),
                        [](const CutFace& a, const CutFace& b) { return a.face < b.face; });
-}
-
-void remove_cut(const CutFace& cut, DiagramParts& parts) {
-    count_cuts(cut, -1, parts);
-    EdgeLabels& labels = parts.labels;
-    const auto num_vertices = static_cast<Index>(labels.vertex_distance.size());
-    for (Index i = cut.inner_points.begin; i < cut.inner_points.end(); ++i) {
-        labels.inner_points[i].site = no_index;
-        labels.point_site[num_vertices + i] = no_index;
-    }
-    for (const Cut& c : labels.cuts[cut.cuts]) labels.crossings.release(c.row);
-    labels.inner_points.release(cut.inner_points);
-    labels.cuts.release(cut.cuts);
-    labels.cut_triangles.release(cut.triangles);
 }
 
 }  // namespace agvd

@@ -13,7 +13,4 @@ namespace agvd {
 //! Parallel. Cost: the relays near it, a site inside a mixed face, and sorting the face's relays.
 void cut_faces(const StageInput& input, std::span<const Index> mixed, DiagramParts& parts);
 
-//! Takes out all that belongs to a cut face, but for its entry in cut_faces.
-void remove_cut(const CutFace& cut, DiagramParts& parts);
-
 }  // namespace agvd

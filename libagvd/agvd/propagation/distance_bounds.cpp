@@ -113,32 +113,7 @@ void BoundsSearch::add(const SurfacePoint& point, Index site) {
         if (key >= keys_[vertex]) return;
         keys_[vertex] = key;
         queue(vertex);
-        if (tracks_changes_) changes_.push_back(vertex);
     });
-}
-
-std::vector<Index> BoundsSearch::starts_of(const SurfacePoint& point) const {
-    std::vector<Index> starts;
-    for_each_start(point, [&](Index vertex, double) { starts.push_back(vertex); });
-    return starts;
-}
-
-std::vector<Index> BoundsSearch::remove(std::span<const std::uint8_t> is_removed) {
-    std::vector<Index> forgotten;
-    for (Index v = 0; v < keys_.size(); ++v) {
-        const Index site = site_of(keys_[v]);
-        if (site == no_index || is_removed[site] == 0) continue;
-        keys_[v] = to_key(unreached, no_index);
-        forgotten.push_back(v);
-    }
-    for (const Index v : forgotten) {
-        for (Index a = graph_.offsets[v]; a < graph_.ends[v]; ++a) {
-            const Index neighbour = graph_.arcs[a].head;
-            if (site_of(keys_[neighbour]) != no_index) queue(neighbour);
-        }
-    }
-    if (tracks_changes_) changes_.insert(changes_.end(), forgotten.begin(), forgotten.end());
-    return forgotten;
 }
 
 void BoundsSearch::run(const Progress& progress) {
@@ -171,8 +146,6 @@ void BoundsSearch::run(const Progress& progress) {
             parallel_chunks(count, grain, num_threads_, search, poller);
             for (const Chunk& chunk : std::span(chunks).first(num)) {
                 for (const Index v : chunk.beyond) queue(v);
-                if (!tracks_changes_) continue;
-                changes_.insert(changes_.end(), chunk.changed.begin(), chunk.changed.end());
             }
         }
         std::vector<Index>().swap(slabs_[current_]);
@@ -182,11 +155,6 @@ void BoundsSearch::run(const Progress& progress) {
 
 float BoundsSearch::distance(Index vertex) const { return distance_of(keys_[vertex]); }
 Index BoundsSearch::site(Index vertex) const { return site_of(keys_[vertex]); }
-
-std::vector<Index> BoundsSearch::take_changes() {
-    tracks_changes_ = true;
-    return std::exchange(changes_, {});
-}
 
 std::size_t BoundsSearch::bytes() const {
     return keys_.size() * (3 * sizeof(Index) + sizeof(Key) + sizeof(float));
@@ -211,7 +179,6 @@ void BoundsSearch::queue(Index vertex) {
 template <bool (*lower)(std::uint64_t&, std::uint64_t)>
 void BoundsSearch::search_slab(std::span<const Index> starts, Chunk& chunk, Ticker ticker) {
     chunk.beyond.clear();
-    chunk.changed.clear();
     chunk.steps.resize(num_steps_);
     const auto key_of = [this](Index vertex) {
         return std::atomic_ref(keys_[vertex]).load(std::memory_order_relaxed);
@@ -240,7 +207,6 @@ void BoundsSearch::search_slab(std::span<const Index> starts, Chunk& chunk, Tick
                 } else {
                     chunk.beyond.push_back(head);
                 }
-                if (tracks_changes_) chunk.changed.push_back(head);
             }
         }
         step.clear();

@@ -20,7 +20,7 @@ struct DistanceBounds {
 
 //! Shortest paths along the arcs of a graph. Lengths are rounded up, so that no rounded exact
 //! distance exceeds its bound. The result is unique: it depends neither on the order in which
-//! threads lower bounds nor on the order in which sites are added and removed.
+//! threads lower bounds nor on the order in which sites are added.
 class BoundsSearch {
 public:
     //! \param surface, graph  outlive the search; ArcGraph of the surface.
@@ -33,15 +33,6 @@ public:
 
     //! Adds a site. The next run() follows its paths.
     void add(const SurfacePoint& point, Index site);
-    //! The vertices from which the paths of a site start.
-    [[nodiscard]] std::vector<Index> starts_of(const SurfacePoint& point) const;
-    //! Removes the bounds of some sites. The next run() fills the gaps from outside. Other sites
-    //! that start at one of these vertices may have had no bound there: they must be added again.
-    //! To add any other site again changes nothing.
-    //!
-    //! \param is_removed  by site: 1 or 0. Cost: O(#V).
-    //! \return the vertices that have lost their bound.
-    std::vector<Index> remove(std::span<const std::uint8_t> is_removed);
     //! Cost: about that of one Dijkstra sweep over the edges where something is new.
     //! \throw Cancelled  the search is of no use any more.
     void run(const Progress& progress = {});
@@ -50,8 +41,6 @@ public:
     [[nodiscard]] float distance(Index vertex) const;
     //! The site of the bound; no_index where no site reaches.
     [[nodiscard]] Index site(Index vertex) const;
-    //! Vertices whose bound may have changed since the last call, in any order.
-    [[nodiscard]] std::vector<Index> take_changes();
     //! Memory held.
     [[nodiscard]] std::size_t bytes() const;
 
@@ -65,7 +54,6 @@ private:
         };
         std::vector<std::vector<Waiting>> steps;
         std::vector<Index> beyond;  // Vertices lowered in later slabs.
-        std::vector<Index> changed;
     };
 
     template <typename Each>
@@ -84,8 +72,6 @@ private:
     std::vector<Index> queued_in_;     // #V: the slab in which a vertex waits.
     std::vector<std::vector<Index>> slabs_;
     Index current_ = 0;
-    bool tracks_changes_ = false;  // From the first take_changes() on.
-    std::vector<Index> changes_;
 };
 
 //! The bounds of given sites. Parameters as above.

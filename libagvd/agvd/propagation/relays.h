@@ -64,7 +64,7 @@ struct Propagation {
     //! an unlisted face, and a whole unlisted face, lie in the cell of their vertices' one site.
     std::vector<Index> mixed_faces;
     std::vector<RelayRange> relay_ranges;  //!< #mixed: where the relays of each mixed face stand.
-    //! Ordered by face. MovingSites stores them in any order of faces, with gaps.
+    //! Ordered by face.
     std::vector<Relay> relays;
 
     //! Certified: no distance, at a vertex or through the relays, exceeds the exact one by more

@@ -15,12 +15,6 @@ namespace agvd {
 //! the order of distance. Real meshes stay below 700.
 inline constexpr Index default_work_cap = 1 << 11;
 
-//! The order in which sites run, and in which their relays are stored for a face: by the faces of
-//! the sites. Consecutive faces are neighbours on most meshes, so that caches hold what is needed.
-[[nodiscard]] inline bool runs_before(FaceId face, Index site, FaceId other_face, Index other) {
-    return face < other_face || (face == other_face && site < other);
-}
-
 //! propagate() with Engine::Window, its options checked.
 //!
 //! \param corners  Corners(surface); given back before the relays are sorted by face.

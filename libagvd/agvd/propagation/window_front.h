@@ -64,29 +64,6 @@ public:
         }
     }
 
-    //! Vertices whose bounds mattered, and half-edges, have places in the order in which the last
-    //! run came to them. Half-edges only if the run kept all faces.
-    [[nodiscard]] Index num_vertices() const { return state_.vertices.records.size(); }
-    [[nodiscard]] Index num_half_edges() const { return state_.edges.records.size(); }
-    //! no_index: the run did not come there.
-    [[nodiscard]] Index place_of_vertex(Index vertex) const { return state_.vertices.find(vertex); }
-    [[nodiscard]] Index place_of_half_edge(Index half_edge) const {
-        return state_.edges.find(half_edge);
-    }
-    //! Infinity where the vertex was not reached within its bound.
-    [[nodiscard]] ReachedVertex vertex_at(Index place) const {
-        const VertexRecord& v = state_.vertices.records[place];
-        return {v.vertex, is_reached(v) ? v.upper : std::numeric_limits<double>::infinity()};
-    }
-    [[nodiscard]] Index half_edge_at(Index place) const {
-        return state_.edges.records[place].half_edge;
-    }
-    //! May be none.
-    [[nodiscard]] std::span<const Window> windows_at(Index place) const {
-        const Index run = state_.edges.records[place].windows;
-        return run == no_index ? std::span<const Window>() : state_.store[run];
-    }
-
     //! Largest error of a window that was merged in the last run over its least distance; 0 if none
     //! was.
     [[nodiscard]] double relative_error() const { return state_.relative_error; }

@@ -12,7 +12,6 @@
 #include "agvd/mesh/point_faces.h"
 #include "agvd/mesh/uniform_points.h"
 #include "agvd/propagation/propagate.h"
-#include "agvd/update/moving_diagram.h"
 #include "remesh/clean/clean_input.h"
 #include "remesh/dual/build_dual.h"
 #include "remesh/dual/delaunay.h"
@@ -268,31 +267,6 @@ TEST_P(DeltaComplexOf, CellsHaveTheAreasOfThoseOfTheInput) {
             EXPECT_NEAR(diagram.cell_area[s], expected[s], slack) << s;
         }
     }
-}
-
-TEST_P(DeltaComplexOf, MovingSitesAndDiagramsAreAsFreshOnes) {
-    for_each_case(10, [](const Case& c, std::uint64_t seed) {
-        const SurfaceLayout layout(c.surface(), 1);
-        const PropagationOptions options{.max_error = 1e-3, .num_threads = 1};
-        MovingDiagram moving(c.surface(), layout, c.on_base, options, {.num_threads = 1});
-        Dice dice(seed + 77);
-        for (int step = 0; step < 5; ++step) {
-            SCOPED_TRACE("step " + std::to_string(step));
-            const auto any = [&] {
-                return points::anywhere(dice, dice.count(0, c.surface().num_faces() - 1));
-            };
-            SiteChanges changes;
-            changes.moved = {{static_cast<Index>(step), any()}, {8, any()}};
-            if (step % 2 == 0) changes.removed = {7};
-            changes.added = {any()};
-            moving.update(changes);
-            const auto& sites = moving.sites().sites();
-            const Propagation fresh = propagate(c.surface(), sites, options);
-            checks::expect_same(moving.sites().propagation(), fresh);
-            checks::expect_same(moving.diagram(),
-                                build_diagram(c.surface(), sites, fresh, {.num_threads = 1}));
-        }
-    });
 }
 
 TEST_P(DeltaComplexOf, DualEdgesAreLocallyShortestAndNoShorterThanDistances) {
