@@ -99,7 +99,7 @@ def test_messages_name_what_the_caller_wrote(mesh, options, text):
 
 
 def test_faces_have_a_sizing(mesh):
-    V, F = mesh
+    V, F = mesh.V, mesh.F
     lengths = np.full(len(F), 0.2)
     same = remesh.remesh(V, F, face_sizing=lengths)
     assert len(same.V) == len(remesh.remesh(V, F, sizing=0.2).V)
