@@ -33,7 +33,8 @@ bool expect_finite_reports(const MakeMesh& make_mesh, const remesh::RemeshOption
         const TriangleMesh mesh = make_mesh();
         const remesh::RemeshResult made = remesh::remesh(mesh.view(), options);
         const remesh::RunInfo info{.version = "1", .options = options};
-        expect_finite(remesh::to_text(made, info), remesh::to_json(made, info), "remesh");
+        expect_finite(remesh::to_text(made, info) + '\n' + remesh::details_to_text(made, info),
+                      remesh::to_json(made, info), "remesh");
         if (!made.self_intersections) return true;  // Without CGAL most of an evaluation is null.
         const remesh::Evaluation judged = remesh::evaluate(mesh.view(), made.mesh.view());
         expect_finite(remesh::to_text(judged), remesh::to_json(judged, {.version = "1"}),

@@ -13,6 +13,7 @@
 #include "agvd/mesh/point_faces.h"
 #include "remesh/io/read_mesh.h"
 #include "remesh/pipeline/remesh.h"
+#include "remesh/placement/flat_faces.h"
 #include "remesh/quality/triangle_quality.h"
 #include "remesh/sampling/sample_sites.h"
 #include "support/crease_checks.h"
@@ -547,6 +548,23 @@ TEST(Features, GivenEdgesFollowCleaning) {
     double wanted = 0;
     for (const auto& [a, b] : edges) wanted += (plate.positions[a] - plate.positions[b]).norm();
     EXPECT_NEAR(length_at(result.mesh, y), wanted, 1e-9 * wanted);
+}
+
+// A thin prism where three neighbours on a straight crease were a face.
+TEST(Features, ThreeVerticesOnACreaseAreNoFace) {
+    TriangleMesh prism;
+    for (const double z : {0.0, 0.1402}) {
+        prism.positions.insert(
+            prism.positions.end(),
+            {{-0.765158, 0.0555801, z}, {-0.796563, -0.0521887, z}, {0.944151, -0.0284455, z}});
+    }
+    prism.triangles = {{0, 1, 4}, {0, 4, 3}, {1, 2, 5}, {1, 5, 4},
+                       {2, 0, 3}, {2, 3, 5}, {0, 2, 1}, {3, 4, 5}};
+    const RemeshResult result = remesh::remesh(prism.view(), {.num_samples = 30});
+    for (const Triangle& triangle : result.mesh.triangles) {
+        EXPECT_FALSE(remesh::is_flat(result.mesh.positions, triangle));
+    }
+    EXPECT_EQ(result.verdict.faces_without_area, 0U);
 }
 
 TEST(Features, PairsThatAreNoEdgesAreNamed) {
