@@ -122,6 +122,27 @@ TEST(Sizing, LengthsGiveTheNumber) {
     EXPECT_EQ(result.sizing.num_samples, result.mesh.positions.size());
 }
 
+TEST(Sizing, FacesHaveLengths) {
+    const TriangleMesh mesh = shapes::torus(80, 40);
+    RemeshOptions options{.sizing = {.gradation = 10, .gives_count = true}};
+    for (const Triangle& t : mesh.triangles) {
+        options.sizing.face_lengths.push_back(mesh.positions[t[0]].x() > 0 ? 0.05 : 0.15);
+    }
+    const RemeshResult result = remesh::remesh(mesh.view(), options);
+    std::array<double, 2> sum{}, count{};  // Of edges far from the border, by length.
+    for (const Triangle& t : result.mesh.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3& from = result.mesh.positions[t[k]];
+            if (std::abs(from.x()) < 0.8) continue;
+            const std::size_t side = from.x() > 0 ? 0 : 1;
+            sum[side] += (result.mesh.positions[t[(k + 1) % 3]] - from).norm();
+            ++count[side];
+        }
+    }
+    EXPECT_NEAR(sum[0] / count[0], 0.05, 0.005);
+    EXPECT_NEAR(sum[1] / count[1], 0.15, 0.015);
+}
+
 TEST(Sizing, EdgesHaveTheMeanLengthAskedFor) {
     Index num_tried = 0;
     for (const TriangleMesh& mesh :
