@@ -105,7 +105,8 @@ private:
                     const auto& shared = pieces[neighbour].points;
                     const auto place = std::find(shared.begin(), shared.end(), to);
                     triangle.sides[k] =
-                        out_.triangles[first + neighbour].sides[place - shared.begin()];
+                        out_.triangles[first + neighbour]
+                            .sides[static_cast<std::size_t>(place - shared.begin())];
                 }
             }
             out_.triangles.push_back(triangle);
