@@ -4,8 +4,6 @@ agvd_install_pkg_config(agvd agvd "Geodesic Voronoi diagrams of triangle meshes"
     REQUIRES "eigen3 >= 3.4" PRIVATE tbb)
 if(AGVD_WITH_CGAL)
     set(gmp -lgmp)
-    agvd_install_pkg_config(agvd_oracle agvd-oracle "Exact diagrams to compare those of agvd with"
-        REQUIRES agvd LIBS ${gmp})
 endif()
 if(AGVD_BUILD_REMESH AND AGVD_WITH_ZLIB)
     set(zlib -lz)
@@ -15,8 +13,10 @@ if(AGVD_BUILD_REMESH AND AGVD_WITH_EXPAT)
 endif()
 if(AGVD_BUILD_REMESH)
     agvd_install_package(remesh)
+    agvd_install_pkg_config(remesh_meshfile remesh-meshfile "Files of triangle meshes"
+        REQUIRES agvd LIBS ${zlib} ${expat})
     agvd_install_pkg_config(remesh remesh "Remeshing of triangle surfaces by geodesic Voronoi diagrams"
-        REQUIRES agvd LIBS ${gmp} ${zlib} ${expat})
+        REQUIRES remesh-meshfile LIBS ${gmp})
 endif()
 if(AGVD_WITH_OPENMESH)
     agvd_install_pkg_config(remesh_openmesh remesh-openmesh "Exchange of meshes with OpenMesh"

@@ -3,18 +3,18 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 
-#include "agvd/metrics/compare_diagrams.h"
 #include "arguments.h"
 #include "based_diagram.h"
 #include "expected_stages.h"
 #include "help.h"
+#include "paper/compare_diagrams.h"
 #include "remesh/clean/carry_sites.h"
-#include "remesh/io/atomic_file.h"
-#include "remesh/io/read_diagram.h"
-#include "remesh/io/read_mesh.h"
-#include "remesh/io/report.h"
-#include "remesh/io/write_diagram.h"
-#include "remesh/relax/prepared_surface.h"
+#include "remesh/meshfile/atomic_file.h"
+#include "remesh/meshfile/read_diagram.h"
+#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/write_diagram.h"
+#include "remesh/sites/prepared_surface.h"
+#include "report/report.h"
 #include "shortfalls.h"
 
 namespace fs = std::filesystem;

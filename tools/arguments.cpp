@@ -11,8 +11,8 @@
 
 #include "help.h"
 #include "mesh_paths.h"
-#include "remesh/io/read_sites.h"
-#include "remesh/io/write_mesh.h"
+#include "remesh/meshfile/read_sites.h"
+#include "remesh/meshfile/write_mesh.h"
 
 namespace cli {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "declined.h"
 #include "help.h"
-#include "remesh/io/transfer_attributes.h"
-#include "remesh/io/write_mesh.h"
+#include "remesh/meshfile/write_mesh.h"
+#include "remesh/transfer/transfer_attributes.h"
 
 namespace cli {
 namespace {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "cli.h"
-#include "remesh/io/atomic_file.h"
-#include "remesh/io/mesh_file.h"
-#include "remesh/io/report.h"
+#include "remesh/meshfile/atomic_file.h"
+#include "remesh/meshfile/mesh_file.h"
+#include "report/report.h"
 
 namespace cli {
 

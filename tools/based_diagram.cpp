@@ -5,7 +5,7 @@
 #include "agvd/diagram/build_diagram.h"
 #include "agvd/diagram/diagram_on_input.h"
 #include "agvd/propagation/propagate.h"
-#include "remesh/relax/prepared_surface.h"
+#include "remesh/sites/prepared_surface.h"
 
 namespace cli {
 namespace {

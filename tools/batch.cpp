@@ -8,8 +8,8 @@
 #include <system_error>
 
 #include "mesh_paths.h"
-#include "remesh/io/atomic_file.h"
-#include "remesh/io/write_mesh.h"
+#include "remesh/meshfile/atomic_file.h"
+#include "remesh/meshfile/write_mesh.h"
 
 namespace cli {
 namespace {

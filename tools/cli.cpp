@@ -15,7 +15,7 @@
 #include "help.h"
 #include "nearest_name.h"
 #include "option_names.h"
-#include "remesh/io/atomic_file.h"
+#include "remesh/meshfile/atomic_file.h"
 
 namespace cli {
 

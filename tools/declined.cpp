@@ -3,7 +3,7 @@
 #include <map>
 #include <set>
 
-#include "remesh/io/write_mesh.h"
+#include "remesh/meshfile/write_mesh.h"
 
 namespace cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "remesh/io/mesh_file.h"
+#include "remesh/meshfile/mesh_file.h"
 
 namespace cli {
 

@@ -5,7 +5,7 @@
 
 #include "cli.h"
 #include "make_data/data_files.h"
-#include "remesh/io/atomic_file.h"
+#include "remesh/meshfile/atomic_file.h"
 
 int main(int argc, char** argv) {
     std::filesystem::path folder;

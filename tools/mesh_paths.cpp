@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "agvd/core/error.h"
-#include "remesh/io/write_mesh.h"
+#include "remesh/meshfile/write_mesh.h"
 
 namespace cli {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "remesh/io/mesh_file.h"
+#include "remesh/meshfile/mesh_file.h"
 
 namespace CLI {
 class App;

@@ -3,7 +3,7 @@
 #include <exception>
 #include <utility>
 
-#include "remesh/io/report.h"
+#include "report/report.h"
 
 namespace cli {
 namespace {

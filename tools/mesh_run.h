@@ -9,7 +9,7 @@
 
 #include "batch.h"
 #include "cli.h"
-#include "remesh/io/atomic_file.h"
+#include "remesh/meshfile/atomic_file.h"
 
 namespace cli {
 

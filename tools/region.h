@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "cli.h"
-#include "remesh/io/mesh_file.h"
+#include "remesh/meshfile/mesh_file.h"
 
 namespace cli {
 

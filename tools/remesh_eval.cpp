@@ -5,9 +5,9 @@
 #include "cli.h"
 #include "help.h"
 #include "mesh_paths.h"
-#include "remesh/io/read_mesh.h"
-#include "remesh/io/report.h"
-#include "remesh/io/write_mesh.h"
+#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/write_mesh.h"
+#include "report/report.h"
 
 namespace fs = std::filesystem;
 

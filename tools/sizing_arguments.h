@@ -6,9 +6,9 @@
 #include <string>
 
 #include "arguments.h"
-#include "remesh/io/mesh_file.h"
+#include "remesh/meshfile/mesh_file.h"
 #include "remesh/pipeline/remesh_options.h"
-#include "remesh/sizing/sizing.h"
+#include "remesh/sites/sizing.h"
 
 namespace CLI {
 class Option;

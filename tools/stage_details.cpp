@@ -5,7 +5,7 @@
 #include <locale>
 #include <sstream>
 
-#include "remesh/io/report.h"
+#include "report/report.h"
 
 namespace cli {
 namespace {

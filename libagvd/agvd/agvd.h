@@ -1,6 +1,6 @@
 //! \file
 //! All of libagvd that users need, but for meshes in arrays of other programs (agvd/adapt) and the
-//! oracle (agvd/metrics/oracle.h, agvd/metrics/compare.h).
+//! oracle (paper/oracle.h, paper/compare.h).
 #pragma once
 
 #include "agvd/core/error.h"
@@ -17,7 +17,4 @@
 #include "agvd/mesh/scale.h"
 #include "agvd/mesh/surface.h"
 #include "agvd/mesh/surface_point.h"
-#include "agvd/metrics/bisector_error.h"
-#include "agvd/metrics/compare_diagrams.h"
-#include "agvd/metrics/frechet.h"
 #include "agvd/propagation/propagate.h"

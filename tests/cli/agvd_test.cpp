@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 
 #include "agvd/diagram/cells.h"
-#include "remesh/io/read_diagram.h"
-#include "remesh/io/read_mesh.h"
+#include "remesh/meshfile/read_diagram.h"
+#include "remesh/meshfile/read_mesh.h"
 #include "support/dirty_shapes.h"
 #include "support/scratch.h"
 #include "support/shapes.h"

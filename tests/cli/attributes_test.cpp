@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "remesh/io/gzip.h"
-#include "remesh/io/read_mesh.h"
-#include "remesh/io/xml_reader.h"
+#include "remesh/meshfile/gzip.h"
+#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/xml_reader.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
 

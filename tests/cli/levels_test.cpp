@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/remesh_program.h"
-#include "remesh/io/read_mesh.h"
+#include "remesh/meshfile/read_mesh.h"
 #include "support/shapes.h"
 
 namespace fs = std::filesystem;

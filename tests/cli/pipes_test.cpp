@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "remesh/io/read_mesh.h"
+#include "remesh/meshfile/read_mesh.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
 

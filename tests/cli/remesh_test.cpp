@@ -1,10 +1,10 @@
 // The program `remesh`: what it writes.
 #include <nlohmann/json.hpp>
 
+#include "agvd/mesh/topology.h"
 #include "cli/remesh_program.h"
-#include "remesh/io/read_mesh.h"
-#include "remesh/io/xml_reader.h"
-#include "remesh/topology/topology.h"
+#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/xml_reader.h"
 #include "support/dirty_shapes.h"
 #include "support/shapes.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "remesh/io/read_mesh.h"
+#include "remesh/meshfile/read_mesh.h"
 #include "support/scratch.h"
 
 using agvd::Index;

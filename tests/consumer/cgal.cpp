@@ -1,7 +1,7 @@
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
-#include <remesh/adapt/face_graph.h>
+#include <remesh/meshfile/face_graph.h>
 #include <remesh/remesh.h>
 
 int main() {

@@ -1,4 +1,4 @@
-#include <agvd/adapt/eigen.h>
+#include <agvd/mesh/eigen.h>
 #include <remesh/remesh.h>
 
 int main() {

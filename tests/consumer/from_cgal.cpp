@@ -4,7 +4,7 @@
 #include <CGAL/Surface_mesh_shortest_path.h>
 #include <CGAL/boost/graph/generators.h>
 #include <agvd/agvd.h>
-#include <remesh/adapt/face_graph.h>
+#include <remesh/meshfile/face_graph.h>
 #include <remesh/remesh.h>
 
 #include <cmath>

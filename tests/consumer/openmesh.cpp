@@ -1,4 +1,4 @@
-#include <remesh/io/openmesh_exchange.h>
+#include <remesh/meshfile/openmesh_exchange.h>
 #include <remesh/remesh.h>
 
 #include <OpenMesh/Core/Mesh/PolyMesh_ArrayKernelT.hh>

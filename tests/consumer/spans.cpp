@@ -1,4 +1,4 @@
-#include <agvd/adapt/spans.h>
+#include <agvd/mesh/spans.h>
 #include <remesh/remesh.h>
 
 int main() {

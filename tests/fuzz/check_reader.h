@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "agvd/core/error.h"
-#include "remesh/io/formats.h"
+#include "remesh/meshfile/formats.h"
 #include "require.h"
 
 namespace fuzz {

@@ -1,9 +1,9 @@
 // The reader of diagrams, and the comparison of what it returns, as in `agvd compare`.
-#include "remesh/io/read_diagram.h"
+#include "remesh/meshfile/read_diagram.h"
 
 #include "agvd/core/error.h"
-#include "agvd/metrics/compare_diagrams.h"
 #include "memory_file.h"
+#include "paper/compare_diagrams.h"
 
 namespace {
 

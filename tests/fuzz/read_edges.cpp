@@ -1,5 +1,5 @@
 // The reader of files that name edges.
-#include "remesh/io/read_edges.h"
+#include "remesh/meshfile/read_edges.h"
 
 #include "agvd/core/error.h"
 #include "memory_file.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "agvd/mesh/point_faces.h"
-#include "agvd/metrics/oracle.h"
+#include "paper/oracle.h"
 #include "support/points.h"
 #include "support/shapes.h"
 

@@ -1,4 +1,4 @@
-#include "agvd/metrics/compare.h"
+#include "paper/compare.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 
 #include "agvd/diagram/build_diagram.h"
 #include "agvd/mesh/point_faces.h"
-#include "agvd/metrics/compare_diagrams.h"
 #include "agvd/propagation/propagate.h"
+#include "paper/compare_diagrams.h"
 #include "support/points.h"
 #include "support/shapes.h"
 

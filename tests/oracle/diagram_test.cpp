@@ -6,9 +6,9 @@
 
 #include "agvd/diagram/build_diagram.h"
 #include "agvd/mesh/point_faces.h"
-#include "agvd/metrics/compare.h"
 #include "agvd/propagation/propagate.h"
-#include "remesh/io/read_mesh.h"
+#include "paper/compare.h"
+#include "remesh/meshfile/read_mesh.h"
 #include "support/files.h"
 #include "support/points.h"
 #include "support/shapes.h"

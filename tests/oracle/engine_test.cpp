@@ -15,10 +15,10 @@
 
 #include "agvd/diagram/point_label.h"
 #include "agvd/mesh/point_faces.h"
-#include "agvd/metrics/oracle.h"
 #include "agvd/propagation/propagate.h"
+#include "paper/oracle.h"
 #include "remesh/clean/clean_input.h"
-#include "remesh/io/read_mesh.h"
+#include "remesh/meshfile/read_mesh.h"
 #include "support/arbiter.h"
 #include "support/checks.h"
 #include "support/dice.h"

@@ -5,8 +5,8 @@
 
 #include "agvd/diagram/build_diagram.h"
 #include "agvd/mesh/uniform_points.h"
-#include "agvd/metrics/oracle.h"
 #include "agvd/propagation/propagate.h"
+#include "paper/oracle.h"
 #include "remesh/dual/build_dual.h"
 #include "remesh/dual/delaunay.h"
 #include "remesh/dual/straighten.h"

@@ -7,8 +7,8 @@
 #include "agvd/core/random.h"
 #include "agvd/diagram/face_relays.h"
 #include "agvd/mesh/point_faces.h"
-#include "agvd/metrics/oracle.h"
 #include "agvd/propagation/propagate.h"
+#include "paper/oracle.h"
 #include "support/points.h"
 #include "support/shapes.h"
 

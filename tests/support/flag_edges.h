@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "agvd/mesh/surface.h"
-#include "remesh/features/find_creases.h"
+#include "remesh/curves/find_creases.h"
 
 //! \param is  gets the positions of both ends.
 //! \return #E: 1 where it says yes.

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "agvd/core/error.h"
-#include "remesh/io/formats.h"
+#include "remesh/meshfile/formats.h"
 
 namespace texts {
 

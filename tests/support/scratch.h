@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "agvd/mesh/mesh_view.h"
-#include "remesh/io/write_mesh.h"
+#include "remesh/meshfile/write_mesh.h"
 #include "support/process.h"
 
 class Scratch : public testing::Test {

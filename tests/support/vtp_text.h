@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "remesh/io/deflated.h"
-#include "remesh/io/gzip.h"
+#include "remesh/meshfile/deflated.h"
+#include "remesh/meshfile/gzip.h"
 
 struct VtpStyle {
     enum Encoding { Ascii, Binary, Base64, Raw };  // Base64 and Raw: appended.

@@ -9,12 +9,12 @@
 #include <numbers>
 #include <sstream>
 
+#include "agvd/mesh/topology.h"
 #include "make_data/data_files.h"
 #include "make_data/formula.h"
 #include "make_data/planar.h"
-#include "remesh/io/read_mesh.h"
-#include "remesh/io/write_mesh.h"
-#include "remesh/topology/topology.h"
+#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/write_mesh.h"
 #include "support/shapes.h"
 
 namespace {

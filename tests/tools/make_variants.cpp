@@ -6,8 +6,8 @@
 
 #include "cli.h"
 #include "make_data/data_files.h"
-#include "remesh/io/read_mesh.h"
-#include "remesh/io/write_mesh.h"
+#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/write_mesh.h"
 #include "support/damages.h"
 #include "support/delta_shapes.h"
 #include "support/junction_shapes.h"

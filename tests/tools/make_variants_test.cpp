@@ -2,7 +2,7 @@
 #include <map>
 #include <set>
 
-#include "remesh/io/read_mesh.h"
+#include "remesh/meshfile/read_mesh.h"
 #include "support/damages.h"
 #include "support/scratch.h"
 #include "support/shapes.h"

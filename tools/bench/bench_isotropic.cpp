@@ -7,10 +7,10 @@
 #include <CLI/CLI.hpp>
 
 #include "cli.h"
-#include "remesh/adapt/face_graph.h"
 #include "remesh/clean/clean_input.h"
-#include "remesh/io/read_mesh.h"
-#include "remesh/io/write_mesh.h"
+#include "remesh/meshfile/face_graph.h"
+#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/write_mesh.h"
 
 namespace {
 

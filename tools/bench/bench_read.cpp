@@ -9,7 +9,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "remesh/io/read_mesh.h"
+#include "remesh/meshfile/read_mesh.h"
 
 namespace {
 

@@ -10,7 +10,7 @@
 #include "agvd/propagation/propagate.h"
 #include "bench/report.h"
 #include "cli.h"
-#include "remesh/relax/relax_sites.h"
+#include "remesh/sites/relax_sites.h"
 
 namespace {
 

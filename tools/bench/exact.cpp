@@ -2,8 +2,8 @@
 
 #include <limits>
 
-#include "agvd/metrics/oracle.h"
 #include "bench/workload.h"
+#include "paper/oracle.h"
 
 namespace bench {
 

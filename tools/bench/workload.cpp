@@ -5,8 +5,8 @@
 #include "agvd/core/error.h"
 #include "agvd/core/random.h"
 #include "bench/torus.h"
-#include "remesh/io/read_mesh.h"
-#include "remesh/sampling/sample_sites.h"
+#include "remesh/meshfile/read_mesh.h"
+#include "remesh/sites/sample_sites.h"
 
 namespace bench {
 namespace {

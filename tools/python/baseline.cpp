@@ -6,10 +6,10 @@
 #include <ctime>
 #include <iostream>
 
-#include "remesh/io/read_mesh.h"
-#include "remesh/io/report.h"
+#include "remesh/meshfile/read_mesh.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/transfer/map_to_input.h"
+#include "report/report.h"
 
 int main(int argc, char** argv) {
     try {

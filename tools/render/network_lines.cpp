@@ -3,10 +3,10 @@
 #include <array>
 
 #include "remesh/clean/clean_input.h"
-#include "remesh/features/find_creases.h"
-#include "remesh/io/read_mesh.h"
-#include "remesh/relax/prepared_surface.h"
-#include "remesh/sampling/network_plan.h"
+#include "remesh/curves/find_creases.h"
+#include "remesh/meshfile/read_mesh.h"
+#include "remesh/sites/network_plan.h"
+#include "remesh/sites/prepared_surface.h"
 
 namespace render {
 namespace {

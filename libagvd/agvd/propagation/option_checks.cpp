@@ -3,7 +3,7 @@
 #include <string>
 
 #include "agvd/core/error.h"
-#include "agvd/propagation/steiner_points.h"
+#include "agvd/propagation/steiner/steiner_points.h"
 
 namespace agvd {
 namespace {

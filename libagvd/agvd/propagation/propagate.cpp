@@ -8,9 +8,9 @@
 #include "agvd/mesh/distinct_points.h"
 #include "agvd/propagation/option_checks.h"
 #include "agvd/propagation/site_placement.h"
-#include "agvd/propagation/steiner_engine.h"
+#include "agvd/propagation/steiner/steiner_engine.h"
 #include "agvd/propagation/vertex_engine.h"
-#include "agvd/propagation/window_engine.h"
+#include "agvd/propagation/window/window_engine.h"
 
 namespace agvd {
 

@@ -11,11 +11,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "agvd/propagation/bucket_queue.h"
 #include "agvd/propagation/corners.h"
 #include "agvd/propagation/site_placement.h"
 #include "agvd/propagation/vertex_relays.h"
 #include "agvd/propagation/vertex_views.h"
+#include "agvd/propagation/window/bucket_queue.h"
 
 namespace agvd {
 namespace {

@@ -15,20 +15,13 @@
 namespace remesh {
 namespace {
 
-using agvd::ClosestPoint;
-using agvd::FaceId;
-using agvd::Index;
-using agvd::MeshView;
-using agvd::SurfacePoint;
-using agvd::Vec3;
-
 // As a share of the box diagonal of the cleaned mesh. A site farther from the mesh lies where
 // cleaning left no surface. Positions are accurate to 1e-16 of the largest coordinate, so that
 // meshes far from the origin pass too.
 constexpr double place_tolerance = 1e-9;
 
 std::array<Vec3, 3> corners_of(const MeshView& mesh, Index face) {
-    const agvd::Triangle& t = mesh.triangles[face];
+    const Triangle& t = mesh.triangles[face];
     return {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
 }
 
@@ -112,22 +105,22 @@ private:
     MeshView mesh_, clean_;
     std::vector<std::pair<Index, Index>> pieces_;  // (input face, cleaned face), sorted.
     double reach_sq_ = 0;
-    std::optional<agvd::ClosestPointTree> tree_;  // Few inputs need it.
+    std::optional<ClosestPointTree> tree_;  // Few inputs need it.
 };
 
 void check_site(const SurfacePoint& site, std::size_t number, Index num_faces) {
     const std::string name = "site " + std::to_string(number);
     if (!site.face.is_valid() || site.face.value() >= num_faces) {
-        throw agvd::InvalidSites(name + " names a face that does not exist; use one of the " +
-                                 std::to_string(num_faces) + " faces, counted from 0");
+        throw InvalidSites(name + " names a face that does not exist; use one of the " +
+                           std::to_string(num_faces) + " faces, counted from 0");
     }
     const auto& [a, b, c] = site.barycentric;
     // The accuracy of decimals in a file and of sums in double.
     constexpr double tolerance = 1e-6;
     if (!(a >= 0 && b >= 0 && c >= 0 && std::abs(a + b + c - 1) <= tolerance)) {
-        throw agvd::InvalidSites(name + " on face " + std::to_string(site.face.value()) +
-                                 " has barycentric coordinates that are negative or do not sum "
-                                 "to 1; correct them");
+        throw InvalidSites(name + " on face " + std::to_string(site.face.value()) +
+                           " has barycentric coordinates that are negative or do not sum "
+                           "to 1; correct them");
     }
 }
 
@@ -142,10 +135,10 @@ std::vector<SurfacePoint> to_cleaned(const std::vector<SurfacePoint>& sites, con
         check_site(sites[i], i, static_cast<Index>(mesh.triangles.size()));
         const std::optional<SurfacePoint> placed = surface.place(normalized(sites[i]));
         if (!placed) {
-            throw agvd::InvalidSites("site " + std::to_string(i) + " lies on face " +
-                                     std::to_string(sites[i].face.value()) +
-                                     ", which cleaning dropped as degenerate or duplicate; "
-                                     "place it on another face");
+            throw InvalidSites("site " + std::to_string(i) + " lies on face " +
+                               std::to_string(sites[i].face.value()) +
+                               ", which cleaning dropped as degenerate or duplicate; "
+                               "place it on another face");
         }
         carried.push_back(*placed);
     }
@@ -163,7 +156,7 @@ std::vector<SurfacePoint> to_original(const std::vector<SurfacePoint>& sites, co
     const MeshView mesh = clean.welded(given);
     const MeshView& cleaned = clean.mesh;
     const double reach_sq = squared_reach(cleaned);
-    std::optional<agvd::ClosestPointTree> tree;  // Few meshes need it.
+    std::optional<ClosestPointTree> tree;  // Few meshes need it.
     std::vector<SurfacePoint> carried;
     carried.reserve(sites.size());
     for (const SurfacePoint& on_cleaned : sites) {

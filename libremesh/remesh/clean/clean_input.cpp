@@ -20,13 +20,7 @@ namespace remesh {
 namespace detail {
 namespace {
 
-using agvd::Index;
-using agvd::InvalidInput;
-using agvd::InvalidOption;
-using agvd::no_index;
-using agvd::Triangle;
-
-Soup as_soup(const agvd::MeshView& mesh, agvd::Ticker ticker) {
+Soup as_soup(const MeshView& mesh, Ticker ticker) {
     Soup soup;
     soup.ticker = ticker;
     soup.positions.assign(mesh.positions.begin(), mesh.positions.end());
@@ -40,12 +34,12 @@ Soup as_soup(const agvd::MeshView& mesh, agvd::Ticker ticker) {
     return soup;
 }
 
-// Whether agvd::build_surface finds an area at all corners. Where that of one is a millionth of the
+// Whether build_surface finds an area at all corners. Where that of one is a millionth of the
 // sides' squares, rounding cannot take it away at the others: a third of the instructions.
-bool has_area(std::span<const agvd::Vec3> positions, const Triangle& t) {
+bool has_area(std::span<const Vec3> positions, const Triangle& t) {
     constexpr double plenty = 1e-6;
-    const agvd::Vec3 along = positions[t[1]] - positions[t[0]];
-    const agvd::Vec3 up = positions[t[2]] - positions[t[0]];
+    const Vec3 along = positions[t[1]] - positions[t[0]];
+    const Vec3 up = positions[t[2]] - positions[t[0]];
     const double longest_sq = std::max(along.squaredNorm(), up.squaredNorm());
     const double least = plenty * longest_sq;
     const double doubled_area_sq = along.cross(up).squaredNorm();
@@ -55,21 +49,19 @@ bool has_area(std::span<const agvd::Vec3> positions, const Triangle& t) {
 }
 
 // The input unchanged, if it has no defect. Makes linear passes only.
-std::optional<CleanResult> take_clean(const agvd::MeshView& mesh, const CleanOptions& options) {
+std::optional<CleanResult> take_clean(const MeshView& mesh, const CleanOptions& options) {
     const int num_threads = options.num_threads;
-    const agvd::Progress& progress = options.progress;
-    agvd::Poller poller(progress);
-    agvd::Ticker ticker(poller);
-    std::optional<agvd::Connectivity> found = agvd::find_connectivity(mesh, num_threads, progress);
+    const Progress& progress = options.progress;
+    Poller poller(progress);
+    Ticker ticker(poller);
+    std::optional<Connectivity> found = find_connectivity(mesh, num_threads, progress);
     if (!found || found->outgoing.empty()) return std::nullopt;
     const std::vector<Index>& twin = found->twin;
     const std::vector<Index>& outgoing = found->outgoing;
     if (std::find(outgoing.begin(), outgoing.end(), no_index) != outgoing.end()) {
         return std::nullopt;  // An isolated vertex.
     }
-    const auto apex = [&](Index h) {
-        return mesh.triangles[h / 3][agvd::previous_half_edge(h) % 3];
-    };
+    const auto apex = [&](Index h) { return mesh.triangles[h / 3][previous_half_edge(h) % 3]; };
     std::atomic<bool> is_clean = true;
     const auto num_faces = static_cast<Index>(mesh.triangles.size());
     const auto check_faces = [&](Index, Index begin, Index end) {
@@ -81,7 +73,7 @@ std::optional<CleanResult> take_clean(const agvd::MeshView& mesh, const CleanOpt
             if (!is_good) is_clean.store(false, std::memory_order_relaxed);
         }
     };
-    agvd::parallel_chunks(num_faces, agvd::pass_grain, num_threads, check_faces, poller);
+    parallel_chunks(num_faces, pass_grain, num_threads, check_faces, poller);
     if (!is_clean) return std::nullopt;
     std::vector<bool> is_boundary(outgoing.size());
     for (Index v = 0; v < outgoing.size(); ++v) {
@@ -123,7 +115,7 @@ void check_not_empty(const Soup& soup) {
 
 }  // namespace
 
-void check_elements(const agvd::MeshView& mesh, agvd::Ticker& ticker) {
+void check_elements(const MeshView& mesh, Ticker& ticker) {
     if (mesh.triangles.size() > no_index / 3 || mesh.positions.size() >= no_index) {
         throw InvalidInput("the mesh has more than 2^32 / 3 faces; split it into parts");
     }
@@ -158,7 +150,7 @@ bool drop_repeated_corners(Soup& soup) {
 
 void drop_isolated_vertices(Soup& soup) {
     std::vector<Index> new_vertex(soup.positions.size(), no_index);
-    agvd::for_each_ticked(soup.triangles, soup.ticker, [&](const Triangle& t) {
+    for_each_ticked(soup.triangles, soup.ticker, [&](const Triangle& t) {
         for (const Index v : t) new_vertex[v] = 0;
     });
     Index count = 0;
@@ -181,17 +173,17 @@ void drop_isolated_vertices(Soup& soup) {
 
 }  // namespace detail
 
-CleanResult clean_input(const agvd::MeshView& mesh, const CleanOptions& options) {
+CleanResult clean_input(const MeshView& mesh, const CleanOptions& options) {
     using namespace detail;
     check_options(options);
-    agvd::Poller poller(options.progress);
-    agvd::Ticker ticker(poller);
+    Poller poller(options.progress);
+    Ticker ticker(poller);
     check_elements(mesh, ticker);
-    const agvd::MeshBox box = agvd::box_of(mesh, options.num_threads);
-    agvd::check_scale(box);
-    agvd::check_digits(box);
-    agvd::check_spread(mesh, box);
-    agvd::check_width(mesh, ticker);
+    const MeshBox box = box_of(mesh, options.num_threads);
+    check_scale(box);
+    check_digits(box);
+    check_spread(mesh, box);
+    check_width(mesh, ticker);
     if (std::optional<CleanResult> clean = take_clean(mesh, options)) {
         return *std::move(clean);
     }
@@ -207,7 +199,7 @@ CleanResult clean_input(const agvd::MeshView& mesh, const CleanOptions& options)
     refresh(drop_duplicates(soup, sides));
     check_not_empty(soup);
     refresh(orient_faces(soup, sides));
-    std::vector<agvd::Index> twin = pair_sheets(soup, sides);
+    std::vector<Index> twin = pair_sheets(soup, sides);
     remove_degenerate_faces(soup, twin);
     check_not_empty(soup);
     split_vertices(soup, twin);

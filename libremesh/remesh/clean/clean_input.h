@@ -12,22 +12,22 @@ namespace remesh {
 
 //! A mesh after cleaning, and where its elements come from.
 struct CleanResult {
-    agvd::TriangleMesh mesh;  //!< What agvd::build_surface accepts.
+    TriangleMesh mesh;  //!< What build_surface accepts.
     //! #V: the input vertex each vertex came from. Edges between the same two origins were one
     //! edge: find_junctions.
-    std::vector<agvd::Index> vertex_origin;
+    std::vector<Index> vertex_origin;
     //! #F: the input face in which each face lies (it may be part of it, or have its corners in
     //! another order).
-    std::vector<agvd::Index> face_origin;
+    std::vector<Index> face_origin;
     //! #V of the input, if welding moved vertices (else empty): its positions with those that were
     //! welded at one place.
-    std::vector<agvd::Vec3> welded_positions;
+    std::vector<Vec3> welded_positions;
     CleanCounts counts;  //!< What was repaired.
     //! Of the longest slit that was welded, in mesh units. A slit is a chain of boundary edges
     //! whose two sides coincide; it begins at a vertex that both have.
     double slit_length = 0;
-    //! agvd::find_connectivity(mesh) if nothing had to be repaired; otherwise empty.
-    agvd::Connectivity connectivity = {};
+    //! find_connectivity(mesh) if nothing had to be repaired; otherwise empty.
+    Connectivity connectivity = {};
 };
 
 //! `{}` gives the defaults.
@@ -40,17 +40,17 @@ struct CleanOptions {
     double weld = 0;
     //! Boundary loops of at most so many edges are closed; 0: none. A loop stays open where no
     //! triangles of an area are found that keep the mesh manifold.
-    agvd::Index fill_holes = 0;
-    int num_threads = 0;           //!< >= 0; 0: all cores. The result is the same for any number.
-    agvd::Progress progress = {};  //!< Polled during the call; see agvd::poll.
+    Index fill_holes = 0;
+    int num_threads = 0;     //!< >= 0; 0: all cores. The result is the same for any number.
+    Progress progress = {};  //!< Polled during the call; see poll.
 };
 
 //! A cleaned mesh and the origins of its faces, for functions that carry points and edges over.
 //! Refers to arrays that the caller owns, such as those of a CleanResult.
 struct CleanedView {
-    agvd::MeshView mesh;                           //!< What agvd::build_surface accepts.
-    std::span<const agvd::Index> face_origin;      //!< See CleanResult; empty: nothing was changed.
-    std::span<const agvd::Vec3> welded_positions;  //!< See CleanResult.
+    MeshView mesh;                           //!< What build_surface accepts.
+    std::span<const Index> face_origin;      //!< See CleanResult; empty: nothing was changed.
+    std::span<const Vec3> welded_positions;  //!< See CleanResult.
 
     //! Of a result, which must outlive this.
     CleanedView(const CleanResult& clean)
@@ -58,12 +58,12 @@ struct CleanedView {
           face_origin(clean.face_origin),
           welded_positions(clean.welded_positions) {}
     //! Of arrays, which must outlive this; welding moved nothing.
-    CleanedView(const agvd::MeshView& cleaned, std::span<const agvd::Index> origin)
+    CleanedView(const MeshView& cleaned, std::span<const Index> origin)
         : mesh(cleaned), face_origin(origin) {}
 
     //! The mesh that was cleaned, with its welded positions if there are any.
     //! \param given  what clean_input() got.
-    [[nodiscard]] agvd::MeshView welded(const agvd::MeshView& given) const {
+    [[nodiscard]] MeshView welded(const MeshView& given) const {
         if (welded_positions.empty()) return given;
         return {welded_positions, given.triangles};
     }
@@ -94,13 +94,13 @@ struct CleanedView {
 //! An input without these defects comes back unchanged, bit for bit and in the same order. Kept
 //! vertices and faces keep their order; copies of vertices come last.
 //!
-//! \throw agvd::InvalidInput  an index is out of range, a coordinate is not finite, the mesh is out
-//!        of scale (see agvd::check_scale) or too far from the origin, a piece is not orientable
+//! \throw InvalidInput  an index is out of range, a coordinate is not finite, the mesh is out
+//!        of scale (see check_scale) or too far from the origin, a piece is not orientable
 //!        (each names the element), or no face is left.
-//! \throw agvd::InvalidOption  weld is negative, not finite, or given with keep_slits; there is a hole to fill, and the
+//! \throw InvalidOption  weld is negative, not finite, or given with keep_slits; there is a hole to fill, and the
 //!        build is without CGAL.
-//! \throw agvd::Cancelled     the progress callback returned false.
+//! \throw Cancelled     the progress callback returned false.
 //! Cost: O(n log n); O(n) if there is no defect.
-[[nodiscard]] CleanResult clean_input(const agvd::MeshView& mesh, const CleanOptions& options = {});
+[[nodiscard]] CleanResult clean_input(const MeshView& mesh, const CleanOptions& options = {});
 
 }  // namespace remesh

@@ -5,17 +5,11 @@
 #include <deque>
 #include <limits>
 
+#include "agvd/mesh/are_joined.h"
 #include "remesh/clean/soup.h"
-#include "remesh/topology/are_joined.h"
 
 namespace remesh::detail {
 namespace {
-
-using agvd::Index;
-using agvd::no_index;
-using agvd::Surface;
-using agvd::Triangle;
-using agvd::Vec3;
 
 // Most flips per degenerate face before the rest is dropped. Usually one is enough; a chain takes a
 // few.

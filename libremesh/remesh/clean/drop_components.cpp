@@ -7,9 +7,6 @@
 
 namespace remesh {
 
-using agvd::Index;
-using agvd::no_index;
-
 Index drop_components(CleanResult& clean, const Topology& topology, double least_share) {
     double area = 0;
     for (const ComponentTopology& c : topology.components) area += c.area;
@@ -20,8 +17,8 @@ Index drop_components(CleanResult& clean, const Topology& topology, double least
     const auto dropped = static_cast<Index>(std::count(stays.begin(), stays.end(), false));
     if (dropped == 0) return 0;
     if (dropped == stays.size()) {
-        throw agvd::InvalidOption("no component has " + std::to_string(100 * least_share) +
-                                  " % of the area or more; use a smaller drop_components");
+        throw InvalidOption("no component has " + std::to_string(100 * least_share) +
+                            " % of the area or more; use a smaller drop_components");
     }
     clean.connectivity = {};
     std::vector<Index> number(clean.mesh.positions.size(), no_index);
@@ -43,7 +40,7 @@ Index drop_components(CleanResult& clean, const Topology& topology, double least
     }
     clean.mesh.positions.resize(num_vertices);
     clean.vertex_origin.resize(num_vertices);
-    for (agvd::Triangle& t : clean.mesh.triangles) {
+    for (Triangle& t : clean.mesh.triangles) {
         for (Index& v : t) v = number[v];
     }
     return dropped;

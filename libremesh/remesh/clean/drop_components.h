@@ -2,8 +2,8 @@
 //! Drops small components of the input.
 #pragma once
 
+#include "agvd/mesh/topology.h"
 #include "remesh/clean/clean_input.h"
-#include "remesh/topology/topology.h"
 
 namespace remesh {
 
@@ -12,8 +12,8 @@ namespace remesh {
 //! \param least_share  in [0, 1].
 //! \param topology  of clean.mesh.
 //! \return the number of components dropped.
-//! \throw agvd::InvalidOption  none would be left.
-[[nodiscard]] agvd::Index drop_components(CleanResult& clean, const Topology& topology,
-                                          double least_share);
+//! \throw InvalidOption  none would be left.
+[[nodiscard]] Index drop_components(CleanResult& clean, const Topology& topology,
+                                    double least_share);
 
 }  // namespace remesh

@@ -12,9 +12,6 @@
 namespace remesh::detail {
 namespace {
 
-using agvd::Index;
-using agvd::no_index;
-
 class DuplicateFaces {
 public:
     DuplicateFaces(Soup& soup, std::span<const EdgeSide> sides)
@@ -57,7 +54,7 @@ private:
 
     // Keeps the walls that most edges of their rim ask for.
     void drop_opposite() {
-        agvd::UnionFind walls(is_dead_.size());
+        UnionFind walls(is_dead_.size());
         std::vector<std::int64_t> votes(is_dead_.size(), 0);  // By face, then by wall.
         for_each_edge(sides_, [&](std::span<const EdgeSide> edge) {
             soup_.ticker.tick(edge.size());

@@ -11,11 +11,6 @@
 namespace remesh::detail {
 namespace {
 
-using agvd::Index;
-using agvd::no_index;
-using agvd::Surface;
-using agvd::Triangle;
-
 class HoleFiller {
 public:
     HoleFiller(Soup& soup, std::span<const EdgeSide> sides)
@@ -43,14 +38,14 @@ private:
     // \param loop  half-edges, each of which ends where the one before begins.
     void fill_loop(const std::vector<Index>& loop) {
         soup_.ticker.poll();
-        std::vector<agvd::Vec3> rim, beyond;
+        std::vector<Vec3> rim, beyond;
         for (const Index h : loop) {
             rim.push_back(soup_.positions[soup_.head(h)]);
             beyond.push_back(soup_.positions[soup_.apex(h)]);
         }
         const auto triangles = triangulate_hole(rim, beyond);
         if (!triangles) {
-            throw agvd::InvalidOption(
+            throw InvalidOption(
                 "holes are filled by CGAL, and this build is without it; fill no holes, or build "
                 "with "
                 "AGVD_WITH_CGAL=ON");
@@ -66,7 +61,7 @@ private:
                 const Index i = t[k], j = t[(k + 1) % 3];
                 const bool is_on_rim = (i + 1) % loop.size() == j || (j + 1) % loop.size() == i;
                 if (!is_on_rim)
-                    chords.push_back(agvd::edge_key(faces.back()[k], faces.back()[(k + 1) % 3]));
+                    chords.push_back(edge_key(faces.back()[k], faces.back()[(k + 1) % 3]));
             }
         }
         if (!fits(faces, chords, loop)) return;

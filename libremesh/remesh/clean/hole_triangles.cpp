@@ -14,25 +14,25 @@ using HoleKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 // Larger holes are not searched in cubic time: a thousand edges would take a minute.
 constexpr std::size_t most_for_cubic_time = 200;
 
-std::vector<HoleKernel::Point_3> to_cgal(std::span<const agvd::Vec3> positions) {
+std::vector<HoleKernel::Point_3> to_cgal(std::span<const Vec3> positions) {
     std::vector<HoleKernel::Point_3> points;
-    for (const agvd::Vec3& p : positions) points.emplace_back(p.x(), p.y(), p.z());
+    for (const Vec3& p : positions) points.emplace_back(p.x(), p.y(), p.z());
     return points;
 }
 
 }  // namespace
 
-std::optional<std::vector<agvd::Triangle>> triangulate_hole(std::span<const agvd::Vec3> rim,
-                                                            std::span<const agvd::Vec3> beyond) {
+std::optional<std::vector<Triangle>> triangulate_hole(std::span<const Vec3> rim,
+                                                      std::span<const Vec3> beyond) {
     std::vector<CGAL::Triple<int, int, int>> found;
     CGAL::Polygon_mesh_processing::triangulate_hole_polyline(
         to_cgal(rim), to_cgal(beyond), std::back_inserter(found),
         CGAL::parameters::do_not_use_cubic_algorithm(rim.size() > most_for_cubic_time));
-    std::vector<agvd::Triangle> triangles;
+    std::vector<Triangle> triangles;
     triangles.reserve(found.size());
     for (const auto& t : found) {
-        triangles.push_back({static_cast<agvd::Index>(t.first), static_cast<agvd::Index>(t.second),
-                             static_cast<agvd::Index>(t.third)});
+        triangles.push_back({static_cast<Index>(t.first), static_cast<Index>(t.second),
+                             static_cast<Index>(t.third)});
     }
     return triangles;
 }

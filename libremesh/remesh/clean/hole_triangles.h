@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "agvd/mesh/mesh_view.h"
+#include "remesh/names.h"
 
 namespace remesh::detail {
 
@@ -17,7 +18,7 @@ namespace remesh::detail {
 //! \param beyond  the third corner of the face at each side of the rim; as many.
 //! \return indices into rim; no triangles if none were found; unset in a build without CGAL.
 //! Cost: O(n^2) where the Delaunay triangulation of the rim has a solution; otherwise O(n^3).
-[[nodiscard]] std::optional<std::vector<agvd::Triangle>> triangulate_hole(
-    std::span<const agvd::Vec3> rim, std::span<const agvd::Vec3> beyond);
+[[nodiscard]] std::optional<std::vector<Triangle>> triangulate_hole(std::span<const Vec3> rim,
+                                                                    std::span<const Vec3> beyond);
 
 }  // namespace remesh::detail

@@ -8,10 +8,6 @@
 namespace remesh::detail {
 namespace {
 
-using agvd::Index;
-using agvd::no_index;
-using agvd::Vec3;
-
 // If this share of a closed patch agrees, its orientation is kept; otherwise the patch is turned
 // outward. The first keeps the inner wall of a hollow body, the second serves files without any
 // orientation.
@@ -25,7 +21,7 @@ struct Patch {
 
 // Collects the patch of `seed`; `is_turned` is relative to it.
 Patch spread(const Soup& soup, const std::vector<Index>& across, Index seed,
-             std::vector<bool>& is_seen, std::vector<bool>& is_turned, agvd::Ticker& ticker) {
+             std::vector<bool>& is_seen, std::vector<bool>& is_turned, Ticker& ticker) {
     Patch patch;
     patch.faces.push_back(seed);
     is_seen[seed] = true;
@@ -45,7 +41,7 @@ Patch spread(const Soup& soup, const std::vector<Index>& across, Index seed,
                 is_turned[other] = turned;
                 patch.faces.push_back(other);
             } else if (is_turned[other] != turned) {
-                throw agvd::InvalidInput(
+                throw InvalidInput(
                     "the surface is not orientable (one-sided like a Moebius strip) at face " +
                     std::to_string(soup.face_origin[other]) +
                     "; cut it open along a line that crosses this face");

@@ -14,10 +14,6 @@
 namespace remesh::detail {
 namespace {
 
-using agvd::Index;
-using agvd::no_index;
-using agvd::Vec3;
-
 constexpr double share_of_size = 1e-6;
 constexpr double share_of_edge = 1e-2;
 // With a tolerance: below half, so that the ends of an edge are never at one place with a third
@@ -31,7 +27,7 @@ constexpr double cell_size = 8;
 
 // For each wanted vertex, the first such vertex with the same position.
 std::vector<Index> first_at_position(std::span<const Vec3> positions,
-                                     const std::vector<bool>& is_wanted, agvd::Ticker& ticker) {
+                                     const std::vector<bool>& is_wanted, Ticker& ticker) {
     const auto wanted =
         static_cast<std::size_t>(std::count(is_wanted.begin(), is_wanted.end(), true));
     std::vector<Index> table(std::bit_ceil(2 * wanted + 1), no_index);  // Open addressing.
@@ -39,7 +35,7 @@ std::vector<Index> first_at_position(std::span<const Vec3> positions,
     for (Index v = 0; v < positions.size(); ++v) {
         ticker.tick();
         if (!is_wanted[v]) continue;
-        std::size_t slot = agvd::PositionHash{}(positions[v]) & (table.size() - 1);
+        std::size_t slot = PositionHash{}(positions[v]) & (table.size() - 1);
         while (table[slot] != no_index && positions[table[slot]] != positions[v]) {
             slot = (slot + 1) & (table.size() - 1);
         }
@@ -50,10 +46,10 @@ std::vector<Index> first_at_position(std::span<const Vec3> positions,
 }
 
 // By first vertex: a share of the shortest edge at its position, zero-length ones apart.
-std::vector<double> find_reaches(const agvd::MeshView& mesh, std::span<const Index> first,
-                                 double share, agvd::Ticker& ticker) {
-    std::vector<double> reach(first.size(), agvd::infinity);
-    for (const agvd::Triangle& t : mesh.triangles) {
+std::vector<double> find_reaches(const MeshView& mesh, std::span<const Index> first, double share,
+                                 Ticker& ticker) {
+    std::vector<double> reach(first.size(), infinity);
+    for (const Triangle& t : mesh.triangles) {
         ticker.tick();
         for (std::size_t k = 0; k < 3; ++k) {
             const Index a = first[t[k]], b = first[t[(k + 1) % 3]];
@@ -111,7 +107,7 @@ private:
 
     [[nodiscard]] std::size_t slot_of(const Vec3& p) const {
         const Vec3 cell = ((p - low_) / cell_).array().floor();
-        return agvd::PositionHash{}(cell) & (first_.size() - 1);
+        return PositionHash{}(cell) & (first_.size() - 1);
     }
 
     Vec3 low_;
@@ -122,22 +118,22 @@ private:
 
 }  // namespace
 
-std::vector<Index> find_places(const agvd::MeshView& mesh, const std::vector<bool>& is_wanted,
-                               agvd::Ticker& ticker, double tolerance) {
+std::vector<Index> find_places(const MeshView& mesh, const std::vector<bool>& is_wanted,
+                               Ticker& ticker, double tolerance) {
     std::vector<Index> place = first_at_position(mesh.positions, is_wanted, ticker);
     const std::vector<double> reach =
         find_reaches(mesh, place, tolerance > 0 ? share_with_tolerance : share_of_edge, ticker);
     std::vector<double> finite;
     for (const double r : reach) {
-        if (r < agvd::infinity) finite.push_back(r);
+        if (r < infinity) finite.push_back(r);
     }
     if (finite.empty()) return place;
-    const agvd::MeshBox box = agvd::box_of(mesh);
+    const MeshBox box = box_of(mesh);
     const double limit = std::max(tolerance, share_of_size * box.longest_side());
     const double most = std::min(median(std::move(finite)), limit);
     if (!(most > 0)) return place;
 
-    agvd::UnionFind sets(place.size());
+    UnionFind sets(place.size());
     Grid grid(box.low, cell_size * most, place.size());
     for (Index v = 0; v < place.size(); ++v) {
         ticker.tick();

@@ -6,6 +6,7 @@
 
 #include "agvd/core/poller.h"
 #include "agvd/mesh/mesh_view.h"
+#include "remesh/names.h"
 
 namespace remesh::detail {
 
@@ -19,8 +20,8 @@ namespace remesh::detail {
 //! \param is_wanted  #V: vertices of the boundary.
 //! \param tolerance  above 0: the limits are this length, if that is more, and half of each edge.
 //! Cost: O(#F + #wanted).
-[[nodiscard]] std::vector<agvd::Index> find_places(const agvd::MeshView& mesh,
-                                                   const std::vector<bool>& is_wanted,
-                                                   agvd::Ticker& ticker, double tolerance = 0);
+[[nodiscard]] std::vector<Index> find_places(const MeshView& mesh,
+                                             const std::vector<bool>& is_wanted, Ticker& ticker,
+                                             double tolerance = 0);
 
 }  // namespace remesh::detail

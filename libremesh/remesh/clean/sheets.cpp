@@ -13,10 +13,6 @@
 namespace remesh::detail {
 namespace {
 
-using agvd::Index;
-using agvd::no_index;
-using agvd::Vec3;
-
 // All faces at an edge of more faces than this are cut apart: the number of pairs grows with the
 // square.
 constexpr std::size_t most_sheets = 64;
@@ -133,11 +129,11 @@ void separate_fans(Soup& soup, const std::vector<Index>& twin) {
         Index h = start;
         do {
             take(h);
-            h = twin[agvd::Surface::previous(h)];
+            h = twin[Surface::previous(h)];
         } while (h != no_index && h != start);
         if (h == start) continue;
         for (h = twin[start]; h != no_index; h = twin[h]) {  // An open fan: the other way too.
-            h = agvd::Surface::next(h);
+            h = Surface::next(h);
             take(h);
         }
     }

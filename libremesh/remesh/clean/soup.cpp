@@ -4,9 +4,6 @@
 
 namespace remesh::detail {
 
-using agvd::Index;
-using agvd::no_index;
-
 void erase_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<Index>& twin) {
     std::vector<Index> new_face(soup.triangles.size(), no_index);
     Index count = 0;

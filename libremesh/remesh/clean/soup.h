@@ -1,7 +1,7 @@
 //! \file
 //! The mesh under repair, its half-edges grouped by edge, and the passes of clean_input over them.
 //!
-//! As in agvd::Surface, half-edge 3 f + k runs from corner k to corner k + 1 of face f. A twin
+//! As in Surface, half-edge 3 f + k runs from corner k to corner k + 1 of face f. A twin
 //! array holds the half-edge across, or no_index; unlike vertex indices it says which of the faces
 //! at a non-manifold edge or vertex belong to one sheet.
 #pragma once
@@ -9,41 +9,39 @@
 #include <span>
 
 #include "agvd/core/poller.h"
+#include "agvd/mesh/edge_sides.h"
 #include "agvd/mesh/surface.h"
 #include "remesh/clean/clean_counts.h"
-#include "remesh/topology/edge_sides.h"
 
 namespace remesh::detail {
 
 struct Soup {
-    std::vector<agvd::Vec3> positions;
-    std::vector<agvd::Triangle> triangles;
-    std::vector<agvd::Index> vertex_origin;         //!< #V: input vertex.
-    std::vector<agvd::Index> face_origin;           //!< #F: input face.
-    std::vector<agvd::Vec3> welded_positions = {};  //!< See CleanResult.
+    std::vector<Vec3> positions;
+    std::vector<Triangle> triangles;
+    std::vector<Index> vertex_origin;         //!< #V: input vertex.
+    std::vector<Index> face_origin;           //!< #F: input face.
+    std::vector<Vec3> welded_positions = {};  //!< See CleanResult.
     CleanCounts counts;
-    double slit_length = 0;    //!< See CleanResult.
-    agvd::Ticker ticker = {};  //!< Of clean_input(): every pass ticks it.
+    double slit_length = 0;  //!< See CleanResult.
+    Ticker ticker = {};      //!< Of clean_input(): every pass ticks it.
 
-    [[nodiscard]] agvd::Index num_half_edges() const {
-        return static_cast<agvd::Index>(3 * triangles.size());
-    }
-    [[nodiscard]] agvd::Index tail(agvd::Index h) const { return triangles[h / 3][h % 3]; }
-    [[nodiscard]] agvd::Index head(agvd::Index h) const { return tail(agvd::Surface::next(h)); }
-    [[nodiscard]] agvd::Index apex(agvd::Index h) const { return tail(agvd::Surface::previous(h)); }
+    [[nodiscard]] Index num_half_edges() const { return static_cast<Index>(3 * triangles.size()); }
+    [[nodiscard]] Index tail(Index h) const { return triangles[h / 3][h % 3]; }
+    [[nodiscard]] Index head(Index h) const { return tail(Surface::next(h)); }
+    [[nodiscard]] Index apex(Index h) const { return tail(Surface::previous(h)); }
     //! Whether it runs from the lower to the higher vertex. Two faces of an edge are oriented alike
     //! if their half-edges differ in this.
-    [[nodiscard]] bool runs_up(agvd::Index h) const { return tail(h) < head(h); }
+    [[nodiscard]] bool runs_up(Index h) const { return tail(h) < head(h); }
 };
 
-//! \throw agvd::InvalidInput  the mesh has too many faces, a coordinate that is not finite, or an
+//! \throw InvalidInput  the mesh has too many faces, a coordinate that is not finite, or an
 //!        index out of range.
-void check_elements(const agvd::MeshView& mesh, agvd::Ticker& ticker);
+void check_elements(const MeshView& mesh, Ticker& ticker);
 
 //! Removes the marked faces and updates `twin` (may be empty).
-void erase_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<agvd::Index>& twin);
+void erase_faces(Soup& soup, const std::vector<bool>& is_dead, std::vector<Index>& twin);
 //! Removes the marked faces and returns their number.
-agvd::Index drop_faces(Soup& soup, const std::vector<bool>& is_dead);
+Index drop_faces(Soup& soup, const std::vector<bool>& is_dead);
 
 // The passes, in the order in which they run. Those that return bool tell whether they changed a
 // triangle, so that sides must be sorted again.
@@ -56,23 +54,22 @@ bool collapse_zero_edges(Soup& soup);
 bool drop_repeated_corners(Soup& soup);
 //! Of faces with the same corners one stays, or two of opposite orientation where bodies touch.
 bool drop_duplicates(Soup& soup, std::span<const EdgeSide> sides);
-//! \throw agvd::InvalidInput  a component is not orientable.
+//! \throw InvalidInput  a component is not orientable.
 bool orient_faces(Soup& soup, std::span<const EdgeSide> sides);
 //! The twins. At an edge of more than two faces the flattest pairs stay together, the rest is cut.
 //! Where faces of opposite orientation lie on each other, those of one body stay together.
-[[nodiscard]] std::vector<agvd::Index> pair_sheets(Soup& soup, std::span<const EdgeSide> sides);
-//! Twice the least of the areas computed from the three corners of a face. agvd::build_surface
+[[nodiscard]] std::vector<Index> pair_sheets(Soup& soup, std::span<const EdgeSide> sides);
+//! Twice the least of the areas computed from the three corners of a face. build_surface
 //! rejects faces for which it is 0 or not finite.
-[[nodiscard]] double smallest_doubled_area(std::span<const agvd::Vec3> positions,
-                                           const agvd::Triangle& face);
+[[nodiscard]] double smallest_doubled_area(std::span<const Vec3> positions, const Triangle& face);
 //! Faces without area are absorbed by their neighbours, or dropped.
-//! \throw agvd::InvalidInput  a face is so large that its area overflows.
-void remove_degenerate_faces(Soup& soup, std::vector<agvd::Index>& twin);
+//! \throw InvalidInput  a face is so large that its area overflows.
+void remove_degenerate_faces(Soup& soup, std::vector<Index>& twin);
 //! Gives every fan of faces a vertex of its own, until vertex indices alone give the twins.
-void split_vertices(Soup& soup, std::vector<agvd::Index>& twin);
+void split_vertices(Soup& soup, std::vector<Index>& twin);
 void drop_isolated_vertices(Soup& soup);
 //! Closes boundary loops of at most `most_edges` edges. A new face has the origin of one beside it.
-//! \throw agvd::InvalidOption  there is such a loop, and the build is without CGAL.
-void fill_holes(Soup& soup, agvd::Index most_edges);
+//! \throw InvalidOption  there is such a loop, and the build is without CGAL.
+void fill_holes(Soup& soup, Index most_edges);
 
 }  // namespace remesh::detail

@@ -9,15 +9,11 @@
 namespace remesh::detail {
 namespace {
 
-using agvd::Index;
-using agvd::no_index;
-using agvd::Vec3;
-
 // Replaces the vertices of each set by one, and counts those that go.
 // \param num_merged  how many unions there were.
-bool apply(agvd::UnionFind& sets, Index num_merged, Soup& soup) {
+bool apply(UnionFind& sets, Index num_merged, Soup& soup) {
     if (num_merged == 0) return false;
-    for (agvd::Triangle& t : soup.triangles) {
+    for (Triangle& t : soup.triangles) {
         soup.ticker.tick();
         for (Index& v : t) v = sets.root(v);
     }
@@ -26,7 +22,7 @@ bool apply(agvd::UnionFind& sets, Index num_merged, Soup& soup) {
 }
 
 // Vertices of a set that have other positions than its root get that of the root.
-void keep_welded_positions(agvd::UnionFind& sets, Soup& soup) {
+void keep_welded_positions(UnionFind& sets, Soup& soup) {
     for (Index v = 0; v < soup.positions.size(); ++v) {
         const Index root = sets.root(v);
         if (soup.positions[root] == soup.positions[v]) continue;
@@ -42,9 +38,9 @@ Index end_at(const Soup& soup, std::span<const Index> place, const EdgeSide& sid
 }
 
 // The vertices of each part of the mesh: faces that are joined by vertices.
-agvd::UnionFind find_parts(Soup& soup) {
-    agvd::UnionFind parts(soup.positions.size());
-    for (const agvd::Triangle& t : soup.triangles) {
+UnionFind find_parts(Soup& soup) {
+    UnionFind parts(soup.positions.size());
+    for (const Triangle& t : soup.triangles) {
         soup.ticker.tick();
         (void)parts.unite(t[0], t[1]);
         (void)parts.unite(t[0], t[2]);
@@ -56,7 +52,7 @@ agvd::UnionFind find_parts(Soup& soup) {
 // closes by welding, as their sides have ends of their own.
 // \param open  boundary edges, sorted by the places of their ends.
 double longest_slit(Soup& soup, std::span<const EdgeSide> open, std::span<const Index> place) {
-    agvd::UnionFind parts = find_parts(soup), chains(soup.positions.size());
+    UnionFind parts = find_parts(soup), chains(soup.positions.size());
     std::vector<bool> is_tip(soup.positions.size(), false);
     std::vector<double> length(soup.positions.size(), 0);  // By place, of edges from it upwards.
     for_each_edge(open, [&](std::span<const EdgeSide> edge) {
@@ -101,11 +97,11 @@ bool weld_cracks(Soup& soup, std::span<const EdgeSide> sides, double tolerance) 
     const std::vector<Index> place =
         find_places({soup.positions, soup.triangles}, is_boundary, soup.ticker, tolerance);
     for (EdgeSide& side : open) {
-        side.ends = agvd::edge_key(place[side.low()], place[side.high()]);
+        side.ends = edge_key(place[side.low()], place[side.high()]);
     }
     open = sort_edge_sides(open, static_cast<Index>(soup.positions.size()), soup.ticker);
 
-    agvd::UnionFind sets(soup.positions.size());
+    UnionFind sets(soup.positions.size());
     Index num_merged = 0;
     for_each_edge(open, [&](std::span<const EdgeSide> edge) {
         soup.ticker.tick(edge.size());
@@ -123,7 +119,7 @@ bool weld_cracks(Soup& soup, std::span<const EdgeSide> sides, double tolerance) 
 }
 
 bool collapse_zero_edges(Soup& soup) {
-    agvd::UnionFind sets(soup.positions.size());
+    UnionFind sets(soup.positions.size());
     Index num_merged = 0;
     for (Index h = 0; h < soup.num_half_edges(); ++h) {
         soup.ticker.tick();

@@ -7,16 +7,10 @@
 #include <set>
 
 #include "agvd/core/poller.h"
-#include "remesh/guarantee/degenerate_edges.h"
+#include "remesh/dual/degenerate_edges.h"
 
 namespace remesh {
 namespace {
-
-using agvd::Diagram;
-using agvd::EdgeEnd;
-using agvd::Index;
-using agvd::no_index;
-using agvd::Triangle;
 
 using SitePair = std::pair<Index, Index>;
 
@@ -24,12 +18,12 @@ SitePair make_pair(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; 
 
 class DualBuilder {
 public:
-    DualBuilder(const Diagram& diagram, std::vector<bool> is_contracted, agvd::Ticker ticker)
+    DualBuilder(const Diagram& diagram, std::vector<bool> is_contracted, Ticker ticker)
         : diagram_(diagram), is_contracted_(std::move(is_contracted)), ticker_(ticker) {
         keep_forest();
         locate_ends();
         for (Index e = 0; e < diagram.edges.size(); ++e) {
-            const agvd::VoronoiEdge& edge = diagram.edges[e];
+            const VoronoiEdge& edge = diagram.edges[e];
             ticker_.tick(4);  // A set is slow.
             if (is_contracted_[e] || !edge.right.is_valid()) continue;
             taken_.insert(make_pair(edge.left.value(), edge.right.value()));
@@ -134,7 +128,7 @@ private:
 
     const Diagram& diagram_;
     std::vector<bool> is_contracted_;
-    agvd::Ticker ticker_;
+    Ticker ticker_;
     std::vector<Index> end_at_;         // By 2 * edge + (0: tail, 1: head): index in vertex_ends.
     std::vector<Index> vertex_of_end_;  // By index in vertex_ends.
     std::set<SitePair> taken_;          // Edges of the dual so far.
@@ -144,10 +138,10 @@ private:
 
 }  // namespace
 
-std::vector<Triangle> build_dual(const agvd::Surface& surface, const Diagram& diagram,
-                                 const agvd::Progress& progress) {
-    agvd::Poller poller(progress);
-    const agvd::Ticker ticker(poller);
+std::vector<Triangle> build_dual(const Surface& surface, const Diagram& diagram,
+                                 const Progress& progress) {
+    Poller poller(progress);
+    const Ticker ticker(poller);
     return DualBuilder(diagram, find_degenerate_edges(surface, diagram, ticker), ticker).run();
 }
 

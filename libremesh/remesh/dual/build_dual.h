@@ -3,6 +3,7 @@
 #pragma once
 
 #include "agvd/diagram/diagram.h"
+#include "remesh/names.h"
 
 namespace remesh {
 
@@ -11,10 +12,9 @@ namespace remesh {
 //! repeat no edge if possible. Sites without a cell, and cells without a Voronoi vertex, occur in
 //! no triangle. The caller checks the topology (analyze_topology).
 //!
-//! \throw agvd::Cancelled  the progress callback returned false.
+//! \throw Cancelled  the progress callback returned false.
 //! Cost: O(size of the complex) and a sort.
-[[nodiscard]] std::vector<agvd::Triangle> build_dual(const agvd::Surface& surface,
-                                                     const agvd::Diagram& diagram,
-                                                     const agvd::Progress& progress = {});
+[[nodiscard]] std::vector<Triangle> build_dual(const Surface& surface, const Diagram& diagram,
+                                               const Progress& progress = {});
 
 }  // namespace remesh

@@ -5,11 +5,6 @@
 
 namespace remesh {
 
-using agvd::Index;
-using agvd::Surface;
-using agvd::SurfacePoint;
-using agvd::Vec3;
-
 namespace {
 
 Index count_inner(const FlippableMesh& mesh) {
@@ -19,7 +14,7 @@ Index count_inner(const FlippableMesh& mesh) {
 }
 
 void flip(FlippableMesh& mesh, std::vector<double>& length, std::span<const Vec3> positions,
-          const Diagonals& diagonals, agvd::Ticker ticker, DelaunayCounts& counts) {
+          const Diagonals& diagonals, Ticker ticker, DelaunayCounts& counts) {
     counts.inner_edges = count_inner(mesh);
     const FlipCounts flips = flip_to_delaunay(mesh, length, positions, diagonals, ticker);
     counts.failing_before = flips.failing_before;
@@ -29,7 +24,7 @@ void flip(FlippableMesh& mesh, std::vector<double>& length, std::span<const Vec3
 }
 
 std::vector<double> flip_in_space(FlippableMesh& mesh, std::span<const Vec3> positions,
-                                  agvd::Ticker ticker, DelaunayCounts& counts) {
+                                  Ticker ticker, DelaunayCounts& counts) {
     std::vector<double> length(mesh.num_edges());
     for (Index e = 0; e < mesh.num_edges(); ++e) {
         const Index h = mesh.sides(e)[0];
@@ -46,9 +41,9 @@ std::vector<double> flip_in_space(FlippableMesh& mesh, std::span<const Vec3> pos
 }
 
 std::vector<double> flip_on_surface(const Surface& surface, const DualVertices& vertices,
-                                    int num_threads, agvd::Poller& poller, FlippableMesh& mesh,
+                                    int num_threads, Poller& poller, FlippableMesh& mesh,
                                     DelaunayCounts& counts) {
-    const agvd::Ticker ticker(poller);
+    const Ticker ticker(poller);
     std::vector<SurfacePoint> points;
     points.reserve(vertices.points.size());
     for (const SurfacePoint& point : vertices.points) points.push_back(snapped(surface, point));
@@ -87,19 +82,18 @@ const char* delaunay_name(Delaunay delaunay) {
 
 DelaunayResult make_delaunay(const Surface& surface, std::span<const SurfacePoint> points,
                              std::span<const Vec3> positions, std::span<const Index> site,
-                             const agvd::Diagram& diagram,
-                             std::span<const agvd::Triangle> triangles,
+                             const Diagram& diagram, std::span<const Triangle> triangles,
                              const DelaunayOptions& options) {
     DelaunayResult result;
     if (options.mode == Delaunay::Off) {
         result.triangles.assign(triangles.begin(), triangles.end());
         return result;
     }
-    agvd::Poller poller(options.progress);
-    FlippableMesh mesh(triangles, agvd::Ticker(poller));
+    Poller poller(options.progress);
+    FlippableMesh mesh(triangles, Ticker(poller));
     const std::vector<double> length =
         options.mode == Delaunay::Extrinsic
-            ? flip_in_space(mesh, positions, agvd::Ticker(poller), result.counts)
+            ? flip_in_space(mesh, positions, Ticker(poller), result.counts)
             : flip_on_surface(surface, {points, site, diagram, positions}, options.num_threads,
                               poller, mesh, result.counts);
     result.triangles = mesh.triangles();

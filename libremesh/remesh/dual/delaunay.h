@@ -5,6 +5,7 @@
 #include <span>
 
 #include "agvd/diagram/diagram.h"
+#include "remesh/names.h"
 
 namespace remesh {
 
@@ -22,25 +23,25 @@ enum class Delaunay : std::uint8_t {
 struct DelaunayOptions {
     Delaunay mode = Delaunay::Intrinsic;  //!< Which edges to flip.
     int num_threads = 0;                  //!< >= 0; 0: all cores. Same bytes for any number.
-    agvd::Progress progress = {};         //!< Polled during the call; see agvd::poll.
+    Progress progress = {};               //!< Polled during the call; see poll.
 };
 
 //! Counts of edges, flips and triangles; all 0 with Delaunay::Off.
 struct DelaunayCounts {
-    agvd::Index inner_edges = 0;     //!< Edges of two faces.
-    agvd::Index failing_before = 0;  //!< Inner edges whose opposite angles sum to more than pi (by
-    agvd::Index failing_after = 0;   //!< more than 1e-6), before and after the flips.
-    agvd::Index flips = 0;           //!< Edges flipped, each as often as it was.
+    Index inner_edges = 0;     //!< Edges of two faces.
+    Index failing_before = 0;  //!< Inner edges whose opposite angles sum to more than pi (by
+    Index failing_after = 0;   //!< more than 1e-6), before and after the flips.
+    Index flips = 0;           //!< Edges flipped, each as often as it was.
     //! Intrinsic, of all edges: those whose path is not proved locally shortest (see GeodesicPath).
-    agvd::Index not_locally_shortest = 0;
+    Index not_locally_shortest = 0;
     //! Intrinsic: triangles with a side longer than the other two together.
-    agvd::Index broken_triangles = 0;
+    Index broken_triangles = 0;
     bool is_finished = true;  //!< False: stopped after 10 flips for each edge.
 };
 
 //! A mesh after the flips.
 struct DelaunayResult {
-    std::vector<agvd::Triangle> triangles;  //!< As many as before.
+    std::vector<Triangle> triangles;  //!< As many as before.
     //! By triangle, of the sides from corner k to corner k + 1; empty with Delaunay::Off.
     std::vector<std::array<double, 3>> side_lengths;
     DelaunayCounts counts;  //!< Before and after.
@@ -56,14 +57,13 @@ struct DelaunayResult {
 //! \param triangles  vertex indices. Edges need not be dual to Voronoi edges. Edges without exactly
 //!                   two sides in opposite directions are left unchanged. The vertices of a
 //!                   triangle lie on one component.
-//! \throw agvd::Cancelled  the progress callback returned false.
+//! \throw Cancelled  the progress callback returned false.
 //! Cost: O(size of the complex + faces that the edges cross).
-[[nodiscard]] DelaunayResult make_delaunay(const agvd::Surface& surface,
-                                           std::span<const agvd::SurfacePoint> points,
-                                           std::span<const agvd::Vec3> positions,
-                                           std::span<const agvd::Index> site,
-                                           const agvd::Diagram& diagram,
-                                           std::span<const agvd::Triangle> triangles,
+[[nodiscard]] DelaunayResult make_delaunay(const Surface& surface,
+                                           std::span<const SurfacePoint> points,
+                                           std::span<const Vec3> positions,
+                                           std::span<const Index> site, const Diagram& diagram,
+                                           std::span<const Triangle> triangles,
                                            const DelaunayOptions& options = {});
 
 }  // namespace remesh

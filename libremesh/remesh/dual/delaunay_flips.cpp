@@ -12,11 +12,6 @@
 
 namespace remesh {
 
-using agvd::Index;
-using agvd::Triangle;
-using agvd::Vec2;
-using agvd::Vec3;
-
 namespace {
 
 // Radians. Two right angles opposite an edge are Delaunay.
@@ -71,7 +66,7 @@ struct Quad {
 class Flipper {
 public:
     Flipper(FlippableMesh& mesh, std::vector<double>& length, std::span<const Vec3> positions,
-            const Diagonals& diagonals, agvd::Ticker ticker)
+            const Diagonals& diagonals, Ticker ticker)
         : ticker_(ticker),
           mesh_(mesh),
           length_(length),
@@ -166,7 +161,7 @@ private:
         return !(after >= std::min(before, gentle_fold));
     }
 
-    agvd::Ticker ticker_;
+    Ticker ticker_;
     FlippableMesh& mesh_;
     std::vector<double>& length_;
     std::span<const Vec3> positions_;
@@ -179,7 +174,7 @@ private:
 
 FlipCounts flip_to_delaunay(FlippableMesh& mesh, std::vector<double>& length,
                             std::span<const Vec3> positions, const Diagonals& diagonals,
-                            agvd::Ticker ticker) {
+                            Ticker ticker) {
     return Flipper(mesh, length, positions, diagonals, ticker).run();
 }
 

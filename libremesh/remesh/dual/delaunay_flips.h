@@ -12,14 +12,14 @@ namespace remesh {
 //! `measure` gives the length of the edge between the two corners opposite an edge, before a flip
 //! is decided; `accept` is called after the flip.
 struct Diagonals {
-    std::function<double(agvd::Index edge)> measure;
-    std::function<void(agvd::Index edge)> accept;
+    std::function<double(Index edge)> measure;
+    std::function<void(Index edge)> accept;
 };
 
 struct FlipCounts {
-    agvd::Index failing_before = 0;  //!< Inner edges whose opposite angles sum to more than pi (by
-    agvd::Index failing_after = 0;   //!< more than 1e-6 radians).
-    agvd::Index flips = 0;
+    Index failing_before = 0;  //!< Inner edges whose opposite angles sum to more than pi (by
+    Index failing_after = 0;   //!< more than 1e-6 radians).
+    Index flips = 0;
     bool is_finished = true;  //!< False: stopped after 10 flips for each edge.
 };
 
@@ -31,7 +31,7 @@ struct FlipCounts {
 //! \param length     by edge; updated by flips.
 //! \param positions  by vertex.
 FlipCounts flip_to_delaunay(FlippableMesh& mesh, std::vector<double>& length,
-                            std::span<const agvd::Vec3> positions, const Diagonals& diagonals,
-                            agvd::Ticker ticker = {});
+                            std::span<const Vec3> positions, const Diagonals& diagonals,
+                            Ticker ticker = {});
 
 }  // namespace remesh

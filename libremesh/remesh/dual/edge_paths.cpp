@@ -13,12 +13,6 @@
 
 namespace remesh {
 
-using agvd::Diagram;
-using agvd::Index;
-using agvd::no_index;
-using agvd::Surface;
-using agvd::SurfacePoint;
-
 namespace {
 
 // Few tasks, as a search in a task needs memory for each vertex of the surface: with 128 paths a
@@ -58,14 +52,14 @@ std::vector<Gate> find_gates(const DualVertices& vertices) {
     std::vector<Gate> gates;
     gates.reserve(diagram.edges.size());
     for (Index e = 0; e < diagram.edges.size(); ++e) {
-        const agvd::VoronoiEdge& edge = diagram.edges[e];
+        const VoronoiEdge& edge = diagram.edges[e];
         if (!edge.right.is_valid()) continue;
         const Index a = vertex[edge.left.value()], b = vertex[edge.right.value()];
         if (a == no_index || b == no_index) continue;
         const auto begin = diagram.point_distance.begin() + diagram.edge_points[e];
         const auto end = diagram.point_distance.begin() + diagram.edge_points[e + 1];
         const auto nearest = std::min_element(begin, end);
-        gates.push_back({agvd::edge_key(a, b), *nearest,
+        gates.push_back({edge_key(a, b), *nearest,
                          static_cast<Index>(nearest - diagram.point_distance.begin())});
     }
     std::sort(gates.begin(), gates.end());
@@ -127,33 +121,31 @@ std::array<Index, 2> ends_of(const FlippableMesh& mesh, Index edge) {
 
 // Finds the paths of edges with a Voronoi edge.
 void find_paths_through_gates(const Surface& surface, const DualVertices& vertices,
-                              const FlippableMesh& mesh, int num_threads, agvd::Poller& poller,
+                              const FlippableMesh& mesh, int num_threads, Poller& poller,
                               std::vector<EdgePath>& paths) {
     const std::vector<Gate> gates = find_gates(vertices);
     const auto find = [&](Index, Index begin, Index end) {
-        PathStraightener straightener(surface, agvd::Ticker(poller));
-        SitePaths site_paths(surface, vertices, agvd::Ticker(poller));
+        PathStraightener straightener(surface, Ticker(poller));
+        SitePaths site_paths(surface, vertices, Ticker(poller));
         auto gate = gates.begin();
         for (Index e = begin; e < end; ++e) {
             const auto [a, b] = ends_of(mesh, e);
             // Both are sorted by their ends.
-            if (e == begin)
-                gate = std::lower_bound(gate, gates.end(), Gate{agvd::edge_key(a, b), -1, 0});
-            while (gate != gates.end() && gate->ends < agvd::edge_key(a, b)) ++gate;
-            if (gate == gates.end() || gate->ends != agvd::edge_key(a, b)) continue;
+            if (e == begin) gate = std::lower_bound(gate, gates.end(), Gate{edge_key(a, b), -1, 0});
+            while (gate != gates.end() && gate->ends < edge_key(a, b)) ++gate;
+            if (gate == gates.end() || gate->ends != edge_key(a, b)) continue;
             const Index face = vertices.diagram.points[gate->point].face.value();
             paths[e] = path_in(site_paths.through(a, face, b), a, straightener);
         }
     };
-    agvd::parallel_chunks(mesh.num_edges(), paths_per_task(mesh.num_edges()), num_threads, find,
-                          poller);
+    parallel_chunks(mesh.num_edges(), paths_per_task(mesh.num_edges()), num_threads, find, poller);
 }
 
 // Finds the other paths in rounds, each from the paths of earlier rounds along two edges of a
 // triangle. A search finds those that would be long, and when a round finds none, all that are
 // left.
 void find_missing_paths(const Surface& surface, const DualVertices& vertices,
-                        const FlippableMesh& mesh, int num_threads, agvd::Poller& poller,
+                        const FlippableMesh& mesh, int num_threads, Poller& poller,
                         std::vector<EdgePath>& paths) {
     std::vector<Index> missing;
     for (Index e = 0; e < paths.size(); ++e) {
@@ -163,8 +155,8 @@ void find_missing_paths(const Surface& surface, const DualVertices& vertices,
         const auto num_missing = static_cast<Index>(missing.size());
         std::vector<EdgePath> found(num_missing);
         const auto find = [&](Index, Index begin, Index end) {
-            PathStraightener straightener(surface, agvd::Ticker(poller));
-            SitePaths site_paths(surface, vertices, agvd::Ticker(poller));
+            PathStraightener straightener(surface, Ticker(poller));
+            SitePaths site_paths(surface, vertices, Ticker(poller));
             for (Index i = begin; i < end; ++i) {
                 const Index h = find_way_round(mesh, paths, missing[i]);
                 if (h != no_index && num_crossed_round(mesh, paths, h) <= longest_joined) {
@@ -175,7 +167,7 @@ void find_missing_paths(const Surface& surface, const DualVertices& vertices,
                 }
             }
         };
-        agvd::parallel_chunks(num_missing, paths_per_task(num_missing), num_threads, find, poller);
+        parallel_chunks(num_missing, paths_per_task(num_missing), num_threads, find, poller);
         std::vector<Index> still_missing;
         for (Index i = 0; i < num_missing; ++i) {
             if (found[i].from == no_index) {
@@ -192,8 +184,7 @@ void find_missing_paths(const Surface& surface, const DualVertices& vertices,
 }  // namespace
 
 std::vector<EdgePath> find_edge_paths(const Surface& surface, const DualVertices& vertices,
-                                      const FlippableMesh& mesh, int num_threads,
-                                      agvd::Poller& poller) {
+                                      const FlippableMesh& mesh, int num_threads, Poller& poller) {
     std::vector<EdgePath> paths(mesh.num_edges());
     find_paths_through_gates(surface, vertices, mesh, num_threads, poller, paths);
     find_missing_paths(surface, vertices, mesh, num_threads, poller, paths);
@@ -223,7 +214,7 @@ bool is_triangle(double a, double b, double c) {
     return longest <= (a + b + c - longest) + length_tolerance * longest;
 }
 
-void mend_triangles(const Surface& surface, const FlippableMesh& mesh, agvd::Ticker ticker,
+void mend_triangles(const Surface& surface, const FlippableMesh& mesh, Ticker ticker,
                     std::vector<EdgePath>& paths) {
     PathStraightener straightener(surface, ticker);
     const auto length = [&](Index half_edge) { return paths[mesh.edge(half_edge)].length; };

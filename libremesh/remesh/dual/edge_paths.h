@@ -10,7 +10,7 @@ namespace remesh {
 
 //! The path of an edge on the surface.
 struct EdgePath {
-    agvd::Index from = agvd::no_index;  //!< The vertex at its source; no_index: no path yet.
+    Index from = no_index;  //!< The vertex at its source; no_index: no path yet.
     FaceStrip strip{};
     double length = 0;
     bool is_locally_shortest = false;
@@ -22,15 +22,15 @@ struct EdgePath {
 //!
 //! \param num_threads  >= 0; 0: all cores. Same result for any number.
 //! Cost: O(size of the complex + faces crossed).
-[[nodiscard]] std::vector<EdgePath> find_edge_paths(const agvd::Surface& surface,
+[[nodiscard]] std::vector<EdgePath> find_edge_paths(const Surface& surface,
                                                     const DualVertices& vertices,
                                                     const FlippableMesh& mesh, int num_threads,
-                                                    agvd::Poller& poller);
+                                                    Poller& poller);
 
 //! The path between the corners opposite an inner edge, from that of its first side to the other.
 //! It is straightened from the shorter of the two ways along sides of the quad around the edge.
-[[nodiscard]] EdgePath path_across(const agvd::Surface& surface, const FlippableMesh& mesh,
-                                   const std::vector<EdgePath>& paths, agvd::Index edge,
+[[nodiscard]] EdgePath path_across(const Surface& surface, const FlippableMesh& mesh,
+                                   const std::vector<EdgePath>& paths, Index edge,
                                    PathStraightener& straightener);
 
 //! Whether no side is longer than the other two together, up to rounding.
@@ -39,7 +39,7 @@ struct EdgePath {
 //! Replaces a side that is longer than the other two of its triangle together by the path
 //! straightened from these. Repeats passes over the triangles until there is no such side, at most
 //! 100.
-void mend_triangles(const agvd::Surface& surface, const FlippableMesh& mesh, agvd::Ticker ticker,
+void mend_triangles(const Surface& surface, const FlippableMesh& mesh, Ticker ticker,
                     std::vector<EdgePath>& paths);
 
 }  // namespace remesh

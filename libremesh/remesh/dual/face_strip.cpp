@@ -13,11 +13,6 @@
 
 namespace remesh {
 
-using agvd::Index;
-using agvd::no_index;
-using agvd::Surface;
-using agvd::SurfacePoint;
-
 namespace {
 
 // The view of a point in the face of `from` that is nearest to `from`; nothing if there is none.
@@ -36,7 +31,7 @@ std::optional<SurfacePoint> nearest_view(const Surface& surface, const SurfacePo
 }
 
 bool has_corner(const Surface& surface, Index face, Index vertex) {
-    const agvd::Triangle& t = surface.mesh.triangles[face];
+    const Triangle& t = surface.mesh.triangles[face];
     return t[0] == vertex || t[1] == vertex || t[2] == vertex;
 }
 
@@ -101,7 +96,7 @@ bool holds(const Surface& surface, Index face, const SurfacePoint& point) {
     if (point.face.value() == face) return true;
     const auto& b = point.barycentric;
     if (b[0] != 0 && b[1] != 0 && b[2] != 0) return false;
-    return agvd::seen_from(surface, point, face).has_value();
+    return seen_from(surface, point, face).has_value();
 }
 
 StripBuilder::StripBuilder(const Surface& surface, const SurfacePoint& source)
@@ -156,7 +151,7 @@ void StripBuilder::turn_to(const IsGoal& is_goal) {
         return;
     }
     const auto at = [](Index leaving) {
-        SurfacePoint view{agvd::FaceId(Surface::face(leaving)), {0, 0, 0}};
+        SurfacePoint view{FaceId(Surface::face(leaving)), {0, 0, 0}};
         view.barycentric[leaving % 3] = 1;
         return view;
     };

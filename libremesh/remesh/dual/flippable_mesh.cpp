@@ -4,19 +4,16 @@
 #include <cassert>
 
 #include "agvd/core/edge_key.h"
-#include "remesh/topology/edge_sides.h"
+#include "agvd/mesh/edge_sides.h"
 
 namespace remesh {
 
-using agvd::Index;
-using agvd::no_index;
-
 namespace {}  // namespace
 
-FlippableMesh::FlippableMesh(std::span<const agvd::Triangle> triangles, agvd::Ticker ticker)
+FlippableMesh::FlippableMesh(std::span<const Triangle> triangles, Ticker ticker)
     : triangles_(triangles.begin(), triangles.end()), edge_(3 * triangles.size()) {
     Index num_vertices = 0;
-    for (const agvd::Triangle& t : triangles_) {
+    for (const Triangle& t : triangles_) {
         num_vertices = std::max({num_vertices, t[0] + 1, t[1] + 1, t[2] + 1});
     }
     valence_.assign(num_vertices, 0);
@@ -52,7 +49,7 @@ bool FlippableMesh::can_flip(Index edge) const {
         if (valence_[v] <= (is_boundary_[v] ? 2U : 3U)) return false;
     }
     const Index c = tail(previous(h)), d = tail(previous(g));
-    return c != d && !has_edge(agvd::edge_key(c, d));
+    return c != d && !has_edge(edge_key(c, d));
 }
 
 void FlippableMesh::flip(Index edge) {
@@ -75,8 +72,8 @@ void FlippableMesh::flip(Index edge) {
     }
     edge_[3 * first + 2] = edge_[3 * second + 2] = edge;
     sides_[edge] = {3 * second + 2, 3 * first + 2};
-    if (added_.erase(agvd::edge_key(a, b)) == 0) removed_.insert(agvd::edge_key(a, b));
-    if (removed_.erase(agvd::edge_key(c, d)) == 0) added_.insert(agvd::edge_key(c, d));
+    if (added_.erase(edge_key(a, b)) == 0) removed_.insert(edge_key(a, b));
+    if (removed_.erase(edge_key(c, d)) == 0) added_.insert(edge_key(c, d));
     --valence_[a];
     --valence_[b];
     ++valence_[c];

@@ -8,6 +8,7 @@
 
 #include "agvd/core/half_edge.h"
 #include "agvd/core/poller.h"
+#include "remesh/names.h"
 
 namespace remesh {
 
@@ -16,43 +17,37 @@ namespace remesh {
 class FlippableMesh {
 public:
     //! Accepts any triangles. Edges without exactly two sides in opposite directions never flip.
-    explicit FlippableMesh(std::span<const agvd::Triangle> triangles, agvd::Ticker ticker = {});
+    explicit FlippableMesh(std::span<const Triangle> triangles, Ticker ticker = {});
 
-    [[nodiscard]] const std::vector<agvd::Triangle>& triangles() const { return triangles_; }
-    [[nodiscard]] agvd::Index num_edges() const { return static_cast<agvd::Index>(sides_.size()); }
-    [[nodiscard]] agvd::Index edge(agvd::Index half_edge) const { return edge_[half_edge]; }
+    [[nodiscard]] const std::vector<Triangle>& triangles() const { return triangles_; }
+    [[nodiscard]] Index num_edges() const { return static_cast<Index>(sides_.size()); }
+    [[nodiscard]] Index edge(Index half_edge) const { return edge_[half_edge]; }
     //! The two half-edges of an inner edge; at the start the first one leaves its lower end. The
     //! second is no_index for edges that never flip.
-    [[nodiscard]] const std::array<agvd::Index, 2>& sides(agvd::Index edge) const {
-        return sides_[edge];
-    }
-    [[nodiscard]] bool is_inner(agvd::Index edge) const {
-        return sides_[edge][1] != agvd::no_index;
-    }
-    [[nodiscard]] agvd::Index tail(agvd::Index half_edge) const {
+    [[nodiscard]] const std::array<Index, 2>& sides(Index edge) const { return sides_[edge]; }
+    [[nodiscard]] bool is_inner(Index edge) const { return sides_[edge][1] != no_index; }
+    [[nodiscard]] Index tail(Index half_edge) const {
         return triangles_[half_edge / 3][half_edge % 3];
     }
-    [[nodiscard]] static constexpr agvd::Index next(agvd::Index half_edge) {
-        return agvd::next_half_edge(half_edge);
-    }
-    [[nodiscard]] static constexpr agvd::Index previous(agvd::Index half_edge) {
-        return agvd::previous_half_edge(half_edge);
+    [[nodiscard]] static constexpr Index next(Index half_edge) { return next_half_edge(half_edge); }
+    [[nodiscard]] static constexpr Index previous(Index half_edge) {
+        return previous_half_edge(half_edge);
     }
 
     //! Whether the mesh stays a simplicial complex: the new edge does not exist yet, and no vertex
     //! is left with fewer than three edges (two on the boundary).
-    [[nodiscard]] bool can_flip(agvd::Index edge) const;
+    [[nodiscard]] bool can_flip(Index edge) const;
     //! Flips an edge: it then joins the corners that were opposite to it.
-    void flip(agvd::Index edge);
+    void flip(Index edge);
 
 private:
     [[nodiscard]] bool has_edge(std::uint64_t ends) const;
 
-    std::vector<agvd::Triangle> triangles_;
-    std::vector<agvd::Index> edge_;                  // #H
-    std::vector<std::array<agvd::Index, 2>> sides_;  // #E
-    std::vector<agvd::Index> valence_;               // By vertex: number of edges.
-    std::vector<bool> is_boundary_;                  // By vertex.
+    std::vector<Triangle> triangles_;
+    std::vector<Index> edge_;                  // #H
+    std::vector<std::array<Index, 2>> sides_;  // #E
+    std::vector<Index> valence_;               // By vertex: number of edges.
+    std::vector<bool> is_boundary_;            // By vertex.
     // Ends of the initial edges, ascending; those that flips removed, and those that they added.
     std::vector<std::uint64_t> first_ends_;
     std::unordered_set<std::uint64_t> removed_, added_;

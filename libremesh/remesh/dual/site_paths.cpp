@@ -8,12 +8,6 @@
 
 namespace remesh {
 
-using agvd::Index;
-using agvd::no_index;
-using agvd::Surface;
-using agvd::SurfacePoint;
-using agvd::Vec3;
-
 namespace {
 
 // Factor on a search step to a vertex outside the site's cell, so that the way around a handle is
@@ -71,7 +65,7 @@ void SitePaths::find_way(Index face, Index goal, Way& way) {
 
 // A corner of both the face and the site's face; no_index if there is none.
 Index SitePaths::common_corner(Index face, Index goal) const {
-    const agvd::Triangle& corners = surface_.mesh.triangles[vertices_.points[goal].face.value()];
+    const Triangle& corners = surface_.mesh.triangles[vertices_.points[goal].face.value()];
     for (const Index v : surface_.mesh.triangles[face]) {
         if (v == corners[0] || v == corners[1] || v == corners[2]) return v;
     }
@@ -82,7 +76,7 @@ Index SitePaths::common_corner(Index face, Index goal) const {
 // that ends before the site is reached.
 void SitePaths::descend(Index face, Index goal, Way& way) const {
     const std::vector<double>& distance = vertices_.diagram.nearest_distance;
-    double nearest = agvd::infinity;
+    double nearest = infinity;
     for (const Index v : surface_.mesh.triangles[face]) {
         if (!is_inside(v, goal) || !(distance[v] < nearest)) continue;
         nearest = distance[v];
@@ -92,7 +86,7 @@ void SitePaths::descend(Index face, Index goal, Way& way) const {
         ticker_.tick();
         const Index here = way.back();
         Index next = no_index;
-        double least = agvd::infinity;
+        double least = infinity;
         bool is_there = false;
         for_each_neighbour(surface_, here, [&](Index h, Index v) {
             is_there = holds_goal(Surface::face(h), goal);
@@ -131,7 +125,7 @@ void SitePaths::search(Index face, Index goal, Way& way) {
     const auto reach = [&](Index v, double length, Index from) {
         Reached& state = reached_[v];
         if (state.is_done || !(length < state.length)) return;
-        if (state.length == agvd::infinity) visited_.push_back(v);
+        if (state.length == infinity) visited_.push_back(v);
         state = {length, from, false};
         queue.push({length + (surface_.mesh.positions[v] - place).norm(), v});
     };

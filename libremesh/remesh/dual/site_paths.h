@@ -12,10 +12,10 @@ namespace remesh {
 
 //! Vertices of a mesh over the diagram.
 struct DualVertices {
-    std::span<const agvd::SurfacePoint> points;
-    std::span<const agvd::Index> site;  //!< By vertex; no_index: it is no site.
-    const agvd::Diagram& diagram;
-    std::span<const agvd::Vec3> positions;  //!< In space.
+    std::span<const SurfacePoint> points;
+    std::span<const Index> site;  //!< By vertex; no_index: it is no site.
+    const Diagram& diagram;
+    std::span<const Vec3> positions;  //!< In space.
 };
 
 //! Finds paths from sites into faces of their cells: from vertex to vertex by falling distances,
@@ -23,41 +23,41 @@ struct DualVertices {
 class SitePaths {
 public:
     //! \param ticker  of the thread.
-    SitePaths(const agvd::Surface& surface, const DualVertices& vertices, agvd::Ticker ticker = {})
+    SitePaths(const Surface& surface, const DualVertices& vertices, Ticker ticker = {})
         : surface_(surface), vertices_(vertices), ticker_(ticker) {}
 
     //! From one vertex to another through `face`, by vertices of their cells if possible.
     //! Cost: O(mesh vertices on the way), or a search as far as both.
-    [[nodiscard]] FaceStrip through(agvd::Index from, agvd::Index face, agvd::Index to);
+    [[nodiscard]] FaceStrip through(Index from, Index face, Index to);
 
     //! From one vertex to another on the same component, by a search.
-    [[nodiscard]] FaceStrip between(agvd::Index from, agvd::Index to);
+    [[nodiscard]] FaceStrip between(Index from, Index to);
 
 private:
-    using Way = std::vector<agvd::Index>;  // Mesh vertices.
+    using Way = std::vector<Index>;  // Mesh vertices.
 
-    [[nodiscard]] bool holds_goal(agvd::Index face, agvd::Index goal) const {
+    [[nodiscard]] bool holds_goal(Index face, Index goal) const {
         return holds(surface_, face, vertices_.points[goal]);
     }
     // Whether a mesh vertex is in the cell of the goal's site.
-    [[nodiscard]] bool is_inside(agvd::Index mesh_vertex, agvd::Index goal) const {
+    [[nodiscard]] bool is_inside(Index mesh_vertex, Index goal) const {
         return vertices_.diagram.nearest_site[mesh_vertex].value() == vertices_.site[goal];
     }
-    void find_way(agvd::Index face, agvd::Index goal, Way& way);
-    [[nodiscard]] agvd::Index common_corner(agvd::Index face, agvd::Index goal) const;
-    void descend(agvd::Index face, agvd::Index goal, Way& way) const;
-    void search(agvd::Index face, agvd::Index goal, Way& way);
+    void find_way(Index face, Index goal, Way& way);
+    [[nodiscard]] Index common_corner(Index face, Index goal) const;
+    void descend(Index face, Index goal, Way& way) const;
+    void search(Index face, Index goal, Way& way);
 
     // What a search knows of a mesh vertex.
     struct Reached {
-        double length = agvd::infinity;
-        agvd::Index from = agvd::no_index;
+        double length = infinity;
+        Index from = no_index;
         bool is_done = false;
     };
 
-    const agvd::Surface& surface_;
+    const Surface& surface_;
     const DualVertices& vertices_;
-    mutable agvd::Ticker ticker_;
+    mutable Ticker ticker_;
     Way back_, forth_;
     // By mesh vertex, made for the first search. With a hash table a rough star of 20 000 corners
     // took 1.4 times as long.

@@ -12,12 +12,6 @@
 
 namespace remesh {
 
-using agvd::Index;
-using agvd::no_index;
-using agvd::Surface;
-using agvd::SurfacePoint;
-using agvd::Vec2;
-
 namespace {
 
 // Radians. If the angle on one side of a vertex is below pi by less than this, passing the vertex
@@ -122,14 +116,14 @@ GeodesicPath PathStraightener::shortest_in(FaceStrip strip) {
             const double right = std::max(-side_of(from.place, to.place, ends_[next].right), 0.0);
             const double tail = left + right > 0 ? left / (left + right) : 0.5;
             SurfacePoint& point = path.points.emplace_back();
-            point = {agvd::FaceId(Surface::face(h)), {0, 0, 0}};
+            point = {FaceId(Surface::face(h)), {0, 0, 0}};
             point.barycentric[h % 3] = tail;
             point.barycentric[(h + 1) % 3] = 1 - tail;
         }
         if (i + 1 == path_.size()) break;
         const Index h = strip.crossed[to.first];
         SurfacePoint& point = path.points.emplace_back();
-        point = {agvd::FaceId(Surface::face(h)), {0, 0, 0}};
+        point = {FaceId(Surface::face(h)), {0, 0, 0}};
         point.barycentric[to.is_left ? (h + 1) % 3 : h % 3] = 1;
         next = std::max(next, to.last + 1);
     }

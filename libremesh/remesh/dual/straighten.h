@@ -16,7 +16,7 @@ struct GeodesicPath {
     bool is_locally_shortest = false;
     //! The source, the points where the path crosses edges or touches vertices, and the target;
     //! each shares a face with the next. Set by shortest_in() and straightest_path() only.
-    std::vector<agvd::SurfacePoint> points{};
+    std::vector<SurfacePoint> points{};
 };
 
 //! Straightens paths one after the other. Keeps its memory; use one for each thread.
@@ -27,7 +27,7 @@ struct GeodesicPath {
 class PathStraightener {
 public:
     //! \param ticker  of the thread; if it throws Cancelled, the strip is unspecified then.
-    explicit PathStraightener(const agvd::Surface& surface, agvd::Ticker ticker = {})
+    explicit PathStraightener(const Surface& surface, Ticker ticker = {})
         : surface_(surface), ticker_(ticker) {}
 
     //! Replaces the strip by that of a locally shortest path, which is never longer.
@@ -44,46 +44,45 @@ public:
 private:
     // A vertex of the unfolded strip (or the source, or the target).
     struct Node {
-        agvd::Vec2 place;
-        agvd::Index parent;  // The node before it on the shortest path from the source.
-        agvd::Index first;   // The first of the crossings of which it is an end;
-        agvd::Index last;    // the last one.
+        Vec2 place;
+        Index parent;  // The node before it on the shortest path from the source.
+        Index first;   // The first of the crossings of which it is an end;
+        Index last;    // the last one.
         bool is_left;
     };
     // Ends of a crossed edge in the plane of the unfolded strip.
     struct Ends {
-        agvd::Vec2 left, right;
+        Vec2 left, right;
     };
 
     [[nodiscard]] double find_shortest(const FaceStrip& strip);
     void unfold(const FaceStrip& strip);
-    void add_to_funnel(agvd::Index node);
+    void add_to_funnel(Index node);
     [[nodiscard]] double collect_path();
-    [[nodiscard]] bool reroute(const std::vector<agvd::Index>& crossed);
+    [[nodiscard]] bool reroute(const std::vector<Index>& crossed);
     struct Detour {
         bool is_shorter;
-        agvd::Index last;  // The last crossing that it replaces.
+        Index last;  // The last crossing that it replaces.
     };
-    [[nodiscard]] Detour find_detour(const std::vector<agvd::Index>& crossed, agvd::Index bend);
-    [[nodiscard]] agvd::Vec2 apex_of(agvd::Index half_edge, const agvd::Vec2& tail,
-                                     const agvd::Vec2& head) const;
+    [[nodiscard]] Detour find_detour(const std::vector<Index>& crossed, Index bend);
+    [[nodiscard]] Vec2 apex_of(Index half_edge, const Vec2& tail, const Vec2& head) const;
 
-    const agvd::Surface& surface_;
-    agvd::Ticker ticker_;
-    std::vector<Node> nodes_;  // The source, both ends of the first crossing, one for each more;
-                               // then the target.
-    std::vector<Ends> ends_;   // Of each crossing.
-    std::vector<agvd::Index> funnel_;  // Left end, ..., apex, ..., right end: [begin_, end_).
-    agvd::Index begin_ = 0, end_ = 0, apex_ = 0;
-    std::vector<agvd::Index> path_;     // Nodes from the source to the target.
-    std::vector<agvd::Index> detour_;   // Crossings on the other side of a bend.
-    std::vector<agvd::Index> crossed_;  // Of the next round.
-    FaceStrip best_;                    // Of the shortest path so far.
+    const Surface& surface_;
+    Ticker ticker_;
+    std::vector<Node> nodes_;    // The source, both ends of the first crossing, one for each more;
+                                 // then the target.
+    std::vector<Ends> ends_;     // Of each crossing.
+    std::vector<Index> funnel_;  // Left end, ..., apex, ..., right end: [begin_, end_).
+    Index begin_ = 0, end_ = 0, apex_ = 0;
+    std::vector<Index> path_;     // Nodes from the source to the target.
+    std::vector<Index> detour_;   // Crossings on the other side of a bend.
+    std::vector<Index> crossed_;  // Of the next round.
+    FaceStrip best_;              // Of the shortest path so far.
 };
 
 //! The path straightened from a strip, with its points.
 //!
 //! Cost: see PathStraightener.
-[[nodiscard]] GeodesicPath straightest_path(const agvd::Surface& surface, FaceStrip strip);
+[[nodiscard]] GeodesicPath straightest_path(const Surface& surface, FaceStrip strip);
 
 }  // namespace remesh

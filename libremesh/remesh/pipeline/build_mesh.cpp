@@ -9,19 +9,14 @@
 #include <utility>
 
 #include "agvd/mesh/point_faces.h"
-#include "remesh/features/weld_sheets.h"
-#include "remesh/guarantee/farthest_voronoi_vertices.h"
+#include "remesh/curves/weld_sheets.h"
+#include "remesh/dual/farthest_voronoi_vertices.h"
 #include "remesh/pipeline/place_vertices.h"
 #include "remesh/pipeline/vertex_count.h"
 #include "remesh/placement/flat_faces.h"
 
 namespace remesh::detail {
 namespace {
-
-using agvd::Index;
-using agvd::no_index;
-using agvd::SurfacePoint;
-using agvd::Vec3;
 
 // Sites of one round: the placed ones, and those that repair has added.
 struct RoundSites {
@@ -38,7 +33,7 @@ constexpr int max_mends = 4;
 constexpr std::size_t few_more = 2;
 
 // Frees what only the Delaunay stage and those before read: after it Voronoi vertices suffice.
-void drop_points(agvd::Diagram& diagram) {
+void drop_points(Diagram& diagram) {
     diagram.points = {};
     diagram.point_distance = {};
     diagram.passages = {};
@@ -160,7 +155,7 @@ private:
     }
 
     void flip_flat(PlacedDual& placed) const {
-        agvd::TriangleMesh mesh = whole_mesh(*domain_.whole, placed);
+        TriangleMesh mesh = whole_mesh(*domain_.whole, placed);
         flip_flat_faces(mesh.positions, mesh.triangles);
         auto& triangles = placed.patches ? placed.patches->glued.triangles : placed.mesh.triangles;
         triangles = std::move(mesh.triangles);
@@ -197,7 +192,7 @@ private:
         if (num_vertices <= target) return 0;
         std::vector<std::uint8_t> keep(num_vertices, 0);
         for (Index i = 0; i < num_vertices; ++i) {
-            const auto v = agvd::vertex_of(domain_.base(), dual.mesh.points[i]);
+            const auto v = vertex_of(domain_.base(), dual.mesh.points[i]);
             const Index site = dual.site[i];
             const bool is_wanted =
                 site != no_index && site < sites_.is_wanted.size() && sites_.is_wanted[site];
@@ -209,13 +204,13 @@ private:
     DelaunayCounts flip_edges(ValidDual& dual) const {
         const auto& [options, result] = context_;
         const StageClock clock(Stage::Delaunay, result);
-        const agvd::Progress progress = progress_of(Stage::Delaunay, options);
-        agvd::poll(progress, 0);
+        const Progress progress = progress_of(Stage::Delaunay, options);
+        poll(progress, 0);
         DelaunayResult made = make_delaunay(
             domain_.base(), dual.mesh.points, positions_of_vertices(dual), dual.site, dual.diagram,
             dual.mesh.triangles,
             {.mode = options.delaunay, .num_threads = options.num_threads, .progress = progress});
-        agvd::poll(progress, 1);
+        poll(progress, 1);
         dual.mesh.triangles = std::move(made.triangles);
         return made.counts;
     }
@@ -328,7 +323,7 @@ private:
     const PlacedSites& placed_;
     const StageContext& context_;
     CrossingFinder finder_;
-    std::optional<agvd::SurfaceLayout> layout_;
+    std::optional<SurfaceLayout> layout_;
     std::vector<bool> is_corner_;  // #V of the base.
     std::vector<SurfacePoint> first_on_base_;
     RoundSites sites_;

@@ -11,13 +11,13 @@ namespace remesh::detail {
 struct NetworkFailed {};
 
 struct BuiltMesh {
-    agvd::TriangleMesh mesh;
-    std::vector<agvd::SurfacePoint> sites;    //!< #V, on the cleaned surface.
-    std::vector<agvd::Index> first_of_group;  //!< #V: see GluedMesh; empty without junctions.
-    agvd::Index num_wanted = 0;               //!< Vertices that were asked for.
+    TriangleMesh mesh;
+    std::vector<SurfacePoint> sites;    //!< #V, on the cleaned surface.
+    std::vector<Index> first_of_group;  //!< #V: see GluedMesh; empty without junctions.
+    Index num_wanted = 0;               //!< Vertices that were asked for.
     std::optional<CrossingCounts> self_intersections;  //!< Unset without CGAL.
     //! On the surface of the domain: see ValidDual; of the first round.
-    std::vector<agvd::SurfacePoint> thin_places;
+    std::vector<SurfacePoint> thin_places;
 };
 
 //! Builds the mesh of the sites. While it self-intersects more often than the input, and where that

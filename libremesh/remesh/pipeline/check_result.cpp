@@ -2,13 +2,11 @@
 
 #include <stdexcept>
 
-#include "remesh/features/weld_sheets.h"
+#include "remesh/curves/weld_sheets.h"
 #include "remesh/pipeline/locked.h"
 
 namespace remesh::detail {
 namespace {
-
-using agvd::Index;
 
 // Welds the sheets. Checks that as many edges have more than two faces as the chain has along
 // junctions.
@@ -31,9 +29,9 @@ Topology check_result(const CleanedInput& cleaned, const Domain& domain,
                       const StageContext& context) {
     const auto& [options, result] = context;
     const StageClock clock(Stage::Check, result);
-    const agvd::Progress progress = progress_of(Stage::Check, options);
-    agvd::poll(progress, 1);
-    Topology topology = analyze_topology(built.mesh.view(), agvd::within(progress, 1, 1));
+    const Progress progress = progress_of(Stage::Check, options);
+    poll(progress, 1);
+    Topology topology = analyze_topology(built.mesh.view(), within(progress, 1, 1));
     if (!topology.is_manifold || !topology.is_oriented ||
         !same_topology(topology, cleaned.topology)) {
         if (domain.plan) throw NetworkFailed{};

@@ -16,7 +16,7 @@ bool refers_to_input(const RemeshOptions& options) {
            !options.locked.empty() || !options.locked_edges.empty();
 }
 
-Topology topology_of(const CleanResult& clean, int num_threads, const agvd::Progress& progress) {
+Topology topology_of(const CleanResult& clean, int num_threads, const Progress& progress) {
     return clean.connectivity.twin.empty()
                ? analyze_topology(clean.mesh.view(), progress)
                : analyze_topology(clean.mesh.view(), clean.connectivity, num_threads, progress);
@@ -27,15 +27,15 @@ Topology topology_of(const CleanResult& clean, int num_threads, const agvd::Prog
 CleanedInput clean_stage(const InputMesh& input, const StageContext& context) {
     const auto& [options, result] = context;
     const StageClock clock(Stage::Clean, result);
-    const agvd::Progress progress = progress_of(Stage::Clean, options);
-    agvd::poll(progress, 0);
+    const Progress progress = progress_of(Stage::Clean, options);
+    poll(progress, 0);
     CleanOptions cleaning = options.cleaning;
     cleaning.num_threads = options.num_threads;
-    cleaning.progress = agvd::within(progress, 0, 0);
+    cleaning.progress = within(progress, 0, 0);
     CleanResult clean = clean_input(input.view, cleaning);
     result.cleaned = clean.counts;
     result.welded_slit_length = clean.slit_length;
-    const agvd::Progress half = agvd::within(progress, cleaned_fraction / 2, cleaned_fraction / 2);
+    const Progress half = within(progress, cleaned_fraction / 2, cleaned_fraction / 2);
     CleanedInput cleaned;
     cleaned.given = input.view;
     if (!clean.welded_positions.empty()) {
@@ -54,19 +54,19 @@ CleanedInput clean_stage(const InputMesh& input, const StageContext& context) {
         cleaned.vertex_origin = std::move(clean.vertex_origin);
         cleaned.face_origin = std::move(clean.face_origin);
     } else {
-        clean.vertex_origin = std::vector<agvd::Index>();
-        clean.face_origin = std::vector<agvd::Index>();
+        clean.vertex_origin = std::vector<Index>();
+        clean.face_origin = std::vector<Index>();
         if (input.owned != nullptr) {
             *input.owned = {};
             cleaned.given = {};
         }
     }
-    agvd::poll(progress, cleaned_fraction);
-    const agvd::Progress done = agvd::within(progress, cleaned_fraction, cleaned_fraction);
-    cleaned.surface =
-        is_unchanged ? agvd::build_surface(std::move(clean.mesh), std::move(clean.connectivity),
-                                           options.num_threads, done)
-                     : agvd::build_surface(clean.mesh.view(), options.num_threads, done);
+    poll(progress, cleaned_fraction);
+    const Progress done = within(progress, cleaned_fraction, cleaned_fraction);
+    cleaned.surface = is_unchanged
+                          ? build_surface(std::move(clean.mesh), std::move(clean.connectivity),
+                                          options.num_threads, done)
+                          : build_surface(clean.mesh.view(), options.num_threads, done);
     cleaned.locked = find_locked(cleaned.given, options, cleaned.surface);
     return cleaned;
 }

@@ -3,34 +3,34 @@
 #pragma once
 
 #include "remesh/clean/clean_input.h"
-#include "remesh/features/locked_elements.h"
+#include "remesh/curves/locked_elements.h"
 #include "remesh/pipeline/stage_context.h"
 
 namespace remesh::detail {
 
 //! The caller's mesh.
 struct InputMesh {
-    agvd::MeshView view;
+    MeshView view;
     //! The mesh of `view` if it may be emptied; otherwise null.
-    agvd::TriangleMesh* owned = nullptr;
+    TriangleMesh* owned = nullptr;
 };
 
 //! The input after cleaning.
 struct CleanedInput {
-    std::vector<agvd::Vec3> welded_positions = {};  //!< See CleanResult.
+    std::vector<Vec3> welded_positions = {};  //!< See CleanResult.
     //! The caller's mesh, with welded positions if there are any; empty if it was released.
-    agvd::MeshView given = {};
-    agvd::Surface surface = {};                   //!< Of the cleaned mesh.
-    std::vector<agvd::Index> vertex_origin = {};  //!< See CleanResult; empty: nothing was changed.
-    std::vector<agvd::Index> face_origin = {};    //!< Likewise.
-    Topology topology = {};                       //!< Of the surface.
-    LockedElements locked = {};                   //!< Of the surface.
+    MeshView given = {};
+    Surface surface = {};                   //!< Of the cleaned mesh.
+    std::vector<Index> vertex_origin = {};  //!< See CleanResult; empty: nothing was changed.
+    std::vector<Index> face_origin = {};    //!< Likewise.
+    Topology topology = {};                 //!< Of the surface.
+    LockedElements locked = {};             //!< Of the surface.
 };
 
 //! Cleans the mesh, and drops small components if the options ask for it. Empties an owned mesh as
 //! soon as nothing refers to it, so that a large mesh is in memory only once.
 //!
-//! \throw as clean_input, drop_components, agvd::build_surface and find_locked.
+//! \throw as clean_input, drop_components, build_surface and find_locked.
 //! Cost: that of clean_input.
 [[nodiscard]] CleanedInput clean_stage(const InputMesh& input, const StageContext& context);
 

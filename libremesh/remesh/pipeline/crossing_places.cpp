@@ -6,12 +6,10 @@
 namespace remesh::detail {
 namespace {
 
-using agvd::Index;
-using agvd::Vec3;
 using Corners = std::array<Vec3, 3>;
 
-Corners corners_of(const agvd::MeshView& mesh, Index face) {
-    const agvd::Triangle& t = mesh.triangles[face];
+Corners corners_of(const MeshView& mesh, Index face) {
+    const Triangle& t = mesh.triangles[face];
     return {mesh.positions[t[0]], mesh.positions[t[1]], mesh.positions[t[2]]};
 }
 
@@ -39,8 +37,8 @@ std::vector<Vec3> segment_in_plane(const Corners& t, const Corners& plane) {
     return ends;
 }
 
-agvd::TriangleMesh mesh_of_places(const agvd::MeshView& mesh, const FacePairs& pairs) {
-    agvd::TriangleMesh places;
+TriangleMesh mesh_of_places(const MeshView& mesh, const FacePairs& pairs) {
+    TriangleMesh places;
     for (const auto& [f, g] : pairs) {
         const auto first = static_cast<Index>(places.positions.size());
         for (const Vec3& p : crossing_place(corners_of(mesh, f), corners_of(mesh, g))) {
@@ -64,12 +62,11 @@ Corners crossing_place(const Corners& a, const Corners& b) {
     return {ends[0], ends[1], ends[1]};
 }
 
-CrossingPlaces::CrossingPlaces(const agvd::MeshView& mesh, const FacePairs& pairs,
-                               const agvd::Progress& progress)
+CrossingPlaces::CrossingPlaces(const MeshView& mesh, const FacePairs& pairs,
+                               const Progress& progress)
     : places_(mesh_of_places(mesh, pairs).view(), progress) {}
 
-FacePairs CrossingPlaces::pairs_elsewhere(const agvd::MeshView& mesh,
-                                          const FacePairs& pairs) const {
+FacePairs CrossingPlaces::pairs_elsewhere(const MeshView& mesh, const FacePairs& pairs) const {
     FacePairs elsewhere;
     for (const auto& [f, g] : pairs) {
         const Corners a = corners_of(mesh, f), b = corners_of(mesh, g);

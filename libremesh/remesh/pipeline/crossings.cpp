@@ -1,19 +1,17 @@
 #include "remesh/pipeline/crossings.h"
 
-#include "remesh/features/weld_sheets.h"
+#include "remesh/curves/weld_sheets.h"
 #include "remesh/quality/self_intersections.h"
 
 namespace remesh::detail {
 namespace {
-
-using agvd::Index;
 
 // Most rounds that move vertices back onto the surface.
 constexpr int max_unfits = 4;
 // Fewer samples than this for each new pair are hopeless.
 constexpr std::size_t samples_per_pair = 4;
 
-std::optional<FacePairs> find_in(const agvd::MeshView& mesh, const RemeshOptions& options) {
+std::optional<FacePairs> find_in(const MeshView& mesh, const RemeshOptions& options) {
     return find_self_intersections(mesh, options.num_threads, progress_of(Stage::Check, options));
 }
 
@@ -38,7 +36,7 @@ std::optional<CrossingFaces> CrossingFinder::find(const PlacedDual& placed) {
 
 std::optional<FacePairs> CrossingFinder::find_all(const PlacedDual& placed) {
     const StageClock clock(Stage::Check, context_.result);
-    agvd::poll(progress_of(Stage::Check, context_.options), 0);
+    poll(progress_of(Stage::Check, context_.options), 0);
     std::optional<FacePairs> all = find_in(welded_mesh(domain_, placed).view(), context_.options);
     if (all && !all->empty() && !has_searched_input_) find_in_input();
     return all;
@@ -55,15 +53,15 @@ CrossingFaces CrossingFinder::tell_fresh(const PlacedDual& placed, FacePairs all
 }
 
 void CrossingFinder::find_in_input() {
-    const agvd::TriangleMesh& input = domain_.whole->mesh;
-    std::vector<agvd::Triangle> welded;
+    const TriangleMesh& input = domain_.whole->mesh;
+    std::vector<Triangle> welded;
     if (domain_.has_locked()) {
         welded = join_positions(input.positions, input.triangles);
     } else if (domain_.has_junctions()) {
         welded = rename_vertices(input.triangles, first_copies(domain_.plan->network.junctions,
                                                                domain_.whole->num_vertices()));
     }
-    const agvd::MeshView mesh{input.positions, welded.empty() ? input.triangles : welded};
+    const MeshView mesh{input.positions, welded.empty() ? input.triangles : welded};
     const FacePairs pairs = find_in(mesh, context_.options).value();
     if (!pairs.empty()) {
         input_places_.emplace(mesh, pairs, progress_of(Stage::Check, context_.options));

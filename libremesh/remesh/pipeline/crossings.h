@@ -14,17 +14,17 @@ struct CrossingFaces {
     FacePairs fresh;
 
     [[nodiscard]] CrossingCounts counts() const {
-        return {static_cast<agvd::Index>(all.size()), static_cast<agvd::Index>(fresh.size())};
+        return {static_cast<Index>(all.size()), static_cast<Index>(fresh.size())};
     }
 };
 
 //! Calls each(vertex) for the corners of the faces of each pair.
 template <typename Each>
-void for_each_corner(const FacePairs& pairs, const std::vector<agvd::Triangle>& triangles,
+void for_each_corner(const FacePairs& pairs, const std::vector<Triangle>& triangles,
                      const Each& each) {
     for (const auto& [f, g] : pairs) {
-        for (const agvd::Index face : {f, g}) {
-            for (const agvd::Index v : triangles[face]) each(v);
+        for (const Index face : {f, g}) {
+            for (const Index v : triangles[face]) each(v);
         }
     }
 }

@@ -8,17 +8,13 @@
 
 #include "agvd/mesh/distinct_points.h"
 #include "remesh/clean/carry_edges.h"
-#include "remesh/features/prune_seams.h"
+#include "remesh/curves/prune_seams.h"
 #include "remesh/pipeline/given_sites.h"
-#include "remesh/relax/prepared_surface.h"
-#include "remesh/sampling/given_network.h"
+#include "remesh/sites/given_network.h"
+#include "remesh/sites/prepared_surface.h"
 
 namespace remesh::detail {
 namespace {
-
-using agvd::Index;
-using agvd::Surface;
-using agvd::SurfacePoint;
 
 // Creases are sought at the spacing of at least this many sites, so that small parts keep theirs.
 // The report tells for which creases the sites are too few.
@@ -40,8 +36,7 @@ bool wants_junctions(const RemeshOptions& options) {
 }
 
 std::vector<std::uint8_t> find_all_creases(const CleanedInput& cleaned, double spacing,
-                                           const RemeshOptions& options,
-                                           const agvd::Progress& progress) {
+                                           const RemeshOptions& options, const Progress& progress) {
     const Surface& surface = cleaned.surface;
     std::vector<std::uint8_t> is_crease(surface.num_edges(), 0);
     if (options.features != Features::Off) {
@@ -67,16 +62,16 @@ std::vector<std::uint8_t> find_all_creases(const CleanedInput& cleaned, double s
 
 // \param found  its creases are known.
 void find_seams(const CleanedInput& cleaned, double spacing, const RemeshOptions& options,
-                const agvd::Progress& progress, FoundCurves& found) {
+                const Progress& progress, FoundCurves& found) {
     const Surface& surface = cleaned.surface;
-    agvd::Poller poller(progress);
+    Poller poller(progress);
     found.is_seam = carry_edges(options.texture_seams, cleaned.given,
                                 {surface.mesh.view(), cleaned.face_origin}, surface);
     for (Index e = 0; e < surface.num_edges(); ++e) {  // What cleaning has cut is boundary.
-        if (surface.twin[surface.edge_half[e]] == agvd::no_index) found.is_seam[e] = 0;
+        if (surface.twin[surface.edge_half[e]] == no_index) found.is_seam[e] = 0;
     }
     found.is_wide = found.is_seam;
-    prune_seams(surface, found.is_crease, spacing, found.is_wide, agvd::Ticker(poller));
+    prune_seams(surface, found.is_crease, spacing, found.is_wide, Ticker(poller));
 }
 
 std::pair<NetworkPlan, GivenSites> plan_with_given(const CleanedInput& cleaned,
@@ -84,16 +79,16 @@ std::pair<NetworkPlan, GivenSites> plan_with_given(const CleanedInput& cleaned,
                                                    double drop_share, double spacing,
                                                    const StageContext& context) {
     const auto& [options, result] = context;
-    const agvd::Progress progress = progress_of(Stage::Clean, options);
+    const Progress progress = progress_of(Stage::Clean, options);
     const std::vector<SurfacePoint> sites = given_sites(cleaned, cleaned.surface, *options.sites);
-    GivenNetwork given = plan_given_network(
-        cleaned.surface, std::move(is_crease),
-        agvd::points_of(sites, agvd::distinct_points(cleaned.surface, sites)),
-        {.spacing = spacing,
-         .tolerance = is_relaxed(options) ? on_curve : site_rounding,
-         .drop_share = drop_share,
-         .num_threads = options.num_threads,
-         .progress = agvd::within(progress, cleaned_fraction, cleaned_fraction)});
+    GivenNetwork given =
+        plan_given_network(cleaned.surface, std::move(is_crease),
+                           points_of(sites, distinct_points(cleaned.surface, sites)),
+                           {.spacing = spacing,
+                            .tolerance = is_relaxed(options) ? on_curve : site_rounding,
+                            .drop_share = drop_share,
+                            .num_threads = options.num_threads,
+                            .progress = within(progress, cleaned_fraction, cleaned_fraction)});
     result.features.uncarried_curves = given.dropped_curves;
     GivenSites sorted{std::move(given.curves), std::move(given.inner), {}};
     for (const Index group : groups_of_copies(sorted.on_curves)) {
@@ -144,7 +139,7 @@ void count_seams(const Surface& surface, const NetworkPlan& plan, const FoundCur
 FoundCurves find_curves(const CleanedInput& cleaned, double spacing, const StageContext& context) {
     const auto& [options, result] = context;
     const StageClock clock(Stage::Clean, result);
-    const agvd::Progress progress = progress_of(Stage::Clean, options);
+    const Progress progress = progress_of(Stage::Clean, options);
     FoundCurves found;
     found.junctions = find_junctions(cleaned.surface, cleaned.vertex_origin);
     found.junctions.in_result = options.junctions;
@@ -155,12 +150,12 @@ FoundCurves find_curves(const CleanedInput& cleaned, double spacing, const Stage
         drop_short_junctions(cleaned.surface, least_junction * spacing, found.junctions);
     }
     if (wants_creases(options)) {
-        found.is_crease = find_all_creases(
-            cleaned, spacing, options, agvd::within(progress, cleaned_fraction, cleaned_fraction));
+        found.is_crease = find_all_creases(cleaned, spacing, options,
+                                           within(progress, cleaned_fraction, cleaned_fraction));
     }
     if (!options.texture_seams.empty()) {
-        find_seams(cleaned, spacing, options,
-                   agvd::within(progress, cleaned_fraction, cleaned_fraction), found);
+        find_seams(cleaned, spacing, options, within(progress, cleaned_fraction, cleaned_fraction),
+                   found);
     }
     return found;
 }
@@ -170,8 +165,8 @@ std::unique_ptr<const CurvePlan> plan_curves(const CleanedInput& cleaned, const 
                                              const SizeField* sizes, const StageContext& context) {
     const auto& [options, result] = context;
     const StageClock clock(Stage::Clean, result);
-    const agvd::Progress progress = progress_of(Stage::Clean, options);
-    const agvd::Progress done = agvd::within(progress, cleaned_fraction, cleaned_fraction);
+    const Progress progress = progress_of(Stage::Clean, options);
+    const Progress done = within(progress, cleaned_fraction, cleaned_fraction);
     result.junctions.apart_edges = result.junctions.edges;
     JunctionSet junctions = kept.has_junctions ? found.junctions : JunctionSet{};
     const bool has_seams = kept.has_seams && !found.is_seam.empty();

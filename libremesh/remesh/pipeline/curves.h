@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "remesh/pipeline/cleaned_input.h"
-#include "remesh/sampling/network_plan.h"
+#include "remesh/sites/network_plan.h"
 
 namespace remesh::detail {
 
@@ -27,9 +27,9 @@ struct KeptCurves {
 //! The caller's own sites, sorted into those on curves and the others.
 struct GivenSites {
     CurveSites on_curves;
-    std::vector<agvd::SurfacePoint> inner;  //!< On the cleaned surface.
+    std::vector<SurfacePoint> inner;  //!< On the cleaned surface.
     //! The caller's number of each copy, then of each inner site.
-    std::vector<agvd::Index> number;
+    std::vector<Index> number;
 };
 
 //! A network of curves and the surface cut along it.

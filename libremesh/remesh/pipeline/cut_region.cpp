@@ -12,13 +12,9 @@
 namespace remesh::detail {
 namespace {
 
-using agvd::Index;
-using agvd::no_index;
-using agvd::Triangle;
-
 // #V: the first vertex at the same position.
-std::vector<Index> find_places(const agvd::MeshView& mesh, agvd::Ticker& ticker) {
-    std::unordered_map<agvd::Vec3, Index, agvd::PositionHash> first;
+std::vector<Index> find_places(const MeshView& mesh, Ticker& ticker) {
+    std::unordered_map<Vec3, Index, PositionHash> first;
     first.reserve(mesh.positions.size());
     std::vector<Index> place(mesh.positions.size());
     for (Index v = 0; v < place.size(); ++v) {
@@ -30,7 +26,7 @@ std::vector<Index> find_places(const agvd::MeshView& mesh, agvd::Ticker& ticker)
 
 class RegionCutter {
 public:
-    RegionCutter(const agvd::MeshView& mesh, std::span<const std::uint8_t> is_marked,
+    RegionCutter(const MeshView& mesh, std::span<const std::uint8_t> is_marked,
                  const CleanOptions& cleaning)
         : mesh_(mesh),
           cleaning_(cleaning),
@@ -61,7 +57,7 @@ private:
             for (const Index v : mesh_.triangles[f]) number[v] = 0;
         }
         if (std::ranges::none_of(region.faces, [&](Index f) { return has_area(f); })) {
-            throw agvd::InvalidOption(
+            throw InvalidOption(
                 "the region has no face with an area; mark the faces to remesh with other values "
                 "than 0");
         }
@@ -91,7 +87,7 @@ private:
     template <typename Each>
     void for_each_edge_of(const Triangle& places, const Each& each) const {
         for (std::size_t k = 0; k < 3; ++k) {
-            each(agvd::edge_key(places[k], places[(k + 1) % 3]));
+            each(edge_key(places[k], places[(k + 1) % 3]));
         }
     }
 
@@ -102,7 +98,7 @@ private:
             if (is_inside_[f] == 0) {
                 for (const Index p : t) is_outer_place_[p] = true;
             } else if (!has_area(f)) {
-                for (const Index p : t) flat_.emplace_back(agvd::edge_key(p, p), f);
+                for (const Index p : t) flat_.emplace_back(edge_key(p, p), f);
                 for_each_edge_of(t, [&](std::uint64_t edge) { flat_.emplace_back(edge, f); });
             }
         }
@@ -118,13 +114,13 @@ private:
             ticker_.tick();
             const std::vector<Index>& origin = clean.vertex_origin;
             const Triangle t{place_of(origin[a]), place_of(origin[b]), place_of(origin[c])};
-            for (const Index p : t) left.push_back(agvd::edge_key(p, p));
+            for (const Index p : t) left.push_back(edge_key(p, p));
             for_each_edge_of(t, [&](std::uint64_t edge) { left.push_back(edge); });
         }
         std::sort(left.begin(), left.end());
         std::vector<std::uint64_t> torn;
         const auto require = [&](Index a, Index b) {
-            const std::uint64_t edge = agvd::edge_key(place_of(a), place_of(b));
+            const std::uint64_t edge = edge_key(place_of(a), place_of(b));
             if (!std::binary_search(left.begin(), left.end(), edge)) torn.push_back(edge);
         };
         for (const SeamVertex& seam : region.seam) require(seam.vertex, seam.vertex);
@@ -185,7 +181,7 @@ private:
                 if (place_[a] == place_[b] || !is_on_seam(place_[a]) || !is_on_seam(place_[b])) {
                     continue;
                 }
-                sides.push_back({agvd::edge_key(place_[a], place_[b]), is_inside_[f] != 0, a, b});
+                sides.push_back({edge_key(place_[a], place_[b]), is_inside_[f] != 0, a, b});
             }
         }
         std::stable_sort(sides.begin(), sides.end());
@@ -213,10 +209,10 @@ private:
                   [](const SeamVertex& a, const SeamVertex& b) { return a.vertex < b.vertex; });
     }
 
-    const agvd::MeshView& mesh_;
+    const MeshView& mesh_;
     const CleanOptions& cleaning_;
-    agvd::Poller poller_;
-    agvd::Ticker ticker_;
+    Poller poller_;
+    Ticker ticker_;
     const std::vector<Index> place_;       // #V
     std::vector<std::uint8_t> is_inside_;  // #F
     std::vector<bool> is_outer_place_;     // By place: a corner of a kept face.
@@ -226,10 +222,10 @@ private:
 
 }  // namespace
 
-Region cut_region(const agvd::MeshView& mesh, std::span<const std::uint8_t> is_marked,
+Region cut_region(const MeshView& mesh, std::span<const std::uint8_t> is_marked,
                   const CleanOptions& cleaning) {
-    agvd::Poller poller(cleaning.progress);
-    agvd::Ticker ticker(poller);
+    Poller poller(cleaning.progress);
+    Ticker ticker(poller);
     check_elements(mesh, ticker);
     return RegionCutter(mesh, is_marked, cleaning).run();
 }

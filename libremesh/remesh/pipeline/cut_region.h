@@ -13,21 +13,21 @@ namespace remesh::detail {
 
 //! A vertex at the position of a kept face's corner and of a remeshed face's.
 struct SeamVertex {
-    agvd::Index vertex;  //!< Of the region's mesh: the first one there.
-    //! The caller's vertex that kept and remeshed faces share; agvd::no_index: they only touch.
-    agvd::Index shared;
+    Index vertex;  //!< Of the region's mesh: the first one there.
+    //! The caller's vertex that kept and remeshed faces share; no_index: they only touch.
+    Index shared;
 };
 
 struct Region {
-    agvd::TriangleMesh mesh;            //!< The faces to remesh.
-    std::vector<agvd::Index> vertices;  //!< #V of mesh: the caller's, ascending.
-    std::vector<agvd::Index> faces;     //!< #F of mesh: likewise.
-    std::vector<agvd::Index> kept;      //!< All other faces of the caller, ascending.
-    std::vector<SeamVertex> seam;       //!< By position; ascending.
+    TriangleMesh mesh;             //!< The faces to remesh.
+    std::vector<Index> vertices;   //!< #V of mesh: the caller's, ascending.
+    std::vector<Index> faces;      //!< #F of mesh: likewise.
+    std::vector<Index> kept;       //!< All other faces of the caller, ascending.
+    std::vector<SeamVertex> seam;  //!< By position; ascending.
     //! Edges between remeshed and kept faces, as vertices of mesh.
-    std::vector<std::array<agvd::Index, 2>> seam_edges;
+    std::vector<std::array<Index, 2>> seam_edges;
     //! Edges between vertices of the seam that have more than two faces, all of them remeshed.
-    std::vector<std::array<agvd::Index, 2>> branched_edges;
+    std::vector<std::array<Index, 2>> branched_edges;
 };
 
 //! Vertices at equal positions count as one, so that the seam is found in meshes that are not
@@ -37,11 +37,11 @@ struct Region {
 //!
 //! \param is_marked  #F: other than 0 for the faces to remesh.
 //! \param cleaning   of the region.
-//! \throw agvd::InvalidOption  no face is left to remesh.
-//! \throw agvd::InvalidInput   an index is out of range, or a coordinate is not finite; that of
+//! \throw InvalidOption  no face is left to remesh.
+//! \throw InvalidInput   an index is out of range, or a coordinate is not finite; that of
 //!                             clean_input() if marked faces are without area.
 //! Cost: O(n log n), for each of few rounds if marked faces are without area.
-[[nodiscard]] Region cut_region(const agvd::MeshView& mesh, std::span<const std::uint8_t> is_marked,
+[[nodiscard]] Region cut_region(const MeshView& mesh, std::span<const std::uint8_t> is_marked,
                                 const CleanOptions& cleaning);
 
 }  // namespace remesh::detail

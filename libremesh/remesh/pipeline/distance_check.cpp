@@ -13,9 +13,6 @@
 namespace remesh::detail {
 namespace {
 
-using agvd::Index;
-using agvd::Vec3;
-
 constexpr Index samples_per_surface = 100'000;  // On each surface.
 constexpr Index query_grain = 1024;
 // Share of the limit from which edges get shorter, and that they aim at.
@@ -36,7 +33,7 @@ struct ChunkOfPoints {
     std::vector<FarPoint> far;
 };
 
-double mean_side(const agvd::MeshView& mesh, Index face) {
+double mean_side(const MeshView& mesh, Index face) {
     double sum = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const auto& t = mesh.triangles[face];
@@ -45,9 +42,9 @@ double mean_side(const agvd::MeshView& mesh, Index face) {
     return sum / 3;
 }
 
-// #V: a face of each vertex; agvd::no_index: none.
-std::vector<Index> face_of_vertex(const agvd::MeshView& mesh) {
-    std::vector<Index> face(mesh.positions.size(), agvd::no_index);
+// #V: a face of each vertex; no_index: none.
+std::vector<Index> face_of_vertex(const MeshView& mesh) {
+    std::vector<Index> face(mesh.positions.size(), no_index);
     for (Index f = 0; f < mesh.triangles.size(); ++f) {
         for (const Index v : mesh.triangles[f]) face[v] = f;
     }
@@ -57,7 +54,7 @@ std::vector<Index> face_of_vertex(const agvd::MeshView& mesh) {
 // All vertices and the samples of a mesh.
 class Points {
 public:
-    explicit Points(const agvd::MeshView& mesh)
+    explicit Points(const MeshView& mesh)
         : mesh_(mesh), samples_(mesh), face_of_vertex_(face_of_vertex(mesh)) {}
 
     [[nodiscard]] Index size() const {
@@ -67,12 +64,12 @@ public:
     [[nodiscard]] std::pair<Vec3, Index> operator[](Index i) const {
         if (i < mesh_.positions.size()) return {mesh_.positions[i], face_of_vertex_[i]};
         const auto first = static_cast<Index>(mesh_.positions.size());
-        const agvd::SurfacePoint point = samples_.at(i - first, samples_per_surface);
+        const SurfacePoint point = samples_.at(i - first, samples_per_surface);
         return {position(mesh_, point), point.face.value()};
     }
 
 private:
-    agvd::MeshView mesh_;
+    MeshView mesh_;
     AreaSamples samples_;
     std::vector<Index> face_of_vertex_;
 };
@@ -82,19 +79,19 @@ private:
 // of the mesh: the distance from a convex set is largest at a corner. Else it is divided.
 class Prover {
 public:
-    Prover(const agvd::MeshView& mesh, const agvd::ClosestPointTree& tree, double limit)
+    Prover(const MeshView& mesh, const ClosestPointTree& tree, double limit)
         : mesh_(mesh), tree_(tree), limit_(limit) {}
 
     // \return a point beyond provable_share of the limit, if there is one.
-    [[nodiscard]] std::optional<std::pair<Vec3, agvd::ClosestPoint>> find_far(
-        const std::array<Vec3, 3>& corners, agvd::Ticker& ticker) {
+    [[nodiscard]] std::optional<std::pair<Vec3, ClosestPoint>> find_far(
+        const std::array<Vec3, 3>& corners, Ticker& ticker) {
         parts_ = {corners};
         while (!parts_.empty()) {
             ticker.tick(query_steps);
             const std::array<Vec3, 3> part = parts_.back();
             parts_.pop_back();
             const Vec3 middle = (part[0] + part[1] + part[2]) / 3;
-            const agvd::ClosestPoint nearest = tree_.query(middle);
+            const ClosestPoint nearest = tree_.query(middle);
             const double distance = std::sqrt(nearest.distance_sq);
             if (distance > provable_share * limit_) return std::pair(middle, nearest);
             double radius = 0;
@@ -111,19 +108,19 @@ public:
     }
 
 private:
-    [[nodiscard]] bool is_near(const std::array<Vec3, 3>& part, agvd::FaceId face) const {
-        const agvd::Triangle& t = mesh_.triangles[face.value()];
+    [[nodiscard]] bool is_near(const std::array<Vec3, 3>& part, FaceId face) const {
+        const Triangle& t = mesh_.triangles[face.value()];
         const std::array corners{mesh_.positions[t[0]], mesh_.positions[t[1]],
                                  mesh_.positions[t[2]]};
         return std::all_of(part.begin(), part.end(), [&](const Vec3& p) {
-            return agvd::closest_point_on_triangle(corners, face, p).distance_sq <= limit_ * limit_;
+            return closest_point_on_triangle(corners, face, p).distance_sq <= limit_ * limit_;
         });
     }
 
     static constexpr std::size_t query_steps = 64;
 
-    agvd::MeshView mesh_;
-    const agvd::ClosestPointTree& tree_;
+    MeshView mesh_;
+    const ClosestPointTree& tree_;
     double limit_;
     std::vector<std::array<Vec3, 3>> parts_;
 };
@@ -131,8 +128,8 @@ private:
 // The result, the input, and what is known of them.
 class Comparison {
 public:
-    Comparison(const agvd::MeshView& input, const agvd::MeshView& result, double limit,
-               int num_threads, agvd::Poller& poller, std::vector<double>& most_lengths)
+    Comparison(const MeshView& input, const MeshView& result, double limit, int num_threads,
+               Poller& poller, std::vector<double>& most_lengths)
         : input_(input),
           result_(result),
           limit_(limit),
@@ -142,19 +139,19 @@ public:
           before_(most_lengths) {}
 
     // Looks at the vertices and samples of one surface.
-    void look_at_points(bool is_input, const agvd::ClosestPointTree& other) {
+    void look_at_points(bool is_input, const ClosestPointTree& other) {
         const Points points(is_input ? input_ : result_);
-        run(points.size(), [&](Index i, ChunkOfPoints& found, agvd::Ticker&) {
+        run(points.size(), [&](Index i, ChunkOfPoints& found, Ticker&) {
             const auto [point, face] = points[i];
-            if (face == agvd::no_index) return;
+            if (face == no_index) return;
             take(is_input, point, face, other.query(point), found);
         });
     }
     // Looks at all of one surface.
-    void prove(bool is_input, const agvd::ClosestPointTree& other) {
-        const agvd::MeshView& mesh = is_input ? input_ : result_;
+    void prove(bool is_input, const ClosestPointTree& other) {
+        const MeshView& mesh = is_input ? input_ : result_;
         run(static_cast<Index>(mesh.triangles.size()),
-            [&](Index f, ChunkOfPoints& found, agvd::Ticker& ticker) {
+            [&](Index f, ChunkOfPoints& found, Ticker& ticker) {
                 Prover prover(is_input ? result_ : input_, other, limit_);
                 const auto& [a, b, c] = mesh.triangles[f];
                 const auto far = prover.find_far(
@@ -165,7 +162,7 @@ public:
     [[nodiscard]] const MeasuredDistance& farthest() const { return farthest_; }
 
 private:
-    void take(bool is_input, const Vec3& point, Index face, const agvd::ClosestPoint& nearest,
+    void take(bool is_input, const Vec3& point, Index face, const ClosestPoint& nearest,
               ChunkOfPoints& found) const {
         const double distance = std::sqrt(nearest.distance_sq);
         if (distance > found.distance.largest) found.distance = {distance, false, point};
@@ -176,11 +173,11 @@ private:
     }
     template <typename Look>
     void run(Index count, const Look& look) {
-        std::vector<ChunkOfPoints> chunks(agvd::num_chunks(count, query_grain));
-        agvd::parallel_chunks(
+        std::vector<ChunkOfPoints> chunks(num_chunks(count, query_grain));
+        parallel_chunks(
             count, query_grain, num_threads_,
             [&](Index chunk, Index begin, Index end) {
-                agvd::Ticker ticker(poller_);
+                Ticker ticker(poller_);
                 for (Index i = begin; i < end; ++i) look(i, chunks[chunk], ticker);
             },
             poller_);
@@ -197,10 +194,10 @@ private:
         }
     }
 
-    agvd::MeshView input_, result_;
+    MeshView input_, result_;
     double limit_;
     int num_threads_;
-    agvd::Poller& poller_;
+    Poller& poller_;
     std::vector<double>& most_lengths_;
     std::vector<double> before_;
     MeasuredDistance farthest_;
@@ -208,18 +205,17 @@ private:
 
 }  // namespace
 
-DistanceCheck::DistanceCheck(const agvd::MeshView& mesh, int num_threads,
-                             const agvd::Progress& progress)
+DistanceCheck::DistanceCheck(const MeshView& mesh, int num_threads, const Progress& progress)
     : mesh_{{mesh.positions.begin(), mesh.positions.end()},
             {mesh.triangles.begin(), mesh.triangles.end()}},
       tree_(mesh, progress),
       num_threads_(num_threads) {}
 
-MeasuredDistance DistanceCheck::measure(const agvd::MeshView& result, double limit,
+MeasuredDistance DistanceCheck::measure(const MeshView& result, double limit,
                                         std::vector<double>& most_lengths,
-                                        const agvd::Progress& progress) const {
-    agvd::Poller poller(progress);
-    const agvd::ClosestPointTree result_tree(result, poller.progress());
+                                        const Progress& progress) const {
+    Poller poller(progress);
+    const ClosestPointTree result_tree(result, poller.progress());
     Comparison comparison(mesh_.view(), result, limit, num_threads_, poller, most_lengths);
     comparison.look_at_points(true, result_tree);
     comparison.look_at_points(false, tree_);

@@ -10,15 +10,15 @@ namespace remesh::detail {
 namespace {
 
 PreparedSurface prepare(CleanedInput& cleaned, const CurvePlan* plan, double spacing,
-                        const SizeField* sizes, int num_threads, const agvd::Progress& progress) {
+                        const SizeField* sizes, int num_threads, const Progress& progress) {
     if (plan != nullptr) return {plan->network.cut.surface, spacing, num_threads, progress, sizes};
     return {std::move(cleaned.surface), spacing, num_threads, progress, sizes};
 }
 
 // How many times as long as high a face is.
-double thinness(const agvd::Surface& surface, agvd::Index face) {
+double thinness(const Surface& surface, Index face) {
     double most = 0;
-    for (agvd::Index h = 3 * face; h < 3 * face + 3; ++h) {
+    for (Index h = 3 * face; h < 3 * face + 3; ++h) {
         most = std::max(most, surface.length_of(h) / surface.apex_of(h).y());
     }
     return most;
@@ -27,10 +27,10 @@ double thinness(const agvd::Surface& surface, agvd::Index face) {
 // For a base that is not Delaunay, since flips reached their limit. Rounding tilts edges around
 // parts that are 10^12 times as long as wide, and flips unwind these edges one turn after another.
 // Such a base is not refined: all later stages take minutes on it, and the result is far off.
-[[noreturn]] void refuse_thin_parts(const agvd::Surface& surface, const CleanedInput& cleaned) {
-    agvd::Index thinnest = 0;
+[[noreturn]] void refuse_thin_parts(const Surface& surface, const CleanedInput& cleaned) {
+    Index thinnest = 0;
     double most = 0;
-    for (agvd::Index f = 0; f < surface.num_faces(); ++f) {
+    for (Index f = 0; f < surface.num_faces(); ++f) {
         const double thin = thinness(surface, f);
         if (thin <= most) continue;
         most = thin;
@@ -42,7 +42,7 @@ double thinness(const agvd::Surface& surface, agvd::Index face) {
          << " is " << std::scientific << most
          << " times as long as high, and coordinates in double have too few digits for distances "
             "on such parts; remove this part, and others like it, or make them wider";
-    throw agvd::InvalidInput(text.str());
+    throw InvalidInput(text.str());
 }
 
 }  // namespace
@@ -51,8 +51,8 @@ Domain prepare_domain(CleanedInput& cleaned, std::unique_ptr<const CurvePlan> pl
                       const SizeField* sizes, const StageContext& context) {
     const auto& [options, result] = context;
     const StageClock clock(Stage::Clean, result);
-    const agvd::Progress all = progress_of(Stage::Clean, options);
-    const agvd::Progress progress = agvd::within(all, cleaned_fraction, 1);
+    const Progress all = progress_of(Stage::Clean, options);
+    const Progress progress = within(all, cleaned_fraction, 1);
     const CurvePlan* cut = plan.get();
     Domain domain{.plan = std::move(plan),
                   .prepared = prepare(cleaned, cut, spacing, sizes, options.num_threads, progress),
@@ -66,7 +66,7 @@ Domain prepare_domain(CleanedInput& cleaned, std::unique_ptr<const CurvePlan> pl
         domain.whole = &domain.prepared.input();
     }
     domain.component =
-        parts_of_base(domain.prepared.base, domain.parts->face_component, agvd::within(all, 1, 1));
+        parts_of_base(domain.prepared.base, domain.parts->face_component, within(all, 1, 1));
     if (!domain.prepared.base.counts().is_delaunay) refuse_thin_parts(*domain.whole, cleaned);
     result.refined_faces = domain.base().num_faces();
     return domain;
@@ -74,7 +74,7 @@ Domain prepare_domain(CleanedInput& cleaned, std::unique_ptr<const CurvePlan> pl
 
 void give_back(Domain domain, CleanedInput& cleaned, const StageContext& context) {
     if (domain.plan) return;
-    cleaned.surface = agvd::build_surface(domain.whole->mesh.view(), context.options.num_threads);
+    cleaned.surface = build_surface(domain.whole->mesh.view(), context.options.num_threads);
 }
 
 }  // namespace remesh::detail

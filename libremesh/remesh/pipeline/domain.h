@@ -3,22 +3,22 @@
 #pragma once
 
 #include "remesh/pipeline/curves.h"
-#include "remesh/relax/prepared_surface.h"
+#include "remesh/sites/prepared_surface.h"
 
 namespace remesh::detail {
 
 //! The cleaned surface, cut along its curves, and the base on which propagation runs.
 struct Domain {
-    std::unique_ptr<const CurvePlan> plan;    //!< Null: the surface is not cut.
-    PreparedSurface prepared;                 //!< Of the surface, cut if there is a plan.
-    const agvd::Surface* whole;               //!< The cleaned surface, uncut.
-    const Topology* parts;                    //!< Of prepared.input().
-    std::vector<agvd::Index> component = {};  //!< #F of the base: index into parts->components.
-    double spacing = 0;                       //!< Mesh units: mean distance of the sites.
-    const SizeField* sizes = nullptr;         //!< Target lengths; null: all equal.
+    std::unique_ptr<const CurvePlan> plan;  //!< Null: the surface is not cut.
+    PreparedSurface prepared;               //!< Of the surface, cut if there is a plan.
+    const Surface* whole;                   //!< The cleaned surface, uncut.
+    const Topology* parts;                  //!< Of prepared.input().
+    std::vector<Index> component = {};      //!< #F of the base: index into parts->components.
+    double spacing = 0;                     //!< Mesh units: mean distance of the sites.
+    const SizeField* sizes = nullptr;       //!< Target lengths; null: all equal.
 
     //! The surface on which propagation runs.
-    [[nodiscard]] const agvd::Surface& base() const { return prepared.base.surface(); }
+    [[nodiscard]] const Surface& base() const { return prepared.base.surface(); }
     [[nodiscard]] bool has_junctions() const { return plan && plan->has_junctions(); }
     [[nodiscard]] bool has_locked() const { return plan && !plan->network.locked.empty(); }
 };

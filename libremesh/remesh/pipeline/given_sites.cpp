@@ -12,20 +12,19 @@ namespace {
 // Fewer sites may repeat as they like: relaxation parts them.
 constexpr std::size_t least_checked = 1000;
 
-void check_repeats(const agvd::Surface& surface, std::span<const agvd::SurfacePoint> sites) {
+void check_repeats(const Surface& surface, std::span<const SurfacePoint> sites) {
     if (sites.size() < least_checked) return;
-    const std::size_t distinct = agvd::distinct_points(surface, sites).size();
+    const std::size_t distinct = distinct_points(surface, sites).size();
     if (distinct * 2 >= sites.size()) return;
-    throw agvd::InvalidSites(std::to_string(sites.size()) + " sites were given, but only at " +
-                             std::to_string(distinct) + " different points; give each point once");
+    throw InvalidSites(std::to_string(sites.size()) + " sites were given, but only at " +
+                       std::to_string(distinct) + " different points; give each point once");
 }
 
 }  // namespace
 
-std::vector<agvd::SurfacePoint> given_sites(const CleanedInput& cleaned,
-                                            const agvd::Surface& surface,
-                                            const std::vector<agvd::SurfacePoint>& sites) {
-    std::vector<agvd::SurfacePoint> carried =
+std::vector<SurfacePoint> given_sites(const CleanedInput& cleaned, const Surface& surface,
+                                      const std::vector<SurfacePoint>& sites) {
+    std::vector<SurfacePoint> carried =
         to_cleaned(sites, cleaned.given, {surface.mesh.view(), cleaned.face_origin});
     check_repeats(surface, carried);
     return carried;

@@ -10,11 +10,11 @@ namespace remesh::detail {
 
 //! \param surface  the cleaned one, which a later stage may own by now.
 //! \throw as to_cleaned.
-//! \throw agvd::InvalidSites  of 1000 sites or more, more than half lie where an earlier one does:
+//! \throw InvalidSites  of 1000 sites or more, more than half lie where an earlier one does:
 //!        a mistake that would take as long as so many sites elsewhere.
 //! Cost: that of to_cleaned and distinct_points.
-[[nodiscard]] std::vector<agvd::SurfacePoint> given_sites(
-    const CleanedInput& cleaned, const agvd::Surface& surface,
-    const std::vector<agvd::SurfacePoint>& sites);
+[[nodiscard]] std::vector<SurfacePoint> given_sites(const CleanedInput& cleaned,
+                                                    const Surface& surface,
+                                                    const std::vector<SurfacePoint>& sites);
 
 }  // namespace remesh::detail

@@ -11,11 +11,7 @@
 namespace remesh::detail {
 namespace {
 
-using agvd::Index;
-using agvd::no_index;
-using agvd::Triangle;
-
-using SharedVertices = std::unordered_map<agvd::Vec3, Index, agvd::PositionHash>;
+using SharedVertices = std::unordered_map<Vec3, Index, PositionHash>;
 
 // Most rounds of flips: one can repeat another kept edge.
 constexpr int most_flip_rounds = 10;
@@ -37,7 +33,7 @@ std::vector<EdgeOfFace> sorted_edges(std::span<const Triangle> triangles,
     for (Index f = 0; f < triangles.size(); ++f) {
         for (Index k = 0; k < 3; ++k) {
             const Index a = triangles[f][k], b = triangles[f][(k + 1) % 3];
-            edges.push_back({agvd::edge_key(vertex[a], vertex[b]), 3 * f + k});
+            edges.push_back({edge_key(vertex[a], vertex[b]), 3 * f + k});
         }
     }
     std::sort(edges.begin(), edges.end());
@@ -88,7 +84,7 @@ private:
         if (std::binary_search(alone_.begin(), alone_.end(), edge)) return false;
         if (has_edge(kept_, edge)) return true;
         const auto ends_of = [&](std::size_t i) {
-            return agvd::edge_key(tail(edges_[i].half_edge), head(edges_[i].half_edge));
+            return edge_key(tail(edges_[i].half_edge), head(edges_[i].half_edge));
         };
         for (std::size_t i = first + 1; i < last; ++i) {
             if (ends_of(i) != ends_of(first)) return true;
@@ -106,7 +102,7 @@ private:
     bool try_flip(Index h, Index twin) {
         const Index a = tail(h), b = head(h), c = apex(h), d = apex(twin);
         if (tail(twin) != b || head(twin) != a || vertex_[c] == vertex_[d]) return false;
-        const std::uint64_t edge = agvd::edge_key(vertex_[c], vertex_[d]);
+        const std::uint64_t edge = edge_key(vertex_[c], vertex_[d]);
         if (is_changed_[h / 3] || is_changed_[twin / 3] || has_edge(edges_, edge) ||
             has_edge(kept_, edge) ||
             std::find(added_.begin(), added_.end(), edge) != added_.end()) {
@@ -138,7 +134,7 @@ std::vector<std::uint64_t> edges_left_alone(const Region& region, const SharedVe
             const auto at_a = shared.find(region.mesh.positions[a]);
             const auto at_b = shared.find(region.mesh.positions[b]);
             if (at_a == shared.end() || at_b == shared.end()) continue;
-            edges.push_back(agvd::edge_key(at_a->second, at_b->second));
+            edges.push_back(edge_key(at_a->second, at_b->second));
         }
     }
     std::sort(edges.begin(), edges.end());
@@ -147,8 +143,8 @@ std::vector<std::uint64_t> edges_left_alone(const Region& region, const SharedVe
 
 }  // namespace
 
-GluedRegion glue_region(const agvd::MeshView& mesh, const Region& region,
-                        const agvd::TriangleMesh& remeshed, agvd::Ticker& ticker) {
+GluedRegion glue_region(const MeshView& mesh, const Region& region, const TriangleMesh& remeshed,
+                        Ticker& ticker) {
     GluedRegion result;
     std::vector<Index> number(mesh.positions.size(), no_index);
     for (const Index f : region.kept) {
@@ -166,7 +162,7 @@ GluedRegion glue_region(const agvd::MeshView& mesh, const Region& region,
         if (seam.shared == no_index) continue;
         shared.emplace(region.mesh.positions[seam.vertex], number[seam.shared]);
     }
-    for (const agvd::Vec3& position : remeshed.positions) {
+    for (const Vec3& position : remeshed.positions) {
         ticker.tick();
         const auto found = shared.find(position);
         if (found != shared.end()) {

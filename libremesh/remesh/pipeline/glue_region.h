@@ -8,11 +8,11 @@
 namespace remesh::detail {
 
 struct GluedRegion {
-    agvd::TriangleMesh mesh;  //!< Kept vertices and faces first.
+    TriangleMesh mesh;  //!< Kept vertices and faces first.
     //! The caller's vertices that come first in mesh, ascending.
-    std::vector<agvd::Index> kept_vertices;
-    std::vector<agvd::Index> vertex;  //!< #V of the remeshed region: its vertex in mesh.
-    bool is_joined = true;            //!< No edge has more faces than in the input.
+    std::vector<Index> kept_vertices;
+    std::vector<Index> vertex;  //!< #V of the remeshed region: its vertex in mesh.
+    bool is_joined = true;      //!< No edge has more faces than in the input.
 };
 
 //! An inner edge of the region between two vertices that a kept edge joins as well is flipped; if
@@ -20,7 +20,7 @@ struct GluedRegion {
 //!
 //! \param remeshed  has all vertices and edges of the region's seam.
 //! Cost: O(n log n).
-[[nodiscard]] GluedRegion glue_region(const agvd::MeshView& mesh, const Region& region,
-                                      const agvd::TriangleMesh& remeshed, agvd::Ticker& ticker);
+[[nodiscard]] GluedRegion glue_region(const MeshView& mesh, const Region& region,
+                                      const TriangleMesh& remeshed, Ticker& ticker);
 
 }  // namespace remesh::detail

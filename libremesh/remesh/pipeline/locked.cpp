@@ -12,10 +12,6 @@
 namespace remesh::detail {
 namespace {
 
-using agvd::Index;
-using agvd::no_index;
-using agvd::Vec3;
-
 // Numbers of different positions.
 class Places {
 public:
@@ -29,7 +25,7 @@ public:
     [[nodiscard]] Index size() const { return static_cast<Index>(number_.size()); }
 
 private:
-    std::unordered_map<Vec3, Index, agvd::PositionHash> number_;
+    std::unordered_map<Vec3, Index, PositionHash> number_;
 };
 
 // Edges between places, ascending.
@@ -43,16 +39,15 @@ bool contains(const std::vector<std::uint64_t>& edges, std::uint64_t edge) {
     return std::binary_search(edges.begin(), edges.end(), edge);
 }
 
-void require_vertex(const agvd::MeshView& given, Index vertex) {
+void require_vertex(const MeshView& given, Index vertex) {
     if (vertex < given.positions.size()) return;
-    throw agvd::InvalidInput(
-        "vertex " + std::to_string(vertex) + " is to stay, but the mesh has only " +
-        std::to_string(given.positions.size()) + " vertices, counted from 0; name one of these");
+    throw InvalidInput("vertex " + std::to_string(vertex) + " is to stay, but the mesh has only " +
+                       std::to_string(given.positions.size()) +
+                       " vertices, counted from 0; name one of these");
 }
 
 // Where sheets have edges at one place, cleaning has cut the mesh: that is no boundary.
-void add_boundary(const agvd::Surface& surface, Places& places,
-                  std::vector<std::uint64_t>& wanted) {
+void add_boundary(const Surface& surface, Places& places, std::vector<std::uint64_t>& wanted) {
     const auto position = [&](Index v) -> const Vec3& { return surface.mesh.positions[v]; };
     Places ends;
     for (Index h = 0; h < surface.twin.size(); ++h) {
@@ -64,7 +59,7 @@ void add_boundary(const agvd::Surface& surface, Places& places,
     for (const Index h : surface.edge_half) {
         const Index a = ends.find(position(surface.tail(h)));
         const Index b = ends.find(position(surface.head(h)));
-        if (a != no_index && b != no_index) edges.emplace_back(agvd::edge_key(a, b), h);
+        if (a != no_index && b != no_index) edges.emplace_back(edge_key(a, b), h);
     }
     std::sort(edges.begin(), edges.end());
     for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -75,14 +70,14 @@ void add_boundary(const agvd::Surface& surface, Places& places,
         const Vec3 &a = position(surface.tail(h)), &b = position(surface.head(h));
         places.add(a);
         places.add(b);
-        wanted.push_back(agvd::edge_key(places.find(a), places.find(b)));
+        wanted.push_back(edge_key(places.find(a), places.find(b)));
     }
 }
 
 }  // namespace
 
-LockedElements find_locked(const agvd::MeshView& given, const RemeshOptions& options,
-                           const agvd::Surface& surface) {
+LockedElements find_locked(const MeshView& given, const RemeshOptions& options,
+                           const Surface& surface) {
     LockedElements locked;
     const auto& vertices = options.locked;
     const auto& edges = options.locked_edges;
@@ -99,7 +94,7 @@ LockedElements find_locked(const agvd::MeshView& given, const RemeshOptions& opt
             require_vertex(given, v);
             places.add(given.positions[v]);
         }
-        wanted.push_back(agvd::edge_key(place_of(ends[0]), place_of(ends[1])));
+        wanted.push_back(edge_key(place_of(ends[0]), place_of(ends[1])));
     }
     if (options.lock_boundary) add_boundary(surface, places, wanted);
     wanted = sorted(std::move(wanted));
@@ -113,9 +108,9 @@ LockedElements find_locked(const agvd::MeshView& given, const RemeshOptions& opt
     }
     for (const Index v : vertices) {
         if (is_found[place_of(v)]) continue;
-        throw agvd::InvalidInput("vertex " + std::to_string(v) +
-                                 " is to stay, but no face with an area has it as a corner; name "
-                                 "another vertex");
+        throw InvalidInput("vertex " + std::to_string(v) +
+                           " is to stay, but no face with an area has it as a corner; name "
+                           "another vertex");
     }
     if (wanted.empty()) return locked;
     locked.is_edge.assign(surface.num_edges(), 0);
@@ -123,23 +118,22 @@ LockedElements find_locked(const agvd::MeshView& given, const RemeshOptions& opt
     for (Index e = 0; e < surface.num_edges(); ++e) {
         const Index h = surface.edge_half[e];
         const Index a = place[surface.tail(h)], b = place[surface.head(h)];
-        if (a == no_index || b == no_index || !contains(wanted, agvd::edge_key(a, b))) continue;
+        if (a == no_index || b == no_index || !contains(wanted, edge_key(a, b))) continue;
         locked.is_edge[e] = 1;
-        found.push_back(agvd::edge_key(a, b));
+        found.push_back(edge_key(a, b));
     }
     found = sorted(std::move(found));
     for (const auto& [a, b] : edges) {
-        if (contains(found, agvd::edge_key(place_of(a), place_of(b)))) continue;
-        throw agvd::InvalidInput("the edge between vertices " + std::to_string(a) + " and " +
-                                 std::to_string(b) +
-                                 " is to stay, but is no edge of the cleaned mesh; leave out the "
-                                 "faces there");
+        if (contains(found, edge_key(place_of(a), place_of(b)))) continue;
+        throw InvalidInput("the edge between vertices " + std::to_string(a) + " and " +
+                           std::to_string(b) +
+                           " is to stay, but is no edge of the cleaned mesh; leave out the "
+                           "faces there");
     }
     return locked;
 }
 
-bool has_locked(const agvd::Surface& surface, const LockedElements& locked,
-                agvd::TriangleMesh& mesh) {
+bool has_locked(const Surface& surface, const LockedElements& locked, TriangleMesh& mesh) {
     if (locked.empty()) return true;
     Places places;
     std::vector<Vec3> position;
@@ -159,10 +153,10 @@ bool has_locked(const agvd::Surface& surface, const LockedElements& locked,
     if (std::find(is_found.begin(), is_found.end(), false) != is_found.end()) return false;
     if (locked.is_edge.empty()) return true;
     std::vector<std::uint64_t> edges;
-    for (const agvd::Triangle& t : mesh.triangles) {
+    for (const Triangle& t : mesh.triangles) {
         for (std::size_t k = 0; k < 3; ++k) {
             const Index a = place[t[k]], b = place[t[(k + 1) % 3]];
-            if (a != no_index && b != no_index) edges.push_back(agvd::edge_key(a, b));
+            if (a != no_index && b != no_index) edges.push_back(edge_key(a, b));
         }
     }
     edges = sorted(std::move(edges));
@@ -171,7 +165,7 @@ bool has_locked(const agvd::Surface& surface, const LockedElements& locked,
         const Index h = surface.edge_half[e];
         const Index a = places.find(surface.mesh.positions[surface.tail(h)]);
         const Index b = places.find(surface.mesh.positions[surface.head(h)]);
-        if (!contains(edges, agvd::edge_key(a, b))) return false;
+        if (!contains(edges, edge_key(a, b))) return false;
     }
     return true;
 }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "agvd/mesh/surface.h"
-#include "remesh/features/locked_elements.h"
+#include "remesh/curves/locked_elements.h"
 #include "remesh/pipeline/remesh_options.h"
 
 namespace remesh::detail {
@@ -14,15 +14,15 @@ namespace remesh::detail {
 //! \param given    the caller's mesh; may be empty if only the boundary is locked.
 //! \param options  its locked, locked_edges and lock_boundary are read.
 //! \param surface  of the cleaned mesh.
-//! \throw agvd::InvalidInput  there is no such vertex or edge; the text names it.
+//! \throw InvalidInput  there is no such vertex or edge; the text names it.
 //! Cost: O(#surface + #locked log #locked).
-[[nodiscard]] LockedElements find_locked(const agvd::MeshView& given, const RemeshOptions& options,
-                                         const agvd::Surface& surface);
+[[nodiscard]] LockedElements find_locked(const MeshView& given, const RemeshOptions& options,
+                                         const Surface& surface);
 
 //! Whether the mesh has all that is locked, by position. Gives these vertices the same bits as
 //! before: 0 and -0 are equal positions.
 //! Cost: O(#mesh + #locked log #locked).
-[[nodiscard]] bool has_locked(const agvd::Surface& surface, const LockedElements& locked,
-                              agvd::TriangleMesh& mesh);
+[[nodiscard]] bool has_locked(const Surface& surface, const LockedElements& locked,
+                              TriangleMesh& mesh);
 
 }  // namespace remesh::detail

@@ -28,13 +28,13 @@ RemeshResult meet_distance(const CleanedInput& cleaned, const RemeshOptions& opt
     finer.vertex_count = VertexCount::Add;
     finer.sizing.is_adaptive = true;
     finer.sizing.max_error = first_error * limit;
-    const agvd::MeshView mesh = cleaned.surface.mesh.view();
-    const agvd::Progress cleaning = progress_of(Stage::Clean, options);
+    const MeshView mesh = cleaned.surface.mesh.view();
+    const Progress cleaning = progress_of(Stage::Clean, options);
     const DistanceCheck check(mesh, options.num_threads,
-                              agvd::within(cleaning, cleaned_fraction, cleaned_fraction));
-    const agvd::Progress checking = progress_of(Stage::Check, options);
-    const agvd::Progress last = agvd::within(checking, 1, 1);
-    const agvd::MeshBox box = agvd::box_of(mesh, options.num_threads);
+                              within(cleaning, cleaned_fraction, cleaned_fraction));
+    const Progress checking = progress_of(Stage::Check, options);
+    const Progress last = within(checking, 1, 1);
+    const MeshBox box = box_of(mesh, options.num_threads);
     std::vector<double> most_lengths(mesh.positions.size(), (box.high - box.low).norm());
     MeasuredDistance best{std::numeric_limits<double>::infinity(), false, {}};
     std::size_t num_vertices = 0;
@@ -49,11 +49,11 @@ RemeshResult meet_distance(const CleanedInput& cleaned, const RemeshOptions& opt
             num_vertices = result.mesh.positions.size();
         }
     }
-    throw agvd::ConstraintUnmet(
-        "the largest distance asked for is " + std::to_string(limit) + ", and " +
-        std::to_string(best.largest) + " was reached with " + std::to_string(num_vertices) +
-        " vertices, near " + std::to_string(best.where.x()) + ' ' + std::to_string(best.where.y()) +
-        ' ' + std::to_string(best.where.z()) + "; allow a larger distance");
+    throw ConstraintUnmet("the largest distance asked for is " + std::to_string(limit) + ", and " +
+                          std::to_string(best.largest) + " was reached with " +
+                          std::to_string(num_vertices) + " vertices, near " +
+                          std::to_string(best.where.x()) + ' ' + std::to_string(best.where.y()) +
+                          ' ' + std::to_string(best.where.z()) + "; allow a larger distance");
 }
 
 }  // namespace remesh::detail

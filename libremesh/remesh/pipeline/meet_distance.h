@@ -18,7 +18,7 @@ using RunWithLengths =
 //! Vertices that the topology needs are added (VertexCount::Add).
 //!
 //! \param options  with sizing.max_distance > 0.
-//! \throw agvd::ConstraintUnmet  it was not met in the rounds made; the text gives the best.
+//! \throw ConstraintUnmet  it was not met in the rounds made; the text gives the best.
 //! Cost: that of a run and of DistanceCheck::measure in each round, of which there are one to
 //! eight.
 [[nodiscard]] RemeshResult meet_distance(const CleanedInput& cleaned, const RemeshOptions& options,

@@ -5,12 +5,10 @@
 
 #include "agvd/mesh/point_faces.h"
 #include "remesh/placement/mend_shape.h"
-#include "remesh/sampling/boundary_curves.h"
+#include "remesh/sites/boundary_curves.h"
 
 namespace remesh::detail {
 namespace {
-
-using agvd::Index;
 
 // Most mendings; in the second fewer vertices may move.
 constexpr int most_mendings = 2;
@@ -21,13 +19,13 @@ constexpr double least_loop = 3;
 
 // #V of the base: corners of the boundary that turn over a whole spacing.
 std::vector<bool> lasting_corners(const Domain& domain) {
-    const agvd::Surface& surface = *domain.whole;
+    const Surface& surface = *domain.whole;
     std::vector<bool> is_corner(surface.num_vertices(), false);
     const double spacing = chords_of_lasting_corner * domain.spacing;
-    for (const std::vector<Index>& loop : agvd::boundary_loops(surface)) {
+    for (const std::vector<Index>& loop : boundary_loops(surface)) {
         double length = 0;
         for (const Index h : loop) length += surface.length_of(h);
-        const Index component = domain.parts->face_component[agvd::Surface::face(loop[0])];
+        const Index component = domain.parts->face_component[Surface::face(loop[0])];
         // The loop around a whole component counts, however small that is.
         const bool is_hole = domain.parts->components[component].area > length * length;
         if (is_hole && length < least_loop * domain.spacing) continue;
@@ -56,8 +54,8 @@ std::optional<MendableMesh> find_mendable(const Domain& domain, const ValidDual&
     }
     const std::vector<bool> is_corner = lasting_corners(domain);
     for (Index i = 0; i < placed.points.size(); ++i) {
-        const agvd::SurfacePoint& point = dual.mesh.points[i];
-        const auto v = agvd::vertex_of(domain.base(), point);
+        const SurfacePoint& point = dual.mesh.points[i];
+        const auto v = vertex_of(domain.base(), point);
         if ((v && *v < is_corner.size() && is_corner[*v]) ||
             !is_mendable[domain.component[point.face.value()]]) {
             result.mobility[i] = Mobility::Fixed;
@@ -75,9 +73,9 @@ std::optional<MendedMesh> mend(const Domain& domain, MendableMesh mendable,
         std::vector<Index> numbers;
         {
             const StageClock clock(Stage::Place, context.result);
-            const agvd::Progress progress = progress_of(Stage::Place, context.options);
+            const Progress progress = progress_of(Stage::Place, context.options);
             numbers = mend_shape(domain.prepared.input(), mendable.mobility, mendable.hard,
-                                 mended.mesh, agvd::within(progress, 1, 1));
+                                 mended.mesh, within(progress, 1, 1));
         }
         if (numbers.empty()) return std::nullopt;
         const std::optional<CrossingFaces> crossings = finder.find(mended);

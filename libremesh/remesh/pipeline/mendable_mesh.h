@@ -40,7 +40,7 @@ struct MendedMesh {
 //! \return nothing if no mended mesh is better.
 //! Cost: that of mend_shape, twice at most.
 [[nodiscard]] std::optional<MendedMesh> mend(const Domain& domain, MendableMesh mendable,
-                                             std::optional<agvd::Index> most_crossings,
+                                             std::optional<Index> most_crossings,
                                              CrossingFinder& finder, const StageContext& context);
 
 }  // namespace remesh::detail

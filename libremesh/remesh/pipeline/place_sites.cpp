@@ -8,20 +8,17 @@
 
 #include "agvd/mesh/distinct_points.h"
 #include "remesh/pipeline/given_sites.h"
-#include "remesh/relax/relax_network.h"
-#include "remesh/sampling/boundary_curves.h"
-#include "remesh/sampling/minimum_samples.h"
+#include "remesh/sites/boundary_curves.h"
+#include "remesh/sites/minimum_samples.h"
+#include "remesh/sites/relax_network.h"
 
 namespace remesh::detail {
 namespace {
 
-using agvd::Index;
-using agvd::SurfacePoint;
-
 // Sharp corners of the boundary of an uncut surface.
 std::vector<Index> boundary_corners(const Domain& domain) {
     std::vector<Index> corners;
-    for (const std::vector<Index>& loop : agvd::boundary_loops(*domain.whole)) {
+    for (const std::vector<Index>& loop : boundary_loops(*domain.whole)) {
         const std::vector<Index> some = find_corners(*domain.whole, loop, domain.spacing);
         corners.insert(corners.end(), some.begin(), some.end());
     }
@@ -76,8 +73,7 @@ PlacedSites place_uncut(const CleanedInput& cleaned, const Domain& domain,
         result.relaxation = std::move(relaxed.levels);
     }
     if (options.sites) {
-        placed.sites =
-            agvd::points_of(placed.sites, agvd::distinct_points(*domain.whole, placed.sites));
+        placed.sites = points_of(placed.sites, distinct_points(*domain.whole, placed.sites));
     }
     return placed;
 }

@@ -8,15 +8,14 @@ namespace remesh::detail {
 
 struct PlacedSites {
     //! On the cleaned surface. Sites of curves come first, with a copy for each side of the cut.
-    std::vector<agvd::SurfacePoint> sites;
-    CurveSites curves = {};             //!< The first of `sites`; empty without a plan.
-    std::vector<ChainEdge> chain = {};  //!< Edges along the curves that the dual must have.
-    std::vector<agvd::Index> boundary_corners =
-        {};  //!< Boundary vertices that need a site, ascending.
+    std::vector<SurfacePoint> sites;
+    CurveSites curves = {};                    //!< The first of `sites`; empty without a plan.
+    std::vector<ChainEdge> chain = {};         //!< Edges along the curves that the dual must have.
+    std::vector<Index> boundary_corners = {};  //!< Boundary vertices that need a site, ascending.
 
     //! Copies of sites of curves, the first of each site excluded: they become no vertex of their
     //! own.
-    [[nodiscard]] agvd::Index num_other_copies(const Domain& domain) const;
+    [[nodiscard]] Index num_other_copies(const Domain& domain) const;
 };
 
 //! Samples sites or takes the caller's, and relaxes them if the options ask for it.

@@ -9,10 +9,6 @@
 namespace remesh::detail {
 namespace {
 
-using agvd::Index;
-using agvd::no_index;
-using agvd::Vec3;
-
 // As a share of the spacing: lengths up to this are rounding.
 constexpr double rounding = 1e-10;
 
@@ -24,7 +20,7 @@ std::vector<Index> nearest_vertices(const ValidDual& dual) {
     }
     std::vector<Index> nearest;
     nearest.reserve(dual.diagram.nearest_site.size());
-    for (const agvd::SiteId site : dual.diagram.nearest_site) {
+    for (const SiteId site : dual.diagram.nearest_site) {
         nearest.push_back(site.is_valid() ? vertex[site.value()] : no_index);
     }
     return nearest;
@@ -51,12 +47,12 @@ void fit_on_curves(const Domain& domain, const CurveSites& curves, const JoinedP
 }  // namespace
 
 PlacedMesh place_vertices(Domain& domain, const CurveSites& curves, const ValidDual& dual,
-                          std::vector<agvd::SurfacePoint> places, const JoinedPatches* patches,
+                          std::vector<SurfacePoint> places, const JoinedPatches* patches,
                           const StageContext& context) {
     const auto& [options, result] = context;
     const StageClock clock(Stage::Place, result);
-    const agvd::Progress progress = progress_of(Stage::Place, options);
-    agvd::poll(progress, 0);
+    const Progress progress = progress_of(Stage::Place, options);
+    poll(progress, 0);
     PlacedMesh placed{std::move(places), {}, dual.mesh.triangles};
     placed.offsets.assign(placed.points.size(), Vec3::Zero());
     const std::vector<Index> nearest = nearest_vertices(dual);
@@ -68,7 +64,7 @@ PlacedMesh place_vertices(Domain& domain, const CurveSites& curves, const ValidD
     std::vector<CellSample> samples;
     std::vector<CellPlanes> planes;
     if (is_fitted || is_relaxed(options)) {
-        const agvd::Progress start = agvd::within(progress, 0, 0);
+        const Progress start = within(progress, 0, 0);
         const auto num_vertices = static_cast<Index>(placed.points.size());
         PreparedSurface& prepared = domain.prepared;
         prepared.find_pieces(options.num_threads, start);
@@ -83,14 +79,13 @@ PlacedMesh place_vertices(Domain& domain, const CurveSites& curves, const ValidD
             fit_on_curves(domain, curves, *patches, options.boundary, placed);
         }
         fit_vertices(domain.prepared.base, nearest, std::move(samples), placed, options.num_threads,
-                     agvd::within(progress, 0, 0), domain.plan ? rounding * domain.spacing : 0,
-                     stays);
+                     within(progress, 0, 0), domain.plan ? rounding * domain.spacing : 0, stays);
     }
     if (is_relaxed(options)) {
-        improve_shape(domain.prepared.input(), planes, placed, agvd::within(progress, 0.5, 0.5),
+        improve_shape(domain.prepared.input(), planes, placed, within(progress, 0.5, 0.5),
                       domain.sizes, stays);
     }
-    agvd::poll(progress, 1);
+    poll(progress, 1);
     return placed;
 }
 

@@ -14,8 +14,7 @@ namespace remesh::detail {
 //! \param patches  of the dual; null without a plan.
 //! Cost: that of fit_vertices and improve_shape.
 [[nodiscard]] PlacedMesh place_vertices(Domain& domain, const CurveSites& curves,
-                                        const ValidDual& dual,
-                                        std::vector<agvd::SurfacePoint> places,
+                                        const ValidDual& dual, std::vector<SurfacePoint> places,
                                         const JoinedPatches* patches, const StageContext& context);
 
 }  // namespace remesh::detail

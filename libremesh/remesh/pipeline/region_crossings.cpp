@@ -10,15 +10,12 @@
 namespace remesh::detail {
 namespace {
 
-using agvd::Index;
-using agvd::Vec3;
-
 // Axis-aligned; empty at first.
 struct Box {
     Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity());
     Vec3 high = -low;
 
-    void extend(const agvd::MeshView& mesh, const agvd::Triangle& t) {
+    void extend(const MeshView& mesh, const Triangle& t) {
         for (const Index v : t) {
             low = low.cwiseMin(mesh.positions[v]);
             high = high.cwiseMax(mesh.positions[v]);
@@ -32,18 +29,18 @@ struct Box {
 
 }  // namespace
 
-std::optional<Index> count_crossings_at(const agvd::MeshView& mesh,
+std::optional<Index> count_crossings_at(const MeshView& mesh,
                                         std::span<const std::uint8_t> is_marked, int num_threads,
-                                        const agvd::Progress& progress) {
-    agvd::Poller poller(progress);
-    agvd::Ticker ticker(poller);
+                                        const Progress& progress) {
+    Poller poller(progress);
+    Ticker ticker(poller);
     Box marked;
     for (Index f = 0; f < mesh.triangles.size(); ++f) {
         ticker.tick();
         if (is_marked[f] != 0) marked.extend(mesh, mesh.triangles[f]);
     }
     std::vector<Index> faces;
-    std::vector<agvd::Triangle> near;
+    std::vector<Triangle> near;
     for (Index f = 0; f < mesh.triangles.size(); ++f) {
         ticker.tick();
         Box box;

@@ -8,6 +8,7 @@
 
 #include "agvd/core/progress.h"
 #include "agvd/mesh/mesh_view.h"
+#include "remesh/names.h"
 
 namespace remesh::detail {
 
@@ -17,9 +18,8 @@ namespace remesh::detail {
 //! \param is_marked  #F: other than 0 for marked faces, of which there is one.
 //! \return unset without CGAL.
 //! Cost: O(#F), and that of find_self_intersections for the faces near the marked ones.
-[[nodiscard]] std::optional<agvd::Index> count_crossings_at(const agvd::MeshView& mesh,
-                                                            std::span<const std::uint8_t> is_marked,
-                                                            int num_threads,
-                                                            const agvd::Progress& progress);
+[[nodiscard]] std::optional<Index> count_crossings_at(const MeshView& mesh,
+                                                      std::span<const std::uint8_t> is_marked,
+                                                      int num_threads, const Progress& progress);
 
 }  // namespace remesh::detail

@@ -22,16 +22,15 @@ struct Elements {
 void check_values(const char* name, const std::vector<double>& values, const Elements& elements) {
     if (values.empty()) return;
     if (values.size() != elements.count) {
-        throw agvd::InvalidOption(std::string(name) + " has " + std::to_string(values.size()) +
-                                  " values, but the mesh has " + std::to_string(elements.count) +
-                                  ' ' + elements.many + "; give one for each, or none");
+        throw InvalidOption(std::string(name) + " has " + std::to_string(values.size()) +
+                            " values, but the mesh has " + std::to_string(elements.count) + ' ' +
+                            elements.many + "; give one for each, or none");
     }
     const auto is_bad = [](double value) { return !(value > 0 && std::isfinite(value)); };
     const auto bad = std::find_if(values.begin(), values.end(), is_bad);
     if (bad == values.end()) return;
-    throw agvd::InvalidOption(std::string(name) + " is " + std::to_string(*bad) + " at " +
-                              elements.one + ' ' + std::to_string(bad - values.begin()) +
-                              "; use numbers above 0");
+    throw InvalidOption(std::string(name) + " is " + std::to_string(*bad) + " at " + elements.one +
+                        ' ' + std::to_string(bad - values.begin()) + "; use numbers above 0");
 }
 
 void check_sizing(const RemeshOptions& options, std::size_t num_vertices, std::size_t num_faces) {
@@ -43,7 +42,7 @@ void check_sizing(const RemeshOptions& options, std::size_t num_vertices, std::s
                            (sizing.face_lengths.empty() ? 0 : 1) +
                            (sizing.densities.empty() ? 0 : 1);
     if (num_fields > 1) {
-        throw agvd::InvalidOption(
+        throw InvalidOption(
             "several of is_adaptive, target_lengths, face_lengths and densities are given; use one "
             "of them");
     }
@@ -51,33 +50,32 @@ void check_sizing(const RemeshOptions& options, std::size_t num_vertices, std::s
                            (sizing.num_faces > 0 ? 1 : 0) + (sizing.gives_count ? 1 : 0) +
                            (sizing.max_distance > 0 ? 1 : 0);
     if (num_counts > 1) {
-        throw agvd::InvalidOption(
+        throw InvalidOption(
             "several of max_error, max_distance, edge_length, num_faces and gives_count are given; "
             "use one of them");
     }
     if (sizing.max_error > 0 && !sizing.is_adaptive) {
-        throw agvd::InvalidOption("max_error needs is_adaptive");
+        throw InvalidOption("max_error needs is_adaptive");
     }
     if (sizing.max_distance > 0 && num_fields > (sizing.is_adaptive ? 1 : 0)) {
-        throw agvd::InvalidOption(
-            "max_distance excludes target_lengths, face_lengths and densities");
+        throw InvalidOption("max_distance excludes target_lengths, face_lengths and densities");
     }
     if (sizing.gives_count && sizing.target_lengths.empty() && sizing.face_lengths.empty()) {
-        throw agvd::InvalidOption("gives_count needs target_lengths or face_lengths");
+        throw InvalidOption("gives_count needs target_lengths or face_lengths");
     }
     const auto is_length = [](double value) { return value >= 0 && std::isfinite(value); };
     if (!is_length(sizing.max_error) || !is_length(sizing.edge_length) ||
         !is_length(sizing.max_distance)) {
-        throw agvd::InvalidOption("max_error, max_distance and edge_length must be 0 or more");
+        throw InvalidOption("max_error, max_distance and edge_length must be 0 or more");
     }
     if (!(sizing.min_edge >= 0 && sizing.max_edge > 0 && sizing.min_edge <= sizing.max_edge)) {
-        throw agvd::InvalidOption("min_edge is " + std::to_string(sizing.min_edge) +
-                                  " and max_edge " + std::to_string(sizing.max_edge) +
-                                  "; use numbers above 0, the second not below the first");
+        throw InvalidOption("min_edge is " + std::to_string(sizing.min_edge) + " and max_edge " +
+                            std::to_string(sizing.max_edge) +
+                            "; use numbers above 0, the second not below the first");
     }
     if (!(sizing.gradation >= 1 && std::isfinite(sizing.gradation))) {
-        throw agvd::InvalidOption("gradation is " + std::to_string(sizing.gradation) +
-                                  "; use a number of 1 or more");
+        throw InvalidOption("gradation is " + std::to_string(sizing.gradation) +
+                            "; use a number of 1 or more");
     }
 }
 
@@ -94,42 +92,41 @@ void scale_lengths(Sizing& sizing, int exponent) {
 
 void check_options(const RemeshOptions& options, std::size_t num_vertices, std::size_t num_faces) {
     if (options.num_samples < 1) {
-        throw agvd::InvalidOption("num_samples is 0; use 1 or more");
+        throw InvalidOption("num_samples is 0; use 1 or more");
     }
     if (options.repair_rounds < 0) {
-        throw agvd::InvalidOption("repair_rounds is " + std::to_string(options.repair_rounds) +
-                                  "; use 0 or more");
+        throw InvalidOption("repair_rounds is " + std::to_string(options.repair_rounds) +
+                            "; use 0 or more");
     }
     if (options.relax_steps < 0) {
-        throw agvd::InvalidOption("relax_steps is " + std::to_string(options.relax_steps) +
-                                  "; use 0 or more");
+        throw InvalidOption("relax_steps is " + std::to_string(options.relax_steps) +
+                            "; use 0 or more");
     }
     if (!(options.drop_components >= 0 && options.drop_components <= 1)) {
-        throw agvd::InvalidOption("drop_components is " + std::to_string(options.drop_components) +
-                                  "; use a share from 0 to 1");
+        throw InvalidOption("drop_components is " + std::to_string(options.drop_components) +
+                            "; use a share from 0 to 1");
     }
     if (!(options.feature_angle > 0 && options.feature_angle < 180)) {
-        throw agvd::InvalidOption("feature_angle is " + std::to_string(options.feature_angle) +
-                                  "; use degrees above 0 and below 180");
+        throw InvalidOption("feature_angle is " + std::to_string(options.feature_angle) +
+                            "; use degrees above 0 and below 180");
     }
     if (!options.face_labels.empty() && options.face_labels.size() != num_faces) {
-        throw agvd::InvalidOption("face_labels has " + std::to_string(options.face_labels.size()) +
-                                  " labels, but the mesh has " + std::to_string(num_faces) +
-                                  " faces; give one for each, or none");
+        throw InvalidOption("face_labels has " + std::to_string(options.face_labels.size()) +
+                            " labels, but the mesh has " + std::to_string(num_faces) +
+                            " faces; give one for each, or none");
     }
     const bool locks =
         !options.locked.empty() || !options.locked_edges.empty() || options.lock_boundary;
     if (options.sites && locks) {
-        throw agvd::InvalidOption(
-            "sites are given, and vertices or edges are locked; use one of them");
+        throw InvalidOption("sites are given, and vertices or edges are locked; use one of them");
     }
     check_sizing(options, num_vertices, num_faces);
-    agvd::check_num_threads(options.num_threads);
+    check_num_threads(options.num_threads);
 }
 
 // Scales the lengths of a result back: it was computed from the mesh times 2^-exponent.
 void scale_back(RemeshResult& result, int exponent) {
-    result.mesh = agvd::scaled(result.mesh.view(), exponent);
+    result.mesh = scaled(result.mesh.view(), exponent);
     Verdict& verdict = result.verdict;
     for (double* length :
          {&result.features.length, &result.features.dropped_length, &result.features.seam_length,
@@ -149,18 +146,18 @@ void scale_back(RemeshResult& result, int exponent) {
 }
 
 // Whether some faces are to stay.
-// \throw agvd::InvalidOption  the region does not fit to the mesh or to other options.
-bool is_part(const agvd::MeshView& mesh, const RemeshOptions& options) {
+// \throw InvalidOption  the region does not fit to the mesh or to other options.
+bool is_part(const MeshView& mesh, const RemeshOptions& options) {
     const std::vector<std::uint8_t>& region = options.region;
     if (region.empty()) return false;
     if (region.size() != mesh.triangles.size()) {
-        throw agvd::InvalidOption(
-            "region has " + std::to_string(region.size()) + " values, but the mesh has " +
-            std::to_string(mesh.triangles.size()) + " faces; give one for each, or none");
+        throw InvalidOption("region has " + std::to_string(region.size()) +
+                            " values, but the mesh has " + std::to_string(mesh.triangles.size()) +
+                            " faces; give one for each, or none");
     }
     if (options.sites || options.drop_components > 0 || options.cleaning.weld > 0 ||
         options.cleaning.fill_holes > 0) {
-        throw agvd::InvalidOption(
+        throw InvalidOption(
             "a region is given, and sites, drop_components, weld or fill_holes as well; leave out "
             "one of them");
     }
@@ -171,10 +168,10 @@ bool is_part(const agvd::MeshView& mesh, const RemeshOptions& options) {
 
 RemeshResult run(const detail::InputMesh& input, const RemeshOptions& options) {
     check_options(options, input.view.positions.size(), input.view.triangles.size());
-    const double size = agvd::box_of(input.view, options.num_threads).longest_side();
-    if (agvd::is_in_scale(size)) return detail::run_stages(input, options);
+    const double size = box_of(input.view, options.num_threads).longest_side();
+    if (is_in_scale(size)) return detail::run_stages(input, options);
     const int exponent = std::ilogb(size);
-    agvd::TriangleMesh normal = agvd::scaled(input.view, -exponent);
+    TriangleMesh normal = scaled(input.view, -exponent);
     RemeshOptions scaled_options = options;
     scale_lengths(scaled_options.sizing, -exponent);
     scaled_options.cleaning.weld = std::ldexp(options.cleaning.weld, -exponent);
@@ -185,12 +182,12 @@ RemeshResult run(const detail::InputMesh& input, const RemeshOptions& options) {
 
 }  // namespace
 
-RemeshResult remesh(const agvd::MeshView& mesh, const RemeshOptions& options) {
+RemeshResult remesh(const MeshView& mesh, const RemeshOptions& options) {
     if (is_part(mesh, options)) return detail::remesh_region(mesh, options, remesh);
     return run({mesh, nullptr}, options);
 }
 
-RemeshResult remesh_moved(agvd::TriangleMesh mesh, const RemeshOptions& options) {
+RemeshResult remesh_moved(TriangleMesh mesh, const RemeshOptions& options) {
     if (is_part(mesh.view(), options)) return remesh(mesh.view(), options);
     return run({mesh.view(), &mesh}, options);
 }

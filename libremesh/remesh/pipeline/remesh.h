@@ -16,19 +16,19 @@ namespace remesh {
 //! the result has k vertices at one point; Junctions::Keep welds them. docs/algorithm.md says why
 //! this always ends well.
 //! \param mesh  #V x 3 positions, #F x 3 indices; read only during the call; may be dirty.
-//! \throw agvd::InvalidOption    an option is out of range.
-//! \throw agvd::InvalidInput the mesh cannot be repaired (see clean_input), a given site does not
+//! \throw InvalidOption    an option is out of range.
+//! \throw InvalidInput the mesh cannot be repaired (see clean_input), a given site does not
 //!        lie on it, or a feature edge is not one of its edges.
-//! \throw agvd::ConstraintUnmet  num_samples is too small for the topology; the text gives a number
+//! \throw ConstraintUnmet  num_samples is too small for the topology; the text gives a number
 //!        that was tried and works.
-//! \throw agvd::Cancelled        the progress callback returned false.
+//! \throw Cancelled        the progress callback returned false.
 //! Cost: mostly that of the propagations, of which each round of repair needs one: about O(n) with
 //! an error bound, O(n sqrt(n / t)) for exact distances; n = faces of the base, t = sites. The
 //! Steiner engine has O(m n) nodes, m = Steiner points per edge. Re-entrant: no global state.
-[[nodiscard]] RemeshResult remesh(const agvd::MeshView& mesh, const RemeshOptions& options = {});
+[[nodiscard]] RemeshResult remesh(const MeshView& mesh, const RemeshOptions& options = {});
 
 //! The same for a mesh that the caller no longer needs. If it needs no repair and no option refers
 //! to its elements, its memory, 36 bytes for each face, is released after cleaning.
-[[nodiscard]] RemeshResult remesh_moved(agvd::TriangleMesh mesh, const RemeshOptions& options = {});
+[[nodiscard]] RemeshResult remesh_moved(TriangleMesh mesh, const RemeshOptions& options = {});
 
 }  // namespace remesh

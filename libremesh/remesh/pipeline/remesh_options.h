@@ -11,12 +11,12 @@
 #include "agvd/mesh/surface_point.h"
 #include "agvd/propagation/propagation_options.h"
 #include "remesh/clean/clean_input.h"
+#include "remesh/curves/find_creases.h"
+#include "remesh/curves/junctions.h"
 #include "remesh/dual/delaunay.h"
-#include "remesh/features/find_creases.h"
-#include "remesh/features/junctions.h"
-#include "remesh/relax/relax_options.h"
-#include "remesh/sampling/sample_sites.h"
-#include "remesh/sizing/sizing.h"
+#include "remesh/sites/relax_options.h"
+#include "remesh/sites/sample_sites.h"
+#include "remesh/sites/sizing.h"
 
 namespace remesh {
 
@@ -44,7 +44,7 @@ enum class VertexCount {
 
 //! All lengths in mesh units. `{}` gives a good result.
 struct RemeshOptions {
-    agvd::Index num_samples = 2000;  //!< Sites to place, >= 1: one output vertex each.
+    Index num_samples = 2000;  //!< Sites to place, >= 1: one output vertex each.
     //! How the input is repaired. Its num_threads and progress are ignored: those below count.
     CleanOptions cleaning = {};
     //! How long edges are, and where. Some of its fields decide the number of samples instead.
@@ -61,22 +61,22 @@ struct RemeshOptions {
     double feature_angle = CreaseOptions{}.angle;  //!< Degrees, in (0, 180): see CreaseOptions.
     //! Edges that are creases whatever their angle, as pairs of the caller's vertices. With
     //! Features::Off only these and the borders of face_labels are creases.
-    std::vector<std::array<agvd::Index, 2>> feature_edges = {};
+    std::vector<std::array<Index, 2>> feature_edges = {};
     //! A label for each of the caller's faces, or empty. Edges between different labels are creases
     //! like feature_edges.
-    std::vector<agvd::Index> face_labels = {};
+    std::vector<Index> face_labels = {};
     //! Edges that become curves like feature_edges where the spacing permits, as pairs of the
     //! caller's vertices: see find_texture_seams. Creases come first: if no mesh with both is
     //! found, seams are left out.
-    std::vector<std::array<agvd::Index, 2>> texture_seams = {};
+    std::vector<std::array<Index, 2>> texture_seams = {};
     //! Whether the sheets of the input's non-manifold edges are welded in the result. Either way
     //! the sheets have equal points there, except with given sites or Boundary::Free.
     Junctions junctions = Junctions::Apart;
     //! Vertices of the caller that stay where they are, bit for bit, as vertices of the result;
     //! those that cleaning welds (clean_input), at their common place. Not with `sites`.
-    std::vector<agvd::Index> locked = {};
+    std::vector<Index> locked = {};
     //! Edges that stay edges of the result, as pairs of the caller's vertices; their ends stay too.
-    std::vector<std::array<agvd::Index, 2>> locked_edges = {};
+    std::vector<std::array<Index, 2>> locked_edges = {};
     //! The edges of the boundary stay like locked_edges; those of non-manifold edges do not count.
     bool lock_boundary = false;
     //! Faces to remesh: other than 0 for each of the caller's faces that is to change, or empty for
@@ -87,7 +87,7 @@ struct RemeshOptions {
     std::uint64_t seed = 1;  //!< Same seed, same bytes, any num_threads.
     //! Sites on the caller's mesh, instead of sampling; num_samples, init and seed are ignored.
     //! Faces are the caller's.
-    std::optional<std::vector<agvd::SurfacePoint>> sites = {};
+    std::optional<std::vector<SurfacePoint>> sites = {};
     //! Steps of relaxation, >= 0 (0: the sites stay where they were sampled, as in the paper). With
     //! blue noise relaxation runs coarse to fine, with this many steps on each of two levels.
     int relax_steps = RelaxOptions{}.steps;
@@ -96,7 +96,7 @@ struct RemeshOptions {
     //! if sites are relaxed.
     std::optional<bool> fit = {};
     //! How distances are computed. Its num_threads and progress are ignored: those below count.
-    agvd::PropagationOptions propagation = {};
+    PropagationOptions propagation = {};
     //! Most rounds that add sites, >= 0; components that still fail are thinned.
     int repair_rounds = 12;
     //! Which edges to flip: those that fail by geodesic or by straight lengths, or none.

@@ -14,14 +14,10 @@
 namespace remesh::detail {
 namespace {
 
-using agvd::Index;
-using agvd::no_index;
-
 // The same elements as numbered in the region.
 class RegionNumbers {
 public:
-    RegionNumbers(const agvd::MeshView& mesh, const Region& region)
-        : mesh_(mesh), region_(region) {}
+    RegionNumbers(const MeshView& mesh, const Region& region) : mesh_(mesh), region_(region) {}
 
     // The vertex of the region; no_index: it is not in the region.
     [[nodiscard]] Index of(Index vertex) const {
@@ -51,14 +47,14 @@ public:
         const std::vector<std::uint64_t> outside = edges_of(region_.kept);
         std::vector<std::array<Index, 2>> result;
         for (const auto& [a, b] : pairs) {
-            const std::uint64_t edge = agvd::edge_key(a, b);
+            const std::uint64_t edge = edge_key(a, b);
             if (std::binary_search(inside.begin(), inside.end(), edge)) {
                 result.push_back({of(a), of(b)});
             } else if (!std::binary_search(outside.begin(), outside.end(), edge)) {
-                throw agvd::InvalidInput("the " + what + " edge between vertices " +
-                                         std::to_string(a) + " and " + std::to_string(b) +
-                                         " is no edge of the mesh; name the two ends of an edge, "
-                                         "counted from 0");
+                throw InvalidInput("the " + what + " edge between vertices " + std::to_string(a) +
+                                   " and " + std::to_string(b) +
+                                   " is no edge of the mesh; name the two ends of an edge, "
+                                   "counted from 0");
             }
         }
         return result;
@@ -67,25 +63,24 @@ public:
 private:
     void require_vertex(Index vertex, const std::string& what) const {
         if (vertex < mesh_.positions.size()) return;
-        throw agvd::InvalidInput("vertex " + std::to_string(vertex) + " is " + what +
-                                 ", but the mesh has only " +
-                                 std::to_string(mesh_.positions.size()) +
-                                 " vertices, counted from 0; name one of these");
+        throw InvalidInput("vertex " + std::to_string(vertex) + " is " + what +
+                           ", but the mesh has only " + std::to_string(mesh_.positions.size()) +
+                           " vertices, counted from 0; name one of these");
     }
 
     [[nodiscard]] std::vector<std::uint64_t> edges_of(const std::vector<Index>& faces) const {
         std::vector<std::uint64_t> edges;
         for (const Index f : faces) {
-            const agvd::Triangle& t = mesh_.triangles[f];
+            const Triangle& t = mesh_.triangles[f];
             for (std::size_t k = 0; k < 3; ++k) {
-                edges.push_back(agvd::edge_key(t[k], t[(k + 1) % 3]));
+                edges.push_back(edge_key(t[k], t[(k + 1) % 3]));
             }
         }
         std::sort(edges.begin(), edges.end());
         return edges;
     }
 
-    const agvd::MeshView& mesh_;
+    const MeshView& mesh_;
     const Region& region_;
 };
 
@@ -105,7 +100,7 @@ Sizing sizing_of_region(const Sizing& given, const Region& region) {
     return sizing;
 }
 
-RemeshOptions options_of_region(const agvd::MeshView& mesh, const RemeshOptions& given,
+RemeshOptions options_of_region(const MeshView& mesh, const RemeshOptions& given,
                                 const Region& region) {
     const RegionNumbers numbers(mesh, region);
     RemeshOptions options = given;
@@ -122,17 +117,17 @@ RemeshOptions options_of_region(const agvd::MeshView& mesh, const RemeshOptions&
 }
 
 // For each kept vertex a corner of a kept face; then those of the region's own vertices.
-std::vector<agvd::SurfacePoint> sites_of(const Region& region, const GluedRegion& glued,
-                                         const std::vector<agvd::SurfacePoint>& remeshed) {
-    std::vector<agvd::SurfacePoint> sites(glued.mesh.positions.size());
+std::vector<SurfacePoint> sites_of(const Region& region, const GluedRegion& glued,
+                                   const std::vector<SurfacePoint>& remeshed) {
+    std::vector<SurfacePoint> sites(glued.mesh.positions.size());
     for (Index v = 0; v < remeshed.size(); ++v) {
-        agvd::SurfacePoint& site = sites[glued.vertex[v]];
+        SurfacePoint& site = sites[glued.vertex[v]];
         site = remeshed[v];
-        site.face = agvd::FaceId(region.faces[site.face.value()]);
+        site.face = FaceId(region.faces[site.face.value()]);
     }
     for (Index i = 0; i < region.kept.size(); ++i) {
         for (std::size_t k = 0; k < 3; ++k) {
-            agvd::SurfacePoint corner{agvd::FaceId(region.kept[i]), {0, 0, 0}};
+            SurfacePoint corner{FaceId(region.kept[i]), {0, 0, 0}};
             corner.barycentric[k] = 1;
             sites[glued.mesh.triangles[i][k]] = corner;
         }
@@ -141,11 +136,11 @@ std::vector<agvd::SurfacePoint> sites_of(const Region& region, const GluedRegion
 }
 
 // Replaces the numbers for the region alone: now faces that stay count as well.
-void count_crossings(const agvd::MeshView& mesh, const Region& region, const RemeshOptions& options,
+void count_crossings(const MeshView& mesh, const Region& region, const RemeshOptions& options,
                      RemeshResult& result) {
     const StageClock clock(Stage::Check, result);
-    const agvd::Progress progress = progress_of(Stage::Check, options);
-    const agvd::Progress last = agvd::within(progress, 1, 1);
+    const Progress progress = progress_of(Stage::Check, options);
+    const Progress last = within(progress, 1, 1);
     std::vector<std::uint8_t> is_new(result.mesh.triangles.size(), 1);
     std::fill_n(is_new.begin(), region.kept.size(), 0);
     result.self_intersections =
@@ -162,21 +157,21 @@ void count_crossings(const agvd::MeshView& mesh, const Region& region, const Rem
 
 }  // namespace
 
-RemeshResult remesh_region(const agvd::MeshView& mesh, const RemeshOptions& options,
+RemeshResult remesh_region(const MeshView& mesh, const RemeshOptions& options,
                            const RemeshWhole& run) {
-    const agvd::Progress progress = progress_of(Stage::Clean, options);
+    const Progress progress = progress_of(Stage::Clean, options);
     CleanOptions cleaning = options.cleaning;
     cleaning.num_threads = options.num_threads;
-    cleaning.progress = agvd::within(progress, 0, 0);
+    cleaning.progress = within(progress, 0, 0);
     const Region region = cut_region(mesh, options.region, cleaning);
     RemeshResult result = run(region.mesh.view(), options_of_region(mesh, options, region));
-    const agvd::Progress checking = progress_of(Stage::Check, options);
-    const agvd::Progress last = agvd::within(checking, 1, 1);
-    agvd::Poller last_poller(last);
-    agvd::Ticker last_ticker(last_poller);
+    const Progress checking = progress_of(Stage::Check, options);
+    const Progress last = within(checking, 1, 1);
+    Poller last_poller(last);
+    Ticker last_ticker(last_poller);
     GluedRegion glued = glue_region(mesh, region, result.mesh, last_ticker);
     if (!glued.is_joined) {
-        throw agvd::ConstraintUnmet(
+        throw ConstraintUnmet(
             std::to_string(result.mesh.positions.size()) +
             " samples are too few for the region: an edge of its mesh would join two vertices of "
             "the seam that another edge joins already; use more samples, or a larger region");

@@ -10,15 +10,15 @@
 namespace remesh::detail {
 
 //! Remeshes a whole mesh.
-using RemeshWhole = std::function<RemeshResult(const agvd::MeshView&, const RemeshOptions&)>;
+using RemeshWhole = std::function<RemeshResult(const MeshView&, const RemeshOptions&)>;
 
 //! Takes the region out as a mesh of its own, locks its seam, remeshes it, and joins it with the
 //! faces that stay.
 //!
 //! \param options  with a region; checked, but for what `run` checks.
-//! \throw agvd::ConstraintUnmet  num_samples is too small; what `run` throws.
+//! \throw ConstraintUnmet  num_samples is too small; what `run` throws.
 //! Cost: O(n log n) for the whole mesh, and that of `run`.
-[[nodiscard]] RemeshResult remesh_region(const agvd::MeshView& mesh, const RemeshOptions& options,
+[[nodiscard]] RemeshResult remesh_region(const MeshView& mesh, const RemeshOptions& options,
                                          const RemeshWhole& run);
 
 }  // namespace remesh::detail

@@ -15,24 +15,22 @@
 #include "remesh/pipeline/sample_count.h"
 #include "remesh/pipeline/sizes.h"
 #include "remesh/pipeline/work_limit.h"
-#include "remesh/sampling/minimum_samples.h"
+#include "remesh/sites/minimum_samples.h"
 
 namespace remesh::detail {
 namespace {
-
-using agvd::Index;
 
 double spacing_of(const CleanedInput& cleaned, const RemeshOptions& options) {
     return mean_spacing(cleaned.surface,
                         options.sites ? options.sites->size() : options.num_samples);
 }
 
-Verdict judge(const agvd::MeshView& cleaned, const agvd::MeshView& mesh, const Topology& topology,
+Verdict judge(const MeshView& cleaned, const MeshView& mesh, const Topology& topology,
               const StageContext& context) {
     const StageClock clock(Stage::Check, context.result);
-    const agvd::Progress progress = progress_of(Stage::Check, context.options);
+    const Progress progress = progress_of(Stage::Check, context.options);
     return judge_result(cleaned, mesh, topology, context.options.num_threads,
-                        agvd::within(progress, 1, 1));
+                        within(progress, 1, 1));
 }
 
 // All stages after cleaning, in their order: cleaned surface, curves, domain, sites, mesh.
@@ -40,9 +38,9 @@ Verdict judge(const agvd::MeshView& cleaned, const agvd::MeshView& mesh, const T
 // \param work  counts the attempt.
 // \return where cells wrapped around thin parts (ValidDual).
 // \throw TooFewSamples, NetworkFailed; `cleaned` is unchanged then.
-std::vector<agvd::SurfacePoint> run_attempt(CleanedInput& cleaned, const FoundCurves& found,
-                                            const KeptCurves& kept, const SizeField* sizes,
-                                            WorkLimit& work, const StageContext& context) {
+std::vector<SurfacePoint> run_attempt(CleanedInput& cleaned, const FoundCurves& found,
+                                      const KeptCurves& kept, const SizeField* sizes,
+                                      WorkLimit& work, const StageContext& context) {
     const double spacing = spacing_of(cleaned, context.options);
     std::unique_ptr<const CurvePlan> plan =
         plan_curves(cleaned, found, kept, spacing, sizes, context);
@@ -57,7 +55,7 @@ std::vector<agvd::SurfacePoint> run_attempt(CleanedInput& cleaned, const FoundCu
     try {
         BuiltMesh built = build_mesh(domain, sites, work, context);
         const Topology topology = check_result(cleaned, domain, sites.chain, built, context);
-        const agvd::MeshView cleaned_mesh = domain.whole->mesh.view();
+        const MeshView cleaned_mesh = domain.whole->mesh.view();
         context.result.sizing =
             measure_edges(built.mesh.view(), built.sites, context.options.num_samples, sizes);
         context.result.verdict = judge(cleaned_mesh, built.mesh.view(), topology, context);
@@ -111,7 +109,7 @@ bool has_lost_part(const Verdict& verdict) { return verdict.largest_distance > v
 // Runs an attempt again with shorter edges on thin parts, where cells wrapped around them, and
 // keeps the better result.
 void shorten_thin(CleanedInput& cleaned, const FoundCurves& found, const KeptCurves& kept,
-                  std::span<const agvd::SurfacePoint> thin_places, const RemeshOptions& options,
+                  std::span<const SurfacePoint> thin_places, const RemeshOptions& options,
                   WorkLimit& work, RemeshResult again, RemeshResult& best) {
     try {
         const RunSizes sizes = find_sizes(cleaned, found, spacing_of(cleaned, options), {},
@@ -167,7 +165,7 @@ RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cl
     WorkLimit work(cleaned.surface.num_faces(), options.num_samples);
     std::optional<RemeshResult> best;
     KeptCurves kept_of_best;
-    std::vector<agvd::SurfacePoint> thin_places;  // Of the best.
+    std::vector<SurfacePoint> thin_places;  // Of the best.
     for (const bool has_junctions : {true, false}) {
         bool needs_none = false;  // Dropping some curves would not help.
         const std::vector<KeptCurves> attempts = attempts_with(found, has_junctions);
@@ -176,7 +174,7 @@ RemeshResult run_with_curves(CleanedInput& cleaned, const RemeshResult& after_cl
             if (work.is_spent() && best) break;
             if (!is_last && (needs_none || work.is_spent())) continue;
             RemeshResult result = first;
-            std::vector<agvd::SurfacePoint> thin;
+            std::vector<SurfacePoint> thin;
             const std::size_t done = work.done();
             try {
                 thin =
@@ -343,8 +341,8 @@ RemeshResult run_stages(const InputMesh& input, const RemeshOptions& given) {
         }
     } catch (const TooFewSamples& failure) {
         const EnoughSamples enough = find_enough(cleaned, result, options, failure.reached);
-        throw agvd::ConstraintUnmet(describe_too_few(failure, enough, cleaned, given) +
-                                    describe_gaps(cleaned));
+        throw ConstraintUnmet(describe_too_few(failure, enough, cleaned, given) +
+                              describe_gaps(cleaned));
     }
     result.input_topology = std::move(cleaned.topology);
     return result;

@@ -7,15 +7,12 @@
 
 #include "agvd/core/edge_key.h"
 #include "agvd/mesh/face_area.h"
-#include "remesh/relax/prepared_surface.h"
-#include "remesh/sampling/minimum_samples.h"
-#include "remesh/sampling/network_plan.h"
+#include "remesh/sites/minimum_samples.h"
+#include "remesh/sites/network_plan.h"
+#include "remesh/sites/prepared_surface.h"
 
 namespace remesh::detail {
 namespace {
-
-using agvd::Index;
-using agvd::Surface;
 
 constexpr double most_samples = 8e8;
 // The mean edge of a relaxed result over that of equilateral triangles, and without relaxation.
@@ -33,7 +30,7 @@ BoundarySize measure_boundary(const CleanedInput& cleaned) {
     const Surface& surface = cleaned.surface;
     BoundarySize size;
     for (Index h = 0; h < surface.twin.size(); ++h) {
-        if (surface.twin[h] != agvd::no_index) continue;
+        if (surface.twin[h] != no_index) continue;
         if (cleaned.locked.has_edge(surface.edge[h])) {
             ++size.locked_edges;
         } else {
@@ -60,7 +57,7 @@ double euler_characteristic(const CleanedInput& cleaned) {
 // By Euler's formula F = 2 (V - X) - B, where B edges of the boundary are as long as the others, or
 // locked.
 double vertices_for_faces(double faces, const CleanedInput& cleaned) {
-    const double area = agvd::surface_area(cleaned.surface);
+    const double area = surface_area(cleaned.surface);
     const BoundarySize boundary = measure_boundary(cleaned);
     const double edge = std::sqrt(4 / std::numbers::sqrt3 * area / faces);
     return (faces + boundary.length / edge + boundary.locked_edges) / 2 +
@@ -77,7 +74,7 @@ double vertices_for_targets(const CleanedInput& cleaned, const Sizing& sizing) {
         const auto& [a, b, c] = cleaned.surface.mesh.triangles[f];
         const double length = sizing.face_lengths.empty() ? (target(a) + target(b) + target(c)) / 3
                                                           : face_length(cleaned, sizing, f);
-        sum += agvd::face_area(cleaned.surface, f) / (length * length);
+        sum += face_area(cleaned.surface, f) / (length * length);
     }
     return 2 / std::numbers::sqrt3 * sum;
 }
@@ -91,8 +88,7 @@ Index count_by_sizing(const CleanedInput& cleaned, const RemeshOptions& options)
     const Sizing& sizing = options.sizing;
     if (sizing.edge_length > 0) {
         return to_count(vertices_for(sizing.edge_length / excess_of(options),
-                                     agvd::surface_area(cleaned.surface),
-                                     measure_boundary(cleaned)));
+                                     surface_area(cleaned.surface), measure_boundary(cleaned)));
     }
     if (sizing.num_faces > 0) return to_count(vertices_for_faces(sizing.num_faces, cleaned));
     if (sizing.gives_count) {
@@ -105,9 +101,9 @@ Index count_by_sizing(const CleanedInput& cleaned, const RemeshOptions& options)
 
 Index to_count(double vertices) {
     if (!(vertices <= most_samples)) {
-        throw agvd::InvalidOption("the lengths asked for need more than " +
-                                  std::to_string(static_cast<Index>(most_samples)) +
-                                  " vertices; use longer ones, or a larger distance");
+        throw InvalidOption("the lengths asked for need more than " +
+                            std::to_string(static_cast<Index>(most_samples)) +
+                            " vertices; use longer ones, or a larger distance");
     }
     return static_cast<Index>(std::max(1.0, std::round(vertices)));
 }
@@ -131,7 +127,7 @@ Index sample_count(const CleanedInput& cleaned, const RemeshOptions& options) {
 // The inverse of vertices_for().
 double edge_length_for(Index count, const CleanedInput& cleaned, const RemeshOptions& options) {
     const BoundarySize boundary = measure_boundary(cleaned);
-    const double area = 2 / std::numbers::sqrt3 * agvd::surface_area(cleaned.surface);
+    const double area = 2 / std::numbers::sqrt3 * surface_area(cleaned.surface);
     const double inner = std::max(1.0, count - boundary.locked_edges / 2.0);
     const double half = boundary.length / 4;
     return excess_of(options) * (half + std::sqrt(half * half + inner * area)) / inner;
@@ -140,7 +136,7 @@ double edge_length_for(Index count, const CleanedInput& cleaned, const RemeshOpt
 // The inverse of vertices_for_faces(), for the root of the number.
 Index faces_for(Index count, const CleanedInput& cleaned) {
     const BoundarySize boundary = measure_boundary(cleaned);
-    const double area = 4 / std::numbers::sqrt3 * agvd::surface_area(cleaned.surface);
+    const double area = 4 / std::numbers::sqrt3 * surface_area(cleaned.surface);
     const double rest = 2 * (count - euler_characteristic(cleaned)) - boundary.locked_edges;
     const double half = boundary.length / std::sqrt(area) / 2;
     const double root = std::sqrt(half * half + std::max(rest, 1.0)) - half;
@@ -155,10 +151,10 @@ std::optional<double> corrected_edge_length(double mean_edge, const RemeshOption
     return wanted * std::clamp(ratio, 1 / most_correction, most_correction);
 }
 
-double mean_edge(const agvd::MeshView& mesh) {
+double mean_edge(const MeshView& mesh) {
     std::vector<std::uint64_t> edges;
-    for (const agvd::Triangle& t : mesh.triangles) {
-        for (std::size_t k = 0; k < 3; ++k) edges.push_back(agvd::edge_key(t[k], t[(k + 1) % 3]));
+    for (const Triangle& t : mesh.triangles) {
+        for (std::size_t k = 0; k < 3; ++k) edges.push_back(edge_key(t[k], t[(k + 1) % 3]));
     }
     std::sort(edges.begin(), edges.end());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());

@@ -8,20 +8,20 @@ namespace remesh::detail {
 
 //! Sizing::face_lengths for a face of the cleaned mesh.
 [[nodiscard]] inline double face_length(const CleanedInput& cleaned, const Sizing& sizing,
-                                        agvd::Index face) {
+                                        Index face) {
     return sizing.face_lengths[cleaned.face_origin.empty() ? face : cleaned.face_origin[face]];
 }
 
 //! The nearest number of samples, at least 1.
-//! \throw agvd::InvalidOption  it is above 8e8.
-[[nodiscard]] agvd::Index to_count(double vertices);
+//! \throw InvalidOption  it is above 8e8.
+[[nodiscard]] Index to_count(double vertices);
 
 //! The number of samples by which the options' edge length, number of faces or target lengths come
 //! out; num_samples if they have none of these. Creases and junctions do not count yet.
 //!
-//! \throw agvd::InvalidOption  the number would be too large.
+//! \throw InvalidOption  the number would be too large.
 //! Cost: O(#F).
-[[nodiscard]] agvd::Index sample_count(const CleanedInput& cleaned, const RemeshOptions& options);
+[[nodiscard]] Index sample_count(const CleanedInput& cleaned, const RemeshOptions& options);
 
 //! Whether the number of samples follows from lengths or faces.
 [[nodiscard]] inline bool gives_num_samples(const Sizing& sizing) {
@@ -30,11 +30,11 @@ namespace remesh::detail {
 }
 
 //! The number of locked edges on the boundary. Cost: O(n).
-[[nodiscard]] agvd::Index num_locked_on_boundary(const CleanedInput& cleaned);
+[[nodiscard]] Index num_locked_on_boundary(const CleanedInput& cleaned);
 
 //! The fewest samples that topology and what is locked allow; 1 if nothing is locked.
 //! Cost: O(n).
-[[nodiscard]] agvd::Index least_samples(const CleanedInput& cleaned, double spacing);
+[[nodiscard]] Index least_samples(const CleanedInput& cleaned, double spacing);
 
 //! The edge length to ask for so that the mean edge comes nearer to options.sizing.edge_length;
 //! nothing if it is near enough.
@@ -44,13 +44,13 @@ namespace remesh::detail {
                                                           const RemeshOptions& options);
 
 //! The edge length by which so many samples come out. Cost: O(#F).
-[[nodiscard]] double edge_length_for(agvd::Index count, const CleanedInput& cleaned,
+[[nodiscard]] double edge_length_for(Index count, const CleanedInput& cleaned,
                                      const RemeshOptions& options);
 
 //! The number of faces by which so many samples come out. Cost: O(#F).
-[[nodiscard]] agvd::Index faces_for(agvd::Index count, const CleanedInput& cleaned);
+[[nodiscard]] Index faces_for(Index count, const CleanedInput& cleaned);
 
 //! The mean length of the edges of a mesh; 0 without faces. Cost: O(#F).
-[[nodiscard]] double mean_edge(const agvd::MeshView& mesh);
+[[nodiscard]] double mean_edge(const MeshView& mesh);
 
 }  // namespace remesh::detail

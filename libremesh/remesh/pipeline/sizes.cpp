@@ -14,14 +14,11 @@
 #include "agvd/mesh/scale.h"
 #include "remesh/pipeline/sample_count.h"
 #include "remesh/pipeline/thin_lengths.h"
-#include "remesh/sizing/curvature.h"
-#include "remesh/sizing/target_lengths.h"
+#include "remesh/sites/curvature.h"
+#include "remesh/sites/target_lengths.h"
 
 namespace remesh::detail {
 namespace {
-
-using agvd::Index;
-using agvd::SurfacePoint;
 
 // Longest edge of the base, and shortest at vertices without curvature, in spacings.
 constexpr double longest_edge = 0.85, shortest_edge = 0.15;
@@ -34,13 +31,13 @@ constexpr int edge_length_tries = 2;
 // \param value_of  of a vertex of the cleaned mesh.
 template <typename ValueOf>
 std::vector<double> carry_values(const ValueOf& value_of, std::span<const Index> original,
-                                 const agvd::IntrinsicTriangulation& base) {
-    const agvd::Surface& input = base.input();
+                                 const IntrinsicTriangulation& base) {
+    const Surface& input = base.input();
     std::vector<double> values;
     for (Index v = 0; v < input.num_vertices(); ++v) values.push_back(value_of(original[v]));
     for (Index v = input.num_vertices(); v < base.surface().num_vertices(); ++v) {
         const SurfacePoint& place = base.place_of_added(v);
-        const agvd::Triangle& t = input.mesh.triangles[place.face.value()];
+        const Triangle& t = input.mesh.triangles[place.face.value()];
         double value = 0;
         for (std::size_t k = 0; k < 3; ++k) value += place.barycentric[k] * values[t[k]];
         values.push_back(value);
@@ -51,16 +48,15 @@ std::vector<double> carry_values(const ValueOf& value_of, std::span<const Index>
 // The least value of the faces around each vertex of the base.
 // \param value_of  of a face of the base's input.
 template <typename ValueOf>
-std::vector<double> least_of_faces(const ValueOf& value_of,
-                                   const agvd::IntrinsicTriangulation& base) {
-    const agvd::Surface& input = base.input();
+std::vector<double> least_of_faces(const ValueOf& value_of, const IntrinsicTriangulation& base) {
+    const Surface& input = base.input();
     std::vector<double> values(base.surface().num_vertices(),
                                std::numeric_limits<double>::infinity());
     for (Index f = 0; f < input.num_faces(); ++f) {
         for (const Index v : input.mesh.triangles[f]) values[v] = std::min(values[v], value_of(f));
     }
     for (Index v = input.num_vertices(); v < values.size(); ++v) {
-        agvd::for_each_view(input, base.place_of_added(v), [&](const SurfacePoint& view) {
+        for_each_view(input, base.place_of_added(v), [&](const SurfacePoint& view) {
             values[v] = std::min(values[v], value_of(view.face.value()));
         });
     }
@@ -69,7 +65,7 @@ std::vector<double> least_of_faces(const ValueOf& value_of,
 
 // #V: the mean length of the locked edges at each vertex; 0: there are none. Empty: nowhere.
 std::vector<double> locked_lengths(const CleanedInput& cleaned) {
-    const agvd::Surface& surface = cleaned.surface;
+    const Surface& surface = cleaned.surface;
     if (cleaned.locked.is_edge.empty()) return {};
     std::vector<double> result(surface.num_vertices(), 0);
     std::vector<std::pair<Index, double>> at_vertex;
@@ -92,12 +88,12 @@ std::vector<double> locked_lengths(const CleanedInput& cleaned) {
 }
 
 // The same limits, and the lengths of locked edges as well.
-std::vector<double> limit_at_locked(const agvd::Surface& surface, std::span<const double> limits,
+std::vector<double> limit_at_locked(const Surface& surface, std::span<const double> limits,
                                     std::span<const double> locked, int num_threads) {
     std::vector<double> result(limits.begin(), limits.end());
     if (locked.empty()) return result;
     if (result.empty()) {
-        const agvd::MeshBox box = agvd::box_of(surface.mesh.view(), num_threads);
+        const MeshBox box = box_of(surface.mesh.view(), num_threads);
         result.assign(surface.num_vertices(), (box.high - box.low).norm());
     }
     for (std::size_t v = 0; v < locked.size(); ++v) {
@@ -108,11 +104,11 @@ std::vector<double> limit_at_locked(const agvd::Surface& surface, std::span<cons
 
 // The lengths of locked edges on the base. Vertices that it added inside faces have none.
 std::vector<double> carry_locked(std::span<const double> locked, std::span<const Index> original,
-                                 const agvd::IntrinsicTriangulation& base) {
+                                 const IntrinsicTriangulation& base) {
     if (locked.empty()) return {};
     std::vector<double> result = carry_values([&](Index v) { return locked[v]; }, original, base);
     for (Index v = base.input().num_vertices(); v < result.size(); ++v) {
-        if (!agvd::is_on_boundary(base.input(), base.place_of_added(v))) result[v] = 0;
+        if (!is_on_boundary(base.input(), base.place_of_added(v))) result[v] = 0;
     }
     return result;
 }
@@ -127,10 +123,10 @@ Index count_for(const SizeField& field, const CleanedInput& cleaned, double spac
 }
 
 // The mean over the vertices of a mesh that follows these lengths.
-double mean_length(const agvd::Surface& surface, std::span<const double> length) {
+double mean_length(const Surface& surface, std::span<const double> length) {
     double lengths = 0, vertices = 0;
     for (Index f = 0; f < surface.num_faces(); ++f) {
-        const double area = agvd::face_area(surface, f);
+        const double area = face_area(surface, f);
         for (const Index v : surface.mesh.triangles[f]) {
             lengths += area / length[v];
             vertices += area / (length[v] * length[v]);
@@ -148,10 +144,10 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
     const Sizing& sizing = options.sizing;
     if (is_uniform(sizing) && thin_places.empty()) return {nullptr, options.num_samples};
     const StageClock clock(Stage::Clean, result);
-    const agvd::Progress all = progress_of(Stage::Clean, options);
-    const agvd::Progress progress = agvd::within(all, cleaned_fraction, cleaned_fraction);
-    agvd::Poller poller(progress);
-    agvd::Ticker ticker(poller);
+    const Progress all = progress_of(Stage::Clean, options);
+    const Progress progress = within(all, cleaned_fraction, cleaned_fraction);
+    Poller poller(progress);
+    Ticker ticker(poller);
     std::vector<std::uint8_t> is_crease = found.is_crease;
     is_crease.resize(cleaned.surface.num_edges(), 0);  // Empty: there are none.
     CutSurface cut =
@@ -159,9 +155,9 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
                     options.num_threads, progress);
     const double num_sites =
         options.sites ? static_cast<double>(options.sites->size()) : options.num_samples;
-    const auto base = std::make_shared<const agvd::IntrinsicTriangulation>(
+    const auto base = std::make_shared<const IntrinsicTriangulation>(
         std::move(cut.surface),
-        agvd::IntrinsicOptions{
+        IntrinsicOptions{
             .max_length = longest_edge * spacing,
             .min_length = sizing.is_adaptive || !thin_places.empty() ? shortest_edge * spacing : 0,
             .most_splits = static_cast<Index>(std::min(
@@ -218,13 +214,13 @@ RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found, doubl
     return sizes;
 }
 
-SizingResult measure_edges(const agvd::MeshView& mesh, std::span<const SurfacePoint> sites,
+SizingResult measure_edges(const MeshView& mesh, std::span<const SurfacePoint> sites,
                            Index num_samples, const SizeField* sizes) {
     SizingResult result{.num_samples = num_samples, .mean_edge = mean_edge(mesh)};
     if (sizes == nullptr) return result;
     const std::vector<double> target = sizes->at(sites);
     std::vector<double> ratios;  // Each inner edge twice.
-    for (const agvd::Triangle& t : mesh.triangles) {
+    for (const Triangle& t : mesh.triangles) {
         for (std::size_t k = 0; k < 3; ++k) {
             const Index a = t[k], b = t[(k + 1) % 3];
             const double length = (mesh.positions[a] - mesh.positions[b]).norm();

@@ -3,13 +3,13 @@
 #pragma once
 
 #include "remesh/pipeline/curves.h"
-#include "remesh/sizing/size_field.h"
+#include "remesh/sites/size_field.h"
 
 namespace remesh::detail {
 
 struct RunSizes {
     std::unique_ptr<const SizeField> field;  //!< Null: all edges are equally long.
-    agvd::Index num_samples = 0;             //!< To place; as given, or as the lengths give it.
+    Index num_samples = 0;                   //!< To place; as given, or as the lengths give it.
 };
 
 //! \param found    creases and junctions: curvature does not count across them.
@@ -20,7 +20,7 @@ struct RunSizes {
 //! Cost: that of a base, and a few sweeps over the edges.
 [[nodiscard]] RunSizes find_sizes(const CleanedInput& cleaned, const FoundCurves& found,
                                   double spacing, std::span<const double> most_lengths,
-                                  std::span<const agvd::SurfacePoint> thin_places,
+                                  std::span<const SurfacePoint> thin_places,
                                   const StageContext& context);
 
 //! Compares a mesh with the target lengths.
@@ -28,8 +28,7 @@ struct RunSizes {
 //! \param sites  #V: places of the vertices on the surface.
 //! \param sizes  null: all targets are equal.
 //! Cost: O(n log n).
-[[nodiscard]] SizingResult measure_edges(const agvd::MeshView& mesh,
-                                         std::span<const agvd::SurfacePoint> sites,
-                                         agvd::Index num_samples, const SizeField* sizes);
+[[nodiscard]] SizingResult measure_edges(const MeshView& mesh, std::span<const SurfacePoint> sites,
+                                         Index num_samples, const SizeField* sizes);
 
 }  // namespace remesh::detail

@@ -22,8 +22,8 @@ inline constexpr double cleaned_fraction = 0.1;
 //! Thrown if no further vertex can be removed without changing the topology, or there are more
 //! locked vertices.
 struct TooFewSamples {
-    agvd::Index asked;
-    agvd::Index reached;  //!< Vertices that are left.
+    Index asked;
+    Index reached;  //!< Vertices that are left.
 };
 
 //! Adds the time from construction to destruction to a stage of the result.
@@ -52,7 +52,7 @@ private:
 }
 
 //! The caller's callback, bound to one stage; empty if there is none.
-[[nodiscard]] inline agvd::Progress progress_of(Stage stage, const RemeshOptions& options) {
+[[nodiscard]] inline Progress progress_of(Stage stage, const RemeshOptions& options) {
     if (!options.progress) return {};
     return [&options, stage](double fraction) { return options.progress(stage, fraction); };
 }

@@ -6,13 +6,11 @@
 #include <numbers>
 
 #include "agvd/mesh/face_area.h"
-#include "remesh/sizing/curvature.h"
-#include "remesh/sizing/gradation.h"
+#include "remesh/sites/curvature.h"
+#include "remesh/sites/gradation.h"
 
 namespace remesh::detail {
 namespace {
-
-using agvd::Index;
 
 constexpr double vertices_around = 5;
 constexpr double shortest_of_spacing = 0.125;
@@ -25,14 +23,14 @@ constexpr double most_of_sites = 0.25;
 
 }  // namespace
 
-std::vector<double> thin_lengths(const agvd::IntrinsicTriangulation& base,
-                                 std::span<const agvd::SurfacePoint> places,
+std::vector<double> thin_lengths(const IntrinsicTriangulation& base,
+                                 std::span<const SurfacePoint> places,
                                  std::span<const std::pair<Index, Index>> joined, double spacing,
-                                 double num_sites, agvd::Ticker& ticker) {
+                                 double num_sites, Ticker& ticker) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    const agvd::Surface& surface = base.surface();
+    const Surface& surface = base.surface();
     std::vector<double> distance(surface.num_vertices(), infinity);
-    for (const agvd::SurfacePoint& place : base.to_intrinsic(places)) {
+    for (const SurfacePoint& place : base.to_intrinsic(places)) {
         for (const Index v : surface.mesh.triangles[place.face.value()]) {
             distance[v] = std::numeric_limits<double>::min();
         }
@@ -52,7 +50,7 @@ std::vector<double> thin_lengths(const agvd::IntrinsicTriangulation& base,
     double num_thin = 0;
     for (Index f = 0; f < surface.num_faces(); ++f) {
         for (const Index v : surface.mesh.triangles[f]) {
-            num_thin += agvd::face_area(surface, f) / 3 / (length[v] * length[v]);
+            num_thin += face_area(surface, f) / 3 / (length[v] * length[v]);
         }
     }
     num_thin *= 2 / std::numbers::sqrt3;

@@ -4,6 +4,7 @@
 
 #include "agvd/core/poller.h"
 #include "agvd/intrinsic/intrinsic_triangulation.h"
+#include "remesh/names.h"
 
 namespace remesh::detail {
 
@@ -15,9 +16,9 @@ namespace remesh::detail {
 //! \param spacing  mesh units: of the sites in the mean.
 //! \return #V of base.surface(); infinity where nothing is thin.
 //! Cost: O(n log n).
-[[nodiscard]] std::vector<double> thin_lengths(
-    const agvd::IntrinsicTriangulation& base, std::span<const agvd::SurfacePoint> places,
-    std::span<const std::pair<agvd::Index, agvd::Index>> joined, double spacing, double num_sites,
-    agvd::Ticker& ticker);
+[[nodiscard]] std::vector<double> thin_lengths(const IntrinsicTriangulation& base,
+                                               std::span<const SurfacePoint> places,
+                                               std::span<const std::pair<Index, Index>> joined,
+                                               double spacing, double num_sites, Ticker& ticker);
 
 }  // namespace remesh::detail

@@ -12,26 +12,19 @@
 #include "agvd/diagram/build_diagram.h"
 #include "agvd/mesh/distinct_points.h"
 #include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/topology.h"
 #include "agvd/propagation/propagate.h"
+#include "remesh/curves/close_rim.h"
+#include "remesh/dual/boundary_cells.h"
 #include "remesh/dual/build_dual.h"
-#include "remesh/features/close_rim.h"
-#include "remesh/guarantee/boundary_cells.h"
-#include "remesh/guarantee/closed_ball.h"
-#include "remesh/guarantee/farthest_voronoi_vertices.h"
+#include "remesh/dual/closed_ball.h"
+#include "remesh/dual/farthest_voronoi_vertices.h"
+#include "remesh/dual/free_rim.h"
+#include "remesh/dual/thin_patch.h"
 #include "remesh/pipeline/stage_context.h"
-#include "remesh/simplify/free_rim.h"
-#include "remesh/simplify/thin_patch.h"
-#include "remesh/topology/topology.h"
 
 namespace remesh::detail {
 namespace {
-
-using agvd::Index;
-using agvd::no_index;
-using agvd::Surface;
-using agvd::SurfacePoint;
-using agvd::Triangle;
-using agvd::Vec3;
 
 // A component is given up after so many rounds in a row without a new minimum of its faults.
 constexpr int max_stalled_rounds = 3;
@@ -66,9 +59,9 @@ public:
     ValidDual run() {
         mend_sites();
         const StageClock clock(Stage::Dual, result_);
-        agvd::poll(progress_of(Stage::Dual, options_), 0);
+        poll(progress_of(Stage::Dual, options_), 0);
         build_mesh();
-        agvd::poll(progress_of(Stage::Dual, options_), 1);
+        poll(progress_of(Stage::Dual, options_), 1);
         return std::move(dual_);
     }
 
@@ -153,19 +146,19 @@ private:
         std::erase_if(fixes.added, has_failed);
     }
 
-    [[nodiscard]] agvd::Propagation propagate() const {
-        agvd::PropagationOptions options = options_.propagation;
+    [[nodiscard]] Propagation propagate() const {
+        PropagationOptions options = options_.propagation;
         options.num_threads = options_.num_threads;
         options.progress = progress_of(Stage::Propagate, options_);
         if (!input_.layout) return agvd::propagate(surface_, sites_, options);
-        agvd::SurfaceLayout layout = *std::move(input_.layout);
+        SurfaceLayout layout = *std::move(input_.layout);
         input_.layout.reset();
         return agvd::propagate(surface_, std::move(layout), sites_, options);
     }
 
     void build_diagram() {
         dual_.diagram = {};  // Frees it before the next one is built.
-        agvd::Propagation propagation;
+        Propagation propagation;
         {
             const StageClock clock(Stage::Propagate, result_);
             propagation = propagate();
@@ -196,7 +189,7 @@ private:
             const Index v = surface_.mesh.triangles[f][0];
             if (dual_.diagram.nearest_site[v].is_valid() || is_told[component]) continue;
             is_told[component] = true;
-            missing.push_back({{}, {}, SiteReason::NoSite, {{agvd::FaceId(f), {1, 0, 0}}}});
+            missing.push_back({{}, {}, SiteReason::NoSite, {{FaceId(f), {1, 0, 0}}}});
         }
         return missing;
     }
@@ -231,7 +224,7 @@ private:
         for (const SurfacePoint& place : fixes.added) add(place, SiteReason::BoundaryCorner);
         for (const ClosedBallViolation& violation : violations) {
             bool is_free = true;
-            for (const agvd::SiteId site : {violation.site, violation.other}) {
+            for (const SiteId site : {violation.site, violation.other}) {
                 if (!site.is_valid()) continue;
                 is_free = is_free && !is_concerned[site.value()];
                 is_concerned[site.value()] = true;
@@ -283,13 +276,13 @@ private:
     bool add_corners() {
         std::vector<bool> has_site(surface_.num_vertices(), false);
         for (const SurfacePoint& site : sites_) {
-            if (const auto v = agvd::vertex_of(surface_, site)) has_site[*v] = true;
+            if (const auto v = vertex_of(surface_, site)) has_site[*v] = true;
         }
         new_places_.clear();
         for (const Index v : input_.boundary_corners) {
             const Index h = surface_.outgoing[v];
             if (has_site[v] || !progress_[input_.component[Surface::face(h)]].gave_up) continue;
-            SurfacePoint corner{agvd::FaceId(Surface::face(h)), {0, 0, 0}};
+            SurfacePoint corner{FaceId(Surface::face(h)), {0, 0, 0}};
             corner.barycentric[h % 3] = 1;
             add(corner, SiteReason::BoundaryCorner);
         }
@@ -308,8 +301,7 @@ private:
     void build_mesh() {
         std::vector<std::vector<Triangle>> triangles(input_.components.size());
         const agvd::Progress progress = progress_of(Stage::Dual, options_);
-        for (const Triangle& t :
-             build_dual(surface_, dual_.diagram, agvd::within(progress, 0, 0))) {
+        for (const Triangle& t : build_dual(surface_, dual_.diagram, within(progress, 0, 0))) {
             triangles[component_of(sites_[t[0]])].push_back(t);
         }
         const auto part_of = [&](Index site) { return component_of(sites_[site]); };
@@ -357,7 +349,7 @@ private:
         for (const Triangle& t : triangles) used.insert(used.end(), t.begin(), t.end());
         std::sort(used.begin(), used.end());
         used.erase(std::unique(used.begin(), used.end()), used.end());
-        agvd::TriangleMesh mesh{{}, {triangles.begin(), triangles.end()}};
+        TriangleMesh mesh{{}, {triangles.begin(), triangles.end()}};
         for (const Index site : used) {
             mesh.positions.push_back(position(surface_.mesh.view(), sites_[site]));
         }
@@ -389,7 +381,7 @@ private:
             const Index component = input_.component[f];
             if (has_failed_[component]) parts[component].faces.push_back(f);
         }
-        for (const Index s : agvd::distinct_points(surface_, sites_)) {
+        for (const Index s : distinct_points(surface_, sites_)) {
             const Index component = component_of(sites_[s]);
             if (has_failed_[component]) parts[component].sites.push_back(s);
         }
@@ -399,10 +391,10 @@ private:
     // Appends the component, thinned to its sites and the extra vertices that must stay.
     void append_thinned(const ThinPart& thinned) {
         const auto first = static_cast<Index>(dual_.mesh.points.size());
-        std::vector<SurfacePoint> points = agvd::points_of(sites_, thinned.sites);
+        std::vector<SurfacePoint> points = points_of(sites_, thinned.sites);
         dual_.site.insert(dual_.site.end(), thinned.sites.begin(), thinned.sites.end());
-        agvd::ThinnedMesh part = input_.chain.empty() ? agvd::thin(surface_, thinned.faces, points)
-                                                      : thin_patch(surface_, thinned.faces, points);
+        ThinnedMesh part = input_.chain.empty() ? thin(surface_, thinned.faces, points)
+                                                : thin_patch(surface_, thinned.faces, points);
         if (input_.has_locked) free_rim(surface_, points, part);
         points.insert(points.end(), part.extra.begin(), part.extra.end());
         dual_.mesh.points.insert(dual_.mesh.points.end(), points.begin(), points.end());
@@ -419,11 +411,11 @@ private:
     RemeshResult& result_;
     const std::vector<SurfacePoint> given_;  // The sites before repair.
     const std::size_t most_sites_;
-    const int first_round_;                                    // Of result_.repair_rounds.
-    std::vector<SiteReason> reasons_;                          // Of the added sites.
-    std::vector<Progress> progress_;                           // By component.
-    std::vector<bool>& has_failed_;                            // By component.
-    std::unordered_set<Vec3, agvd::PositionHash> new_places_;  // Of sites added in this round.
+    const int first_round_;                              // Of result_.repair_rounds.
+    std::vector<SiteReason> reasons_;                    // Of the added sites.
+    std::vector<Progress> progress_;                     // By component.
+    std::vector<bool>& has_failed_;                      // By component.
+    std::unordered_set<Vec3, PositionHash> new_places_;  // Of sites added in this round.
     ValidDual dual_;
 };
 

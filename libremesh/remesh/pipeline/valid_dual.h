@@ -6,7 +6,7 @@
 
 #include "agvd/diagram/diagram.h"
 #include "agvd/propagation/surface_layout.h"
-#include "remesh/features/curve_sites.h"
+#include "remesh/curves/curve_sites.h"
 #include "remesh/pipeline/remesh_options.h"
 #include "remesh/pipeline/remesh_result.h"
 
@@ -14,13 +14,13 @@ namespace remesh::detail {
 
 //! The surface that cells lie on, and what the dual must respect.
 struct DualInput {
-    const agvd::Surface& surface;  //!< That of the intrinsic triangulation.
+    const Surface& surface;  //!< That of the intrinsic triangulation.
     //! SurfaceLayout(surface) or none. The first propagation consumes it; later ones make their
     //! own, which takes a tenth of a round. It is larger than the surface.
-    std::optional<agvd::SurfaceLayout>& layout;
+    std::optional<SurfaceLayout>& layout;
     std::span<const ComponentTopology> components;
-    std::span<const agvd::Index> component;         //!< #F of surface: index into components.
-    std::span<const agvd::Index> boundary_corners;  //!< Boundary vertices that need a site.
+    std::span<const Index> component;         //!< #F of surface: index into components.
+    std::span<const Index> boundary_corners;  //!< Boundary vertices that need a site.
     //! If the surface is cut along a network: the boundary that the mesh must have. Components
     //! whose cells do not give it are thinned.
     std::span<const ChainEdge> chain = {};
@@ -29,22 +29,22 @@ struct DualInput {
 
 //! A triangle mesh whose vertices are points of the surface.
 struct SurfaceMesh {
-    std::vector<agvd::SurfacePoint> points;  //!< One per vertex.
-    std::vector<agvd::Triangle> triangles;   //!< Indices into points.
+    std::vector<SurfacePoint> points;  //!< One per vertex.
+    std::vector<Triangle> triangles;   //!< Indices into points.
 };
 
 struct ValidDual {
-    SurfaceMesh mesh;               //!< Points of the intrinsic triangulation.
-    std::vector<agvd::Index> site;  //!< Per vertex: its site; no_index: it has none.
-    agvd::Diagram diagram;          //!< Of `sites`.
+    SurfaceMesh mesh;         //!< Points of the intrinsic triangulation.
+    std::vector<Index> site;  //!< Per vertex: its site; no_index: it has none.
+    Diagram diagram;          //!< Of `sites`.
     //! Where cells of the first round wrapped around a thin part.
-    std::vector<agvd::SurfacePoint> thin_places;
+    std::vector<SurfacePoint> thin_places;
 };
 
 //! Propagates, checks cells on the boundary (Boundary::Keep) and the closed-ball property, and adds
 //! or moves sites where they fail, until both hold. A component that still fails after the last
 //! round, or would need several times the sites, is thinned to its first sites instead
-//! (agvd::thin), without the added ones. For any sites each component of the result is an oriented
+//! (thin), without the added ones. For any sites each component of the result is an oriented
 //! manifold with the topology of the component.
 //!
 //! \param sites   on input.surface; moved, and new ones are appended.
@@ -52,8 +52,7 @@ struct ValidDual {
 //!                    their cells failed before; those that fail now are added.
 //! \param result  its counts and times are added to.
 //! Cost: a propagation and a diagram per round.
-[[nodiscard]] ValidDual build_valid_dual(const DualInput& input,
-                                         std::vector<agvd::SurfacePoint>& sites,
+[[nodiscard]] ValidDual build_valid_dual(const DualInput& input, std::vector<SurfacePoint>& sites,
                                          std::vector<bool>& is_thinned,
                                          const RemeshOptions& options, RemeshResult& result);
 

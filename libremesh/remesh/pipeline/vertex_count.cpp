@@ -2,13 +2,10 @@
 
 #include <algorithm>
 
-#include "remesh/simplify/reduce_vertices.h"
+#include "remesh/dual/reduce_vertices.h"
 
 namespace remesh::detail {
 namespace {
-
-using agvd::Index;
-using agvd::no_index;
 
 // Removes these vertices and renumbers the others in their order.
 void compact(std::span<const Index> gone, ValidDual& dual) {
@@ -23,14 +20,14 @@ void compact(std::span<const Index> gone, ValidDual& dual) {
     }
     dual.mesh.points.resize(num_left);
     dual.site.resize(num_left);
-    for (agvd::Triangle& t : dual.mesh.triangles) {
+    for (Triangle& t : dual.mesh.triangles) {
         for (Index& v : t) v = number[v];
     }
 }
 
 }  // namespace
 
-Index target_count(const Domain& domain, const PlacedSites& placed, const agvd::Diagram& diagram,
+Index target_count(const Domain& domain, const PlacedSites& placed, const Diagram& diagram,
                    const StageContext& context) {
     const auto& [options, result] = context;
     const Index num_other_copies = placed.num_other_copies(domain);
@@ -45,8 +42,8 @@ Index target_count(const Domain& domain, const PlacedSites& placed, const agvd::
     return target;
 }
 
-Index reduce_to(Index target, std::span<const agvd::Vec3> positions,
-                std::span<const std::uint8_t> keep, ValidDual& dual, const StageContext& context) {
+Index reduce_to(Index target, std::span<const Vec3> positions, std::span<const std::uint8_t> keep,
+                ValidDual& dual, const StageContext& context) {
     const StageClock clock(Stage::Dual, context.result);
     const std::vector<Index> gone = reduce_vertices(positions, dual.mesh.triangles, target, keep,
                                                     progress_of(Stage::Dual, context.options));

@@ -4,12 +4,10 @@
 #include <unordered_map>
 
 #include "agvd/core/position_hash.h"
-#include "remesh/features/weld_sheets.h"
+#include "remesh/curves/weld_sheets.h"
 
 namespace remesh::detail {
 namespace {
-
-using agvd::Index;
 
 // The numbers of the copies on curves; the other vertices of the dual get numbers from `next` on.
 std::vector<Index> numbers_of(const ValidDual& dual, std::span<const Index> of_copies, Index next) {
@@ -42,8 +40,8 @@ JoinedPatches join_patches(const ValidDual& dual, const CurveSites& curves) {
     return patches;
 }
 
-std::vector<agvd::Vec3> positions_of(const agvd::Surface& whole, const PlacedMesh& mesh) {
-    std::vector<agvd::Vec3> positions;
+std::vector<Vec3> positions_of(const Surface& whole, const PlacedMesh& mesh) {
+    std::vector<Vec3> positions;
     positions.reserve(mesh.points.size());
     for (Index v = 0; v < mesh.points.size(); ++v) {
         positions.push_back(mesh.position(whole.mesh.view(), v));
@@ -51,15 +49,15 @@ std::vector<agvd::Vec3> positions_of(const agvd::Surface& whole, const PlacedMes
     return positions;
 }
 
-agvd::TriangleMesh whole_mesh(const agvd::Surface& whole, const PlacedDual& placed) {
-    std::vector<agvd::Vec3> positions = positions_of(whole, placed.mesh);
+TriangleMesh whole_mesh(const Surface& whole, const PlacedDual& placed) {
+    std::vector<Vec3> positions = positions_of(whole, placed.mesh);
     if (!placed.patches) return {std::move(positions), placed.mesh.triangles};
     const GluedMesh& glued = placed.patches->glued;
     return {take(positions, glued.first_of_group), glued.triangles};
 }
 
-agvd::TriangleMesh welded_mesh(const Domain& domain, const PlacedDual& placed) {
-    agvd::TriangleMesh mesh;
+TriangleMesh welded_mesh(const Domain& domain, const PlacedDual& placed) {
+    TriangleMesh mesh;
     if (domain.has_junctions()) {
         const GluedMesh& glued = placed.patches->glued;
         mesh = {positions_of(*domain.whole, placed.mesh),
@@ -71,9 +69,9 @@ agvd::TriangleMesh welded_mesh(const Domain& domain, const PlacedDual& placed) {
     return mesh;
 }
 
-std::vector<agvd::Triangle> join_positions(std::span<const agvd::Vec3> positions,
-                                           std::span<const agvd::Triangle> triangles) {
-    std::unordered_map<agvd::Vec3, Index, agvd::PositionHash> first_at;
+std::vector<Triangle> join_positions(std::span<const Vec3> positions,
+                                     std::span<const Triangle> triangles) {
+    std::unordered_map<Vec3, Index, PositionHash> first_at;
     std::vector<Index> first;
     first.reserve(positions.size());
     for (Index v = 0; v < positions.size(); ++v) {

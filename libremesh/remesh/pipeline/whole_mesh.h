@@ -2,7 +2,7 @@
 //! The patches between curves as one mesh.
 #pragma once
 
-#include "remesh/features/glue.h"
+#include "remesh/curves/glue.h"
 #include "remesh/pipeline/place_sites.h"
 #include "remesh/pipeline/valid_dual.h"
 #include "remesh/placement/placed_mesh.h"
@@ -11,7 +11,7 @@ namespace remesh::detail {
 
 //! How the patches of a dual are joined.
 struct JoinedPatches {
-    std::vector<agvd::Index> group;  //!< #V of the dual: equal for the copies of one vertex.
+    std::vector<Index> group;  //!< #V of the dual: equal for the copies of one vertex.
     GluedMesh glued;
 };
 
@@ -29,27 +29,26 @@ struct PlacedDual {
 
 //! The elements of `all` at the places `chosen`.
 template <typename T>
-[[nodiscard]] std::vector<T> take(const std::vector<T>& all, std::span<const agvd::Index> chosen) {
+[[nodiscard]] std::vector<T> take(const std::vector<T>& all, std::span<const Index> chosen) {
     std::vector<T> result;
     result.reserve(chosen.size());
-    for (const agvd::Index i : chosen) result.push_back(all[i]);
+    for (const Index i : chosen) result.push_back(all[i]);
     return result;
 }
 
 //! The positions of the vertices.
 //! \param whole  the cleaned surface.
-[[nodiscard]] std::vector<agvd::Vec3> positions_of(const agvd::Surface& whole,
-                                                   const PlacedMesh& mesh);
+[[nodiscard]] std::vector<Vec3> positions_of(const Surface& whole, const PlacedMesh& mesh);
 
 //! The result: copies of a vertex are joined, and sheets have equal points where they meet.
-[[nodiscard]] agvd::TriangleMesh whole_mesh(const agvd::Surface& whole, const PlacedDual& placed);
+[[nodiscard]] TriangleMesh whole_mesh(const Surface& whole, const PlacedDual& placed);
 
 //! The same to search for self-intersections: sheets share vertices where they meet, and so do
 //! parts that touch at locked places. Some vertices may be in no triangle.
-[[nodiscard]] agvd::TriangleMesh welded_mesh(const Domain& domain, const PlacedDual& placed);
+[[nodiscard]] TriangleMesh welded_mesh(const Domain& domain, const PlacedDual& placed);
 
 //! The triangles with the first vertex at its position in place of each vertex. Cost: O(n).
-[[nodiscard]] std::vector<agvd::Triangle> join_positions(std::span<const agvd::Vec3> positions,
-                                                         std::span<const agvd::Triangle> triangles);
+[[nodiscard]] std::vector<Triangle> join_positions(std::span<const Vec3> positions,
+                                                   std::span<const Triangle> triangles);
 
 }  // namespace remesh::detail

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "agvd/core/types.h"
+#include "remesh/names.h"
 
 namespace remesh::detail {
 
@@ -25,7 +26,7 @@ public:
     }
 
     //! Counts one pass of stages over a base of so many faces: a relaxation, or cells.
-    void add(agvd::Index base_faces) { done_ += base_faces; }
+    void add(Index base_faces) { done_ += base_faces; }
     //! \return what is counted so far, faces.
     [[nodiscard]] std::size_t done() const { return done_; }
     //! Counts an attempt that gave no mesh once more: the next one, with 30 % fewer creases, gave a
@@ -35,7 +36,7 @@ public:
     //! Whether only what gives a result at all should follow.
     [[nodiscard]] bool is_spent() const { return done_ >= most_; }
     //! Passes that may still follow.
-    [[nodiscard]] int num_left(agvd::Index base_faces) const {
+    [[nodiscard]] int num_left(Index base_faces) const {
         if (is_spent()) return 0;
         constexpr std::size_t enough = 1000;
         return static_cast<int>(std::min(enough, (most_ - done_) / std::max(base_faces, 1U)));

@@ -8,12 +8,7 @@
 
 namespace remesh::detail {
 
-using agvd::Index;
-using agvd::no_index;
-using agvd::Triangle;
-using agvd::Vec3;
-
-EditedMesh::EditedMesh(const agvd::Surface& surface, const PlacedMesh& mesh,
+EditedMesh::EditedMesh(const Surface& surface, const PlacedMesh& mesh,
                        std::span<const Mobility> mobility, std::span<const DirectedEdge> hard)
     : surface_(surface),
       faces_(mesh.triangles.size()),
@@ -47,7 +42,7 @@ void EditedMesh::locate(Place& place) const {
     const auto& p = surface_.mesh.positions;
     const Triangle& t = surface_.mesh.triangles[place.point.face.value()];
     place.facing = (p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).normalized();
-    place.at = agvd::position(surface_.mesh.view(), place.point) + place.offset;
+    place.at = position(surface_.mesh.view(), place.point) + place.offset;
 }
 
 Vec3 EditedMesh::normal_of(const Triangle& t) const {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "agvd/mesh/surface.h"
-#include "remesh/features/close_rim.h"
+#include "remesh/curves/close_rim.h"
 #include "remesh/placement/placed_mesh.h"
 
 namespace remesh::detail {
@@ -22,13 +22,13 @@ enum class Mobility : std::uint8_t { Free, Boundary, Fixed };
 class EditedMesh {
 public:
     struct Face {
-        agvd::Triangle corner;
+        Triangle corner;
         //! Bit k: the edge from corner k to the next one is hard.
         std::uint8_t hard = 0;
         bool is_there = false;
         double quality = 0;  //!< shape_quality(); 1 less if the face points against the surface.
 
-        [[nodiscard]] bool is_hard(agvd::Index k) const { return (hard >> k & 1U) != 0; }
+        [[nodiscard]] bool is_hard(Index k) const { return (hard >> k & 1U) != 0; }
         //! `hard` for edges from corner 0, 1 and 2.
         [[nodiscard]] static std::uint8_t hard_bits(bool first, bool second, bool third) {
             return static_cast<std::uint8_t>((first ? 1U : 0U) | (second ? 2U : 0U) |
@@ -38,38 +38,36 @@ public:
     //! A state to which edits can be undone.
     struct Mark {
         std::size_t faces = 0, places = 0, fans = 0;  // Sizes of the journals.
-        agvd::Index num_faces = 0, num_vertices = 0;
+        Index num_faces = 0, num_vertices = 0;
     };
 
     //! \param surface   outlives this.
     //! \param mobility  #V. Vertices on hard edges are not Free.
     //! \param hard      edges that are never flipped, in one direction or both; must include all
     //!                  edges of a single face.
-    EditedMesh(const agvd::Surface& surface, const PlacedMesh& mesh,
-               std::span<const Mobility> mobility, std::span<const DirectedEdge> hard);
+    EditedMesh(const Surface& surface, const PlacedMesh& mesh, std::span<const Mobility> mobility,
+               std::span<const DirectedEdge> hard);
 
-    [[nodiscard]] agvd::Index num_faces() const { return static_cast<agvd::Index>(faces_.size()); }
-    [[nodiscard]] agvd::Index num_vertices() const {
-        return static_cast<agvd::Index>(places_.size());
-    }
-    [[nodiscard]] const Face& face(agvd::Index f) const { return faces_[f]; }
+    [[nodiscard]] Index num_faces() const { return static_cast<Index>(faces_.size()); }
+    [[nodiscard]] Index num_vertices() const { return static_cast<Index>(places_.size()); }
+    [[nodiscard]] const Face& face(Index f) const { return faces_[f]; }
     //! In no order; empty: the vertex was removed.
-    [[nodiscard]] std::span<const agvd::Index> faces_at(agvd::Index v) const { return fans_[v]; }
-    [[nodiscard]] const agvd::Vec3& at(agvd::Index v) const { return places_[v].at; }
-    [[nodiscard]] Mobility mobility(agvd::Index v) const { return places_[v].mobility; }
-    [[nodiscard]] double worst_at(agvd::Index v) const;
+    [[nodiscard]] std::span<const Index> faces_at(Index v) const { return fans_[v]; }
+    [[nodiscard]] const Vec3& at(Index v) const { return places_[v].at; }
+    [[nodiscard]] Mobility mobility(Index v) const { return places_[v].mobility; }
+    [[nodiscard]] double worst_at(Index v) const;
     //! The neighbours before and after a vertex along its hard edges; no_index: none.
-    [[nodiscard]] std::array<agvd::Index, 2> hard_neighbours(agvd::Index v) const;
+    [[nodiscard]] std::array<Index, 2> hard_neighbours(Index v) const;
 
     //! Flips the edge from corner k of the face to the next.
-    bool flip(agvd::Index face, agvd::Index k);
+    bool flip(Index face, Index k);
     //! \return the new vertex, near the middle of that edge; no_index if it cannot be split.
-    agvd::Index split(agvd::Index face, agvd::Index k);
+    Index split(Index face, Index k);
     //! Collapses the edge between two vertices: removes `gone`; `into` stays in place.
-    bool collapse(agvd::Index gone, agvd::Index into);
+    bool collapse(Index gone, Index into);
     //! Moves a vertex along the surface if the worst face around it gets better by more than
     //! `gain`. Does not if its walk is cut off.
-    bool move(agvd::Index v, const agvd::Vec3& step, double gain);
+    bool move(Index v, const Vec3& step, double gain);
     //! Edges of the surface that all calls of `move` together crossed: their cost.
     [[nodiscard]] std::size_t num_crossings() const { return num_crossings_; }
 
@@ -78,52 +76,51 @@ public:
     //! Faces changed since the mark, each once.
     //! \param[out] now     the changed faces that exist now.
     //! \param[out] before  the old qualities of those that existed at the mark.
-    void changed_since(const Mark& mark, std::vector<agvd::Index>& now,
+    void changed_since(const Mark& mark, std::vector<Index>& now,
                        std::vector<double>& before) const;
 
     //! The mesh without removed faces and vertices.
     //! \param[out] numbers  by vertex of the result: its number here.
-    [[nodiscard]] PlacedMesh result(std::vector<agvd::Index>& numbers) const;
+    [[nodiscard]] PlacedMesh result(std::vector<Index>& numbers) const;
 
 private:
     struct Place {
-        agvd::SurfacePoint point;
-        agvd::Vec3 offset = agvd::Vec3::Zero(), at = offset, facing = offset;
+        SurfacePoint point;
+        Vec3 offset = Vec3::Zero(), at = offset, facing = offset;
         Mobility mobility = Mobility::Free;
     };
     struct Half {
-        agvd::Index face = agvd::no_index, k = 0;
+        Index face = no_index, k = 0;
     };
 
     void locate(Place& place) const;
-    [[nodiscard]] double quality_of(const agvd::Triangle& t) const;
-    [[nodiscard]] agvd::Vec3 normal_of(const agvd::Triangle& t) const;
-    void put_face(agvd::Index f, const agvd::Triangle& corner, std::uint8_t hard);
-    void drop_face(agvd::Index f);
-    void put_place(agvd::Index v, const Place& place);
-    void log_fan(agvd::Index v) { old_fans_.emplace_back(v, fans_[v]); }
-    void measure_around(agvd::Index v);
-    [[nodiscard]] bool has_corner(agvd::Index f, agvd::Index v) const;
-    [[nodiscard]] std::optional<Half> half_edge(agvd::Index from, agvd::Index to) const;
-    [[nodiscard]] bool are_joined(agvd::Index a, agvd::Index b) const;
-    [[nodiscard]] bool folds(const std::array<agvd::Index, 4>& quad, Half first, Half second) const;
-    [[nodiscard]] bool may_collapse(agvd::Index gone, agvd::Index into) const;
-    [[nodiscard]] bool place_between(agvd::Index a, agvd::Index b, bool is_hard,
-                                     Place& place) const;
-    void split_side(Half side, agvd::Index vertex);
-    [[nodiscard]] double bend(agvd::Index from, agvd::Index to) const;
-    [[nodiscard]] double largest_bend_at(agvd::Index v) const;
-    [[nodiscard]] bool keeps_bend(agvd::Index from, agvd::Index to, double most_before) const;
+    [[nodiscard]] double quality_of(const Triangle& t) const;
+    [[nodiscard]] Vec3 normal_of(const Triangle& t) const;
+    void put_face(Index f, const Triangle& corner, std::uint8_t hard);
+    void drop_face(Index f);
+    void put_place(Index v, const Place& place);
+    void log_fan(Index v) { old_fans_.emplace_back(v, fans_[v]); }
+    void measure_around(Index v);
+    [[nodiscard]] bool has_corner(Index f, Index v) const;
+    [[nodiscard]] std::optional<Half> half_edge(Index from, Index to) const;
+    [[nodiscard]] bool are_joined(Index a, Index b) const;
+    [[nodiscard]] bool folds(const std::array<Index, 4>& quad, Half first, Half second) const;
+    [[nodiscard]] bool may_collapse(Index gone, Index into) const;
+    [[nodiscard]] bool place_between(Index a, Index b, bool is_hard, Place& place) const;
+    void split_side(Half side, Index vertex);
+    [[nodiscard]] double bend(Index from, Index to) const;
+    [[nodiscard]] double largest_bend_at(Index v) const;
+    [[nodiscard]] bool keeps_bend(Index from, Index to, double most_before) const;
 
-    const agvd::Surface& surface_;
+    const Surface& surface_;
     double mean_length_ = 0;  // Of the initial edges.
     std::size_t num_crossings_ = 0;
     std::vector<Face> faces_;
-    std::vector<Place> places_;                   // By vertex.
-    std::vector<std::vector<agvd::Index>> fans_;  // By vertex: its faces.
-    std::vector<std::pair<agvd::Index, Face>> old_faces_;
-    std::vector<std::pair<agvd::Index, Place>> old_places_;
-    std::vector<std::pair<agvd::Index, std::vector<agvd::Index>>> old_fans_;
+    std::vector<Place> places_;             // By vertex.
+    std::vector<std::vector<Index>> fans_;  // By vertex: its faces.
+    std::vector<std::pair<Index, Face>> old_faces_;
+    std::vector<std::pair<Index, Place>> old_places_;
+    std::vector<std::pair<Index, std::vector<Index>>> old_fans_;
 };
 
 }  // namespace remesh::detail

@@ -5,9 +5,6 @@
 namespace remesh {
 namespace {
 
-using agvd::Index;
-using agvd::Vec3;
-
 // Gauss-Seidel sweeps: each leaves a quarter of the error at most.
 constexpr int num_sweeps = 30;
 // Longest offset, as a share of the distance along the curve to the nearer neighbour.
@@ -20,8 +17,8 @@ struct Chain {
     std::vector<Vec3> at;
 };
 
-Chain chain_of(const agvd::Surface& surface, const Curve& curve, const CurveSites& sites,
-               Index first, Index last) {
+Chain chain_of(const Surface& surface, const Curve& curve, const CurveSites& sites, Index first,
+               Index last) {
     Chain chain;
     if (!curve.is_closed()) chain.along.push_back(0);
     chain.along.insert(chain.along.end(), sites.along.begin() + first, sites.along.begin() + last);
@@ -36,7 +33,7 @@ Chain chain_of(const agvd::Surface& surface, const Curve& curve, const CurveSite
 // What the curve between two vertices of the chain adds to the right side of each: the integral of
 // the vector from the chain to the curve, weighted by the vertex's linear hat function. Zero if the
 // curve is straight.
-std::array<Vec3, 2> pulls(const agvd::Surface& surface, const Curve& curve, const Chain& chain,
+std::array<Vec3, 2> pulls(const Surface& surface, const Curve& curve, const Chain& chain,
                           std::size_t i) {
     const double begin = chain.along[i], end = chain.along[i + 1];
     // Places of the curve's own vertices between them.
@@ -69,8 +66,7 @@ std::array<Vec3, 2> pulls(const agvd::Surface& surface, const Curve& curve, cons
     return result;
 }
 
-void fit(const agvd::Surface& surface, const Curve& curve, const Chain& chain,
-         std::span<Vec3> offsets) {
+void fit(const Surface& surface, const Curve& curve, const Chain& chain, std::span<Vec3> offsets) {
     const std::size_t num_intervals = chain.along.size() - 1;
     const std::size_t shift = curve.is_closed() ? 0 : 1;  // The first vertex that moves.
     std::vector<Vec3> right(chain.along.size(), Vec3::Zero());
@@ -103,7 +99,7 @@ void fit(const agvd::Surface& surface, const Curve& curve, const Chain& chain,
 
 }  // namespace
 
-std::vector<Vec3> fit_curves(const agvd::Surface& surface, const CurveNetwork& network,
+std::vector<Vec3> fit_curves(const Surface& surface, const CurveNetwork& network,
                              const CurveSites& sites, Boundary boundary) {
     std::vector<Vec3> offsets(sites.num_groups(), Vec3::Zero());
     for (std::size_t c = 0; c < network.curves.size(); ++c) {

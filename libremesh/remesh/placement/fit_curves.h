@@ -2,8 +2,8 @@
 //! Moves the vertices of curves so that the chain between them lies nearest to the curve.
 #pragma once
 
-#include "remesh/features/curve_sites.h"
-#include "remesh/sampling/sample_sites.h"
+#include "remesh/curves/curve_sites.h"
+#include "remesh/sites/sample_sites.h"
 
 namespace remesh {
 
@@ -13,9 +13,8 @@ namespace remesh {
 //! \param surface  that of the network, whole or cut.
 //! \return #groups: from each site to the best position of its vertex.
 //! Cost: O(vertices of the curves + groups).
-[[nodiscard]] std::vector<agvd::Vec3> fit_curves(const agvd::Surface& surface,
-                                                 const CurveNetwork& network,
-                                                 const CurveSites& sites,
-                                                 Boundary boundary = Boundary::Keep);
+[[nodiscard]] std::vector<Vec3> fit_curves(const Surface& surface, const CurveNetwork& network,
+                                           const CurveSites& sites,
+                                           Boundary boundary = Boundary::Keep);
 
 }  // namespace remesh

@@ -23,10 +23,6 @@
 namespace remesh {
 namespace {
 
-using agvd::Index;
-using agvd::no_index;
-using agvd::Triangle;
-using agvd::Vec3;
 using Mat3 = Eigen::Matrix3d;
 using Field = std::vector<Vec3>;
 
@@ -89,9 +85,9 @@ double dot(const Field& a, const Field& b) {
 
 class Fit {
 public:
-    Fit(const agvd::IntrinsicTriangulation& base, std::span<const Index> nearest_vertex,
+    Fit(const IntrinsicTriangulation& base, std::span<const Index> nearest_vertex,
         std::vector<CellSample> samples, PlacedMesh& mesh, double least_way,
-        std::span<const std::uint8_t> stays, int num_threads, agvd::Poller& poller)
+        std::span<const std::uint8_t> stays, int num_threads, Poller& poller)
         : surface_(base.input()),
           least_way_(least_way),
           num_threads_(num_threads),
@@ -104,7 +100,7 @@ public:
         for (Index v = 0; v < num_vertices(); ++v) {
             at_.push_back(mesh.position(surface_.mesh.view(), v));
             const bool is_marked = !stays.empty() && stays[v] != 0;
-            stays_.push_back(is_marked || agvd::is_on_boundary(surface_, mesh.points[v]) ? 1 : 0);
+            stays_.push_back(is_marked || is_on_boundary(surface_, mesh.points[v]) ? 1 : 0);
         }
     }
 
@@ -117,7 +113,7 @@ public:
             move(solve());
         }
         for (Index v = 0; v < num_vertices(); ++v) {
-            mesh_.offsets[v] = at_[v] - agvd::position(surface_.mesh.view(), mesh_.points[v]);
+            mesh_.offsets[v] = at_[v] - position(surface_.mesh.view(), mesh_.points[v]);
         }
     }
 
@@ -143,8 +139,8 @@ private:
 
     // The nearest point on the triangles around the sample's vertex. A sample over the middle of
     // its triangle keeps it: moves in a round are small.
-    [[nodiscard]] agvd::ClosestPoint find_nearest(CellSample& sample) const {
-        agvd::ClosestPoint nearest;
+    [[nodiscard]] ClosestPoint find_nearest(CellSample& sample) const {
+        ClosestPoint nearest;
         nearest.distance_sq = std::numeric_limits<double>::infinity();
         if (sample.triangle != no_index) {
             nearest = closest(sample.triangle, sample.position);
@@ -153,17 +149,16 @@ private:
         }
         for (const Index i : around_.of(sample.vertex)) {
             if (i == sample.triangle) continue;
-            const agvd::ClosestPoint other = closest(i, sample.position);
+            const ClosestPoint other = closest(i, sample.position);
             if (other.distance_sq >= nearest.distance_sq) continue;
             nearest = other;
             sample.triangle = i;
         }
         return nearest;
     }
-    [[nodiscard]] agvd::ClosestPoint closest(Index triangle, const Vec3& position) const {
+    [[nodiscard]] ClosestPoint closest(Index triangle, const Vec3& position) const {
         const auto& [a, b, c] = mesh_.triangles[triangle];
-        return agvd::closest_point_on_triangle({at_[a], at_[b], at_[c]}, agvd::FaceId(triangle),
-                                               position);
+        return closest_point_on_triangle({at_[a], at_[b], at_[c]}, FaceId(triangle), position);
     }
 
     // The position of the vertex that makes its triangle equilateral.
@@ -206,8 +201,8 @@ private:
             const auto body = [&](Index, Index begin, Index end) {
                 for (Index i = begin; i < end; ++i) gaps[i] = measure_gap(block[i]);
             };
-            agvd::parallel_chunks(static_cast<Index>(block.size()), rows_per_task, num_threads_,
-                                  body, poller_);
+            parallel_chunks(static_cast<Index>(block.size()), rows_per_task, num_threads_, body,
+                            poller_);
             poller_.poll();
             for (std::size_t i = 0; i < block.size(); ++i) add_gap(block[i], gaps[i]);
         }
@@ -221,7 +216,7 @@ private:
         }
     }
     [[nodiscard]] Gap measure_gap(CellSample& sample) const {
-        const agvd::ClosestPoint nearest = find_nearest(sample);
+        const ClosestPoint nearest = find_nearest(sample);
         if (sample.triangle == no_index) return {};
         const Index i = sample.triangle;
         Gap gap{nearest.point.barycentric,
@@ -293,11 +288,11 @@ private:
         const auto body = [&](Index, Index begin, Index end) {
             for (Index i = begin; i < end; ++i) ways_[i] = way(i);
         };
-        agvd::parallel_chunks(count, rows_per_task, num_threads_, body, poller_);
+        parallel_chunks(count, rows_per_task, num_threads_, body, poller_);
     }
     // From a point of the mesh to the surface in these cells; zero if they have no vertex.
     [[nodiscard]] Vec3 way_to_surface(const Vec3& point, std::span<const Index> cells) const {
-        const agvd::ClosestPoint nearest = ground_.query(point, cells);
+        const ClosestPoint nearest = ground_.query(point, cells);
         if (!std::isfinite(nearest.distance_sq)) return Vec3::Zero();
         return nearest.position - point;
     }
@@ -391,11 +386,11 @@ private:
         at_ = before;
     }
 
-    const agvd::Surface& surface_;
+    const Surface& surface_;
     double least_way_;
     int num_threads_;
-    agvd::Poller& poller_;
-    agvd::Ticker ticker_;
+    Poller& poller_;
+    Ticker ticker_;
     PlacedMesh& mesh_;
     detail::VertexTriangles around_;
     detail::NearestInCells ground_;
@@ -416,10 +411,10 @@ private:
 
 std::vector<CellSample> sample_cells(const PreparedSurface& surface,
                                      std::span<const Index> nearest_vertex, Index num_vertices,
-                                     const agvd::Progress& progress) {
-    agvd::Poller poller(progress);
-    agvd::Ticker ticker(poller);
-    const agvd::Surface& base = surface.base.surface();
+                                     const Progress& progress) {
+    Poller poller(progress);
+    Ticker ticker(poller);
+    const Surface& base = surface.base.surface();
     const auto& p = base.mesh.positions;
     const bool is_dense = p.size() >= enough_vertices * num_vertices;
     std::vector<CellSample> samples;
@@ -428,11 +423,11 @@ std::vector<CellSample> sample_cells(const PreparedSurface& surface,
     for (Index f = 0; f < base.num_faces(); ++f) {
         ticker.tick();
         const Triangle& t = base.mesh.triangles[f];
-        const double whole = agvd::face_area(base, f);
+        const double whole = face_area(base, f);
         // Points inside faces stand for three quarters of the area: exact for quadratic functions.
         for (const Index v : t) area[v] += is_dense ? whole / 3 : whole / 12;
         if (is_dense || nearest_vertex[t[0]] == no_index) continue;
-        surface.pieces->for_each(f, [&](const agvd::SurfacePiece& piece) {
+        surface.pieces->for_each(f, [&](const SurfacePiece& piece) {
             samples.push_back({piece.position, piece.vector.norm() * 3 / 4, nearest_vertex[t[0]]});
         });
     }
@@ -443,19 +438,17 @@ std::vector<CellSample> sample_cells(const PreparedSurface& surface,
     return samples;
 }
 
-void fit_vertices(const agvd::IntrinsicTriangulation& base, std::span<const Index> nearest_vertex,
+void fit_vertices(const IntrinsicTriangulation& base, std::span<const Index> nearest_vertex,
                   std::vector<CellSample> samples, PlacedMesh& mesh, int num_threads,
-                  const agvd::Progress& progress, double least_way,
-                  std::span<const std::uint8_t> stays) {
-    agvd::Poller poller(progress);
+                  const Progress& progress, double least_way, std::span<const std::uint8_t> stays) {
+    Poller poller(progress);
     mesh.offsets.resize(mesh.points.size(), Vec3::Zero());
     Fit(base, nearest_vertex, std::move(samples), mesh, least_way, stays, num_threads, poller)
         .run();
 }
 
 void fit_vertices(const PreparedSurface& surface, std::span<const Index> nearest_vertex,
-                  PlacedMesh& mesh, int num_threads, const agvd::Progress& progress,
-                  double least_way) {
+                  PlacedMesh& mesh, int num_threads, const Progress& progress, double least_way) {
     const auto num_vertices = static_cast<Index>(mesh.points.size());
     fit_vertices(surface.base, nearest_vertex,
                  sample_cells(surface, nearest_vertex, num_vertices, progress), mesh, num_threads,

@@ -9,10 +9,6 @@
 namespace remesh {
 namespace {
 
-using agvd::Index;
-using agvd::Triangle;
-using agvd::Vec3;
-
 // Height over length: coordinates are rounded by a few times 1e-16 of the mesh, and edges are
 // rarely shorter than a hundred-thousandth of it.
 constexpr double most_flat = 1e-10;

@@ -6,12 +6,13 @@
 #include <vector>
 
 #include "agvd/mesh/mesh_view.h"
+#include "remesh/names.h"
 
 namespace remesh {
 
 //! Whether the corners lie on one line up to rounding: the triangle is less than 1e-10 times as
 //! high as it is long.
-[[nodiscard]] bool is_flat(std::span<const agvd::Vec3> positions, const agvd::Triangle& triangle);
+[[nodiscard]] bool is_flat(std::span<const Vec3> positions, const Triangle& triangle);
 
 //! Flips the longest edge of each such triangle, so that its third corner divides the neighbour
 //! beyond instead. The points of the surface stay where they are. A triangle stays whose longest
@@ -20,6 +21,6 @@ namespace remesh {
 //! \param positions  #V.
 //! \param triangles  an oriented manifold; its boundary stays.
 //! Cost: O(#triangles); O(#triangles log #triangles) if there are any.
-void flip_flat_faces(std::span<const agvd::Vec3> positions, std::vector<agvd::Triangle>& triangles);
+void flip_flat_faces(std::span<const Vec3> positions, std::vector<Triangle>& triangles);
 
 }  // namespace remesh

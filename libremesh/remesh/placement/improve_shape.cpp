@@ -11,17 +11,12 @@
 #include "remesh/placement/shape_quality.h"
 #include "remesh/placement/slide_steps.h"
 #include "remesh/placement/vertex_triangles.h"
-#include "remesh/relax/cell_planes.h"
-#include "remesh/relax/face_parts.h"
-#include "remesh/relax/walk.h"
+#include "remesh/sites/cell_planes.h"
+#include "remesh/sites/face_parts.h"
+#include "remesh/sites/walk.h"
 
 namespace remesh {
 namespace {
-
-using agvd::Index;
-using agvd::SurfacePoint;
-using agvd::Triangle;
-using agvd::Vec3;
 
 // Triangles below detail::low_quality are improved first; then those below this, without
 // plane_cost. Medians of nine meshes at N = 2000, with .63 and .62, then with .7 and .66: smallest
@@ -49,8 +44,8 @@ constexpr std::size_t most_crossings_per_vertex = 600;
 
 class Improvement {
 public:
-    Improvement(const agvd::Surface& input, std::span<const detail::CellPlanes> planes,
-                const SizeField* sizes, std::span<const std::uint8_t> stays, agvd::Poller& poller,
+    Improvement(const Surface& input, std::span<const detail::CellPlanes> planes,
+                const SizeField* sizes, std::span<const std::uint8_t> stays, Poller& poller,
                 PlacedMesh& mesh)
         : surface_(input),
           ticker_(poller),
@@ -63,10 +58,9 @@ public:
                           most_crossings_per_vertex * mesh.points.size()) {
         for (Index v = 0; v < at_.size(); ++v) {
             locate(v);
-            stays_.push_back(agvd::is_on_boundary(surface_, mesh.points[v]) ||
-                                     (!stays.empty() && stays[v] != 0)
-                                 ? 1
-                                 : 0);
+            stays_.push_back(
+                is_on_boundary(surface_, mesh.points[v]) || (!stays.empty() && stays[v] != 0) ? 1
+                                                                                              : 0);
         }
         find_slim(sizes);
     }
@@ -201,8 +195,8 @@ private:
         return moves_to_mean || takes_steps;
     }
 
-    const agvd::Surface& surface_;
-    agvd::Ticker ticker_;
+    const Surface& surface_;
+    Ticker ticker_;
     PlacedMesh& mesh_;
     detail::VertexTriangles around_;
     std::vector<Vec3> directions_;                // Of the vertex at hand.
@@ -222,16 +216,16 @@ private:
 std::vector<detail::CellPlanes> planes_of_cells(const PreparedSurface& surface,
                                                 std::span<const Index> nearest_vertex,
                                                 Index num_vertices, int num_threads,
-                                                const agvd::Progress& progress) {
-    agvd::Poller poller(progress);
+                                                const Progress& progress) {
+    Poller poller(progress);
     std::vector<detail::CellPlanes> planes(num_vertices);
-    const agvd::Surface& base = surface.base.surface();
+    const Surface& base = surface.base.surface();
     const detail::FaceParts parts(base, nearest_vertex, num_threads, poller);
     const auto add_part = [&](Index part, Index, Index) {
-        agvd::Ticker ticker(poller);
+        Ticker ticker(poller);
         parts.for_each_face(part, [&](Index f) {
             ticker.tick();
-            surface.pieces->for_each(f, [&](const agvd::SurfacePiece& piece) {
+            surface.pieces->for_each(f, [&](const SurfacePiece& piece) {
                 const double area = piece.vector.norm() / 3;
                 if (!(area > 0)) return;
                 for (const Index corner : base.mesh.triangles[f]) {
@@ -242,19 +236,19 @@ std::vector<detail::CellPlanes> planes_of_cells(const PreparedSurface& surface,
             });
         });
     };
-    agvd::parallel_chunks(parts.count(), 1, num_threads, add_part, poller);
+    parallel_chunks(parts.count(), 1, num_threads, add_part, poller);
     return planes;
 }
 
-void improve_shape(const agvd::Surface& input, std::span<const detail::CellPlanes> planes,
-                   PlacedMesh& mesh, const agvd::Progress& progress, const SizeField* sizes,
+void improve_shape(const Surface& input, std::span<const detail::CellPlanes> planes,
+                   PlacedMesh& mesh, const Progress& progress, const SizeField* sizes,
                    std::span<const std::uint8_t> stays) {
-    agvd::Poller poller(progress);
+    Poller poller(progress);
     Improvement(input, planes, sizes, stays, poller, mesh).run();
 }
 
 void improve_shape(const PreparedSurface& surface, std::span<const Index> nearest_vertex,
-                   PlacedMesh& mesh, int num_threads, const agvd::Progress& progress,
+                   PlacedMesh& mesh, int num_threads, const Progress& progress,
                    const SizeField* sizes) {
     const auto num_vertices = static_cast<Index>(mesh.points.size());
     improve_shape(surface.input(),

@@ -12,9 +12,6 @@
 namespace remesh {
 namespace {
 
-using agvd::Index;
-using agvd::no_index;
-using agvd::Triangle;
 using detail::EditedMesh;
 using detail::Mobility;
 using detail::ShapeEdit;
@@ -32,7 +29,7 @@ constexpr std::array goals{Goal{0.425, 0.6}, Goal{0.57, 0.63}};
 constexpr double least_trial_gain = 0.02;
 // At most one of so many vertices may be missing: a surface that is thinner than the spacing
 // everywhere has no place to take them from.
-constexpr agvd::Index most_moved = 8;
+constexpr Index most_moved = 8;
 // Budgets for each initially bad triangle: where all are bad, work would not end. Lips use half of
 // them.
 constexpr std::size_t edits_for_each = 3, slides_for_each = 200;
@@ -45,7 +42,7 @@ constexpr int most_mend_rounds = 6;
 class Mender {
 public:
     // \param num_faces  of the surface.
-    Mender(EditedMesh& mesh, Index num_faces, const Goal& goal, agvd::Ticker& ticker)
+    Mender(EditedMesh& mesh, Index num_faces, const Goal& goal, Ticker& ticker)
         : mesh_(mesh),
           goal_(goal),
           steps_(mesh, num_faces, goal.quality, ticker),
@@ -176,9 +173,9 @@ private:
 };
 
 // Whether a goal finds a triangle to mend: cheaper to tell without an EditedMesh.
-bool has_bad_triangle(const agvd::Surface& surface, std::span<const Mobility> mobility,
-                      const PlacedMesh& mesh, agvd::Ticker& ticker) {
-    const agvd::MeshView view = surface.mesh.view();
+bool has_bad_triangle(const Surface& surface, std::span<const Mobility> mobility,
+                      const PlacedMesh& mesh, Ticker& ticker) {
+    const MeshView view = surface.mesh.view();
     return std::any_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Triangle& t) {
         ticker.tick();
         const auto& [a, b, c] = t;
@@ -191,11 +188,11 @@ bool has_bad_triangle(const agvd::Surface& surface, std::span<const Mobility> mo
 
 }  // namespace
 
-std::vector<Index> mend_shape(const agvd::Surface& surface, std::span<const Mobility> mobility,
+std::vector<Index> mend_shape(const Surface& surface, std::span<const Mobility> mobility,
                               std::span<const DirectedEdge> hard, PlacedMesh& mesh,
-                              const agvd::Progress& progress) {
-    agvd::Poller poller(progress);
-    agvd::Ticker ticker(poller);
+                              const Progress& progress) {
+    Poller poller(progress);
+    Ticker ticker(poller);
     std::vector<Index> numbers;
     if (!has_bad_triangle(surface, mobility, mesh, ticker)) return numbers;
     EditedMesh edited(surface, mesh, mobility, hard);

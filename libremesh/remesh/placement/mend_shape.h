@@ -7,7 +7,7 @@
 
 #include "agvd/core/progress.h"
 #include "agvd/mesh/surface.h"
-#include "remesh/features/close_rim.h"
+#include "remesh/curves/close_rim.h"
 #include "remesh/placement/edited_mesh.h"
 #include "remesh/placement/placed_mesh.h"
 
@@ -21,12 +21,11 @@ namespace remesh {
 //! \param surface   where the points of the mesh lie.
 //! \param mobility  #V: Fixed ones stay; those on hard edges are not Free.
 //! \param hard      edges that are not flipped; must include all edges of a single face.
-//! \throw agvd::Cancelled  the progress callback returned false; `mesh` is unchanged.
+//! \throw Cancelled  the progress callback returned false; `mesh` is unchanged.
 //! \return for each vertex its old number, #V or more for new ones; empty if nothing changed.
 //! Cost: O(#triangles log #triangles), and about a millisecond for each bad one.
-std::vector<agvd::Index> mend_shape(const agvd::Surface& surface,
-                                    std::span<const detail::Mobility> mobility,
-                                    std::span<const DirectedEdge> hard, PlacedMesh& mesh,
-                                    const agvd::Progress& progress = {});
+std::vector<Index> mend_shape(const Surface& surface, std::span<const detail::Mobility> mobility,
+                              std::span<const DirectedEdge> hard, PlacedMesh& mesh,
+                              const Progress& progress = {});
 
 }  // namespace remesh

@@ -4,15 +4,9 @@
 #include <algorithm>
 
 #include "remesh/placement/edited_mesh.h"
-#include "remesh/relax/walk.h"
+#include "remesh/sites/walk.h"
 
 namespace remesh::detail {
-
-using agvd::Index;
-using agvd::no_index;
-using agvd::SurfacePoint;
-using agvd::Triangle;
-using agvd::Vec3;
 
 namespace {
 
@@ -96,7 +90,7 @@ bool EditedMesh::place_between(Index a, Index b, bool is_hard, Place& place) con
     const bool takes_other = mobility(a) != best && mobility(b) == best;
     for (const Index from : {takes_other ? b : a, takes_other ? a : b}) {
         const SurfacePoint& point = places_[from].point;
-        const Vec3 step = middle - place.offset - agvd::position(surface_.mesh.view(), point);
+        const Vec3 step = middle - place.offset - position(surface_.mesh.view(), point);
         if (is_hard) {
             const std::optional<Index> h = boundary_half_edge(surface_, point);
             if (!h) continue;

@@ -7,11 +7,6 @@
 
 namespace remesh::detail {
 
-using agvd::Index;
-using agvd::no_index;
-using agvd::Surface;
-using agvd::Vec3;
-
 namespace {
 
 // Most faces passed on the way to a nearer point.
@@ -19,7 +14,7 @@ constexpr int most_faces_passed = 1000;
 
 }  // namespace
 
-NearestInCells::NearestInCells(const agvd::IntrinsicTriangulation& base,
+NearestInCells::NearestInCells(const IntrinsicTriangulation& base,
                                std::span<const Index> nearest_vertex, Index num_cells)
     : base_(base), input_(base.input()), begin_(std::size_t{num_cells} + 1, 0) {
     for (const Index cell : nearest_vertex) {
@@ -37,8 +32,8 @@ NearestInCells::NearestInCells(const agvd::IntrinsicTriangulation& base,
     }
 }
 
-agvd::ClosestPoint NearestInCells::query(const Vec3& point, std::span<const Index> cells) const {
-    agvd::ClosestPoint result;
+ClosestPoint NearestInCells::query(const Vec3& point, std::span<const Index> cells) const {
+    ClosestPoint result;
     result.distance_sq = std::numeric_limits<double>::infinity();
     double least = result.distance_sq;
     Index nearest = no_index;
@@ -54,8 +49,8 @@ agvd::ClosestPoint NearestInCells::query(const Vec3& point, std::span<const Inde
     if (nearest >= input_.num_vertices()) {
         result = closest(base_.place_of_added(nearest).face.value(), point);
     } else {
-        agvd::for_each_outgoing(input_, nearest, [&](Index h) {
-            const agvd::ClosestPoint here = closest(Surface::face(h), point);
+        for_each_outgoing(input_, nearest, [&](Index h) {
+            const ClosestPoint here = closest(Surface::face(h), point);
             if (here.distance_sq < result.distance_sq) result = here;
         });
     }
@@ -63,28 +58,27 @@ agvd::ClosestPoint NearestInCells::query(const Vec3& point, std::span<const Inde
     return result;
 }
 
-agvd::ClosestPoint NearestInCells::closest(Index face, const Vec3& point) const {
+ClosestPoint NearestInCells::closest(Index face, const Vec3& point) const {
     const auto& [a, b, c] = input_.mesh.triangles[face];
     const auto& p = input_.mesh.positions;
-    return agvd::closest_point_on_triangle({p[a], p[b], p[c]}, agvd::FaceId(face), point);
+    return closest_point_on_triangle({p[a], p[b], p[c]}, FaceId(face), point);
 }
 
 // Walks from face to face while these are nearer. The faces around the vertex may be needles, with
 // the nearest point on a face beyond them.
-void NearestInCells::descend(const Vec3& point, Index vertex, agvd::ClosestPoint& nearest) const {
+void NearestInCells::descend(const Vec3& point, Index vertex, ClosestPoint& nearest) const {
     const Surface& base = base_.surface();
     const Vec3& start = base.mesh.positions[vertex];
     double reach = 0;
-    agvd::for_each_outgoing(base, vertex,
-                            [&](Index h) { reach = std::max(reach, base.length_of(h)); });
+    for_each_outgoing(base, vertex, [&](Index h) { reach = std::max(reach, base.length_of(h)); });
     bool is_nearer = true;
     for (int step = 0; step < most_faces_passed && is_nearer; ++step) {
         is_nearer = false;
-        const agvd::SurfacePoint from = nearest.point;
+        const SurfacePoint from = nearest.point;
         for (Index k = 0; k < 3; ++k) {  // Across the edges that the point lies on.
             const Index twin = input_.twin[3 * from.face.value() + k];
             if (from.barycentric[(k + 2) % 3] != 0 || twin == no_index) continue;
-            const agvd::ClosestPoint beyond = closest(Surface::face(twin), point);
+            const ClosestPoint beyond = closest(Surface::face(twin), point);
             if (!(beyond.distance_sq < nearest.distance_sq)) continue;
             if ((beyond.position - start).squaredNorm() > reach * reach) continue;
             nearest = beyond;

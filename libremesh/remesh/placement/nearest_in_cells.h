@@ -7,6 +7,7 @@
 
 #include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/mesh/closest_point.h"
+#include "remesh/names.h"
 
 namespace remesh::detail {
 
@@ -16,24 +17,23 @@ namespace remesh::detail {
 class NearestInCells {
 public:
     //! \param base            outlives this.
-    //! \param nearest_vertex  per vertex of the base: in whose cell it lies; agvd::no_index: none.
-    NearestInCells(const agvd::IntrinsicTriangulation& base,
-                   std::span<const agvd::Index> nearest_vertex, agvd::Index num_cells);
+    //! \param nearest_vertex  per vertex of the base: in whose cell it lies; no_index: none.
+    NearestInCells(const IntrinsicTriangulation& base, std::span<const Index> nearest_vertex,
+                   Index num_cells);
 
     //! A point of the input. The distance is infinite if there is no vertex in these cells.
     //! Cost: O(vertices in the cells).
-    [[nodiscard]] agvd::ClosestPoint query(const agvd::Vec3& point,
-                                           std::span<const agvd::Index> cells) const;
+    [[nodiscard]] ClosestPoint query(const Vec3& point, std::span<const Index> cells) const;
 
 private:
-    [[nodiscard]] agvd::ClosestPoint closest(agvd::Index face, const agvd::Vec3& point) const;
-    void descend(const agvd::Vec3& point, agvd::Index vertex, agvd::ClosestPoint& nearest) const;
+    [[nodiscard]] ClosestPoint closest(Index face, const Vec3& point) const;
+    void descend(const Vec3& point, Index vertex, ClosestPoint& nearest) const;
 
-    const agvd::IntrinsicTriangulation& base_;
-    const agvd::Surface& input_;
-    std::vector<agvd::Index> begin_;     // #cells + 1
-    std::vector<agvd::Index> vertices_;  // By cell.
-    std::vector<agvd::Vec3> at_;         // Likewise: their positions.
+    const IntrinsicTriangulation& base_;
+    const Surface& input_;
+    std::vector<Index> begin_;     // #cells + 1
+    std::vector<Index> vertices_;  // By cell.
+    std::vector<Vec3> at_;         // Likewise: their positions.
 };
 
 }  // namespace remesh::detail

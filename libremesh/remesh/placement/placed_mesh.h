@@ -5,15 +5,16 @@
 #include <vector>
 
 #include "agvd/mesh/surface_point.h"
+#include "remesh/names.h"
 
 namespace remesh {
 
 struct PlacedMesh {
-    std::vector<agvd::SurfacePoint> points;  //!< #V: where each vertex belongs.
-    std::vector<agvd::Vec3> offsets;         //!< #V: from there to its position.
-    std::vector<agvd::Triangle> triangles;
+    std::vector<SurfacePoint> points;  //!< #V: where each vertex belongs.
+    std::vector<Vec3> offsets;         //!< #V: from there to its position.
+    std::vector<Triangle> triangles;
 
-    [[nodiscard]] agvd::Vec3 position(const agvd::MeshView& surface, agvd::Index v) const {
+    [[nodiscard]] Vec3 position(const MeshView& surface, Index v) const {
         return agvd::position(surface, points[v]) + offsets[v];
     }
 };

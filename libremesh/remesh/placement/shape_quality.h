@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "agvd/core/types.h"
+#include "remesh/names.h"
 
 namespace remesh::detail {
 
@@ -17,8 +18,7 @@ inline constexpr double sine_weight = low_quality / 0.597;
 
 //! 6 / sqrt(3) * S / (p h) ([frey1999]): S area, p half the perimeter, h the longest edge; lower if
 //! an angle is small. 0 to 1.
-[[nodiscard]] inline double shape_quality(const agvd::Vec3& a, const agvd::Vec3& b,
-                                          const agvd::Vec3& c) {
+[[nodiscard]] inline double shape_quality(const Vec3& a, const Vec3& b, const Vec3& c) {
     const double ab = (b - a).norm(), bc = (c - b).norm(), ca = (a - c).norm();
     const double doubled_area = (b - a).cross(c - a).norm();
     if (!(doubled_area > 0)) return 0;

@@ -9,11 +9,6 @@
 namespace remesh::detail {
 namespace {
 
-using agvd::Index;
-using agvd::no_index;
-using agvd::Triangle;
-using agvd::Vec3;
-
 constexpr double least_step_gain = 1e-3;
 // A slide takes some 16 steps of at most an edge's length. Where its walks cross more edges of the
 // surface than these would on faces of even size, or more than the least number, it counts as
@@ -26,7 +21,7 @@ constexpr int most_sweeps = 3;
 
 }  // namespace
 
-ShapeSteps::ShapeSteps(EditedMesh& mesh, Index num_faces, double wanted, agvd::Ticker& ticker)
+ShapeSteps::ShapeSteps(EditedMesh& mesh, Index num_faces, double wanted, Ticker& ticker)
     : mesh_(mesh),
       ticker_(ticker),
       wanted_(wanted),

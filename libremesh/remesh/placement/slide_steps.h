@@ -9,13 +9,14 @@
 #include <vector>
 
 #include "agvd/core/types.h"
+#include "remesh/names.h"
 
 namespace remesh::detail {
 
 //! Appends eight unit vectors orthogonal to `normal`, which is not zero.
-inline void add_directions(const agvd::Vec3& normal, std::vector<agvd::Vec3>& directions) {
+inline void add_directions(const Vec3& normal, std::vector<Vec3>& directions) {
     constexpr int count = 8;
-    const agvd::Vec3 x = normal.unitOrthogonal(), y = normal.normalized().cross(x);
+    const Vec3 x = normal.unitOrthogonal(), y = normal.normalized().cross(x);
     for (int d = 0; d < count; ++d) {
         const double angle = 2 * std::numbers::pi * d / count;
         directions.emplace_back(std::cos(angle) * x + std::sin(angle) * y);
@@ -28,7 +29,7 @@ inline void add_directions(const agvd::Vec3& normal, std::vector<agvd::Vec3>& di
 //! \param try_step  try_step(step) moves the vertex and returns true if that is better.
 //! \return true if a step was taken.
 template <typename TryStep>
-bool try_steps(std::span<const agvd::Vec3> directions, double length, const TryStep& try_step) {
+bool try_steps(std::span<const Vec3> directions, double length, const TryStep& try_step) {
     constexpr std::array shares{0.2, 0.07, 0.02};  // Of the length.
     constexpr int most_tries = 4;
     bool is_better = false;
@@ -36,7 +37,7 @@ bool try_steps(std::span<const agvd::Vec3> directions, double length, const TryS
         bool helps = true;
         for (int tries = 0; tries < most_tries && helps; ++tries) {
             helps = false;
-            for (const agvd::Vec3& direction : directions) {
+            for (const Vec3& direction : directions) {
                 helps = try_step(share * length * direction) || helps;
             }
             is_better = is_better || helps;

@@ -6,11 +6,6 @@
 
 namespace remesh::detail {
 
-using agvd::Index;
-using agvd::no_index;
-using agvd::Triangle;
-using agvd::Vec3;
-
 void SpareVertices::restart(double elsewhere) {
     count_ = 0;
     elsewhere_ = elsewhere;

@@ -15,7 +15,7 @@ class SpareVertices {
 public:
     //! \param mesh, steps, ticker  outlive this.
     //! \param wanted  of `steps`: all triangles that edits touch here keep at least this quality.
-    SpareVertices(EditedMesh& mesh, ShapeSteps& steps, double wanted, agvd::Ticker& ticker)
+    SpareVertices(EditedMesh& mesh, ShapeSteps& steps, double wanted, Ticker& ticker)
         : mesh_(mesh), steps_(steps), ticker_(ticker), wanted_(wanted) {}
 
     //! Begins at 0.
@@ -39,7 +39,7 @@ public:
 private:
     struct Candidate {
         double quality;
-        agvd::Index gone, into;
+        Index gone, into;
         [[nodiscard]] bool operator<(const Candidate& other) const {
             return std::tie(quality, gone, into) < std::tie(other.quality, other.gone, other.into);
         }
@@ -47,7 +47,7 @@ private:
 
     struct LongEdge {
         double square;  // Of its length.
-        agvd::Index face, k;
+        Index face, k;
         // The longest one is on top of a heap; of equal ones the first.
         [[nodiscard]] bool operator<(const LongEdge& other) const {
             return square != other.square ? square < other.square
@@ -57,13 +57,13 @@ private:
 
     void prune();
     void list_collapses();
-    void push_edges(agvd::Index face);
-    [[nodiscard]] double quality_of_middle(agvd::Index a, agvd::Index b) const;
+    void push_edges(Index face);
+    [[nodiscard]] double quality_of_middle(Index a, Index b) const;
     bool split_one();
 
     EditedMesh& mesh_;
     ShapeSteps& steps_;
-    agvd::Ticker& ticker_;
+    Ticker& ticker_;
     const double wanted_;
     double elsewhere_ = 0;
     int count_ = 0;
@@ -71,7 +71,7 @@ private:
     std::vector<Candidate> collapses_;  // The best one last.
     // Edges to split. One that could not be split comes back when its face changes.
     std::priority_queue<LongEdge> edges_;
-    std::vector<agvd::Index> changed_;
+    std::vector<Index> changed_;
     std::vector<double> before_;
 };
 

@@ -7,10 +7,7 @@
 
 namespace remesh::detail {
 
-using agvd::Index;
-using agvd::Vec3;
-
-AreaSamples::AreaSamples(const agvd::MeshView& mesh) {
+AreaSamples::AreaSamples(const MeshView& mesh) {
     area_up_to_.reserve(mesh.triangles.size());
     double area = 0;
     for (const auto& [a, b, c] : mesh.triangles) {
@@ -20,11 +17,11 @@ AreaSamples::AreaSamples(const agvd::MeshView& mesh) {
     }
 }
 
-agvd::SurfacePoint AreaSamples::at(Index i, Index n) const {
-    const double area = (i + agvd::random_unit(0, 0, i)) / n * area_up_to_.back();
+SurfacePoint AreaSamples::at(Index i, Index n) const {
+    const double area = (i + random_unit(0, 0, i)) / n * area_up_to_.back();
     const auto face = std::upper_bound(area_up_to_.begin(), area_up_to_.end() - 1, area);
-    return {agvd::FaceId(static_cast<Index>(face - area_up_to_.begin())),
-            agvd::uniform_barycentric(agvd::random_unit(0, 1, i), agvd::random_unit(0, 2, i))};
+    return {FaceId(static_cast<Index>(face - area_up_to_.begin())),
+            uniform_barycentric(random_unit(0, 1, i), random_unit(0, 2, i))};
 }
 
 }  // namespace remesh::detail

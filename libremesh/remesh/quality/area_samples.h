@@ -6,6 +6,7 @@
 
 #include "agvd/mesh/mesh_view.h"
 #include "agvd/mesh/surface_point.h"
+#include "remesh/names.h"
 
 namespace remesh::detail {
 
@@ -13,10 +14,10 @@ namespace remesh::detail {
 class AreaSamples {
 public:
     //! \param mesh  at least one face has an area; faces without get no point. Cost: O(#F).
-    explicit AreaSamples(const agvd::MeshView& mesh);
+    explicit AreaSamples(const MeshView& mesh);
 
     //! \param i  below n; the same point in each call. Cost: O(log #F).
-    [[nodiscard]] agvd::SurfacePoint at(agvd::Index i, agvd::Index n) const;
+    [[nodiscard]] SurfacePoint at(Index i, Index n) const;
 
 private:
     std::vector<double> area_up_to_;  // #F: of a face and all before it.

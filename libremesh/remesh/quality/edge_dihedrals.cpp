@@ -10,23 +10,17 @@
 #include <unordered_map>
 
 #include "agvd/core/position_hash.h"
-#include "remesh/topology/edge_sides.h"
+#include "agvd/mesh/edge_sides.h"
 
 namespace remesh::detail {
 namespace {
-
-using agvd::Index;
-using agvd::no_index;
-using agvd::Triangle;
-using agvd::TriangleMesh;
-using agvd::Vec3;
 
 constexpr int most_steps = 6;
 
 // Normals of faces as seen from their edges.
 class FaceNormals {
 public:
-    FaceNormals(const agvd::MeshView& mesh, double thin, agvd::Ticker& ticker)
+    FaceNormals(const MeshView& mesh, double thin, Ticker& ticker)
         : sides_(sorted_edge_sides(mesh.triangles, ticker)),
           first_side_(sides_.size()),
           length_(sides_.size()) {
@@ -107,9 +101,9 @@ private:
 
 }  // namespace
 
-TriangleMesh without_copies(const agvd::MeshView& mesh, agvd::Ticker& ticker) {
+TriangleMesh without_copies(const MeshView& mesh, Ticker& ticker) {
     TriangleMesh result;
-    std::unordered_map<Vec3, Index, agvd::PositionHash> indices;
+    std::unordered_map<Vec3, Index, PositionHash> indices;
     std::vector<Index> index_of(mesh.positions.size(), no_index);
     std::vector<std::pair<Triangle, Index>> faces;  // Sorted corners, face.
     std::vector<Triangle> kept;
@@ -132,7 +126,7 @@ TriangleMesh without_copies(const agvd::MeshView& mesh, agvd::Ticker& ticker) {
         faces.emplace_back(corners, static_cast<Index>(kept.size()));
         kept.push_back(face);
     }
-    agvd::sort_ticked(faces, ticker, std::less<>());
+    sort_ticked(faces, ticker, std::less<>());
     for (std::size_t i = 0; i < faces.size(); ++i) {
         ticker.tick();
         if (i > 0 && faces[i].first == faces[i - 1].first) continue;
@@ -141,8 +135,7 @@ TriangleMesh without_copies(const agvd::MeshView& mesh, agvd::Ticker& ticker) {
     return result;
 }
 
-std::vector<EdgeDihedral> edge_dihedrals(const agvd::MeshView& mesh, double thin,
-                                         agvd::Ticker& ticker) {
+std::vector<EdgeDihedral> edge_dihedrals(const MeshView& mesh, double thin, Ticker& ticker) {
     const FaceNormals normals(mesh, thin, ticker);
     std::vector<EdgeDihedral> edges;
     for_each_edge(normals.sides(), [&](std::span<const EdgeSide> edge) {

@@ -7,34 +7,33 @@
 #include "agvd/core/error.h"
 #include "agvd/mesh/scale.h"
 #include "agvd/mesh/surface.h"
-#include "remesh/features/find_creases.h"
+#include "remesh/curves/find_creases.h"
 #include "remesh/quality/self_intersections.h"
-#include "remesh/relax/prepared_surface.h"
-#include "remesh/sampling/sample_sites.h"
+#include "remesh/sites/prepared_surface.h"
+#include "remesh/sites/sample_sites.h"
 
 namespace remesh {
 namespace {
 
-CleanResult clean_original(const agvd::MeshView& original, int num_threads,
-                           const agvd::Progress& progress) {
+CleanResult clean_original(const MeshView& original, int num_threads, const Progress& progress) {
     try {
         return clean_input(original, {.num_threads = num_threads, .progress = progress});
-    } catch (const agvd::InvalidInput& error) {
-        throw agvd::InvalidInput(std::string("original: ") + error.what());
+    } catch (const InvalidInput& error) {
+        throw InvalidInput(std::string("original: ") + error.what());
     }
 }
 
 // The result is not repaired, since its defects are measured. This checks only that it can be
 // measured.
-void check_result(const agvd::MeshView& mesh) {
-    const auto fail = [](const std::string& text) { throw agvd::InvalidInput("result: " + text); };
+void check_result(const MeshView& mesh) {
+    const auto fail = [](const std::string& text) { throw InvalidInput("result: " + text); };
     for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
         if (mesh.positions[v].allFinite()) continue;
         fail("vertex " + std::to_string(v) +
              " has a coordinate that is not finite; correct or delete the vertex");
     }
     for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
-        for (const agvd::Index v : mesh.triangles[f]) {
+        for (const Index v : mesh.triangles[f]) {
             if (v < mesh.positions.size()) continue;
             fail("face " + std::to_string(f) + " names vertex " + std::to_string(v) +
                  ", but the mesh has only " + std::to_string(mesh.positions.size()) +
@@ -45,7 +44,7 @@ void check_result(const agvd::MeshView& mesh) {
 
 bool has_creases(const CleanResult& original, std::size_t num_vertices, int num_threads) {
     if (original.counts.split_edges > 0) return true;
-    const agvd::Surface surface = agvd::build_surface(original.mesh.view(), num_threads);
+    const Surface surface = build_surface(original.mesh.view(), num_threads);
     const std::vector<std::uint8_t> creases = find_creases(
         surface, {.spacing = mean_spacing(
                       surface, std::max<std::size_t>(SamplingOptions{}.num_samples, num_vertices)),
@@ -53,28 +52,26 @@ bool has_creases(const CleanResult& original, std::size_t num_vertices, int num_
     return std::find(creases.begin(), creases.end(), 1) != creases.end();
 }
 
-MeshFigures measure(const agvd::MeshView& mesh, int num_threads, const agvd::Progress& progress) {
+MeshFigures measure(const MeshView& mesh, int num_threads, const Progress& progress) {
     MeshFigures figures = measure_figures(mesh, progress);
     figures.self_intersections = find_self_intersections(mesh, num_threads, progress);
     return figures;
 }
 
 // \param original  of a size that can be computed on.
-Evaluation evaluate_in_scale(const agvd::MeshView& original, const agvd::MeshView& result,
+Evaluation evaluate_in_scale(const MeshView& original, const MeshView& result,
                              const EvaluationOptions& options) {
     check_result(result);
-    const agvd::Progress& all = options.progress;
-    const CleanResult clean =
-        clean_original(original, options.num_threads, agvd::within(all, 0, 0.1));
+    const Progress& all = options.progress;
+    const CleanResult clean = clean_original(original, options.num_threads, within(all, 0, 0.1));
     Evaluation evaluation;
     DistanceOptions measuring = options;
-    measuring.progress = agvd::within(all, 0.1, 0.5);
+    measuring.progress = within(all, 0.1, 0.5);
     evaluation.distance = surface_distance(clean.mesh.view(), result, measuring);
     evaluation.cleaned = clean.counts;
-    evaluation.original =
-        measure(clean.mesh.view(), options.num_threads, agvd::within(all, 0.5, 0.8));
-    evaluation.result = measure(result, options.num_threads, agvd::within(all, 0.8, 0.95));
-    evaluation.features = feature_coverage(clean.mesh.view(), result, agvd::within(all, 0.95, 1));
+    evaluation.original = measure(clean.mesh.view(), options.num_threads, within(all, 0.5, 0.8));
+    evaluation.result = measure(result, options.num_threads, within(all, 0.8, 0.95));
+    evaluation.features = feature_coverage(clean.mesh.view(), result, within(all, 0.95, 1));
     evaluation.has_creases =
         evaluation.features && has_creases(clean, result.positions.size(), options.num_threads);
     const Topology& topology = evaluation.result.topology;
@@ -106,21 +103,21 @@ void scale_back(Evaluation& evaluation, int exponent) {
 
 }  // namespace
 
-MeshFigures measure_figures(const agvd::MeshView& mesh, const agvd::Progress& progress) {
-    return {.vertices = static_cast<agvd::Index>(mesh.positions.size()),
-            .faces = static_cast<agvd::Index>(mesh.triangles.size()),
+MeshFigures measure_figures(const MeshView& mesh, const Progress& progress) {
+    return {.vertices = static_cast<Index>(mesh.positions.size()),
+            .faces = static_cast<Index>(mesh.triangles.size()),
             .topology = analyze_topology(mesh, progress),
             .triangles = measure_triangles(mesh, progress),
             .self_intersections = {}};
 }
 
-Evaluation evaluate(const agvd::MeshView& original, const agvd::MeshView& result,
+Evaluation evaluate(const MeshView& original, const MeshView& result,
                     const EvaluationOptions& options) {
-    const double size = agvd::box_of(original).longest_side();
-    if (agvd::is_in_scale(size)) return evaluate_in_scale(original, result, options);
+    const double size = box_of(original).longest_side();
+    if (is_in_scale(size)) return evaluate_in_scale(original, result, options);
     const int exponent = std::ilogb(size);
-    const agvd::TriangleMesh normal = agvd::scaled(original, -exponent);
-    const agvd::TriangleMesh normal_result = agvd::scaled(result, -exponent);
+    const TriangleMesh normal = scaled(original, -exponent);
+    const TriangleMesh normal_result = scaled(result, -exponent);
     Evaluation evaluation = evaluate_in_scale(normal.view(), normal_result.view(), options);
     scale_back(evaluation, exponent);
     return evaluation;

@@ -6,11 +6,11 @@
 #include <utility>
 #include <vector>
 
+#include "agvd/mesh/topology.h"
 #include "remesh/clean/clean_input.h"
 #include "remesh/quality/feature_coverage.h"
 #include "remesh/quality/surface_distance.h"
 #include "remesh/quality/triangle_quality.h"
-#include "remesh/topology/topology.h"
 
 namespace remesh {
 
@@ -19,19 +19,18 @@ using EvaluationOptions = DistanceOptions;
 
 //! One mesh by itself.
 struct MeshFigures {
-    agvd::Index vertices = 0;   //!< Also those in no face.
-    agvd::Index faces = 0;      //!< #F.
+    Index vertices = 0;         //!< Also those in no face.
+    Index faces = 0;            //!< #F.
     Topology topology;          //!< Components, genus, boundary loops.
     TriangleQuality triangles;  //!< Shapes and sizes.
     //! See find_self_intersections; unset in a build without CGAL.
-    std::optional<std::vector<std::pair<agvd::Index, agvd::Index>>> self_intersections;
+    std::optional<std::vector<std::pair<Index, Index>>> self_intersections;
 };
 
 //! Everything but self-intersections.
-//! \throw agvd::Cancelled  the progress callback returned false.
+//! \throw Cancelled  the progress callback returned false.
 //! Cost: O(n log n).
-[[nodiscard]] MeshFigures measure_figures(const agvd::MeshView& mesh,
-                                          const agvd::Progress& progress = {});
+[[nodiscard]] MeshFigures measure_figures(const MeshView& mesh, const Progress& progress = {});
 
 //! A remesh compared with its original.
 struct Evaluation {
@@ -49,13 +48,13 @@ struct Evaluation {
 
 //! \param original  any mesh that remesh() takes; it is repaired first (see clean_input).
 //! \param result    any triangles, manifold or not; measured as they are.
-//! \throw agvd::InvalidOption  see surface_distance.
-//! \throw agvd::InvalidInput   the original cannot be repaired; or the result has an index out of
+//! \throw InvalidOption  see surface_distance.
+//! \throw InvalidInput   the original cannot be repaired; or the result has an index out of
 //!        range, a coordinate that is not finite, or no face with area. The text begins with
 //!        "original: " or "result: ".
-//! \throw agvd::Cancelled      the progress callback returned false.
+//! \throw Cancelled      the progress callback returned false.
 //! Cost: O((samples + n) log n): about a second for 70 000 faces each and 200 000 samples.
-[[nodiscard]] Evaluation evaluate(const agvd::MeshView& original, const agvd::MeshView& result,
+[[nodiscard]] Evaluation evaluate(const MeshView& original, const MeshView& result,
                                   const EvaluationOptions& options = {});
 
 }  // namespace remesh

@@ -14,10 +14,6 @@
 namespace remesh {
 namespace {
 
-using agvd::degree;
-using agvd::Index;
-using agvd::TriangleMesh;
-using agvd::Vec3;
 using detail::EdgeDihedral;
 
 constexpr double sharp = 40 * degree;
@@ -67,7 +63,7 @@ double diagonal_of(const TriangleMesh& mesh) {
 }
 
 // Points at equal distances along all sharp edges, one edge after the other.
-std::vector<Vec3> points_on_sharp(const Edges& edges, double length, agvd::Ticker& ticker) {
+std::vector<Vec3> points_on_sharp(const Edges& edges, double length, Ticker& ticker) {
     const double step = length / num_points;
     std::vector<Vec3> points;
     double before = 0;  // Length of the edges before this one.
@@ -92,7 +88,7 @@ struct Shares {
 };
 
 Shares shares_near(std::vector<Vec3> points, const Edges& edges, BoundaryEdges boundary,
-                   double diagonal, agvd::Ticker& ticker) {
+                   double diagonal, Ticker& ticker) {
     detail::PointDistances distances(std::move(points), near * diagonal, ticker);
     edges.for_each_above(blunt, boundary, [&](Index a, Index b) {
         distances.pass(edges.mesh.positions[a], edges.mesh.positions[b], ticker);
@@ -114,14 +110,14 @@ double angle_between(const Vec3& a, const Vec3& b) {
     return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
-Corners corners_of(const Edges& edges, agvd::Ticker& ticker) {
+Corners corners_of(const Edges& edges, Ticker& ticker) {
     const auto& p = edges.mesh.positions;
     std::vector<std::pair<Index, Index>> ends;  // (vertex, neighbour).
     edges.for_each_above(sharp, BoundaryEdges::Counts, [&](Index a, Index b) {
         ends.emplace_back(a, b);
         ends.emplace_back(b, a);
     });
-    agvd::sort_ticked(ends, ticker, std::less<>());
+    sort_ticked(ends, ticker, std::less<>());
     Corners corners;
     for (std::size_t i = 0, j = 0; i < ends.size(); i = j) {
         while (j < ends.size() && ends[j].first == ends[i].first) ++j;
@@ -147,7 +143,7 @@ Corners corners_of(const Edges& edges, agvd::Ticker& ticker) {
 
 // Corners with a vertex of the result nearby.
 Index count_kept(const std::vector<Vec3>& corners, const TriangleMesh& result, double reach,
-                 agvd::Ticker& ticker) {
+                 Ticker& ticker) {
     detail::PointDistances distances(corners, reach, ticker);
     for (const Vec3& p : result.positions) distances.pass(p, p, ticker);
     const auto& found = distances.distances();
@@ -157,12 +153,12 @@ Index count_kept(const std::vector<Vec3>& corners, const TriangleMesh& result, d
 
 // The smallest angle of triangles without a vertex near any of the points.
 double min_angle_off(const std::vector<Vec3>& points, const TriangleMesh& mesh, double reach,
-                     agvd::Ticker& ticker) {
+                     Ticker& ticker) {
     detail::PointDistances distances(mesh.positions, reach, ticker);
     for (const Vec3& p : points) distances.pass(p, p, ticker);
     const auto is_near = [&](Index v) { return std::isfinite(distances.distances()[v]); };
     double least = std::numbers::pi;
-    for (const agvd::Triangle& t : mesh.triangles) {
+    for (const Triangle& t : mesh.triangles) {
         ticker.tick();
         if (std::any_of(t.begin(), t.end(), is_near)) continue;
         for (std::size_t k = 0; k < 3; ++k) {
@@ -176,11 +172,10 @@ double min_angle_off(const std::vector<Vec3>& points, const TriangleMesh& mesh, 
 
 }  // namespace
 
-std::optional<FeatureCoverage> feature_coverage(const agvd::MeshView& original,
-                                                const agvd::MeshView& result,
-                                                const agvd::Progress& progress) {
-    agvd::Poller poller(progress);
-    agvd::Ticker ticker(poller);
+std::optional<FeatureCoverage> feature_coverage(const MeshView& original, const MeshView& result,
+                                                const Progress& progress) {
+    Poller poller(progress);
+    Ticker ticker(poller);
     Edges before{detail::without_copies(original, ticker), {}};
     const double diagonal = diagonal_of(before.mesh);
     before.all = detail::edge_dihedrals(before.mesh.view(), thin_original * diagonal, ticker);

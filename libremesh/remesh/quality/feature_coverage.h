@@ -6,6 +6,7 @@
 
 #include "agvd/core/progress.h"
 #include "agvd/mesh/mesh_view.h"
+#include "remesh/names.h"
 
 namespace remesh {
 
@@ -27,11 +28,11 @@ struct FeatureCoverage {
     double false_share = 0;
     //! Vertices of the original where three or more sharp or boundary edges meet, or two that turn
     //! by more than 45 degrees.
-    agvd::Index corners = 0;
-    agvd::Index corners_kept = 0;  //!< With a vertex of the result within .05 % of the diagonal.
+    Index corners = 0;
+    Index corners_kept = 0;  //!< With a vertex of the result within .05 % of the diagonal.
     //! Corners where two of these edges meet at less than 30 degrees: a triangle between them
     //! cannot have a larger angle there.
-    agvd::Index acute_corners = 0;
+    Index acute_corners = 0;
     //! Smallest angle of the result's triangles, radians, except those with a vertex within .05 %
     //! of the diagonal of an acute corner; pi if there is no other.
     double min_angle_elsewhere = 0;
@@ -43,10 +44,10 @@ struct FeatureCoverage {
 //!
 //! \param original, result  any triangles, manifold or not; indices in range, positions finite.
 //! \return nothing if the original has neither sharp edges nor corners.
-//! \throw agvd::Cancelled  the progress callback returned false.
+//! \throw Cancelled  the progress callback returned false.
 //! Cost: O(n log n).
-[[nodiscard]] std::optional<FeatureCoverage> feature_coverage(const agvd::MeshView& original,
-                                                              const agvd::MeshView& result,
-                                                              const agvd::Progress& progress = {});
+[[nodiscard]] std::optional<FeatureCoverage> feature_coverage(const MeshView& original,
+                                                              const MeshView& result,
+                                                              const Progress& progress = {});
 
 }  // namespace remesh

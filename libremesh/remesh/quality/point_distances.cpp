@@ -11,9 +11,6 @@
 namespace remesh::detail {
 namespace {
 
-using agvd::Index;
-using agvd::Vec3;
-
 // In reaches: side of a cell, and distance between the points of a segment at which cells are
 // searched.
 constexpr double cell_side = 2;
@@ -55,7 +52,7 @@ std::pair<double, double> clip(const Vec3& a, const Vec3& b, const Vec3& low, co
 
 }  // namespace
 
-PointDistances::PointDistances(std::vector<Vec3> points, double reach, agvd::Ticker& ticker)
+PointDistances::PointDistances(std::vector<Vec3> points, double reach, Ticker& ticker)
     : points_(std::move(points)),
       distances_(points_.size(), nowhere),
       reach_(reach),
@@ -77,7 +74,7 @@ PointDistances::PointDistances(std::vector<Vec3> points, double reach, agvd::Tic
             }
         }
     }
-    agvd::sort_ticked(entries_, ticker, std::less<>());
+    sort_ticked(entries_, ticker, std::less<>());
     for (Index i = 0; i < entries_.size(); ++i) {
         ticker.tick();
         const auto [it, is_new] = cells_.try_emplace(entries_[i].first, Cell{i, i});
@@ -85,7 +82,7 @@ PointDistances::PointDistances(std::vector<Vec3> points, double reach, agvd::Tic
     }
 }
 
-void PointDistances::pass(const Vec3& a, const Vec3& b, agvd::Ticker& ticker) {
+void PointDistances::pass(const Vec3& a, const Vec3& b, Ticker& ticker) {
     const auto [from, to] = clip(a, b, low_, high_);
     if (!(from <= to)) return;
     const double length = (to - from) * (b - a).norm();
@@ -109,7 +106,7 @@ void PointDistances::look_around(const Vec3& at, const Vec3& a, const Vec3& b,
     if (found == cells_.end()) return;
     for (Index i = found->second.begin; i < found->second.end; ++i) {
         const Index point = entries_[i].second;
-        const double distance = agvd::distance_to_segment(points_[point], a, b);
+        const double distance = distance_to_segment(points_[point], a, b);
         if (distance <= reach_) distances_[point] = std::min(distances_[point], distance);
     }
 }

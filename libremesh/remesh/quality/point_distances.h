@@ -9,6 +9,7 @@
 
 #include "agvd/core/poller.h"
 #include "agvd/core/types.h"
+#include "remesh/names.h"
 
 namespace remesh::detail {
 
@@ -17,27 +18,26 @@ class PointDistances {
 public:
     //! \param reach  mesh units, > 0: larger distances are not searched for.
     //! Cost: O(n log n).
-    PointDistances(std::vector<agvd::Vec3> points, double reach, agvd::Ticker& ticker);
+    PointDistances(std::vector<Vec3> points, double reach, Ticker& ticker);
 
     //! Takes a segment, or a point if both ends are equal. Only the part inside the box of the
     //! points costs time. Cost: O(1 + length / reach).
-    void pass(const agvd::Vec3& a, const agvd::Vec3& b, agvd::Ticker& ticker);
+    void pass(const Vec3& a, const Vec3& b, Ticker& ticker);
 
     //! #points: from the nearest segment that has passed; infinity beyond `reach`.
     [[nodiscard]] const std::vector<double>& distances() const { return distances_; }
 
 private:
     struct Cell {
-        agvd::Index begin = 0, end = 0;  // Of entries_.
+        Index begin = 0, end = 0;  // Of entries_.
     };
-    void look_around(const agvd::Vec3& at, const agvd::Vec3& a, const agvd::Vec3& b,
-                     std::uint64_t& last_key);
+    void look_around(const Vec3& at, const Vec3& a, const Vec3& b, std::uint64_t& last_key);
 
-    std::vector<agvd::Vec3> points_;
+    std::vector<Vec3> points_;
     std::vector<double> distances_;
     double reach_;
-    agvd::Vec3 low_, high_;  // The points' box, enlarged by reach.
-    std::vector<std::pair<std::uint64_t, agvd::Index>> entries_;  // (cell, point near it), sorted.
+    Vec3 low_, high_;                                       // The points' box, enlarged by reach.
+    std::vector<std::pair<std::uint64_t, Index>> entries_;  // (cell, point near it), sorted.
     std::unordered_map<std::uint64_t, Cell> cells_;
 };
 

@@ -17,8 +17,6 @@
 namespace remesh {
 namespace {
 
-using agvd::Index;
-using agvd::Triangle;
 using Pair = std::pair<Index, Index>;
 using ExactKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, Index>;
@@ -31,12 +29,10 @@ constexpr std::size_t candidates_per_face = 32, least_candidates = std::size_t{1
 
 class Soup {
 public:
-    Soup(const agvd::MeshView& mesh, agvd::Ticker ticker)
-        : faces_(mesh.triangles), ticker_(ticker) {
+    Soup(const MeshView& mesh, Ticker ticker) : faces_(mesh.triangles), ticker_(ticker) {
         points_.reserve(mesh.positions.size());
-        agvd::for_each_ticked(mesh.positions, ticker_, [&](const agvd::Vec3& p) {
-            points_.emplace_back(p.x(), p.y(), p.z());
-        });
+        for_each_ticked(mesh.positions, ticker_,
+                        [&](const Vec3& p) { points_.emplace_back(p.x(), p.y(), p.z()); });
     }
 
     [[nodiscard]] std::vector<Box> boxes() {
@@ -95,23 +91,23 @@ private:
 
     std::span<const Triangle> faces_;
     std::vector<ExactKernel::Point_3> points_;
-    agvd::Ticker ticker_;
+    Ticker ticker_;
 };
 
 // The pairs that intersect, in order.
 std::vector<Pair> intersecting(const Soup& soup, std::vector<Pair> candidates, Index num_faces,
-                               int num_threads, agvd::Poller& poller) {
-    candidates = agvd::sort_in_buckets(
+                               int num_threads, Poller& poller) {
+    candidates = sort_in_buckets(
         candidates, num_faces, [](const Pair& pair) { return pair.first; }, std::less<>(),
-        agvd::Ticker(poller));
+        Ticker(poller));
     const auto count = static_cast<Index>(candidates.size());
-    std::vector<std::vector<Pair>> found(agvd::num_chunks(count, pairs_per_task));
+    std::vector<std::vector<Pair>> found(num_chunks(count, pairs_per_task));
     const auto test = [&](Index chunk, Index begin, Index end) {
         for (Index i = begin; i < end; ++i) {
             if (soup.intersect(candidates[i])) found[chunk].push_back(candidates[i]);
         }
     };
-    agvd::parallel_chunks(count, pairs_per_task, num_threads, test, poller);
+    parallel_chunks(count, pairs_per_task, num_threads, test, poller);
     std::vector<Pair> all;
     for (const std::vector<Pair>& part : found) all.insert(all.end(), part.begin(), part.end());
     return all;
@@ -119,11 +115,10 @@ std::vector<Pair> intersecting(const Soup& soup, std::vector<Pair> candidates, I
 
 }  // namespace
 
-std::optional<std::vector<Pair>> find_self_intersections(const agvd::MeshView& mesh,
-                                                         int num_threads,
-                                                         const agvd::Progress& progress) {
-    agvd::Poller poller(progress);
-    Soup soup(mesh, agvd::Ticker(poller));
+std::optional<std::vector<Pair>> find_self_intersections(const MeshView& mesh, int num_threads,
+                                                         const Progress& progress) {
+    Poller poller(progress);
+    Soup soup(mesh, Ticker(poller));
     const auto num_faces = static_cast<Index>(mesh.triangles.size());
     std::vector<Box> boxes = soup.boxes();
     std::vector<Pair> candidates, all;
@@ -135,7 +130,7 @@ std::optional<std::vector<Pair>> find_self_intersections(const agvd::MeshView& m
         all.insert(all.end(), found.begin(), found.end());
     };
     // Every face meets its neighbours, so that there are always pairs, and polls with them.
-    agvd::Ticker ticker(poller);
+    Ticker ticker(poller);
     CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const Box& a, const Box& b) {
         ticker.tick(2);
         candidates.push_back(std::minmax(a.info(), b.info()));

@@ -8,6 +8,7 @@
 
 #include "agvd/core/progress.h"
 #include "agvd/mesh/mesh_view.h"
+#include "remesh/names.h"
 
 namespace remesh {
 
@@ -17,11 +18,10 @@ namespace remesh {
 //! or not.
 //!
 //! \param num_threads  >= 0; 0: all cores. Any number gives the same pairs.
-//! \throw agvd::Cancelled  the progress callback returned false.
+//! \throw Cancelled  the progress callback returned false.
 //! \return unset in a build without CGAL, whose box intersection and exact predicates are used.
 //! Cost: O(n log^3 n) and about 1 us for each pair of neighbouring faces.
-[[nodiscard]] std::optional<std::vector<std::pair<agvd::Index, agvd::Index>>>
-find_self_intersections(const agvd::MeshView& mesh, int num_threads = 0,
-                        const agvd::Progress& progress = {});
+[[nodiscard]] std::optional<std::vector<std::pair<Index, Index>>> find_self_intersections(
+    const MeshView& mesh, int num_threads = 0, const Progress& progress = {});
 
 }  // namespace remesh

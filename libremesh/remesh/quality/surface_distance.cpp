@@ -19,9 +19,6 @@
 namespace remesh {
 namespace {
 
-using agvd::Index;
-using agvd::Vec3;
-
 // Inexact constructions are enough: the errors are those of double, as in the coordinates.
 using DistanceKernel = CGAL::Simple_cartesian<double>;
 using Triangles = std::vector<DistanceKernel::Triangle_3>;
@@ -42,9 +39,8 @@ Vec3 normal_of(const DistanceKernel::Triangle_3& t) {
 class Faces {
 public:
     // \param mesh  outlives this.
-    Faces(const agvd::MeshView& mesh, const char* name, agvd::Poller& poller)
-        : mesh_(mesh), samples_(mesh) {
-        agvd::Ticker ticker(poller);
+    Faces(const MeshView& mesh, const char* name, Poller& poller) : mesh_(mesh), samples_(mesh) {
+        Ticker ticker(poller);
         for (const auto& [a, b, c] : mesh.triangles) {
             ticker.tick();
             const DistanceKernel::Triangle_3 triangle(
@@ -52,8 +48,8 @@ public:
             if (normal_of(triangle).norm() > 0) triangles_.push_back(triangle);
         }
         if (triangles_.empty()) {
-            throw agvd::InvalidInput(std::string("no face of the ") + name +
-                                     " mesh has an area; check that the file holds a surface");
+            throw InvalidInput(std::string("no face of the ") + name +
+                               " mesh has an area; check that the file holds a surface");
         }
         tree_.insert(triangles_.begin(), triangles_.end());
         const auto& traits = tree_.traits();
@@ -74,7 +70,7 @@ public:
     [[nodiscard]] Vec3 sample(Index i, Index n) const { return position(mesh_, samples_.at(i, n)); }
 
 private:
-    agvd::MeshView mesh_;
+    MeshView mesh_;
     detail::AreaSamples samples_;
     Triangles triangles_;
     Tree tree_;
@@ -82,24 +78,24 @@ private:
 
 // Calls use(chunk, i, point, closest) for `count` points, with their closest point and face.
 template <typename PointAt, typename Use>
-void for_each_closest(Index count, int num_threads, agvd::Poller& poller, const Faces& faces,
+void for_each_closest(Index count, int num_threads, Poller& poller, const Faces& faces,
                       const PointAt& point_at, const Use& use) {
     const auto find = [&](Index chunk, Index begin, Index end) {
-        agvd::Ticker ticker(poller);
+        Ticker ticker(poller);
         for (Index i = begin; i < end; ++i) {
             ticker.tick(64);  // Steps of a query.
             const Vec3 point = point_at(i);
             use(chunk, i, point, faces.tree().closest_point_and_primitive(to_cgal(point)));
         }
     };
-    agvd::parallel_chunks(count, queries_per_task, num_threads, find, poller);
+    parallel_chunks(count, queries_per_task, num_threads, find, poller);
 }
 
 // Mean, RMS and maximum over the points, summed in a fixed order.
 template <typename PointAt>
-OneSidedDistance measure(Index count, int num_threads, agvd::Poller& poller, const Faces& faces,
+OneSidedDistance measure(Index count, int num_threads, Poller& poller, const Faces& faces,
                          const PointAt& point_at) {
-    std::vector<OneSidedDistance> sums(agvd::num_chunks(count, queries_per_task));
+    std::vector<OneSidedDistance> sums(num_chunks(count, queries_per_task));
     for_each_closest(count, num_threads, poller, faces, point_at,
                      [&](Index chunk, Index, const Vec3& point, const auto& closest) {
                          const double distance = (point - from_cgal(closest.first)).norm();
@@ -117,12 +113,12 @@ OneSidedDistance measure(Index count, int num_threads, agvd::Poller& poller, con
     return total;
 }
 
-OneSidedDistance one_sided(const agvd::MeshView& mesh, const Faces& from, const Faces& to,
-                           const DistanceOptions& options, agvd::Poller& poller) {
+OneSidedDistance one_sided(const MeshView& mesh, const Faces& from, const Faces& to,
+                           const DistanceOptions& options, Poller& poller) {
     OneSidedDistance result = measure(options.samples, options.num_threads, poller, to,
                                       [&](Index i) { return from.sample(i, options.samples); });
     std::vector<bool> used(mesh.positions.size(), false);
-    for (const agvd::Triangle& t : mesh.triangles) {
+    for (const Triangle& t : mesh.triangles) {
         for (const Index v : t) used[v] = true;
     }
     std::vector<Vec3> vertices;
@@ -136,10 +132,9 @@ OneSidedDistance one_sided(const agvd::MeshView& mesh, const Faces& from, const 
     return result;
 }
 
-Index count_flipped(const Faces& original, const Faces& result, int num_threads,
-                    agvd::Poller& poller) {
+Index count_flipped(const Faces& original, const Faces& result, int num_threads, Poller& poller) {
     const auto count = static_cast<Index>(result.triangles().size());
-    std::vector<Index> flipped(agvd::num_chunks(count, queries_per_task), 0);
+    std::vector<Index> flipped(num_chunks(count, queries_per_task), 0);
     for_each_closest(
         count, num_threads, poller, original,
         [&](Index f) {
@@ -157,12 +152,11 @@ Index count_flipped(const Faces& original, const Faces& result, int num_threads,
 
 }  // namespace
 
-std::optional<SurfaceDistance> surface_distance(const agvd::MeshView& original,
-                                                const agvd::MeshView& result,
+std::optional<SurfaceDistance> surface_distance(const MeshView& original, const MeshView& result,
                                                 const DistanceOptions& options) {
-    if (options.samples < 1) throw agvd::InvalidOption("samples is 0; use 1 or more");
-    agvd::check_num_threads(options.num_threads);
-    agvd::Poller poller(options.progress);
+    if (options.samples < 1) throw InvalidOption("samples is 0; use 1 or more");
+    check_num_threads(options.num_threads);
+    Poller poller(options.progress);
     const Faces original_faces(original, "original", poller);
     const Faces result_faces(result, "result", poller);
     const CGAL::Bbox_3 box = original_faces.tree().bbox();

@@ -7,14 +7,15 @@
 
 #include "agvd/core/progress.h"
 #include "agvd/mesh/mesh_view.h"
+#include "remesh/names.h"
 
 namespace remesh {
 
 //! `{}` gives the defaults.
 struct DistanceOptions {
-    agvd::Index samples = 200'000;  //!< On each of the two surfaces, >= 1; vertices are added.
-    int num_threads = 0;            //!< >= 0; 0: all cores. Any number gives the same bytes.
-    agvd::Progress progress = {};   //!< Polled during the call; see agvd::poll.
+    Index samples = 200'000;  //!< On each of the two surfaces, >= 1; vertices are added.
+    int num_threads = 0;      //!< >= 0; 0: all cores. Any number gives the same bytes.
+    Progress progress = {};   //!< Polled during the call; see poll.
 };
 
 //! From one surface to the closest points of another, mesh units.
@@ -29,10 +30,10 @@ struct SurfaceDistance {
     OneSidedDistance from_original;  //!< From points of the original to the result.
     OneSidedDistance from_result;    //!< From points of the result to the original.
     double diagonal = 0;             //!< Of the box around the original's faces.
-    agvd::Index samples = 0;         //!< On each surface, without the vertices.
+    Index samples = 0;               //!< On each surface, without the vertices.
     //! Faces of the result whose normal points against (more than a right angle away from) the
     //! normal of the original's face closest to their centroid.
-    agvd::Index flipped_faces = 0;
+    Index flipped_faces = 0;
 
     //! Lengths as percentages of the diagonal.
     [[nodiscard]] OneSidedDistance percent_of_diagonal(const OneSidedDistance& d) const {
@@ -51,12 +52,12 @@ struct SurfaceDistance {
 //! area are skipped.
 //!
 //! \return unset in a build without CGAL, whose AABB tree finds the closest points.
-//! \throw agvd::InvalidOption  samples < 1 or num_threads < 0.
-//! \throw agvd::InvalidInput   no face of a mesh has area.
-//! \throw agvd::Cancelled      the progress callback returned false.
+//! \throw InvalidOption  samples < 1 or num_threads < 0.
+//! \throw InvalidInput   no face of a mesh has area.
+//! \throw Cancelled      the progress callback returned false.
 //! Cost: O((samples + n) log n), about 2 us a sample.
-[[nodiscard]] std::optional<SurfaceDistance> surface_distance(const agvd::MeshView& original,
-                                                              const agvd::MeshView& result,
+[[nodiscard]] std::optional<SurfaceDistance> surface_distance(const MeshView& original,
+                                                              const MeshView& result,
                                                               const DistanceOptions& options = {});
 
 }  // namespace remesh

@@ -7,13 +7,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "remesh/topology/edge_sides.h"
+#include "agvd/mesh/edge_sides.h"
 
 namespace remesh {
 namespace {
-
-using agvd::Index;
-using agvd::Vec3;
 
 // Radians. Right angles on both sides of a diagonal are Delaunay; read from float files they are
 // off by 1e-7.
@@ -42,8 +39,7 @@ Shape shape_of(const std::array<Vec3, 3>& p) {
 }
 
 // Fills the figures of the faces and returns the angle opposite each half-edge.
-std::vector<double> measure_faces(const agvd::MeshView& mesh, agvd::Ticker& ticker,
-                                  TriangleQuality& result) {
+std::vector<double> measure_faces(const MeshView& mesh, Ticker& ticker, TriangleQuality& result) {
     std::vector<double> opposite(3 * mesh.triangles.size());
     result.min_quality = 1;
     result.min_angle = std::numbers::pi;
@@ -69,9 +65,8 @@ std::vector<double> measure_faces(const agvd::MeshView& mesh, agvd::Ticker& tick
     return opposite;
 }
 
-void measure_edges(const agvd::MeshView& mesh, const std::vector<EdgeSide>& sides,
-                   const std::vector<double>& opposite, agvd::Ticker& ticker,
-                   TriangleQuality& result) {
+void measure_edges(const MeshView& mesh, const std::vector<EdgeSide>& sides,
+                   const std::vector<double>& opposite, Ticker& ticker, TriangleQuality& result) {
     std::vector<double> lengths;
     for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
         ticker.tick();
@@ -88,8 +83,8 @@ void measure_edges(const agvd::MeshView& mesh, const std::vector<EdgeSide>& side
     if (mean > 0) result.edge_length_variation = std::sqrt(variance) / mean;
 }
 
-void measure_valences(const agvd::MeshView& mesh, const std::vector<EdgeSide>& sides,
-                      agvd::Ticker& ticker, TriangleQuality& result) {
+void measure_valences(const MeshView& mesh, const std::vector<EdgeSide>& sides, Ticker& ticker,
+                      TriangleQuality& result) {
     std::vector<Index> valence(mesh.positions.size(), 0);
     std::vector<bool> on_boundary(mesh.positions.size(), false);
     for_each_edge(sides, [&](std::span<const EdgeSide> edge) {
@@ -109,9 +104,9 @@ void measure_valences(const agvd::MeshView& mesh, const std::vector<EdgeSide>& s
 
 }  // namespace
 
-TriangleQuality measure_triangles(const agvd::MeshView& mesh, const agvd::Progress& progress) {
-    agvd::Poller poller(progress);
-    agvd::Ticker ticker(poller);
+TriangleQuality measure_triangles(const MeshView& mesh, const Progress& progress) {
+    Poller poller(progress);
+    Ticker ticker(poller);
     TriangleQuality result;
     if (mesh.triangles.empty()) return result;
     const std::vector<double> opposite = measure_faces(mesh, ticker, result);

@@ -4,6 +4,7 @@
 
 #include "agvd/core/progress.h"
 #include "agvd/mesh/mesh_view.h"
+#include "remesh/names.h"
 
 namespace remesh {
 
@@ -19,10 +20,10 @@ struct TriangleQuality {
     double small_angle_share = 0;      //!< Faces whose smallest angle is below pi / 6.
     double regular_share = 0;          //!< Vertices of 6 edges, on the boundary of 4.
     double edge_length_variation = 0;  //!< Standard deviation over mean of the edge lengths.
-    agvd::Index edges = 0;             //!< #E.
+    Index edges = 0;                   //!< #E.
     //! Inner edges whose two opposite angles (measured in space) sum to more than pi.
-    agvd::Index non_delaunay_edges = 0;
-    agvd::Index faces_without_area = 0;  //!< Flat up to rounding: see is_flat().
+    Index non_delaunay_edges = 0;
+    Index faces_without_area = 0;  //!< Flat up to rounding: see is_flat().
 };
 
 //! Measures any mesh, manifold or not. Edges with one face or more than two are not tested for the
@@ -30,8 +31,8 @@ struct TriangleQuality {
 //!
 //! \param mesh  #V x 3 finite positions, #F x 3 indices in range; without faces all is 0.
 //! Cost: O(n log n).
-//! \throw agvd::Cancelled  the progress callback returned false.
-[[nodiscard]] TriangleQuality measure_triangles(const agvd::MeshView& mesh,
-                                                const agvd::Progress& progress = {});
+//! \throw Cancelled  the progress callback returned false.
+[[nodiscard]] TriangleQuality measure_triangles(const MeshView& mesh,
+                                                const Progress& progress = {});
 
 }  // namespace remesh

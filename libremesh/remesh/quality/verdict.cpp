@@ -17,9 +17,6 @@
 namespace remesh {
 namespace {
 
-using agvd::Index;
-using agvd::Vec3;
-
 // Cosine of the normals on both sides of a wall: at most this.
 constexpr double most_wall_cosine = -0.7;
 // The far side counts if it is nearer than the vertex by this share of the depth.
@@ -43,10 +40,10 @@ struct VertexShape {
     double edge_length = 0;      // Mean of its edges.
 };
 
-std::vector<VertexShape> vertex_shapes(const agvd::MeshView& mesh) {
+std::vector<VertexShape> vertex_shapes(const MeshView& mesh) {
     std::vector<VertexShape> shapes(mesh.positions.size());
     std::vector<Index> num_edges(mesh.positions.size(), 0);
-    for (const agvd::Triangle& triangle : mesh.triangles) {
+    for (const Triangle& triangle : mesh.triangles) {
         const Vec3& a = mesh.positions[triangle[0]];
         const Vec3& b = mesh.positions[triangle[1]];
         const Vec3& c = mesh.positions[triangle[2]];
@@ -66,9 +63,9 @@ std::vector<VertexShape> vertex_shapes(const agvd::MeshView& mesh) {
     return shapes;
 }
 
-double mean_edge_length(const agvd::MeshView& mesh) {
+double mean_edge_length(const MeshView& mesh) {
     double sum = 0;
-    for (const agvd::Triangle& triangle : mesh.triangles) {
+    for (const Triangle& triangle : mesh.triangles) {
         for (std::size_t k = 0; k < 3; ++k) {
             sum += (mesh.positions[triangle[(k + 1) % 3]] - mesh.positions[triangle[k]]).norm();
         }
@@ -84,13 +81,13 @@ struct Wall {
 };
 
 // Finds walls of .1 to 1.9 times the depth.
-Wall wall_at_depth(const agvd::MeshView& mesh, const agvd::ClosestPointTree& tree, Index vertex,
+Wall wall_at_depth(const MeshView& mesh, const ClosestPointTree& tree, Index vertex,
                    const Vec3& outward, double depth) {
     const Vec3& place = mesh.positions[vertex];
-    const agvd::ClosestPoint nearest = tree.query(place - depth * outward);
+    const ClosestPoint nearest = tree.query(place - depth * outward);
     if (!(std::sqrt(nearest.distance_sq) < clearly_nearer * depth)) return {};
     const Index face = nearest.point.face.value();
-    const agvd::Triangle& triangle = mesh.triangles[face];
+    const Triangle& triangle = mesh.triangles[face];
     if (std::find(triangle.begin(), triangle.end(), vertex) != triangle.end()) return {};
     const Vec3& a = mesh.positions[triangle[0]];
     const Vec3 normal =
@@ -100,12 +97,12 @@ Wall wall_at_depth(const agvd::MeshView& mesh, const agvd::ClosestPointTree& tre
 }
 
 // Walls thinner than the edges there are long.
-std::vector<Wall> find_walls(const agvd::MeshView& mesh, const agvd::ClosestPointTree& tree,
+std::vector<Wall> find_walls(const MeshView& mesh, const ClosestPointTree& tree,
                              const std::vector<VertexShape>& shapes, int num_threads,
-                             agvd::Poller& poller) {
+                             Poller& poller) {
     std::vector<Wall> walls(shapes.size());
     const auto count = static_cast<Index>(shapes.size());
-    agvd::parallel_chunks(
+    parallel_chunks(
         count, query_grain, num_threads,
         [&](Index, Index begin, Index end) {
             for (Index v = begin; v < end; ++v) {
@@ -120,13 +117,13 @@ std::vector<Wall> find_walls(const agvd::MeshView& mesh, const agvd::ClosestPoin
 }
 
 // Vertices are on one wall if an edge joins them, or if one lies behind the other.
-void judge_walls(const agvd::MeshView& mesh, const std::vector<VertexShape>& shapes,
+void judge_walls(const MeshView& mesh, const std::vector<VertexShape>& shapes,
                  const std::vector<Wall>& walls, Verdict& verdict) {
-    agvd::UnionFind joined(shapes.size());
+    UnionFind joined(shapes.size());
     const auto join = [&](Index a, Index b) {
         if (walls[a].is_thin() && walls[b].is_thin()) joined.unite(a, b);
     };
-    for (const agvd::Triangle& triangle : mesh.triangles) {
+    for (const Triangle& triangle : mesh.triangles) {
         for (std::size_t k = 0; k < 3; ++k) join(triangle[k], triangle[(k + 1) % 3]);
     }
     for (Index v = 0; v < walls.size(); ++v) {
@@ -148,7 +145,7 @@ void judge_walls(const agvd::MeshView& mesh, const std::vector<VertexShape>& sha
     verdict.samples_for_walls = rounded_up(most_times * static_cast<double>(shapes.size()));
 }
 
-void judge_components(const agvd::MeshView& mesh, const Topology& topology, Verdict& verdict) {
+void judge_components(const MeshView& mesh, const Topology& topology, Verdict& verdict) {
     std::vector<Index> num_vertices(topology.components.size(), 0);
     std::vector<std::uint8_t> is_counted(mesh.positions.size(), 0);
     for (Index f = 0; f < mesh.triangles.size(); ++f) {
@@ -169,8 +166,8 @@ void judge_components(const agvd::MeshView& mesh, const Topology& topology, Verd
         rounded_up(most_times * static_cast<double>(mesh.positions.size()));
 }
 
-void judge_distance(const agvd::MeshView& input, const agvd::ClosestPointTree& tree,
-                    int num_threads, agvd::Poller& poller, Verdict& verdict) {
+void judge_distance(const MeshView& input, const ClosestPointTree& tree, int num_threads,
+                    Poller& poller, Verdict& verdict) {
     const auto num_vertices = static_cast<Index>(input.positions.size());
     const Index count = std::min(num_vertices, most_compared_vertices);
     const auto chosen = [&](Index i) {
@@ -180,8 +177,8 @@ void judge_distance(const agvd::MeshView& input, const agvd::ClosestPointTree& t
         double distance_sq = -1;
         Index vertex = 0;
     };
-    std::vector<Farthest> of_chunk(agvd::num_chunks(count, query_grain));
-    agvd::parallel_chunks(
+    std::vector<Farthest> of_chunk(num_chunks(count, query_grain));
+    parallel_chunks(
         count, query_grain, num_threads,
         [&](Index chunk, Index begin, Index end) {
             for (Index i = begin; i < end; ++i) {
@@ -200,19 +197,19 @@ void judge_distance(const agvd::MeshView& input, const agvd::ClosestPointTree& t
 
 }  // namespace
 
-Verdict judge_result(const agvd::MeshView& input, const agvd::MeshView& result,
-                     const Topology& topology, int num_threads, const agvd::Progress& progress) {
-    agvd::Poller poller(progress);
+Verdict judge_result(const MeshView& input, const MeshView& result, const Topology& topology,
+                     int num_threads, const Progress& progress) {
+    Poller poller(progress);
     Verdict verdict;
     verdict.spacing = mean_edge_length(result);
-    const agvd::MeshBox box = agvd::box_of(input, num_threads);
+    const MeshBox box = box_of(input, num_threads);
     verdict.diagonal = (box.high - box.low).norm();
     const TriangleQuality triangles = measure_triangles(result, poller.progress());
     verdict.min_angle = triangles.min_angle;
     verdict.small_angle_share = triangles.small_angle_share;
     verdict.faces_without_area = triangles.faces_without_area;
     judge_components(result, topology, verdict);
-    const agvd::ClosestPointTree tree(result, poller.progress());
+    const ClosestPointTree tree(result, poller.progress());
     const std::vector<VertexShape> shapes = vertex_shapes(result);
     judge_walls(result, shapes, find_walls(result, tree, shapes, num_threads, poller), verdict);
     judge_distance(input, tree, num_threads, poller, verdict);

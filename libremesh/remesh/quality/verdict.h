@@ -4,7 +4,8 @@
 
 #include "agvd/core/progress.h"
 #include "agvd/mesh/mesh_view.h"
-#include "remesh/topology/topology.h"
+#include "agvd/mesh/topology.h"
+#include "remesh/names.h"
 
 namespace remesh {
 
@@ -12,38 +13,38 @@ namespace remesh {
 struct Verdict {
     double spacing = 0;  //!< Mean edge length of the result.
 
-    agvd::Index small_components = 0;        //!< Fewer vertices than least_component_vertices.
-    agvd::Index samples_for_components = 0;  //!< About as many give each component enough.
+    Index small_components = 0;        //!< Fewer vertices than least_component_vertices.
+    Index samples_for_components = 0;  //!< About as many give each component enough.
 
     //! Connected parts of the result whose two sides are nearer to each other than their edges are
     //! long. Both sides of a plate are one part.
-    agvd::Index thin_walls = 0;
-    double thinnest_wall = 0;           //!< Least distance between the sides of these.
-    agvd::Index samples_for_walls = 0;  //!< About as many give edges as short as that.
+    Index thin_walls = 0;
+    double thinnest_wall = 0;     //!< Least distance between the sides of these.
+    Index samples_for_walls = 0;  //!< About as many give edges as short as that.
 
-    double largest_distance = 0;  //!< Of the input's vertices from the result: see judge_result.
-    agvd::Vec3 farthest = agvd::Vec3::Zero();  //!< The vertex of the input that is so far.
-    double diagonal = 0;                       //!< Of the input's bounding box.
+    double largest_distance = 0;   //!< Of the input's vertices from the result: see judge_result.
+    Vec3 farthest = Vec3::Zero();  //!< The vertex of the input that is so far.
+    double diagonal = 0;           //!< Of the input's bounding box.
 
-    double min_angle = 0;                //!< Radians; of the faces of the result.
-    double small_angle_share = 0;        //!< Of these faces: those with an angle below pi / 6.
-    agvd::Index faces_without_area = 0;  //!< Of these faces.
+    double min_angle = 0;          //!< Radians; of the faces of the result.
+    double small_angle_share = 0;  //!< Of these faces: those with an angle below pi / 6.
+    Index faces_without_area = 0;  //!< Of these faces.
 };
 
 //! A component with fewer vertices is hard to recognise.
-inline constexpr agvd::Index least_component_vertices = 12;
+inline constexpr Index least_component_vertices = 12;
 
 //! The input's vertices, or as many of them, evenly chosen by number, are compared with the result.
-inline constexpr agvd::Index most_compared_vertices = 30'000;
+inline constexpr Index most_compared_vertices = 30'000;
 
 //! \param input        the cleaned input; at least one vertex.
 //! \param result       #V x 3 positions, #F x 3 indices; at least one face.
 //! \param topology     of `result`.
 //! \param num_threads  >= 0; 0: all cores. The result is the same for any number.
-//! \throw agvd::Cancelled  the progress callback returned false.
+//! \throw Cancelled  the progress callback returned false.
 //! Cost: O((#V + min(input vertices, most_compared_vertices)) log #F).
-[[nodiscard]] Verdict judge_result(const agvd::MeshView& input, const agvd::MeshView& result,
+[[nodiscard]] Verdict judge_result(const MeshView& input, const MeshView& result,
                                    const Topology& topology, int num_threads = 0,
-                                   const agvd::Progress& progress = {});
+                                   const Progress& progress = {});
 
 }  // namespace remesh

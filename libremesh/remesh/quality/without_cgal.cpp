@@ -5,18 +5,18 @@
 
 namespace remesh {
 
-std::optional<SurfaceDistance> surface_distance(const agvd::MeshView&, const agvd::MeshView&,
+std::optional<SurfaceDistance> surface_distance(const MeshView&, const MeshView&,
                                                 const DistanceOptions&) {
     return std::nullopt;
 }
 
-std::optional<std::vector<std::pair<agvd::Index, agvd::Index>>> find_self_intersections(
-    const agvd::MeshView&, int, const agvd::Progress&) {
+std::optional<std::vector<std::pair<Index, Index>>> find_self_intersections(const MeshView&, int,
+                                                                            const Progress&) {
     return std::nullopt;
 }
 
-std::optional<std::vector<agvd::Triangle>> detail::triangulate_hole(std::span<const agvd::Vec3>,
-                                                                    std::span<const agvd::Vec3>) {
+std::optional<std::vector<Triangle>> detail::triangulate_hole(std::span<const Vec3>,
+                                                              std::span<const Vec3>) {
     return std::nullopt;
 }
 

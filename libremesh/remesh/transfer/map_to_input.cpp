@@ -9,9 +9,6 @@
 namespace remesh {
 namespace {
 
-using agvd::Index;
-using agvd::SurfacePoint;
-using agvd::Vec3;
 using detail::NearestOnSheet;
 
 constexpr Index vertex_grain = 256, face_grain = 64;
@@ -38,7 +35,7 @@ std::array<std::array<double, 3>, 16> part_centers() {
 using Centers = std::array<std::array<double, 3>, 16>;
 
 // Starts each search at the nearest of the three corners and the place of the sample before.
-FaceSamples sample_face(const agvd::MeshView& result, const agvd::Triangle& t,
+FaceSamples sample_face(const MeshView& result, const Triangle& t,
                         std::span<const SurfacePoint> places, const Centers& centers,
                         const NearestOnSheet& nearest, NearestOnSheet::Seen& seen) {
     std::array<SurfacePoint, 4> starts{places[t[0]], places[t[1]], places[t[2]], places[t[0]]};
@@ -52,7 +49,7 @@ FaceSamples sample_face(const agvd::MeshView& result, const agvd::Triangle& t,
         for (std::size_t k = 0; k < 3; ++k) {
             if ((at[k] - point).squaredNorm() < (at[first] - point).squaredNorm()) first = k;
         }
-        const agvd::ClosestPoint found = nearest.query(point, starts[first], seen);
+        const ClosestPoint found = nearest.query(point, starts[first], seen);
         starts[3] = found.point;
         at[3] = found.position;
         faces[i] = found.point.face.value();
@@ -62,19 +59,19 @@ FaceSamples sample_face(const agvd::MeshView& result, const agvd::Triangle& t,
 
 }  // namespace
 
-InputMap map_to_input(const agvd::MeshView& input, const agvd::MeshView& result,
+InputMap map_to_input(const MeshView& input, const MeshView& result,
                       std::span<const SurfacePoint> sites, const MapOptions& options) {
-    agvd::check_num_threads(options.num_threads);
+    check_num_threads(options.num_threads);
     if (sites.size() != result.positions.size()) {
-        throw agvd::InvalidOption("there are " + std::to_string(sites.size()) + " sites for " +
-                                  std::to_string(result.positions.size()) +
-                                  " vertices; give one for each");
+        throw InvalidOption("there are " + std::to_string(sites.size()) + " sites for " +
+                            std::to_string(result.positions.size()) +
+                            " vertices; give one for each");
     }
-    agvd::Poller poller(options.progress);
-    const NearestOnSheet nearest(input, agvd::Ticker(poller));
+    Poller poller(options.progress);
+    const NearestOnSheet nearest(input, Ticker(poller));
     InputMap map;
     map.vertices.resize(sites.size());
-    agvd::parallel_chunks(
+    parallel_chunks(
         static_cast<Index>(sites.size()), vertex_grain, options.num_threads,
         [&](Index, Index begin, Index end) {
             NearestOnSheet::Seen seen;
@@ -86,7 +83,7 @@ InputMap map_to_input(const agvd::MeshView& input, const agvd::MeshView& result,
     if (!options.with_faces) return map;
     const Centers centers = part_centers();
     map.faces.resize(result.triangles.size());
-    agvd::parallel_chunks(
+    parallel_chunks(
         static_cast<Index>(map.faces.size()), face_grain, options.num_threads,
         [&](Index, Index begin, Index end) {
             NearestOnSheet::Seen seen;

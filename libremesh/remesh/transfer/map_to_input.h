@@ -8,23 +8,24 @@
 
 #include "agvd/core/progress.h"
 #include "agvd/mesh/surface_point.h"
+#include "remesh/names.h"
 
 namespace remesh {
 
 //! `{}` gives the defaults.
 struct MapOptions {
-    bool with_faces = false;       //!< Also map the faces.
-    int num_threads = 0;           //!< >= 0; 0: all cores.
-    agvd::Progress progress = {};  //!< Polled during the call; see agvd::poll.
+    bool with_faces = false;  //!< Also map the faces.
+    int num_threads = 0;      //!< >= 0; 0: all cores.
+    Progress progress = {};   //!< Polled during the call; see poll.
 };
 
 //! Faces of the input at points that are spread evenly over a face of the result.
-using FaceSamples = std::array<agvd::Index, 16>;
+using FaceSamples = std::array<Index, 16>;
 
 //! Where the elements of a result lie on the input.
 struct InputMap {
-    std::vector<agvd::SurfacePoint> vertices;  //!< #V of the result: points of the input.
-    std::vector<FaceSamples> faces;            //!< #F of the result; empty without with_faces.
+    std::vector<SurfacePoint> vertices;  //!< #V of the result: points of the input.
+    std::vector<FaceSamples> faces;      //!< #F of the result; empty without with_faces.
 };
 
 //! For each vertex of a result the point of the input that is nearest to it, on the sheet where the
@@ -35,12 +36,12 @@ struct InputMap {
 //!
 //! \param input   what remesh() got: any triangles, also dirty ones.
 //! \param sites   of the result's vertices, on `input`: RemeshResult::sites.
-//! \throw agvd::InvalidOption  num_threads < 0, or there is not one site for each vertex.
-//! \throw agvd::Cancelled      the progress callback returned false.
+//! \throw InvalidOption  num_threads < 0, or there is not one site for each vertex.
+//! \throw Cancelled      the progress callback returned false.
 //! Cost: O(#F of the input); for each vertex the faces of the input between it and its site, for
 //! each face of the result 16 times those along a quarter of its width.
-[[nodiscard]] InputMap map_to_input(const agvd::MeshView& input, const agvd::MeshView& result,
-                                    std::span<const agvd::SurfacePoint> sites,
+[[nodiscard]] InputMap map_to_input(const MeshView& input, const MeshView& result,
+                                    std::span<const SurfacePoint> sites,
                                     const MapOptions& options = {});
 
 }  // namespace remesh

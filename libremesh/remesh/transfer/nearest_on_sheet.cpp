@@ -7,13 +7,9 @@
 #include <limits>
 #include <utility>
 
-#include "remesh/transfer/first_at_position.h"
+#include "agvd/mesh/first_at_position.h"
 
 namespace remesh::detail {
-
-using agvd::Index;
-using agvd::no_index;
-using agvd::Vec3;
 
 namespace {
 
@@ -46,14 +42,14 @@ void NearestOnSheet::Seen::grow() {
     }
 }
 
-NearestOnSheet::NearestOnSheet(const agvd::MeshView& mesh, agvd::Ticker ticker)
+NearestOnSheet::NearestOnSheet(const MeshView& mesh, Ticker ticker)
     : mesh_(mesh),
       point_(first_at_position(mesh.positions, ticker)),
       begin_(mesh.positions.size() + 1, 0) {
     double largest = 0;
     for (const Vec3& p : mesh.positions) largest = std::max(largest, p.cwiseAbs().maxCoeff());
     rounding_ = rounding_share * largest;
-    agvd::for_each_ticked(mesh.triangles, ticker, [&](const agvd::Triangle& t) {
+    for_each_ticked(mesh.triangles, ticker, [&](const Triangle& t) {
         for (const Index v : t) ++begin_[point_[v] + 1];
     });
     for (std::size_t v = 0; v + 1 < begin_.size(); ++v) begin_[v + 1] += begin_[v];
@@ -68,7 +64,7 @@ NearestOnSheet::NearestOnSheet(const agvd::MeshView& mesh, agvd::Ticker ticker)
 // The other faces at edge k of a face, but for those beyond a seam.
 template <typename Visit>
 void NearestOnSheet::for_each_neighbor(Index face, std::size_t k, const Visit& visit) const {
-    const agvd::Triangle& t = mesh_.triangles[face];
+    const Triangle& t = mesh_.triangles[face];
     const Index a = point_[t[k]], b = point_[t[(k + 1) % 3]];
     for (Index i = begin_[a]; i < begin_[a + 1]; ++i) {
         const Index other = faces_[i];
@@ -84,16 +80,16 @@ void NearestOnSheet::for_each_neighbor(Index face, std::size_t k, const Visit& v
 
 // The corner of a face at a point; 3: it has none there.
 std::size_t NearestOnSheet::corner_at(Index face, Index point) const {
-    const agvd::Triangle& t = mesh_.triangles[face];
+    const Triangle& t = mesh_.triangles[face];
     std::size_t k = 0;
     while (k < 3 && point_[t[k]] != point) ++k;
     return k;
 }
 
-agvd::ClosestPoint NearestOnSheet::closest(Index face, const Vec3& point) const {
+ClosestPoint NearestOnSheet::closest(Index face, const Vec3& point) const {
     const auto& [a, b, c] = mesh_.triangles[face];
-    return agvd::closest_point_on_triangle(
-        {mesh_.positions[a], mesh_.positions[b], mesh_.positions[c]}, agvd::FaceId(face), point);
+    return closest_point_on_triangle({mesh_.positions[a], mesh_.positions[b], mesh_.positions[c]},
+                                     FaceId(face), point);
 }
 
 // Visits the faces connected with one in the ball around a point, until visit() says false.
@@ -107,10 +103,10 @@ void NearestOnSheet::flood(const Vec3& point, double reach, Index start, Seen& s
         const Index face = waiting.back();
         waiting.pop_back();
         if (!visit(face)) return;
-        const agvd::Triangle& t = mesh_.triangles[face];
+        const Triangle& t = mesh_.triangles[face];
         for (std::size_t k = 0; k < 3; ++k) {
             const Vec3 &a = mesh_.positions[t[k]], &b = mesh_.positions[t[(k + 1) % 3]];
-            if (agvd::distance_to_segment(point, a, b) > reach) continue;
+            if (distance_to_segment(point, a, b) > reach) continue;
             for_each_neighbor(face, k, [&](Index neighbor) {
                 if (seen.insert(neighbor)) waiting.push_back(neighbor);
             });
@@ -118,14 +114,13 @@ void NearestOnSheet::flood(const Vec3& point, double reach, Index start, Seen& s
     }
 }
 
-agvd::ClosestPoint NearestOnSheet::query(const Vec3& point, const agvd::SurfacePoint& start,
-                                         Seen& seen) const {
-    agvd::ClosestPoint best{start, position(mesh_, start), 0};
+ClosestPoint NearestOnSheet::query(const Vec3& point, const SurfacePoint& start, Seen& seen) const {
+    ClosestPoint best{start, position(mesh_, start), 0};
     best.distance_sq = (best.position - point).squaredNorm();
     if (best.distance_sq <= rounding_ * rounding_) return best;
     const double reach = (1 + margin) * std::sqrt(best.distance_sq);
     flood(point, reach, start.face.value(), seen, [&](Index face) {
-        const agvd::ClosestPoint here = closest(face, point);
+        const ClosestPoint here = closest(face, point);
         if (here.distance_sq < best.distance_sq) best = here;
         return true;
     });

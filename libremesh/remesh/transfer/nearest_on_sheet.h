@@ -7,7 +7,7 @@
 
 #include "agvd/core/poller.h"
 #include "agvd/mesh/closest_point.h"
-#include "remesh/transfer/texture_seams.h"
+#include "remesh/meshfile/texture_seams.h"
 
 namespace remesh::detail {
 
@@ -25,11 +25,11 @@ public:
             count_ = 0;
         }
         //! False if it was there before.
-        bool insert(agvd::Index face);
+        bool insert(Index face);
 
     private:
         struct Slot {
-            agvd::Index face = agvd::no_index;
+            Index face = no_index;
             std::uint64_t round = 0;  // Taken in this round; otherwise free.
         };
         void grow();
@@ -40,18 +40,18 @@ public:
     };
 
     //! \param mesh  outlives this; finite, indices in range. Cost: O(n).
-    NearestOnSheet(const agvd::MeshView& mesh, agvd::Ticker ticker);
+    NearestOnSheet(const MeshView& mesh, Ticker ticker);
 
     //! The point of the sheet that is nearest to `point`. It is `start` itself, bit for bit, if
     //! `point` lies there up to rounding.
     //! Cost: that of the faces in the ball around `point` that reaches to `start`.
-    [[nodiscard]] agvd::ClosestPoint query(const agvd::Vec3& point, const agvd::SurfacePoint& start,
-                                           Seen& seen) const;
+    [[nodiscard]] ClosestPoint query(const Vec3& point, const SurfacePoint& start,
+                                     Seen& seen) const;
 
     //! Whether two faces are connected within a ball.
     //! Cost: that of the faces in the ball.
-    [[nodiscard]] bool are_connected(const agvd::Vec3& center, double radius, agvd::Index a,
-                                     agvd::Index b, Seen& seen) const;
+    [[nodiscard]] bool are_connected(const Vec3& center, double radius, Index a, Index b,
+                                     Seen& seen) const;
 
     //! The same mesh where faces that do not agree at an edge are not neighbours.
     //! \param agree  outlives the copy.
@@ -61,21 +61,20 @@ public:
         return cut;
     }
 
-    [[nodiscard]] const agvd::MeshView& mesh() const { return mesh_; }
+    [[nodiscard]] const MeshView& mesh() const { return mesh_; }
 
 private:
-    [[nodiscard]] agvd::ClosestPoint closest(agvd::Index face, const agvd::Vec3& point) const;
-    [[nodiscard]] std::size_t corner_at(agvd::Index face, agvd::Index point) const;
+    [[nodiscard]] ClosestPoint closest(Index face, const Vec3& point) const;
+    [[nodiscard]] std::size_t corner_at(Index face, Index point) const;
     template <typename Visit>
-    void for_each_neighbor(agvd::Index face, std::size_t k, const Visit& visit) const;
+    void for_each_neighbor(Index face, std::size_t k, const Visit& visit) const;
     template <typename Visit>
-    void flood(const agvd::Vec3& point, double reach, agvd::Index start, Seen& seen,
-               const Visit& visit) const;
+    void flood(const Vec3& point, double reach, Index start, Seen& seen, const Visit& visit) const;
 
-    agvd::MeshView mesh_;
-    std::vector<agvd::Index> point_;  // #V: the first vertex at the same position.
-    std::vector<agvd::Index> begin_;  // #V + 1: of the faces at each such vertex.
-    std::vector<agvd::Index> faces_;
+    MeshView mesh_;
+    std::vector<Index> point_;  // #V: the first vertex at the same position.
+    std::vector<Index> begin_;  // #V + 1: of the faces at each such vertex.
+    std::vector<Index> faces_;
     double rounding_ = 0;                     // Lengths up to this are rounding.
     const CornerAgreement* agree_ = nullptr;  // Null: seams do not count.
 };

@@ -13,12 +13,6 @@
 namespace remesh {
 namespace {
 
-using agvd::ClosestPoint;
-using agvd::Index;
-using agvd::SurfacePoint;
-using agvd::Triangle;
-using agvd::Vec2;
-using agvd::Vec3;
 using detail::NearestOnSheet;
 
 constexpr Index corner_grain = 64;
@@ -44,7 +38,7 @@ using FacePlaces = std::array<ClosestPoint, 3>;
 
 class CornerFinder {
 public:
-    CornerFinder(const agvd::MeshView& result, std::span<const SurfacePoint> places,
+    CornerFinder(const MeshView& result, std::span<const SurfacePoint> places,
                  const NearestOnSheet& sheet, const NearestOnSheet& cut)
         : result_(result), places_(places), sheet_(sheet), cut_(cut) {}
 
@@ -121,20 +115,19 @@ private:
         return found[0].distance_sq + found[1].distance_sq + found[2].distance_sq;
     }
 
-    const agvd::MeshView& result_;
+    const MeshView& result_;
     std::span<const SurfacePoint> places_;
     const NearestOnSheet &sheet_, &cut_;
 };
 
-void check(std::span<const SurfacePoint> places, const agvd::MeshView& result) {
+void check(std::span<const SurfacePoint> places, const MeshView& result) {
     if (places.size() == result.positions.size()) return;
-    throw agvd::InvalidOption("there are " + std::to_string(places.size()) + " places for " +
-                              std::to_string(result.positions.size()) +
-                              " vertices; give one for each");
+    throw InvalidOption("there are " + std::to_string(places.size()) + " places for " +
+                        std::to_string(result.positions.size()) + " vertices; give one for each");
 }
 
 // A corner of the result: number 3 f + k.
-std::vector<std::vector<Index>> corners_by_vertex(const agvd::MeshView& mesh) {
+std::vector<std::vector<Index>> corners_by_vertex(const MeshView& mesh) {
     std::vector<std::vector<Index>> corners(mesh.positions.size());
     for (Index f = 0; f < mesh.triangles.size(); ++f) {
         for (Index k = 0; k < 3; ++k) corners[mesh.triangles[f][k]].push_back(3 * f + k);
@@ -145,19 +138,18 @@ std::vector<std::vector<Index>> corners_by_vertex(const agvd::MeshView& mesh) {
 }  // namespace
 
 std::vector<CornerCoordinates> transfer_corner_values(std::span<const CornerCoordinates> values,
-                                                      const agvd::MeshView& input,
-                                                      const agvd::MeshView& result,
+                                                      const MeshView& input, const MeshView& result,
                                                       std::span<const SurfacePoint> places,
                                                       const CornerOptions& options) {
-    agvd::check_num_threads(options.num_threads);
+    check_num_threads(options.num_threads);
     check(places, result);
-    agvd::Poller poller(options.progress);
+    Poller poller(options.progress);
     const auto num_faces = static_cast<Index>(result.triangles.size());
     std::vector<CornerCoordinates> carried(num_faces, no_coordinates());
     const auto value_at = [&](const SurfacePoint& place) {
         return interpolated(values[place.face.value()], place);
     };
-    if (find_texture_seams(input, values, agvd::Ticker(poller)).empty()) {
+    if (find_texture_seams(input, values, Ticker(poller)).empty()) {
         for (Index f = 0; f < num_faces; ++f) {
             for (std::size_t k = 0; k < 3; ++k) {
                 carried[f][k] = value_at(places[result.triangles[f][k]]);
@@ -166,10 +158,10 @@ std::vector<CornerCoordinates> transfer_corner_values(std::span<const CornerCoor
         return carried;
     }
     const CornerAgreement agree(values);
-    const NearestOnSheet sheet(input, agvd::Ticker(poller)), cut = sheet.cut_at_seams(agree);
+    const NearestOnSheet sheet(input, Ticker(poller)), cut = sheet.cut_at_seams(agree);
     const CornerFinder finder(result, places, sheet, cut);
     std::vector<FacePlaces> found(num_faces);
-    agvd::parallel_chunks(
+    parallel_chunks(
         num_faces, corner_grain, options.num_threads,
         [&](Index, Index begin, Index end) {
             NearestOnSheet::Seen seen;
@@ -177,7 +169,7 @@ std::vector<CornerCoordinates> transfer_corner_values(std::span<const CornerCoor
         },
         poller);
     const std::vector<std::vector<Index>> corners = corners_by_vertex(result);
-    agvd::parallel_chunks(
+    parallel_chunks(
         static_cast<Index>(corners.size()), corner_grain, options.num_threads,
         [&](Index, Index begin, Index end) {
             NearestOnSheet::Seen seen;

@@ -4,14 +4,14 @@
 
 #include "agvd/core/progress.h"
 #include "agvd/mesh/surface_point.h"
-#include "remesh/transfer/texture_seams.h"
+#include "remesh/meshfile/texture_seams.h"
 
 namespace remesh {
 
 //! `{}` gives the defaults.
 struct CornerOptions {
-    int num_threads = 0;           //!< >= 0; 0: all cores.
-    agvd::Progress progress = {};  //!< Polled during the call; see agvd::poll.
+    int num_threads = 0;     //!< >= 0; 0: all cores.
+    Progress progress = {};  //!< Polled during the call; see poll.
 };
 
 //! Texture coordinates for the corners of a result's faces. They are interpolated linearly in the
@@ -25,14 +25,13 @@ struct CornerOptions {
 //! \param values  #F of the input; NaN where a corner has none: so has what lies there.
 //! \param places  where the result's vertices lie on the input: InputMap::vertices.
 //! \return #F of the result.
-//! \throw agvd::InvalidOption  num_threads < 0, or there is not one value for each face of the
+//! \throw InvalidOption  num_threads < 0, or there is not one value for each face of the
 //!        input or not one place for each vertex of the result.
-//! \throw agvd::Cancelled      the progress callback returned false.
+//! \throw Cancelled      the progress callback returned false.
 //! Cost: O(#F log #F) of the input; for each face of the result, if there are seams, 13 searches
 //! over a quarter of its width.
 [[nodiscard]] std::vector<CornerCoordinates> transfer_corner_values(
-    std::span<const CornerCoordinates> values, const agvd::MeshView& input,
-    const agvd::MeshView& result, std::span<const agvd::SurfacePoint> places,
-    const CornerOptions& options = {});
+    std::span<const CornerCoordinates> values, const MeshView& input, const MeshView& result,
+    std::span<const SurfacePoint> places, const CornerOptions& options = {});
 
 }  // namespace remesh

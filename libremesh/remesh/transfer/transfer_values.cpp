@@ -10,12 +10,8 @@
 namespace remesh {
 namespace {
 
-using agvd::Index;
-using agvd::SurfacePoint;
-
 // Sums of the same value stay that value, bit for bit.
-double interpolated(std::span<const double> values, const agvd::Triangle& t,
-                    const SurfacePoint& place) {
+double interpolated(std::span<const double> values, const Triangle& t, const SurfacePoint& place) {
     const auto& b = place.barycentric;
     const auto k = static_cast<std::size_t>(std::max_element(b.begin(), b.end()) - b.begin());
     double value = values[t[k]];
@@ -27,9 +23,9 @@ double interpolated(std::span<const double> values, const agvd::Triangle& t,
     return value;
 }
 
-Index nearest_corner(const agvd::MeshView& input, const SurfacePoint& place) {
-    const agvd::Vec3 at = position(input, place);
-    const agvd::Triangle& t = input.triangles[place.face.value()];
+Index nearest_corner(const MeshView& input, const SurfacePoint& place) {
+    const Vec3 at = position(input, place);
+    const Triangle& t = input.triangles[place.face.value()];
     const auto key = [&](Index v) { return std::pair((input.positions[v] - at).squaredNorm(), v); };
     return *std::min_element(t.begin(), t.end(), [&](Index a, Index b) { return key(a) < key(b); });
 }
@@ -61,13 +57,12 @@ double most_frequent(std::span<const double> values, const FaceSamples& faces) {
 
 }  // namespace
 
-std::vector<double> transfer_vertex_values(std::span<const double> values,
-                                           const agvd::MeshView& input,
+std::vector<double> transfer_vertex_values(std::span<const double> values, const MeshView& input,
                                            std::span<const SurfacePoint> places, ValueKind kind) {
     if (values.size() != input.positions.size()) {
-        throw agvd::InvalidOption("there are " + std::to_string(values.size()) +
-                                  " values for the " + std::to_string(input.positions.size()) +
-                                  " vertices of the input; give one for each");
+        throw InvalidOption("there are " + std::to_string(values.size()) + " values for the " +
+                            std::to_string(input.positions.size()) +
+                            " vertices of the input; give one for each");
     }
     std::vector<double> result;
     result.reserve(places.size());
@@ -86,9 +81,8 @@ std::vector<double> transfer_face_values(std::span<const double> values,
     for (const FaceSamples& faces : samples) {
         const Index last = *std::max_element(faces.begin(), faces.end());
         if (last >= values.size()) {
-            throw agvd::InvalidOption("face " + std::to_string(last) +
-                                      " of the input has none of " + std::to_string(values.size()) +
-                                      " values; give one for each face");
+            throw InvalidOption("face " + std::to_string(last) + " of the input has none of " +
+                                std::to_string(values.size()) + " values; give one for each face");
         }
         result.push_back(kind == ValueKind::Label ? most_frequent(values, faces)
                                                   : mean(values, faces));

@@ -19,11 +19,11 @@ enum class ValueKind {
 //!
 //! \param values  one for each vertex of the input.
 //! \param places  on the input, one for each vertex of the result: InputMap::vertices.
-//! \throw agvd::InvalidOption  there is not one value for each vertex.
+//! \throw InvalidOption  there is not one value for each vertex.
 //! Cost: O(#places).
 [[nodiscard]] std::vector<double> transfer_vertex_values(std::span<const double> values,
-                                                         const agvd::MeshView& input,
-                                                         std::span<const agvd::SurfacePoint> places,
+                                                         const MeshView& input,
+                                                         std::span<const SurfacePoint> places,
                                                          ValueKind kind);
 
 //! Values for the faces of a result. Numbers are means over each face, labels those with the
@@ -31,7 +31,7 @@ enum class ValueKind {
 //!
 //! \param values   one for each face of the input.
 //! \param samples  one for each face of the result: InputMap::faces.
-//! \throw agvd::InvalidOption  a face of the samples has no value.
+//! \throw InvalidOption  a face of the samples has no value.
 //! Cost: O(#samples).
 [[nodiscard]] std::vector<double> transfer_face_values(std::span<const double> values,
                                                        std::span<const FaceSamples> samples,

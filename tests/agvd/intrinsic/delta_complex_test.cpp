@@ -15,7 +15,7 @@
 #include "remesh/clean/clean_input.h"
 #include "remesh/dual/build_dual.h"
 #include "remesh/dual/delaunay.h"
-#include "remesh/io/read_mesh.h"
+#include "remesh/meshfile/read_mesh.h"
 #include "support/arbiter.h"
 #include "support/checks.h"
 #include "support/delta_shapes.h"

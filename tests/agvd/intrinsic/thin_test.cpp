@@ -9,11 +9,11 @@
 
 #include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/intrinsic/thin.h"
+#include "agvd/mesh/components.h"
 #include "agvd/mesh/distinct_points.h"
+#include "agvd/mesh/topology.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/quality/triangle_quality.h"
-#include "remesh/topology/components.h"
-#include "remesh/topology/topology.h"
 #include "support/points.h"
 #include "support/random_surfaces.h"
 #include "support/shapes.h"
@@ -35,7 +35,7 @@ TriangleMesh drawn(const Surface& surface, std::span<const SurfacePoint> points,
 }
 
 void expect_thinned(const Surface& surface, std::span<const SurfacePoint> points) {
-    for (const remesh::detail::Component& component : remesh::detail::find_components(surface)) {
+    for (const agvd::Component& component : agvd::find_components(surface)) {
         std::vector<SurfacePoint> mine;
         for (const Index i : distinct_points(surface, points)) {
             if (std::binary_search(component.faces.begin(), component.faces.end(),

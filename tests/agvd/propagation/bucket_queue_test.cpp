@@ -1,4 +1,4 @@
-#include "agvd/propagation/bucket_queue.h"
+#include "agvd/propagation/window/bucket_queue.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <map>
 
 #include "agvd/core/random.h"
-#include "agvd/propagation/front_item.h"
+#include "agvd/propagation/window/front_item.h"
 
 using namespace agvd;
 

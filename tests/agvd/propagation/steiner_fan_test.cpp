@@ -1,5 +1,5 @@
 // Targets of a Steiner point across a face, by formula.
-#include "agvd/propagation/steiner_fan.h"
+#include "agvd/propagation/steiner/steiner_fan.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The envelope of windows against the least of all of them, and merged windows against the two they
 // stand for.
-#include "agvd/propagation/window_envelope.h"
+#include "agvd/propagation/window/window_envelope.h"
 
 #include <gtest/gtest.h>
 

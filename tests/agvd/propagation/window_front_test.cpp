@@ -1,5 +1,5 @@
 // A run that gives windows back against one that keeps them all.
-#include "agvd/propagation/window_front.h"
+#include "agvd/propagation/window/window_front.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "agvd/propagation/arc_graph.h"
 #include "agvd/propagation/distance_bounds.h"
-#include "agvd/propagation/window_engine.h"
+#include "agvd/propagation/window/window_engine.h"
 #include "support/points.h"
 #include "support/random_meshes.h"
 #include "support/shapes.h"

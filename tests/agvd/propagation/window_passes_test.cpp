@@ -3,11 +3,11 @@
 
 #include <limits>
 
-#include "agvd/propagation/close_edges.h"
-#include "agvd/propagation/divide_window.h"
-#include "agvd/propagation/send_windows.h"
-#include "agvd/propagation/serve_edge.h"
-#include "agvd/propagation/take_in_windows.h"
+#include "agvd/propagation/window/close_edges.h"
+#include "agvd/propagation/window/divide_window.h"
+#include "agvd/propagation/window/send_windows.h"
+#include "agvd/propagation/window/serve_edge.h"
+#include "agvd/propagation/window/take_in_windows.h"
 #include "support/shapes.h"
 
 using namespace agvd;

@@ -7,8 +7,8 @@
 #include "agvd/core/error.h"
 #include "agvd/core/random.h"
 #include "agvd/mesh/surface.h"
+#include "agvd/mesh/topology.h"
 #include "remesh/clean/clean_input.h"
-#include "remesh/topology/topology.h"
 #include "support/dirty_shapes.h"
 #include "support/shapes.h"
 

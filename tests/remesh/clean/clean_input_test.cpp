@@ -7,7 +7,7 @@
 
 #include "agvd/core/error.h"
 #include "agvd/mesh/surface.h"
-#include "remesh/topology/topology.h"
+#include "agvd/mesh/topology.h"
 #include "support/dirty_shapes.h"
 #include "support/shapes.h"
 

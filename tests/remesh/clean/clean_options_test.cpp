@@ -6,10 +6,10 @@
 
 #include "agvd/core/error.h"
 #include "agvd/mesh/surface.h"
+#include "agvd/mesh/topology.h"
 #include "remesh/clean/carry_sites.h"
 #include "remesh/clean/clean_input.h"
 #include "remesh/quality/self_intersections.h"
-#include "remesh/topology/topology.h"
 #include "support/dice.h"
 #include "support/dirty_shapes.h"
 #include "support/shapes.h"

@@ -5,9 +5,9 @@
 #include <map>
 
 #include "agvd/core/random.h"
+#include "agvd/mesh/topology.h"
 #include "remesh/clean/clean_input.h"
-#include "remesh/features/junctions.h"
-#include "remesh/topology/topology.h"
+#include "remesh/curves/junctions.h"
 #include "support/shapes.h"
 
 using agvd::Index;

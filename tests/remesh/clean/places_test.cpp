@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "agvd/core/union_find.h"
+#include "agvd/mesh/topology.h"
 #include "remesh/clean/carry_sites.h"
 #include "remesh/clean/clean_input.h"
-#include "remesh/topology/topology.h"
 #include "support/dice.h"
 #include "support/dirty_shapes.h"
 #include "support/shapes.h"

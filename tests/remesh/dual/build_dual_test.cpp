@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "remesh/topology/topology.h"
+#include "agvd/mesh/topology.h"
 #include "support/shapes.h"
 
 using agvd::FaceId;

@@ -8,11 +8,11 @@
 #include <set>
 
 #include "agvd/diagram/build_diagram.h"
+#include "agvd/mesh/topology.h"
 #include "agvd/mesh/uniform_points.h"
 #include "agvd/propagation/propagate.h"
 #include "remesh/dual/build_dual.h"
 #include "remesh/dual/flippable_mesh.h"
-#include "remesh/topology/topology.h"
 #include "support/points.h"
 #include "support/random_meshes.h"
 #include "support/shapes.h"

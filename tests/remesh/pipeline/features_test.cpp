@@ -11,11 +11,11 @@
 
 #include "agvd/mesh/closest_point.h"
 #include "agvd/mesh/point_faces.h"
-#include "remesh/io/read_mesh.h"
+#include "remesh/meshfile/read_mesh.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/placement/flat_faces.h"
 #include "remesh/quality/triangle_quality.h"
-#include "remesh/sampling/sample_sites.h"
+#include "remesh/sites/sample_sites.h"
 #include "support/crease_checks.h"
 #include "support/dice.h"
 #include "support/files.h"

@@ -9,11 +9,11 @@
 #include <set>
 
 #include "agvd/core/error.h"
+#include "agvd/mesh/topology.h"
 #include "remesh/clean/clean_input.h"
 #include "remesh/pipeline/locked.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/quality/triangle_quality.h"
-#include "remesh/topology/topology.h"
 #include "support/dice.h"
 #include "support/dirty_shapes.h"
 #include "support/junction_shapes.h"

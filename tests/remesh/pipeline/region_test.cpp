@@ -11,10 +11,10 @@
 #include <set>
 
 #include "agvd/core/error.h"
-#include "remesh/io/read_mesh.h"
+#include "agvd/mesh/topology.h"
+#include "remesh/meshfile/read_mesh.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/quality/triangle_quality.h"
-#include "remesh/topology/topology.h"
 #include "support/dice.h"
 #include "support/dirty_shapes.h"
 #include "support/files.h"

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "remesh/topology/topology.h"
+#include "agvd/mesh/topology.h"
 #include "support/movable_mesh.h"
 #include "support/shapes.h"
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "remesh/topology/topology.h"
+#include "agvd/mesh/topology.h"
 #include "support/shapes.h"
 
 namespace {

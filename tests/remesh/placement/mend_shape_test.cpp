@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "agvd/mesh/topology.h"
 #include "remesh/quality/triangle_quality.h"
-#include "remesh/topology/topology.h"
 #include "support/movable_mesh.h"
 #include "support/shapes.h"
 

@@ -14,7 +14,7 @@
 #include "remesh/placement/fit_vertices.h"
 #include "remesh/placement/improve_shape.h"
 #include "remesh/quality/triangle_quality.h"
-#include "remesh/relax/relax_sites.h"
+#include "remesh/sites/relax_sites.h"
 #include "support/shapes.h"
 
 using namespace agvd;

@@ -6,7 +6,7 @@
 
 #include "agvd/core/error.h"
 #include "agvd/mesh/scale.h"
-#include "remesh/io/report.h"
+#include "report/report.h"
 #include "support/shapes.h"
 
 using agvd::TriangleMesh;

@@ -13,7 +13,7 @@
 
 #include "agvd/core/error.h"
 #include "agvd/core/random.h"
-#include "remesh/io/read_mesh.h"
+#include "remesh/meshfile/read_mesh.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/transfer/map_to_input.h"
 #include "support/dirty_shapes.h"

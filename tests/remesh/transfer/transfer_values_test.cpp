@@ -8,9 +8,9 @@
 #include <limits>
 
 #include "agvd/core/error.h"
-#include "remesh/io/read_mesh.h"
+#include "agvd/mesh/vertex_normals.h"
+#include "remesh/meshfile/read_mesh.h"
 #include "remesh/pipeline/remesh.h"
-#include "remesh/transfer/vertex_normals.h"
 #include "support/files.h"
 #include "support/shapes.h"
 

@@ -3,8 +3,8 @@
 #include "binding/arrays.h"
 #include "binding/bindings.h"
 #include "binding/python_progress.h"
-#include "remesh/io/report.h"
 #include "remesh/quality/evaluate.h"
+#include "report/report.h"
 
 namespace python {
 namespace {

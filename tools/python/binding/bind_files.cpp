@@ -7,10 +7,10 @@
 #include "binding/choose.h"
 #include "binding/python_progress.h"
 #include "declined.h"
-#include "remesh/io/atomic_file.h"
-#include "remesh/io/read_mesh.h"
-#include "remesh/io/triangulate.h"
-#include "remesh/io/write_mesh.h"
+#include "remesh/meshfile/atomic_file.h"
+#include "remesh/meshfile/read_mesh.h"
+#include "remesh/meshfile/triangulate.h"
+#include "remesh/meshfile/write_mesh.h"
 
 namespace python {
 namespace {

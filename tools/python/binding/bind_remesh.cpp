@@ -7,9 +7,9 @@
 #include "binding/python_progress.h"
 #include "binding/terms.h"
 #include "expected_stages.h"
-#include "remesh/io/report.h"
 #include "remesh/pipeline/remesh.h"
 #include "remesh/transfer/map_to_input.h"
+#include "report/report.h"
 #include "shortfalls.h"
 
 namespace python {

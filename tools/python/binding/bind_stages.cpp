@@ -6,9 +6,9 @@
 #include "binding/bindings.h"
 #include "binding/given_surface.h"
 #include "binding/option_names.h"
-#include "remesh/io/report_common.h"
-#include "remesh/relax/prepared_surface.h"
-#include "remesh/relax/relax_sites.h"
+#include "remesh/sites/prepared_surface.h"
+#include "remesh/sites/relax_sites.h"
+#include "report/report_common.h"
 
 namespace python {
 namespace {

@@ -1,11 +1,11 @@
 // Values at the vertices and faces of an input for those of its remesh.
 #include <pybind11/stl.h>
 
+#include "agvd/mesh/vertex_normals.h"
 #include "binding/arrays.h"
 #include "binding/bindings.h"
 #include "remesh/transfer/transfer_corners.h"
 #include "remesh/transfer/transfer_values.h"
-#include "remesh/transfer/vertex_normals.h"
 
 namespace python {
 namespace {

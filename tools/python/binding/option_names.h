@@ -4,7 +4,7 @@
 
 #include "agvd/propagation/propagation_options.h"
 #include "binding/choose.h"
-#include "remesh/sampling/sample_sites.h"
+#include "remesh/sites/sample_sites.h"
 
 namespace python {
 

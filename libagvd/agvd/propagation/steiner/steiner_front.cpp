@@ -1,0 +1,287 @@
+// Sources: [meng2023] Algorithm 1, Sec. 4.3 and 5.2.
+//
+// Symbols: m = counts_[edge], Q = queue_, lambda n = retirement_interval; d(a), d(b), |e| as named.
+//
+// A Steiner point represents a window around it, seen from its parent. So it serves only the
+// targets across its edge inside the fan through both windows. Vertices serve their whole one-ring.
+// So a path of the graph reaches every target, and d(x) <= (d(a) + d(b) + |e|) / 2 holds on every
+// edge.
+
+#include "agvd/propagation/steiner/steiner_front.h"
+
+#include "agvd/propagation/steiner/steiner_fan.h"
+
+namespace agvd {
+namespace {
+
+constexpr std::size_t poll_interval = 1 << 16;
+
+// The width is a share of the mean spacing of the nodes, so that most improvements stay within a
+// bucket. No path is longer than all edges together, which bounds the number of buckets.
+double bucket_width(const Surface& surface, const SteinerCounts& counts) {
+    constexpr double share = 0.15;
+    double sum = 0;
+    for (const double length : surface.length) sum += length;
+    const Index num_edges = surface.num_edges();
+    const double intervals = counts.total(num_edges) + num_edges;
+    return std::max({share * sum / intervals, sum * 0x1p-30, std::numeric_limits<double>::min()});
+}
+
+bool settle(SteinerNode& node, const FrontEntry& entry) {
+    if (node.is_settled() || node.distance != entry.distance || node.site != entry.site) {
+        return false;
+    }
+    node.queued_in = SteinerNode::settled;
+    return true;
+}
+
+}  // namespace
+
+SteinerFront::SteinerFront(const Surface& surface, std::span<const SurfacePoint> sites,
+                           const SteinerCounts& counts)
+    : surface_(surface),
+      sites_(sites),
+      counts_(counts),
+      placement_(surface, sites),
+      numbers_(surface, counts.most()),
+      vertices_(surface.num_vertices()),
+      pool_(surface.num_edges(), counts),
+      queue_(bucket_width(surface, counts)),
+      retirement_(surface, placement_, counts, vertices_, pool_) {}
+
+void SteinerFront::run(double retirement_interval, const Progress& progress) {
+    Poller poller(progress);
+    poller.tell(0);
+    ticker_ = Ticker(poller);
+    for (Index s = 0; s < sites_.size(); ++s) start(s);
+    double next_retirement = retirement_interval;
+    const double all_nodes =
+        static_cast<double>(surface_.num_vertices()) + counts_.total(surface_.num_edges());
+    while (refill()) {
+        const FrontEntry entry = queue_.pop();
+        if (numbers_.is_vertex(entry.node)) {
+            if (!settle(vertices_[entry.node], entry)) continue;
+            serve_one_ring(entry.node);
+        } else {
+            const Index edge = numbers_.edge(entry.node);
+            if (pool_.is_retired(edge)) continue;
+            const Index point = numbers_.point(entry.node);
+            if (!settle(pool_.nodes(edge)[point], entry)) continue;
+            serve_onward(edge, point);
+        }
+        if (++num_pops_ % poll_interval == 0) {
+            poller.tell(static_cast<double>(num_pops_) / all_nodes);
+        }
+        if (static_cast<double>(num_pops_) >= next_retirement && refill()) {
+            next_retirement += retirement_interval;
+            retirement_.retire_behind(queue_.top().distance);
+        }
+    }
+    poller.tell(1);
+    ticker_ = {};
+}
+
+Propagation SteinerFront::finish() {
+    retirement_.retire_behind(infinity);
+    const std::size_t common =
+        vertices_.capacity() * sizeof(SteinerNode) + retirement_.bytes() + queue_.bytes();
+    Propagation result;
+    result.peak_bytes = common + pool_.peak_bytes();
+    pool_.clear();
+    retirement_.hand_over(result);
+    result.vertex_site.reserve(vertices_.size());
+    result.vertex_distance.reserve(vertices_.size());
+    for (const SteinerNode& node : vertices_) {
+        result.vertex_site.push_back(SiteId(node.site));
+        result.vertex_distance.push_back(node.distance);
+    }
+    const std::size_t own = result.relays.capacity() * sizeof(Relay) +
+                            result.mixed_faces.capacity() * sizeof(Index) +
+                            result.relay_ranges.capacity() * sizeof(RelayRange) +
+                            vertices_.size() * (sizeof(SiteId) + sizeof(double));
+    result.peak_bytes = std::max(result.peak_bytes, common + own);
+    result.num_nodes = num_pops_;
+    return result;
+}
+
+const SteinerNode& SteinerFront::node(Index half_edge, Index j) const {
+    if (j == 0) return vertices_[surface_.tail(half_edge)];
+    const Index edge = surface_.edge[half_edge];
+    const bool forward = surface_.edge_half[edge] == half_edge;
+    return pool_.nodes(edge)[forward ? j - 1 : counts_[edge] - j];
+}
+
+bool SteinerFront::refill() {
+    return queue_.refill([this](Index id, Index bucket) -> std::optional<FrontEntry> {
+        const SteinerNode* node = nullptr;
+        if (numbers_.is_vertex(id)) {
+            node = &vertices_[id];
+        } else {
+            const Index edge = numbers_.edge(id);
+            if (pool_.is_retired(edge)) return std::nullopt;
+            node = pool_.nodes(edge) + numbers_.point(id);
+        }
+        if (node->queued_in != bucket) return std::nullopt;
+        return FrontEntry{node->distance, node->site, id};
+    });
+}
+
+inline void SteinerFront::relax(SteinerNode& node, Index id, double distance, Index site,
+                                Index from, Index slot) {
+    if (distance > node.distance || node.is_settled()) return;
+    if (distance == node.distance && site >= node.site) return;
+    node.distance = distance;
+    node.site = site;
+    node.from = from;
+    node.parent_slot = static_cast<std::uint16_t>(slot);
+    queue_.push({distance, site, id}, node.queued_in);
+}
+
+void SteinerFront::relax_vertex(Index from, double distance, Index site, Index slot) {
+    const Index v = surface_.tail(from);
+    relax(vertices_[v], v, distance, site, from, slot);
+}
+
+// Serves the points [begin, end) of half-edge `from`, which are numbered 1 to m from its tail. They
+// lie on the line tail + t * along, in the frame of `source`.
+void SteinerFront::relax_points(Index from, Index begin, Index end, const Vec2& tail,
+                                const Vec2& along, const Vec2& source, double base, Index site,
+                                Index slot) {
+    if (begin >= end) return;
+    ticker_.tick(end - begin);
+    retirement_.open(Surface::face(from));
+    const Index edge = surface_.edge[from];
+    if (pool_.is_retired(edge)) return;
+    SteinerNode* const nodes = pool_.nodes(edge);
+    const bool forward = surface_.edge_half[edge] == from;
+    const Index m = counts_[edge];
+    const double step = counts_.step(edge);
+    const Index first_id = numbers_.of_point(edge, 0);
+    const Vec2 offset = tail - source;
+    for (Index j = begin; j < end; ++j) {
+        const double t = j * step;
+        const double distance = base + (offset + t * along).norm();
+        const Index k = forward ? j - 1 : m - j;
+        relax(nodes[k], first_id + k, distance, site, from, slot);
+    }
+}
+
+// Serves all points of a half-edge.
+void SteinerFront::relax_side(Index from, const Vec2& tail, const Vec2& along, const Vec2& source,
+                              double base, Index site, Index slot) {
+    relax_points(from, 1, counts_[surface_.edge[from]] + 1, tail, along, source, base, site, slot);
+}
+
+// Serves the whole boundary of a face from a point inside it or on it.
+void SteinerFront::serve_face(Index face, Index site, const SurfacePoint& point) {
+    for (Index k = 0; k < 3; ++k) {
+        const Index h = 3 * face + k;
+        const Vec2 source = position_in_frame(surface_, point, h);
+        relax_vertex(h, source.norm(), site, FaceRing::site_slot);
+        relax_side(h, {0, 0}, {surface_.length_of(h), 0}, source, 0, site, FaceRing::site_slot);
+    }
+    retirement_.open(face);
+}
+
+void SteinerFront::start(Index s) {
+    const SurfacePoint& site = sites_[s];
+    if (const auto vertex = vertex_of(surface_, site)) {
+        relax(vertices_[*vertex], *vertex, 0, s, no_index, FaceRing::site_slot);
+        return;
+    }
+    serve_face(site.face.value(), s, site);
+    const auto half_edge = half_edge_of(site);
+    if (half_edge && surface_.twin[*half_edge] != no_index) {
+        serve_face(Surface::face(surface_.twin[*half_edge]), s,
+                   across_edge(surface_, site, *half_edge));
+    }
+}
+
+void SteinerFront::serve_one_ring(Index vertex) {
+    const SteinerNode node = vertices_[vertex];
+    Index h = surface_.outgoing[vertex];
+    if (h == no_index) return;
+    do {
+        const double length = surface_.length_of(h);
+        const Index opposite = Surface::next(h);
+        const Vec2& apex = surface_.apex[opposite];  // This vertex, seen from the opposite edge.
+        const Index slot = FaceRing::slot(2, 0);
+        relax_side(h, {0, 0}, {length, 0}, {0, 0}, node.distance, node.site, FaceRing::slot(0, 0));
+        relax_vertex(opposite, node.distance + length, node.site, slot);
+        relax_side(opposite, {0, 0}, {surface_.length_of(opposite), 0}, apex, node.distance,
+                   node.site, slot);
+        retirement_.open(Surface::face(h));
+        const Index previous = Surface::previous(h);
+        h = surface_.twin[previous];
+        if (h == no_index) {
+            const double last = surface_.length_of(previous);
+            relax_vertex(previous, node.distance + last, node.site, FaceRing::slot(1, 0));
+            relax_side(previous, {0, 0}, {last, 0}, {last, 0}, node.distance, node.site,
+                       FaceRing::slot(1, 0));
+        }
+    } while (h != no_index && h != surface_.outgoing[vertex]);
+}
+
+void SteinerFront::serve_onward(Index edge, Index point) {
+    const SteinerNode node = pool_.nodes(edge)[point];
+    const Index out = surface_.twin[node.from];
+    if (out == no_index) return;
+    const double length = surface_.length[edge];
+    const double step = counts_.step(edge);
+    const bool forward = surface_.edge_half[edge] == out;
+    const Index j = forward ? point + 1 : counts_[edge] - point;  // From the tail of `out`.
+    const Vec2 here(length * j * step, 0);
+
+    const Vec2 p = slot_position(node, Vec2(length, 0) - here);
+    const Vec2 parent(length - p.x(), -p.y());
+    if (!(parent.y() < 0)) return;  // The path came along the edge: the parent serves both sides.
+    const Vec2& apex = surface_.apex[out];
+    const Index next = Surface::next(out);
+    const Index previous = Surface::previous(out);
+    const Index to_apex = counts_[surface_.edge[next]] + 1;
+    const Index from_apex = counts_[surface_.edge[previous]] + 1;
+    const TargetRange range = FarSide{length, apex, to_apex, from_apex}.visible_targets(
+        here, length * step, parent, parent_spacing(node));
+    const Vec2 head(length, 0);
+    relax_points(next, std::max<Index>(range.begin, 1), std::min(range.end, to_apex), head,
+                 apex - head, here, node.distance, node.site, FaceRing::slot(2, j));
+    if (range.begin <= to_apex && to_apex < range.end) {
+        relax_vertex(previous, node.distance + (apex - here).norm(), node.site,
+                     FaceRing::slot(1, j));
+    }
+    relax_points(previous, std::max(range.begin, to_apex + 1) - to_apex,
+                 std::clamp(range.end, to_apex + 1, to_apex + from_apex) - to_apex, apex, -apex,
+                 here, node.distance, node.site, FaceRing::slot(1, j));
+}
+
+// The position of the path's previous node in the frame of node.from. `here`: the position of the
+// node in that frame.
+Vec2 SteinerFront::slot_position(const SteinerNode& node, const Vec2& here) const {
+    if (node.parent_slot == FaceRing::site_slot) {
+        const auto places = placement_.seen_from(Surface::face(node.from), node.site);
+        Vec2 nearest = position_in_frame(surface_, places[0].point, node.from);
+        for (const PlacedSite& other : places.subspan(1)) {
+            const Vec2 p = position_in_frame(surface_, other.point, node.from);
+            if ((p - here).squaredNorm() < (nearest - here).squaredNorm()) nearest = p;
+        }
+        return nearest;
+    }
+    return FaceRing::position(surface_, counts_, node.from, node.parent_slot);
+}
+
+// The vector from the parent to its neighbour on the parent's edge, up to sign; 0 for a vertex or a
+// site, which has no window. The parent must not lie on the node's edge.
+Vec2 SteinerFront::parent_spacing(const SteinerNode& node) const {
+    if (node.parent_slot == FaceRing::site_slot || FaceRing::number_of(node.parent_slot) == 0) {
+        return {0, 0};
+    }
+    const Index h = node.from;
+    const Vec2& apex = surface_.apex[h];
+    if (FaceRing::side_of(node.parent_slot) == 1) {
+        return counts_.step(surface_.edge[Surface::next(h)]) *
+               Vec2(apex - Vec2(surface_.length_of(h), 0));
+    }
+    return counts_.step(surface_.edge[Surface::previous(h)]) * apex;
+}
+
+}  // namespace agvd

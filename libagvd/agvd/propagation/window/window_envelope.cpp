@@ -1,0 +1,203 @@
+// The lower envelope of windows along a half-edge, and the merging of windows.
+//
+// Inserting a window compares it with every old window that it overlaps (fight()), and writes the
+// pieces of both that win. Two windows of different weight can change places twice.
+//
+// Merging: the image of the merged window is where the outermost rays of both windows meet, and its
+// weight is lowered until its distances lie below both. The differences to the old distances are
+// monotone over each interval, so their values at the ends bound the error that is added.
+#include "agvd/propagation/window/window_envelope.h"
+
+#include <algorithm>
+#include <cassert>
+#include <utility>
+
+#include "agvd/propagation/window/window_duel.h"
+
+namespace agvd {
+namespace {
+
+// True for an interval that is as short as its rounding.
+bool is_rounding(double from, double to) { return !(to - from > 1e-15 * to); }
+
+// Writes an envelope from left to right: pieces of one new window and of old ones.
+class Writer {
+public:
+    Writer(const Window& window, std::vector<Window>& out) : window_(window), out_(out) {}
+
+    void add_new(double from, double to) {
+        if (from == new_end_) {
+            out_.back().end = to;
+            out_.back().at_end = window_.distance(to);
+        } else {
+            if (is_rounding(from, to)) return;
+            out_.push_back(window_.part(from, to));
+        }
+        new_end_ = to;
+    }
+    void add_old(const Window& old, double from, double to) {
+        if (from == old.begin && to == old.end) {
+            out_.push_back(old);
+        } else if (!is_rounding(from, to)) {
+            out_.push_back(old.part(from, to));
+        } else {
+            return;
+        }
+        new_end_ = std::numeric_limits<double>::quiet_NaN();
+    }
+
+private:
+    const Window& window_;
+    std::vector<Window>& out_;
+    // The end of the last piece, if that is of the new window.
+    double new_end_ = std::numeric_limits<double>::quiet_NaN();
+};
+
+// Makes a window empty.
+void drop(Window& window) { window.begin = window.end; }
+
+// Cuts a window off. False if nothing would be left.
+bool end_at(Window& window, double end) {
+    if (is_rounding(window.begin, end)) return false;
+    window.at_end = window.distance(end);
+    window.end = end;
+    return true;
+}
+
+void begin_at(Window& window, double begin) {
+    window.at_begin = window.distance(begin);
+    window.begin = is_rounding(begin, window.end) ? window.end : begin;
+}
+
+// Whether `last` is the beam of a vertex and `next` a beam that passes the vertex. The two tie
+// along the ray that touches the vertex. The beam of the vertex is wider by `grazing`; if it kept
+// the ray, the two would overlap on every edge from there on.
+bool gives_way(const Window& last, const Window& next, const Duel& duel) {
+    constexpr double narrow = 1e-8;
+    return duel.is_tie && duel.num_cuts == 0 && !last.is_served && next.weight < last.weight &&
+           last.end - next.begin < narrow * last.end;
+}
+
+}  // namespace
+
+bool is_envelope(std::span<const Window> windows) {
+    for (std::size_t i = 0; i < windows.size(); ++i) {
+        if (!(windows[i].begin < windows[i].end)) return false;
+        if (i > 0 && windows[i - 1].end > windows[i].begin) return false;
+    }
+    return true;
+}
+
+bool cut_where_they_change(Window& last, Window& next) {
+    assert(last.begin < last.end && next.begin < next.end && next.begin < last.end);
+    if (is_rounding(next.begin, last.end)) {
+        begin_at(next, last.end);
+        return true;
+    }
+    if (next.begin < last.begin) return false;
+    const double high = std::min(last.end, next.end);
+    const Duel duel = fight(next, last, next.begin, high);
+    if (duel.num_cuts > 1) return false;
+    if (high < last.end) {  // The last window extends on both sides of the next one.
+        if (duel.first_wins || duel.num_cuts == 1) return false;
+        drop(next);
+        return true;
+    }
+    if (duel.first_wins || gives_way(last, next, duel)) {
+        return duel.num_cuts == 0 && end_at(last, next.begin);
+    }
+    double begin = last.end;
+    if (duel.num_cuts == 1) {
+        begin = duel.cuts[0];
+        if (is_rounding(begin, last.end) || !end_at(last, begin)) return false;
+    }
+    begin_at(next, begin);
+    return true;
+}
+
+void insert_window(const Window& window, std::vector<Window>& scratch,
+                   std::vector<Window>& envelope) {
+    assert(window.begin < window.end);
+    assert(is_envelope(envelope));
+    auto first = envelope.end();
+    while (first != envelope.begin() && (first - 1)->end > window.begin) --first;
+    if (first == envelope.end()) {
+        envelope.push_back(window);
+        return;
+    }
+    scratch.assign(first, envelope.end());
+    envelope.erase(first, envelope.end());
+    Writer writer(window, envelope);
+    double decided = window.begin;  // The new window is written up to here.
+    for (const Window& old : scratch) {
+        const double low = std::max(old.begin, window.begin);
+        const double high = std::min(old.end, window.end);
+        const double gap_end = std::min(old.begin, window.end);
+        if (decided < gap_end) writer.add_new(decided, gap_end);
+        decided = std::max(decided, gap_end);
+        if (!(low < high)) {
+            writer.add_old(old, old.begin, old.end);
+            continue;
+        }
+        const Duel duel = fight(window, old, low, high);
+        double old_begin = old.begin;
+        double from = low;
+        bool is_new = duel.first_wins;
+        for (int i = 0; i <= duel.num_cuts; ++i) {
+            const double to = i < duel.num_cuts ? duel.cuts[static_cast<std::size_t>(i)] : high;
+            if (is_new) {
+                if (old_begin < from) writer.add_old(old, old_begin, from);
+                writer.add_new(from, to);
+                old_begin = to;
+            }
+            from = to;
+            is_new = !is_new;
+        }
+        if (old_begin < old.end) writer.add_old(old, old_begin, old.end);
+        decided = high;
+    }
+    if (decided < window.end) writer.add_new(decided, window.end);
+    assert(is_envelope(envelope));
+}
+
+std::optional<Window> merge_windows(const Window& left, const Window& right, double max_error) {
+    if (left.end != right.begin) return std::nullopt;
+    assert(left.begin < left.end && right.begin < right.end && left.y <= 0 && right.y <= 0);
+    const double begin = left.begin;
+    const double joint = left.end;
+    const double end = right.end;
+    const double slope_begin = (begin - left.x) / -left.y;
+    const double slope_end = (end - right.x) / -right.y;
+    if (!(slope_begin < slope_end)) return std::nullopt;
+    // The inner end rays must stay inside the beam, too.
+    if ((joint - left.x) / -left.y > slope_end) return std::nullopt;
+    if ((joint - right.x) / -right.y < slope_begin) return std::nullopt;
+    Window merged = left;
+    merged.y = (begin - end) / (slope_end - slope_begin);
+    merged.x = begin + slope_begin * merged.y;
+    merged.weight = 0;
+    merged.begin = merged.end = std::numeric_limits<double>::quiet_NaN();
+    const double run_begin = merged.distance(begin);
+    const double run_end = merged.distance(end);
+    // If the image were much farther than the source, distances would lose digits.
+    constexpr double farthest = 1e4;
+    if (!(run_begin < farthest * left.at_begin && run_end < farthest * right.at_end)) {
+        return std::nullopt;
+    }
+    const double run_joint = merged.distance(joint);
+    const std::array gaps{run_begin - left.at_begin, run_joint - left.at_end,
+                          run_joint - right.at_begin, run_end - right.at_end};
+    const auto [least, most] = std::minmax_element(gaps.begin(), gaps.end());
+    constexpr float round_up = 1 + 0x1p-20F;
+    merged.error =
+        (std::max(left.error, right.error) + static_cast<float>(*most - *least)) * round_up;
+    merged.weight = -*most;
+    merged.begin = begin;
+    merged.end = end;
+    merged.at_begin = run_begin + merged.weight;
+    merged.at_end = run_end + merged.weight;
+    if (!(merged.error <= max_error * merged.nearest())) return std::nullopt;
+    return merged;
+}
+
+}  // namespace agvd

@@ -1,0 +1,126 @@
+// Corners, points and tangents of curves. A place on a curve is a length along it in mesh units;
+// Curve::up_to gives the edge at a place. A vertex is a corner if both the polyline and longer
+// chords turn sharply there, so that noise makes no corners.
+#include "remesh/curves/curve_network.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace remesh {
+namespace {
+
+constexpr double least_turn = std::numbers::pi / 4;
+// In spacings: length of a corner's chords, and least distance between corners.
+constexpr double corner_reach = 0.5;
+
+double turn(const Vec3& before, const Vec3& here, const Vec3& after) {
+    const Vec3 in = here - before, out = after - here;
+    return std::atan2(in.cross(out).norm(), in.dot(out));
+}
+
+// The edge at a place of the curve, and the share of the edge before that place.
+std::pair<std::size_t, double> find_place(const Curve& curve, double along) {
+    const double length = curve.length();
+    along = curve.is_closed() ? along - std::floor(along / length) * length
+                              : std::clamp(along, 0.0, length);
+    const auto& up_to = curve.up_to;
+    const auto after = std::upper_bound(up_to.begin() + 1, up_to.end() - 1, along);
+    const auto i = static_cast<std::size_t>(after - up_to.begin()) - 1;
+    return {i, share_before(along, up_to[i], up_to[i + 1])};
+}
+
+// A curve as a polyline in space.
+class Course {
+public:
+    Course(const Surface& surface, const Curve& curve) : curve_(curve) {
+        for (std::size_t i = 0; i <= curve.num_edges(); ++i) {
+            at_.push_back(surface.mesh.positions[curve.vertex(surface, i)]);
+        }
+    }
+
+    // The smaller of two turns at an inner vertex: of its edges, and of its chords.
+    [[nodiscard]] double sharpness(std::size_t i, double reach) const {
+        const std::size_t num_edges = curve_.num_edges();
+        const std::size_t before = i == 0 ? num_edges - 1 : i - 1;
+        const double here_turn = turn(at_[before], at_[i], at_[i + 1]);
+        if (here_turn < least_turn) return 0;
+        reach = std::min(reach, curve_.length() / 3);
+        const double along = curve_.up_to[i];
+        return std::min(here_turn, turn(position(along - reach), at_[i], position(along + reach)));
+    }
+
+private:
+    [[nodiscard]] Vec3 position(double along) const {
+        const auto [i, share] = find_place(curve_, along);
+        return (1 - share) * at_[i] + share * at_[i + 1];
+    }
+
+    const Curve& curve_;
+    std::vector<Vec3> at_;  // By vertex of the curve.
+};
+
+}  // namespace
+
+Curve curve_of_loop(const Surface& surface, std::vector<Index> loop) {
+    Curve curve;
+    curve.up_to.reserve(loop.size() + 1);
+    curve.up_to.push_back(0);
+    for (const Index h : loop) curve.up_to.push_back(curve.up_to.back() + surface.length_of(h));
+    curve.sides.push_back({std::move(loop)});
+    return curve;
+}
+
+std::vector<std::size_t> corners_of_curve(const Surface& surface, const Curve& curve,
+                                          double spacing) {
+    const double reach = corner_reach * spacing;
+    const Course course(surface, curve);
+    std::vector<std::pair<double, std::size_t>> candidates;  // (minus sharpness, vertex)
+    for (std::size_t i = curve.is_closed() ? 0 : 1; i < curve.num_edges(); ++i) {
+        const double sharp = course.sharpness(i, reach);
+        if (sharp >= least_turn) candidates.emplace_back(-sharp, i);
+    }
+    std::sort(candidates.begin(), candidates.end());
+    std::vector<std::size_t> corners;
+    const auto is_free = [&](double at) {
+        if (!curve.is_closed() && std::min(at, curve.length() - at) < reach) return false;
+        return std::none_of(corners.begin(), corners.end(), [&](std::size_t corner) {
+            const double apart = std::abs(at - curve.up_to[corner]);
+            const double around = curve.is_closed() ? curve.length() - apart : apart;
+            return std::min(apart, around) < reach;
+        });
+    };
+    for (const auto& [sharp, i] : candidates) {
+        if (is_free(curve.up_to[i])) corners.push_back(i);
+    }
+    std::sort(corners.begin(), corners.end());
+    return corners;
+}
+
+Index Curve::vertex(const Surface& surface, std::size_t i, std::size_t side) const {
+    const bool is_last = i == num_edges();
+    const Index h = sides[side].half_edges[is_last ? i - 1 : i];
+    return is_last == sides[side].runs_along ? surface.head(h) : surface.tail(h);
+}
+
+SurfacePoint point_on_curve(const Curve& curve, double along, std::size_t side) {
+    auto [i, share] = find_place(curve, along);
+    if (!curve.sides[side].runs_along) share = 1 - share;
+    const Index h = curve.sides[side].half_edges[i];
+    SurfacePoint point{FaceId(Surface::face(h)), {0, 0, 0}};
+    point.barycentric[h % 3] = 1 - share;
+    point.barycentric[Surface::next(h) % 3] = share;
+    return point;
+}
+
+Vec3 tangent_of_curve(const Surface& surface, const Curve& curve, double along) {
+    const std::size_t i = find_place(curve, along).first;
+    const auto& p = surface.mesh.positions;
+    const CurveSide& side = curve.sides.front();
+    const Index h = side.half_edges[i];
+    const Vec3 way = p[surface.head(h)] - p[surface.tail(h)];
+    return (side.runs_along ? way : Vec3(-way)).normalized();
+}
+
+}  // namespace remesh

@@ -1,0 +1,100 @@
+//! \file
+//! The curves of a surface that its mesh must reproduce: boundary, creases and junctions.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_point.h"
+#include "remesh/curves/junctions.h"
+#include "remesh/curves/locked_elements.h"
+
+namespace remesh {
+
+//! One side of a curve: the half-edges of the faces there.
+struct CurveSide {
+    std::vector<Index> half_edges;  //!< Of the surface, in the curve's order.
+    bool runs_along = true;         //!< The half-edges run along the curve; otherwise against it.
+    Index sheet = 0;                //!< Equal for the two sides of one edge of the surface.
+};
+
+//! A chain of edges between two nodes, or a closed chain without nodes. A boundary has one side, a
+//! crease two of one sheet, a junction one for each face that meets there.
+struct Curve {
+    std::vector<CurveSide> sides;  //!< First those that run along it; each kind by sheet.
+    std::vector<double> up_to;  //!< #edges + 1: length before each edge, then of all; mesh units.
+    Index begin = no_index;     //!< Index into CurveNetwork::nodes; no_index: closed.
+    Index end = no_index;       //!< Likewise.
+    Index num_sheets = 1;       //!< Above 1: a junction.
+    bool is_locked = false;     //!< A locked edge: it is not divided.
+
+    [[nodiscard]] std::size_t num_edges() const { return up_to.size() - 1; }
+    [[nodiscard]] double length() const { return up_to.back(); }
+    [[nodiscard]] bool is_closed() const { return begin == no_index; }
+    [[nodiscard]] bool is_junction() const { return num_sheets > 1; }
+    [[nodiscard]] bool is_crease() const { return !is_junction() && sides.size() == 2; }
+    //! The vertex before edge i, or after the last one.
+    //! \param i  at most num_edges().
+    [[nodiscard]] Index vertex(const Surface& surface, std::size_t i, std::size_t side = 0) const;
+};
+
+//! Every edge belongs to at most one curve. Nodes are vertices where the number of edges of the
+//! network is not two, where boundary and crease meet, or where a junction connects its sheets
+//! differently on both sides of the vertex. Corners are nodes too: the network turns there by at
+//! least 45 degrees and keeps that turn over half a spacing. So are locked vertices; those that lie
+//! inside faces of the result are nodes without a curve.
+struct CurveNetwork {
+    std::vector<Index> nodes;   //!< Vertices of the surface, ascending; of copies the first.
+    std::vector<Curve> curves;  //!< By lowest edge.
+    //! The other copies of nodes at junctions, ascending: vertex, node.
+    std::vector<std::pair<Index, Index>> copies;
+    Junctions junctions = Junctions::Apart;  //!< What the result does with its sheets.
+
+    [[nodiscard]] bool is_welded() const { return junctions == Junctions::Keep; }
+};
+
+//! Finds the network of a surface.
+//!
+//! \param is_crease  #E: 1 for the edges of creases. Boundary edges and junctions always belong to
+//!                   the network.
+//! \param spacing    > 0, mesh units: of the sites.
+//! \param locked     its edges that are neither boundary nor junctions must be marked as creases.
+//! Cost: O(#V + #E).
+[[nodiscard]] CurveNetwork find_network(const Surface& surface,
+                                        std::span<const std::uint8_t> is_crease, double spacing,
+                                        const JunctionSet& junctions = {},
+                                        const LockedElements& locked = {});
+
+//! A loop of boundary_loops as a closed curve that begins at its first vertex. Cost: O(n).
+[[nodiscard]] Curve curve_of_loop(const Surface& surface, std::vector<Index> loop);
+
+//! The vertices (see Curve::vertex) where a curve turns by at least 45 degrees, both at the vertex
+//! itself and between the chords to the points half a spacing before and after it. So a rough curve
+//! has no corners that sites at this spacing could not follow. Of several within half a spacing
+//! only the sharpest counts; within half a spacing of an end, none.
+//! \return ascending.
+//! Cost: O(k log k + k c), c = corners.
+[[nodiscard]] std::vector<std::size_t> corners_of_curve(const Surface& surface, const Curve& curve,
+                                                        double spacing);
+
+//! The share of [begin, end] before a place, in [0, 1]; 0 if the interval is empty, such as an edge
+//! that is shorter than the rounding of its curve's length.
+[[nodiscard]] inline double share_before(double place, double begin, double end) {
+    return begin < end ? std::clamp((place - begin) / (end - begin), 0.0, 1.0) : 0;
+}
+
+//! A point of a curve, given in the face on one side of it.
+//!
+//! \param along  in [0, length]; taken modulo the length on closed curves.
+//! \param side   index into its sides.
+//! Cost: O(log n).
+[[nodiscard]] SurfacePoint point_on_curve(const Curve& curve, double along, std::size_t side = 0);
+
+//! The unit tangent of a curve at a place.
+[[nodiscard]] Vec3 tangent_of_curve(const Surface& surface, const Curve& curve, double along);
+
+}  // namespace remesh

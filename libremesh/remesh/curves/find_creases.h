@@ -1,0 +1,48 @@
+//! \file
+//! The sharp creases of a surface at the scale of the sites.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "agvd/core/progress.h"
+#include "agvd/mesh/surface.h"
+#include "remesh/names.h"
+
+namespace remesh {
+
+//! `{}` gives the defaults.
+struct CreaseOptions {
+    double angle = 40;   //!< Degrees, in (0, 180): least dihedral angle of a crease.
+    double spacing = 0;  //!< Mesh units, > 0: mean distance of neighbouring sites.
+    //! Leaves out noise and what is too short or too weak for the spacing, and closes gaps. False:
+    //! all edges above the angle, except for false angles at needles.
+    bool is_automatic = true;
+    int num_threads = 0;     //!< >= 0; 0: all cores. Any number gives the same result.
+    Progress progress = {};  //!< Polled during the call; see poll.
+};
+
+//! Finds the edges of creases.
+//!
+//! 1. Edges above the angle are candidates. A face too thin for a reliable normal takes that of its
+//!    neighbours.
+//! 2. The weight of an edge is larger the sharper it is, and smaller if the surface around it
+//!    turns as sharply.
+//!    The share of such edges in the candidates' length tells parts from scans.
+//! 3. Gaps of up to a spacing are closed along edges of at least 5/8 of the angle.
+//! 4. A chain with an open end is removed if its length times weight is below a spacing, or below
+//!    three if both ends are open. Then networks of too little weight are removed; scans need
+//!    a much larger weight.
+//! 5. The open ends that are left continue along edges of at least 5/8 of the angle.
+//!
+//! All criteria are lengths, not numbers of edges, so all triangulations of a surface give the same
+//! creases.
+//!
+//! \return #E: 1 for the edges of creases; 0 for boundary edges.
+//! \throw InvalidOption  an option out of range.
+//! \throw Cancelled      the progress callback returned false.
+//! Cost: O(#F + k log k), k = edges above the angle and faces that are too thin.
+[[nodiscard]] std::vector<std::uint8_t> find_creases(const Surface& surface,
+                                                     const CreaseOptions& options);
+
+}  // namespace remesh

@@ -1,0 +1,118 @@
+#include "remesh/meshfile/formats.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "agvd/core/error.h"
+#include "remesh/meshfile/gzip.h"
+
+namespace remesh {
+namespace {
+
+constexpr std::string_view compressed = ".gz";
+
+constexpr double any_double = std::numeric_limits<double>::max();
+constexpr double any_float = std::numeric_limits<float>::max();
+
+bool holds_all(const Attribute&, ElementKind, const MeshAttributes&) { return true; }
+bool holds_none(const Attribute&, ElementKind, const MeshAttributes&) { return false; }
+
+constexpr MeshFormat formats[] = {
+    {"ply", read_ply, format_ply, holds_all, true, TexturePlace::Corners, any_double},
+    {"obj", read_obj, format_obj, obj_holds, true, TexturePlace::Corners, any_double},
+    {"off", read_off, format_off, off_holds, true, TexturePlace::Vertices, any_double},
+    {"stl", read_stl, format_stl, holds_none, false, TexturePlace::Nothing, any_float,
+     MaterialPlace::Nothing, "millimeter"},
+    {"vtk", read_vtk, format_vtk, holds_all, true, TexturePlace::Vertices, any_double},
+    {"vtp", read_vtp, format_vtp, holds_all, true, TexturePlace::Nothing, any_double},
+    {"vtu", read_vtp, format_vtu, holds_all, true, TexturePlace::Nothing, any_double},
+    {"mesh", read_medit, format_medit, medit_holds, false, TexturePlace::Nothing, any_double},
+    {"3mf", read_3mf, format_3mf, holds_3mf, false, TexturePlace::Nothing, any_double,
+     MaterialPlace::Colors, ""},
+    {"glb", read_gltf, format_glb, gltf_holds, true, TexturePlace::Corners, any_float,
+     MaterialPlace::All, "meter"},
+    {"gltf", read_gltf, format_gltf, gltf_holds, true, TexturePlace::Corners, any_float,
+     MaterialPlace::All, "meter"}};
+
+}  // namespace
+
+std::string lower_extension(const std::filesystem::path& path) {
+    return in_lower_case(path.extension().string());
+}
+
+void attach(MeshAttributes attributes, MeshFile& file) {
+    attributes.texture = std::move(file.attributes.texture);
+    attributes.declined.insert(attributes.declined.begin(), file.attributes.declined.begin(),
+                               file.attributes.declined.end());
+    file.attributes = std::move(attributes);
+    // Otherwise each polygon is a triangle.
+    if (file.polygons > 0 || file.dropped_polygons > 0) {
+        spread_to_triangles(file.face_polygon, file.attributes.of_faces);
+    }
+}
+
+std::vector<Vec2> coordinates_of_vertices(const MeshView& mesh, const TextureCoordinates& texture) {
+    if (texture.empty()) return {};
+    const CornerAgreement agree(texture.corners);
+    constexpr std::size_t none = ~std::size_t{0};
+    std::vector<std::size_t> first(mesh.positions.size(), none);  // 3 face + corner
+    std::vector<Vec2> result(mesh.positions.size(), no_coordinates()[0]);
+    for (Index f = 0; f < mesh.triangles.size(); ++f) {
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Index v = mesh.triangles[f][k];
+            if (first[v] == none) {
+                first[v] = 3 * std::size_t{f} + k;
+                result[v] = texture.corners[f][k];
+            } else if (!agree(f, k, static_cast<Index>(first[v] / 3), first[v] % 3)) {
+                return {};
+            }
+        }
+    }
+    return result;
+}
+
+std::string names_of_formats(const char* mark) {
+    std::string text;
+    for (const MeshFormat& format : formats) {
+        const bool is_last = &format == std::end(formats) - 1;
+        text += (text.empty() ? "" : is_last ? " or " : ", ") + std::string(mark) + format.name;
+    }
+    return text;
+}
+
+bool is_compressed(const MeshPath& path) {
+    return knows_gzip() && (path.format.empty() ? lower_extension(path.path) == compressed
+                                                : path.format.ends_with(compressed));
+}
+
+const MeshFormat* find_format(const MeshPath& path) {
+    const bool is_packed = is_compressed(path);
+    std::string name = path.format;
+    if (name.empty())
+        name = lower_extension(is_packed ? path.path.stem() : path.path);
+    else if (is_packed)
+        name.resize(name.size() - compressed.size());
+    if (name.starts_with('.')) name.erase(0, 1);
+    const auto* const found =
+        std::find_if(std::begin(formats), std::end(formats),
+                     [&](const MeshFormat& known) { return name == known.name; });
+    return found == std::end(formats) ? nullptr : found;
+}
+
+const MeshFormat& require_format(const MeshPath& path) {
+    if (const MeshFormat* const format = find_format(path)) return *format;
+    std::error_code none;
+    if (std::filesystem::is_directory(path.path, none)) {
+        throw IoError(path.path.string() + ": is a folder; name a file");
+    }
+    const std::string begin = path.path.string() + ": unknown ";
+    if (!path.format.empty()) {
+        throw IoError(begin + "format " + in_quotes(path.format) + "; use " + names_of_formats(""));
+    }
+    throw IoError(begin + "extension " + in_quotes(path.path.extension().string()) + "; use " +
+                  names_of_formats(".") +
+                  ", or name the format (remesh: --from for an input, --to for the output)");
+}
+
+}  // namespace remesh

@@ -1,0 +1,294 @@
+#include "remesh/meshfile/gltf_document.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "agvd/core/error.h"
+#include "remesh/meshfile/byte_order.h"
+#include "remesh/meshfile/byte_source.h"
+
+namespace remesh {
+namespace {
+
+constexpr std::size_t glb_header_size = 12;
+constexpr std::size_t glb_chunk_header_size = 8;
+constexpr std::uint32_t json_chunk = 0x4E4F534A, bin_chunk = 0x004E4942;
+constexpr int max_depth = 64;
+constexpr const char* export_glb_again = "; export the file again";
+
+struct ComponentType {
+    std::int64_t number;
+    std::size_t size;
+    double largest;  // That of the type, for numbers that are normalized.
+    double (*load)(const char* bytes);
+};
+
+template <typename T>
+double load_component(const char* bytes) {
+    return static_cast<double>(load<T>(bytes));
+}
+
+constexpr std::array component_types = {
+    ComponentType{5120, 1, 127, load_component<std::int8_t>},
+    ComponentType{5121, 1, 255, load_component<std::uint8_t>},
+    ComponentType{5122, 2, 32767, load_component<std::int16_t>},
+    ComponentType{5123, 2, 65535, load_component<std::uint16_t>},
+    ComponentType{5125, 4, 0, load_component<std::uint32_t>},
+    ComponentType{5126, 4, 0, load_component<float>}};
+
+const ComponentType* find_component_type(std::int64_t number) {
+    const auto found =
+        std::find_if(component_types.begin(), component_types.end(),
+                     [&](const ComponentType& type) { return type.number == number; });
+    return found == component_types.end() ? nullptr : &*found;
+}
+
+std::size_t columns_of(const std::string& type) {
+    constexpr std::array names = {"SCALAR", "VEC2", "VEC3", "VEC4"};
+    const auto found = std::find(names.begin(), names.end(), type);
+    return found == names.end() ? 0 : static_cast<std::size_t>(found - names.begin()) + 1;
+}
+
+// Extensions that do not change positions and corners.
+bool is_harmless(const std::string& extension) {
+    constexpr std::array begins = {"KHR_materials_", "KHR_texture_", "EXT_texture_", "KHR_lights_",
+                                   "KHR_mesh_quantization"};
+    return std::any_of(begins.begin(), begins.end(),
+                       [&](const char* begin) { return extension.starts_with(begin); });
+}
+
+// "a%20b" means "a b".
+std::string without_escapes(std::string_view uri) {
+    std::string text;
+    for (std::size_t i = 0; i < uri.size(); ++i) {
+        unsigned char byte = 0;
+        const char* const digits = uri.data() + i + 1;
+        if (uri[i] == '%' && i + 2 < uri.size() &&
+            std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2) {
+            text += static_cast<char>(byte);
+            i += 2;
+        } else {
+            text += uri[i];
+        }
+    }
+    return text;
+}
+
+}  // namespace
+
+GltfDocument::GltfDocument(SourceFile& file) : file_(file), file_size_(file.bytes.size()) {
+    file_.is_binary = true;
+    const bool has_chunks = file_.bytes.starts_with("glTF");
+    if (has_chunks) {
+        read_chunks();
+    } else {
+        text_ = {0, file_size_};
+    }
+    const char* const begin = file_.bytes.data() + text_.begin;
+    // What is nested deeper is left out: other code walks the values by recursion.
+    const auto is_flat = [](int depth, auto, const auto&) { return depth < max_depth; };
+    json_ = nlohmann::json::parse(begin, begin + text_.size, is_flat, false);
+    if (!json_.is_object()) {
+        fail(
+            "this is no glTF file, as it neither begins with 'glTF' nor is a JSON object; check "
+            "its extension");
+    }
+    const auto asset = json_.find("asset");
+    if (!has_chunks && (asset == json_.end() || !asset->is_object() ||
+                        asset->value("version", nlohmann::json()) != "2.0")) {
+        fail("the file does not say that it is glTF of version 2.0");
+    }
+    for (const nlohmann::json& extension : list(json_, "extensionsRequired")) {
+        const std::string name = extension.is_string() ? extension.get<std::string>() : "?";
+        if (is_harmless(name)) continue;
+        file_.fail_malformed(text_.begin,
+                             "the file needs the extension " + in_quotes(name) +
+                                 ", which is not supported; export it without, such as "
+                                 "without compression");
+    }
+    read_buffers();
+}
+
+void GltfDocument::read_chunks() {
+    const std::string& bytes = file_.bytes;
+    const auto require_size = [&](std::uint64_t size) {
+        if (size <= bytes.size()) return;
+        file_.fail_malformed(bytes.size(), "the file ends before byte " + std::to_string(size) +
+                                               "; it is truncated: export the file again");
+    };
+    require_size(glb_header_size + glb_chunk_header_size);
+    const auto version = load<std::uint32_t>(&bytes[4]);
+    if (version != 2) {
+        file_.fail_malformed(4, "glTF of version " + std::to_string(version) +
+                                    " is not supported; export the file as glTF 2.0");
+    }
+    require_size(load<std::uint32_t>(&bytes[8]));
+    const std::uint64_t json_size = load<std::uint32_t>(&bytes[glb_header_size]);
+    const std::size_t json_begin = glb_header_size + glb_chunk_header_size;
+    if (load<std::uint32_t>(&bytes[glb_header_size + 4]) != json_chunk) {
+        file_.fail_malformed(glb_header_size, "the first chunk is not JSON; export the file again");
+    }
+    require_size(json_begin + json_size);
+    const std::size_t next = json_begin + json_size;
+    if (next + glb_chunk_header_size <= bytes.size() &&
+        load<std::uint32_t>(&bytes[next + 4]) == bin_chunk) {
+        bin_ = {next + glb_chunk_header_size, load<std::uint32_t>(&bytes[next])};
+        require_size(bin_.begin + bin_.size);
+    }
+    text_ = {json_begin, json_size};
+}
+
+void GltfDocument::read_buffers() {
+    for (const nlohmann::json& buffer : list(json_, "buffers")) {
+        const auto uri = buffer.is_object() ? buffer.find("uri") : buffer.end();
+        if (uri == buffer.end()) {
+            buffers_.push_back(buffers_.empty() ? bin_ : Range{});
+            continue;
+        }
+        const std::string bytes = resource(uri->is_string() ? uri->get<std::string>() : "");
+        buffers_.push_back({file_.bytes.size(), bytes.size()});
+        file_.bytes += bytes;
+    }
+}
+
+std::string GltfDocument::resource(const std::string& uri) const {
+    if (uri.starts_with("data:")) {
+        constexpr std::string_view mark = ";base64,";
+        const std::size_t at = uri.find(mark);
+        std::string buffer;
+        Ticker ticker = file_.ticker;
+        if (at != std::string::npos) {
+            const std::string_view text = std::string_view(uri).substr(at + mark.size());
+            const std::size_t num_digits = text.find_last_not_of('=') + 1;
+            const auto bytes = ByteSource(text, true).take(num_digits * 3 / 4, buffer, ticker);
+            if (bytes) return std::string(*bytes);
+        }
+        fail("the data in a URI are no base64");
+    }
+    const std::filesystem::path path = without_escapes(uri);
+    if (path.empty() || path.is_absolute() || uri.find("://") != std::string::npos) {
+        fail("data lie at " + in_quotes(uri) + ", but only files beside this one are read");
+    }
+    try {
+        Poller poller;
+        return load_file(file_.path.parent_path() / path, poller).bytes;
+    } catch (const IoError&) {
+        fail("the file " + in_quotes(path.string()) + ", which it names, cannot be read");
+    }
+}
+
+std::string GltfDocument::image(const nlohmann::json& properties) const {
+    const auto uri = properties.find("uri");
+    if (uri != properties.end() && uri->is_string()) return resource(uri->get<std::string>());
+    const auto view = number(properties, "bufferView");
+    if (!view) return {};
+    const Range range = range_of_view(at("bufferViews", *view), "an image");
+    return file_.bytes.substr(range.begin, range.size);
+}
+
+std::size_t GltfDocument::place(const GltfArray& array, std::uint64_t row) const {
+    const std::size_t at = array.offset + row * array.stride;
+    return at < file_size_ ? at : 0;
+}
+
+GltfDocument::Range GltfDocument::range_of_view(const nlohmann::json& view,
+                                                const std::string& name) const {
+    const std::uint64_t buffer = number(view, "buffer").value_or(0);
+    const Range all = buffer < buffers_.size() ? buffers_[buffer] : Range{};
+    const std::uint64_t begin = number(view, "byteOffset").value_or(0);
+    const std::uint64_t size = number(view, "byteLength").value_or(0);
+    // No sum can overflow: each part is checked before it is added.
+    if (begin > all.size || size > all.size - begin) {
+        fail(name + " does not lie within the data of the file");
+    }
+    return {all.begin + begin, size};
+}
+
+void GltfDocument::fail(const std::string& text) const {
+    file_.fail_malformed(text_.begin, text + export_glb_again);
+}
+
+const nlohmann::json& GltfDocument::at(const char* list_name, std::uint64_t index) const {
+    const nlohmann::json& all = list(json_, list_name);
+    if (index >= all.size() || !all[index].is_object()) {
+        fail(std::string(list_name) + " has no element " + std::to_string(index));
+    }
+    return all[index];
+}
+
+const nlohmann::json& GltfDocument::list(const nlohmann::json& object, const char* key) const {
+    static const nlohmann::json empty = nlohmann::json::array();
+    const auto found = object.find(key);
+    if (found == object.end()) return empty;
+    if (!found->is_array()) fail(std::string(key) + " is no list");
+    return *found;
+}
+
+std::optional<std::uint64_t> GltfDocument::number(const nlohmann::json& object,
+                                                  const char* key) const {
+    const auto found = object.find(key);
+    if (found == object.end()) return std::nullopt;
+    if (!found->is_number_unsigned()) fail(std::string(key) + " is no whole number from 0");
+    return found->get<std::uint64_t>();
+}
+
+std::optional<std::vector<double>> GltfDocument::numbers(const nlohmann::json& object,
+                                                         const char* key, std::size_t count) const {
+    if (object.find(key) == object.end()) return std::nullopt;
+    const nlohmann::json& all = list(object, key);
+    std::vector<double> values;
+    for (const nlohmann::json& value : all) {
+        values.push_back(value.is_number() ? value.get<double>() : std::nan(""));
+        if (!std::isfinite(values.back()))
+            fail(std::string(key) + " has a value that is no number");
+    }
+    if (values.size() != count) {
+        fail(std::string(key) + " does not have " + std::to_string(count) + " numbers");
+    }
+    return values;
+}
+
+GltfArray GltfDocument::array(std::uint64_t index) const {
+    const nlohmann::json& accessor = at("accessors", index);
+    const std::string name = "accessor " + std::to_string(index);
+    if (accessor.contains("sparse") || !accessor.contains("bufferView")) {
+        fail(name + " is sparse or has no data, which is not supported");
+    }
+    const nlohmann::json& view = at("bufferViews", *number(accessor, "bufferView"));
+    const auto type = static_cast<std::int64_t>(
+        std::min<std::uint64_t>(number(accessor, "componentType").value_or(0), 1 << 16));
+    const ComponentType* const component = find_component_type(type);
+    const auto shape = accessor.find("type");
+    const std::size_t num_columns =
+        shape != accessor.end() && shape->is_string() ? columns_of(shape->get<std::string>()) : 0;
+    if (component == nullptr || num_columns == 0) fail(name + " has an unknown type");
+    const std::size_t row_size = component->size * num_columns;
+    const auto normalized = accessor.find("normalized");
+    GltfArray array{.num_rows = number(accessor, "count").value_or(0),
+                    .num_columns = num_columns,
+                    .is_normalized = normalized != accessor.end() && *normalized == true &&
+                                     component->largest > 0,
+                    .component_type = type};
+    array.stride = number(view, "byteStride").value_or(row_size);
+    const Range range = range_of_view(view, name);
+    const std::uint64_t begin = number(accessor, "byteOffset").value_or(0);
+    const bool is_inside = begin <= range.size && array.stride >= row_size && array.stride <= 1024;
+    const std::uint64_t room = is_inside ? range.size - begin : 0;
+    if (!is_inside || (array.num_rows > 0 && (room < row_size || (room - row_size) / array.stride <
+                                                                     array.num_rows - 1))) {
+        fail(name + " does not lie within the data of the file");
+    }
+    array.offset = range.begin + begin;
+    return array;
+}
+
+double GltfDocument::value(const GltfArray& array, std::uint64_t row, std::size_t column) const {
+    const ComponentType& type = *find_component_type(array.component_type);
+    const double number =
+        type.load(file_.bytes.data() + array.offset + row * array.stride + column * type.size);
+    return array.is_normalized ? std::max(number / type.largest, -1.0) : number;
+}
+
+}  // namespace remesh

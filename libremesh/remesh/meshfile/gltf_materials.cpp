@@ -1,0 +1,77 @@
+#include "remesh/meshfile/gltf_materials.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+namespace remesh {
+namespace {
+
+using nlohmann::json;
+
+const json::json_pointer base_color("/pbrMetallicRoughness/baseColorFactor");
+
+// sRGB (IEC 61966-2-1), from 0 to 1.
+double to_linear(double s) { return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4); }
+double from_linear(double x) {
+    return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1 / 2.4) - 0.055;
+}
+
+// Red, green and blue are linear there; empty: it is no colour.
+json factor_of(const std::string& color) {
+    if (!color.starts_with('#') || (color.size() != 7 && color.size() != 9)) return {};
+    json factor = {1, 1, 1, 1};
+    for (std::size_t k = 0; 2 * k + 1 < color.size(); ++k) {
+        int byte = 0;
+        const char* const digits = color.data() + 1 + 2 * k;
+        if (std::from_chars(digits, digits + 2, byte, 16).ptr != digits + 2) return {};
+        factor[k] = k < 3 ? to_linear(byte / 255.) : byte / 255.;
+    }
+    return factor;
+}
+
+}  // namespace
+
+std::string as_utf8(const std::string& name) {
+    return json::parse(text_of(json(name))).get<std::string>();
+}
+
+Materials materials_of_colors(const std::map<std::string, std::string>& colors) {
+    json list = json::array();
+    for (const auto& [name, color] : colors) {
+        const json factor = factor_of(color);
+        if (factor.empty()) continue;
+        json material = {{"name", name}};
+        material[base_color] = factor;
+        material["pbrMetallicRoughness"]["metallicFactor"] = 0;
+        if (factor[3] != 1) material["alphaMode"] = "BLEND";
+        list.push_back(std::move(material));
+    }
+    if (list.empty()) return {};
+    return {.json = text_of(json{{"materials", list}})};
+}
+
+std::map<std::string, std::string> colors_of(const Materials& materials) {
+    std::map<std::string, std::string> colors;
+    const json root = json::parse(materials.json, nullptr, false);
+    if (!root.is_object()) return colors;
+    for (const json& material : root.value("materials", json::array())) {
+        if (!material.is_object() || !material.contains("name") || !material["name"].is_string() ||
+            !material.contains(base_color)) {
+            continue;
+        }
+        std::string color = "#";
+        for (const json& part : material[base_color]) {
+            if (!part.is_number()) break;
+            const double x = std::clamp(part.get<double>(), 0., 1.);
+            const auto byte = std::lround(255 * (color.size() < 7 ? from_linear(x) : x));
+            constexpr std::string_view digits = "0123456789ABCDEF";
+            color += digits[static_cast<std::size_t>(byte / 16)];
+            color += digits[static_cast<std::size_t>(byte % 16)];
+        }
+        if (color.size() == 9) colors[material["name"]] = color;
+    }
+    return colors;
+}
+
+}  // namespace remesh

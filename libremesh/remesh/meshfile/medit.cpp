@@ -1,0 +1,374 @@
+// Medit's .mesh, ascii: vertices, triangles and quadrilaterals, or the surface of tetrahedra and
+// the like; their references are the labels `ref`. Edges, of which ridges are some, are feature
+// edges; corners, required vertices and required edges are locked. Other lists (normals, ...) are
+// passed over (format: Frey, "MEDIT: an interactive mesh visualization software", INRIA RT-0253,
+// 2001).
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "remesh/meshfile/formats.h"
+#include "remesh/meshfile/polygon_soup.h"
+#include "remesh/meshfile/text_format.h"
+#include "remesh/meshfile/text_scanner.h"
+#include "remesh/meshfile/volume_surface.h"
+
+namespace remesh {
+namespace {
+
+constexpr const char* ref_name = "ref";
+
+// A list that is passed over, and how many numbers each of its elements has.
+struct PassedOver {
+    std::string_view keyword;
+    std::size_t num_numbers;
+};
+constexpr std::array passed_over = {PassedOver{"RequiredTriangles", 1},
+                                    PassedOver{"RequiredQuadrilaterals", 1},
+                                    PassedOver{"RequiredTetrahedra", 1},
+                                    PassedOver{"Normals", 3},
+                                    PassedOver{"NormalAtVertices", 2},
+                                    PassedOver{"NormalAtTriangleVertices", 3},
+                                    PassedOver{"NormalAtQuadrilateralVertices", 3},
+                                    PassedOver{"Tangents", 3},
+                                    PassedOver{"TangentAtVertices", 2},
+                                    PassedOver{"TangentAtEdges", 3}};
+
+struct VolumeList {
+    std::string_view keyword;
+    VolumeCell kind;
+};
+constexpr std::array volume_lists = {VolumeList{"Tetrahedra", VolumeCell::Tetrahedron},
+                                     VolumeList{"Hexahedra", VolumeCell::Hexahedron},
+                                     VolumeList{"Prisms", VolumeCell::Wedge},
+                                     VolumeList{"Pyramids", VolumeCell::Pyramid}};
+
+// What is to be kept, with the file's numbers from 1.
+struct MeditKept {
+    std::vector<std::array<std::int64_t, 2>> edges;
+    std::vector<std::int64_t> required_edges, required_vertices;
+};
+
+using Edge = std::array<Index, 2>;
+
+Edge in_order(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
+
+// Sorted, each once.
+std::vector<Edge> edges_of(const TriangleMesh& mesh) {
+    std::vector<Edge> edges;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        for (const Edge& edge : {in_order(a, b), in_order(b, c), in_order(c, a)}) {
+            edges.push_back(edge);
+        }
+    }
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    return edges;
+}
+
+class MeditReader {
+public:
+    explicit MeditReader(const SourceFile& file)
+        : file_(file), scan_(file, 0, {.comment = '#'}), soup_(file, 1), volumes_(file) {}
+
+    MeshFile read() {
+        expect("MeshVersionFormatted");
+        next();
+        if (const std::int64_t version = scan_.integer("a version"); version < 1 || version > 4) {
+            fail("unknown version " + std::to_string(version) + "; export the file again");
+        }
+        expect("Dimension");
+        next();
+        if (scan_.integer("the dimension") != 3) {
+            fail("the mesh does not have three dimensions; export it with three coordinates");
+        }
+        while (scan_.find_word()) {
+            start_ = scan_.offset();
+            const std::string_view keyword = scan_.word();
+            if (keyword == "End") return finish();
+            read_list(keyword);
+        }
+        if (soup_.num_polygons() == 0 && volumes_.num_cells() == 0) {
+            scan_.fail_malformed(
+                "the file ends without 'End' and without a face; it is truncated: export it again");
+        }
+        MeshFile result = finish();
+        add_warning(file_.place(scan_.offset()) +
+                        "the file ends without 'End'; its lists are complete, and are read",
+                    result);
+        return result;
+    }
+
+private:
+    [[noreturn]] void fail(const std::string& text) const { file_.fail_malformed(start_, text); }
+
+    // Goes to the next word, on whatever line.
+    void next() {
+        if (!scan_.find_word()) {
+            scan_.fail_malformed("the file ends too early; it is truncated: export the file again");
+        }
+        start_ = scan_.offset();
+    }
+
+    void expect(std::string_view keyword) {
+        next();
+        const std::string_view word = scan_.word();
+        if (word == keyword) return;
+        fail("expected '" + std::string(keyword) + "', found " + in_quotes(word) +
+             "; check that the file is a Medit mesh (.mesh, not .meshb)");
+    }
+
+    std::int64_t integer(const char* what) {
+        next();
+        return scan_.integer(what);
+    }
+
+    void read_list(std::string_view keyword) {
+        if (read_kept(keyword)) return;
+        const auto* const other =
+            std::find_if(passed_over.begin(), passed_over.end(),
+                         [&](const PassedOver& known) { return keyword == known.keyword; });
+        const auto* const volumes =
+            std::find_if(volume_lists.begin(), volume_lists.end(),
+                         [&](const VolumeList& known) { return keyword == known.keyword; });
+        const bool is_vertices = keyword == "Vertices";
+        const bool is_triangles = keyword == "Triangles", is_quads = keyword == "Quadrilaterals";
+        const bool is_volumes = volumes != volume_lists.end();
+        if (!is_vertices && !is_triangles && !is_quads && !is_volumes &&
+            other == passed_over.end()) {
+            fail("unknown keyword " + in_quotes(keyword) +
+                 "; save the file with vertices, triangles and quadrilaterals only");
+        }
+        const std::int64_t count = read_count();
+        if (keyword.starts_with("Required") && count > 0) {
+            warnings_.push_back(std::string(keyword) + " are passed over");
+        }
+        for (std::int64_t i = 0; i < count; ++i) {
+            if (is_vertices) {
+                read_vertex();
+            } else if (is_volumes) {
+                read_volume(volumes->kind);
+            } else if (other == passed_over.end()) {
+                read_face(is_triangles ? 3 : 4);
+            } else {
+                skip(other->num_numbers);
+            }
+        }
+    }
+
+    std::int64_t read_count() {
+        const std::int64_t count = integer("the number of elements");
+        if (count < 0) fail("the number of elements is negative; export the file again");
+        return count;
+    }
+
+    // \return false: the list is another one.
+    bool read_kept(std::string_view keyword) {
+        const bool is_vertices = keyword == "RequiredVertices" || keyword == "Corners";
+        const bool is_ridges = keyword == "Ridges";  // They are among the edges.
+        if (keyword != "Edges" && keyword != "RequiredEdges" && !is_vertices && !is_ridges) {
+            return false;
+        }
+        for (std::int64_t left = read_count(); left > 0; --left) {
+            soup_.ticker.tick();
+            const std::int64_t number = integer("a number from 1");
+            if (keyword == "Edges") {
+                kept_.edges.push_back({number, integer("a vertex")});
+                skip(1);
+            } else if (!is_ridges) {
+                (is_vertices ? kept_.required_vertices : kept_.required_edges).push_back(number);
+            }
+        }
+        return true;
+    }
+
+    void read_vertex() {
+        soup_.ticker.tick(2);
+        Vec3 p;
+        for (int k = 0; k < 3; ++k) {
+            next();
+            p[k] = scan_.number("a coordinate");
+            if (!std::isfinite(p[k])) {
+                file_.fail_unusable(start_,
+                                    "a coordinate is not finite; correct or delete the vertex");
+            }
+        }
+        soup_.positions.push_back(p);
+        read_ref(vertex_refs_);
+    }
+
+    void read_face(int num_corners) {
+        for (int k = 0; k < num_corners; ++k) soup_.add_corner(corner(), start_);
+        soup_.end_polygon();
+        read_ref(face_refs_);
+    }
+
+    void read_volume(VolumeCell kind) {
+        soup_.ticker.tick(4);
+        for (std::size_t k = num_corners(kind); k > 0; --k) volumes_.add_corner(corner(), start_);
+        volumes_.end_cell(kind);
+        read_ref(volume_refs_);
+    }
+
+    // From 0.
+    std::int64_t corner() {
+        const std::int64_t vertex = integer("a corner");
+        if (vertex != 0) return vertex - 1;
+        file_.fail_unusable(start_,
+                            "a face or cell names vertex 0, but Medit counts vertices from 1; "
+                            "correct it, or export the file again");
+    }
+
+    void read_ref(std::vector<double>& refs) {
+        const std::int64_t ref = integer("a reference");
+        if (ref < INT32_MIN || ref > INT32_MAX) {
+            fail("a reference has more than 32 bits; renumber the references");
+        }
+        if (file_.with_attributes) refs.push_back(static_cast<double>(ref));
+    }
+
+    void skip(std::size_t count) {
+        for (; count > 0; --count) {
+            soup_.ticker.tick();
+            next();
+            static_cast<void>(scan_.number("a number"));
+        }
+    }
+
+    // References that are all 0 say nothing.
+    static void add(std::vector<double> refs, std::vector<Attribute>& attributes) {
+        if (std::all_of(refs.begin(), refs.end(), [](double ref) { return ref == 0; })) return;
+        attributes.push_back(
+            {.name = ref_name, .type = NumberType::Int32, .values = std::move(refs)});
+    }
+
+    // Edges that no face has, and vertices that are in none, are left out. So are edges that are
+    // all those of the mesh: these say nothing.
+    void finish_kept(MeshFile& result) {
+        std::size_t num_missing = 0;
+        const std::vector<Edge> all =
+            kept_.edges.empty() ? std::vector<Edge>() : edges_of(result.mesh);
+        const auto found = [&](std::int64_t number) -> const Edge* {
+            if (number < 1 || number > static_cast<std::int64_t>(kept_.edges.size()))
+                return nullptr;
+            const auto [a, b] = kept_.edges[static_cast<std::size_t>(number - 1)];
+            if (std::min(a, b) < 1 || std::max(a, b) >= no_index) return nullptr;
+            const Edge edge = in_order(static_cast<Index>(a - 1), static_cast<Index>(b - 1));
+            const auto place = std::lower_bound(all.begin(), all.end(), edge);
+            return place != all.end() && *place == edge ? &*place : nullptr;
+        };
+        const auto add = [&](std::int64_t number, std::vector<Edge>& edges) {
+            const Edge* const edge = found(number);
+            if (edge == nullptr) {
+                ++num_missing;
+            } else {
+                edges.push_back(*edge);
+            }
+        };
+        for (std::size_t i = 1; i <= kept_.edges.size(); ++i) {
+            add(static_cast<std::int64_t>(i), result.feature_edges);
+        }
+        for (const std::int64_t number : kept_.required_edges) add(number, result.locked_edges);
+        std::set<std::int64_t> wanted(kept_.required_vertices.begin(),
+                                      kept_.required_vertices.end());
+        std::set<Index> locked;
+        for (const Triangle& t : result.mesh.triangles) {
+            for (const Index v : t) {
+                if (wanted.contains(v + std::int64_t{1})) locked.insert(v);
+            }
+        }
+        num_missing += wanted.size() - locked.size();
+        result.locked.assign(locked.begin(), locked.end());
+        if (num_missing > 0) {
+            warnings_.push_back(std::to_string(num_missing) +
+                                " edges, corners or required vertices that are in no face are "
+                                "passed over");
+        }
+        if (!all.empty() && result.feature_edges.size() >= all.size()) {
+            warnings_.emplace_back("its edges are those of all faces, so none is a feature edge");
+            result.feature_edges.clear();
+        }
+    }
+
+    MeshFile finish() {
+        const std::vector<std::size_t> cell_of_face = volumes_.add_to(soup_);
+        if (file_.with_attributes) {
+            for (const std::size_t cell : cell_of_face) face_refs_.push_back(volume_refs_[cell]);
+        }
+        MeshFile result = std::move(soup_).finish();
+        MeshAttributes attributes;
+        add(std::move(vertex_refs_), attributes.of_vertices);
+        add(std::move(face_refs_), attributes.of_faces);
+        attach(std::move(attributes), result);
+        add_warning(volumes_.warning(cell_of_face.size()), result);
+        finish_kept(result);
+        for (const std::string& warning : warnings_) {
+            add_warning(file_.path.string() + ": " + warning, result);
+        }
+        return result;
+    }
+
+    const SourceFile& file_;
+    TextScanner scan_;
+    PolygonSoup soup_;
+    VolumeSurface volumes_;
+    std::size_t start_ = 0;  // Of the word that is being read.
+    std::vector<double> vertex_refs_, face_refs_, volume_refs_;
+    MeditKept kept_;
+    std::vector<std::string> warnings_;
+};
+
+bool is_reference(const Attribute& attribute) {
+    return is_label(attribute) && attribute.type != NumberType::UInt32;
+}
+
+// The attribute that is written as references: the one of that name, or the first labels.
+const Attribute* references_of(const std::vector<Attribute>& attributes) {
+    const Attribute* const named = find_attribute(attributes, ref_name);
+    if (named != nullptr && is_reference(*named)) return named;
+    const auto found = std::find_if(attributes.begin(), attributes.end(), is_reference);
+    return found == attributes.end() ? nullptr : &*found;
+}
+
+std::int64_t reference(const Attribute* refs, std::size_t element) {
+    if (refs == nullptr || !is_value_of(NumberType::Int32, refs->values[element])) return 0;
+    return static_cast<std::int64_t>(refs->values[element]);
+}
+
+}  // namespace
+
+// NOLINTNEXTLINE(performance-unnecessary-value-param): all readers have this type.
+MeshFile read_medit(SourceFile file) { return MeditReader(file).read(); }
+
+bool medit_holds(const Attribute& attribute, ElementKind kind, const MeshAttributes& all) {
+    const Attribute* const refs =
+        references_of(kind == ElementKind::Vertex ? all.of_vertices : all.of_faces);
+    return refs != nullptr && refs->name == attribute.name;
+}
+
+std::string format_medit(const MeshView& mesh, const MeshAttributes& attributes, Ticker ticker) {
+    const Attribute* const vertex_refs = references_of(attributes.of_vertices);
+    const Attribute* const face_refs = references_of(attributes.of_faces);
+    std::string bytes = "MeshVersionFormatted 2\nDimension 3\nVertices\n" +
+                        std::to_string(mesh.positions.size()) + '\n';
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        ticker.tick(4);
+        append_line(bytes, "", mesh.positions[v]);
+        bytes.back() = ' ';
+        append_line(bytes, "", std::array{reference(vertex_refs, v)});
+    }
+    bytes += "Triangles\n" + std::to_string(mesh.triangles.size()) + '\n';
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        ticker.tick(2);
+        const auto& [a, b, c] = mesh.triangles[f];
+        append_line(
+            bytes, "",
+            std::array<std::int64_t, 4>{a + 1ll, b + 1ll, c + 1ll, reference(face_refs, f)});
+    }
+    return bytes + "End\n";
+}
+
+}  // namespace remesh

@@ -1,0 +1,152 @@
+// Reads the header line by line: the format, then elements with their properties in order. The data
+// begin behind the line of end_header.
+#include "remesh/meshfile/ply_header.h"
+
+#include <algorithm>
+#include <iterator>
+
+#include "remesh/meshfile/text_scanner.h"
+
+namespace remesh {
+namespace {
+
+constexpr struct {
+    const char* name;
+    PlyType type;
+} type_names[] = {
+    {"char", PlyType::Int8},      {"int8", PlyType::Int8},       {"uchar", PlyType::UInt8},
+    {"uint8", PlyType::UInt8},    {"short", PlyType::Int16},     {"int16", PlyType::Int16},
+    {"ushort", PlyType::UInt16},  {"uint16", PlyType::UInt16},   {"int", PlyType::Int32},
+    {"int32", PlyType::Int32},    {"uint", PlyType::UInt32},     {"uint32", PlyType::UInt32},
+    {"float", PlyType::Float32},  {"float32", PlyType::Float32}, {"double", PlyType::Float64},
+    {"float64", PlyType::Float64}};
+
+std::string read_name(TextScanner& scan, const char* what) {
+    if (!scan.has_word()) scan.fail_expecting(what);
+    return std::string(scan.word());
+}
+
+PlyType read_type(TextScanner& scan, const SourceFile& file) {
+    const std::size_t start = scan.offset();
+    const std::string name = read_name(scan, "a type");
+    const auto* const found = std::find_if(std::begin(type_names), std::end(type_names),
+                                           [&](const auto& known) { return name == known.name; });
+    if (found == std::end(type_names)) {
+        file.fail_malformed(start, "unknown property type " + in_quotes(name) +
+                                       "; PLY has char, uchar, short, ushort, int, uint, float and "
+                                       "double; export the file with these");
+    }
+    return found->type;
+}
+
+PlyProperty read_property(TextScanner& scan, const SourceFile& file) {
+    const bool is_list = scan.has_word() && scan.take("list");
+    const std::size_t start = scan.offset();
+    std::optional<PlyType> size_type;
+    if (is_list) {
+        size_type = read_type(scan, file);
+        if (*size_type == PlyType::Float32 || *size_type == PlyType::Float64) {
+            file.fail_malformed(
+                start,
+                "the length of a list has a type that is no integer type; export the "
+                "file again");
+        }
+    }
+    const PlyType type = read_type(scan, file);
+    return {read_name(scan, "the property's name"), type, size_type};
+}
+
+std::optional<std::endian> read_byte_order(TextScanner& scan, const SourceFile& file) {
+    const std::size_t start = scan.offset();
+    const std::string name = read_name(scan, "the format");
+    if (name == "ascii") return {};
+    if (name == "binary_little_endian") return std::endian::little;
+    if (name == "binary_big_endian") return std::endian::big;
+    file.fail_malformed(start, "unknown PLY format " + in_quotes(name) +
+                                   "; export as ascii, binary_little_endian or binary_big_endian");
+}
+
+// Data begin after the line end of end_header. Some programs end this line in CR LF and those
+// before it in LF. Behind a lone CR the first datum may look like a line feed: only where the
+// file's first line ends in a lone CR, this one may too.
+std::size_t end_of_header(const SourceFile& file, std::size_t offset) {
+    const std::string& bytes = file.bytes;
+    if (offset == bytes.size()) return offset;
+    const std::size_t first_end = bytes.find_first_of("\r\n");
+    const bool is_lone_cr = bytes[first_end] == '\r' && bytes.compare(first_end, 2, "\r\n") != 0;
+    return offset + (!is_lone_cr && bytes.compare(offset, 2, "\r\n") == 0 ? 2 : 1);
+}
+
+}  // namespace
+
+const char* name_of(PlyType type) {
+    return std::find_if(std::begin(type_names), std::end(type_names),
+                        [&](const auto& known) { return known.type == type; })
+        ->name;
+}
+
+const PlyProperty* PlyElement::find(std::string_view property) const {
+    const auto found =
+        std::find_if(properties.begin(), properties.end(),
+                     [&](const PlyProperty& known) { return known.name == property; });
+    return found == properties.end() ? nullptr : &*found;
+}
+
+PlyHeader read_ply_header(const SourceFile& file) {
+    TextScanner scan(file, 0, {});
+    PlyHeader header;
+    if (scan.word() != "ply") {
+        file.fail_malformed(
+            0, "this is not a PLY file, as it does not begin with 'ply'; check its extension");
+    }
+    bool has_format = false;
+    std::size_t num_unknown = 0, first_unknown = 0;  // Lines without a keyword.
+    while (true) {
+        scan.skip_line();
+        if (!scan.find_word()) {
+            scan.fail_malformed(
+                "the header has no 'end_header'; it is truncated: export the file again");
+        }
+        const std::size_t start = scan.offset();
+        const std::string_view keyword = scan.word();
+        if (keyword == "end_header") break;
+        if (keyword == "comment" || keyword == "obj_info") continue;
+        if (keyword == "format") {
+            header.byte_order = read_byte_order(scan, file);
+            has_format = true;
+        } else if (keyword == "element") {
+            PlyElement element{.name = read_name(scan, "the element's name"), .properties = {}};
+            const std::int64_t count = scan.integer("the number of elements");
+            if (count < 0)
+                file.fail_malformed(start,
+                                    "the number of elements is negative; export the file again");
+            element.count = static_cast<std::uint64_t>(count);
+            header.elements.push_back(std::move(element));
+        } else if (keyword == "property" && !header.elements.empty()) {
+            header.elements.back().properties.push_back(read_property(scan, file));
+        } else if (keyword == "property") {
+            file.fail_malformed(start,
+                                "unexpected 'property' before an element; export the file again");
+        } else if (file.is_lenient) {
+            if (num_unknown++ == 0) first_unknown = start;
+        } else {
+            file.fail_malformed(start, "unexpected " + in_quotes(keyword) +
+                                           " in the header; export the file again, or pass over "
+                                           "such lines (remesh and agvd diagram: --lenient)");
+        }
+    }
+    if (num_unknown > 0) {
+        header.warning =
+            file.place(first_unknown) + std::to_string(num_unknown) +
+            (num_unknown == 1 ? " line of the header begins with no keyword and is "
+                              : " lines of the header begin with no keyword and are ") +
+            "passed over";
+    }
+    if (!has_format) file.fail_malformed(0, "the header has no 'format'; export the file again");
+    if (scan.has_word())
+        scan.fail_malformed("data follow on the line of 'end_header'; export the file again");
+    header.size = end_of_header(file, scan.offset());
+    return header;
+}
+
+}  // namespace remesh

@@ -1,0 +1,198 @@
+#include "remesh/meshfile/read_sites.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "agvd/mesh/closest_point.h"
+#include "remesh/meshfile/text_scanner.h"
+#include "remesh/meshfile/words.h"
+
+namespace remesh {
+namespace {
+
+constexpr double sum_tolerance = 1e-6;  // Seven decimals in a text file are enough.
+constexpr double told_distance = 0.01;  // Of a point from the mesh, in spacings.
+
+// The vertices that a point lies between, ascending, with their shares; the same for each face at
+// its edge or vertex.
+using Place = std::array<std::pair<Index, double>, 3>;
+
+Place place_of(const MeshView& mesh, const SurfacePoint& point) {
+    Place place;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double share = point.barycentric[k];
+        place[k] = {share == 0 ? no_index : mesh.triangles[point.face.value()][k], share};
+    }
+    std::sort(place.begin(), place.end());
+    return place;
+}
+
+double area_of(const MeshView& mesh) {
+    double area = 0;
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const Vec3& p = mesh.positions[a];
+        area += (mesh.positions[b] - p).cross(mesh.positions[c] - p).norm() / 2;
+    }
+    return area;
+}
+
+class SiteReader {
+public:
+    SiteReader(const SourceFile& file, const MeshView& mesh, const Progress& progress)
+        : file_(file),
+          mesh_(mesh),
+          progress_(progress),
+          ticker_(file.ticker),
+          scan_(file, 0, {.comment = '#'}) {}
+
+    SitesFile read() {
+        SitesFile result;
+        while (scan_.find_word()) {
+            ticker_.tick(16);
+            start_ = scan_.offset();
+            starts_.push_back(start_);
+            result.sites.push_back(read_site());
+            if (scan_.has_word()) scan_.fail_expecting("the end of the line");
+        }
+        if (result.sites.empty()) {
+            scan_.fail_malformed(
+                "the file holds no site; write lines \"v INDEX\", \"f FACE B0 B1 B2\" or "
+                "\"p X Y Z\"");
+        }
+        judge_distances(result);
+        judge_repeats(result);
+        return result;
+    }
+
+private:
+    // A point of the file beside the mesh.
+    struct Shift {
+        double distance = 0;
+        std::size_t start = 0;  // Of its line.
+    };
+
+    void judge_distances(SitesFile& result) const {
+        if (shifts_.empty()) return;
+        const double spacing = std::sqrt(area_of(mesh_) / static_cast<double>(result.sites.size()));
+        const auto is_nearer = [](const Shift& a, const Shift& b) {
+            return a.distance < b.distance;
+        };
+        const Shift& farthest = *std::max_element(shifts_.begin(), shifts_.end(), is_nearer);
+        const std::string text =
+            "the point is " + detail::significant(farthest.distance) + " off the mesh";
+        if (farthest.distance > spacing) {
+            file_.fail_unusable(farthest.start,
+                                text + ", more than the sites' spacing, " +
+                                    detail::significant(spacing) +
+                                    "; correct it, or give all points in the units of the mesh");
+        }
+        const auto is_told = [&](const Shift& s) { return s.distance > told_distance * spacing; };
+        const auto count =
+            static_cast<std::size_t>(std::count_if(shifts_.begin(), shifts_.end(), is_told));
+        if (count == 0) return;
+        result.warnings.push_back(file_.place(farthest.start) + text + ", the farthest of " +
+                                  detail::counted(count, "such point") +
+                                  "; the nearest point of the mesh is taken");
+    }
+
+    void judge_repeats(SitesFile& result) const {
+        std::vector<std::pair<Place, std::size_t>> places;
+        places.reserve(starts_.size());
+        for (const SurfacePoint& site : result.sites) {
+            places.emplace_back(place_of(mesh_, site), places.size());
+        }
+        std::sort(places.begin(), places.end());
+        std::size_t count = 0, first = starts_.size();
+        for (std::size_t i = 1; i < places.size(); ++i) {
+            if (places[i].first != places[i - 1].first) continue;
+            ++count;
+            first = std::min(first, places[i].second);
+        }
+        if (count == 0) return;
+        result.warnings.push_back(file_.place(starts_[first]) +
+                                  "the site lies exactly where an earlier one does, the first of " +
+                                  detail::counted(count, "such site") + "; give each place once");
+    }
+
+    SurfacePoint read_site() {
+        const std::string_view kind = scan_.word();
+        if (kind == "v") return vertex_site();
+        if (kind == "f") return face_site();
+        if (kind == "p") {
+            const Vec3 point = scan_.point();
+            if (!tree_) tree_.emplace(mesh_, progress_);
+            const ClosestPoint nearest = tree_->query(point);
+            shifts_.push_back({std::sqrt(nearest.distance_sq), start_});
+            return nearest.point;
+        }
+        file_.fail_malformed(start_, "a site begins with v, f or p, not with " + in_quotes(kind) +
+                                         "; correct the line or begin it with #");
+    }
+
+    Index index(const char* what, const char* plural, std::size_t count) {
+        const std::int64_t value = scan_.integer(("a " + std::string(what) + " index").c_str());
+        if (value < 0 || static_cast<std::uint64_t>(value) >= count) {
+            file_.fail_unusable(start_, "the site names " + std::string(what) + " " +
+                                            std::to_string(value) + ", but the mesh has only " +
+                                            std::to_string(count) + " " + plural +
+                                            ", counted from 0; correct the line");
+        }
+        return static_cast<Index>(value);
+    }
+
+    SurfacePoint vertex_site() {
+        const Index vertex = index("vertex", "vertices", mesh_.positions.size());
+        if (lowest_corner_.empty()) {
+            lowest_corner_.assign(mesh_.positions.size(), no_index);
+            for (auto corner = static_cast<Index>(3 * mesh_.triangles.size()); corner-- > 0;) {
+                lowest_corner_[mesh_.triangles[corner / 3][corner % 3]] = corner;
+            }
+        }
+        const Index corner = lowest_corner_[vertex];
+        if (corner == no_index) {
+            file_.fail_unusable(start_, "vertex " + std::to_string(vertex) +
+                                            " is in no face; use a vertex of a face");
+        }
+        SurfacePoint site{FaceId(corner / 3), {0, 0, 0}};
+        site.barycentric[corner % 3] = 1;
+        return site;
+    }
+
+    SurfacePoint face_site() {
+        SurfacePoint site{FaceId(index("face", "faces", mesh_.triangles.size())), {}};
+        auto& b = site.barycentric;
+        for (double& x : b) x = scan_.number("a barycentric coordinate");
+        const double sum = b[0] + b[1] + b[2];
+        const bool is_inside = b[0] >= 0 && b[1] >= 0 && b[2] >= 0;
+        if (!is_inside || !(std::abs(sum - 1) <= sum_tolerance)) {
+            file_.fail_unusable(start_,
+                                "the barycentric coordinates are negative or do not sum to 1 "
+                                "within 1e-6; correct them, or write the point as \"p X Y Z\"");
+        }
+        for (double& x : b) x /= sum;
+        return site;
+    }
+
+    const SourceFile& file_;
+    const MeshView& mesh_;
+    const Progress& progress_;
+    Ticker ticker_;
+    TextScanner scan_;
+    std::size_t start_ = 0;                 // Of the current line's first word.
+    std::vector<std::size_t> starts_;       // Of all sites' lines.
+    std::vector<Shift> shifts_;             // Of all `p`.
+    std::vector<Index> lowest_corner_;      // #V, made for the first `v`.
+    std::optional<ClosestPointTree> tree_;  // Made for the first `p`.
+};
+
+}  // namespace
+
+SitesFile read_sites(const std::filesystem::path& path, const MeshView& mesh,
+                     const Progress& progress) {
+    Poller poller(progress);
+    const SourceFile file = load_file(path, poller);
+    return SiteReader(file, mesh, progress).read();
+}
+
+}  // namespace remesh

@@ -1,0 +1,165 @@
+// Loads a whole file, or what a pipe delivers, into memory, and words the errors of its readers.
+// The size of a regular file is known; what a device or a pipe may bring has a limit, as it may
+// never end.
+// The line of an error is counted only when the error is thrown. Waiting for a pipe polls the
+// progress callback, so that reading can be interrupted.
+#include "remesh/meshfile/source_file.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <limits>
+#include <system_error>
+
+#include "agvd/core/error.h"
+#include "remesh/meshfile/standard_streams.h"
+#include "remesh/meshfile/utf16.h"
+
+namespace remesh {
+namespace {
+
+[[noreturn]] void fail_to_read(const std::filesystem::path& path, int reason) {
+    throw IoError(path.string() + ": cannot be read: " + std::generic_category().message(reason) +
+                  "; check its name and permissions");
+}
+
+// Closes what it opened, but not the standard input.
+struct Descriptor {
+    int fd;
+    bool is_ours;
+    ~Descriptor() {
+        if (fd >= 0 && is_ours) ::close(fd);
+    }
+};
+
+// Opening a pipe must not wait for its other end.
+Descriptor open_for_reading(const std::filesystem::path& path) {
+    if (is_standard_input(path)) return {STDIN_FILENO, false};
+    return {::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK), true};
+}
+
+// Waits until there is something to read, or the end; a file is always ready.
+void wait_for_bytes(int fd, Poller& poller) {
+    constexpr int between_polls = 20;  // Milliseconds.
+    struct pollfd waiting {
+        fd, POLLIN, 0
+    };
+    do {
+        poller.poll();
+    } while (::poll(&waiting, 1, between_polls) == 0);
+}
+
+// How many bytes are read before a file counts as one that never ends. Devices that end are
+// terminals; a pipe may bring a mesh of some ten million faces.
+std::size_t most_bytes(int fd, const struct stat& status) {
+    if (S_ISREG(status.st_mode)) return std::numeric_limits<std::size_t>::max() / 2;
+    constexpr std::size_t of_device = std::size_t{1} << 24, of_pipe = std::size_t{1} << 31;
+    return S_ISCHR(status.st_mode) && ::isatty(fd) == 0 ? of_device : of_pipe;
+}
+
+}  // namespace
+
+std::string SourceFile::place(std::size_t offset) const {
+    const std::string_view before = std::string_view(bytes).substr(0, offset);
+    if (is_binary) return path.string() + ": byte " + std::to_string(before.size()) + ": ";
+    std::size_t line = 1;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        const bool is_crlf = before[i] == '\r' && i + 1 < bytes.size() && bytes[i + 1] == '\n';
+        if (before[i] == '\n' || (before[i] == '\r' && !is_crlf)) ++line;
+    }
+    return path.string() + ": line " + std::to_string(line) + ": ";
+}
+
+void SourceFile::fail_malformed(std::size_t offset, const std::string& text) const {
+    throw IoError(place(offset) + text);
+}
+
+std::string SourceFile::judge_rest(std::size_t offset, const char* kind,
+                                   std::uint64_t num_announced, std::uint64_t num_more) const {
+    constexpr const char* blanks = " \t\r\n\v\f";
+    if (!is_binary) offset = std::min(bytes.find_first_not_of(blanks, offset), bytes.size());
+    if (offset >= bytes.size()) return {};
+    if (!is_binary) {
+        // An element begins with a number; anything else is a remark.
+        if (std::string_view("+-.0123456789").find(bytes[offset]) != std::string_view::npos) {
+            for (std::size_t at = offset; at < bytes.size(); ++num_more) {
+                at = bytes.find_first_not_of(blanks, std::min(bytes.find('\n', at), bytes.size()));
+            }
+        }
+    }
+    if (num_more == 0) {
+        return place(offset) + "the " + std::to_string(bytes.size() - offset) +
+               " bytes after the last element are ignored";
+    }
+    const std::string text = "the header announces " + std::to_string(num_announced) + " " + kind +
+                             ", the file holds " + std::to_string(num_announced + num_more);
+    if (!is_lenient) {
+        fail_malformed(offset, text +
+                                   "; export the file again, or read only what the header "
+                                   "announces (remesh and agvd diagram: --lenient)");
+    }
+    return place(offset) + text + "; the others are ignored";
+}
+
+void SourceFile::fail_unusable(std::size_t offset, const std::string& text) const {
+    throw InvalidInput(place(offset) + text);
+}
+
+SourceFile load_file(const std::filesystem::path& path, Poller& poller) {
+    SourceFile file{.path = path, .bytes = {}, .ticker = Ticker(poller)};
+    const Descriptor in = open_for_reading(path);
+    if (in.fd < 0) fail_to_read(path, errno);
+    struct stat status {};
+    if (::fstat(in.fd, &status) != 0) fail_to_read(path, errno);
+    if (S_ISDIR(status.st_mode)) fail_to_read(path, EISDIR);
+    const std::size_t most = most_bytes(in.fd, status);
+
+    // One byte more than the size, so that the end is seen without a second growth. The size of a
+    // pipe is unknown: its buffer grows.
+    file.bytes.resize(static_cast<std::size_t>(std::max<off_t>(status.st_size, 1 << 16)) + 1);
+    std::size_t length = 0;
+    while (true) {
+        constexpr std::size_t most_at_once = 1 << 24;  // Some milliseconds.
+        wait_for_bytes(in.fd, poller);
+        const ssize_t got = ::read(in.fd, file.bytes.data() + length,
+                                   std::min(most_at_once, file.bytes.size() - length));
+        if (got < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+        if (got < 0) fail_to_read(path, errno);
+        if (got == 0) break;
+        length += static_cast<std::size_t>(got);
+        if (length > most) {
+            throw IoError(path.string() + ": the file does not end within " +
+                          std::to_string(most >> 20) +
+                          " MB; name a file that ends, or save what a pipe brings to a file");
+        }
+        if (length == file.bytes.size()) file.bytes.resize(std::min(2 * length, most + 1));
+    }
+    file.bytes.resize(length);
+    if (length == 0) {
+        throw IoError(path.string() + ": the file is empty; export the file again");
+    }
+    if (const auto order = utf16_order(file.bytes)) {
+        file.bytes = utf8_of_utf16(file.bytes, *order, file.ticker);
+    }
+    return file;
+}
+
+std::string in_lower_case(std::string_view text) {
+    std::string lower(text);
+    // Not std::tolower, which depends on the locale.
+    for (char& c : lower) c = 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return lower;
+}
+
+std::string in_quotes(std::string_view text) {
+    constexpr std::size_t longest = 40;
+    std::string shown = "'";
+    for (const char c : text.substr(0, longest)) shown += c >= ' ' && c <= '~' ? c : '?';
+    return shown + (text.size() > longest ? "...'" : "'");
+}
+
+}  // namespace remesh

@@ -1,0 +1,53 @@
+//! \file
+//! A file's bytes, and errors that name the place in it. Private to the readers.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "agvd/core/poller.h"
+#include "remesh/names.h"
+
+namespace remesh {
+
+struct SourceFile {
+    std::filesystem::path path;
+    std::string bytes;
+    bool is_binary = false;        //!< Errors name bytes instead of lines.
+    bool is_lenient = false;       //!< See ReadOptions.
+    bool with_attributes = false;  //!< Likewise.
+    Ticker ticker = {};            //!< Of the call that reads it; readers tick copies.
+
+    //! "mesh.off: line 12: ". Lines are counted here and not while reading, so that valid files
+    //! cost nothing.
+    [[nodiscard]] std::string place(std::size_t offset) const;
+    //! Throws IoError: the bytes are no file of this format.
+    [[noreturn]] void fail_malformed(std::size_t offset, const std::string& text) const;
+    //! Checks the bytes after the last element that the header announces: whole elements throw
+    //! IoError unless is_lenient.
+    //! \return a warning of them, or of a few stray bytes; empty if there are none (in a text: only
+    //!        blanks).
+    //! \param num_more  whole elements for which there is room; in a text lines are counted
+    //! instead.
+    [[nodiscard]] std::string judge_rest(std::size_t offset, const char* kind,
+                                         std::uint64_t num_announced,
+                                         std::uint64_t num_more = 0) const;
+    //! Throws InvalidInput: the format is right, the mesh is not.
+    [[noreturn]] void fail_unusable(std::size_t offset, const std::string& text) const;
+};
+
+//! A text in UTF-16 becomes UTF-8.
+//! \throw IoError  cannot be read, or is empty; names the system's reason. Or it does not
+//!        end: a device after 16 MB, a pipe or a terminal after 2 GB.
+//! \throw Cancelled  the poller asked for it, also while waiting for a pipe.
+[[nodiscard]] SourceFile load_file(const std::filesystem::path& path, Poller& poller);
+
+//! With ASCII letters in lower case, whatever the locale.
+[[nodiscard]] std::string in_lower_case(std::string_view text);
+
+//! The text in quotes, cut to a readable length, with unprintable bytes shown as '?'.
+[[nodiscard]] std::string in_quotes(std::string_view text);
+
+}  // namespace remesh

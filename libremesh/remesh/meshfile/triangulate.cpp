@@ -1,0 +1,139 @@
+// A quad is cut along the shorter of its inner diagonals. Larger polygons are projected into a
+// plane and lose one ear after the other (Meisters 1975); a kd-tree finds the reflex corners
+// inside an ear.
+#include "remesh/meshfile/triangulate.h"
+
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "remesh/meshfile/corner_tree.h"
+
+namespace remesh {
+namespace {
+
+// Newell's normal, twice the area long; relative to the first corner to keep digits.
+Vec3 normal_of(std::span<const Index> polygon, std::span<const Vec3> positions) {
+    const Vec3 origin = positions[polygon[0]];
+    Vec3 normal = Vec3::Zero();
+    for (std::size_t i = 1; i + 1 < polygon.size(); ++i) {
+        normal += (positions[polygon[i]] - origin).cross(positions[polygon[i + 1]] - origin);
+    }
+    return normal;
+}
+
+void append_quad(std::span<const Index> q, std::span<const Vec3> positions,
+                 std::vector<Triangle>& triangles) {
+    const Vec3 normal = normal_of(q, positions);
+    const auto faces_up = [&](std::size_t i, std::size_t j, std::size_t k) {
+        const Vec3& a = positions[q[i]];
+        return normal.dot((positions[q[j]] - a).cross(positions[q[k]] - a)) > 0;
+    };
+    const bool is_02_inside = faces_up(0, 1, 2) && faces_up(0, 2, 3);
+    const bool is_13_inside = faces_up(0, 1, 3) && faces_up(1, 2, 3);
+    const bool is_02_shorter = (positions[q[0]] - positions[q[2]]).squaredNorm() <=
+                               (positions[q[1]] - positions[q[3]]).squaredNorm();
+    if (is_02_inside == is_13_inside ? is_02_shorter : is_02_inside) {
+        triangles.push_back({q[0], q[1], q[2]});
+        triangles.push_back({q[0], q[2], q[3]});
+    } else {
+        triangles.push_back({q[0], q[1], q[3]});
+        triangles.push_back({q[1], q[2], q[3]});
+    }
+}
+
+// The polygon projected along its normal's largest component, counter-clockwise; no digit is lost.
+std::vector<Vec2> project(std::span<const Index> polygon, std::span<const Vec3> positions) {
+    const Vec3 normal = normal_of(polygon, positions);
+    Eigen::Index axis = 0;
+    normal.cwiseAbs().maxCoeff(&axis);
+    Eigen::Index u = (axis + 1) % 3, v = (axis + 2) % 3;
+    if (normal[axis] < 0) std::swap(u, v);
+    std::vector<Vec2> flat;
+    flat.reserve(polygon.size());
+    for (const Index i : polygon) flat.emplace_back(positions[i][u], positions[i][v]);
+    return flat;
+}
+
+// Twice the signed area of (a, b, c).
+double area(const Vec2& a, const Vec2& b, const Vec2& c) {
+    const Vec2 ab = b - a, ac = c - a;
+    return ab.x() * ac.y() - ab.y() * ac.x();
+}
+
+// The rest of a polygon during ear clipping: a cycle of corners in a linked list.
+struct Ring {
+    std::vector<Vec2> point;
+    std::vector<std::size_t> previous, next;
+    CornerTree reflex;  // Those that do not turn left.
+
+    explicit Ring(std::vector<Vec2> points)
+        : point(std::move(points)), previous(point.size()), next(point.size()), reflex(point) {
+        for (std::size_t i = 0; i < point.size(); ++i) {
+            next[i] = (i + 1) % point.size();
+            previous[next[i]] = i;
+        }
+        for (std::size_t i = 0; i < point.size(); ++i) reflex.mark(i, !(turn(i) > 0));
+    }
+
+    [[nodiscard]] double turn(std::size_t i) const {
+        return area(point[previous[i]], point[i], point[next[i]]);
+    }
+
+    // The triangle at corner i turns left and holds no other corner. Corners at the position of one
+    // of its own do not count: holes joined by a bridge repeat them. Only reflex corners need a
+    // test, as the first corner to enter the triangle would be one.
+    [[nodiscard]] bool is_ear(std::size_t i) const {
+        if (!(turn(i) > 0)) return false;
+        const Vec2 &a = point[previous[i]], &b = point[i], &c = point[next[i]];
+        const auto is_inside = [&](std::size_t j) {
+            const Vec2& p = point[j];
+            if (p == a || p == b || p == c) return false;
+            return area(a, b, p) >= 0 && area(b, c, p) >= 0 && area(c, a, p) >= 0;
+        };
+        return !reflex.any_in(a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c), is_inside);
+    }
+
+    void remove(std::size_t i) {
+        next[previous[i]] = next[i];
+        previous[next[i]] = previous[i];
+        reflex.mark(i, false);
+        for (const std::size_t j : {previous[i], next[i]}) reflex.mark(j, !(turn(j) > 0));
+    }
+};
+
+}  // namespace
+
+void append_triangles(std::span<const Index> polygon, std::span<const Vec3> positions,
+                      Ticker& ticker, std::vector<Triangle>& triangles) {
+    if (polygon.size() == 3) {
+        triangles.push_back({polygon[0], polygon[1], polygon[2]});
+        return;
+    }
+    if (polygon.size() == 4) {
+        append_quad(polygon, positions, triangles);
+        return;
+    }
+    Ring ring(project(polygon, positions));
+    const auto clip = [&](std::size_t i) {
+        triangles.push_back({polygon[ring.previous[i]], polygon[i], polygon[ring.next[i]]});
+        ring.remove(i);
+    };
+    std::size_t corner = 1, failed = 0, left = polygon.size();
+    for (; left > 3 && failed < left; corner = ring.next[corner]) {
+        ticker.tick(8);
+        if (!ring.is_ear(corner)) {
+            ++failed;
+            continue;
+        }
+        clip(corner);
+        --left;
+        failed = 0;
+        // Clips every other corner first, which halves the polygon in each round; clipping at one
+        // place would make a fan of slivers.
+        corner = ring.next[corner];
+    }
+    for (; left > 2; --left) clip(corner = ring.next[corner]);
+}
+
+}  // namespace remesh

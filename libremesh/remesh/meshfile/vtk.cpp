@@ -1,0 +1,376 @@
+// Legacy VTK, ascii and binary (big endian): POLYDATA and UNSTRUCTURED_GRID. Points,
+// cells, and arrays of points and cells as attributes (format: The VTK User's Guide, "VTK File
+// Formats"; since version 5 cells are two arrays, OFFSETS and CONNECTIVITY).
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "remesh/meshfile/byte_order.h"
+#include "remesh/meshfile/formats.h"
+#include "remesh/meshfile/text_scanner.h"
+#include "remesh/meshfile/vtk_data.h"
+
+namespace remesh {
+namespace {
+
+// "%20" stands for a blank.
+std::string decoded(std::string_view name) {
+    std::string text;
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        unsigned code = 0;
+        const bool is_code =
+            name[i] == '%' && i + 2 < name.size() &&
+            std::from_chars(&name[i + 1], &name[i] + 3, code, 16).ptr == &name[i] + 3;
+        text += is_code ? static_cast<char>(code) : name[i];
+        if (is_code) i += 2;
+    }
+    return text;
+}
+
+class LegacyVtkReader {
+public:
+    explicit LegacyVtkReader(SourceFile& file)
+        : file_(file), scan_(file, 0, {}), ticker_(file.ticker) {}
+
+    VtkData read() {
+        read_head();
+        while (scan_.find_word()) {
+            start_ = scan_.offset();
+            read_section(in_lower_case(scan_.word()));
+        }
+        assign_types();
+        for (VtkCells& group : groups_) {
+            if (!group.ends.empty()) data_.cells.push_back(std::move(group));
+        }
+        return std::move(data_);
+    }
+
+private:
+    // In the order of the data of cells.
+    static constexpr std::size_t vertices = 0, lines = 1, polygons = 2, strips = 3, grid = 4;
+    enum class Of { Nothing, Points, Cells };
+
+    [[noreturn]] void fail(const std::string& text) const { file_.fail_malformed(start_, text); }
+
+    void read_head() {
+        if (!scan_.take("# vtk DataFile Version ")) {
+            fail(
+                "this is not a legacy VTK file, as it does not begin with '# vtk DataFile "
+                "Version'; "
+                "check its extension");
+        }
+        version_ = scan_.number("a version");
+        scan_.skip_line();
+        scan_.skip_line();  // The title.
+        start_ = scan_.offset();
+        const std::string encoding = scan_.find_word() ? in_lower_case(scan_.word()) : "";
+        if (encoding != "ascii" && encoding != "binary") {
+            fail("expected ASCII or BINARY, found " + in_quotes(encoding) +
+                 "; export the file again");
+        }
+        file_.is_binary = encoding == "binary";
+        expect("dataset");
+        start_ = scan_.offset();
+        const std::string kind = name("a kind of data");
+        if (in_lower_case(kind) != "polydata" && in_lower_case(kind) != "unstructured_grid") {
+            fail("the file holds " + in_quotes(kind) +
+                 ", not POLYDATA or UNSTRUCTURED_GRID; extract its surface (in ParaView: Extract "
+                 "Surface) and save that");
+        }
+    }
+
+    void expect(const char* keyword) {
+        if (!scan_.find_word()) scan_.fail_expecting(keyword);
+        start_ = scan_.offset();
+        const std::string word(scan_.word());
+        if (in_lower_case(word) == keyword) return;
+        fail(std::string("expected ") + keyword + ", found " + in_quotes(word) +
+             "; export the file again");
+    }
+
+    void read_section(const std::string& keyword) {
+        if (keyword == "points") {
+            const std::uint64_t count = number_of("points");
+            const VtkType& type = type_name();
+            data_.points = array("points", type, count, 3);
+        } else if (keyword == "vertices") {
+            read_cells(vertices);
+        } else if (keyword == "lines") {
+            read_cells(lines);
+        } else if (keyword == "polygons") {
+            read_cells(polygons);
+        } else if (keyword == "triangle_strips") {
+            read_cells(strips);
+        } else if (keyword == "cells") {
+            read_cells(grid);
+        } else if (keyword == "cell_types") {
+            read_types();
+        } else if (keyword == "point_data" || keyword == "cell_data") {
+            of_ = keyword == "point_data" ? Of::Points : Of::Cells;
+            num_elements_ = number_of("elements");
+        } else if (keyword == "metadata") {
+            skip_to_empty_line();
+        } else if (!read_array(keyword)) {
+            fail("unknown keyword " + in_quotes(keyword) + "; export the file again");
+        }
+    }
+
+    // Arrays of points or cells. \return false: the keyword is no array.
+    bool read_array(const std::string& keyword) {
+        if (keyword == "field") {
+            read_field();
+        } else if (keyword == "scalars") {
+            const std::string title = name("a name");
+            const VtkType& type = type_name();
+            const std::uint64_t components = scan_.has_word() ? number_of("components") : 1;
+            expect("lookup_table");
+            scan_.word();
+            keep(array(title, type, num_elements_, components));
+        } else if (keyword == "color_scalars") {
+            const std::string title = name("a name");
+            const std::uint64_t components = number_of("components");
+            VtkArray colors =
+                array(title, *find_vtk_type(file_.is_binary ? "unsigned_char" : "float"),
+                      num_elements_, components);
+            to_bytes(colors);
+            keep(std::move(colors));
+        } else if (keyword == "lookup_table") {
+            name("a name");
+            const std::uint64_t count = number_of("colours");
+            array("", *find_vtk_type(file_.is_binary ? "unsigned_char" : "float"), count, 4);
+        } else if (keyword == "texture_coordinates") {
+            const std::string title = name("a name");
+            const std::uint64_t components = number_of("components");
+            VtkArray values = array(title, type_name(), num_elements_, components);
+            if (of_ == Of::Points && (components == 2 || components == 3)) {
+                data_.texture = std::move(values);
+            } else {
+                decline(title, "only two or three texture coordinates of points are carried over");
+            }
+        } else if (keyword == "vectors" || keyword == "normals" || keyword == "tensors" ||
+                   keyword == "global_ids" || keyword == "pedigree_ids") {
+            const std::string title = name("a name");
+            const VtkType& type = type_name();
+            const std::uint64_t components = keyword == "tensors"                           ? 9
+                                             : keyword == "vectors" || keyword == "normals" ? 3
+                                                                                            : 1;
+            VtkArray values = array(title, type, num_elements_, components);
+            if (keyword == "normals") {
+                if (of_ == Of::Points) data_.normals = type.type;
+                if (of_ == Of::Cells) decline(title, "normals of faces are not carried over");
+            } else {
+                keep(std::move(values));
+            }
+        } else {
+            return false;
+        }
+        return true;
+    }
+
+    void read_field() {
+        name("a name");
+        for (std::uint64_t left = number_of("arrays"); left > 0; --left) {
+            ticker_.tick();
+            if (!scan_.find_word()) scan_.fail_expecting("an array");
+            start_ = scan_.offset();
+            if (in_lower_case(scan_.word()) == "metadata") {
+                skip_to_empty_line();
+                ++left;
+                continue;
+            }
+            scan_.go_to(start_);
+            const std::string title = name("a name");
+            const std::uint64_t components = number_of("components");
+            const std::uint64_t count = number_of("elements");
+            const VtkType& type = type_name();
+            VtkArray values = array(title, type, count, components);
+            if (of_ == Of::Nothing) continue;  // Of the whole file, such as a time.
+            if (count != num_elements_) {
+                fail("array " + in_quotes(title) + " has " + std::to_string(count) +
+                     " values for " + std::to_string(num_elements_) +
+                     " elements; export the file again");
+            }
+            keep(std::move(values));
+        }
+    }
+
+    // Colours of text are numbers from 0 to 1.
+    void to_bytes(VtkArray& colors) const {
+        if (file_.is_binary) return;
+        for (double& value : colors.values) value = std::round(255 * value);
+        colors.type = find_vtk_type("unsigned_char");
+    }
+
+    void keep(VtkArray values) {
+        if (of_ == Of::Points)
+            data_.of_points.push_back(std::move(values));
+        else if (of_ == Of::Cells)
+            data_.of_cells.push_back(std::move(values));
+        else
+            fail("an array comes before POINT_DATA or CELL_DATA; export the file again");
+    }
+    void decline(const std::string& title, const char* reason) {
+        data_.declined.push_back({(of_ == Of::Points ? "vertex " : "face ") + title, reason});
+    }
+
+    void read_cells(std::size_t group) {
+        constexpr std::array types = {VtkCell::Vertices, VtkCell::Lines, VtkCell::Polygon,
+                                      VtkCell::Strip, VtkCell{0}};
+        VtkCells& cells = groups_[group];
+        if (!cells.ends.empty()) fail("the same kind of cells comes twice; export the file again");
+        cells.types = {types[group]};
+        const std::uint64_t count = number_of("cells"), size = number_of("numbers");
+        if (version_ >= 5) {
+            read_offset_cells(count, size, cells);
+        } else {
+            read_counted_cells(count, size, cells);
+        }
+    }
+
+    // Each cell is the number of its corners and these.
+    void read_counted_cells(std::uint64_t count, std::uint64_t size, VtkCells& cells) {
+        cells.corners = array("cells", *find_vtk_type("int"), size, 1);
+        std::vector<double>& values = cells.corners.values;
+        std::size_t to = 0, from = 0;
+        for (std::uint64_t c = 0; c < count; ++c) {
+            ticker_.tick();
+            const double corners = from < values.size() ? values[from] : -1;
+            if (!(corners >= 0 && corners == std::floor(corners) &&
+                  corners < static_cast<double>(values.size() - from))) {
+                fail("cell " + std::to_string(c) + " of " + std::to_string(count) +
+                     " does not fit into the " + std::to_string(size) +
+                     " numbers that are announced; export the file again");
+            }
+            ++from;
+            for (auto k = static_cast<std::size_t>(corners); k > 0; --k)
+                values[to++] = values[from++];
+            cells.ends.push_back(to);
+        }
+        if (from != values.size()) {
+            fail("the cells have fewer numbers than the " + std::to_string(size) +
+                 " that are announced; export the file again");
+        }
+        values.resize(to);
+    }
+
+    // One array of where cells begin, one of their corners.
+    void read_offset_cells(std::uint64_t count, std::uint64_t size, VtkCells& cells) {
+        expect("offsets");
+        const VtkType& offset_type = type_name();
+        const VtkArray offsets = array("OFFSETS", offset_type, count, 1);
+        expect("connectivity");
+        const VtkType& type = type_name();
+        cells.corners = array("CONNECTIVITY", type, size, 1);
+        if (!offsets.values.empty() && offsets.values[0] != 0) {
+            fail(
+                "the offset of the first cell is not 0, so that they are not in order; export the "
+                "file again");
+        }
+        cells.ends = ends_of_cells(offsets, 1, cells.corners.values.size(), file_);
+    }
+
+    void read_types() {
+        types_ = array("CELL_TYPES", *find_vtk_type("int"), number_of("types"), 1);
+    }
+
+    // Gives the cells of a grid their types, wherever these stand in the file.
+    void assign_types() {
+        VtkCells& cells = groups_[grid];
+        const std::size_t count = types_ ? types_->values.size() : 0;
+        if (count != cells.ends.size()) {
+            fail("CELL_TYPES has " + std::to_string(count) + " types for " +
+                 std::to_string(cells.ends.size()) + " cells; export the file again");
+        }
+        if (types_) cells.types = types_of_cells(*types_);
+    }
+
+    std::string name(const char* what) {
+        if (!scan_.has_word()) scan_.fail_expecting(what);
+        return decoded(scan_.word());
+    }
+
+    const VtkType& type_name() {
+        const std::size_t start = scan_.offset();
+        const std::string word = name("a type of numbers");
+        const VtkType* const type = find_vtk_type(in_lower_case(word));
+        if (type != nullptr) return *type;
+        file_.fail_malformed(start, "arrays of type " + in_quotes(word) +
+                                        " are not supported; export the file without them");
+    }
+
+    std::uint64_t number_of(const char* what) {
+        const std::size_t start = scan_.offset();
+        const std::int64_t count = scan_.integer(("the number of " + std::string(what)).c_str());
+        if (count >= 0) return static_cast<std::uint64_t>(count);
+        file_.fail_malformed(
+            start, "the number of " + std::string(what) + " is negative; export the file again");
+    }
+
+    // The numbers that follow the current line.
+    VtkArray array(std::string title, const VtkType& type, std::uint64_t count,
+                   std::uint64_t components) {
+        scan_.skip_line();
+        VtkArray result{.name = std::move(title),
+                        .type = &type,
+                        .num_components = static_cast<std::size_t>(components),
+                        .offset = scan_.offset()};
+        const std::size_t left = file_.bytes.size() - scan_.offset();
+        // Neither an element nor a number takes less than a byte; a text has blanks between them.
+        const std::size_t size = file_.is_binary ? type.size : 2;
+        if (count != 0 && components > (left + 1) / size / count) {
+            fail("the file ends before the " + std::to_string(count) + " elements of " +
+                 in_quotes(result.name) + "; it is truncated: export the file again");
+        }
+        const std::size_t total = static_cast<std::size_t>(count * components);
+        if (file_.is_binary && total * type.size > left) {
+            fail("the file ends within " + in_quotes(result.name) +
+                 "; it is truncated: export the file again");
+        }
+        result.values.reserve(total);
+        if (file_.is_binary) {
+            const char* at = file_.bytes.data() + scan_.offset();
+            for (std::size_t i = 0; i < total; ++i, at += type.size) {
+                ticker_.tick();
+                result.values.push_back(type.load(at, std::endian::big));
+            }
+            scan_.go_to(scan_.offset() + total * type.size);
+            return result;
+        }
+        for (std::size_t i = 0; i < total; ++i) {
+            ticker_.tick(2);
+            if (!scan_.find_word()) {
+                scan_.fail_malformed("the file ends within " + in_quotes(result.name) +
+                                     "; it is truncated: export the file again");
+            }
+            result.values.push_back(scan_.number("a number"));
+        }
+        return result;
+    }
+
+    void skip_to_empty_line() {
+        scan_.skip_line();
+        while (scan_.has_word()) scan_.skip_line();
+    }
+
+    SourceFile& file_;
+    TextScanner scan_;
+    Ticker ticker_;
+    std::size_t start_ = 0;  // Of the current section.
+    double version_ = 0;
+    VtkData data_;
+    std::array<VtkCells, 5> groups_;
+    std::optional<VtkArray> types_;
+    Of of_ = Of::Nothing;
+    std::uint64_t num_elements_ = 0;  // Points or cells, as the data announce them.
+};
+
+}  // namespace
+
+MeshFile read_vtk(SourceFile file) {
+    VtkData data = LegacyVtkReader(file).read();
+    return make_mesh(std::move(data), file);
+}
+
+}  // namespace remesh

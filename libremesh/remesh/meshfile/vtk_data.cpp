@@ -1,0 +1,362 @@
+#include "remesh/meshfile/vtk_data.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "remesh/meshfile/byte_order.h"
+#include "remesh/meshfile/formats.h"
+#include "remesh/meshfile/strip_triangles.h"
+#include "remesh/meshfile/volume_surface.h"
+
+namespace remesh {
+namespace {
+
+template <typename T>
+double load_as(const char* bytes, std::endian order) {
+    return static_cast<double>(load<T>(bytes, order));
+}
+
+constexpr std::array vtk_types = {
+    VtkType{"char", "Int8", 1, NumberType::Int8, load_as<std::int8_t>},
+    VtkType{"unsigned_char", "UInt8", 1, NumberType::UInt8, load_as<std::uint8_t>},
+    VtkType{"short", "Int16", 2, NumberType::Int16, load_as<std::int16_t>},
+    VtkType{"unsigned_short", "UInt16", 2, NumberType::UInt16, load_as<std::uint16_t>},
+    VtkType{"int", "Int32", 4, NumberType::Int32, load_as<std::int32_t>},
+    VtkType{"vtkidtype", "", 4, NumberType::Int32, load_as<std::int32_t>},
+    VtkType{"unsigned_int", "UInt32", 4, NumberType::UInt32, load_as<std::uint32_t>},
+    VtkType{"long", "", 8, NumberType::Int32, load_as<std::int64_t>},
+    VtkType{"vtktypeint64", "Int64", 8, NumberType::Int32, load_as<std::int64_t>},
+    VtkType{"unsigned_long", "", 8, NumberType::UInt32, load_as<std::uint64_t>},
+    VtkType{"vtktypeuint64", "UInt64", 8, NumberType::UInt32, load_as<std::uint64_t>},
+    VtkType{"float", "Float32", 4, NumberType::Float32, load_as<float>},
+    VtkType{"double", "Float64", 8, NumberType::Float64, load_as<double>}};
+
+// Names that PLY gives to what is no attribute.
+constexpr std::array reserved_names = {"x",           "y", "z", "nx", "ny", "nz", "vertex_indices",
+                                       "vertex_index"};
+
+constexpr std::array color_names = {"red", "green", "blue", "alpha"};
+
+void add_points(const VtkArray& points, const SourceFile& file, PolygonSoup& soup) {
+    soup.positions.reserve(points.values.size() / 3);
+    for (std::size_t i = 0; i + 2 < points.values.size(); i += 3) {
+        soup.ticker.tick(2);
+        const Vec3 p(points.values[i], points.values[i + 1], points.values[i + 2]);
+        if (!p.allFinite()) {
+            file.fail_unusable(points.offset,
+                               "point " + std::to_string(i / 3) +
+                                   " has a coordinate that is not finite; correct or "
+                                   "delete the point");
+        }
+        soup.positions.push_back(p);
+    }
+}
+
+// Adds cells to a soup and knows which cell each polygon came from.
+class CellReader {
+public:
+    CellReader(const SourceFile& file, PolygonSoup& soup)
+        : file_(file), soup_(soup), volumes_(file) {}
+
+    void add(const VtkCells& cells) {
+        cells_ = &cells;
+        std::size_t begin = 0;
+        for (std::size_t i = 0; i < cells.ends.size(); begin = cells.ends[i++]) {
+            add_cell(cells.types.size() == 1 ? cells.types[0] : cells.types[i], begin,
+                     cells.ends[i]);
+            cell_of_polygon_.resize(soup_.num_polygons(), num_cells_++);
+        }
+    }
+
+    // To be called when all cells are known.
+    void add_surface() {
+        const std::vector<std::size_t> volume_of_face = volumes_.add_to(soup_);
+        num_surface_faces_ = volume_of_face.size();
+        for (const std::size_t i : volume_of_face) cell_of_polygon_.push_back(cell_of_volume_[i]);
+    }
+
+    void add_warnings(MeshFile& result) const {
+        add_warning(volumes_.warning(num_surface_faces_), result);
+        if (num_others_ == 0) return;
+        add_warning(file_.path.string() + ": " + std::to_string(num_others_) +
+                        " cells that are neither faces nor linear volumes (vertices, lines, curved "
+                        "cells) are passed over",
+                    result);
+    }
+
+    [[nodiscard]] const std::vector<std::size_t>& cell_of_polygon() const {
+        return cell_of_polygon_;
+    }
+    [[nodiscard]] std::size_t num_cells() const { return num_cells_; }
+
+private:
+    void add_cell(VtkCell type, std::size_t begin, std::size_t end) {
+        soup_.ticker.tick();
+        switch (type) {
+            case VtkCell::Triangle:
+                require_corners(end - begin, 3);
+                return add_polygon(begin, end);
+            case VtkCell::Quad:
+                require_corners(end - begin, 4);
+                return add_polygon(begin, end);
+            case VtkCell::Pixel:
+                require_corners(end - begin, 4);
+                for (const std::size_t k : {0u, 1u, 3u, 2u})
+                    soup_.add_corner(vertex(begin + k), offset());
+                return soup_.end_polygon();
+            case VtkCell::Polygon:
+                return add_polygon(begin, end);
+            case VtkCell::Strip: {
+                StripTriangles strip(soup_);
+                for (std::size_t k = begin; k < end; ++k) strip.add(vertex(k), offset());
+                return strip.end();
+            }
+            case VtkCell::Tetrahedron:
+                return add_volume(VolumeCell::Tetrahedron, begin, end);
+            case VtkCell::Voxel:
+                require_corners(end - begin, 8);
+                for (const std::size_t k : {0u, 1u, 3u, 2u, 4u, 5u, 7u, 6u})
+                    volumes_.add_corner(vertex(begin + k), offset());
+                return end_volume(VolumeCell::Hexahedron);
+            case VtkCell::Hexahedron:
+                return add_volume(VolumeCell::Hexahedron, begin, end);
+            case VtkCell::Wedge:
+                return add_volume(VolumeCell::Wedge, begin, end);
+            case VtkCell::Pyramid:
+                return add_volume(VolumeCell::Pyramid, begin, end);
+            default:
+                ++num_others_;
+        }
+    }
+
+    void add_polygon(std::size_t begin, std::size_t end) {
+        for (std::size_t k = begin; k < end; ++k) soup_.add_corner(vertex(k), offset());
+        soup_.end_polygon();
+    }
+
+    void add_volume(VolumeCell kind, std::size_t begin, std::size_t end) {
+        require_corners(end - begin, num_corners(kind));
+        for (std::size_t k = begin; k < end; ++k) volumes_.add_corner(vertex(k), offset());
+        end_volume(kind);
+    }
+
+    void end_volume(VolumeCell kind) {
+        volumes_.end_cell(kind);
+        cell_of_volume_.push_back(num_cells_);
+    }
+
+    void require_corners(std::size_t found, std::size_t needed) const {
+        if (found == needed) return;
+        file_.fail_malformed(offset(), "cell " + std::to_string(num_cells_) + " has " +
+                                           std::to_string(found) + " corners instead of " +
+                                           std::to_string(needed) + "; export the file again");
+    }
+
+    [[nodiscard]] std::int64_t vertex(std::size_t corner) const {
+        const double value = cells_->corners.values[corner];
+        if (value == std::floor(value) && std::abs(value) < 1e15) {
+            return static_cast<std::int64_t>(value);
+        }
+        file_.fail_malformed(offset(), "cell " + std::to_string(num_cells_) +
+                                           " has a corner that is no whole number; export the file "
+                                           "again");
+    }
+    [[nodiscard]] std::size_t offset() const { return cells_->corners.offset; }
+
+    const SourceFile& file_;
+    PolygonSoup& soup_;
+    VolumeSurface volumes_;
+    const VtkCells* cells_ = nullptr;
+    std::size_t num_cells_ = 0, num_others_ = 0, num_surface_faces_ = 0;
+    std::vector<std::size_t> cell_of_polygon_, cell_of_volume_;
+};
+
+// A name that is one word, as PLY wants it.
+std::string as_word(const std::string& name) {
+    std::string word = name.empty() ? "array" : name;
+    for (char& c : word) {
+        if ((c >= 0 && c <= ' ') || c == '\x7f') c = '_';
+    }
+    return word;
+}
+
+NumberType type_of(const VtkArray& array) {
+    if (array.type->size < 8 || !is_integer(array.type->type)) return array.type->type;
+    const bool fits = std::all_of(array.values.begin(), array.values.end(), [&](double value) {
+        return is_value_of(array.type->type, value);
+    });
+    return fits ? array.type->type : NumberType::Float64;
+}
+
+// Text files may hold words for integers that are none.
+bool has_wrong_values(const VtkArray& array, NumberType type) {
+    return is_integer(type) && !std::all_of(array.values.begin(), array.values.end(),
+                                            [&](double v) { return is_value_of(type, v); });
+}
+
+void require_numbers(const VtkArray& array, std::size_t num_elements, const SourceFile& file) {
+    if (array.values.size() == num_elements * array.num_components) return;
+    file.fail_malformed(array.offset, "array " + in_quotes(array.name) + " has " +
+                                          std::to_string(array.values.size()) + " numbers for " +
+                                          std::to_string(num_elements) + " elements with " +
+                                          std::to_string(array.num_components) +
+                                          " each; export the file again");
+}
+
+// A third coordinate does not count.
+void add_texture(const VtkArray& array, const SourceFile& file, PolygonSoup& soup) {
+    require_numbers(array, soup.positions.size(), file);
+    SoupTexture& texture = soup.texture;
+    texture.name = "vertex " + array.name;
+    texture.is_of_vertices = true;
+    texture.type = is_integer(array.type->type) ? NumberType::Float64 : array.type->type;
+    for (std::size_t i = 0; i < array.values.size(); i += array.num_components) {
+        soup.ticker.tick();
+        texture.add(array.values[i], array.values[i + 1]);
+    }
+}
+
+// Turns arrays into attributes.
+class ArrayReader {
+public:
+    ArrayReader(ElementKind kind, std::size_t num_elements, const SourceFile& file,
+                MeshAttributes& attributes)
+        : kind_(kind),
+          num_elements_(num_elements),
+          file_(file),
+          attributes_(attributes),
+          target_(kind == ElementKind::Vertex ? attributes.of_vertices : attributes.of_faces) {}
+
+    void take(const VtkArray& array) {
+        require_numbers(array, num_elements_, file_);
+        const NumberType type = type_of(array);
+        const bool is_color =
+            type == NumberType::UInt8 && (array.num_components == 3 || array.num_components == 4);
+        if (has_wrong_values(array, type)) {
+            decline(array.name, "some of its values are not of its type");
+        } else if (is_color && find_attribute(target_, "red") == nullptr) {
+            for (std::size_t k = 0; k < array.num_components; ++k)
+                add(color_names[k], type, array, k);
+        } else if (array.num_components == 0 || array.num_components > most_vtk_components) {
+            decline(array.name, "arrays of so many numbers for an element are not carried over");
+        } else if (array.num_components == 1) {
+            add(as_word(array.name), type, array, 0);
+        } else {
+            for (std::size_t k = 0; k < array.num_components; ++k)
+                add(as_word(array.name) + '_' + std::to_string(k), type, array, k);
+        }
+    }
+
+private:
+    void add(const std::string& name, NumberType type, const VtkArray& array,
+             std::size_t component) {
+        const bool is_reserved =
+            std::find(reserved_names.begin(), reserved_names.end(), name) != reserved_names.end();
+        if (is_reserved || find_attribute(target_, name) != nullptr) {
+            return decline(name, "another property has the same name");
+        }
+        std::vector<double> values;
+        values.reserve(num_elements_);
+        for (std::size_t i = component; i < array.values.size(); i += array.num_components) {
+            values.push_back(array.values[i]);
+        }
+        target_.push_back({.name = name, .type = type, .values = std::move(values)});
+    }
+    void decline(const std::string& name, const char* reason) {
+        attributes_.declined.push_back(
+            {(kind_ == ElementKind::Vertex ? "vertex " : "face ") + name, reason});
+    }
+
+    ElementKind kind_;
+    std::size_t num_elements_;
+    const SourceFile& file_;
+    MeshAttributes& attributes_;
+    std::vector<Attribute>& target_;
+};
+
+MeshAttributes read_attributes(VtkData& data, const CellReader& cells, std::size_t num_points,
+                               const SourceFile& file) {
+    MeshAttributes attributes{.normals = data.normals, .declined = std::move(data.declined)};
+    ArrayReader of_points(ElementKind::Vertex, num_points, file, attributes);
+    for (const VtkArray& array : data.of_points) of_points.take(array);
+    ArrayReader of_cells(ElementKind::Face, cells.num_cells(), file, attributes);
+    for (const VtkArray& array : data.of_cells) of_cells.take(array);
+    for (Attribute& attribute : attributes.of_faces) {
+        std::vector<double> of_polygons;
+        of_polygons.reserve(cells.cell_of_polygon().size());
+        for (const std::size_t cell : cells.cell_of_polygon()) {
+            of_polygons.push_back(attribute.values[cell]);
+        }
+        attribute.values = std::move(of_polygons);
+    }
+    return attributes;
+}
+
+}  // namespace
+
+const VtkType* find_vtk_type(std::string_view name) {
+    const auto found = std::find_if(vtk_types.begin(), vtk_types.end(),
+                                    [&](const VtkType& type) { return name == type.name; });
+    return found == vtk_types.end() ? nullptr : found;
+}
+
+const VtkType* find_vtk_xml_type(std::string_view name) {
+    const auto found = std::find_if(vtk_types.begin(), vtk_types.end(), [&](const VtkType& type) {
+        return !name.empty() && name == type.xml_name;
+    });
+    return found == vtk_types.end() ? nullptr : found;
+}
+
+std::vector<std::size_t> ends_of_cells(const VtkArray& offsets, std::size_t first,
+                                       std::size_t num_corners, const SourceFile& file) {
+    std::vector<std::size_t> ends;
+    Ticker ticker = file.ticker;
+    double last = 0;
+    for (std::size_t i = first; i < offsets.values.size(); ++i) {
+        ticker.tick();
+        const double end = offsets.values[i];
+        if (!(end >= last && end <= static_cast<double>(num_corners) && end == std::floor(end))) {
+            file.fail_malformed(offsets.offset, "the offset of cell " + std::to_string(i - first) +
+                                                    " is not in order; export the file again");
+        }
+        ends.push_back(static_cast<std::size_t>(end));
+        last = end;
+    }
+    if (last != static_cast<double>(num_corners)) {
+        file.fail_malformed(offsets.offset,
+                            "the last offset is not the number of corners; export the file again");
+    }
+    return ends;
+}
+
+std::vector<VtkCell> types_of_cells(const VtkArray& numbers) {
+    std::vector<VtkCell> types;
+    types.reserve(numbers.values.size());
+    for (const double number : numbers.values) {
+        const bool is_type = is_value_of(NumberType::UInt8, number);
+        types.push_back(VtkCell{is_type ? static_cast<std::uint8_t>(number) : std::uint8_t{0}});
+    }
+    return types;
+}
+
+MeshFile make_mesh(VtkData data, const SourceFile& file) {
+    PolygonSoup soup(file, 0);
+    if (data.points) add_points(*data.points, file, soup);
+    CellReader cells(file, soup);
+    for (const VtkCells& group : data.cells) cells.add(group);
+    cells.add_surface();
+    const std::size_t num_points = soup.positions.size();
+    MeshAttributes attributes;
+    if (file.with_attributes) {
+        attributes = read_attributes(data, cells, num_points, file);
+        if (data.texture) add_texture(*data.texture, file, soup);
+    }
+    MeshFile result = std::move(soup).finish();
+    attach(std::move(attributes), result);
+    cells.add_warnings(result);
+    return result;
+}
+
+}  // namespace remesh

@@ -1,0 +1,167 @@
+#include "remesh/meshfile/write_mesh.h"
+
+#include <algorithm>
+
+#include "agvd/core/error.h"
+#include "remesh/meshfile/atomic_file.h"
+#include "remesh/meshfile/formats.h"
+#include "remesh/meshfile/gzip.h"
+
+namespace remesh {
+namespace {
+
+void check(const std::filesystem::path& path, const MeshFormat& format, const MeshView& mesh) {
+    const auto fail = [&](const char* kind, std::size_t index, const std::string& text) {
+        throw InvalidInput(path.string() + ": cannot be written: " + kind + " " +
+                           std::to_string(index) + " " + text);
+    };
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        if (!mesh.positions[v].allFinite()) {
+            fail("vertex", v, "has a coordinate that is not finite; correct or delete the vertex");
+        }
+        if ((mesh.positions[v].array().abs() > format.largest).any()) {
+            fail("vertex", v,
+                 "is too large for single precision, in which this format stores it; write .ply, "
+                 ".obj or "
+                 ".off");
+        }
+    }
+    for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
+        const Index highest = std::ranges::max(mesh.triangles[f]);
+        if (highest >= mesh.positions.size()) {
+            fail("face", f,
+                 "names vertex " + std::to_string(highest) + ", but the mesh has only " +
+                     std::to_string(mesh.positions.size()) +
+                     " vertices, counted from 0; correct or delete the face");
+        }
+    }
+}
+
+void check(const std::filesystem::path& path, const std::vector<Attribute>& attributes,
+           std::size_t count) {
+    for (const Attribute& attribute : attributes) {
+        const std::string begin =
+            path.string() + ": cannot be written: attribute " + attribute.name;
+        if (attribute.values.size() != count) {
+            throw InvalidInput(begin + " has " + std::to_string(attribute.values.size()) +
+                               " values instead of " + std::to_string(count) +
+                               "; give one for each element");
+        }
+        const auto num_names = static_cast<double>(attribute.names.size());
+        const auto has_name = [&](double value) { return value >= 0 && value < num_names; };
+        if (num_names > 0 &&
+            !std::all_of(attribute.values.begin(), attribute.values.end(), has_name)) {
+            throw InvalidInput(begin + " has a value without a name; add the name");
+        }
+    }
+}
+
+void check(const std::filesystem::path& path, const TextureCoordinates& texture,
+           std::size_t num_faces) {
+    if (texture.empty() || texture.corners.size() == num_faces) return;
+    throw InvalidInput(path.string() +
+                       ": cannot be written: there are texture coordinates "
+                       "for " +
+                       std::to_string(texture.corners.size()) + " faces instead of " +
+                       std::to_string(num_faces) + "; give three for each");
+}
+
+// Names and types.
+std::vector<Attribute> without_values(const std::vector<Attribute>& attributes) {
+    std::vector<Attribute> empty;
+    empty.reserve(attributes.size());
+    for (const Attribute& one : attributes) empty.push_back({.name = one.name, .type = one.type});
+    return empty;
+}
+
+}  // namespace
+
+std::string format_mesh(const std::filesystem::path& path, const MeshView& mesh,
+                        const Progress& progress) {
+    return format_mesh(MeshPath{path}, mesh, {}, progress);
+}
+
+std::string format_mesh(const std::filesystem::path& path, const MeshView& mesh,
+                        const MeshAttributes& attributes, const Progress& progress) {
+    return format_mesh(MeshPath{path}, mesh, attributes, progress);
+}
+
+std::string format_mesh(const MeshPath& path, const MeshView& mesh,
+                        const MeshAttributes& attributes, const Progress& progress) {
+    Poller poller(progress);
+    const MeshFormat& format = require_format(path);
+    check(path.path, format, mesh);
+    check(path.path, attributes.of_vertices, mesh.positions.size());
+    check(path.path, attributes.of_faces, mesh.triangles.size());
+    check(path.path, attributes.texture, mesh.triangles.size());
+    std::string bytes = format.format(mesh, attributes, Ticker(poller));
+    return is_compressed(path) ? pack_gzip(bytes, Ticker(poller)) : bytes;
+}
+
+std::vector<std::string> remove_unwritable(const std::filesystem::path& path,
+                                           MeshAttributes& attributes) {
+    return remove_unwritable(MeshPath{path}, attributes);
+}
+
+std::vector<std::string> remove_unwritable(const MeshPath& path, MeshAttributes& attributes) {
+    const MeshFormat& format = require_format(path);
+    if (!format.has_normals) attributes.normals.reset();
+    const MeshAttributes all{.of_vertices = without_values(attributes.of_vertices),
+                             .of_faces = without_values(attributes.of_faces)};
+    std::vector<std::string> removed;
+    const auto keep_writable = [&](std::vector<Attribute>& some, ElementKind kind) {
+        std::erase_if(some, [&](const Attribute& attribute) {
+            if (format.holds(attribute, kind, all)) return false;
+            removed.push_back((kind == ElementKind::Vertex ? "vertex " : "face ") + attribute.name);
+            return true;
+        });
+    };
+    keep_writable(attributes.of_vertices, ElementKind::Vertex);
+    keep_writable(attributes.of_faces, ElementKind::Face);
+    TextureCoordinates& texture = attributes.texture;
+    const bool holds_texture = format.texture == TexturePlace::Corners ||
+                               (format.texture == TexturePlace::Vertices && texture.seams.empty());
+    if (!texture.empty() && !holds_texture) {
+        removed.push_back(std::string("corner ") + TextureCoordinates::name);
+        texture = {};
+    }
+    Materials& materials = attributes.materials;
+    if (!materials.empty() && format.materials == MaterialPlace::Nothing) {
+        removed.emplace_back("material colours and images");
+        materials = {};
+    } else if (!materials.images.empty() && format.materials == MaterialPlace::Colors) {
+        removed.emplace_back("material images");
+        materials.images.clear();
+    }
+    return removed;
+}
+
+std::string describe_unit(const MeshPath& path, const std::string& unit) {
+    const MeshFormat& format = require_format(path);
+    const std::string of_format = format.unit == nullptr ? "" : format.unit;
+    const bool is_common = unit == "meter" || unit == "millimeter";
+    if (unit.empty() ||
+        (format.unit == nullptr ? is_common : of_format.empty() || unit == of_format))
+        return {};
+    return "the unit of the input is the " + unit + ", ." + format.name + " files " +
+           (of_format.empty() ? "have none" : "count in " + of_format + "s") +
+           ": numbers stay as they are; scale the mesh where it is used, or write .3mf, which "
+           "keeps "
+           "the unit";
+}
+
+void write_mesh(const std::filesystem::path& path, const MeshView& mesh, const Progress& progress) {
+    write_file_atomically(path, format_mesh(path, mesh, progress), progress);
+}
+
+bool is_known_mesh_extension(const std::filesystem::path& path) {
+    return is_known_mesh_format({path});
+}
+
+bool is_known_mesh_format(const MeshPath& path) { return find_format(path) != nullptr; }
+
+std::string mesh_format(const MeshPath& path) { return require_format(path).name; }
+
+std::string mesh_formats(const char* mark) { return names_of_formats(mark); }
+
+}  // namespace remesh

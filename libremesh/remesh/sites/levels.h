@@ -1,0 +1,77 @@
+//! \file
+//! Levels of relaxation: steps on one number of sites, with measurements of the surface between
+//! them.
+#pragma once
+
+#include <span>
+
+#include "agvd/propagation/distance_bounds.h"
+#include "remesh/curves/curve_sites.h"
+#include "remesh/sites/prepared_surface.h"
+#include "remesh/sites/relax_options.h"
+#include "remesh/sites/relaxation.h"
+
+namespace remesh::detail {
+
+//! Whether labels of the vertices tell which sites are neighbours.
+[[nodiscard]] bool gives_neighbours(const Surface& surface, std::size_t num_sites);
+
+//! The triangulation of the sites: by labels, or from the diagram if faces are too large for
+//! labels.
+//!
+//! \param labels  of the base's vertices.
+//! \param chain   edges that its rim is to have.
+[[nodiscard]] std::vector<Triangle> triangulate_sites(const PreparedSurface& prepared,
+                                                      const DistanceBounds& labels,
+                                                      std::span<const SurfacePoint> sites,
+                                                      std::span<const ChainEdge> chain,
+                                                      int num_threads, const Progress& progress);
+
+//! Whether triangles are as large as the features of the surface, or too many sites are in none.
+//! Sites that are even on such a triangulation are not even on the surface.
+[[nodiscard]] bool is_hopeless(const Relaxation& relaxation);
+
+//! The levels of one relaxation, coarse to fine.
+class Levels {
+public:
+    //! \param prepared  outlives this, as options do.
+    Levels(const PreparedSurface& prepared, const RelaxOptions& options, int num_levels);
+    Levels(const Levels&) = delete;
+    Levels& operator=(const Levels&) = delete;
+
+    //! For all operations of a step: reports the share of steps done.
+    [[nodiscard]] const Progress& progress() const { return progress_; }
+
+    //! Takes steps until they gain too little or all are done.
+    //!
+    //! \param labels   of the sites; null: the relaxation has its weights already.
+    //! \param corners  boundary vertices to which sites move; found at the spacing of these sites.
+    //! \param chain    edges of curves that the relaxation holds.
+    void run(Relaxation& relaxation, const DistanceBounds* labels, std::span<const Index> corners,
+             std::span<const ChainEdge> chain = {});
+
+    [[nodiscard]] DistanceBounds label(std::span<const SurfacePoint> sites) const;
+
+    //! Must be the last call.
+    [[nodiscard]] RelaxResult finish(std::vector<SurfacePoint> sites);
+
+private:
+    [[nodiscard]] double fraction() const;
+    [[nodiscard]] bool gives_cells(Index num_sites) const;
+    void look(Relaxation& relaxation, const DistanceBounds& labels,
+              std::span<const Index> corners) const;
+    void sweep(Relaxation& relaxation, std::span<const Index> corners,
+               std::span<const ChainEdge> chain);
+
+    const PreparedSurface& prepared_;
+    const Surface& surface_;  // Of its base.
+    const RelaxOptions& options_;
+    Progress progress_;
+    bool has_boundary_;
+    int steps_planned_;
+    int steps_done_ = 0;
+    std::size_t num_mended_ = 0;  // Levels up to the last one that used a propagation.
+    RelaxResult result_;
+};
+
+}  // namespace remesh::detail

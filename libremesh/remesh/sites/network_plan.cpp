@@ -1,0 +1,199 @@
+// The spacing is found by bisection: the smaller it is, the more sites curves and patches need.
+// Curves count the sites that are placed on them, patches those of a mesh of equilateral triangles
+// (inner_sites). If the curves alone need too many sites, a tenth of the creases is dropped at a
+// time.
+#include "remesh/sites/network_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "agvd/mesh/components.h"
+#include "agvd/mesh/face_area.h"
+#include "remesh/curves/guard_corners.h"
+#include "remesh/sites/shares.h"
+#include "remesh/sites/sized_components.h"
+
+namespace remesh {
+namespace {
+
+constexpr int num_halvings = 24;
+// Share of the creases that is dropped at a time if sites are too few.
+constexpr double drop_at_once = 0.1;
+
+struct Patch {
+    double area = 0, boundary_length = 0;
+};
+
+std::vector<Patch> find_patches(const Surface& surface, const SizeField* sizes, int num_threads,
+                                const Progress& progress) {
+    std::vector<Patch> patches;
+    for (const Component& component :
+         detail::sized_components(surface, sizes, num_threads, progress)) {
+        patches.push_back(
+            {component.area(), detail::sized_boundary_length(surface, component, sizes)});
+    }
+    return patches;
+}
+
+UnitAt unit_of(const SizeField* sizes) { return sizes != nullptr ? sizes->function() : UnitAt{}; }
+
+std::vector<std::vector<double>> places_at(const Surface& surface, const CurveNetwork& network,
+                                           double spacing, const UnitAt& unit_at, bool has_guards) {
+    std::vector<std::vector<double>> along = even_places(
+        surface, network, spacing, curve_intervals(surface, network, spacing, unit_at), unit_at);
+    if (has_guards) guard_corners(surface, network, along);
+    return along;
+}
+
+double num_sites_at(const Surface& surface, const CurveNetwork& network,
+                    const std::vector<Patch>& patches, double spacing, const UnitAt& unit_at,
+                    bool has_guards) {
+    const auto along = places_at(surface, network, spacing, unit_at, has_guards);
+    auto count =
+        static_cast<double>(num_curve_vertices(network, intervals_between(network, along)));
+    for (const Patch& p : patches) {
+        count += std::max(detail::inner_sites(p.area, p.boundary_length, spacing), 0.0);
+    }
+    return count;
+}
+
+struct Division {
+    double spacing = 0;
+    std::vector<std::vector<double>> along;  // By curve.
+};
+
+// The least spacing that needs at most num_sites sites.
+Division divide(const Surface& surface, const CurveNetwork& network,
+                const std::vector<Patch>& patches, const UnitAt& unit_at, double num_sites) {
+    double area = 0, length = 0;
+    for (const Patch& p : patches) {
+        area += p.area;
+        length += p.boundary_length;
+    }
+    double low = std::sqrt(area / num_sites) / 4, high = length + std::sqrt(area);
+    bool has_guards = true;
+    const auto num_needed = [&](double spacing) {
+        return num_sites_at(surface, network, patches, spacing, unit_at, has_guards);
+    };
+    has_guards = num_needed(high) <= num_sites;
+    for (int i = 0; i < num_halvings; ++i) {
+        const double middle = (low + high) / 2;
+        (num_needed(middle) > num_sites ? low : high) = middle;
+    }
+    return {high, places_at(surface, network, high, unit_at, has_guards)};
+}
+
+// Unmarks creases on junctions, which are curves already.
+void leave_out(const JunctionSet& junctions, std::vector<std::uint8_t>& is_crease) {
+    for (const std::vector<Index>& copies : junctions.edges) {
+        for (const Index e : copies) is_crease[e] = 0;
+    }
+}
+
+bool is_free_crease(const Curve& curve) { return curve.is_crease() && !curve.is_locked; }
+
+// Marks locked edges inside the surface as creases.
+void mark_locked(const Surface& surface, const LockedElements& locked,
+                 std::vector<std::uint8_t>& is_crease) {
+    for (Index e = 0; e < locked.is_edge.size(); ++e) {
+        if (locked.is_edge[e] != 0 && surface.twin[surface.edge_half[e]] != no_index) {
+            is_crease[e] = 1;
+        }
+    }
+}
+
+Index fewest_vertices(const CurveNetwork& network) {
+    return static_cast<Index>(num_curve_vertices(network, fewest_intervals(network)));
+}
+
+}  // namespace
+
+void drop_shortest(const Surface& surface, const CurveNetwork& network, double share,
+                   std::vector<std::uint8_t>& is_crease) {
+    std::vector<std::pair<double, Index>> order;
+    for (Index c = 0; c < network.curves.size(); ++c) {
+        if (is_free_crease(network.curves[c])) order.emplace_back(network.curves[c].length(), c);
+    }
+    std::sort(order.begin(), order.end());
+    order.resize(static_cast<std::size_t>(std::ceil(share * static_cast<double>(order.size()))));
+    for (const auto& [length, c] : order) {
+        for (const Index h : network.curves[c].sides[0].half_edges) is_crease[surface.edge[h]] = 0;
+    }
+}
+
+Index fewest_locked_vertices(const Surface& surface, double spacing, const LockedElements& locked) {
+    std::vector<std::uint8_t> is_crease(surface.num_edges(), 0);
+    mark_locked(surface, locked, is_crease);
+    return fewest_vertices(find_network(surface, is_crease, spacing, {}, locked));
+}
+
+double length_of(const Surface& surface, std::span<const std::uint8_t> is_crease) {
+    double length = 0;
+    for (Index e = 0; e < surface.num_edges(); ++e) {
+        if (is_crease[e] != 0) length += surface.length[e];
+    }
+    return length;
+}
+
+NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_crease,
+                         Index num_vertices, JunctionSet junctions, double drop_share,
+                         int num_threads, const Progress& progress, const SizeField* sizes,
+                         LockedElements locked) {
+    const double spacing = detail::spacing_of(num_vertices, surface_area(surface), 0);
+    NetworkPlan plan;
+    plan.junctions = std::move(junctions);
+    plan.locked = std::move(locked);
+    mark_locked(surface, plan.locked, is_crease);
+    const auto find = [&] {
+        plan.network = find_network(surface, is_crease, spacing, plan.junctions, plan.locked);
+        const Index needed = fewest_vertices(plan.network);
+        if (plan.sites_for_all == 0) plan.sites_for_all = needed;
+        return needed;
+    };
+    if (!plan.junctions.empty()) {
+        std::vector<std::uint8_t> no_crease(surface.num_edges(), 0);
+        mark_locked(surface, plan.locked, no_crease);
+        const CurveNetwork bare =
+            find_network(surface, no_crease, spacing, plan.junctions, plan.locked);
+        plan.sites_for_junctions = fewest_vertices(bare);
+        if (plan.sites_for_junctions > num_vertices) plan.junctions = {};
+        leave_out(plan.junctions, is_crease);
+    }
+    const double length_at_first = length_of(surface, is_crease);
+    if (drop_share > 0) {
+        (void)find();
+        drop_shortest(surface, plan.network, drop_share, is_crease);
+    }
+    const auto has_creases = [&] {
+        return std::any_of(is_crease.begin(), is_crease.end(), [](auto c) { return c != 0; });
+    };
+    while (has_creases() || !plan.junctions.empty() || !plan.locked.empty()) {
+        if (find() > num_vertices) {
+            // Marked edges of the boundary are no creases: nothing is left that could be dropped.
+            if (!std::ranges::any_of(plan.network.curves, is_free_crease)) break;
+            drop_shortest(surface, plan.network, drop_at_once, is_crease);
+            continue;
+        }
+        plan.cut =
+            cut_surface(surface, edges_to_cut(plan.junctions, is_crease), num_threads, progress);
+        Division division = divide(surface, plan.network,
+                                   find_patches(plan.cut.surface, sizes, num_threads, progress),
+                                   unit_of(sizes), num_vertices);
+        plan.spacing = division.spacing;
+        plan.along = std::move(division.along);
+        plan.intervals = intervals_between(plan.network, plan.along);
+        plan.length = length_of(surface, is_crease);
+        plan.dropped_length = length_at_first - plan.length;
+        return plan;
+    }
+    if (!plan.locked.empty()) {
+        plan.sites_for_locked = fewest_locked_vertices(surface, spacing, plan.locked);
+    }
+    plan.network = {};
+    plan.junctions = {};
+    plan.locked = {};
+    plan.dropped_length = length_at_first;
+    return plan;
+}
+
+}  // namespace remesh

@@ -1,0 +1,61 @@
+//! \file
+//! Shares a number of sites between the curves of a surface and the patches between them.
+#pragma once
+
+#include "remesh/curves/curve_sites.h"
+#include "remesh/sites/size_field.h"
+
+namespace remesh {
+
+//! A network with what sampling needs of it.
+struct NetworkPlan {
+    CurveNetwork network;
+    CutSurface cut;                          //!< The surface, cut along the network.
+    std::vector<std::vector<double>> along;  //!< By curve: places of its sites, mesh units.
+    std::vector<Index> intervals;            //!< By curve: number of intervals between them.
+    JunctionSet junctions;                   //!< The given ones; none if the sites are too few.
+    LockedElements locked;                   //!< The given ones; none if the sites are too few.
+    double spacing = 0;             //!< Of neighbouring sites: mesh units, or local lengths.
+    double length = 0;              //!< Of the creases kept, mesh units.
+    double dropped_length = 0;      //!< Of the creases dropped, mesh units.
+    Index sites_for_junctions = 0;  //!< Fewest vertices that keep the junctions.
+    Index sites_for_all = 0;        //!< Fewest vertices that keep all curves.
+    Index sites_for_locked = 0;     //!< Fewest vertices that keep what is locked.
+
+    [[nodiscard]] bool empty() const { return network.curves.empty() && network.nodes.empty(); }
+};
+
+//! Finds the network of boundary, creases and junctions, and the spacing at which curves and
+//! patches together have num_vertices vertices. If these are too few for all curves, the shortest
+//! creases are dropped first. If they are too few for the junctions alone, all junctions are
+//! dropped. If they are too few for what is locked, the plan is empty.
+//!
+//! \param is_crease     #E: 1 for the edges of creases.
+//! \param num_vertices  of the result: see num_curve_vertices.
+//! \param drop_share    in [0, 1]: share of the creases to drop in any case, shortest first.
+//! \param sizes           spacings are in local lengths; null: in mesh units.
+//! \return an empty plan if there is nothing but boundary, or nothing else is left.
+//! \throw Cancelled  the progress callback returned false.
+//! Cost: O(n), once more for each tenth of the creases that is dropped.
+[[nodiscard]] NetworkPlan plan_network(const Surface& surface, std::vector<std::uint8_t> is_crease,
+                                       Index num_vertices, JunctionSet junctions = {},
+                                       double drop_share = 0, int num_threads = 0,
+                                       const Progress& progress = {},
+                                       const SizeField* sizes = nullptr,
+                                       LockedElements locked = {});
+
+//! The fewest vertices of a network of boundary and what is locked. Cost: O(n).
+[[nodiscard]] Index fewest_locked_vertices(const Surface& surface, double spacing,
+                                           const LockedElements& locked);
+
+//! Drops the shortest creases of a network.
+//!
+//! \param share      in [0, 1]: share of their number, rounded up.
+//! \param is_crease  #E; edited in place.
+void drop_shortest(const Surface& surface, const CurveNetwork& network, double share,
+                   std::vector<std::uint8_t>& is_crease);
+
+//! The total length of the creases, mesh units.
+[[nodiscard]] double length_of(const Surface& surface, std::span<const std::uint8_t> is_crease);
+
+}  // namespace remesh

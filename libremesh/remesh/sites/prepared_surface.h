@@ -1,0 +1,54 @@
+//! \file
+//! A surface with the data derived from it once, for sites of a given spacing.
+#pragma once
+
+#include <optional>
+
+#include "agvd/intrinsic/face_pieces.h"
+#include "agvd/propagation/surface_layout.h"
+#include "remesh/sites/size_field.h"
+
+namespace remesh {
+
+//! Labels, propagation and diagram use `base`; operations in space use its input.
+struct PreparedSurface {
+    //! \param input    outlives this.
+    //! \param spacing  mean distance of the sites, > 0: the base's edges are not much longer, and
+    //!        vertices without curvature not much closer. Infinity: its vertices are those of the
+    //!        input.
+    //! \param sizes  its lengths are counted in target lengths instead; not kept. Null: all equal.
+    //! \throw Cancelled  the progress callback returned false.
+    //! Cost: that of the base, and O(#F) for the rest. Some 280 bytes for each face of the base.
+    PreparedSurface(const Surface& input, double spacing, int num_threads = 0,
+                    const Progress& progress = {}, const SizeField* sizes = nullptr);
+    //! The same, but takes the input over (see IntrinsicTriangulation).
+    PreparedSurface(Surface&& input, double spacing, int num_threads = 0,
+                    const Progress& progress = {}, const SizeField* sizes = nullptr);
+
+    IntrinsicTriangulation base;  //!< On which distances are computed.
+    double piece_area;            //!< As FacePieces takes it.
+    //! Of the base's faces. May be reset where they are not needed for long: some 70 bytes a face.
+    std::optional<FacePieces> pieces;
+    SurfaceLayout layout;  //!< Of base.surface(). May be moved from when sites are final.
+
+    //! The surface that was given.
+    [[nodiscard]] const Surface& input() const { return base.input(); }
+    //! Sets `pieces` if they were reset.
+    //! \throw Cancelled  the progress callback returned false.
+    void find_pieces(int num_threads, const Progress& progress = {});
+};
+
+//! The square root of the area for each site, mesh units.
+[[nodiscard]] double mean_spacing(const Surface& surface, std::size_t num_sites);
+
+//! Transfers numbers of the input's components to the base's faces.
+//!
+//! \param of_face  #F of the input: equal on all faces of a component.
+//! \return #F of the base.
+//! \throw Cancelled  the progress callback returned false.
+//! Cost: O(#F).
+[[nodiscard]] std::vector<Index> parts_of_base(const IntrinsicTriangulation& base,
+                                               std::span<const Index> of_face,
+                                               const Progress& progress = {});
+
+}  // namespace remesh

@@ -1,0 +1,395 @@
+// The sites of curves move along the curves, inner ones inside patches, on a surface that is cut
+// along the network. A coarse level has half the intervals of each curve and about a quarter of the
+// inner sites. Its triangulation is divided at the middles of its edges; on curves these are the
+// sites of the fine level. The rim of each patch must consist of the intervals of its curves, or
+// the patch is triangulated in another way.
+#include "remesh/sites/relax_network.h"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <set>
+
+#include "agvd/mesh/closest_point.h"
+#include "agvd/mesh/components.h"
+#include "remesh/curves/close_rim.h"
+#include "remesh/dual/thin_patch.h"
+#include "remesh/sites/levels.h"
+#include "remesh/sites/subdivide.h"
+#include "remesh/sites/walk.h"
+
+namespace remesh {
+namespace {
+
+using detail::Relaxation;
+
+// Least number of inner sites of a coarse start.
+constexpr double least_coarse_inner_sites = 32;
+// Least distance of inner sites from curves, in spacings.
+constexpr double least_distance = 0.4;
+
+// Half of each curve's intervals, but no fewer than a triangulation needs.
+std::vector<Index> coarse_intervals(const NetworkPlan& plan) {
+    const std::vector<Index> fewest = fewest_intervals(plan.network);
+    std::vector<Index> result;
+    for (std::size_t c = 0; c < plan.intervals.size(); ++c) {
+        const Index half = (plan.intervals[c] + 1) / 2;
+        result.push_back(std::min(plan.intervals[c], std::max(half, fewest[c])));
+    }
+    return result;
+}
+
+// Maps the sites of a coarse level to those of the fine one.
+class Refinement {
+public:
+    Refinement(const NetworkPlan& plan, const CurveSites& coarse, const CurveSites& fine)
+        : plan_(plan), coarse_(coarse), fine_(fine) {}
+
+    // The number of a coarse site in the fine level.
+    [[nodiscard]] Index number(Index site) const {
+        if (site >= coarse_.sites.size()) {
+            return site + static_cast<Index>(fine_.sites.size() - coarse_.sites.size());
+        }
+        const auto group = static_cast<Index>(
+            std::upper_bound(coarse_.first_copy.begin(), coarse_.first_copy.end(), site) -
+            coarse_.first_copy.begin() - 1);
+        return fine_.first_copy[fine_group(group)] + site - coarse_.first_copy[group];
+    }
+
+    // The fine site in the middle of an interval; no_index if there is none.
+    [[nodiscard]] Index middle(const ChainEdge& edge) const {
+        const Index begin = fine_place(edge.curve, edge.interval);
+        if (fine_place(edge.curve, edge.interval + 1) - begin < 2) return no_index;
+        return fine_.first_copy[group_at(fine_, edge.curve, begin + 1)] + edge.side;
+    }
+
+private:
+    // The index of the k-th vertex of the coarse curve among the vertices of the fine one.
+    [[nodiscard]] Index fine_place(Index curve, Index k) const {
+        const std::uint64_t fine = plan_.intervals[curve];
+        return static_cast<Index>(k * fine / num_intervals(coarse_, curve));
+    }
+    [[nodiscard]] Index num_intervals(const CurveSites& sites, Index curve) const {
+        const Index inner = sites.first_of_curve[curve + 1] - sites.first_of_curve[curve];
+        return plan_.network.curves[curve].is_closed() ? inner : inner + 1;
+    }
+    [[nodiscard]] Index group_at(const CurveSites& sites, Index curve, Index place) const {
+        const bool is_closed = plan_.network.curves[curve].is_closed();
+        return sites.first_of_curve[curve] + place - (is_closed ? 0 : 1);
+    }
+    [[nodiscard]] Index fine_group(Index group) const {
+        if (group < coarse_.num_nodes()) return group;
+        const auto curve = static_cast<Index>(
+            std::upper_bound(coarse_.first_of_curve.begin(), coarse_.first_of_curve.end(), group) -
+            coarse_.first_of_curve.begin() - 1);
+        const bool is_closed = plan_.network.curves[curve].is_closed();
+        const Index place = group - coarse_.first_of_curve[curve] + (is_closed ? 0 : 1);
+        return group_at(fine_, curve, fine_place(curve, place));
+    }
+
+    const NetworkPlan& plan_;
+    const CurveSites& coarse_;
+    const CurveSites& fine_;
+};
+
+// Finds the middles of a coarse level's triangulation for the fine level. On curves they are sites
+// of the fine level. Strips narrower than the spacing get no other middles.
+class MiddleFinder {
+public:
+    MiddleFinder(const NetworkPlan& plan, std::span<const ChainEdge> chain,
+                 std::span<const SurfacePoint> sites, const SizeField* sizes)
+        : plan_(plan), chain_(chain), sites_(sites), sizes_(sizes) {
+        for (const ChainEdge& edge : chain) is_chain_.insert(std::minmax({edge.from, edge.to}));
+    }
+
+    void run(const Refinement& refinement, detail::SiteDual& dual) {
+        for (const Triangle& t : dual.triangles) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Pair pair = std::minmax({t[k], t[(k + 1) % 3]});
+                if (!by_pair_.contains(pair)) by_pair_[pair] = middle_of(pair);
+            }
+        }
+        for (const detail::Middle& m : dual.middles) {
+            const auto found = by_pair_.find({m.low, m.high});
+            if (found != by_pair_.end()) found->second = m;
+        }
+        for (const Triangle& t : dual.triangles) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                drop_if_narrow(t[k], t[(k + 1) % 3], t[(k + 2) % 3]);
+            }
+        }
+        for (const ChainEdge& edge : chain_) take_site(edge, refinement);
+        dual.middles.clear();
+        for (const auto& [pair, middle] : by_pair_) dual.middles.push_back(middle);
+    }
+
+private:
+    using Pair = std::pair<Index, Index>;
+
+    [[nodiscard]] const Surface& surface() const { return plan_.cut.surface; }
+    [[nodiscard]] Vec3 at(Index site) const {
+        return position(surface().mesh.view(), sites_[site]);
+    }
+
+    // The middle of an edge for which labels give none.
+    [[nodiscard]] detail::Middle middle_of(const Pair& pair) const {
+        const Vec3 way = at(pair.second) - at(pair.first);
+        return {pair.first, pair.second, way.norm(),
+                detail::walk_straight(surface(), sites_[pair.first], way / 2).end};
+    }
+
+    // Drops the middle of edge (a, b) if it is too near to a curve on the side of c.
+    void drop_if_narrow(Index a, Index b, Index c) {
+        const Pair pair = std::minmax({a, b});
+        const auto found = by_pair_.find(pair);
+        if (found == by_pair_.end() || is_chain_.contains(pair)) return;
+        const Vec3 middle = position(surface().mesh.view(), found->second.point);
+        for (const Index end : {a, b}) {
+            if (!is_chain_.contains(std::minmax({end, c}))) continue;
+            const double apart = distance_to_segment(middle, at(end), at(c));
+            const double unit = sizes_ != nullptr ? sizes_->at(found->second.point) : 1;
+            if (apart >= least_distance * plan_.spacing * unit) continue;
+            by_pair_.erase(found);
+            return;
+        }
+    }
+
+    // Makes the fine site in the middle of an interval its middle. An interval without one is not
+    // divided.
+    void take_site(const ChainEdge& edge, const Refinement& refinement) {
+        const auto found = by_pair_.find(std::minmax({edge.from, edge.to}));
+        if (found == by_pair_.end()) return;
+        const Index site = refinement.middle(edge);
+        if (site == no_index) {
+            by_pair_.erase(found);
+        } else {
+            found->second.site = site;
+        }
+    }
+
+    const NetworkPlan& plan_;
+    std::span<const ChainEdge> chain_;
+    std::span<const SurfacePoint> sites_;
+    const SizeField* sizes_;
+    std::set<Pair> is_chain_;
+    std::map<Pair, detail::Middle> by_pair_;
+};
+
+// Replaces the triangulation of single patches.
+class Patches {
+public:
+    explicit Patches(const PreparedSurface& surface) : surface_(surface) {
+        Poller never;
+        component_ = label_components(surface.input().twin, 1, never);
+        faces_.resize(component_.count);
+        const std::vector<Index> parts = parts_of_base(surface.base, component_.of_face);
+        for (Index f = 0; f < parts.size(); ++f) faces_[parts[f]].push_back(f);
+    }
+
+    // Replaces the triangles of patches whose rim is not their chain.
+    //
+    // \param instead  gives other triangles for a patch, which may have a wrong rim too.
+    template <typename Instead>
+    void mend(std::span<const ChainEdge> chain, std::span<const SurfacePoint> sites,
+              std::vector<Triangle>& triangles, const Instead& instead) const {
+        const std::vector<std::vector<Triangle>> by_patch = sort(triangles, sites);
+        const auto part_of = [&](Index site) { return patch_of(sites[site]); };
+        const auto wanted = chain_by_part(chain, component_.count, part_of);
+        triangles.clear();
+        for (Index i = 0; i < faces_.size(); ++i) {
+            const bool is_right = rim_of(by_patch[i]) == wanted[i];
+            const std::vector<Triangle> chosen = is_right ? by_patch[i] : instead(i);
+            triangles.insert(triangles.end(), chosen.begin(), chosen.end());
+        }
+    }
+
+    // The triangles by patch.
+    [[nodiscard]] std::vector<std::vector<Triangle>> sort(
+        std::span<const Triangle> triangles, std::span<const SurfacePoint> sites) const {
+        std::vector<std::vector<Triangle>> result(faces_.size());
+        for (const Triangle& t : triangles) result[patch_of(sites[t[0]])].push_back(t);
+        return result;
+    }
+
+    // The patch thinned to its sites; empty if that leaves other vertices.
+    [[nodiscard]] std::vector<Triangle> thin(Index patch,
+                                             std::span<const SurfacePoint> sites) const {
+        std::vector<SurfacePoint> points;
+        std::vector<Index> number;
+        for (Index i = 0; i < sites.size(); ++i) {
+            if (patch_of(sites[i]) != patch) continue;
+            points.push_back(surface_.base.to_intrinsic(sites[i]));
+            number.push_back(i);
+        }
+        ThinnedMesh thinned = thin_patch(surface_.base.surface(), faces_[patch], points);
+        if (!thinned.extra.empty()) return {};
+        for (Triangle& t : thinned.triangles) {
+            for (Index& i : t) i = number[i];
+        }
+        return std::move(thinned.triangles);
+    }
+
+private:
+    [[nodiscard]] Index patch_of(const SurfacePoint& site) const {
+        return component_.of_face[site.face.value()];
+    }
+
+    const PreparedSurface& surface_;
+    FaceLabels component_;                   // Of the input's faces.
+    std::vector<std::vector<Index>> faces_;  // Of the base, by patch.
+};
+
+class NetworkSampler {
+public:
+    NetworkSampler(const PreparedSurface& surface, const NetworkPlan& plan, CurveSites fine,
+                   const RelaxOptions& options, int num_levels)
+        : surface_(surface),
+          plan_(plan),
+          options_(options),
+          levels_(surface, options_, num_levels),
+          patches_(surface),
+          fine_(std::move(fine)) {
+        options_.boundary = Boundary::Free;
+    }
+
+    NetworkSites run_given(std::span<const SurfacePoint> inner) {
+        std::vector<SurfacePoint> sites = fine_.sites;
+        sites.insert(sites.end(), inner.begin(), inner.end());
+        if (options_.steps == 0) return {fine_, std::move(sites), {}};
+        return finish(*start(fine_, std::move(sites)));
+    }
+
+    NetworkSites run(const SamplingOptions& sampling) {
+        sampling_ = sampling;
+        num_inner_ = sampling.num_samples - num_result_vertices(plan_.network, fine_);
+        if (options_.steps == 0) return {fine_, sample(fine_, num_inner_, plan_.spacing), {}};
+        std::unique_ptr<Relaxation> last = start_coarse();
+        const std::vector<ChainEdge> chain = chain_edges(plan_.network, plan_.cut, fine_);
+        if (last) {
+            levels_.run(*last, nullptr, {}, chain);
+        } else {
+            last = start(fine_, sample(fine_, num_inner_, plan_.spacing));
+        }
+        return finish(*last);
+    }
+
+private:
+    NetworkSites finish(const Relaxation& last) {
+        return {last.curves()->sites(), last.sites(), levels_.finish({}).levels};
+    }
+
+    std::vector<SurfacePoint> sample(const CurveSites& curves, Index num_inner, double spacing) {
+        std::vector<SurfacePoint> sites = curves.sites;
+        const auto inner =
+            sample_inner_sites(plan_.cut.surface, curves.sites, num_inner, spacing, sampling_);
+        sites.insert(sites.end(), inner.begin(), inner.end());
+        return sites;
+    }
+
+    // Relaxes a level from scratch.
+    std::unique_ptr<Relaxation> start(const CurveSites& curves, std::vector<SurfacePoint> sites) {
+        const std::vector<ChainEdge> chain = chain_edges(plan_.network, plan_.cut, curves);
+        const DistanceBounds labels = levels_.label(sites);
+        std::vector<Triangle> triangles = detail::triangulate_sites(
+            surface_, labels, sites, chain, options_.num_threads, levels_.progress());
+        patches_.mend(chain, sites, triangles,
+                      [&](Index patch) { return patches_.thin(patch, sites); });
+        auto relaxation = std::make_unique<Relaxation>(
+            surface_.input(), std::move(sites), std::move(triangles), std::vector<std::uint8_t>{},
+            std::vector<double>{}, options_.num_threads, levels_.progress());
+        relaxation->hold(plan_.network, curves);
+        levels_.run(*relaxation, &labels, {}, chain);
+        return relaxation;
+    }
+
+    // Relaxes a coarse level and divides it; null if it would have too few sites.
+    std::unique_ptr<Relaxation> start_coarse() {
+        const std::vector<Index> intervals = coarse_intervals(plan_);
+        const CurveSites coarse = curve_sites_at(
+            plan_.network, plan_.cut,
+            even_places(plan_.cut.surface, plan_.network, plan_.spacing, intervals,
+                        options_.sizes != nullptr ? options_.sizes->function() : UnitAt{}));
+        const double euler = euler_of(plan_.cut.surface);
+        const double wanted =
+            (num_inner_ - static_cast<double>(coarse.sites.size()) + 3 * euler) / 4 + 1;
+        if (wanted < least_coarse_inner_sites) return nullptr;
+        const auto num_inner = static_cast<Index>(wanted);
+        if (!detail::gives_neighbours(surface_.base.surface(), coarse.sites.size() + num_inner)) {
+            return nullptr;
+        }
+        const auto first = start(coarse, sample(coarse, num_inner, 2 * plan_.spacing));
+        return divide(*first, first->curves()->sites());
+    }
+
+    std::unique_ptr<Relaxation> divide(const Relaxation& first, const CurveSites& coarse) {
+        const std::vector<ChainEdge> chain = chain_edges(plan_.network, plan_.cut, coarse);
+        const Refinement refinement(plan_, coarse, fine_);
+        detail::SiteDual dual =
+            detail::label_dual(surface_.base, levels_.label(first.sites()), true);
+        close_rim(ends_of(chain), dual.triangles);
+        const auto relaxed = patches_.sort(first.triangles(), first.sites());
+        patches_.mend(chain, first.sites(), dual.triangles,
+                      [&](Index patch) { return relaxed[patch]; });
+        MiddleFinder(plan_, chain, first.sites(), options_.sizes).run(refinement, dual);
+        // The sites in the order of the fine level. New curve sites have no triangle yet.
+        std::vector<SurfacePoint> sites = fine_.sites;
+        std::vector<double> weights(fine_.sites.size(), 1);
+        for (Index i = 0; i < first.sites().size(); ++i) {
+            if (i < coarse.sites.size()) {
+                weights[refinement.number(i)] = first.weights()[i];
+            } else {
+                sites.push_back(first.sites()[i]);
+                weights.push_back(first.weights()[i]);
+            }
+        }
+        for (Triangle& t : dual.triangles) {
+            for (Index& i : t) i = refinement.number(i);
+        }
+        for (detail::Middle& m : dual.middles) {
+            const std::pair<Index, Index> pair =
+                std::minmax({refinement.number(m.low), refinement.number(m.high)});
+            m.low = pair.first;
+            m.high = pair.second;
+            if (m.site != no_index) weights[m.site] = (weights[m.low] + weights[m.high]) / 2;
+        }
+        std::sort(dual.middles.begin(), dual.middles.end(), [](const auto& a, const auto& b) {
+            return std::pair(a.low, a.high) < std::pair(b.low, b.high);
+        });
+        const auto count = static_cast<Index>(fine_.sites.size()) + num_inner_;
+        std::optional<detail::TriangulatedSites> divided = detail::subdivide(
+            plan_.cut.surface, sites, weights, dual, count,
+            options_.sizes != nullptr ? options_.sizes->at(sites) : std::vector<double>{});
+        if (!divided) return nullptr;
+        auto last = std::make_unique<Relaxation>(
+            surface_.input(), std::move(divided->sites), std::move(divided->triangles),
+            std::vector<std::uint8_t>{}, std::move(divided->weights), options_.num_threads,
+            levels_.progress());
+        last->hold(plan_.network, fine_);
+        return last;
+    }
+
+    const PreparedSurface& surface_;
+    const NetworkPlan& plan_;
+    SamplingOptions sampling_;
+    RelaxOptions options_;
+    detail::Levels levels_;
+    const Patches patches_;
+    const CurveSites fine_;
+    Index num_inner_ = 0;
+};
+
+}  // namespace
+
+NetworkSites sample_network_sites(const PreparedSurface& surface, const NetworkPlan& plan,
+                                  const SamplingOptions& sampling, const RelaxOptions& options) {
+    CurveSites curves = curve_sites_at(plan.network, plan.cut, plan.along);
+    return NetworkSampler(surface, plan, std::move(curves), options, 2).run(sampling);
+}
+
+NetworkSites relax_network_sites(const PreparedSurface& surface, const NetworkPlan& plan,
+                                 CurveSites curves, std::span<const SurfacePoint> inner,
+                                 const RelaxOptions& options) {
+    return NetworkSampler(surface, plan, std::move(curves), options, 1).run_given(inner);
+}
+
+}  // namespace remesh

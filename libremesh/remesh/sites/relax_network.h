@@ -1,0 +1,37 @@
+//! \file
+//! Sites on a surface that is cut along a network of curves.
+#pragma once
+
+#include "remesh/sites/network_plan.h"
+#include "remesh/sites/relax_sites.h"
+
+namespace remesh {
+
+struct NetworkSites {
+    CurveSites curves;                //!< Of the curves, with their copies.
+    std::vector<SurfacePoint> sites;  //!< The copies on curves, then the inner sites.
+    std::vector<RelaxLevel> levels;   //!< Coarse to fine; empty: not relaxed.
+};
+
+//! Samples and relaxes sites, coarse to fine; sites of curves slide along these. The result has
+//! sampling.num_samples vertices: a site of a curve counts as often as it becomes a vertex.
+//!
+//! \param surface   of plan.cut.surface.
+//! \param plan      its network needs at most sampling.num_samples vertices.
+//! \param options   boundary and corners are ignored.
+//! \throw as sample_relaxed_sites.
+[[nodiscard]] NetworkSites sample_network_sites(const PreparedSurface& surface,
+                                                const NetworkPlan& plan,
+                                                const SamplingOptions& sampling,
+                                                const RelaxOptions& options);
+
+//! The same from given sites, on one level.
+//!
+//! \param curves  sites of plan.network.
+//! \param inner   the other sites: inside faces, or on edges and vertices off the curves.
+[[nodiscard]] NetworkSites relax_network_sites(const PreparedSurface& surface,
+                                               const NetworkPlan& plan, CurveSites curves,
+                                               std::span<const SurfacePoint> inner,
+                                               const RelaxOptions& options);
+
+}  // namespace remesh

@@ -1,0 +1,78 @@
+//! \file
+//! Quick labels of the vertices, and what relaxation derives from them: which sites are neighbours,
+//! and how much of the surface belongs to each site.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "agvd/propagation/distance_bounds.h"
+#include "remesh/sites/cell_planes.h"
+#include "remesh/sites/prepared_surface.h"
+
+namespace remesh::detail {
+
+//! Labels by distances along edges and straight across them: a few per cent too long, at the cost
+//! of two sweeps over the edges.
+//!
+//! \return  the labels of the vertices of surface.base.
+[[nodiscard]] DistanceBounds label_vertices(const PreparedSurface& surface,
+                                            std::span<const SurfacePoint> sites, int num_threads,
+                                            const Progress& progress = {});
+
+//! What cells hold of the surface.
+struct CellMeasures {
+    std::vector<double> area;  //!< #sites, square mesh units.
+    //! #sites, in [0, 1]: the share of the area that the largest projection onto a plane lacks. 0
+    //! for a planar cell, half for a hemisphere.
+    std::vector<double> bending;
+    std::vector<CellPlanes> planes;  //!< #sites
+};
+
+//! Measures the cells given by labels. Faces with two labels are cut where these meet. The same for
+//! any number of threads.
+//! Cost: O(#F and pieces).
+[[nodiscard]] CellMeasures measure_cells(const PreparedSurface& surface,
+                                         const DistanceBounds& labels, Index num_sites,
+                                         int num_threads, const Progress& progress = {});
+
+//! A point halfway between two sites whose labels meet.
+struct Middle {
+    Index low = 0, high = 0;  //!< The sites.
+    double length = 0;        //!< Of a path between them.
+    SurfacePoint point;       //!< On the input; on its boundary if they meet there.
+    //! A site that is there already; no_index: none, `point` is used.
+    Index site = no_index;
+};
+
+//! A triangulation of the sites: a triangle for each face whose corners have three labels. It is
+//! the surface with all vertices of a label merged into one, and has its topology if each label
+//! covers a disc. Sites that label no vertex are in no triangle.
+[[nodiscard]] std::vector<Triangle> label_triangles(const Surface& surface,
+                                                    const DistanceBounds& labels);
+
+//! A triangulation with the middles of its edges.
+struct SiteDual {
+    std::vector<Triangle> triangles;
+    std::vector<Middle> middles;  //!< By (low, high): one for each pair that meets.
+};
+
+//! The triangulation by labels, with the middles of its edges.
+//!
+//! \param keeps_inside  true: no middle lies on the boundary.
+//! Cost: sorting the edges whose ends have two labels.
+[[nodiscard]] SiteDual label_dual(const IntrinsicTriangulation& base, const DistanceBounds& labels,
+                                  bool keeps_inside = false);
+
+//! For each site the corner that it labels; otherwise the place on the boundary that is nearest by
+//! its labels, off the vertices, so that the site can move along. Empty for sites that label no
+//! boundary vertex.
+//!
+//! \param corners  boundary vertices. If a site labels several, the first one counts.
+//! Cost: O(#V + #sites).
+[[nodiscard]] std::vector<std::optional<SurfacePoint>> boundary_places(
+    const IntrinsicTriangulation& base, const DistanceBounds& labels, Index num_sites,
+    std::span<const Index> corners);
+
+}  // namespace remesh::detail

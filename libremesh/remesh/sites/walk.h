@@ -1,0 +1,41 @@
+//! \file
+//! Moves of points along the surface.
+#pragma once
+
+#include <optional>
+
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_point.h"
+#include "remesh/names.h"
+
+namespace remesh::detail {
+
+struct Walk {
+    SurfacePoint end;
+    int num_crossings = 0;    //!< From face to face.
+    bool is_cut_off = false;  //!< After 2000 crossings: at a spike it may circle for ever.
+};
+
+//! Walks the straightest geodesic ([polthier1998]) from a point in the direction of `step`, with
+//! the length of `step`. It runs from face to face, so it never passes through a wall, and it stops
+//! short of the boundary. The end lies strictly inside a face, unless the point does not move
+//! because `step` is nearly normal to its face.
+//!
+//! \param step  mesh units; its component in the plane of the face gives the direction.
+//! Cost: O(faces crossed).
+[[nodiscard]] Walk walk_straight(const Surface& surface, const SurfacePoint& from,
+                                 const Vec3& step);
+
+//! The boundary half-edge that a point lies on, if any; at a vertex the one that leaves it.
+[[nodiscard]] std::optional<Index> boundary_half_edge(const Surface& surface,
+                                                      const SurfacePoint& point);
+
+//! The end of a walk along the boundary, strictly inside a boundary edge. Its length is that of the
+//! component of `step` along the half-edge, in its direction or against it.
+//!
+//! \param from  a point of boundary half-edge h.
+//! Cost: O(edges passed).
+[[nodiscard]] SurfacePoint walk_boundary(const Surface& surface, const SurfacePoint& from, Index h,
+                                         const Vec3& step);
+
+}  // namespace remesh::detail

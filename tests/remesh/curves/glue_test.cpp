@@ -1,0 +1,132 @@
+// Patches that become one mesh, and patches thinned to their sites.
+#include "remesh/curves/glue.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <set>
+
+#include "agvd/mesh/point_faces.h"
+#include "agvd/mesh/topology.h"
+#include "remesh/dual/thin_patch.h"
+#include "support/shapes.h"
+
+using agvd::Index;
+using agvd::Triangle;
+
+namespace {
+
+std::set<std::pair<Index, Index>> edges_of(const std::vector<Triangle>& triangles) {
+    std::set<std::pair<Index, Index>> edges;
+    for (const Triangle& t : triangles) {
+        for (std::size_t k = 0; k < 3; ++k) edges.insert(std::minmax({t[k], t[(k + 1) % 3]}));
+    }
+    return edges;
+}
+
+// Vertices of the given number at places of no importance.
+remesh::Topology topology_of(const remesh::GluedMesh& mesh) {
+    agvd::TriangleMesh result{{}, mesh.triangles};
+    for (Index i = 0; i < mesh.representative.size(); ++i) {
+        result.positions.emplace_back(i, i * i, i * i * i);
+    }
+    return remesh::analyze_topology(result.view());
+}
+
+}  // namespace
+
+TEST(Glue, CopiesBecomeTheFirstOfThem) {
+    // Two triangles with copies of the edge between them.
+    const remesh::GluedMesh mesh = remesh::glue(std::vector<Triangle>{{0, 1, 2}, {4, 3, 5}},
+                                                std::vector<Index>{7, 3, 5, 7, 3, 9});
+    EXPECT_EQ(mesh.vertex, std::vector<Index>({0, 1, 2, 0, 1, 3}));
+    EXPECT_EQ(mesh.representative, std::vector<Index>({0, 1, 2, 5}));
+    EXPECT_EQ(mesh.triangles, std::vector<Triangle>({{0, 1, 2}, {1, 0, 3}}));
+}
+
+TEST(Glue, SheetsOfAGroupHaveVerticesOfTheirOwnAtTheFirstOne) {
+    // Three triangles at one edge, of which the first two are one sheet.
+    const std::vector<Triangle> triangles{{0, 1, 2}, {4, 3, 5}, {6, 7, 8}};
+    const std::vector<Index> group{0, 1, 2, 0, 1, 3, 0, 1, 4};
+    const remesh::GluedMesh mesh =
+        remesh::glue(triangles, group, std::vector<Index>{0, 1, 2, 0, 1, 3, 4, 5, 6});
+    EXPECT_EQ(mesh.triangles, std::vector<Triangle>({{0, 1, 2}, {1, 0, 3}, {4, 5, 6}}));
+    EXPECT_EQ(mesh.representative, std::vector<Index>({0, 1, 2, 5, 6, 7, 8}));
+    EXPECT_EQ(mesh.first_of_group, std::vector<Index>({0, 1, 2, 5, 0, 1, 8}));
+}
+
+TEST(Glue, AnEdgeOfTwoPatchesIsFlippedInOne) {
+    // A square and the same from below, both with the diagonal (0, 2).
+    const std::vector<Triangle> patches{{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}};
+    const std::vector<Index> group{0, 1, 2, 3, 0, 1, 2, 3};
+    const remesh::GluedMesh mesh = remesh::glue(patches, group);
+    EXPECT_EQ(edges_of(mesh.triangles).size(), 6u);
+    const remesh::Topology topology = topology_of(mesh);
+    EXPECT_TRUE(topology.is_manifold);
+    EXPECT_TRUE(topology.is_oriented);
+    ASSERT_EQ(topology.components.size(), 1u);
+    EXPECT_EQ(topology.components[0].genus, 0);
+    EXPECT_EQ(topology.components[0].boundary_loops, 0);
+}
+
+TEST(Glue, WhatNoFlipCanMendStays) {
+    // As before, but the other diagonal is an edge of a third patch.
+    const std::vector<Triangle> patches{{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}, {8, 9, 10}};
+    const std::vector<Index> group{0, 1, 2, 3, 0, 1, 2, 3, 1, 3, 4};
+    const remesh::GluedMesh mesh = remesh::glue(patches, group);
+    EXPECT_EQ(mesh.triangles,
+              std::vector<Triangle>({{0, 1, 2}, {0, 2, 3}, {0, 2, 1}, {0, 3, 2}, {1, 3, 4}}));
+}
+
+TEST(ThinPatch, HasTheVerticesOfItsSitesOnly) {
+    const agvd::Surface surface = agvd::build_surface(shapes::grid(8).view());
+    std::vector<Index> faces(surface.num_faces());
+    std::iota(faces.begin(), faces.end(), 0u);
+    // The corners, all vertices of one side, and two inside.
+    std::vector<agvd::SurfacePoint> points;
+    const auto& p = surface.mesh.positions;
+    std::set<Index> seen;
+    for (Index h = 0; h < surface.twin.size(); ++h) {
+        const agvd::Vec3& at = p[surface.tail(h)];
+        const bool is_corner = (at.x() == 0 || at.x() == 1) && (at.y() == 0 || at.y() == 1);
+        const bool is_inside = at == agvd::Vec3(.5, .25, 0) || at == agvd::Vec3(.25, .625, 0);
+        if ((!is_corner && !is_inside && at.y() != 0) || !seen.insert(surface.tail(h)).second) {
+            continue;
+        }
+        points.push_back(agvd::point_at(surface, surface.tail(h)));
+    }
+    ASSERT_EQ(points.size(), 13u);
+    const agvd::ThinnedMesh mesh = remesh::thin_patch(surface, faces, points);
+    EXPECT_TRUE(mesh.extra.empty());
+    agvd::TriangleMesh result{{}, mesh.triangles};
+    for (const auto& point : points) {
+        result.positions.push_back(position(surface.mesh.view(), point));
+    }
+    const remesh::Topology topology = remesh::analyze_topology(result.view());
+    EXPECT_TRUE(topology.is_manifold);
+    ASSERT_EQ(topology.components.size(), 1u);
+    EXPECT_EQ(topology.components[0].boundary_loops, 1);
+    // Two inside, eleven on the rim.
+    EXPECT_EQ(mesh.triangles.size(), 2 * 13 - 11 - 2u);
+}
+
+TEST(ThinPatch, VerticesThatThinningLeavesGoByCollapses) {
+    const agvd::Surface surface = agvd::build_surface(shapes::torus(12, 8).view());
+    std::vector<Index> faces(surface.num_faces());
+    std::iota(faces.begin(), faces.end(), 0u);
+    std::vector<agvd::SurfacePoint> points;
+    for (const Index v : {6u, 12u, 20u, 26u, 59u, 71u, 80u, 91u}) {
+        points.push_back(agvd::point_at(surface, v));
+    }
+    ASSERT_EQ(agvd::thin(surface, faces, points).extra.size(), 1u);
+    const agvd::ThinnedMesh mesh = remesh::thin_patch(surface, faces, points);
+    EXPECT_TRUE(mesh.extra.empty());
+    EXPECT_EQ(mesh.triangles.size(), 16u);  // Twice the vertices.
+    agvd::TriangleMesh result{{}, mesh.triangles};
+    for (const auto& point : points) {
+        result.positions.push_back(position(surface.mesh.view(), point));
+    }
+    const remesh::Topology topology = remesh::analyze_topology(result.view());
+    EXPECT_TRUE(topology.is_manifold);
+    EXPECT_EQ(topology.genus(), 1);
+}
