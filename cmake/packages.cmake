@@ -30,7 +30,7 @@ if(AGVD_WITH_OPENMESH)
 endif()
 if(AGVD_WITH_CGAL)
     agvd_need(CGAL libcgal-dev
-        "agvd::oracle and some measures (without them: -DAGVD_WITH_CGAL=OFF)" 5.5)
+        "the exact diagrams of the paper's reproduction, and some measures (without them: -DAGVD_WITH_CGAL=OFF)" 5.5)
 endif()
 if(AGVD_BUILD_TOOLS)
     agvd_need(CLI11 libcli11-dev "the programs (without them: -DAGVD_BUILD_TOOLS=OFF)")

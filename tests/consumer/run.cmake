@@ -1,4 +1,4 @@
-# cmake -D BUILD_DIR=... -D SOURCE_DIR=... -D WORK_DIR=... -D COMPONENTS=... [-D CXX=...] -P run.cmake
+# cmake -D BUILD_DIR=... -D SOURCE_DIR=... -D WORK_DIR=... -D COMPONENTS=... [-D CGAL=ON] [-D CXX=...] -P run.cmake
 # Installs the build to a fresh prefix, builds the examples of the documents against it, runs them.
 function(run)
     execute_process(COMMAND ${ARGN} COMMAND_ERROR_IS_FATAL ANY OUTPUT_VARIABLE output)
@@ -15,7 +15,7 @@ function(check_document document source)
     endif()
 endfunction()
 check_document(README.md main.cpp)
-foreach(name IN ITEMS eigen spans openmesh cgal diagram stopping_rule files)
+foreach(name IN ITEMS convert eigen spans openmesh cgal diagram stopping_rule files)
     check_document(docs/library.md ${name}.cpp)
 endforeach()
 check_document(docs/switching.md from_cgal.cpp)
@@ -31,7 +31,7 @@ file(WRITE ${WORK_DIR}/headers.cpp "${includes}\n")
 
 run(${CMAKE_COMMAND} -G Ninja -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK_DIR}/build
     -D CMAKE_PREFIX_PATH=${WORK_DIR}/prefix -D CMAKE_CXX_COMPILER=${CXX}
-    -D CONSUMER_COMPONENTS=${COMPONENTS} -D EXTRA_SOURCES=${WORK_DIR}/headers.cpp)
+    -D CONSUMER_COMPONENTS=${COMPONENTS} -D CONSUMER_CGAL=${CGAL} -D EXTRA_SOURCES=${WORK_DIR}/headers.cpp)
 run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
 run(${WORK_DIR}/build/consumer)
 if(NOT output MATCHES "v [^\n]+\nf [0-9]+ [0-9]+ [0-9]+\n")
@@ -41,7 +41,7 @@ set(examples eigen spans diagram stopping_rule)
 if(COMPONENTS MATCHES openmesh)
     list(APPEND examples openmesh)
 endif()
-if(COMPONENTS MATCHES oracle)
+if(CGAL)
     run(${CMAKE_COMMAND} --build ${WORK_DIR}/build --target from_cgal)
     list(APPEND examples cgal from_cgal)
 endif()
@@ -54,6 +54,11 @@ run(${WORK_DIR}/build/files ${SOURCE_DIR}/data/ring.obj ${files})
 file(STRINGS ${WORK_DIR}/out.ply texture REGEX "texcoord")
 if(NOT texture OR NOT EXISTS ${WORK_DIR}/plain.obj)
     message(FATAL_ERROR "the example files wrote no texture coordinates, or no plain.obj")
+endif()
+
+run(${WORK_DIR}/build/convert ${WORK_DIR}/plain.obj ${WORK_DIR}/plain.stl)
+if(NOT EXISTS ${WORK_DIR}/plain.stl)
+    message(FATAL_ERROR "the example convert wrote no plain.stl")
 endif()
 
 # The documents, with the pictures that they show.

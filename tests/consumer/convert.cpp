@@ -1,0 +1,4 @@
+#include <remesh/meshfile/read_mesh.h>
+#include <remesh/meshfile/write_mesh.h>
+
+int main(int, char** argv) { remesh::write_mesh(argv[2], remesh::read_mesh(argv[1]).mesh.view()); }
