@@ -1,47 +1,58 @@
 #include "agvd/propagation/propagate.h"
 
-#include <memory>
-#include <optional>
+#include <string>
 #include <utility>
 
+#include "agvd/core/error.h"
 #include "agvd/mesh/check_sites.h"
 #include "agvd/mesh/distinct_points.h"
-#include "agvd/propagation/option_checks.h"
-#include "agvd/propagation/site_placement.h"
 #include "agvd/propagation/steiner/steiner_engine.h"
-#include "agvd/propagation/vertex_engine.h"
+#include "agvd/propagation/steiner/steiner_nodes.h"
 #include "agvd/propagation/window/window_engine.h"
 
 namespace agvd {
-
 namespace {
 
-// \param bounds  a function that gives the DistanceBounds; only the window engine calls it.
-template <typename Bounds>
-Propagation carry(const Surface& surface, std::shared_ptr<const Corners> corners,
-                  const Bounds& bounds, std::span<const SurfacePoint> sites,
-                  const PropagationOptions& options) {
-    poll(options.progress, 0);
-    if (options.engine == Engine::Vertex) {
-        return propagate_vertices(surface, *corners, sites, options);
+void check_steiner_options(const Surface& surface, const PropagationOptions& options) {
+    if (options.steiner_points < 0 || options.steiner_points > max_steiner_points) {
+        throw InvalidOption("the number of Steiner points per edge is " +
+                            std::to_string(options.steiner_points) + "; use 0 to " +
+                            std::to_string(max_steiner_points));
     }
-    DistanceBounds known = bounds();
-    return propagate_windows(surface, std::move(corners), std::move(known), sites, options);
+    if (!(options.lambda > 0)) {
+        throw InvalidOption("lambda is " + std::to_string(options.lambda) +
+                            "; use a number above 0");
+    }
+    if (options.max_error && *options.max_error == 0) {
+        throw InvalidOption(
+            "the Steiner engine cannot be exact; use the window engine or an error above 0");
+    }
+    if (!NodeNumbers::suffice(surface, static_cast<Index>(options.steiner_points))) {
+        throw InvalidOption(
+            "this mesh with " + std::to_string(options.steiner_points) +
+            " Steiner points per edge needs more than 2^32 nodes; use fewer Steiner points");
+    }
 }
 
-DistanceBounds find_bounds(const Surface& surface, const SurfaceLayout& layout,
-                           std::span<const SurfacePoint> sites, const PropagationOptions& options) {
-    return distance_bounds(surface, layout, sites, options.num_threads,
-                           within(options.progress, 0, 0));
+void check_options(const Surface& surface, const PropagationOptions& options) {
+    if (options.max_error && !(*options.max_error >= 0 && *options.max_error < 1)) {
+        throw InvalidOption("the maximal error is " + std::to_string(*options.max_error) +
+                            "; use a number from 0 (exact) to below 1");
+    }
+    if (options.engine == Engine::Steiner) check_steiner_options(surface, options);
 }
 
 // Propagates the distinct sites only. A site that lies on an earlier one owns nothing, but its
-// windows would run as far as those of the earlier one.
+// windows would run as far as those of the earlier one. `run_windows` is the window engine.
 template <typename Run>
 Propagation propagate_distinct(const Surface& surface, std::span<const SurfacePoint> sites,
-                               const PropagationOptions& options, const Run& run) {
+                               const PropagationOptions& options, const Run& run_windows) {
     check_options(surface, options);
     check_sites(surface, sites);
+    const auto run = [&](std::span<const SurfacePoint> distinct) {
+        if (options.engine == Engine::Steiner) return propagate_steiner(surface, distinct, options);
+        return run_windows(distinct);
+    };
     const std::vector<Index> distinct = distinct_points(surface, sites);
     if (distinct.size() == sites.size()) return run(sites);
     Propagation result = run(points_of(sites, distinct));
@@ -55,41 +66,20 @@ Propagation propagate_distinct(const Surface& surface, std::span<const SurfacePo
 
 }  // namespace
 
+const char* engine_name(Engine engine) { return engine == Engine::Steiner ? "steiner" : "window"; }
+
 Propagation propagate(const Surface& surface, std::span<const SurfacePoint> sites,
                       const PropagationOptions& options) {
-    const auto run = [&](std::span<const SurfacePoint> distinct) {
-        if (options.engine == Engine::Steiner) return propagate_steiner(surface, distinct, options);
-        if (options.engine == Engine::Window) return propagate_windows(surface, distinct, options);
-        poll(options.progress, 0);
-        const Corners corners(surface, options.num_threads, within(options.progress, 0, 0));
-        return propagate_vertices(surface, corners, distinct, options);
-    };
-    return propagate_distinct(surface, sites, options, run);
+    return propagate_distinct(surface, sites, options, [&](std::span<const SurfacePoint> distinct) {
+        return propagate_windows(surface, distinct, options);
+    });
 }
 
-Propagation propagate(const Surface& surface, const SurfaceLayout& layout,
+Propagation propagate(const Surface& surface, SurfaceLayout layout,
                       std::span<const SurfacePoint> sites, const PropagationOptions& options) {
-    const auto run = [&](std::span<const SurfacePoint> distinct) {
-        if (options.engine == Engine::Steiner) return propagate_steiner(surface, distinct, options);
-        const auto bounds = [&] { return find_bounds(surface, layout, distinct, options); };
-        return carry(surface, layout.shared_corners(), bounds, distinct, options);
-    };
-    return propagate_distinct(surface, sites, options, run);
-}
-
-Propagation propagate(const Surface& surface, SurfaceLayout&& layout,
-                      std::span<const SurfacePoint> sites, const PropagationOptions& options) {
-    std::optional<SurfaceLayout> owned(std::move(layout));
-    const auto run = [&](std::span<const SurfacePoint> distinct) {
-        if (options.engine == Engine::Steiner) return propagate_steiner(surface, distinct, options);
-        const auto bounds = [&] {
-            DistanceBounds found = find_bounds(surface, *owned, distinct, options);
-            owned.reset();
-            return found;
-        };
-        return carry(surface, owned->shared_corners(), bounds, distinct, options);
-    };
-    return propagate_distinct(surface, sites, options, run);
+    return propagate_distinct(surface, sites, options, [&](std::span<const SurfacePoint> distinct) {
+        return propagate_windows(surface, std::move(layout), distinct, options);
+    });
 }
 
 }  // namespace agvd

@@ -9,7 +9,7 @@
 
 #include "agvd/propagation/steiner/steiner_front.h"
 
-#include "agvd/propagation/steiner/steiner_fan.h"
+#include "agvd/mesh/point_faces.h"
 
 namespace agvd {
 namespace {
@@ -23,7 +23,7 @@ double bucket_width(const Surface& surface, const SteinerCounts& counts) {
     double sum = 0;
     for (const double length : surface.length) sum += length;
     const Index num_edges = surface.num_edges();
-    const double intervals = counts.total(num_edges) + num_edges;
+    const double intervals = counts.total() + num_edges;
     return std::max({share * sum / intervals, sum * 0x1p-30, std::numeric_limits<double>::min()});
 }
 
@@ -47,7 +47,7 @@ SteinerFront::SteinerFront(const Surface& surface, std::span<const SurfacePoint>
       vertices_(surface.num_vertices()),
       pool_(surface.num_edges(), counts),
       queue_(bucket_width(surface, counts)),
-      retirement_(surface, placement_, counts, vertices_, pool_) {}
+      face_state_(surface.num_faces(), FaceState::Untouched) {}
 
 void SteinerFront::run(double retirement_interval, const Progress& progress) {
     Poller poller(progress);
@@ -55,8 +55,7 @@ void SteinerFront::run(double retirement_interval, const Progress& progress) {
     ticker_ = Ticker(poller);
     for (Index s = 0; s < sites_.size(); ++s) start(s);
     double next_retirement = retirement_interval;
-    const double all_nodes =
-        static_cast<double>(surface_.num_vertices()) + counts_.total(surface_.num_edges());
+    const double all_nodes = static_cast<double>(surface_.num_vertices()) + counts_.total();
     while (refill()) {
         const FrontEntry entry = queue_.pop();
         if (numbers_.is_vertex(entry.node)) {
@@ -74,7 +73,7 @@ void SteinerFront::run(double retirement_interval, const Progress& progress) {
         }
         if (static_cast<double>(num_pops_) >= next_retirement && refill()) {
             next_retirement += retirement_interval;
-            retirement_.retire_behind(queue_.top().distance);
+            retire_behind(queue_.top().distance);
         }
     }
     poller.tell(1);
@@ -82,13 +81,15 @@ void SteinerFront::run(double retirement_interval, const Progress& progress) {
 }
 
 Propagation SteinerFront::finish() {
-    retirement_.retire_behind(infinity);
+    retire_behind(infinity);
     const std::size_t common =
-        vertices_.capacity() * sizeof(SteinerNode) + retirement_.bytes() + queue_.bytes();
+        vertices_.capacity() * sizeof(SteinerNode) + face_state_.capacity() +
+        open_.capacity() * sizeof(Index) + relays_.capacity() * sizeof(Relay) +
+        (mixed_faces_.capacity() + relay_offsets_.capacity()) * sizeof(Index) + queue_.bytes();
     Propagation result;
     result.peak_bytes = common + pool_.peak_bytes();
     pool_.clear();
-    retirement_.hand_over(result);
+    hand_over(result);
     result.vertex_site.reserve(vertices_.size());
     result.vertex_distance.reserve(vertices_.size());
     for (const SteinerNode& node : vertices_) {
@@ -149,7 +150,7 @@ void SteinerFront::relax_points(Index from, Index begin, Index end, const Vec2& 
                                 Index slot) {
     if (begin >= end) return;
     ticker_.tick(end - begin);
-    retirement_.open(Surface::face(from));
+    open(Surface::face(from));
     const Index edge = surface_.edge[from];
     if (pool_.is_retired(edge)) return;
     SteinerNode* const nodes = pool_.nodes(edge);
@@ -180,7 +181,7 @@ void SteinerFront::serve_face(Index face, Index site, const SurfacePoint& point)
         relax_vertex(h, source.norm(), site, FaceRing::site_slot);
         relax_side(h, {0, 0}, {surface_.length_of(h), 0}, source, 0, site, FaceRing::site_slot);
     }
-    retirement_.open(face);
+    open(face);
 }
 
 void SteinerFront::start(Index s) {
@@ -210,7 +211,7 @@ void SteinerFront::serve_one_ring(Index vertex) {
         relax_vertex(opposite, node.distance + length, node.site, slot);
         relax_side(opposite, {0, 0}, {surface_.length_of(opposite), 0}, apex, node.distance,
                    node.site, slot);
-        retirement_.open(Surface::face(h));
+        open(Surface::face(h));
         const Index previous = Surface::previous(h);
         h = surface_.twin[previous];
         if (h == no_index) {

@@ -1,22 +1,131 @@
 // Sends the first windows of a site, and those of pseudo-sources ([mitchell1987]). A pseudo-source
 // emits windows only into its shadow: the directions that make at least pi with the arrival on both
 // sides. Its sides are found by unfolding the faces around the vertex, without computing angles.
-#include "agvd/propagation/window/emit_windows.h"
+#include "agvd/propagation/window/window_front.h"
 
 #include <algorithm>
+#include <optional>
 
-#include "agvd/propagation/site_placement.h"
-#include "agvd/propagation/window/emit_fan.h"
-#include "agvd/propagation/window/reach_vertex.h"
-#include "agvd/propagation/window/send_windows.h"
-#include "agvd/propagation/window/window_rays.h"
+#include "agvd/mesh/point_faces.h"
 
 namespace agvd {
 namespace {
 
+// Arrivals within each other's error may each make a vertex a pseudo-source, and send each other
+// back and forth between vertices that lie closer than the error. After so many pseudo-sources the
+// whole fan of the vertex is emitted, which holds what any further one would emit.
+constexpr Index max_pseudo_sources = 32;
+
+// Directions around a vertex, counter-clockwise.
+struct Fan {
+    double distance;  // Of the vertex, from below: the path is longer by at most `error`.
+    float error;
+    Index first;  // Leaves the vertex; its face is the first one.
+    // The same of the last face; no_index: to the boundary, or all around.
+    Index last = no_index;
+    // Rays that bound the fan in its first and last face, in the frames of `first` and `last`;
+    // none: the whole face.
+    std::optional<Vec2> from = {}, to = {};
+};
+
+struct Interval {
+    double begin, end;
+};
+
+// The face at the tail of a half-edge, seen from beyond the opposite edge: that frame starts at the
+// apex of the half-edge and runs clockwise around the vertex.
+struct FanFace {
+    FanFace(const Corners& corners, Index leaving)
+        : half_edge(leaving),
+          first(corners[leaving]),
+          opposite(corners[Surface::next(leaving)]),
+          last(corners[Surface::previous(leaving)]),
+          vertex(corners.apex(Surface::next(leaving))),
+          image(opposite.length - vertex.x(), -vertex.y()),
+          axis((Vec2(first.length, 0) - corners.apex(leaving)) / opposite.length) {}
+
+    Index half_edge;
+    const Corner& first;
+    const Corner& opposite;
+    const Corner& last;
+    Vec2 vertex;  // In the frame of the opposite half-edge.
+    Vec2 image;   // The same in the frame beyond.
+    Vec2 axis;    // Of the frame beyond, in the frame of the half-edge.
+
+    // Where a ray in the frame of the half-edge crosses the opposite edge.
+    [[nodiscard]] double meets_at(const Vec2& ray) const {
+        const Vec2 direction = into(axis, ray);
+        if (direction.y() > 0) return image.x() - image.y() * direction.x() / direction.y();
+        return direction.x() > 0 ? infinity : -infinity;
+    }
+};
+
+// The part of the opposite edge that the fan sees. The fan lies to the left of `from`: nearer the
+// apex.
+Interval visible_part(const FanFace& face, const Fan& fan) {
+    const double length = face.opposite.length;
+    const double slack = grazing * length;
+    const bool has_from = face.half_edge == fan.first && fan.from.has_value();
+    const bool has_to = face.half_edge == fan.last && fan.to.has_value();
+    return {has_to ? std::max(face.meets_at(*fan.to) - slack, 0.0) : 0,
+            has_from ? std::min(face.meets_at(*fan.from) + slack, length) : length};
+}
+
+void emit_into(WindowFront& front, Index half_edge, const Fan& fan) {
+    const FanFace face(front.corners, half_edge);
+    const double length = face.opposite.length;
+    const Window window{face.image.x(),
+                        face.image.y(),
+                        fan.distance,
+                        0,
+                        length,
+                        fan.distance + face.last.length,
+                        fan.distance + face.first.length,
+                        fan.error,
+                        false};
+    const auto [begin, end] = visible_part(face, fan);
+    const Index head = vertex_record(front, face.opposite.tail);
+    const Index apex = vertex_record(front, face.last.tail);
+    if (end == length) {
+        reach_vertex(front, head,
+                     {window.at_end, fan.error, Surface::next(half_edge), face.vertex});
+    } else {
+        front.vertices.lower_bound(head, window.at_end + fan.error);
+    }
+    if (begin == 0) {
+        reach_vertex(
+            front, apex,
+            {window.at_begin, fan.error, Surface::previous(half_edge), Vec2(face.last.length, 0)});
+    } else {
+        front.vertices.lower_bound(apex, window.at_begin + fan.error);
+    }
+    if (face.opposite.twin == no_index || !(begin < end)) return;
+    send(front, {face.opposite.twin, apex, head}, window.part(begin, end));
+}
+
+// All directions at a vertex of a run.
+Fan fan_around(const WindowFront& front, Index record) {
+    constexpr double round_up = 1 + 1e-6;
+    const VertexRecord& v = front.vertices.records[record];
+    return {v.low, static_cast<float>(std::max(v.upper - v.low, 0.0) * round_up),
+            front.surface.outgoing[v.vertex]};
+}
+
+// Sends windows through the edges opposite to the vertex, and reaches the ends of these edges.
+// False if the boundary comes before the last face.
+bool emit_fan(WindowFront& front, const Fan& fan) {
+    Index h = fan.first;
+    do {
+        emit_into(front, h, fan);
+        if (h == fan.last) return true;
+        h = front.corners.twin(Surface::previous(h));
+    } while (h != no_index && h != fan.first);
+    return h != no_index;
+}
+
 // From a site in a face, or on its half-edge `skipped`, through the other edges of the face.
-void emit_from_face(FrontState& front, const SurfacePoint& point, Index skipped) {
-    const Surface& surface = front.input.surface;
+void emit_from_face(WindowFront& front, const SurfacePoint& point, Index skipped) {
+    const Surface& surface = front.surface;
     for (Index k = 0; k < 3; ++k) {
         const Index h = 3 * point.face.value() + k;
         const Vec2 p = position_in_frame(surface, point, h);
@@ -35,8 +144,8 @@ void emit_from_face(FrontState& front, const SurfacePoint& point, Index skipped)
 
 // Beside a vertex rounding may leave gaps between the faces that the site sees: one or two of ten
 // thousand such sites. What leaves through the vertex fills them, and dies elsewhere.
-void emit_from_near_vertices(FrontState& front, const SurfacePoint& site) {
-    const Surface& surface = front.input.surface;
+void emit_from_near_vertices(WindowFront& front, const SurfacePoint& site) {
+    const Surface& surface = front.surface;
     for (Index h = 3 * site.face.value(); h < 3 * site.face.value() + 3; ++h) {
         const double distance = position_in_frame(surface, site, h).norm();
         const double shorter =
@@ -93,8 +202,30 @@ ShadowSide left_side_of_shadow(const Corners& corners, const PseudoSource& sourc
 
 }  // namespace
 
-void emit_from_site(FrontState& front, const SurfacePoint& site) {
-    const Surface& surface = front.input.surface;
+void reach_vertex(WindowFront& front, Index record, const Arrival& arrival) {
+    const double distance = arrival.distance;
+    front.vertices.lower_bound(record, distance + arrival.error);
+    VertexRecord& v = front.vertices.records[record];
+    const bool is_nearest = distance < v.low;
+    if (is_nearest) v.low = distance;
+    if (front.surface.can_be_pseudo_source[v.vertex] == 0) return;
+    if (!(distance <= v.bound * (1 + grazing))) return;
+    // Of exact arrivals the nearest tells where the shadow lies; of others any may.
+    if (!is_nearest && (front.max_error == 0 || distance == v.last_arrival)) return;
+    v.last_arrival = distance;
+    Index half_edge = arrival.half_edge;
+    if (++v.num_pseudo_sources > max_pseudo_sources) {
+        if (v.num_pseudo_sources > max_pseudo_sources + 1 && !is_nearest) return;
+        half_edge = no_index;
+    }
+    const Index source = front.pseudo_sources.add(
+        {record, half_edge, arrival.direction.x(), arrival.direction.y(), distance});
+    Index bucket = no_index;
+    front.queue.push(FrontItem::pseudo_source(source), distance, bucket);
+}
+
+void emit_from_site(WindowFront& front, const SurfacePoint& site) {
+    const Surface& surface = front.surface;
     if (const auto vertex = vertex_of(surface, site)) {
         const Index record = vertex_record(front, *vertex);
         VertexRecord& v = front.vertices.records[record];
@@ -110,10 +241,10 @@ void emit_from_site(FrontState& front, const SurfacePoint& site) {
     emit_from_near_vertices(front, site);
 }
 
-void emit_from_pseudo_source(FrontState& front, const PseudoSource& source) {
+void emit_from_pseudo_source(WindowFront& front, const PseudoSource& source) {
     const VertexRecord& v = front.vertices.records[source.vertex];
     if (!(source.distance <= v.bound * (1 + grazing))) return;
-    if (front.input.max_error == 0 && source.distance > v.low) return;
+    if (front.max_error == 0 && source.distance > v.low) return;
     Fan fan = fan_around(front, source.vertex);
     if (source.half_edge == no_index) {
         (void)emit_fan(front, fan);
@@ -121,8 +252,8 @@ void emit_from_pseudo_source(FrontState& front, const PseudoSource& source) {
     }
     const Index vertex = v.vertex;
     const Index outgoing = fan.first;
-    const ShadowSide right = right_side_of_shadow(front.input.corners, source);
-    const ShadowSide left = left_side_of_shadow(front.input.corners, source);
+    const ShadowSide right = right_side_of_shadow(front.corners, source);
+    const ShadowSide left = left_side_of_shadow(front.corners, source);
     fan.last = left.half_edge;
     fan.to = left.ray;
     if (right.half_edge != no_index) {
@@ -133,7 +264,7 @@ void emit_from_pseudo_source(FrontState& front, const PseudoSource& source) {
     if (left.half_edge == no_index) return;
     // The part behind the boundary. Whether the vertex lies on it is asked last: seldom in the
     // cache.
-    fan.first = front.input.surface.is_boundary_vertex(vertex) ? outgoing : left.half_edge;
+    fan.first = front.surface.is_boundary_vertex(vertex) ? outgoing : left.half_edge;
     fan.from = std::nullopt;
     (void)emit_fan(front, fan);
 }

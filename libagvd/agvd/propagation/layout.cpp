@@ -1,8 +1,10 @@
-#include "agvd/propagation/arc_graph.h"
+#include "agvd/propagation/layout.h"
 
 #include <atomic>
+#include <numeric>
 
 #include "agvd/core/parallel.h"
+#include "agvd/propagation/propagate.h"
 
 namespace agvd {
 namespace {
@@ -58,6 +60,25 @@ void add_arcs(const Surface& surface, const Corners& corners, Index begin, Index
 
 }  // namespace
 
+Corners::Corners(const Surface& surface, int num_threads, const Progress& progress)
+    : num_half_edges_(surface.twin.size()),
+      corners_(std::make_unique_for_overwrite<Corner[]>(num_half_edges_)) {
+    Poller poller(progress);
+    std::vector<double> sums(num_chunks(surface.num_faces(), pass_grain), 0);
+    parallel_chunks(
+        surface.num_faces(), pass_grain, num_threads,
+        [&](Index chunk, Index begin, Index end) {
+            for (Index h = 3 * begin; h < 3 * end; ++h) {
+                const double length = surface.length_of(h);
+                corners_[h] = {surface.apex[h] / length, length, surface.twin[h], surface.tail(h)};
+                sums[chunk] += length;
+            }
+        },
+        poller);
+    const double sum = std::accumulate(sums.begin(), sums.end(), 0.0);
+    mean_length_ = sum / static_cast<double>(std::max<std::size_t>(num_half_edges_, 1));
+}
+
 ArcGraph::ArcGraph(const Surface& surface, const Corners& corners, int num_threads,
                    const Progress& progress)
     : offsets(surface.num_vertices() + 1, 0) {
@@ -82,5 +103,9 @@ ArcGraph::ArcGraph(const Surface& surface, const Corners& corners, int num_threa
     };
     parallel_chunks(surface.num_edges(), pass_grain, num_threads, body, poller);
 }
+
+SurfaceLayout::SurfaceLayout(const Surface& surface, int num_threads, const Progress& progress)
+    : corners_(std::make_shared<const Corners>(surface, num_threads, progress)),
+      arcs_(std::make_shared<const ArcGraph>(surface, *corners_, num_threads, progress)) {}
 
 }  // namespace agvd
