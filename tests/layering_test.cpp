@@ -222,7 +222,7 @@ TEST(Layering, BreachesAreSeen) {
     EXPECT_NE(complaint("agvd/diagram/join.h", "#include \"paper/compare.h\""), "");
     EXPECT_NE(complaint("remesh/meshfile/ply.cpp", "#include \"remesh/pipeline/remesh.h\""), "");
     EXPECT_EQ(complaint("agvd/propagation/steiner/steiner_refinement.cpp",
-                        "#include \"agvd/propagation/window/window_engine.h\""),
+                        "#include \"agvd/propagation/engines.h\""),
               "");
     EXPECT_NE(complaint("remesh/pipeline/remesh.cpp", "#include \"remesh/meshfile/read_mesh.h\""),
               "");

@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "agvd/core/parallel.h"
-#include "agvd/mesh/point_faces.h"
 #include "agvd/propagation/layout.h"
+#include "agvd/propagation/site_placement.h"
 
 namespace agvd {
 namespace {
@@ -42,8 +42,7 @@ Key to_key(float distance, Index site) {
 float distance_of(Key key) { return std::bit_cast<float>(static_cast<std::uint32_t>(key >> 32)); }
 Index site_of(Key key) { return static_cast<Index>(key); }
 
-// Lowers a key. True if it did. `is_shared`: other threads may lower it, too; the atomic operations
-// cost a tenth of a search.
+// Lowers a key. True if it did. `is_shared`: other threads may lower it, too.
 template <bool is_shared>
 bool lower(Key& best, Key key) {
     if constexpr (is_shared) {
@@ -60,9 +59,8 @@ bool lower(Key& best, Key key) {
     return true;
 }
 
-// Where the graph does not fit into caches, slabs of several steps load it less often: 10M faces
-// take .4 to .6 of the time. 100k faces would take 1.2 times the time, since sites search vertices
-// that other sites own.
+// Where the graph does not fit into caches, slabs of several steps load it less often. Smaller
+// graphs take longer with them, since sites search vertices that other sites own.
 Index good_num_steps(const ArcGraph& graph) {
     constexpr std::size_t cached = std::size_t{1} << 24;  // Bytes, roughly.
     return graph.bytes() > cached ? 4 : 1;
@@ -89,20 +87,15 @@ void BoundsSearch::add(const SurfacePoint& point, Index site) {
         keys_[vertex] = key;
         queue(vertex);
     };
-    const auto start_in_face = [&](const SurfacePoint& p) {
-        for (Index h = 3 * p.face.value(); h < 3 * p.face.value() + 3; ++h) {
-            start(surface_.tail(h), position_in_frame(surface_, p, h).norm());
-        }
-    };
     if (const auto vertex = vertex_of(surface_, point)) {
         start(*vertex, 0);
         return;
     }
-    start_in_face(point);
-    const auto half_edge = half_edge_of(point);
-    if (half_edge && surface_.twin[*half_edge] != no_index) {
-        start_in_face(across_edge(surface_, point, *half_edge));
-    }
+    for_each_side(surface_, point, [&](const SurfacePoint& p, Index) {
+        for (Index h = 3 * p.face.value(); h < 3 * p.face.value() + 3; ++h) {
+            start(surface_.tail(h), position_in_frame(surface_, p, h).norm());
+        }
+    });
 }
 
 void BoundsSearch::run(const Progress& progress) {

@@ -24,24 +24,21 @@ double flip_length(const Corners& corners, Index half_edge) {
     return (above - below).norm();
 }
 
-// Adds one to a counter and returns the value before. `is_shared`: other threads count, too.
-template <bool is_shared>
-Index take_next(Index& count) {
-    if constexpr (is_shared) {
-        return std::atomic_ref(count).fetch_add(1, std::memory_order_relaxed);
-    }
-    return count++;
-}
-
-// The loop runs over edges. A loop over half-edges, one in two of which is to be skipped, takes
-// half as long again on 100k faces.
+// The loop runs over edges: one over half-edges would skip one in two. `is_shared`: other threads
+// add arcs, too.
 template <bool is_shared>
 void add_arcs(const Surface& surface, const Corners& corners, Index begin, Index end,
               ArcGraph& graph) {
+    const auto take_next = [&](Index vertex) {
+        if constexpr (is_shared) {
+            return std::atomic_ref(graph.ends[vertex]).fetch_add(1, std::memory_order_relaxed);
+        }
+        return graph.ends[vertex]++;
+    };
     const auto add = [&](Index a, Index b, double length) {
         const float rounded = static_cast<float>(length) * arc_rounding;
-        graph.arcs[take_next<is_shared>(graph.ends[a])] = {b, rounded};
-        graph.arcs[take_next<is_shared>(graph.ends[b])] = {a, rounded};
+        graph.arcs[take_next(a)] = {b, rounded};
+        graph.arcs[take_next(b)] = {a, rounded};
     };
     constexpr Index ahead = 15;  // Edges.
     for (Index e = begin; e < end; ++e) {

@@ -1,5 +1,5 @@
 // The window engine against formulas, against itself in another order, and its bookkeeping.
-#include "agvd/propagation/window/window_engine.h"
+#include "agvd/propagation/engines.h"
 #include "agvd/propagation/propagate.h"
 
 #include <gtest/gtest.h>

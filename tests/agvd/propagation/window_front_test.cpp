@@ -7,7 +7,7 @@
 
 #include "agvd/propagation/distance_bounds.h"
 #include "agvd/propagation/layout.h"
-#include "agvd/propagation/window/window_engine.h"
+#include "agvd/propagation/engines.h"
 #include "support/points.h"
 #include "support/random_meshes.h"
 #include "support/shapes.h"

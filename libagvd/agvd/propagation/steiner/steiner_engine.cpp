@@ -5,7 +5,7 @@
 // cross. If a vertex does not improve, all faces that a path of its exact length can cross get more
 // points. All points are kept until a round ends, since paths are followed back. After the last
 // round, or when the error is out of reach, it throws.
-#include "agvd/propagation/steiner/steiner_engine.h"
+#include "agvd/propagation/engines.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,6 @@
 
 #include "agvd/mesh/one_ring.h"
 #include "agvd/propagation/steiner/steiner_front.h"
-#include "agvd/propagation/window/window_engine.h"
 
 namespace agvd {
 namespace {
@@ -127,34 +126,27 @@ constexpr double distance_rounding = 1e-12;
 constexpr int max_rounds = 20;
 
 // Relative errors of the vertices in a round and in the round before.
-class VertexErrors {
-public:
-    explicit VertexErrors(Index num_vertices) : error_(num_vertices, infinity), before_(error_) {}
+struct VertexErrors {
+    std::vector<double> now, before;  // #V
+    Index worst = 0;
+
+    explicit VertexErrors(Index num_vertices) : now(num_vertices, infinity), before(now) {}
 
     void update(const std::vector<double>& exact, const std::vector<SteinerNode>& vertices) {
-        error_.swap(before_);
-        worst_ = 0;
+        now.swap(before);
+        worst = 0;
         for (Index v = 0; v < exact.size(); ++v) {
             const bool is_measured = exact[v] > 0 && exact[v] < infinity;
-            error_[v] = distance_rounding;
-            if (is_measured) error_[v] += std::max(vertices[v].distance / exact[v] - 1, 0.0);
-            if (error_[v] > error_[worst_]) worst_ = v;
+            now[v] = distance_rounding;
+            if (is_measured) now[v] += std::max(vertices[v].distance / exact[v] - 1, 0.0);
+            if (now[v] > now[worst]) worst = v;
         }
     }
-
-    [[nodiscard]] double operator[](Index v) const { return error_[v]; }
-    [[nodiscard]] Index worst() const { return worst_; }
     // More points along the path have reduced the error only a little.
     [[nodiscard]] bool is_stuck(Index v) const {
         constexpr double share = 0.9;
-        return error_[v] > share * before_[v];
+        return now[v] > share * before[v];
     }
-    [[nodiscard]] std::size_t bytes() const { return 2 * error_.capacity() * sizeof(double); }
-
-private:
-    std::vector<double> error_;   // #V
-    std::vector<double> before_;  // #V
-    Index worst_ = 0;
 };
 
 // Errors fall with the square of the spacing at most, unless points happen to lie well.
@@ -169,8 +161,8 @@ bool is_in_reach(double error, double max_error, Index most_points) {
     std::ostringstream text;
     text << "the Steiner engine cannot keep a maximal error of " << max_error << ": after round "
          << rounds << ", with up to " << counts.most() << " Steiner points on an edge ("
-         << counts.total() / num_edges << " on average), the distance of vertex " << errors.worst()
-         << " is off by " << errors[errors.worst()] << ", and " << reason
+         << counts.total() / num_edges << " on average), the distance of vertex " << errors.worst
+         << " is off by " << errors.now[errors.worst] << ", and " << reason
          << "; allow a larger error, or use the window engine";
     throw ConstraintUnmet(text.str());
 }
@@ -182,14 +174,15 @@ Propagation propagate_steiner_within(const Surface& surface, std::span<const Sur
     PropagationOptions exactly = options;
     exactly.max_error = 0;
     exactly.progress = within(options.progress, 0, done);
-    Propagation exact = propagate_windows(surface, sites, exactly);
+    SurfaceLayout layout(surface, options.num_threads, within(options.progress, 0, 0));
+    Propagation exact = propagate_windows(surface, std::move(layout), sites, exactly);
     const std::size_t bytes_of_exact = exact.peak_bytes;
     std::vector<Relay>().swap(exact.relays);
 
     VertexErrors errors(surface.num_vertices());
     SteinerInsertion insertion(surface, options.steiner_points);
     const std::size_t own_bytes =
-        insertion.bytes() + errors.bytes() +
+        insertion.bytes() + 2 * errors.now.capacity() * sizeof(double) +
         surface.num_vertices() * (sizeof(exact.vertex_distance[0]) + sizeof(exact.vertex_site[0]));
     for (int round = 1;; ++round) {
         const SteinerCounts counts(insertion.points());
@@ -199,7 +192,7 @@ Propagation propagate_steiner_within(const Surface& surface, std::span<const Sur
         done = next;
 
         errors.update(exact.vertex_distance, front.vertices());
-        const double worst = errors[errors.worst()];
+        const double worst = errors.now[errors.worst];
         if (worst <= max_error) {
             Propagation result = front.finish();
             result.certified_error = worst;
@@ -208,7 +201,7 @@ Propagation propagate_steiner_within(const Surface& surface, std::span<const Sur
             return result;
         }
         for (Index v = 0; v < surface.num_vertices(); ++v) {
-            if (errors[v] <= max_error) continue;
+            if (errors.now[v] <= max_error) continue;
             insertion.mark_path(front, v);
             // Another site's path, or one over other faces, may be the shortest.
             if (errors.is_stuck(v)) insertion.mark_between(exact.vertex_distance, v);

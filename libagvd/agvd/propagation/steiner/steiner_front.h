@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <compare>
 #include <functional>
 #include <optional>
 #include <span>
@@ -69,19 +70,14 @@ struct FrontEntry {
     Index site;
     Index node;
 
-    [[nodiscard]] bool operator<(const FrontEntry& other) const {
-        if (distance != other.distance) return distance < other.distance;
-        return site != other.site ? site < other.site : node < other.node;
-    }
-    [[nodiscard]] bool operator>(const FrontEntry& other) const { return other < *this; }
+    auto operator<=>(const FrontEntry&) const = default;
 };
 
 //! The queue of searches that serve every node once: it pops in the order (distance, site, node).
-//! (BucketQueue is for searches that may serve a node again, and needs no heap.) Nodes wait
+//! (WindowQueue is for searches that may serve an item again, and needs no heap.) Nodes wait
 //! unsorted in buckets of equal distance range. Only the open bucket is a heap, small enough for
-//! the first cache levels, and a node that improves within its bucket is not pushed again. (One
-//! heap over the whole front took 70 % of the propagation's time on 70k faces.) The caller skips
-//! the stale entries on pop. Nothing may be pushed below the last pop.
+//! the first cache levels, and a node that improves within its bucket is not pushed again. The
+//! caller skips the stale entries on pop. Nothing may be pushed below the last pop.
 class FrontQueue {
 public:
     //! \param bucket_width > 0, in mesh units; a matter of speed only, but no distance may exceed
@@ -171,10 +167,8 @@ private:
     void relax_vertex(Index from, double distance, Index site, Index slot);
     void relax_points(Index from, Index begin, Index end, const Vec2& tail, const Vec2& along,
                       const Vec2& source, double base, Index site, Index slot);
-    void relax_side(Index from, const Vec2& tail, const Vec2& along, const Vec2& source,
-                    double base, Index site, Index slot);
+    void relax_side(Index from, const Vec2& source, double base, Index site, Index slot);
     void start(Index s);
-    void serve_face(Index face, Index site, const SurfacePoint& point);
     void serve_one_ring(Index vertex);
     void serve_onward(Index edge, Index point);
     [[nodiscard]] Vec2 slot_position(const SteinerNode& node, const Vec2& here) const;
@@ -196,7 +190,6 @@ private:
     void add_relay(Index half_edge, const Vec2& image, double weight, Index site);
     void collect(Index face);
     void collect_across(Index h, Index twin);
-    void hand_over(Propagation& result) const;
 
     const Surface& surface_;
     std::span<const SurfacePoint> sites_;
@@ -208,8 +201,7 @@ private:
     FrontQueue queue_;
     std::vector<FaceState> face_state_;  // #F
     std::vector<Index> open_;
-    std::vector<Index> mixed_faces_;    // In the order of retirement.
-    std::vector<Index> relay_offsets_;  // Where the relays of each mixed face begin.
+    std::vector<std::pair<Index, RelayRange>> mixed_faces_;  // In the order of retirement.
     std::vector<Relay> relays_;
     std::vector<std::pair<Index, Index>> seen_slots_;  // Scratch: (slot, site).
     Ticker ticker_;                                    // Of run().

@@ -238,40 +238,27 @@ Index most_windows_through(const WindowFront& front, const EdgeRecord& edge,
     return front.queue.order() == WindowQueue::Order::Nearest ? most_windows : no_index;
 }
 
-void drop_waiting(WindowFront& front, EdgeRecord& edge) {
-    while (edge.waiting != no_index) {
-        front.store.give_back(std::exchange(edge.waiting, front.store.next(edge.waiting)));
-    }
-    front.relative_error = infinity;
-}
-
-// How many windows have a part on either side.
-struct PartCounts {
-    Index right = 0, left = 0;
-};
-
 // Divides the windows of the half-edge that have not been sent on.
-PartCounts divide_windows(WindowFront& front, EdgeRecord& edge, const WindowFace& face) {
+void divide_windows(WindowFront& front, EdgeRecord& edge, const WindowFace& face) {
     RunArray<Division>& divisions = front.scratch.divisions;
     divisions.clear();
-    PartCounts counts;
     for (Window& window : front.store[edge.windows]) {
         if (window.is_served) continue;
         window.is_served = true;
-        const Division division = divide(front, window, edge, face);
-        counts.right += division.right.window == nullptr ? 0 : 1;
-        counts.left += division.left.window == nullptr ? 0 : 1;
-        divisions.push(division);
+        divisions.push(divide(front, window, edge, face));
     }
     edge.num_served += divisions.size();
     front.num_served += divisions.size();
-    return counts;
 }
 
-// The parts to one side that live. `most`: as many as there are parts.
+// Sends on the parts to one side that live.
 template <auto part>
-SentWindows pass_on(WindowFront& front, const WindowFace& face, Index most) {
-    SentWindows sent{front.store.take(most), 0, infinity};
+void pass_on(WindowFront& front, const WindowFace& face, const HalfEdgeEnds& to) {
+    if (to.half_edge == no_index) return;
+    Index count = 0;
+    for (const Division& d : front.scratch.divisions) count += (d.*part).window == nullptr ? 0 : 1;
+    if (count == 0) return;
+    SentWindows sent{front.store.take(count), 0, infinity};
     Window* child = front.store[sent.run].data();
     for (const Division& division : front.scratch.divisions) {
         if ((division.*part).window == nullptr) continue;
@@ -286,8 +273,7 @@ SentWindows pass_on(WindowFront& front, const WindowFace& face, Index most) {
         ++child;
         ++sent.count;
     }
-    assert(sent.count <= most);
-    return sent;
+    send(front, to, sent);
 }
 
 }  // namespace
@@ -299,7 +285,10 @@ void serve_edge(WindowFront& front, Index record) {
     face.tail_bound = front.vertices.records[edge.tail].bound;
     face.head_bound = front.vertices.records[edge.head].bound;
     if (edge.num_served > most_windows_through(front, edge, face)) {
-        drop_waiting(front, edge);
+        while (edge.waiting != no_index) {
+            front.store.give_back(std::exchange(edge.waiting, front.store.next(edge.waiting)));
+        }
+        front.relative_error = infinity;
         return;
     }
     if (may_close(front) && !std::exchange(edge.is_watched, true)) {
@@ -310,17 +299,11 @@ void serve_edge(WindowFront& front, Index record) {
     face.apex_record = vertex_record(front, face.previous.tail);
 
     front.ticker.tick(front.store[edge.windows].size());
-    const auto [num_right, num_left] = divide_windows(front, edge, face);
+    divide_windows(front, edge, face);
     face.apex_bound = front.vertices.records[face.apex_record].bound;
     const Index tail = edge.tail, head = edge.head;  // Records may move.
-    if (num_right > 0 && face.next.twin != no_index) {
-        send(front, {face.next.twin, face.apex_record, head},
-             pass_on<&Division::right>(front, face, num_right));
-    }
-    if (num_left > 0 && face.previous.twin != no_index) {
-        send(front, {face.previous.twin, tail, face.apex_record},
-             pass_on<&Division::left>(front, face, num_left));
-    }
+    pass_on<&Division::right>(front, face, {face.next.twin, face.apex_record, head});
+    pass_on<&Division::left>(front, face, {face.previous.twin, tail, face.apex_record});
 }
 
 }  // namespace agvd

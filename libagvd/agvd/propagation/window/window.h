@@ -153,8 +153,7 @@ private:
 inline constexpr double grazing = 1e-10;
 
 //! A share of the edge: if a site is nearer to a vertex than this, rounding may hide which faces it
-//! sees past the vertex. Of
-//! 470 000 sites, most of them on edges, those up to 7e-6 away missed a vertex behind now and then.
+//! sees past the vertex.
 inline constexpr double near_vertex = 1e-4;
 
 //! A vector in the frame whose x axis is the unit vector `axis`.

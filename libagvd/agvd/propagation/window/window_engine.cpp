@@ -6,7 +6,7 @@
 // Windows are kept as relays in the faces near a change of label in the bounds. Where a site
 // reaches a face that the bounds give to another site, its windows are strays: the other site runs
 // once more to keep its windows there (docs/algorithm.md, "Window engine").
-#include "agvd/propagation/window/window_engine.h"
+#include "agvd/propagation/engines.h"
 
 #include <algorithm>
 #include <memory>
@@ -25,8 +25,7 @@ namespace agvd {
 namespace {
 
 // Windows of a second site may come to a face if its bound exceeds that of the nearest site by at
-// most this share. That is as much as bounds exceed distances. With .05, 30 of 423 sites ran twice;
-// with .08, six.
+// most this share. That is as much as bounds exceed distances. With less, more sites run twice.
 constexpr double slack = 0.08;
 
 // The exact border may lie this far from the border of the bounds, as a share of the distance from
@@ -35,19 +34,18 @@ constexpr double shift = 0.2;
 
 using Marks = std::vector<std::uint8_t>;
 
-void mark(Marks& marks, const Triangle& triangle, int bits) {
-    for (const Index v : triangle) marks[v] = static_cast<std::uint8_t>(marks[v] | bits);
-}
-
 // #V. 1: at a change of label, 2: next to one.
 Marks mark_two_rings(const Surface& surface, const DistanceBounds& bounds) {
     Marks marks(surface.num_vertices(), 0);
+    const auto mark = [&](const Triangle& triangle, int bits) {
+        for (const Index v : triangle) marks[v] = static_cast<std::uint8_t>(marks[v] | bits);
+    };
     for (const Triangle& t : surface.mesh.triangles) {
         const auto &a = bounds.site[t[0]], &b = bounds.site[t[1]], &c = bounds.site[t[2]];
-        mark(marks, t, ((a != b) | (b != c)) ? 1 : 0);
+        mark(t, ((a != b) | (b != c)) ? 1 : 0);
     }
     for (const Triangle& t : surface.mesh.triangles) {
-        mark(marks, t, ((marks[t[0]] | marks[t[1]] | marks[t[2]]) & 1) << 1);
+        mark(t, ((marks[t[0]] | marks[t[1]] | marks[t[2]]) & 1) << 1);
     }
     return marks;
 }
@@ -164,9 +162,9 @@ public:
 
 private:
     [[nodiscard]] std::size_t common_bytes() const {
-        std::size_t sum = result_.vertex_distance.capacity() * sizeof(double) +
-                          result_.vertex_site.capacity() * sizeof(SiteId) + borders_.capacity();
-        return sum + logs_.bytes();
+        return result_.vertex_distance.capacity() * sizeof(double) +
+               result_.vertex_site.capacity() * sizeof(SiteId) + borders_.capacity() +
+               logs_.bytes();
     }
 
     // The order in which sites run, and in which their relays are stored for a face: by the faces
@@ -357,13 +355,6 @@ Propagation propagate_windows(const Surface& surface, SurfaceLayout layout,
     auto corners = SurfaceLayout(std::move(layout)).corners();  // Frees the arcs.
     return WindowEngine(surface, std::move(corners), std::move(bounds), sites, options, work_cap)
         .run();
-}
-
-Propagation propagate_windows(const Surface& surface, std::span<const SurfacePoint> sites,
-                              const PropagationOptions& options) {
-    poll(options.progress, 0);
-    SurfaceLayout layout(surface, options.num_threads, within(options.progress, 0, 0));
-    return propagate_windows(surface, std::move(layout), sites, options);
 }
 
 }  // namespace agvd

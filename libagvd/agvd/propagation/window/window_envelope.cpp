@@ -6,10 +6,6 @@
 // In most cases the signs at the ends of the interval decide, or tangents against chords, since the
 // distances are convex; then no root is computed. Where the closed form has lost its digits, regula
 // falsi (Illinois) finds the root.
-//
-// Merging: the image of the merged window is where the outermost rays of both windows meet, and its
-// weight is lowered until its distances lie below both. The differences to the old distances are
-// monotone over each interval, so their values at the ends bound the error that is added.
 #include "agvd/propagation/window/window_envelope.h"
 
 #include <algorithm>

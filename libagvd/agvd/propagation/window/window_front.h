@@ -179,9 +179,8 @@ struct WindowFront {
     double relative_error = 0;
     std::size_t num_served = 0;  //!< Windows served in the last run.
 
-    //! \param on, its_corners   outlive the front; Corners(on).
-    //! \param ticker_of_thread  of the thread that runs it.
-    //! \param most_kept         small_run; the default fits into the caches as it is.
+    //! The surface and its corners outlive the front. The default of small_run fits into the caches
+    //! as it is.
     WindowFront(const Surface& on, const Corners& its_corners, double largest_error,
                 Ticker ticker_of_thread = {}, Index most_kept = 2048)
         : surface(on),

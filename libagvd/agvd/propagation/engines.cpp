@@ -1,4 +1,4 @@
-#include "agvd/propagation/propagate.h"
+#include "agvd/propagation/engines.h"
 
 #include <string>
 #include <utility>
@@ -6,9 +6,7 @@
 #include "agvd/core/error.h"
 #include "agvd/mesh/check_sites.h"
 #include "agvd/mesh/distinct_points.h"
-#include "agvd/propagation/steiner/steiner_engine.h"
 #include "agvd/propagation/steiner/steiner_nodes.h"
-#include "agvd/propagation/window/window_engine.h"
 
 namespace agvd {
 namespace {
@@ -71,7 +69,8 @@ const char* engine_name(Engine engine) { return engine == Engine::Steiner ? "ste
 Propagation propagate(const Surface& surface, std::span<const SurfacePoint> sites,
                       const PropagationOptions& options) {
     return propagate_distinct(surface, sites, options, [&](std::span<const SurfacePoint> distinct) {
-        return propagate_windows(surface, distinct, options);
+        SurfaceLayout layout(surface, options.num_threads, within(options.progress, 0, 0));
+        return propagate_windows(surface, std::move(layout), distinct, options);
     });
 }
 
