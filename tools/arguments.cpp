@@ -21,8 +21,7 @@ std::string max_error_help() {
     std::ostringstream text;
     text << "Largest error of the distances, as a share of the exact ones: 0 (exact) to below 1. "
             "Default: "
-         << agvd::default_max_error
-         << " for the window engine, no limit for the others; not for the vertex engine";
+         << agvd::default_max_error << " for the window engine, no limit for the Steiner engine";
     return text.str();
 }
 
@@ -110,13 +109,14 @@ void add_site_options(CLI::App& app, DiagramArguments& arguments) {
 
 void add_propagation_options(CLI::App& app, agvd::PropagationOptions& propagation) {
     start_group(app, heading::geodesics);
-    add_choice(app,
-               {"--engine", names_of(engines_by_name()), agvd::engine_name(propagation.engine),
-                "How distances are computed: window (quickest for every error), steiner (as in the "
-                "paper) or vertex (coarse, of unknown error)"},
-               [&propagation](const std::string& name) {
-                   propagation.engine = engines_by_name().at(name);
-               });
+    add_choice(
+        app,
+        {"--engine", names_of(engines_by_name()), agvd::engine_name(propagation.engine),
+         "How distances are computed: window (quickest for every error) or steiner (as in the "
+         "paper)"},
+        [&propagation](const std::string& name) {
+            propagation.engine = engines_by_name().at(name);
+        });
     app.add_option("--max-error", propagation.max_error, max_error_help())
         ->check(CLI::Validator(check_max_error, ""))
         ->type_name("E");
@@ -147,8 +147,7 @@ void add_propagation_options(CLI::App& app, agvd::PropagationOptions& propagatio
 }  // namespace
 
 std::map<std::string, agvd::Engine> engines_by_name() {
-    return by_name({agvd::Engine::Window, agvd::Engine::Steiner, agvd::Engine::Vertex},
-                   agvd::engine_name);
+    return by_name({agvd::Engine::Window, agvd::Engine::Steiner}, agvd::engine_name);
 }
 
 CLI::Option* add_choice(CLI::App& app, const Choice& choice,

@@ -7,7 +7,7 @@
 
 #include "agvd/diagram/diagram.h"
 #include "agvd/intrinsic/intrinsic_triangulation.h"
-#include "agvd/propagation/propagation_options.h"
+#include "agvd/propagation/propagate.h"
 
 namespace cli {
 

@@ -109,8 +109,6 @@ std::string memory_remedy(std::string_view stage, agvd::Engine engine) {
                 return "use a larger --max-error, fewer --threads or more --samples";
             case agvd::Engine::Steiner:
                 return "use fewer --steiner-points, a smaller --lambda or a smaller mesh";
-            case agvd::Engine::Vertex:
-                return "use a smaller mesh";
         }
     }
     if (stage == "read") return "use a smaller mesh";

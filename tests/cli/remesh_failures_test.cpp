@@ -32,7 +32,7 @@ TEST_F(Remesh, WrongUsageIsTwo) {
              {in, out, "--max-error", "-0.001"},
              {in, out, "--max-error", "nan"},
              {in, out, "--max-error", "small"},
-             {in, out, "--engine", "vertex", "--max-error", "0.01"},
+             {in, out, "--engine", "steiner", "--max-error", "0"},
              {in, out, "-q", "--verbose"},
              {in, out, "--sites", at("sites"), "-n", "20"},
              {in, out, "--sites", at("sites"), "--init", "farthest"},

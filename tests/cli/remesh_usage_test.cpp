@@ -46,9 +46,6 @@ TEST_F(RemeshUsage, AFileWithoutPropertiesHasNoneToUse) {
 }
 
 TEST_F(RemeshUsage, OptionsOfTheLibraryHaveTheNamesOfTheProgram) {
-    EXPECT_EQ(error_of({"--engine", "vertex", "--max-error", ".1"}),
-              "the vertex engine has no error bound; leave out --max-error, or use the window or "
-              "the Steiner engine\n");
     const agvd::TriangleMesh two =
         shapes::join(shapes::cube(), shapes::moved(shapes::cube(), {3, 0, 0}));
     const auto outcome = remesh({put("two.off", two), at("out.off"), "--drop-components", "60"});

@@ -20,7 +20,7 @@ namespace {
 
 PropagationOptions propagation_options(fuzz::Bytes& bytes) {
     PropagationOptions options{.num_threads = 1};
-    options.engine = bytes.pick({Engine::Window, Engine::Window, Engine::Steiner, Engine::Vertex});
+    options.engine = bytes.pick({Engine::Window, Engine::Window, Engine::Steiner});
     const double max_error = bytes.pick({1e-4, 0.0, 1e-2, 0.5});
     if (options.engine == Engine::Window) options.max_error = max_error;
     options.steiner_points = static_cast<int>(bytes.below(9));

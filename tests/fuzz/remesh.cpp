@@ -34,8 +34,8 @@ remesh::RemeshOptions remesh_options(fuzz::Bytes& bytes) {
     options.repair_rounds = bytes.pick({12, 12, 0, 1});
     options.seed = bytes.below(256);
     auto& propagation = options.propagation;
-    propagation.engine = bytes.pick(
-        {Engine::Window, Engine::Window, Engine::Window, Engine::Steiner, Engine::Vertex});
+    propagation.engine =
+        bytes.pick({Engine::Window, Engine::Window, Engine::Window, Engine::Steiner});
     const auto max_error = bytes.pick<std::optional<double>>({{}, 0.0, 1e-2, 0.5});
     if (propagation.engine == Engine::Window) propagation.max_error = max_error;
     propagation.steiner_points = static_cast<int>(bytes.below(9));

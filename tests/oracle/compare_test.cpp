@@ -115,7 +115,7 @@ TEST(Compare, AVertexTheExactSearchDoesNotReachIsAnInfiniteError) {
 TEST(Compare, BothWaysToExactDistancesMeasureTheSameErrors) {
     const Surface surface = build_surface(shapes::jitter(shapes::torus(40, 20), 0.02, 4).view());
     const auto sites = points::scattered(surface, 20, 5);
-    for (const Engine engine : {Engine::Vertex, Engine::Steiner, Engine::Window}) {
+    for (const Engine engine : {Engine::Steiner, Engine::Window}) {
         const Propagation propagation = propagate(surface, sites, {.engine = engine});
         const Diagram diagram = build_diagram(surface, sites, propagation);
         const Approximation approximation{propagation, diagram};

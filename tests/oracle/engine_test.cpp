@@ -33,18 +33,11 @@ namespace {
 // Distances of real paths in double, relative to the larger of the distance and the mesh.
 constexpr double rounding = 1e-9;
 
-// Engines of which the tests are to be run.
-constexpr bool has_window_engine = true;
-constexpr bool has_vertex_engine = true;
-
 std::vector<PropagationOptions> settings() {
     std::vector<PropagationOptions> all;
     for (const int m : {0, 3, 8}) all.push_back({.engine = Engine::Steiner, .steiner_points = m});
-    if (has_vertex_engine) all.push_back({.engine = Engine::Vertex});
-    if (has_window_engine) {
-        for (const double error : {0.0, 1e-3, 1e-2}) {
-            all.push_back({.engine = Engine::Window, .max_error = error});
-        }
+    for (const double error : {0.0, 1e-3, 1e-2}) {
+        all.push_back({.engine = Engine::Window, .max_error = error});
     }
     return all;
 }

@@ -154,7 +154,7 @@ WRONG_OPTIONS = [
     (dict(threads=-2), "threads is -2"),
     (dict(max_error=1.5), "the maximal error is 1.5"),
     (dict(max_error="none"), "max_error is 'none'; use a number"),
-    (dict(engine="vertex", max_error=0.1), "the vertex engine has no error bound"),
+    (dict(engine="steiner", max_error=0), "the Steiner engine cannot be exact"),
     (dict(keep_sites=True), "keep_sites needs sites"),
     (dict(transfer={"x": [1, 2]}), r"transfer: 'x' has the shape \(2,\)"),
     (dict(transfer=["height"]), "transfer: the mesh has no values 'height'; it has: none"),

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "agvd/diagram/cells.h"
-#include "agvd/propagation/relays.h"
+#include "agvd/propagation/propagate.h"
 
 namespace checks {
 

@@ -232,11 +232,11 @@ void add_options(CLI::App& app, Arguments& arguments) {
     bench::MethodLists& lists = arguments.lists;
     common.sites = {2000, 1000, 100, 30};
     common.steiner_points = {8};
-    lists.engines = {Engine::Window, Engine::Steiner, Engine::Vertex};
+    lists.engines = {Engine::Window, Engine::Steiner};
     lists.max_errors = {0, default_max_error};
     lists.lambdas = {1};
     bench::add_options(app, common);
-    app.add_option("--engine", lists.engines, "Engines: window, steiner, vertex; default: all")
+    app.add_option("--engine", lists.engines, "Engines: window, steiner; default: both")
         ->transform(CLI::CheckedTransformer(cli::engines_by_name()).description(""));
     app.add_option("--max-error", lists.max_errors, "Window engine: largest errors; 0: exact")
         ->capture_default_str();

@@ -11,7 +11,6 @@ std::vector<Method> methods(const MethodLists& lists) {
     for (const Engine engine : lists.engines) {
         std::ostringstream name;
         name << agvd::engine_name(engine);
-        if (engine == Engine::Vertex) result.push_back({name.str(), {.engine = engine}});
         if (engine == Engine::Window) {
             for (const double error : lists.max_errors) {
                 std::ostringstream text;

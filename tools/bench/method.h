@@ -10,8 +10,10 @@
 namespace bench {
 
 struct Method {
-    std::string name;  //!< Short, for the table: "window 1e-03", "steiner m=8", "vertex".
+    std::string name;  //!< Short, for the table: "window 1e-03", "steiner m=8".
     agvd::PropagationOptions options;
+    //! Only labels of vertices are used, joined by straight segments (paper/vertex_labels.h).
+    bool by_vertex_labels = false;
 };
 
 //! The options to vary; each engine uses those that it has.

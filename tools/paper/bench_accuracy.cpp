@@ -86,10 +86,8 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     return cli::run(app, argc, argv, [&] {
         nlohmann::ordered_json rows = nlohmann::ordered_json::array();
-        const auto methods = bench::methods({{Engine::Window, Engine::Steiner, Engine::Vertex},
-                                             max_errors,
-                                             options.steiner_points,
-                                             {1}});
+        const auto methods = bench::methods(
+            {{Engine::Window, Engine::Steiner}, max_errors, options.steiner_points, {1}});
         bench::print_heading(columns);
         for (const auto& path : options.meshes) {
             const Surface surface = bench::load(path, 0);

@@ -32,7 +32,7 @@ struct Arguments {
 // The methods of most sections.
 std::vector<bench::Method> methods(std::vector<int> steiner_points,
                                    std::vector<double> lambdas = {1}) {
-    return bench::methods({{Engine::Window, Engine::Steiner, Engine::Vertex},
+    return bench::methods({{Engine::Window, Engine::Steiner},
                            {0, 1e-3},
                            std::move(steiner_points),
                            std::move(lambdas)});
@@ -64,10 +64,12 @@ public:
         return bench::random_sites(surface, std::min(count, most), bench::Place::Vertices, 1);
     }
 
-    // Measures and keeps one row for each method; `more` is added to each.
+    // Measures and keeps one row for each method; `more` is added to each. Where diagrams are
+    // compared, the labels of vertices are one more method.
     void measure(const std::string& name, const Surface& surface,
-                 const std::vector<SurfacePoint>& sites, const std::vector<bench::Method>& by,
+                 const std::vector<SurfacePoint>& sites, std::vector<bench::Method> by,
                  bench::PaperOptions options = {}, const Json& more = Json::object()) {
+        if (options.with_errors) by.push_back({"vertex labels", {.max_error = 0}, true});
         options.repetitions = std::min(options.repetitions, arguments_.repetitions);
         std::vector<Json> measured = bench::measure({name, surface, sites}, by, options);
         bench::paper::add_ratios(measured);

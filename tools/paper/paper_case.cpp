@@ -5,7 +5,6 @@
 #include "paper/paper_case.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "agvd/diagram/build_diagram.h"
@@ -15,6 +14,7 @@
 #include "bench/timing.h"
 #include "cli.h"
 #include "paper/compare_diagrams.h"
+#include "paper/vertex_labels.h"
 #include "remesh/dual/build_dual.h"
 
 namespace bench {
@@ -43,7 +43,9 @@ void run(const PaperCase& c, const Method& method, bool with_dual, Contestant& c
         time([&] { propagation = propagate(c.surface, c.sites, options); }).cpu;
     const double building =
         time([&] {
-            diagram = build_diagram(c.surface, c.sites, propagation, {.num_threads = 1});
+            diagram = method.by_vertex_labels
+                          ? vertex_label_diagram(c.surface, c.sites.size(), propagation)
+                          : build_diagram(c.surface, c.sites, propagation, {.num_threads = 1});
         }).cpu;
     double dualizing = 0;
     if (with_dual) {
@@ -55,15 +57,6 @@ void run(const PaperCase& c, const Method& method, bool with_dual, Contestant& c
     contestant.dual = std::min(contestant.dual, dualizing);
     contestant.total = std::min(contestant.total, propagating + building + dualizing);
     contestant.result = std::move(diagram);
-}
-
-double moved_area(const Diagram& diagram, const Diagram& exact) {
-    double moved = 0, area = 0;
-    for (std::size_t s = 0; s < exact.cell_area.size(); ++s) {
-        moved += std::abs(diagram.cell_area[s] - exact.cell_area[s]) / 2;
-        area += exact.cell_area[s];
-    }
-    return moved / area;
 }
 
 void add_errors(const PaperCase& c, const std::vector<Contestant>& contestants,
@@ -82,8 +75,7 @@ void add_errors(const PaperCase& c, const std::vector<Contestant>& contestants,
                             {"wrong_percent", 100 * difference.wrong_label_area},
                             {"mean_bisector_error", errors[i].mean},
                             {"p95_bisector_error", errors[i].p95},
-                            {"max_bisector_error", errors[i].max},
-                            {"cells_moved_percent", 100 * moved_area(*diagrams[i], exact)}});
+                            {"max_bisector_error", errors[i].max}});
     }
 }
 
@@ -124,7 +116,8 @@ std::vector<Json> measure(const PaperCase& c, const std::vector<Method>& methods
     }
     if (options.with_errors) {
         const auto is_exact = [](const Method& method) {
-            return method.options.engine == Engine::Window && method.options.max_error == 0;
+            return method.options.engine == Engine::Window && method.options.max_error == 0 &&
+                   !method.by_vertex_labels;
         };
         const auto found = std::find_if(methods.begin(), methods.end(), is_exact);
         const Diagram exact =

@@ -29,8 +29,7 @@ struct PaperOptions {
 //!
 //! Keys: mesh, faces, sites, method, p0_ms, propagate_p0, diagram_p0, dual_p0, total_p0, total_ms,
 //! peak_mb, bytes_per_face, delta_percent, frechet_radii, unmatched_loops, hausdorff_radii,
-//! wrong_percent, mean_bisector_error, p95_bisector_error, max_bisector_error, cells_moved_percent
-//! (half the sum of the cells' changes in area, over the area).
+//! wrong_percent, mean_bisector_error, p95_bisector_error, max_bisector_error.
 [[nodiscard]] std::vector<nlohmann::ordered_json> measure(const PaperCase& c,
                                                           const std::vector<Method>& methods,
                                                           const PaperOptions& options);

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "agvd/diagram/diagram.h"
-#include "agvd/propagation/relays.h"
+#include "agvd/propagation/propagate.h"
 
 namespace agvd {
 

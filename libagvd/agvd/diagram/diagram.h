@@ -5,7 +5,7 @@
 #include <span>
 
 #include "agvd/core/progress.h"
-#include "agvd/propagation/relays.h"
+#include "agvd/propagation/propagate.h"
 
 namespace agvd {
 

@@ -5,7 +5,7 @@
 
 #include "agvd/core/block_pool.h"
 #include "agvd/core/either_index.h"
-#include "agvd/propagation/relays.h"
+#include "agvd/propagation/propagate.h"
 
 namespace agvd {
 

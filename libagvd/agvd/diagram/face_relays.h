@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "agvd/propagation/relays.h"
+#include "agvd/propagation/propagate.h"
 
 namespace agvd {
 

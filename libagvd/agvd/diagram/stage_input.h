@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "agvd/core/poller.h"
-#include "agvd/propagation/relays.h"
+#include "agvd/propagation/propagate.h"
 #include "agvd/propagation/site_placement.h"
 
 namespace agvd {

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -62,22 +61,10 @@ public:
         --num_waiting_;
         return open_bucket()[next_++];
     }
-    //! Removes all items of the next bucket, in their order. Opens it if another one is open. Not
-    //! if empty(). The items stay in memory until the next push.
-    [[nodiscard]] std::span<const Item> pop_bucket() {
-        assert(num_waiting_ > 0);
-        while (next_ == open_bucket().size()) open_next();
-        const RunArray<Item>& bucket = open_bucket();
-        const std::span<const Item> items(bucket.begin() + next_, bucket.end());
-        next_ = bucket.size();
-        num_waiting_ -= items.size();
-        return items;
-    }
-    //! The item `ahead` places behind the one that was just popped; null if the bucket ends before.
-    [[nodiscard]] const Item* peek(Index ahead) const {
+    //! The item behind the one that was just popped; null if the bucket ends before.
+    [[nodiscard]] const Item* peek() const {
         const RunArray<Item>& bucket = ring_[current_ % ring_size];
-        const Index place = next_ + ahead - 1;
-        return place < bucket.size() ? &bucket[place] : nullptr;
+        return next_ < bucket.size() ? &bucket[next_] : nullptr;
     }
 
     //! Bytes held. They never become fewer.

@@ -13,8 +13,7 @@
 #include <utility>
 
 #include "agvd/core/parallel.h"
-#include "agvd/propagation/arc_graph.h"
-#include "agvd/propagation/corners.h"
+#include "agvd/propagation/layout.h"
 #include "agvd/propagation/site_placement.h"
 
 namespace agvd {
@@ -43,27 +42,25 @@ Key to_key(float distance, Index site) {
 float distance_of(Key key) { return std::bit_cast<float>(static_cast<std::uint32_t>(key >> 32)); }
 Index site_of(Key key) { return static_cast<Index>(key); }
 
-// Lowers a key that other threads may lower, too. True if it did.
-bool lower_shared(Key& shared, Key key) {
-    constexpr auto relaxed = std::memory_order_relaxed;
-    std::atomic_ref best(shared);
-    Key old = best.load(relaxed);
-    while (key < old) {
-        if (best.compare_exchange_weak(old, key, relaxed)) return true;
+// Lowers a key. True if it did. `is_shared`: other threads may lower it, too.
+template <bool is_shared>
+bool lower(Key& best, Key key) {
+    if constexpr (is_shared) {
+        constexpr auto relaxed = std::memory_order_relaxed;
+        std::atomic_ref shared(best);
+        Key old = shared.load(relaxed);
+        while (key < old) {
+            if (shared.compare_exchange_weak(old, key, relaxed)) return true;
+        }
+        return false;
     }
-    return false;
-}
-
-// The same for one thread. The atomic operations cost a tenth of a search.
-bool lower_alone(Key& best, Key key) {
     if (key >= best) return false;
     best = key;
     return true;
 }
 
-// Where the graph does not fit into caches, slabs of several steps load it less often: 10M faces
-// take .4 to .6 of the time. 100k faces would take 1.2 times the time, since sites search vertices
-// that other sites own.
+// Where the graph does not fit into caches, slabs of several steps load it less often. Smaller
+// graphs take longer with them, since sites search vertices that other sites own.
 Index good_num_steps(const ArcGraph& graph) {
     constexpr std::size_t cached = std::size_t{1} << 24;  // Bytes, roughly.
     return graph.bytes() > cached ? 4 : 1;
@@ -71,48 +68,33 @@ Index good_num_steps(const ArcGraph& graph) {
 
 }  // namespace
 
-// A label-correcting search in slabs of distance. The vertices of a slab are divided into chunks,
-// which are searched in parallel. The search of a chunk proceeds in steps of half a mean edge to
-// the end of the slab.
-BoundsSearch::BoundsSearch(const Surface& surface, const ArcGraph& graph, double mean_edge,
-                           int num_threads, Index num_steps)
+// The vertices of a slab are divided into chunks, which are searched in parallel. The search of a
+// chunk proceeds in steps of half a mean edge to the end of the slab.
+BoundsSearch::BoundsSearch(const Surface& surface, const SurfaceLayout& layout, int num_threads,
+                           Index num_steps)
     : surface_(surface),
-      graph_(graph),
+      graph_(layout.arcs()),
       num_threads_(num_threads),
-      num_steps_(num_steps > 0 ? num_steps : good_num_steps(graph)),
-      per_step_(static_cast<float>(2 / mean_edge)),
-      keys_(graph.ends.size(), to_key(unreached, no_index)),
+      num_steps_(num_steps > 0 ? num_steps : good_num_steps(graph_)),
+      per_step_(static_cast<float>(2 / layout.corners()->mean_length())),
+      keys_(graph_.ends.size(), to_key(unreached, no_index)),
       queued_in_(keys_.size(), no_index) {}
 
-// Calls each(vertex, distance) for the vertices that a site reaches in its face.
-template <typename Each>
-void BoundsSearch::for_each_start(const SurfacePoint& point, const Each& each) const {
-    if (const auto vertex = vertex_of(surface_, point)) {
-        each(*vertex, 0.0);
-        return;
-    }
-    const auto start_in_face = [&](const SurfacePoint& p) {
-        for (Index k = 0; k < 3; ++k) {
-            const Index h = 3 * p.face.value() + k;
-            each(surface_.tail(h), position_in_frame(surface_, p, h).norm());
-        }
-    };
-    start_in_face(point);
-    const auto half_edge = half_edge_of(point);
-    if (half_edge && surface_.twin[*half_edge] != no_index) {
-        start_in_face(across_edge(surface_, point, *half_edge));
-    }
-}
-
-BoundsSearch::BoundsSearch(const Surface& surface, const SurfaceLayout& layout, int num_threads)
-    : BoundsSearch(surface, layout.arcs(), layout.corners().mean_length(), num_threads) {}
-
 void BoundsSearch::add(const SurfacePoint& point, Index site) {
-    for_each_start(point, [&](Index vertex, double distance) {
+    const auto start = [&](Index vertex, double distance) {
         const Key key = to_key(static_cast<float>(distance) * length_rounding, site);
         if (key >= keys_[vertex]) return;
         keys_[vertex] = key;
         queue(vertex);
+    };
+    if (const auto vertex = vertex_of(surface_, point)) {
+        start(*vertex, 0);
+        return;
+    }
+    for_each_side(surface_, point, [&](const SurfacePoint& p, Index) {
+        for (Index h = 3 * p.face.value(); h < 3 * p.face.value() + 3; ++h) {
+            start(surface_.tail(h), position_in_frame(surface_, p, h).norm());
+        }
     });
 }
 
@@ -138,9 +120,9 @@ void BoundsSearch::run(const Progress& progress) {
             const auto search = [&](Index chunk, Index begin, Index end) {
                 const auto starts = std::span<const Index>(slab).subspan(begin, end - begin);
                 if (num_threads_ == 1) {
-                    search_slab<lower_alone>(starts, chunks[chunk], Ticker(poller));
+                    search_slab<false>(starts, chunks[chunk], Ticker(poller));
                 } else {
-                    search_slab<lower_shared>(starts, chunks[chunk], Ticker(poller));
+                    search_slab<true>(starts, chunks[chunk], Ticker(poller));
                 }
             };
             parallel_chunks(count, grain, num_threads_, search, poller);
@@ -155,10 +137,6 @@ void BoundsSearch::run(const Progress& progress) {
 
 float BoundsSearch::distance(Index vertex) const { return distance_of(keys_[vertex]); }
 Index BoundsSearch::site(Index vertex) const { return site_of(keys_[vertex]); }
-
-std::size_t BoundsSearch::bytes() const {
-    return keys_.size() * (3 * sizeof(Index) + sizeof(Key) + sizeof(float));
-}
 
 // The number of steps from the beginning of the current slab to a distance.
 Index BoundsSearch::steps_to(float distance) const {
@@ -176,7 +154,7 @@ void BoundsSearch::queue(Index vertex) {
     slabs_[slab].push_back(vertex);
 }
 
-template <bool (*lower)(std::uint64_t&, std::uint64_t)>
+template <bool is_shared>
 void BoundsSearch::search_slab(std::span<const Index> starts, Chunk& chunk, Ticker ticker) {
     chunk.beyond.clear();
     chunk.steps.resize(num_steps_);
@@ -201,7 +179,7 @@ void BoundsSearch::search_slab(std::span<const Index> starts, Chunk& chunk, Tick
                 // Most arcs end here.
                 if (distance_of(from) + length > distance_of(key_of(head))) continue;
                 const Key key = to_key(sum_rounded_up(distance_of(from), length), site_of(from));
-                if (!lower(keys_[head], key)) continue;
+                if (!lower<is_shared>(keys_[head], key)) continue;
                 if (distance_of(key) < slab_end) {
                     wait(head, key);
                 } else {
@@ -213,10 +191,10 @@ void BoundsSearch::search_slab(std::span<const Index> starts, Chunk& chunk, Tick
     }
 }
 
-DistanceBounds distance_bounds(const Surface& surface, const ArcGraph& graph, double mean_edge,
+DistanceBounds distance_bounds(const Surface& surface, const SurfaceLayout& layout,
                                std::span<const SurfacePoint> sites, int num_threads,
                                const Progress& progress) {
-    BoundsSearch search(surface, graph, mean_edge, num_threads);
+    BoundsSearch search(surface, layout, num_threads);
     for (Index s = 0; s < sites.size(); ++s) search.add(sites[s], s);
     search.run(progress);
     DistanceBounds bounds;
@@ -230,15 +208,7 @@ DistanceBounds distance_bounds(const Surface& surface, const ArcGraph& graph, do
     };
     constexpr Index grain = 1 << 16;  // Vertices.
     parallel_chunks(surface.num_vertices(), grain, num_threads, take);
-    bounds.peak_bytes = search.bytes();
     return bounds;
-}
-
-DistanceBounds distance_bounds(const Surface& surface, const SurfaceLayout& layout,
-                               std::span<const SurfacePoint> sites, int num_threads,
-                               const Progress& progress) {
-    return distance_bounds(surface, layout.arcs(), layout.corners().mean_length(), sites,
-                           num_threads, progress);
 }
 
 }  // namespace agvd

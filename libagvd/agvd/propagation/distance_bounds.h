@@ -1,21 +1,20 @@
 //! \file
-//! Upper bounds for the distance from the nearest site: windows end where they exceed them.
+//! Quick labels of the vertices: each distance is that of a path, rounded up, so that no exact
+//! distance, as rounded, exceeds it.
+//! Held by DistanceBoundsOn.NoArcShortensAPath in tests/agvd/propagation.
 #pragma once
 
 #include <span>
 
 #include "agvd/core/poller.h"
-#include "agvd/mesh/surface.h"
-#include "agvd/mesh/surface_point.h"
-#include "agvd/propagation/surface_layout.h"
+#include "agvd/propagation/propagate.h"
 
 namespace agvd {
 
 //! For each vertex a path to some site.
 struct DistanceBounds {
     std::vector<float> distance;  //!< #V; infinity where no site reaches.
-    std::vector<Index> site;     //!< #V: the site whose path it is; no_index where no site reaches.
-    std::size_t peak_bytes = 0;  //!< Most bytes held at once, result included.
+    std::vector<Index> site;  //!< #V: the site whose path it is; no_index where no site reaches.
 };
 
 //! Shortest paths along the arcs of a graph. Lengths are rounded up, so that no rounded exact
@@ -23,13 +22,10 @@ struct DistanceBounds {
 //! threads lower bounds nor on the order in which sites are added.
 class BoundsSearch {
 public:
-    //! \param surface, graph  outlive the search; ArcGraph of the surface.
-    //! \param mean_edge       > 0, mesh units; a matter of speed only.
-    //! \param num_steps       of a slab; a matter of speed only. 0: as suits the graph's size.
-    BoundsSearch(const Surface& surface, const ArcGraph& graph, double mean_edge, int num_threads,
+    //! \param surface, layout  outlive the search; SurfaceLayout(surface).
+    //! \param num_steps        of a slab; a matter of speed only. 0: as suits the mesh's size.
+    BoundsSearch(const Surface& surface, const SurfaceLayout& layout, int num_threads,
                  Index num_steps = 0);
-    //! \param layout  outlives the search; SurfaceLayout(surface).
-    BoundsSearch(const Surface& surface, const SurfaceLayout& layout, int num_threads);
 
     //! Adds a site. The next run() follows its paths.
     void add(const SurfacePoint& point, Index site);
@@ -41,8 +37,6 @@ public:
     [[nodiscard]] float distance(Index vertex) const;
     //! The site of the bound; no_index where no site reaches.
     [[nodiscard]] Index site(Index vertex) const;
-    //! Memory held.
-    [[nodiscard]] std::size_t bytes() const;
 
 private:
     // The memory and the results of one task.
@@ -56,11 +50,9 @@ private:
         std::vector<Index> beyond;  // Vertices lowered in later slabs.
     };
 
-    template <typename Each>
-    void for_each_start(const SurfacePoint& point, const Each& each) const;
     [[nodiscard]] Index steps_to(float distance) const;
     void queue(Index vertex);
-    template <bool (*lower)(std::uint64_t&, std::uint64_t)>
+    template <bool is_shared>
     void search_slab(std::span<const Index> starts, Chunk& chunk, Ticker ticker);
 
     const Surface& surface_;
@@ -75,10 +67,6 @@ private:
 };
 
 //! The bounds of given sites. Parameters as above.
-[[nodiscard]] DistanceBounds distance_bounds(const Surface& surface, const ArcGraph& graph,
-                                             double mean_edge, std::span<const SurfacePoint> sites,
-                                             int num_threads, const Progress& progress = {});
-//! The same along the arcs of a layout.
 [[nodiscard]] DistanceBounds distance_bounds(const Surface& surface, const SurfaceLayout& layout,
                                              std::span<const SurfacePoint> sites, int num_threads,
                                              const Progress& progress = {});

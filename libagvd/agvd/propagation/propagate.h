@@ -1,14 +1,148 @@
 //! \file
-//! Multi-source geodesic distance propagation: the first stage of the AGVD.
+//! Multi-source geodesic distances, the first stage of a diagram: no distance exceeds the exact one
+//! by more than Propagation::certified_error.
+//! Held by WindowEngine.ErrorsStayBelowWhatIsCertified in tests/agvd/propagation.
 #pragma once
 
+#include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 
-#include "agvd/propagation/propagation_options.h"
-#include "agvd/propagation/relays.h"
-#include "agvd/propagation/surface_layout.h"
+#include "agvd/core/progress.h"
+#include "agvd/mesh/surface.h"
+#include "agvd/mesh/surface_point.h"
 
 namespace agvd {
+
+//! The algorithm that carries distances over the faces. Both return the same Propagation.
+enum class Engine : std::uint8_t {
+    Window,   //!< Exact windows, merged as far as max_error allows: our AGVD.
+    Steiner,  //!< Steiner points on the edges, [meng2023] Algorithm 1: the paper's AGVD.
+};
+
+//! Lower-case name of an engine, for command lines and reports.
+[[nodiscard]] const char* engine_name(Engine engine);
+
+//! `{}` gives the defaults.
+struct PropagationOptions {
+    Engine engine = Engine::Window;  //!< How distances are computed.
+    //! Relative distance error, in [0, 1); 0: exact in double. Certified: see
+    //! Propagation::certified_error. Unset: the window engine takes default_max_error, the Steiner
+    //! engine certifies nothing. If set, the Steiner engine inserts points where they are needed
+    //! until the bound holds at every vertex, up to 1000 on an edge; it cannot be exact, and 0 is
+    //! an error.
+    std::optional<double> max_error = {};
+    //! Steiner engine, m: Steiner points on each edge, in [0, 1000]; the first ones with max_error.
+    int steiner_points = 8;
+    //! Steiner engine: triangles are retired every lambda * #F pops, > 0. With max_error they all
+    //! stay until the end.
+    double lambda = 1;
+    int num_threads = 0;     //!< >= 0; 0: all cores. The same bytes for any number.
+    Progress progress = {};  //!< Polled during the call; see agvd::poll.
+};
+
+//! max_error of the window engine where none is asked for.
+inline constexpr double default_max_error = 1e-4;
+
+//! An additively weighted point seen from inside a face ([meng2023] Sec. 4.2): a point p of the
+//! face has distance weight + |image - p| from `site` through the relay. The image (x, y) is given
+//! in the frame of `half_edge` of that face. With y < 0 the image lies across that edge: only
+//! chords through [begin, end] of the edge
+//! are straight, others bend at the nearer end of the interval. With y >= 0 the image lies in the
+//! (convex) face itself and sees all of it.
+struct Relay {
+    double x = 0;  //!< Of the image, along the half-edge, mesh units.
+    double y = 0;  //!< Of the image, to the left of the half-edge.
+    //! Distance from the site to the image. An image that stands for several may lie farther off
+    //! than the site, with a weight below 0.
+    double weight = 0;
+    //! Visible interval on the half-edge, 0 <= begin <= end <= length.
+    double begin = 0;
+    double end = 0;              //!< See begin.
+    SiteId site;                 //!< Whose image it is.
+    Index half_edge = no_index;  //!< In whose frame the image lies.
+};
+
+//! [begin, end) of Propagation::relays.
+struct RelayRange {
+    Index begin = 0;  //!< First relay.
+    Index end = 0;    //!< One past the last relay.
+    //! Whether both ends are equal.
+    friend bool operator==(const RelayRange&, const RelayRange&) = default;
+};
+
+//! Distances that differ by less than this share are tied: it is a few hundred roundings of a
+//! path's length.
+inline constexpr double tie_tolerance = 1e-13;
+
+//! Whether a site is nearer than another one, or tied with it and of a lower number.
+[[nodiscard]] inline bool is_nearer(double distance, Index site, double other_distance,
+                                    Index other_site) {
+    const double slack = tie_tolerance * distance;
+    if (distance < other_distance - slack) return true;
+    return distance <= other_distance + slack && site < other_site;
+}
+
+//! For each vertex its distance and nearest site, and, in the faces where labels meet, the relays
+//! through which distances reach them. Distances are lengths of real paths: but for rounding, they
+//! are never below the exact geodesic distance.
+struct Propagation {
+    std::vector<SiteId> vertex_site;      //!< #V; invalid where no site reaches.
+    std::vector<double> vertex_distance;  //!< #V; infinity where no site reaches.
+
+    //! Ascending: vertices that a site reaches, but no window. Their distance is the length of a
+    //! path along edges and across pairs of faces, rounded up. Windows with errors leave such gaps;
+    //! exact windows do where lengths of edges differ by more than rounding allows.
+    std::vector<Index> vertices_off_windows;
+
+    //! Faces that may hold more than one label, ascending. Contract: an edge between a listed and
+    //! an unlisted face, and a whole unlisted face, lie in the cell of their vertices' one site.
+    std::vector<Index> mixed_faces;
+    std::vector<RelayRange> relay_ranges;  //!< #mixed: where the relays of each mixed face stand.
+    //! Ordered by face.
+    std::vector<Relay> relays;
+
+    //! Certified: no distance, at a vertex or through the relays, exceeds the exact one by more
+    //! than this share of it (rounding in double apart). The Steiner engine's bound holds at the
+    //! vertices only. Infinity: nothing is certified.
+    double certified_error = std::numeric_limits<double>::infinity();
+
+    std::size_t peak_bytes = 0;  //!< Most bytes held at once beyond the mesh, result included.
+    //! Work done: graph nodes reached (in the last round of insertions), or windows served.
+    std::size_t num_nodes = 0;
+};
+
+//! The relays of one mixed face.
+[[nodiscard]] inline std::span<const Relay> relays_of(const Propagation& propagation,
+                                                      Index mixed_index) {
+    const auto [begin, end] = propagation.relay_ranges[mixed_index];
+    return std::span(propagation.relays).subspan(begin, end - begin);
+}
+
+struct ArcGraph;
+class Corners;
+
+//! What propagation computes from the surface alone, for callers that propagate on one surface
+//! several times. It takes about 160 bytes per face, beyond the surface. It is immutable, so that
+//! threads may share it; copies share the memory.
+class SurfaceLayout {
+public:
+    //! \param num_threads  >= 0; 0: all cores.
+    //! Cost: O(#H), about that of one Dijkstra sweep over the edges.
+    //! \throw Cancelled  the progress callback returned false.
+    explicit SurfaceLayout(const Surface& surface, int num_threads = 0,
+                           const Progress& progress = {});
+
+    //! The corners of the faces, for the engines; users may outlive the layout.
+    [[nodiscard]] const std::shared_ptr<const Corners>& corners() const { return corners_; }
+    //! Edges and lines across them, for upper bounds.
+    [[nodiscard]] const ArcGraph& arcs() const { return *arcs_; }
+
+private:
+    std::shared_ptr<const Corners> corners_;
+    std::shared_ptr<const ArcGraph> arcs_;
+};
 
 //! Propagates distances from all sites at once.
 //!
@@ -22,13 +156,9 @@ namespace agvd {
 [[nodiscard]] Propagation propagate(const Surface& surface, std::span<const SurfacePoint> sites,
                                     const PropagationOptions& options = {});
 
-//! The same for a surface whose layout exists already. The Steiner engine does not use it.
-[[nodiscard]] Propagation propagate(const Surface& surface, const SurfaceLayout& layout,
-                                    std::span<const SurfacePoint> sites,
-                                    const PropagationOptions& options = {});
-//! The same for a layout that is not needed any more. Its parts, which are larger than the surface,
-//! are freed as soon as propagation has used them.
-[[nodiscard]] Propagation propagate(const Surface& surface, SurfaceLayout&& layout,
+//! The same for a surface whose layout exists already. The Steiner engine does not use it. A layout
+//! that is moved here is freed as soon as it has been used: it is larger than the surface.
+[[nodiscard]] Propagation propagate(const Surface& surface, SurfaceLayout layout,
                                     std::span<const SurfacePoint> sites,
                                     const PropagationOptions& options = {});
 

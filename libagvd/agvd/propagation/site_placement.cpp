@@ -1,24 +1,12 @@
 #include "agvd/propagation/site_placement.h"
 
 #include <algorithm>
-#include <cassert>
-#include <cmath>
-#include <string>
+#include <tuple>
 
-#include "agvd/core/error.h"
 #include "agvd/mesh/check_sites.h"
 #include "agvd/mesh/distinct_points.h"
 
 namespace agvd {
-namespace {
-
-bool by_face(const PlacedSite& a, const PlacedSite& b) {
-    if (a.point.face != b.point.face) return a.point.face < b.point.face;
-    return a.site < b.site;
-}
-
-}  // namespace
-
 SitePlacement::SitePlacement(const Surface& surface, std::span<const SurfacePoint> sites) {
     check_sites(surface, sites);
     std::vector<Index> chosen;
@@ -27,13 +15,13 @@ SitePlacement::SitePlacement(const Surface& surface, std::span<const SurfacePoin
     }
     for (const Index i : distinct_points(surface, points_of(sites, chosen))) {
         const Index s = chosen[i];
-        placed_.push_back({s, sites[s]});
-        const std::optional<Index> half_edge = half_edge_of(sites[s]);
-        if (half_edge && surface.twin[*half_edge] != no_index) {
-            placed_.push_back({s, across_edge(surface, sites[s], *half_edge)});
-        }
+        for_each_side(surface, sites[s], [&](const SurfacePoint& point, Index) {
+            placed_.push_back({s, point});
+        });
     }
-    std::stable_sort(placed_.begin(), placed_.end(), by_face);
+    std::stable_sort(placed_.begin(), placed_.end(), [](const PlacedSite& a, const PlacedSite& b) {
+        return std::tie(a.point.face, a.site) < std::tie(b.point.face, b.site);
+    });
     holds_site_.assign(surface.num_faces(), false);
     for (const PlacedSite& placed : placed_) holds_site_[placed.point.face.value()] = true;
 }
@@ -44,13 +32,6 @@ std::span<const PlacedSite> SitePlacement::find_in_face(Index face) const {
                          [](const PlacedSite& p, Index f) { return p.point.face.value() < f; });
     auto last = first;
     while (last != placed_.end() && last->point.face.value() == face) ++last;
-    return {first, last};
-}
-
-std::span<const PlacedSite> SitePlacement::seen_from(Index face, Index site) const {
-    const PlacedSite key{site, {FaceId(face), {}}};
-    const auto [first, last] = std::equal_range(placed_.begin(), placed_.end(), key, by_face);
-    assert(first != last);
     return {first, last};
 }
 

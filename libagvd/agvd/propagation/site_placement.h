@@ -29,9 +29,6 @@ public:
         if (!holds_site_[face]) return {};
         return find_in_face(face);
     }
-    //! The site as seen from `face`, which must hold it. There are two entries if the site lies on
-    //! an edge along which the face is glued to itself.
-    [[nodiscard]] std::span<const PlacedSite> seen_from(Index face, Index site) const;
 
 private:
     [[nodiscard]] std::span<const PlacedSite> find_in_face(Index face) const;
@@ -39,5 +36,15 @@ private:
     std::vector<PlacedSite> placed_;  // By (face, site).
     std::vector<bool> holds_site_;    // #F: a quick test, since most faces hold no site.
 };
+
+//! Calls each(point, half_edge) for the faces that hold a point which lies at no vertex: one, or
+//! both sides of the edge on which it lies. The half-edge is that edge, or no_index.
+template <typename Each>
+void for_each_side(const Surface& surface, const SurfacePoint& point, const Each& each) {
+    const Index half_edge = half_edge_of(point).value_or(no_index);
+    each(point, half_edge);
+    if (half_edge == no_index || surface.twin[half_edge] == no_index) return;
+    each(across_edge(surface, point, half_edge), surface.twin[half_edge]);
+}
 
 }  // namespace agvd

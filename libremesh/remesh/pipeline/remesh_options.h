@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "agvd/mesh/surface_point.h"
-#include "agvd/propagation/propagation_options.h"
+#include "agvd/propagation/propagate.h"
 #include "remesh/clean/clean_input.h"
 #include "remesh/curves/find_creases.h"
 #include "remesh/curves/junctions.h"

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "agvd/diagram/diagram.h"
-#include "agvd/propagation/surface_layout.h"
+#include "agvd/propagation/propagate.h"
 #include "remesh/curves/curve_sites.h"
 #include "remesh/pipeline/remesh_options.h"
 #include "remesh/pipeline/remesh_result.h"

@@ -12,7 +12,7 @@
 #include "agvd/intrinsic/intrinsic_triangulation.h"
 #include "agvd/mesh/point_faces.h"
 #include "agvd/propagation/distance_bounds.h"
-#include "agvd/propagation/surface_layout.h"
+#include "agvd/propagation/propagate.h"
 #include "remesh/sites/farthest_vertex.h"
 #include "remesh/sites/scatter.h"
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "agvd/intrinsic/face_pieces.h"
-#include "agvd/propagation/surface_layout.h"
+#include "agvd/propagation/propagate.h"
 #include "remesh/sites/size_field.h"
 
 namespace remesh {

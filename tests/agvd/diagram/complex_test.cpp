@@ -27,7 +27,6 @@ const std::vector<PropagationOptions>& settings() {
         {.engine = Engine::Steiner, .steiner_points = 0},
         {.engine = Engine::Steiner, .steiner_points = 3},
         {.engine = Engine::Steiner, .steiner_points = 8},
-        {.engine = Engine::Vertex},
         {.engine = Engine::Window, .max_error = 0.0},
         {.engine = Engine::Window, .max_error = 1e-3},
         {.engine = Engine::Window, .max_error = 1e-2}};

@@ -167,7 +167,6 @@ TEST_P(DeltaComplexOf, NoEngineFallsShortOfExactDistances) {
         const double any = 1e6;
         expect_above({.max_error = 1e-2, .num_threads = 1}, 1.01);
         expect_above({.engine = Engine::Steiner, .num_threads = 1}, any);
-        expect_above({.engine = Engine::Vertex, .num_threads = 1}, any);
     });
 }
 
@@ -176,7 +175,7 @@ TEST_P(DeltaComplexOf, RelaysReachEveryCornerNoFartherThanItsVertex) {
     for_each_case(4, [](const Case& c, std::uint64_t) {
         const Surface& s = c.surface();
         const double slack = metric_rounding * shapes::longest_edge(c.input);
-        for (const auto engine : {Engine::Window, Engine::Steiner, Engine::Vertex}) {
+        for (const auto engine : {Engine::Window, Engine::Steiner}) {
             SCOPED_TRACE(engine_name(engine));
             PropagationOptions options{.engine = engine, .num_threads = 1};
             if (engine == Engine::Window) options.max_error = 0;
@@ -219,7 +218,7 @@ TEST_P(DeltaComplexOf, TheSteinerEngineMeetsItsBound) {
 TEST_P(DeltaComplexOf, DiagramsOfAllEnginesAreValidComplexes) {
     for (const Index num_sites : {2, 12}) {
         for_each_case(num_sites, [](const Case& c, std::uint64_t seed) {
-            for (const auto engine : {Engine::Window, Engine::Steiner, Engine::Vertex}) {
+            for (const auto engine : {Engine::Window, Engine::Steiner}) {
                 SCOPED_TRACE(engine_name(engine));
                 const Propagation p =
                     propagate(c.surface(), c.on_base, {.engine = engine, .num_threads = 1});
@@ -347,24 +346,20 @@ TEST(DeltaComplex, SitesOnSeamsAreSeenFromBothSides) {
                 if (!label.distance) continue;
                 EXPECT_NEAR(*label.distance, d.point_distance[i], slack) << i;
             }
-            for (const auto engine : {Engine::Steiner, Engine::Vertex}) {
-                const Propagation other = propagate(s, sites, {.engine = engine, .num_threads = 1});
-                for (Index v = 0; v < s.num_vertices(); ++v) {
-                    EXPECT_GE(other.vertex_distance[v], there.vertex_distance[v] - slack);
-                }
-                PointLabels labels(s, other);
-                for (const SurfacePoint& point : uniform_points(s, 200, seed)) {
-                    const PointLabel label = labels(point), truth = labels_there(point);
-                    if (!label.distance || !truth.distance) continue;
-                    EXPECT_GE(*label.distance, *truth.distance - slack);
-                    // Steiner points: a spacing off at most.
-                    if (engine == Engine::Steiner) {
-                        EXPECT_LE(*label.distance,
-                                  *truth.distance + 0.15 * shapes::longest_edge(s));
-                    }
-                }
-                checks::expect_valid_complex(s, build_diagram(s, sites, other));
+            const Propagation other =
+                propagate(s, sites, {.engine = Engine::Steiner, .num_threads = 1});
+            for (Index v = 0; v < s.num_vertices(); ++v) {
+                EXPECT_GE(other.vertex_distance[v], there.vertex_distance[v] - slack);
             }
+            PointLabels labels(s, other);
+            for (const SurfacePoint& point : uniform_points(s, 200, seed)) {
+                const PointLabel label = labels(point), truth = labels_there(point);
+                if (!label.distance || !truth.distance) continue;
+                EXPECT_GE(*label.distance, *truth.distance - slack);
+                // A spacing of the points off at most.
+                EXPECT_LE(*label.distance, *truth.distance + 0.15 * shapes::longest_edge(s));
+            }
+            checks::expect_valid_complex(s, build_diagram(s, sites, other));
         }
     }
     EXPECT_GT(num_seams, 10u);
@@ -406,8 +401,6 @@ TEST(DeltaComplex, ASiteOnASeamIsSeenFromAcrossByTheShorterWay) {
                     return propagate(s, sites, options).vertex_distance[v];
                 };
                 EXPECT_LE(distance({.max_error = 0, .num_threads = 1}),
-                          straight * (1 + metric_rounding));
-                EXPECT_LE(distance({.engine = Engine::Vertex, .num_threads = 1}),
                           straight * (1 + metric_rounding));
                 EXPECT_LE(
                     distance({.engine = Engine::Steiner, .steiner_points = 200, .num_threads = 1}),

@@ -1,4 +1,4 @@
-#include "agvd/propagation/window/bucket_queue.h"
+#include "agvd/propagation/window/window_queue.h"
 
 #include <gtest/gtest.h>
 
@@ -7,79 +7,89 @@
 #include <map>
 
 #include "agvd/core/random.h"
-#include "agvd/propagation/window/front_item.h"
 
 using namespace agvd;
 
 namespace {
 
 struct Node {
-    double distance;
+    double distance = 0;
     Index queued_in = no_index;
 };
 
-// Serves all nodes; returns them in order.
-std::vector<Index> drain(BucketQueue<Index>& queue, std::vector<Node>& nodes) {
-    std::vector<Index> order;
-    while (!queue.empty()) {
-        const Index v = queue.pop();
-        if (queue.take(nodes[v].queued_in)) order.push_back(v);
+class BucketQueue : public testing::Test {
+protected:
+    void push(Index v, double distance) {
+        nodes[v].distance = distance;
+        queue.push(FrontItem::half_edge(v), distance, nodes[v].queued_in);
     }
-    return order;
-}
+    Index pop() {
+        return queue.pop([&](FrontItem next) { ahead = next.record(); }).record();
+    }
+    // Serves all nodes; returns them in order.
+    std::vector<Index> drain() {
+        std::vector<Index> order;
+        while (!queue.empty()) {
+            const Index v = pop();
+            if (queue.take(nodes[v].queued_in)) order.push_back(v);
+        }
+        return order;
+    }
+    std::vector<Index> order_of(std::initializer_list<double> distances) {
+        Index v = 0;
+        for (const double distance : distances) push(v++, distance);
+        return drain();
+    }
+
+    std::vector<Node> nodes = std::vector<Node>(4);
+    WindowQueue queue{1};
+    Index ahead = no_index;  // The item that was to be loaded.
+};
 
 }  // namespace
 
-TEST(BucketQueue, ServesBucketsInOrderAndNodesAsTheyCame) {
-    std::vector<Node> nodes{{3.5}, {0.2}, {3.1}, {0.9}};
-    BucketQueue<Index> queue(1);
-    for (Index v = 0; v < 4; ++v) queue.push(v, nodes[v].distance, nodes[v].queued_in);
-    EXPECT_EQ(drain(queue, nodes), (std::vector<Index>{1, 3, 0, 2}));
+TEST_F(BucketQueue, ServesBucketsInOrderAndNodesAsTheyCame) {
+    EXPECT_EQ(order_of({3.5, 0.2, 3.1, 0.9}), (std::vector<Index>{1, 3, 0, 2}));
 }
 
-TEST(BucketQueue, ANodeThatMovedIsServedOnce) {
-    std::vector<Node> nodes{{5.5}, {2.5}};
-    BucketQueue<Index> queue(1);
-    for (Index v = 0; v < 2; ++v) queue.push(v, nodes[v].distance, nodes[v].queued_in);
-    nodes[0].distance = 1.5;
-    queue.push(0, 1.5, nodes[0].queued_in);
-    EXPECT_EQ(drain(queue, nodes), (std::vector<Index>{0, 1}));
+TEST_F(BucketQueue, TheNearestComesFirstInTheOtherOrder) {
+    queue.start(WindowQueue::Order::Nearest);
+    EXPECT_EQ(order_of({3.5, 0.9, 3.1, 0.2}), (std::vector<Index>{3, 1, 2, 0}));
 }
 
-TEST(BucketQueue, ANodeServedMayComeAgain) {
-    std::vector<Node> nodes{{2.5}};
-    BucketQueue<Index> queue(1);
-    queue.push(0, 2.5, nodes[0].queued_in);
-    ASSERT_EQ(queue.pop(), 0u);
+TEST_F(BucketQueue, ANodeThatMovedIsServedOnce) {
+    push(0, 5.5);
+    push(1, 2.5);
+    push(0, 1.5);
+    EXPECT_EQ(drain(), (std::vector<Index>{0, 1}));
+}
+
+TEST_F(BucketQueue, ANodeServedMayComeAgain) {
+    push(0, 2.5);
+    ASSERT_EQ(pop(), 0u);
     ASSERT_TRUE(queue.take(nodes[0].queued_in));
-    nodes[0].distance = 2.1;
-    queue.push(0, 2.1, nodes[0].queued_in);
-    EXPECT_EQ(drain(queue, nodes), std::vector<Index>{0});
+    push(0, 2.1);
+    EXPECT_EQ(drain(), std::vector<Index>{0});
     EXPECT_TRUE(queue.empty());
 }
 
-TEST(BucketQueue, FarNodesWaitForTheirTime) {
-    std::vector<Node> nodes{{123456.5}, {5000.5}, {0.5}, {5001.5}};
-    BucketQueue<Index> queue(1);
-    for (Index v = 0; v < 4; ++v) queue.push(v, nodes[v].distance, nodes[v].queued_in);
-    EXPECT_EQ(drain(queue, nodes), (std::vector<Index>{2, 1, 3, 0}));
+TEST_F(BucketQueue, FarNodesWaitForTheirTime) {
+    EXPECT_EQ(order_of({123456.5, 5000.5, 0.5, 5001.5}), (std::vector<Index>{2, 1, 3, 0}));
 }
 
-TEST(BucketQueue, NodesBeyondTheLastBucketShareIt) {
-    std::vector<Node> nodes{{1e300}, {BucketQueue<Index>::last_bucket + 9.0}};
-    BucketQueue<Index> queue(1);
-    for (Index v = 0; v < 2; ++v) queue.push(v, nodes[v].distance, nodes[v].queued_in);
-    EXPECT_EQ(drain(queue, nodes), (std::vector<Index>{0, 1}));
+TEST_F(BucketQueue, NodesBeyondTheLastBucketShareIt) {
+    EXPECT_EQ(order_of({1e300, WindowQueue::last_bucket + 9.0}), (std::vector<Index>{0, 1}));
 }
 
-TEST(BucketQueue, PeekEndsWithTheBucket) {
-    std::vector<Node> nodes{{0.1}, {0.2}, {1.5}};
-    BucketQueue<Index> queue(1);
-    for (Index v = 0; v < 3; ++v) queue.push(v, nodes[v].distance, nodes[v].queued_in);
-    ASSERT_EQ(queue.pop(), 0u);
-    ASSERT_NE(queue.peek(1), nullptr);
-    EXPECT_EQ(*queue.peek(1), 1u);
-    EXPECT_EQ(queue.peek(2), nullptr);
+TEST_F(BucketQueue, TheNextItemOfTheBucketIsLoaded) {
+    push(0, 0.1);
+    push(1, 0.2);
+    push(2, 1.5);
+    ASSERT_EQ(pop(), 0u);
+    EXPECT_EQ(ahead, 1u);
+    ahead = no_index;
+    ASSERT_EQ(pop(), 1u);
+    EXPECT_EQ(ahead, no_index);
 }
 
 // Against one queue for each bucket. Steps are short, long, and longer than the ring.

@@ -1,14 +1,12 @@
 // Quick upper bounds: shortest paths along arcs, in whatever order they are found.
 #include "agvd/propagation/distance_bounds.h"
-#include "agvd/propagation/arc_graph.h"
-#include "agvd/propagation/corners.h"
+#include "agvd/propagation/layout.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 #include <utility>
 
-#include "agvd/propagation/surface_layout.h"
 #include "support/points.h"
 #include "support/random_meshes.h"
 #include "support/shapes.h"
@@ -22,12 +20,10 @@ TEST_P(DistanceBoundsOn, StepsAndThreadsChangeNothing) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         const Surface surface = build_surface(random_meshes::make(GetParam(), seed).view());
         const SurfaceLayout layout(surface);
-        const double mean_edge = layout.corners().mean_length();
         const auto sites = points::scattered(surface, 6, seed);
-        const DistanceBounds bounds = distance_bounds(surface, layout.arcs(), mean_edge, sites, 1);
+        const DistanceBounds bounds = distance_bounds(surface, layout, sites, 1);
         for (const auto& [num_steps, num_threads] : {std::pair{3, 1}, {40, 1}, {4, 3}}) {
-            BoundsSearch search(surface, layout.arcs(), mean_edge, num_threads,
-                                static_cast<Index>(num_steps));
+            BoundsSearch search(surface, layout, num_threads, static_cast<Index>(num_steps));
             for (Index s = 0; s < sites.size(); ++s) search.add(sites[s], s);
             search.run();
             for (Index v = 0; v < surface.num_vertices(); ++v) {
@@ -43,8 +39,7 @@ TEST_P(DistanceBoundsOn, NoArcShortensAPath) {
     const SurfaceLayout layout(surface);
     const ArcGraph& graph = layout.arcs();
     const auto sites = points::scattered(surface, 5, 7);
-    const DistanceBounds bounds =
-        distance_bounds(surface, graph, layout.corners().mean_length(), sites, 1);
+    const DistanceBounds bounds = distance_bounds(surface, layout, sites, 1);
     for (Index v = 0; v < surface.num_vertices(); ++v) {
         if (bounds.site[v] == no_index) continue;
         for (Index a = graph.offsets[v]; a < graph.ends[v]; ++a) {
@@ -61,8 +56,7 @@ TEST(DistanceBounds, AreTheSameForAnyNumberOfThreadsThatMakeTheArcs) {
     const auto sites = points::scattered(surface, 9, 3);
     const auto found = [&](int num_threads) {
         const SurfaceLayout layout(surface, num_threads);
-        return distance_bounds(surface, layout.arcs(), layout.corners().mean_length(), sites,
-                               num_threads);
+        return distance_bounds(surface, layout, sites, num_threads);
     };
     const DistanceBounds one = found(1);
     for (const int threads : {2, 8}) {

@@ -1,5 +1,5 @@
 // Targets of a Steiner point across a face, by formula.
-#include "agvd/propagation/steiner/steiner_fan.h"
+#include "agvd/propagation/steiner/steiner_front.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The window engine against formulas, against itself in another order, and its bookkeeping.
-#include "agvd/propagation/window/window_engine.h"
+#include "agvd/propagation/engines.h"
 #include "agvd/propagation/propagate.h"
 
 #include <gtest/gtest.h>
@@ -242,7 +242,7 @@ TEST(WindowEngine, SameBytesForAnyThreadCount) {
 TEST(WindowEngine, ALayoutAtHandChangesNothing) {
     const Surface s = build_surface(shapes::jitter(shapes::torus(40, 20), 0.02, 7).view());
     const SurfaceLayout layout(s);
-    for (const Engine engine : {Engine::Window, Engine::Steiner, Engine::Vertex}) {
+    for (const Engine engine : {Engine::Window, Engine::Steiner}) {
         for (const Index count : {1, 9}) {
             const auto sites = points::scattered(s, count, 4);
             checks::expect_same(propagate(s, sites, {.engine = engine}),
@@ -258,12 +258,8 @@ TEST(WindowEngine, PastTheWorkCapDistancesAreTheSame) {
     const Surface s = build_surface(shapes::jitter(shapes::torus(40, 20), 0.02, 7).view());
     const auto sites = points::scattered(s, 9, 4);
     const Propagation quick = exact(s, sites);
-    const SurfaceLayout layout(s);
-    const Corners& corners = layout.corners();
     const Propagation slow =
-        propagate_windows(s, layout.shared_corners(),
-                          distance_bounds(s, layout.arcs(), corners.mean_length(), sites, 1), sites,
-                          {.max_error = 0.0, .num_threads = 1}, 0);
+        propagate_windows(s, SurfaceLayout(s), sites, {.max_error = 0.0, .num_threads = 1}, 0);
     EXPECT_EQ(quick.vertex_site, slow.vertex_site);
     EXPECT_EQ(quick.mixed_faces, slow.mixed_faces);
     for (Index v = 0; v < s.num_vertices(); ++v) {

@@ -5,9 +5,9 @@
 
 #include <limits>
 
-#include "agvd/propagation/arc_graph.h"
 #include "agvd/propagation/distance_bounds.h"
-#include "agvd/propagation/window/window_engine.h"
+#include "agvd/propagation/layout.h"
+#include "agvd/propagation/engines.h"
 #include "support/points.h"
 #include "support/random_meshes.h"
 #include "support/shapes.h"
@@ -49,7 +49,7 @@ void expect_same_windows(const std::vector<HalfEdgeWindows>& a,
 std::vector<std::pair<Index, double>> vertices_of(const WindowFront& front) {
     std::vector<std::pair<Index, double>> result;
     front.for_each_vertex(
-        [&](const WindowFront::ReachedVertex& v) { result.emplace_back(v.vertex, v.distance); });
+        [&](Index vertex, double distance) { result.emplace_back(vertex, distance); });
     return result;
 }
 
@@ -61,10 +61,10 @@ TEST_P(WindowFrontOn, GivingWindowsBackChangesNothingElse) {
     for (std::uint64_t seed = 0; seed < 25; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         const Surface s = build_surface(random_meshes::make(GetParam(), seed).view());
-        const Corners corners(s, 1);
+        const SurfaceLayout layout(s, 1);
+        const Corners& corners = *layout.corners();
         const auto sites = points::scattered(s, static_cast<Index>(1 + seed % 3), seed);
-        DistanceBounds bounds =
-            distance_bounds(s, ArcGraph(s, corners, 1), corners.mean_length(), sites, 1);
+        DistanceBounds bounds = distance_bounds(s, layout, sites, 1);
         if (seed % 5 == 0) {  // Anything above the distance will do.
             std::fill(bounds.distance.begin(), bounds.distance.end(),
                       std::numeric_limits<float>::infinity());
@@ -74,10 +74,10 @@ TEST_P(WindowFrontOn, GivingWindowsBackChangesNothingElse) {
             WindowFront all(s, corners, max_error);
             WindowFront some(s, corners, max_error, {}, 0);
             for (const SurfacePoint& site : sites) {
-                all.run(site, bounds.distance, default_work_cap);
-                some.run(site, bounds.distance, default_work_cap, keeps);
-                EXPECT_EQ(all.num_windows(), some.num_windows());
-                EXPECT_EQ(all.relative_error(), some.relative_error());
+                run_front(all, site, bounds.distance, default_work_cap);
+                run_front(some, site, bounds.distance, default_work_cap, keeps);
+                EXPECT_EQ(all.num_served, some.num_served);
+                EXPECT_EQ(all.relative_error, some.relative_error);
                 EXPECT_EQ(vertices_of(all), vertices_of(some));
                 ASSERT_NO_FATAL_FAILURE(
                     expect_same_windows(windows_into(all, keeps), windows_into(some, keeps)));
@@ -91,10 +91,10 @@ INSTANTIATE_TEST_SUITE_P(RandomMeshes, WindowFrontOn, testing::ValuesIn(random_m
 
 TEST(WindowFront, OnlyTheWindowsNearTheFrontAreHeld) {
     const Surface s = build_surface(shapes::jitter(shapes::sphere(6), 0.003, 3).view());
-    const Corners corners(s, 1);
+    const SurfaceLayout layout(s, 1);
+    const Corners& corners = *layout.corners();
     const auto sites = points::scattered(s, 1, 2);
-    const DistanceBounds bounds =
-        distance_bounds(s, ArcGraph(s, corners, 1), corners.mean_length(), sites, 1);
+    const DistanceBounds bounds = distance_bounds(s, layout, sites, 1);
     WindowFront front(s, corners, 0);
     const auto num_held = [&] {
         std::size_t held = 0;
@@ -102,11 +102,11 @@ TEST(WindowFront, OnlyTheWindowsNearTheFrontAreHeld) {
             [&](Index, std::span<const Window> windows) { held += windows.size(); });
         return held;
     };
-    front.run(sites[0], bounds.distance, default_work_cap, [](Index) { return false; });
+    run_front(front, sites[0], bounds.distance, default_work_cap, [](Index) { return false; });
     const std::size_t bytes = front.bytes();
-    EXPECT_LT(num_held(), front.num_windows() / 10);
+    EXPECT_LT(num_held(), front.num_served / 10);
     EXPECT_LT(bytes, 100 * s.num_faces());
-    front.run(sites[0], bounds.distance, default_work_cap);
-    EXPECT_GT(num_held(), front.num_windows() / 2);
+    run_front(front, sites[0], bounds.distance, default_work_cap);
+    EXPECT_GT(num_held(), front.num_served / 2);
     EXPECT_GT(front.bytes(), 5 * bytes);
 }

@@ -3,11 +3,7 @@
 
 #include <limits>
 
-#include "agvd/propagation/window/close_edges.h"
-#include "agvd/propagation/window/divide_window.h"
-#include "agvd/propagation/window/send_windows.h"
-#include "agvd/propagation/window/serve_edge.h"
-#include "agvd/propagation/window/take_in_windows.h"
+#include "agvd/propagation/window/window_front.h"
 #include "support/shapes.h"
 
 using namespace agvd;
@@ -26,13 +22,15 @@ struct Front {
     Surface surface;
     Corners corners;
     std::vector<float> bounds;
-    FrontState state;
+    WindowFront state;
 
     Front()
         : surface(build_surface(unit_tetrahedron().view())),
           corners(surface, 1),
           bounds(surface.num_vertices(), std::numeric_limits<float>::infinity()),
-          state(make_front_state({surface, corners, 0, 0, bounds}, {})) {}
+          state(surface, corners, 0, {}, 0) {
+        state.bounds = bounds;
+    }
 
     static TriangleMesh unit_tetrahedron() {
         TriangleMesh mesh = shapes::tetrahedron();
@@ -121,7 +119,7 @@ TEST(WindowPasses, ServingSendsBothPartsOn) {
 TEST(WindowPasses, HalfEdgesBehindTheFrontAreClosed) {
     Front front;
     const KeptFaces keeps = [](Index face) { return face == 1; };
-    front.state.input.keeps = &keeps;
+    front.state.keeps = &keeps;
     for (const Index h : {Index{0}, Index{3}, Index{6}}) {  // Closed, kept, and still waiting.
         const HalfEdgeEnds to = front.ends_of(h);
         front.state.vertices.lower_bound(to.tail, 0.1);

@@ -2,7 +2,7 @@
 //! The choices of the libraries by name, as on the command line.
 #pragma once
 
-#include "agvd/propagation/propagation_options.h"
+#include "agvd/propagation/propagate.h"
 #include "binding/choose.h"
 #include "remesh/sites/sample_sites.h"
 
@@ -25,7 +25,7 @@ namespace python {
 
 [[nodiscard]] inline agvd::Engine engine_of(const std::string& name) {
     using agvd::Engine;
-    return choose<Engine>("engine", name, {Engine::Window, Engine::Steiner, Engine::Vertex},
+    return choose<Engine>("engine", name, {Engine::Window, Engine::Steiner},
                           agvd::engine_name);
 }
 

@@ -80,7 +80,7 @@ def voronoi(V: Any, F: Any = None, sites: Any = None, max_error: float | None = 
     sites: vertices (k integers), points (k x 3 numbers: the nearest point of the surface counts),
     or a pair of faces (k integers) and barycentric coordinates (k x 3), such as Sites.
     max_error: distances are at most this share above exact; 0: exact; None: 0.0001.
-    engine: ``"window"``, ``"steiner"`` or ``"vertex"``: see the README.
+    engine: ``"window"`` or ``"steiner"``: see the README.
     keep_slits: open edges at one place, such as the two sides of a slit, are not welded.
 
     >>> V, F = remesh.examples.sphere(3)

@@ -162,7 +162,7 @@ def remesh(
       corner has none.
 
     How: ``init`` (``"blue-noise"``, ``"farthest"``, ``"random"``), ``relax`` steps, ``fit``,
-    ``engine`` (``"window"``, ``"steiner"``, ``"vertex"``), ``max_error``, ``steiner_points``,
+    ``engine`` (``"window"``, ``"steiner"``), ``max_error``, ``steiner_points``,
     ``delaunay`` (``"intrinsic"``, ``"extrinsic"``, ``"off"``), ``seed``, ``threads`` (0: all
     cores; the same bytes for any number).
 

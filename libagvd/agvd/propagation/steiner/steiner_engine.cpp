@@ -1,16 +1,232 @@
-#include "agvd/propagation/steiner/steiner_engine.h"
+// Propagates over Steiner points, uniform ones or, for a given error, inserted ones.
+//
+// For a given error each round propagates, compares the vertices with the exact distances of the
+// window engine, and doubles the points on the edges of the faces that the paths of bad vertices
+// cross. If a vertex does not improve, all faces that a path of its exact length can cross get more
+// points. All points are kept until a round ends, since paths are followed back. After the last
+// round, or when the error is out of reach, it throws.
+#include "agvd/propagation/engines.h"
 
 #include <algorithm>
+#include <cmath>
+#include <sstream>
 
+#include "agvd/mesh/one_ring.h"
 #include "agvd/propagation/steiner/steiner_front.h"
-#include "agvd/propagation/steiner/steiner_refinement.h"
 
 namespace agvd {
+namespace {
+
+// The number of points on each edge. It grows on marked edges.
+class SteinerInsertion {
+public:
+    // \param points  on every edge at first.
+    SteinerInsertion(const Surface& surface, int points)
+        : surface_(surface),
+          points_(surface.num_edges(), static_cast<std::uint16_t>(points)),
+          is_marked_(surface.num_edges(), false),
+          visited_for_(surface.num_faces(), no_index) {}
+
+    // #E
+    [[nodiscard]] const std::vector<std::uint16_t>& points() const { return points_; }
+
+    // Marks the edges of the faces that the path to a vertex crosses, and the edges at the
+    // vertices that it passes. The front has run and kept all nodes.
+    void mark_path(const SteinerFront& front, Index vertex) {
+        Index h = surface_.outgoing[vertex];
+        Index j = 0;
+        for (bool is_end = true;; is_end = false) {
+            const SteinerNode& node = front.node(h, j);
+            if (j == 0 && !is_end) mark_around(surface_.tail(h));
+            if (node.from == no_index) return;
+            mark_face(Surface::face(node.from));
+            if (node.parent_slot == FaceRing::site_slot) return;
+            h = FaceRing::half_edge(node.from, node.parent_slot);
+            j = FaceRing::number_of(node.parent_slot);
+        }
+    }
+
+    // Marks the edges of all faces that a shortest path from a site to a vertex can cross.
+    // \param distance  #V: from the nearest site.
+    void mark_between(std::span<const double> distance, Index vertex) {
+        std::vector<Index> waiting{Surface::face(surface_.outgoing[vertex])};
+        visited_for_[waiting[0]] = vertex;
+        while (!waiting.empty()) {
+            const Index face = waiting.back();
+            waiting.pop_back();
+            if (!may_be_crossed(face, distance, vertex)) continue;
+            mark_face(face);
+            for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+                const Index twin = surface_.twin[h];
+                if (twin == no_index || visited_for_[Surface::face(twin)] == vertex) continue;
+                visited_for_[Surface::face(twin)] = vertex;
+                waiting.push_back(Surface::face(twin));
+            }
+        }
+    }
+
+    // Halves the spacing on the marked edges, as far as there is room, and removes the marks.
+    // False if there was no room.
+    [[nodiscard]] bool insert() {
+        bool has_room = false;
+        for (Index e = 0; e < points_.size(); ++e) {
+            if (!is_marked_[e] || points_[e] == max_steiner_points) continue;
+            points_[e] =
+                static_cast<std::uint16_t>(std::min(2 * points_[e] + 1, max_steiner_points));
+            has_room = true;
+        }
+        is_marked_.assign(is_marked_.size(), false);
+        visited_for_.assign(visited_for_.size(), no_index);
+        return has_room;
+    }
+
+    [[nodiscard]] std::size_t bytes() const {
+        return points_.capacity() * sizeof(points_[0]) + is_marked_.capacity() / 8 +
+               visited_for_.capacity() * sizeof(Index);
+    }
+
+private:
+    void mark_face(Index face) {
+        for (Index h = 3 * face; h < 3 * face + 3; ++h) is_marked_[surface_.edge[h]] = true;
+    }
+    void mark_around(Index vertex) {
+        for_each_outgoing(surface_, vertex, [&](Index h) {
+            is_marked_[surface_.edge[h]] = true;
+            is_marked_[surface_.edge[Surface::previous(h)]] = true;  // The last one on a boundary.
+        });
+    }
+    // A point x of the path has d(x) + |x - vertex| <= d(vertex), and a corner of its face is
+    // nearer to x than `reach` times the longest side. Distances in space are used: those of
+    // vertices do not exceed distances over the surface, even if faces do not lie in space.
+    [[nodiscard]] bool may_be_crossed(Index face, std::span<const double> distance,
+                                      Index vertex) const {
+        constexpr double reach =
+            0.58;  // 1 / sqrt(3), rounded up: an equilateral triangle's middle.
+        const std::vector<Vec3>& positions = surface_.mesh.positions;
+        double least = infinity;
+        double longest = 0;
+        for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+            const Index corner = surface_.tail(h);
+            const double in_space = (positions[corner] - positions[vertex]).norm();
+            least = std::min(least, distance[corner] + in_space);
+            longest = std::max(longest, surface_.length_of(h));
+        }
+        return least <= distance[vertex] + 2 * reach * longest;
+    }
+
+    const Surface& surface_;
+    std::vector<std::uint16_t> points_;  // #E
+    std::vector<bool> is_marked_;        // #E
+    std::vector<Index> visited_for_;     // #F: the last vertex whose paths were sought in the face.
+};
+
+// Distances are sums of some thousand lengths in double.
+constexpr double distance_rounding = 1e-12;
+
+constexpr int max_rounds = 20;
+
+// Relative errors of the vertices in a round and in the round before.
+struct VertexErrors {
+    std::vector<double> now, before;  // #V
+    Index worst = 0;
+
+    explicit VertexErrors(Index num_vertices) : now(num_vertices, infinity), before(now) {}
+
+    void update(const std::vector<double>& exact, const std::vector<SteinerNode>& vertices) {
+        now.swap(before);
+        worst = 0;
+        for (Index v = 0; v < exact.size(); ++v) {
+            const bool is_measured = exact[v] > 0 && exact[v] < infinity;
+            now[v] = distance_rounding;
+            if (is_measured) now[v] += std::max(vertices[v].distance / exact[v] - 1, 0.0);
+            if (now[v] > now[worst]) worst = v;
+        }
+    }
+    // More points along the path have reduced the error only a little.
+    [[nodiscard]] bool is_stuck(Index v) const {
+        constexpr double share = 0.9;
+        return now[v] > share * before[v];
+    }
+};
+
+// Errors fall with the square of the spacing at most, unless points happen to lie well.
+bool is_in_reach(double error, double max_error, Index most_points) {
+    constexpr double luck = 10;
+    const double finer = (most_points + 1.0) / (max_steiner_points + 1.0);
+    return error * finer * finer <= luck * max_error;
+}
+
+[[noreturn]] void refuse(double max_error, const VertexErrors& errors, int rounds,
+                         const SteinerCounts& counts, Index num_edges, const char* reason) {
+    std::ostringstream text;
+    text << "the Steiner engine cannot keep a maximal error of " << max_error << ": after round "
+         << rounds << ", with up to " << counts.most() << " Steiner points on an edge ("
+         << counts.total() / num_edges << " on average), the distance of vertex " << errors.worst
+         << " is off by " << errors.now[errors.worst] << ", and " << reason
+         << "; allow a larger error, or use the window engine";
+    throw ConstraintUnmet(text.str());
+}
+
+Propagation propagate_steiner_within(const Surface& surface, std::span<const SurfacePoint> sites,
+                                     const PropagationOptions& options) {
+    const double max_error = options.max_error.value();
+    double done = 0.1;
+    PropagationOptions exactly = options;
+    exactly.max_error = 0;
+    exactly.progress = within(options.progress, 0, done);
+    SurfaceLayout layout(surface, options.num_threads, within(options.progress, 0, 0));
+    Propagation exact = propagate_windows(surface, std::move(layout), sites, exactly);
+    const std::size_t bytes_of_exact = exact.peak_bytes;
+    std::vector<Relay>().swap(exact.relays);
+
+    VertexErrors errors(surface.num_vertices());
+    SteinerInsertion insertion(surface, options.steiner_points);
+    const std::size_t own_bytes =
+        insertion.bytes() + 2 * errors.now.capacity() * sizeof(double) +
+        surface.num_vertices() * (sizeof(exact.vertex_distance[0]) + sizeof(exact.vertex_site[0]));
+    for (int round = 1;; ++round) {
+        const SteinerCounts counts(insertion.points());
+        SteinerFront front(surface, sites, counts);
+        const double next = done + (1 - done) / 3;
+        front.run(infinity, within(options.progress, done, next));
+        done = next;
+
+        errors.update(exact.vertex_distance, front.vertices());
+        const double worst = errors.now[errors.worst];
+        if (worst <= max_error) {
+            Propagation result = front.finish();
+            result.certified_error = worst;
+            result.peak_bytes = std::max(bytes_of_exact, result.peak_bytes + own_bytes);
+            poll(options.progress, 1);
+            return result;
+        }
+        for (Index v = 0; v < surface.num_vertices(); ++v) {
+            if (errors.now[v] <= max_error) continue;
+            insertion.mark_path(front, v);
+            // Another site's path, or one over other faces, may be the shortest.
+            if (errors.is_stuck(v)) insertion.mark_between(exact.vertex_distance, v);
+        }
+        const char* reason = nullptr;
+        if (round == max_rounds) {
+            reason = "that is the last round";
+        } else if (!is_in_reach(worst, max_error, counts.most())) {
+            reason = "1000 points on each edge, the most that are allowed, would not suffice";
+        } else if (!insertion.insert()) {
+            reason = "the edges along its path have 1000 points, the most that are allowed";
+        } else if (!NodeNumbers::suffice(surface, SteinerCounts(insertion.points()).most())) {
+            reason = "more points need more than 2^32 nodes";
+        }
+        if (reason) refuse(max_error, errors, round, counts, surface.num_edges(), reason);
+    }
+}
+
+}  // namespace
 
 Propagation propagate_steiner(const Surface& surface, std::span<const SurfacePoint> sites,
                               const PropagationOptions& options) {
     if (options.max_error) return propagate_steiner_within(surface, sites, options);
-    const SteinerCounts counts(static_cast<Index>(options.steiner_points));
+    const auto m = static_cast<std::uint16_t>(options.steiner_points);
+    const SteinerCounts counts(std::vector<std::uint16_t>(surface.num_edges(), m));
     SteinerFront front(surface, sites, counts);
     front.run(std::max(1.0, options.lambda * surface.num_faces()), options.progress);
     return front.finish();

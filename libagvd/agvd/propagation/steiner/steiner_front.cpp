@@ -6,10 +6,18 @@
 // targets across its edge inside the fan through both windows. Vertices serve their whole one-ring.
 // So a path of the graph reaches every target, and d(x) <= (d(a) + d(b) + |e|) / 2 holds on every
 // edge.
-
+//
+// Faces behind the front retire: their relays are made, and their Steiner points are given back.
+// Inside a face, a node whose parent lies on the same face is dominated by that parent (triangle
+// inequality), and one that came through a neighbour is dominated by its parent's image, unfolded
+// across the shared edge. So the relays of a face are the parents' images: the joint diagram with
+// the neighbours' Steiner points ([meng2023] Sec. 5.3), without the points that cannot win. Faces
+// retire in an order that depends on lambda; the result does not.
 #include "agvd/propagation/steiner/steiner_front.h"
 
-#include "agvd/propagation/steiner/steiner_fan.h"
+#include <algorithm>
+
+#include "agvd/mesh/point_faces.h"
 
 namespace agvd {
 namespace {
@@ -23,7 +31,7 @@ double bucket_width(const Surface& surface, const SteinerCounts& counts) {
     double sum = 0;
     for (const double length : surface.length) sum += length;
     const Index num_edges = surface.num_edges();
-    const double intervals = counts.total(num_edges) + num_edges;
+    const double intervals = counts.total() + num_edges;
     return std::max({share * sum / intervals, sum * 0x1p-30, std::numeric_limits<double>::min()});
 }
 
@@ -47,7 +55,7 @@ SteinerFront::SteinerFront(const Surface& surface, std::span<const SurfacePoint>
       vertices_(surface.num_vertices()),
       pool_(surface.num_edges(), counts),
       queue_(bucket_width(surface, counts)),
-      retirement_(surface, placement_, counts, vertices_, pool_) {}
+      face_state_(surface.num_faces(), FaceState::Untouched) {}
 
 void SteinerFront::run(double retirement_interval, const Progress& progress) {
     Poller poller(progress);
@@ -55,8 +63,7 @@ void SteinerFront::run(double retirement_interval, const Progress& progress) {
     ticker_ = Ticker(poller);
     for (Index s = 0; s < sites_.size(); ++s) start(s);
     double next_retirement = retirement_interval;
-    const double all_nodes =
-        static_cast<double>(surface_.num_vertices()) + counts_.total(surface_.num_edges());
+    const double all_nodes = static_cast<double>(surface_.num_vertices()) + counts_.total();
     while (refill()) {
         const FrontEntry entry = queue_.pop();
         if (numbers_.is_vertex(entry.node)) {
@@ -74,7 +81,7 @@ void SteinerFront::run(double retirement_interval, const Progress& progress) {
         }
         if (static_cast<double>(num_pops_) >= next_retirement && refill()) {
             next_retirement += retirement_interval;
-            retirement_.retire_behind(queue_.top().distance);
+            retire_behind(queue_.top().distance);
         }
     }
     poller.tell(1);
@@ -82,13 +89,25 @@ void SteinerFront::run(double retirement_interval, const Progress& progress) {
 }
 
 Propagation SteinerFront::finish() {
-    retirement_.retire_behind(infinity);
-    const std::size_t common =
-        vertices_.capacity() * sizeof(SteinerNode) + retirement_.bytes() + queue_.bytes();
+    retire_behind(infinity);
+    const std::size_t common = vertices_.capacity() * sizeof(SteinerNode) + face_state_.capacity() +
+                               open_.capacity() * sizeof(Index) +
+                               relays_.capacity() * sizeof(Relay) +
+                               mixed_faces_.capacity() * sizeof(mixed_faces_[0]) + queue_.bytes();
     Propagation result;
     result.peak_bytes = common + pool_.peak_bytes();
     pool_.clear();
-    retirement_.hand_over(result);
+    std::ranges::sort(mixed_faces_, {}, [](const auto& mixed) { return mixed.first; });
+    result.relays.reserve(relays_.size());
+    result.mixed_faces.reserve(mixed_faces_.size());
+    result.relay_ranges.reserve(mixed_faces_.size());
+    for (const auto& [face, range] : mixed_faces_) {
+        const auto begin = static_cast<Index>(result.relays.size());
+        result.mixed_faces.push_back(face);
+        result.relay_ranges.push_back({begin, begin + range.end - range.begin});
+        result.relays.insert(result.relays.end(), relays_.begin() + range.begin,
+                             relays_.begin() + range.end);
+    }
     result.vertex_site.reserve(vertices_.size());
     result.vertex_distance.reserve(vertices_.size());
     for (const SteinerNode& node : vertices_) {
@@ -149,7 +168,7 @@ void SteinerFront::relax_points(Index from, Index begin, Index end, const Vec2& 
                                 Index slot) {
     if (begin >= end) return;
     ticker_.tick(end - begin);
-    retirement_.open(Surface::face(from));
+    open(Surface::face(from));
     const Index edge = surface_.edge[from];
     if (pool_.is_retired(edge)) return;
     SteinerNode* const nodes = pool_.nodes(edge);
@@ -166,21 +185,10 @@ void SteinerFront::relax_points(Index from, Index begin, Index end, const Vec2& 
     }
 }
 
-// Serves all points of a half-edge.
-void SteinerFront::relax_side(Index from, const Vec2& tail, const Vec2& along, const Vec2& source,
-                              double base, Index site, Index slot) {
-    relax_points(from, 1, counts_[surface_.edge[from]] + 1, tail, along, source, base, site, slot);
-}
-
-// Serves the whole boundary of a face from a point inside it or on it.
-void SteinerFront::serve_face(Index face, Index site, const SurfacePoint& point) {
-    for (Index k = 0; k < 3; ++k) {
-        const Index h = 3 * face + k;
-        const Vec2 source = position_in_frame(surface_, point, h);
-        relax_vertex(h, source.norm(), site, FaceRing::site_slot);
-        relax_side(h, {0, 0}, {surface_.length_of(h), 0}, source, 0, site, FaceRing::site_slot);
-    }
-    retirement_.open(face);
+// Serves all points of a half-edge, in whose frame `source` lies.
+void SteinerFront::relax_side(Index from, const Vec2& source, double base, Index site, Index slot) {
+    relax_points(from, 1, counts_[surface_.edge[from]] + 1, {0, 0}, {surface_.length_of(from), 0},
+                 source, base, site, slot);
 }
 
 void SteinerFront::start(Index s) {
@@ -189,35 +197,34 @@ void SteinerFront::start(Index s) {
         relax(vertices_[*vertex], *vertex, 0, s, no_index, FaceRing::site_slot);
         return;
     }
-    serve_face(site.face.value(), s, site);
-    const auto half_edge = half_edge_of(site);
-    if (half_edge && surface_.twin[*half_edge] != no_index) {
-        serve_face(Surface::face(surface_.twin[*half_edge]), s,
-                   across_edge(surface_, site, *half_edge));
-    }
+    for_each_side(surface_, site, [&](const SurfacePoint& point, Index) {
+        const Index face = point.face.value();
+        for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+            const Vec2 source = position_in_frame(surface_, point, h);
+            relax_vertex(h, source.norm(), s, FaceRing::site_slot);
+            relax_side(h, source, 0, s, FaceRing::site_slot);
+        }
+        open(face);
+    });
 }
 
 void SteinerFront::serve_one_ring(Index vertex) {
-    const SteinerNode node = vertices_[vertex];
+    const auto [base, site] = std::pair(vertices_[vertex].distance, vertices_[vertex].site);
     Index h = surface_.outgoing[vertex];
     if (h == no_index) return;
     do {
-        const double length = surface_.length_of(h);
         const Index opposite = Surface::next(h);
         const Vec2& apex = surface_.apex[opposite];  // This vertex, seen from the opposite edge.
-        const Index slot = FaceRing::slot(2, 0);
-        relax_side(h, {0, 0}, {length, 0}, {0, 0}, node.distance, node.site, FaceRing::slot(0, 0));
-        relax_vertex(opposite, node.distance + length, node.site, slot);
-        relax_side(opposite, {0, 0}, {surface_.length_of(opposite), 0}, apex, node.distance,
-                   node.site, slot);
-        retirement_.open(Surface::face(h));
+        relax_side(h, {0, 0}, base, site, FaceRing::slot(0, 0));
+        relax_vertex(opposite, base + surface_.length_of(h), site, FaceRing::slot(2, 0));
+        relax_side(opposite, apex, base, site, FaceRing::slot(2, 0));
+        open(Surface::face(h));
         const Index previous = Surface::previous(h);
         h = surface_.twin[previous];
         if (h == no_index) {
             const double last = surface_.length_of(previous);
-            relax_vertex(previous, node.distance + last, node.site, FaceRing::slot(1, 0));
-            relax_side(previous, {0, 0}, {last, 0}, {last, 0}, node.distance, node.site,
-                       FaceRing::slot(1, 0));
+            relax_vertex(previous, base + last, site, FaceRing::slot(1, 0));
+            relax_side(previous, {last, 0}, base, site, FaceRing::slot(1, 0));
         }
     } while (h != no_index && h != surface_.outgoing[vertex]);
 }
@@ -257,16 +264,17 @@ void SteinerFront::serve_onward(Index edge, Index point) {
 // The position of the path's previous node in the frame of node.from. `here`: the position of the
 // node in that frame.
 Vec2 SteinerFront::slot_position(const SteinerNode& node, const Vec2& here) const {
-    if (node.parent_slot == FaceRing::site_slot) {
-        const auto places = placement_.seen_from(Surface::face(node.from), node.site);
-        Vec2 nearest = position_in_frame(surface_, places[0].point, node.from);
-        for (const PlacedSite& other : places.subspan(1)) {
-            const Vec2 p = position_in_frame(surface_, other.point, node.from);
-            if ((p - here).squaredNorm() < (nearest - here).squaredNorm()) nearest = p;
-        }
-        return nearest;
+    if (node.parent_slot != FaceRing::site_slot) {
+        return FaceRing::position(surface_, counts_, node.from, node.parent_slot);
     }
-    return FaceRing::position(surface_, counts_, node.from, node.parent_slot);
+    // There are two names of a site on an edge along which the face is glued to itself.
+    Vec2 nearest(infinity, infinity);
+    for (const PlacedSite& placed : placement_.in_face(Surface::face(node.from))) {
+        if (placed.site != node.site) continue;
+        const Vec2 p = position_in_frame(surface_, placed.point, node.from);
+        if ((p - here).squaredNorm() < (nearest - here).squaredNorm()) nearest = p;
+    }
+    return nearest;
 }
 
 // The vector from the parent to its neighbour on the parent's edge, up to sign; 0 for a vertex or a
@@ -282,6 +290,121 @@ Vec2 SteinerFront::parent_spacing(const SteinerNode& node) const {
                Vec2(apex - Vec2(surface_.length_of(h), 0));
     }
     return counts_.step(surface_.edge[Surface::previous(h)]) * apex;
+}
+
+bool SteinerFront::is_behind(Index face, double front) const {
+    for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+        const double bound = (vertices_[surface_.tail(h)].distance +
+                              vertices_[surface_.head(h)].distance + surface_.length_of(h)) /
+                             2;
+        if (!(bound < front)) return false;
+    }
+    return true;
+}
+
+void SteinerFront::retire(Index face) {
+    face_state_[face] = FaceState::Retired;
+    if (is_mixed(face)) {
+        const auto begin = static_cast<Index>(relays_.size());
+        collect(face);
+        mixed_faces_.push_back({face, {begin, static_cast<Index>(relays_.size())}});
+    }
+    for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+        const Index twin = surface_.twin[h];
+        if (twin == no_index || face_state_[Surface::face(twin)] == FaceState::Retired) {
+            pool_.retire(surface_.edge[h]);
+        }
+    }
+}
+
+bool SteinerFront::are_all_from(Index half_edge, Index site) {
+    if (vertices_[surface_.tail(half_edge)].site != site) return false;
+    const Index edge = surface_.edge[half_edge];
+    if (counts_[edge] == 0) return true;
+    const std::span nodes(pool_.nodes(edge), counts_[edge]);
+    return std::ranges::all_of(nodes, [&](const SteinerNode& n) { return n.site == site; });
+}
+
+// Whether a face is not redundant (Sec. 4.3): its boundary has nodes of several sites, or a site in
+// the face or in a neighbour may have a cell that lies between the nodes.
+bool SteinerFront::is_mixed(Index face) {
+    const Index site = vertices_[surface_.tail(3 * face)].site;
+    const auto may_hold_another = [&](Index f) {
+        return std::ranges::any_of(placement_.in_face(f),
+                                   [&](const PlacedSite& p) { return p.site != site; });
+    };
+    for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+        if (!are_all_from(h, site)) return true;
+        const Index twin = surface_.twin[h];
+        if (twin != no_index && may_hold_another(Surface::face(twin))) return true;
+    }
+    return may_hold_another(face);
+}
+
+void SteinerFront::add_relay(Index half_edge, const Vec2& image, double weight, Index site) {
+    relays_.push_back({image.x(), image.y(), std::max(weight, 0.0), 0,
+                       surface_.length_of(half_edge), SiteId(site), half_edge});
+}
+
+void SteinerFront::collect(Index face) {
+    for (const PlacedSite& placed : placement_.in_face(face)) {
+        add_relay(3 * face, position_in_frame(surface_, placed.point, 3 * face), 0, placed.site);
+    }
+    for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+        const SteinerNode& corner = vertices_[surface_.tail(h)];
+        if (corner.from != h) {  // Else its parent in this face replaces it.
+            add_relay(h, {0, 0}, corner.distance, corner.site);
+        }
+        const Index twin = surface_.twin[h];
+        if (twin != no_index) collect_across(h, twin);
+    }
+}
+
+// Adds the images, in the frame of h, of the parents in the neighbour from which nodes on h
+// were reached.
+void SteinerFront::collect_across(Index h, Index twin) {
+    const double length = surface_.length_of(h);
+    const auto mirrored = [length](const Vec2& p) { return Vec2(length - p.x(), -p.y()); };
+    const Index neighbour = Surface::face(twin);
+    for (const PlacedSite& placed : placement_.in_face(neighbour)) {
+        const Vec2 image = mirrored(position_in_frame(surface_, placed.point, twin));
+        // Sites on the edge are in in_face(face), too.
+        if (image.y() < 0) add_relay(h, image, 0, placed.site);
+    }
+    const Index edge = surface_.edge[h];
+    const Index m = counts_[edge];
+    if (m == 0) return;
+    const double step = counts_.step(edge);
+    const SteinerNode* const nodes = pool_.nodes(edge);
+    seen_slots_.clear();
+    for (Index k = 0; k < m; ++k) {
+        const SteinerNode& node = nodes[k];
+        if (node.from != twin || node.parent_slot == FaceRing::site_slot ||
+            FaceRing::is_on_base(node.parent_slot)) {
+            continue;
+        }
+        const std::pair<Index, Index> key(node.parent_slot, node.site);
+        if (std::find(seen_slots_.begin(), seen_slots_.end(), key) != seen_slots_.end()) {
+            continue;
+        }
+        seen_slots_.push_back(key);
+        const Vec2 p = FaceRing::position(surface_, counts_, twin, node.parent_slot);
+        const Index j = surface_.edge_half[edge] == twin ? k + 1 : m - k;
+        const double chord = (p - Vec2(length * j * step, 0)).norm();
+        add_relay(h, mirrored(p), node.distance - chord, node.site);
+    }
+}
+
+void SteinerFront::retire_behind(double front) {
+    std::size_t kept = 0;
+    for (const Index face : open_) {
+        if (is_behind(face, front)) {
+            retire(face);
+        } else {
+            open_[kept++] = face;
+        }
+    }
+    open_.resize(kept);
 }
 
 }  // namespace agvd

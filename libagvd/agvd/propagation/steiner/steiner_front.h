@@ -2,17 +2,139 @@
 //! The wavefront of the Steiner engine.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <compare>
+#include <functional>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "agvd/core/poller.h"
-#include "agvd/propagation/propagation_options.h"
-#include "agvd/propagation/relays.h"
+#include "agvd/propagation/bucket_ring.h"
+#include "agvd/propagation/propagate.h"
 #include "agvd/propagation/site_placement.h"
-#include "agvd/propagation/steiner/front_queue.h"
-#include "agvd/propagation/steiner/steiner_pool.h"
-#include "agvd/propagation/steiner/steiner_retirement.h"
+#include "agvd/propagation/steiner/steiner_nodes.h"
 
 namespace agvd {
+
+//! The targets that a Steiner point serves across its edge: a filter like the simplified windows of
+//! [meng2021]. Targets [begin, end) on the far side of a face, numbered counter-clockwise: 1 to m
+//! are the points on the next half-edge, m + 1 is the apex, and from m + 2 on the points on the
+//! previous half-edge follow.
+struct TargetRange {
+    Index begin;
+    Index end;
+};
+
+//! A face in the frame of one of its half-edges. The m points on each of the two other sides divide
+//! it into m + 1 intervals.
+struct FarSide {
+    double length;  //!< Of the half-edge.
+    Vec2 apex;
+    Index next_intervals;
+    Index previous_intervals;
+
+    //! Where a ray upwards from the base meets the far side, in target numbers (real).
+    [[nodiscard]] double target_at(const Vec2& origin, const Vec2& direction) const {
+        const double run = apex.y() * direction.x() / direction.y();
+        if (run < apex.x() - origin.x()) {  // The apex lies to the right: the previous half-edge.
+            const double shift =
+                static_cast<double>(next_intervals) - static_cast<double>(previous_intervals);
+            return previous_intervals * (2 - origin.x() / (apex.x() - run)) + shift;
+        }
+        return next_intervals * (length - origin.x()) / (run - apex.x() + length);
+    }
+
+    //! The targets in the strip of straight lines from the window of `parent`, below the base, to
+    //! the window of `here`, on the base. Both windows extend by one spacing to either side.
+    //! \param spacing         of the points on the base.
+    //! \param parent_spacing  from the parent to its neighbour on its own edge, up to sign.
+    [[nodiscard]] TargetRange visible_targets(const Vec2& here, double spacing, const Vec2& parent,
+                                              const Vec2& parent_spacing) const {
+        const Vec2 ahead = here - parent;
+        const bool is_left = ahead.x() * parent_spacing.y() - ahead.y() * parent_spacing.x() > 0;
+        const Vec2 turn = Vec2(spacing, 0) + (is_left ? -parent_spacing : parent_spacing);
+        const Vec2 right = ahead + turn;
+        const Vec2 left = ahead - turn;
+        const double all = static_cast<double>(next_intervals) + previous_intervals;
+        const double first = right.y() > 0 ? target_at(here, right) : 0;
+        const double last = left.y() > 0 ? target_at(here, left) : all;
+        return {static_cast<Index>(std::max(0.0, std::floor(first))),
+                static_cast<Index>(std::min(all, std::ceil(last))) + 1};
+    }
+};
+
+struct FrontEntry {
+    double distance;
+    Index site;
+    Index node;
+
+    auto operator<=>(const FrontEntry&) const = default;
+};
+
+//! The queue of searches that serve every node once: it pops in the order (distance, site, node).
+//! (WindowQueue is for searches that may serve an item again, and needs no heap.) Nodes wait
+//! unsorted in buckets of equal distance range. Only the open bucket is a heap, small enough for
+//! the first cache levels, and a node that improves within its bucket is not pushed again. The
+//! caller skips the stale entries on pop. Nothing may be pushed below the last pop.
+class FrontQueue {
+public:
+    //! \param bucket_width > 0, in mesh units; a matter of speed only, but no distance may exceed
+    //!                     2^31 widths.
+    explicit FrontQueue(double bucket_width) : per_width_(1 / bucket_width) {}
+
+    //! \param queued_in  the node's own memory of the bucket it waits in; no_index at first.
+    void push(const FrontEntry& entry, Index& queued_in) {
+        const auto bucket = static_cast<Index>(entry.distance * per_width_) + 1;
+        if (bucket <= buckets_.current()) {
+            add(entry);
+        } else if (queued_in != bucket) {
+            queued_in = bucket;
+            buckets_.push(bucket, entry.node);
+        }
+    }
+
+    //! Makes top() and pop() possible; false when nothing is left.
+    //! \param load  load(node, bucket) returns the node's entry if it still waits in that bucket.
+    template <typename Load>
+    [[nodiscard]] bool refill(const Load& load) {
+        while (heap_.empty()) {
+            if (buckets_.empty()) return false;
+            do {
+                const Index node = buckets_.pop();
+                if (const std::optional<FrontEntry> entry = load(node, buckets_.current())) {
+                    add(*entry);
+                }
+            } while (buckets_.peek() != nullptr);
+        }
+        return true;
+    }
+
+    [[nodiscard]] const FrontEntry& top() const { return heap_.front(); }
+
+    FrontEntry pop() {
+        std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
+        const FrontEntry result = heap_.back();
+        heap_.pop_back();
+        return result;
+    }
+
+    //! Bytes held. They never become fewer.
+    [[nodiscard]] std::size_t bytes() const {
+        return heap_.capacity() * sizeof(FrontEntry) + buckets_.bytes();
+    }
+
+private:
+    void add(const FrontEntry& entry) {
+        heap_.push_back(entry);
+        std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
+    }
+
+    double per_width_;
+    std::vector<FrontEntry> heap_;  // Of the open bucket.
+    BucketRing<Index> buckets_;     // Numbered from 1.
+};
 
 //! One propagation over given Steiner points: run(), then finish(). A node stores the face that its
 //! path came through and its parent, the previous node on the boundary of that face. Between the
@@ -38,19 +160,36 @@ public:
     [[nodiscard]] const SteinerNode& node(Index half_edge, Index j) const;
 
 private:
+    enum class FaceState : std::uint8_t { Untouched, Open, Retired };
+
     [[nodiscard]] bool refill();
     void relax(SteinerNode& node, Index id, double distance, Index site, Index from, Index slot);
     void relax_vertex(Index from, double distance, Index site, Index slot);
     void relax_points(Index from, Index begin, Index end, const Vec2& tail, const Vec2& along,
                       const Vec2& source, double base, Index site, Index slot);
-    void relax_side(Index from, const Vec2& tail, const Vec2& along, const Vec2& source,
-                    double base, Index site, Index slot);
+    void relax_side(Index from, const Vec2& source, double base, Index site, Index slot);
     void start(Index s);
-    void serve_face(Index face, Index site, const SurfacePoint& point);
     void serve_one_ring(Index vertex);
     void serve_onward(Index edge, Index point);
     [[nodiscard]] Vec2 slot_position(const SteinerNode& node, const Vec2& here) const;
     [[nodiscard]] Vec2 parent_spacing(const SteinerNode& node) const;
+
+    // To be called when the front has come to a face.
+    void open(Index face) {
+        if (face_state_[face] != FaceState::Untouched) return;
+        face_state_[face] = FaceState::Open;
+        open_.push_back(face);
+    }
+    // Retires the open faces whose boundary is nearer than `front` by the bound
+    // d(x) <= (d(a) + d(b) + |e|) / 2 on an edge.
+    void retire_behind(double front);
+    void retire(Index face);
+    [[nodiscard]] bool is_behind(Index face, double front) const;
+    [[nodiscard]] bool are_all_from(Index half_edge, Index site);
+    [[nodiscard]] bool is_mixed(Index face);
+    void add_relay(Index half_edge, const Vec2& image, double weight, Index site);
+    void collect(Index face);
+    void collect_across(Index h, Index twin);
 
     const Surface& surface_;
     std::span<const SurfacePoint> sites_;
@@ -60,8 +199,12 @@ private:
     std::vector<SteinerNode> vertices_;
     SteinerPool pool_;
     FrontQueue queue_;
-    SteinerRetirement retirement_;
-    Ticker ticker_;  // Of run().
+    std::vector<FaceState> face_state_;  // #F
+    std::vector<Index> open_;
+    std::vector<std::pair<Index, RelayRange>> mixed_faces_;  // In the order of retirement.
+    std::vector<Relay> relays_;
+    std::vector<std::pair<Index, Index>> seen_slots_;  // Scratch: (slot, site).
+    Ticker ticker_;                                    // Of run().
     std::size_t num_pops_ = 0;
 };
 

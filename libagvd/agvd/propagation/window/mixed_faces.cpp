@@ -6,10 +6,52 @@
 #include <algorithm>
 
 #include "agvd/core/parallel.h"
-#include "agvd/propagation/window/window_relays.h"
+#include "agvd/mesh/point_faces.h"
 
 namespace agvd {
 namespace {
+
+// The number of relays that came into a face, and their site.
+struct FaceRelays {
+    static constexpr Index several = no_index - 1;
+
+    Index count = 0;
+    Index site = no_index;  // May be `several`.
+
+    // There are no branches, since they could not be predicted.
+    void add_site(Index other) {
+        const Index both = ((other == no_index) | (other == site)) ? site : several;
+        site = site == no_index ? other : both;
+    }
+};
+
+// Whether the tail of a half-edge is the image of a relay: a site lies on it or beside it, paths
+// may bend at it, or no window reached it.
+bool is_source(const Surface& surface, const Propagation& result, Index half_edge) {
+    const Index v = surface.tail(half_edge);
+    const std::vector<Index>& unseen = result.vertices_off_windows;
+    if (!unseen.empty() && std::binary_search(unseen.begin(), unseen.end(), v)) return true;
+    return result.vertex_site[v].is_valid() &
+           ((surface.can_be_pseudo_source[v] != 0) |
+            (result.vertex_distance[v] <= near_vertex * surface.length_of(half_edge)));
+}
+
+// Calls each(relay) for the relays that start in a face: those of its placed sites, and of its
+// corners that are sites or pseudo-sources, with the distances of `result`.
+template <typename Each>
+void for_each_inner_relay(const Surface& surface, std::span<const PlacedSite> placed,
+                          const Propagation& result, Index face, const Each& each) {
+    for (const PlacedSite& site : placed) {
+        const Vec2 p = position_in_frame(surface, site.point, 3 * face);
+        each(Relay{p.x(), p.y(), 0, 0, surface.length_of(3 * face), SiteId(site.site), 3 * face});
+    }
+    for (Index h = 3 * face; h < 3 * face + 3; ++h) {
+        if (!is_source(surface, result, h)) continue;
+        const Index v = surface.tail(h);
+        each(Relay{0, 0, result.vertex_distance[v], 0, surface.length_of(h), result.vertex_site[v],
+                   h});
+    }
+}
 
 // Calls each(relay) for the relays of a block. Calls load(face) for the faces of relays a few
 // places ahead, which are seldom in the cache.
@@ -91,7 +133,7 @@ private:
             const auto placed = placement_.in_face(f);
             for (const PlacedSite& p : placed) face.add_site(p.site);
             if (face.site != FaceRelays::several) continue;
-            face.count += count_inner_relays(surface_, placed, result_, f);
+            for_each_inner_relay(surface_, placed, result_, f, [&](const Relay&) { ++face.count; });
             ++own.face;
             own.relay += face.count;
         }
@@ -127,8 +169,9 @@ private:
         for (Index i = first; i < end; ++i) {
             ticker.tick();
             const Index f = result_.mixed_faces[i];
-            write_inner_relays(surface_, placement_.in_face(f), result_, f,
-                               result_.relays.data() + faces_[f].count);
+            for_each_inner_relay(
+                surface_, placement_.in_face(f), result_, f,
+                [&](const Relay& relay) { result_.relays[faces_[f].count++] = relay; });
         }
     }
 

@@ -6,7 +6,7 @@
 // Windows are kept as relays in the faces near a change of label in the bounds. Where a site
 // reaches a face that the bounds give to another site, its windows are strays: the other site runs
 // once more to keep its windows there (docs/algorithm.md, "Window engine").
-#include "agvd/propagation/window/window_engine.h"
+#include "agvd/propagation/engines.h"
 
 #include <algorithm>
 #include <memory>
@@ -16,15 +16,87 @@
 #include <utility>
 
 #include "agvd/core/parallel.h"
-#include "agvd/propagation/arc_graph.h"
-#include "agvd/propagation/site_placement.h"
-#include "agvd/propagation/window/border_faces.h"
+#include "agvd/mesh/one_ring.h"
+#include "agvd/propagation/distance_bounds.h"
 #include "agvd/propagation/window/mixed_faces.h"
 #include "agvd/propagation/window/window_front.h"
-#include "agvd/propagation/window/window_relays.h"
 
 namespace agvd {
 namespace {
+
+// Windows of a second site may come to a face if its bound exceeds that of the nearest site by at
+// most this share. That is as much as bounds exceed distances. With less, more sites run twice.
+constexpr double slack = 0.08;
+
+// The exact border may lie this far from the border of the bounds, as a share of the distance from
+// the site. Where that is less than two rings of faces, nothing is widened.
+constexpr double shift = 0.2;
+
+using Marks = std::vector<std::uint8_t>;
+
+// #V. 1: at a change of label, 2: next to one.
+Marks mark_two_rings(const Surface& surface, const DistanceBounds& bounds) {
+    Marks marks(surface.num_vertices(), 0);
+    const auto mark = [&](const Triangle& triangle, int bits) {
+        for (const Index v : triangle) marks[v] = static_cast<std::uint8_t>(marks[v] | bits);
+    };
+    for (const Triangle& t : surface.mesh.triangles) {
+        const auto &a = bounds.site[t[0]], &b = bounds.site[t[1]], &c = bounds.site[t[2]];
+        mark(t, ((a != b) | (b != c)) ? 1 : 0);
+    }
+    for (const Triangle& t : surface.mesh.triangles) {
+        mark(t, ((marks[t[0]] | marks[t[1]] | marks[t[2]]) & 1) << 1);
+    }
+    return marks;
+}
+
+// Widens the marks where two rings are too few, in cells of many faces: as far as a path from the
+// other side of the border may be nearly as short as the bound.
+void widen(const Surface& surface, const Corners& corners, const DistanceBounds& bounds,
+           Marks& marks) {
+    const double two_rings = 2 * corners.mean_length();
+    std::vector<float> across(marks.size(), std::numeric_limits<float>::infinity());
+    std::vector<Index> front;
+    const auto reach = [&](Index vertex, float distance) {
+        if (!(distance < across[vertex])) return;
+        across[vertex] = distance;
+        if (!(distance <= (1 + slack) * bounds.distance[vertex])) return;
+        marks[vertex] = static_cast<std::uint8_t>(marks[vertex] | 2);
+        front.push_back(vertex);
+    };
+    // Reaches the neighbours of one side of the border. The last neighbour of a boundary vertex is
+    // left out: the rings of other vertices find it.
+    const auto reach_neighbours = [&](Index v, float distance, bool is_own_side) {
+        for_each_outgoing(surface, v, [&](Index h) {
+            const Index neighbour = corners.head(h);
+            if ((bounds.site[neighbour] == bounds.site[v]) != is_own_side) return;
+            reach(neighbour, distance + static_cast<float>(corners.length(h)));
+        });
+    };
+    for (Index v = 0; v < surface.num_vertices(); ++v) {
+        if ((marks[v] & 1) == 0 || !(shift * bounds.distance[v] > two_rings)) continue;
+        reach_neighbours(v, bounds.distance[v], false);
+    }
+    for (std::size_t i = 0; i < front.size(); ++i) {
+        reach_neighbours(front[i], across[front[i]], true);
+    }
+}
+
+// Marks the faces where windows of several sites are expected: those within two rings of a change
+// of label, and those where a path from the other side of the change is nearly as short as the
+// bound. On few faces the borders of exact distances lie farther off. Returns 1 for the marked
+// faces.
+std::vector<std::uint8_t> faces_near_borders(const Surface& surface, const Corners& corners,
+                                             const DistanceBounds& bounds) {
+    Marks marks = mark_two_rings(surface, bounds);
+    widen(surface, corners, bounds, marks);
+    std::vector<std::uint8_t> faces;
+    faces.reserve(surface.num_faces());
+    for (const auto& [a, b, c] : surface.mesh.triangles) {
+        faces.push_back((marks[a] | marks[b] | marks[c]) != 0 ? 1 : 0);
+    }
+    return faces;
+}
 
 // Sites run in batches. The results of a batch are taken in, and progress is told, before the next
 // batch starts.
@@ -44,66 +116,6 @@ struct TaskResult {
     RelayLogs relays;           // Relays in faces near borders.
     std::size_t num_windows = 0;
     double error = 0;
-
-    void add_strays(std::span<const Window> windows, Index site, Index half_edge) {
-        for (const Window& w : windows) strays.push_back(to_relay(w, site, half_edge));
-    }
-    // Keeps the relays, which hand_over() empties.
-    void clear() {
-        vertices.clear();
-        strays.clear();
-        num_windows = 0;
-        error = 0;
-    }
-    [[nodiscard]] std::size_t bytes() const {
-        return vertices.capacity() * sizeof(Reached) + strays.capacity() * sizeof(Relay);
-    }
-};
-
-// The memory of a task. Tasks use it one after the other, since it is as large as the index arrays
-// of the mesh.
-struct Worker {
-    WindowFront front;
-    TaskResult result;  // It grows here, and is copied without spare room.
-};
-
-// The workers that no task holds.
-class WorkerPool {
-public:
-    WorkerPool(const Surface& surface, const Corners& corners, double max_error, Poller& poller)
-        : surface_(surface), corners_(corners), max_error_(max_error), poller_(poller) {}
-
-    std::unique_ptr<Worker> take() {
-        const std::scoped_lock lock(mutex_);
-        if (free_.empty()) {
-            auto worker = std::make_unique<Worker>(
-                Worker{WindowFront(surface_, corners_, max_error_, Ticker(poller_)), {}});
-            worker->result.relays = RelayLogs(surface_.num_faces());
-            return worker;
-        }
-        auto worker = std::move(free_.back());
-        free_.pop_back();
-        return worker;
-    }
-    void give_back(std::unique_ptr<Worker> worker) {
-        const std::scoped_lock lock(mutex_);
-        free_.push_back(std::move(worker));
-    }
-    [[nodiscard]] std::size_t bytes() const {
-        std::size_t sum = 0;
-        for (const auto& worker : free_) {
-            sum += worker->front.bytes() + worker->result.bytes();
-        }
-        return sum;
-    }
-
-private:
-    const Surface& surface_;
-    const Corners& corners_;
-    double max_error_;
-    Poller& poller_;
-    std::mutex mutex_;
-    std::vector<std::unique_ptr<Worker>> free_;
 };
 
 class WindowEngine {
@@ -124,19 +136,16 @@ public:
           logs_(surface.num_faces()) {}
 
     Propagation run() {
-        {
-            WorkerPool workers(surface_, *corners_, max_error_, poller_);
-            result_.vertex_distance.assign(surface_.num_vertices(),
-                                           std::numeric_limits<double>::infinity());
-            result_.vertex_site.assign(surface_.num_vertices(), SiteId());
-            result_.certified_error = 0;
-            propagate_all(workers);
-            take_bounds();
-            propagate_again(workers);
-            result_.peak_bytes = corners_->bytes() + workers.bytes() +
-                                 bounds_.capacity() * sizeof(float) +
-                                 labels_.capacity() * sizeof(Index) + common_bytes();
-        }
+        result_.vertex_distance.assign(surface_.num_vertices(), infinity);
+        result_.vertex_site.assign(surface_.num_vertices(), SiteId());
+        result_.certified_error = 0;
+        propagate_all();
+        take_bounds();
+        propagate_again();
+        result_.peak_bytes = corners_->bytes() + bounds_.capacity() * sizeof(float) +
+                             labels_.capacity() * sizeof(Index) + common_bytes();
+        for (const auto& front : free_fronts_) result_.peak_bytes += front->bytes();
+        free_fronts_.clear();
         corners_.reset();
         std::vector<float>().swap(bounds_);
         std::vector<std::uint8_t>().swap(borders_);
@@ -153,9 +162,9 @@ public:
 
 private:
     [[nodiscard]] std::size_t common_bytes() const {
-        std::size_t sum = result_.vertex_distance.capacity() * sizeof(double) +
-                          result_.vertex_site.capacity() * sizeof(SiteId) + borders_.capacity();
-        return sum + logs_.bytes();
+        return result_.vertex_distance.capacity() * sizeof(double) +
+               result_.vertex_site.capacity() * sizeof(SiteId) + borders_.capacity() +
+               logs_.bytes();
     }
 
     // The order in which sites run, and in which their relays are stored for a face: by the faces
@@ -168,19 +177,18 @@ private:
         std::sort(sites.begin(), sites.end(), [&](Index a, Index b) { return comes_before(a, b); });
     }
 
-    void propagate_all(WorkerPool& workers) {
+    void propagate_all() {
         std::vector<Index> order(sites_.size());
         std::iota(order.begin(), order.end(), Index{0});
         sort_by_face(order);
         const auto count = static_cast<Index>(order.size());
         const Index batch = std::max(count / most_batches, least_batch);
         for (Index first = 0; first < count; first += batch) {
-            const auto tasks = run_tasks(
-                std::span(order).subspan(first, std::min(batch, count - first)), workers,
-                [&](Index site, Index face) { return is_collected(site, face); },
-                [&](Index site, const WindowFront& front, TaskResult& task) {
-                    collect(site, front, task);
-                });
+            const auto tasks =
+                run_tasks(std::span(order).subspan(first, std::min(batch, count - first)),
+                          [&](Index site, Index face) {
+                              return borders_[face] != 0 || label_of(face) != site;
+                          });
             for (const TaskResult& task : tasks) {
                 take_vertices(task);
                 poller_.poll();
@@ -189,36 +197,28 @@ private:
         }
     }
 
-    // A copy without spare room.
-    [[nodiscard]] static TaskResult hand_over(TaskResult& grown) {
-        RelayLogs relays = grown.relays.hand_over();
-        TaskResult result = grown;
-        result.relays = std::move(relays);
-        return result;
-    }
-
-    // Runs sites in tasks of equal size, and keeps their relays. `collect` gets the windows of the
-    // faces with keeps(site, face).
-    template <typename Keeps, typename Collect>
-    std::vector<TaskResult> run_tasks(std::span<const Index> order, WorkerPool& workers,
-                                      const Keeps& keeps, const Collect& collect) {
+    // Runs sites in tasks of equal size, and keeps their relays in the faces with keeps(site,
+    // face).
+    template <typename Keeps>
+    std::vector<TaskResult> run_tasks(std::span<const Index> order, const Keeps& keeps) {
         const auto count = static_cast<Index>(order.size());
         const Index grain = std::max(count / tasks_of_a_batch, Index{1});
         std::vector<TaskResult> tasks(num_chunks(count, grain));
         const auto body = [&](Index chunk, Index begin, Index end) {
-            auto worker = workers.take();
-            worker->result.clear();
+            auto front = take_front();
+            TaskResult result;
+            result.relays = RelayLogs(surface_.num_faces());
             for (Index i = begin; i < end; ++i) {
-                WindowFront& front = worker->front;
-                TaskResult& result = worker->result;
-                front.run(sites_[order[i]], bounds_, work_cap_,
-                          [&](Index face) { return keeps(order[i], face); });
-                result.num_windows += front.num_windows();
-                result.error = std::max(result.error, front.relative_error());
-                collect(order[i], front, result);
+                const auto keeps_face = [&](Index face) { return keeps(order[i], face); };
+                run_front(*front, sites_[order[i]], bounds_, work_cap_, keeps_face);
+                collect(order[i], *front, keeps_face, result);
             }
-            tasks[chunk] = hand_over(worker->result);
-            workers.give_back(std::move(worker));
+            result.vertices.shrink_to_fit();
+            result.strays.shrink_to_fit();
+            result.relays.shrink_to_fit();
+            tasks[chunk] = std::move(result);
+            const std::scoped_lock lock(mutex_);
+            free_fronts_.push_back(std::move(front));
         };
         parallel_chunks(count, grain, options_.num_threads, body, poller_);
         for (TaskResult& task : tasks) {
@@ -231,20 +231,34 @@ private:
         return tasks;
     }
 
-    [[nodiscard]] bool is_collected(Index site, Index face) const {
-        return borders_[face] != 0 || label_of(face) != site;
+    // A front that no task holds. Tasks use it one after the other, since it is as large as the
+    // index arrays of the mesh.
+    std::unique_ptr<WindowFront> take_front() {
+        const std::scoped_lock lock(mutex_);
+        if (free_fronts_.empty()) {
+            return std::make_unique<WindowFront>(surface_, *corners_, max_error_, Ticker(poller_));
+        }
+        auto front = std::move(free_fronts_.back());
+        free_fronts_.pop_back();
+        return front;
     }
 
-    void collect(Index site, const WindowFront& front, TaskResult& task) {
-        front.for_each_vertex([&](const WindowFront::ReachedVertex& v) {
-            task.vertices.push_back({v.distance, v.vertex, site});
+    template <typename Keeps>
+    void collect(Index site, const WindowFront& front, const Keeps& keeps, TaskResult& task) const {
+        task.num_windows += front.num_served;
+        task.error = std::max(task.error, front.relative_error);
+        front.for_each_vertex([&](Index vertex, double distance) {
+            task.vertices.push_back({distance, vertex, site});
         });
         front.for_each_half_edge([&](Index half_edge, std::span<const Window> windows) {
             const Index face = Surface::face(half_edge);
-            if (borders_[face] != 0) {
-                for (const Window& w : windows) task.relays.add(to_relay(w, site, half_edge));
-            } else if (label_of(face) != site) {
-                task.add_strays(windows, site, half_edge);
+            if (!keeps(face)) return;
+            for (const Window& w : windows) {
+                if (borders_[face] != 0) {
+                    task.relays.add(to_relay(w, site, half_edge));
+                } else {
+                    task.strays.push_back(to_relay(w, site, half_edge));
+                }
             }
         });
     }
@@ -278,7 +292,7 @@ private:
 
     // Some faces away from the borders of the bounds belong to several sites. The relays that other
     // sites have there are kept as strays; the sites that own the faces run once more.
-    void propagate_again(WorkerPool& workers) {
+    void propagate_again() {
         std::vector<bool> is_late(surface_.num_faces(), false);
         poller_.poll();
         for (const Relay& stray : strays_) is_late[Surface::face(stray.half_edge)] = true;
@@ -292,16 +306,8 @@ private:
         again.erase(std::unique(again.begin(), again.end()), again.end());
         poller_.poll();
         const auto num_strays = static_cast<std::ptrdiff_t>(strays_.size());
-        const auto keeps = [&](Index site, Index face) {
-            return is_late[face] && label_of(face) == site;
-        };
         (void)run_tasks(
-            again, workers, keeps, [&](Index site, const WindowFront& front, TaskResult& task) {
-                front.for_each_half_edge([&](Index half_edge, std::span<const Window> windows) {
-                    if (!keeps(site, Surface::face(half_edge))) return;
-                    task.add_strays(windows, site, half_edge);
-                });
-            });
+            again, [&](Index site, Index face) { return is_late[face] && label_of(face) == site; });
         std::inplace_merge(strays_.begin(), strays_.begin() + num_strays, strays_.end(),
                            [&](const Relay& a, const Relay& b) {
                                return comes_before(a.site.value(), b.site.value());
@@ -333,30 +339,22 @@ private:
     std::vector<Index> labels_;          // #V: the sites of the bounds.
     std::vector<Relay> strays_;  // As in TaskResult; then all relays of late faces; then none.
     RelayLogs logs_;
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<WindowFront>> free_fronts_;
     Propagation result_;
 };
 
 }  // namespace
 
-Propagation propagate_windows(const Surface& surface, std::shared_ptr<const Corners> corners,
-                              DistanceBounds bounds, std::span<const SurfacePoint> sites,
+Propagation propagate_windows(const Surface& surface, SurfaceLayout layout,
+                              std::span<const SurfacePoint> sites,
                               const PropagationOptions& options, Index work_cap) {
+    poll(options.progress, 0);
+    DistanceBounds bounds = distance_bounds(surface, layout, sites, options.num_threads,
+                                            within(options.progress, 0, 0));
+    auto corners = SurfaceLayout(std::move(layout)).corners();  // Frees the arcs.
     return WindowEngine(surface, std::move(corners), std::move(bounds), sites, options, work_cap)
         .run();
-}
-
-Propagation propagate_windows(const Surface& surface, std::span<const SurfacePoint> sites,
-                              const PropagationOptions& options) {
-    poll(options.progress, 0);
-    const Progress begin = within(options.progress, 0, 0);
-    auto corners = std::make_shared<const Corners>(surface, options.num_threads, begin);
-    const auto find_bounds = [&] {  // Frees the arcs before windows are made.
-        const ArcGraph arcs(surface, *corners, options.num_threads, begin);
-        return distance_bounds(surface, arcs, corners->mean_length(), sites, options.num_threads,
-                               begin);
-    };
-    DistanceBounds bounds = find_bounds();
-    return propagate_windows(surface, std::move(corners), std::move(bounds), sites, options);
 }
 
 }  // namespace agvd

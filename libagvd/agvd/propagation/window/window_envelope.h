@@ -28,10 +28,10 @@ void insert_window(const Window& window, std::vector<Window>& scratch,
                    std::vector<Window>& envelope);
 
 //! Replaces two windows that touch by one, if that stays within the error. The outermost rays of
-//! the new window are theirs, and both beams lie between them. Its distances lie below theirs by at
-//! most the error that is added. The difference to either window is monotone over that window's
-//! interval, since the directions agree at the outer end and nowhere else: so its values at the
-//! ends of the intervals bound it.
+//! the new window are theirs and meet in its image, and both beams lie between them. Its distances
+//! lie below theirs by at most the error that is added. The difference to either window is monotone
+//! over that window's interval, since the directions agree at the outer end and nowhere else: so
+//! its values at the ends of the intervals bound it.
 //!
 //! \param max_error  relative to the least distance over the interval.
 [[nodiscard]] std::optional<Window> merge_windows(const Window& left, const Window& right,

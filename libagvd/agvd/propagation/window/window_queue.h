@@ -3,26 +3,46 @@
 #pragma once
 
 #include <algorithm>
+#include <compare>
 #include <functional>
 #include <utility>
 #include <vector>
 
-#include "agvd/core/types.h"
-#include "agvd/propagation/window/bucket_queue.h"
-#include "agvd/propagation/window/front_item.h"
+#include "agvd/propagation/bucket_ring.h"
 
 namespace agvd {
 
+//! The record of a half-edge or of a pseudo-source, in one word: bit 0 tells which.
+struct FrontItem {
+    Index word;
+
+    [[nodiscard]] static constexpr FrontItem half_edge(Index record) { return {2 * record}; }
+    [[nodiscard]] static constexpr FrontItem pseudo_source(Index record) {
+        return {2 * record + 1};
+    }
+    [[nodiscard]] constexpr bool is_pseudo_source() const { return word % 2 == 1; }
+    [[nodiscard]] constexpr Index record() const { return word / 2; }
+    //! Any order that is the same in every run.
+    constexpr auto operator<=>(const FrontItem&) const = default;
+};
+
 //! Items by distance. Any order gives the same distances up to rounding.
+//!
+//! An item that waits in a bucket remembers it in `queued_in`; no_index: it does not wait. When its
+//! distance improves it is pushed into an earlier bucket, and its old entry stays: take() tells the
+//! two apart. (The FrontQueue of the Steiner engine is for searches that serve every node once, and
+//! so must pop the nearest.)
 class WindowQueue {
 public:
     enum class Order : std::uint8_t {
         Buckets,  //!< Quick, but how often a half-edge is served has no useful bound.
         Nearest,  //!< Nearest window first: slower, and bounded as in [mitchell1987].
     };
+    //! Items farther away than this share a bucket.
+    static constexpr Index last_bucket = 1 << 24;
 
     //! \param per_length  buckets for each unit of length, > 0.
-    explicit WindowQueue(double per_length) : buckets_(per_length) {}
+    explicit WindowQueue(double per_length) : per_length_(per_length) {}
 
     //! Removes all items. Keeps the memory.
     void start(Order order) {
@@ -34,14 +54,17 @@ public:
         return order_ == Order::Nearest ? heap_.empty() : buckets_.empty();
     }
 
-    //! \param queued_in  as in BucketQueue; of Order::Nearest no_index, which stays.
+    //! \param queued_in  of the item; of Order::Nearest no_index, which stays.
     void push(FrontItem item, double distance, Index& queued_in) {
         if (order_ == Order::Nearest) {
             heap_.emplace_back(distance, item);
             std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
-        } else {
-            buckets_.push(item, distance, queued_in);
+            return;
         }
+        const Index bucket = std::max(bucket_of(distance), buckets_.current());
+        if (queued_in <= bucket) return;
+        queued_in = bucket;
+        buckets_.push(bucket, item);
     }
 
     //! Removes the next item. Not if empty().
@@ -49,34 +72,39 @@ public:
     //! \param prefetch  prefetch(item) loads what the item after it needs.
     template <typename Prefetch>
     [[nodiscard]] FrontItem pop(const Prefetch& prefetch) {
-        if (order_ == Order::Nearest) return pop_nearest();
+        if (order_ == Order::Nearest) {
+            std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
+            const FrontItem item = heap_.back().second;
+            heap_.pop_back();
+            return item;
+        }
         const FrontItem item = buckets_.pop();
-        if (const FrontItem* const next = buckets_.peek(1)) prefetch(*next);
+        if (const FrontItem* const next = buckets_.peek()) prefetch(*next);
         return item;
     }
-    //! As in BucketQueue; always true for Order::Nearest.
+    //! True if the item just popped is to be served now; it then waits no longer. False if it has
+    //! been served from an earlier bucket. Always true for Order::Nearest.
     [[nodiscard]] bool take(Index& queued_in) const {
-        return order_ == Order::Nearest || buckets_.take(queued_in);
+        if (order_ == Order::Nearest) return true;
+        if (queued_in != buckets_.current()) return false;
+        queued_in = no_index;
+        return true;
     }
 
     [[nodiscard]] Order order() const { return order_; }
     //! The bucket of the last item.
     [[nodiscard]] Index current() const { return buckets_.current(); }
-    [[nodiscard]] Index bucket_of(double distance) const { return buckets_.bucket_of(distance); }
+    [[nodiscard]] Index bucket_of(double distance) const {
+        return static_cast<Index>(std::min(distance * per_length_, double{last_bucket}));
+    }
     [[nodiscard]] std::size_t bytes() const {
         return heap_.capacity() * sizeof(heap_[0]) + buckets_.bytes();
     }
 
 private:
-    [[nodiscard]] FrontItem pop_nearest() {
-        std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
-        const FrontItem item = heap_.back().second;
-        heap_.pop_back();
-        return item;
-    }
-
     Order order_ = Order::Buckets;
-    BucketQueue<FrontItem> buckets_;
+    double per_length_;
+    BucketRing<FrontItem> buckets_;
     std::vector<std::pair<double, FrontItem>> heap_;  // Order::Nearest.
 };
 

@@ -1,13 +1,15 @@
 //! \file
 //! The nodes of the Steiner graph ([meng2023] Sec. 4.1): the vertices, and evenly spaced points on
 //! each edge. Nodes are numbered by formula, vertices first; m points divide an edge into m + 1
-//! equal parts. The number of points may differ from edge to edge.
+//! equal parts. The number of points may differ from edge to edge. The nodes of an edge are a block
+//! of memory, which is taken when the front arrives and given back when both faces are done.
 #pragma once
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <numeric>
 #include <vector>
 
@@ -33,33 +35,24 @@ static_assert(sizeof(SteinerNode) == 24);
 
 inline constexpr int max_steiner_points = 1000;  //!< On an edge.
 
-//! The number of Steiner points of each edge: one number for all edges, or one for each.
+//! The number of Steiner points of each edge.
 class SteinerCounts {
 public:
-    explicit SteinerCounts(Index uniform)
-        : uniform_(uniform), uniform_step_(1.0 / (uniform + 1)), most_(uniform) {}
     //! \param of_edge  #E
     explicit SteinerCounts(std::vector<std::uint16_t> of_edge)
         : of_edge_(std::move(of_edge)),
           most_(of_edge_.empty() ? 0 : *std::max_element(of_edge_.begin(), of_edge_.end())) {}
 
-    [[nodiscard]] Index operator[](Index edge) const {
-        return of_edge_.empty() ? uniform_ : of_edge_[edge];
-    }
+    [[nodiscard]] Index operator[](Index edge) const { return of_edge_[edge]; }
     //! The spacing of an edge's points as a share of its length: 1 / (m + 1).
-    [[nodiscard]] double step(Index edge) const {
-        return of_edge_.empty() ? uniform_step_ : 1.0 / (of_edge_[edge] + 1);
-    }
+    [[nodiscard]] double step(Index edge) const { return 1.0 / (of_edge_[edge] + 1); }
     [[nodiscard]] Index most() const { return most_; }
-    [[nodiscard]] double total(Index num_edges) const {
-        if (of_edge_.empty()) return static_cast<double>(num_edges) * uniform_;
+    [[nodiscard]] double total() const {
         return std::accumulate(of_edge_.begin(), of_edge_.end(), 0.0);
     }
 
 private:
-    std::vector<std::uint16_t> of_edge_;  // #E; empty: uniform.
-    Index uniform_ = 0;
-    double uniform_step_ = 1;
+    std::vector<std::uint16_t> of_edge_;
     Index most_;
 };
 
@@ -137,6 +130,81 @@ public:
 
 private:
     static constexpr Index side_shift = 12;  // m < 2^12.
+};
+
+//! Blocks of nodes, one for each live edge.
+class SteinerPool {
+public:
+    SteinerPool(Index num_edges, const SteinerCounts& counts)
+        : counts_(counts),
+          chunk_shift_(static_cast<int>(std::bit_width(blocks_per_chunk * counts.most()))),
+          first_(num_edges, never_used),
+          free_(counts.most() + 1) {}
+
+    [[nodiscard]] bool is_retired(Index edge) const { return first_[edge] == retired; }
+
+    //! The nodes of a live edge, in the direction of its edge_half. They are made on first use. The
+    //! edge must have points.
+    [[nodiscard]] SteinerNode* nodes(Index edge) {
+        if (first_[edge] == never_used) first_[edge] = take_block(counts_[edge]);
+        return node_at(first_[edge]);
+    }
+
+    //! The same of an edge that has been used.
+    [[nodiscard]] const SteinerNode* nodes(Index edge) const { return node_at(first_[edge]); }
+
+    void retire(Index edge) {
+        if (first_[edge] < retired) free_[counts_[edge]].push_back(first_[edge]);
+        first_[edge] = retired;
+    }
+
+    //! Gives all memory back: every edge is retired.
+    void clear() {
+        std::fill(first_.begin(), first_.end(), retired);
+        chunks_.clear();
+    }
+
+    [[nodiscard]] std::size_t peak_bytes() const {
+        std::size_t free = free_.capacity() * sizeof(free_[0]);
+        for (const auto& blocks : free_) free += blocks.capacity() * sizeof(Index);
+        return first_.capacity() * sizeof(Index) + free +
+               (chunks_.size() << chunk_shift_) * sizeof(SteinerNode);
+    }
+
+private:
+    static constexpr Index never_used = no_index;
+    static constexpr Index retired = no_index - 1;
+    static constexpr Index blocks_per_chunk = 256;
+
+    [[nodiscard]] SteinerNode* node_at(Index i) const {
+        return chunks_[i >> chunk_shift_].get() + (i & ((Index{1} << chunk_shift_) - 1));
+    }
+
+    Index take_block(Index size) {
+        if (std::vector<Index>& free = free_[size]; !free.empty()) {
+            const Index first = free.back();
+            free.pop_back();
+            std::fill_n(node_at(first), size, SteinerNode{});
+            return first;
+        }
+        const Index chunk_size = Index{1} << chunk_shift_;
+        if (next_ + size > end_of_chunk_) {  // The rest of the chunk is smaller than a block.
+            next_ = end_of_chunk_;
+            end_of_chunk_ += chunk_size;
+            chunks_.push_back(std::make_unique<SteinerNode[]>(chunk_size));
+        }
+        const Index first = next_;
+        next_ += size;
+        return first;
+    }
+
+    const SteinerCounts& counts_;
+    int chunk_shift_;  // Chunks of 2^chunk_shift_ nodes.
+    Index next_ = 0;   // Nodes used of all chunks, and their end.
+    Index end_of_chunk_ = 0;
+    std::vector<Index> first_;              // #E: the edge's first node.
+    std::vector<std::vector<Index>> free_;  // By size of block.
+    std::vector<std::unique_ptr<SteinerNode[]>> chunks_;
 };
 
 }  // namespace agvd

@@ -1,8 +1,10 @@
-#include "agvd/propagation/arc_graph.h"
+#include "agvd/propagation/layout.h"
 
 #include <atomic>
+#include <numeric>
 
 #include "agvd/core/parallel.h"
+#include "agvd/propagation/propagate.h"
 
 namespace agvd {
 namespace {
@@ -22,24 +24,21 @@ double flip_length(const Corners& corners, Index half_edge) {
     return (above - below).norm();
 }
 
-// Adds one to a counter and returns the value before. `is_shared`: other threads count, too.
-template <bool is_shared>
-Index take_next(Index& count) {
-    if constexpr (is_shared) {
-        return std::atomic_ref(count).fetch_add(1, std::memory_order_relaxed);
-    }
-    return count++;
-}
-
-// The loop runs over edges. A loop over half-edges, one in two of which is to be skipped, takes
-// half as long again on 100k faces.
+// The loop runs over edges: one over half-edges would skip one in two. `is_shared`: other threads
+// add arcs, too.
 template <bool is_shared>
 void add_arcs(const Surface& surface, const Corners& corners, Index begin, Index end,
               ArcGraph& graph) {
+    const auto take_next = [&](Index vertex) {
+        if constexpr (is_shared) {
+            return std::atomic_ref(graph.ends[vertex]).fetch_add(1, std::memory_order_relaxed);
+        }
+        return graph.ends[vertex]++;
+    };
     const auto add = [&](Index a, Index b, double length) {
         const float rounded = static_cast<float>(length) * arc_rounding;
-        graph.arcs[take_next<is_shared>(graph.ends[a])] = {b, rounded};
-        graph.arcs[take_next<is_shared>(graph.ends[b])] = {a, rounded};
+        graph.arcs[take_next(a)] = {b, rounded};
+        graph.arcs[take_next(b)] = {a, rounded};
     };
     constexpr Index ahead = 15;  // Edges.
     for (Index e = begin; e < end; ++e) {
@@ -57,6 +56,25 @@ void add_arcs(const Surface& surface, const Corners& corners, Index begin, Index
 }
 
 }  // namespace
+
+Corners::Corners(const Surface& surface, int num_threads, const Progress& progress)
+    : num_half_edges_(surface.twin.size()),
+      corners_(std::make_unique_for_overwrite<Corner[]>(num_half_edges_)) {
+    Poller poller(progress);
+    std::vector<double> sums(num_chunks(surface.num_faces(), pass_grain), 0);
+    parallel_chunks(
+        surface.num_faces(), pass_grain, num_threads,
+        [&](Index chunk, Index begin, Index end) {
+            for (Index h = 3 * begin; h < 3 * end; ++h) {
+                const double length = surface.length_of(h);
+                corners_[h] = {surface.apex[h] / length, length, surface.twin[h], surface.tail(h)};
+                sums[chunk] += length;
+            }
+        },
+        poller);
+    const double sum = std::accumulate(sums.begin(), sums.end(), 0.0);
+    mean_length_ = sum / static_cast<double>(std::max<std::size_t>(num_half_edges_, 1));
+}
 
 ArcGraph::ArcGraph(const Surface& surface, const Corners& corners, int num_threads,
                    const Progress& progress)
@@ -82,5 +100,9 @@ ArcGraph::ArcGraph(const Surface& surface, const Corners& corners, int num_threa
     };
     parallel_chunks(surface.num_edges(), pass_grain, num_threads, body, poller);
 }
+
+SurfaceLayout::SurfaceLayout(const Surface& surface, int num_threads, const Progress& progress)
+    : corners_(std::make_shared<const Corners>(surface, num_threads, progress)),
+      arcs_(std::make_shared<const ArcGraph>(surface, *corners_, num_threads, progress)) {}
 
 }  // namespace agvd

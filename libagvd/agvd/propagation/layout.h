@@ -1,8 +1,10 @@
 //! \file
-//! The surface stored for walks from face to face: what a step reads is stored side by side.
+//! The surface stored for walks from face to face and for shortest paths along arcs: what a step
+//! reads is stored side by side.
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "agvd/core/progress.h"
 #include "agvd/mesh/surface.h"
@@ -47,6 +49,35 @@ private:
     std::size_t num_half_edges_;
     double mean_length_ = 0;
     std::unique_ptr<Corner[]> corners_;  // A vector would write everything twice.
+};
+
+//! The arcs are the edges of a surface, and the straight lines between the apexes of two
+//! neighbouring faces where these lines cross the shared edge. The arcs of a vertex are stored side
+//! by side. Lengths are floats, rounded up by more than the rounding of any path along them.
+struct ArcGraph {
+    struct Arc {
+        Index head;
+        float length;
+    };
+    std::vector<Index> offsets;  //!< #V + 1
+    std::vector<Index> ends;  //!< #V: the arcs of v are [offsets[v], ends[v]); the rest is empty.
+    //! offsets.back() arcs; those of a vertex in any order. This is not a vector because a vector
+    //! would write everything twice, the first time on one thread.
+    std::unique_ptr<Arc[]> arcs;
+
+    //! Cost: O(#H) time and space.
+    ArcGraph(const Surface& surface, const Corners& corners, int num_threads,
+             const Progress& progress = {});
+
+    //! Starts to load the arcs of a vertex, which will be read soon.
+    [[gnu::always_inline]] void prefetch(Index tail) const {
+        __builtin_prefetch(arcs.get() + offsets[tail]);
+        __builtin_prefetch(arcs.get() + offsets[tail] + 8);
+    }
+    [[nodiscard]] std::size_t bytes() const {
+        return offsets.back() * sizeof(Arc) +
+               (offsets.capacity() + ends.capacity()) * sizeof(Index);
+    }
 };
 
 }  // namespace agvd

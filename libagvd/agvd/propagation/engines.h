@@ -1,0 +1,31 @@
+//! \file
+//! The two engines, which propagate() calls with checked options.
+#pragma once
+
+#include "agvd/propagation/propagate.h"
+
+namespace agvd {
+
+//! If more windows of one site are served through one half-edge, the site is propagated again in
+//! the order of distance. Real meshes stay below 700.
+inline constexpr Index default_work_cap = 1 << 11;
+
+//! The window engine: exact or error-bounded propagation.
+//!
+//! Every site is propagated on its own, as far as upper bounds of the distances allow. Threads run
+//! different sites. The result of a site depends on nothing but the site and the bounds.
+//! Cost: about O(n sqrt(n / t)) time for exact distances, O(n) for error-bounded ones, O(n) space.
+[[nodiscard]] Propagation propagate_windows(const Surface& surface, SurfaceLayout layout,
+                                            std::span<const SurfacePoint> sites,
+                                            const PropagationOptions& options,
+                                            Index work_cap = default_work_cap);
+
+//! The paper's engine: multi-source propagation over Steiner points.
+//! \throw ConstraintUnmet  for max_error 1000 points on an edge do not suffice, or will foreseeably
+//!                         not suffice.
+//! Cost with max_error: the window engine once, and one propagation a round; there are at most 20.
+[[nodiscard]] Propagation propagate_steiner(const Surface& surface,
+                                            std::span<const SurfacePoint> sites,
+                                            const PropagationOptions& options);
+
+}  // namespace agvd
