@@ -81,7 +81,7 @@ TEST_P(VertexEngine, DistancesThroughRelaysAreNeverBelowTheExactOnes) {
     for (Index i = 0; i < p.mixed_faces.size(); ++i) {
         const Index face = p.mixed_faces[i];
         std::vector<PlanarRelay> relays;
-        append_planar(surface, relays_of(p, i), {}, relays);
+        append_planar(surface, relays_of(p, i), relays);
         const auto corners = face_corners(surface, face);
         for (std::uint64_t k = 0; k < 3; ++k) {
             const double root = std::sqrt(random_unit(i, k, 0));

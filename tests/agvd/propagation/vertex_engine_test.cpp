@@ -138,7 +138,7 @@ TEST(VertexEngine, KeepsTheContractOfPropagation) {
                     EXPECT_LT(relay.site.value(), t);
                 }
                 std::vector<PlanarRelay> planar;
-                append_planar(surface, relays, {}, planar);
+                append_planar(surface, relays, planar);
                 const auto corners = face_corners(surface, face);
                 for (std::size_t k = 0; k < 3; ++k) {
                     const Index v = surface.mesh.triangles[face][k];

@@ -1,24 +1,40 @@
-#include "agvd/diagram/cells.h"
+#include "agvd/diagram/diagram.h"
 
 #include <algorithm>
 #include <functional>
+#include <numeric>
+
+#include "agvd/mesh/face_distance.h"
+#include "agvd/mesh/point_faces.h"
 
 namespace agvd {
 namespace {
 
+// The first face that holds both, for a diagram without passages.
+CurvePiece piece_in_common_face(const Surface& surface, const SurfacePoint& from,
+                                const SurfacePoint& to) {
+    const Index face = common_faces(surface, from, to).first;
+    if (face == no_index) return {from, from};
+    return {*seen_from(surface, from, face), *seen_from(surface, to, face)};
+}
+
+Index half_edge_at(const SurfacePoint& point, const Passage& passage) {
+    return 3 * point.face.value() + passage.side;
+}
+
 // Side of an edge: 2 * edge + (0: left cell, walked tail to head; 1: right cell, head to tail).
 using Side = Index;
 
-[[nodiscard]] SiteId site_of(const Diagram& diagram, Side side) {
+SiteId site_of(const Diagram& diagram, Side side) {
     const VoronoiEdge& edge = diagram.edges[side / 2];
     return side % 2 == 0 ? edge.left : edge.right;
 }
 
 // The side that follows on the same cell's loop. Where an edge arrives at a vertex, its cell lies
 // clockwise before it; the loop goes on along the end that this cell follows.
-[[nodiscard]] std::vector<Side> next_sides(const Diagram& diagram) {
+std::vector<Side> next_sides(const Diagram& diagram) {
     std::vector<Side> next(2 * diagram.edges.size());
-    for (Side side = 0; side < next.size(); ++side) next[side] = side;  // Closed curves.
+    std::iota(next.begin(), next.end(), Side{0});  // Closed curves.
     for (Index v = 0; v + 1 < diagram.vertex_offsets.size(); ++v) {
         const Index begin = diagram.vertex_offsets[v];
         const Index valence = diagram.vertex_offsets[v + 1] - begin;
@@ -26,12 +42,15 @@ using Side = Index;
             // The cell between end i and end i + 1 leaves along end i and arrives along end i + 1.
             const EdgeEnd& out = diagram.vertex_ends[begin + i];
             const EdgeEnd& in = diagram.vertex_ends[begin + (i + 1) % valence];
-            const Side leaving = 2 * out.edge + (out.is_tail ? 0 : 1);
-            const Side arriving = 2 * in.edge + (in.is_tail ? 1 : 0);
-            next[arriving] = leaving;
+            next[2 * in.edge + (in.is_tail ? 1 : 0)] = 2 * out.edge + (out.is_tail ? 0 : 1);
         }
     }
     return next;
+}
+
+// From the number of elements of each site, at site + 1, to offsets.
+void add_up(std::vector<Index>& counts) {
+    std::partial_sum(counts.begin(), counts.end(), counts.begin());
 }
 
 void collect_loops(const Diagram& diagram, Ticker& ticker, Cells& cells) {
@@ -57,7 +76,7 @@ void collect_loops(const Diagram& diagram, Ticker& ticker, Cells& cells) {
         cells.edges.insert(cells.edges.end(), loops[loop].begin(), loops[loop].end());
         cells.loop_edges.push_back(static_cast<Index>(cells.edges.size()));
     }
-    for (Index s = 0; s < diagram.num_sites; ++s) cells.cell_loops[s + 1] += cells.cell_loops[s];
+    add_up(cells.cell_loops);
 }
 
 void collect_neighbours(const Diagram& diagram, Ticker& ticker, Cells& cells) {
@@ -74,12 +93,42 @@ void collect_neighbours(const Diagram& diagram, Ticker& ticker, Cells& cells) {
         ++cells.neighbour_offsets[site.value() + 1];
         cells.neighbours.push_back(neighbour);
     }
-    for (Index s = 0; s < diagram.num_sites; ++s) {
-        cells.neighbour_offsets[s + 1] += cells.neighbour_offsets[s];
-    }
+    add_up(cells.neighbour_offsets);
 }
 
 }  // namespace
+
+CurvePiece curve_piece(const Surface& surface, const Diagram& diagram, Index edge, Index point) {
+    const bool is_last = point + 1 == diagram.edge_points[edge + 1];
+    const Index next = is_last ? diagram.edge_points[edge] : point + 1;
+    CurvePiece piece{diagram.points[point], diagram.points[next]};
+    if (diagram.passages.empty()) return piece_in_common_face(surface, piece.from, piece.to);
+    const Passage& out = diagram.passages[point];
+    const Passage& in = diagram.passages[next];
+    if (!diagram.edges[edge].right.is_valid()) {
+        if (in.leaves) {  // The mesh vertex at the head.
+            piece.to = {piece.from.face, {0, 0, 0}};
+            piece.to.barycentric[(out.side + 1) % 3] = 1;
+        }
+        return piece;
+    }
+    if (out.side != Passage::none && out.leaves) {
+        piece.from = across_edge(surface, piece.from, half_edge_at(piece.from, out));
+    }
+    if (in.side != Passage::none && !in.leaves) {
+        piece.to = across_edge(surface, piece.to, half_edge_at(piece.to, in));
+    }
+    return piece;
+}
+
+double curve_length(const Surface& surface, const Diagram& diagram, Index edge) {
+    double sum = 0;
+    for (Index i = diagram.edge_points[edge]; i + 1 < diagram.edge_points[edge + 1]; ++i) {
+        const auto [from, to] = curve_piece(surface, diagram, edge, i);
+        sum += face_distance(surface, from, to);
+    }
+    return sum;
+}
 
 Cells build_cells(const Diagram& diagram, Ticker ticker) {
     Cells cells;
