@@ -3,9 +3,7 @@
 // neighbouring cell that is connected to its own site, on edges and cuts alike, and the faces
 // around it are traced again.
 #include <algorithm>
-#include <cassert>
 #include <map>
-#include <unordered_map>
 #include <utility>
 
 #include "agvd/core/union_find.h"
@@ -67,89 +65,20 @@ CellSet find_displaced(const StageInput& input, const EdgeLabels& labels) {
     return displaced;
 }
 
-// --- Loops around cells ------------------------------------------------------------------------
-
-// An edge as seen from the cell on one side of it, which has the cell on its left.
-struct EdgeSide {
-    Index edge;     // Name.
-    bool is_right;  // The right cell's: walked from head to tail.
-};
-
-// By crossing: the next label change along the surface's boundary.
-using NextOnBoundary = std::unordered_map<Index, Index>;
-
-// A boundary without label changes is a loop of its own.
-NextOnBoundary follow_boundary(const Surface& surface, const DiagramParts& parts,
-                               std::vector<Index>& count) {
-    NextOnBoundary next;
-    for (const std::vector<Index>& loop : parts.boundary_loops) {
-        const auto crossings = crossings_along(surface, parts.labels, loop);
-        for (std::size_t i = 0; i < crossings.size(); ++i) {
-            next[crossings[i].crossing] = crossings[(i + 1) % crossings.size()].crossing;
-        }
-        const Index site = parts.labels.point_site[surface.tail(loop[0])];
-        if (crossings.empty() && site != no_index) ++count[site];
-    }
-    return next;
-}
-
-ArcEnd end_before(const VoronoiVertex& vertex, ArcEnd end) {
-    return end == vertex.ends[0]   ? vertex.ends[2]
-           : end == vertex.ends[1] ? vertex.ends[0]
-                                   : vertex.ends[1];
-}
-
-// Around a Voronoi vertex, a cell arrives along an end and leaves along the one before; at a label
-// change on the boundary it goes on along the boundary to the next one.
-EdgeSide next_side(const DiagramParts& parts, const NextOnBoundary& next_on_boundary,
-                   const EdgeSide& side) {
-    const JoinedEdges& joined = parts.joined;
-    const JoinedEdges::Edge& edge = joined.edges[side.edge];
-    if (edge.is_closed) return side;
-    const ArcEnd arriving = side.is_right ? edge.first : edge.last;
-    const NodeId node = node_at(parts.arcs, arriving);
-    const ArcEnd leaving =
-        node.is_voronoi_vertex()
-            ? end_before(parts.arcs.voronoi_vertices[node.voronoi_vertex()], arriving)
-            : joined.crossing_ends[next_on_boundary.at(node.crossing())][0];
-    const Index next = joined.edge_of_arc[leaving.arc()];
-    assert(joined.edges[next].first == leaving || joined.edges[next].last == leaving);
-    return {next, joined.edges[next].first != leaving};
-}
-
-// By site: the number of loops that bound its cell.
-std::vector<Index> count_loops(const StageInput& input, const DiagramParts& parts) {
-    std::vector<Index> count(input.sites.size(), 0);
-    const NextOnBoundary next_on_boundary = follow_boundary(input.surface, parts, count);
-    const std::vector<JoinedEdges::Edge>& edges = parts.joined.edges;
-    std::vector<std::array<bool, 2>> is_seen(edges.size(), {false, false});
-    for (Index e = 0; e < edges.size(); ++e) {
-        for (const bool is_right : {false, true}) {
-            const Index site = is_right ? edges[e].right : edges[e].left;
-            if (site == no_index || is_seen[e][is_right ? 1 : 0]) continue;
-            ++count[site];
-            EdgeSide side{e, is_right};
-            while (!std::exchange(is_seen[side.edge][side.is_right ? 1 : 0], true)) {
-                side = next_side(parts, next_on_boundary, side);
-            }
-        }
-    }
-    return count;
-}
+// --- Islands -----------------------------------------------------------------------------------
 
 // The cells that may have islands: all others are bounded by one loop, which each part would need
 // for itself, and own the place of their site.
-CellSet find_cells_in_doubt(const StageInput& input, const DiagramParts& parts,
-                            const CellSet& displaced) {
-    const std::vector<Index> num_loops = count_loops(input, parts);
-    CellSet in_doubt(num_loops.size());
+CellSet find_cells_in_doubt(const Diagram& complex, const CellSet& displaced, Ticker ticker) {
+    Cells cells;
+    collect_loops(complex, ticker, cells);
+    CellSet in_doubt(displaced.size());
     for (Index s = 0; s < in_doubt.size(); ++s) {
-        in_doubt[s] = num_loops[s] > 1 || (num_loops[s] == 1 && has(displaced, s)) ? 1 : 0;
+        const Index num_loops = cells.cell_loops[s + 1] - cells.cell_loops[s];
+        in_doubt[s] = num_loops > 1 || (num_loops == 1 && has(displaced, s)) ? 1 : 0;
     }
     return in_doubt;
 }
-
-// --- Islands -----------------------------------------------------------------------------------
 
 // The label changes on an edge or a cut, and the points at its ends.
 struct Row {
@@ -377,16 +306,18 @@ std::vector<Index> relabel_islands(const StageInput& input, const CellSet& in_do
 
 }  // namespace
 
-void absorb_islands(const StageInput& input, DiagramParts& parts) {
+Diagram absorb_islands(const StageInput& input, DiagramParts& parts) {
     const CellSet displaced = find_displaced(input, parts.labels);
     while (true) {
         input.poller.poll();
-        const CellSet in_doubt = find_cells_in_doubt(input, parts, displaced);
-        if (std::find(in_doubt.begin(), in_doubt.end(), 1) == in_doubt.end()) return;
+        Ticker ticker(input.poller);
+        Diagram complex = draw_complex(input.surface, parts, ticker);
+        const CellSet in_doubt = find_cells_in_doubt(complex, displaced, ticker);
+        if (std::find(in_doubt.begin(), in_doubt.end(), 1) == in_doubt.end()) return complex;
         const std::vector<Index> positions = relabel_islands(input, in_doubt, parts);
-        if (positions.empty()) return;
+        if (positions.empty()) return complex;
         trace_faces(input, positions, parts);
-        parts.joined = join_arcs(parts.labels, parts.arcs, Ticker(input.poller));
+        parts.joined = join_arcs(parts.labels, parts.arcs, ticker);
     }
 }
 

@@ -7,8 +7,9 @@
 namespace agvd {
 namespace {
 
-DiagramParts build_parts(const StageInput& input) {
-    DiagramParts parts;
+// All stages but drawing the points.
+Diagram build_complex(const StageInput& input, DiagramParts& parts) {
+    parts.num_sites = static_cast<Index>(input.sites.size());
     parts.boundary_loops = boundary_loops(input.surface);
     label_vertices(input, parts.labels);
     label_edges(input, parts.labels);
@@ -20,8 +21,7 @@ DiagramParts build_parts(const StageInput& input) {
     trace_faces(input, all, parts);
     input.poller.tell(0.9);
     parts.joined = join_arcs(parts.labels, parts.arcs, Ticker(input.poller));
-    absorb_islands(input, parts);
-    return parts;
+    return absorb_islands(input, parts);
 }
 
 // \param relays  not null: freed when they have been read for the last time.
@@ -31,12 +31,18 @@ Diagram build(const Surface& surface, std::span<const SurfacePoint> sites,
     Poller poller(options.progress);
     poller.poll();
     const SitePlacement placement(surface, sites);
-    const DiagramParts parts = build_parts({surface, sites, placement, propagation,
-                                            options.chord_tolerance, options.num_threads, poller});
+    DiagramParts parts;
+    Diagram diagram = build_complex({surface, sites, placement, propagation,
+                                     options.chord_tolerance, options.num_threads, poller},
+                                    parts);
     if (relays != nullptr) std::vector<Relay>().swap(*relays);
-    Diagram diagram = draw_diagram(surface, parts, Ticker(poller));
-    diagram.num_sites = static_cast<Index>(sites.size());
+    draw_points(surface, parts, Ticker(poller), diagram);
     measure_cells(surface, parts, Ticker(poller), diagram);
+    diagram.nearest_site.reserve(surface.num_vertices());
+    for (Index v = 0; v < surface.num_vertices(); ++v) {
+        diagram.nearest_site.push_back(SiteId(parts.labels.point_site[v]));
+    }
+    diagram.nearest_distance = std::move(parts.labels.vertex_distance);
     poll(options.progress, 1);
     return diagram;
 }

@@ -4,6 +4,7 @@
 #include <functional>
 #include <numeric>
 
+#include "agvd/diagram/stages.h"
 #include "agvd/mesh/face_distance.h"
 #include "agvd/mesh/point_faces.h"
 
@@ -51,32 +52,6 @@ std::vector<Side> next_sides(const Diagram& diagram) {
 // From the number of elements of each site, at site + 1, to offsets.
 void add_up(std::vector<Index>& counts) {
     std::partial_sum(counts.begin(), counts.end(), counts.begin());
-}
-
-void collect_loops(const Diagram& diagram, Ticker& ticker, Cells& cells) {
-    const std::vector<Side> next = next_sides(diagram);
-    std::vector<std::vector<DirectedEdge>> loops;
-    std::vector<std::pair<SiteId, Index>> loop_of;  // (site, loop)
-    std::vector<bool> seen(next.size(), false);
-    for (Side start = 0; start < next.size(); ++start) {
-        if (seen[start] || !site_of(diagram, start).is_valid()) continue;
-        loop_of.emplace_back(site_of(diagram, start), static_cast<Index>(loops.size()));
-        auto& loop = loops.emplace_back();
-        for (Side side = start; !seen[side]; side = next[side]) {
-            ticker.tick();
-            seen[side] = true;
-            loop.push_back({side / 2, side % 2 == 1});
-        }
-    }
-    std::sort(loop_of.begin(), loop_of.end());
-    cells.cell_loops.assign(diagram.num_sites + 1, 0);
-    cells.loop_edges.assign(1, 0);
-    for (const auto& [site, loop] : loop_of) {
-        ++cells.cell_loops[site.value() + 1];
-        cells.edges.insert(cells.edges.end(), loops[loop].begin(), loops[loop].end());
-        cells.loop_edges.push_back(static_cast<Index>(cells.edges.size()));
-    }
-    add_up(cells.cell_loops);
 }
 
 void collect_neighbours(const Diagram& diagram, Ticker& ticker, Cells& cells) {
@@ -128,6 +103,37 @@ double curve_length(const Surface& surface, const Diagram& diagram, Index edge) 
         sum += face_distance(surface, from, to);
     }
     return sum;
+}
+
+void collect_loops(const Diagram& diagram, Ticker& ticker, Cells& cells) {
+    struct Loop {
+        SiteId site;
+        Index begin, end;  // Of `walked`.
+    };
+    const std::vector<Side> next = next_sides(diagram);
+    std::vector<DirectedEdge> walked;
+    std::vector<Loop> loops;
+    std::vector<bool> seen(next.size(), false);
+    for (Side start = 0; start < next.size(); ++start) {
+        if (seen[start] || !site_of(diagram, start).is_valid()) continue;
+        const auto begin = static_cast<Index>(walked.size());
+        for (Side side = start; !seen[side]; side = next[side]) {
+            ticker.tick();
+            seen[side] = true;
+            walked.push_back({side / 2, side % 2 == 1});
+        }
+        loops.push_back({site_of(diagram, start), begin, static_cast<Index>(walked.size())});
+    }
+    std::stable_sort(loops.begin(), loops.end(),
+                     [](const Loop& a, const Loop& b) { return a.site < b.site; });
+    cells.cell_loops.assign(diagram.num_sites + 1, 0);
+    cells.loop_edges.assign(1, 0);
+    for (const auto& [site, begin, end] : loops) {
+        ++cells.cell_loops[site.value() + 1];
+        cells.edges.insert(cells.edges.end(), walked.begin() + begin, walked.begin() + end);
+        cells.loop_edges.push_back(static_cast<Index>(cells.edges.size()));
+    }
+    add_up(cells.cell_loops);
 }
 
 Cells build_cells(const Diagram& diagram, Ticker ticker) {

@@ -14,29 +14,68 @@
 namespace agvd {
 namespace {
 
+// A label change on one of the surface's boundaries, in its direction (the surface on the left).
+struct BoundaryCrossing {
+    Index crossing;
+    Index position;  // Of its half-edge in the loop.
+};
+
 class Drawing {
 public:
     Drawing(const Surface& surface, const DiagramParts& parts, Ticker ticker, Diagram& out)
         : surface_(surface),
+          boundary_loops_(parts.boundary_loops),
           labels_(parts.labels),
           arcs_(parts.arcs),
           joined_(parts.joined),
           ticker_(ticker),
-          out_(out) {
-        out_.edge_points.assign(1, 0);
+          out_(out) {}
+
+    void draw_complex() {
         out_.vertex_offsets.assign(1, 0);
+        for (const JoinedEdges::Edge& edge : joined_.edges) {
+            ticker_.tick();
+            out_.edges.push_back({SiteId(edge.left), SiteId(edge.right), no_index, no_index});
+        }
+        draw_voronoi_vertices();
+        for (const std::vector<Index>& loop : boundary_loops_) {
+            const Index site = labels_.point_site[surface_.tail(loop[0])];
+            const std::vector<BoundaryCrossing> crossings = crossings_along(loop);
+            if (!crossings.empty()) {
+                attach_boundary(crossings);
+            } else if (site != no_index) {
+                out_.edges.push_back({SiteId(site), {}, no_index, no_index});
+            }
+        }
     }
 
-    // \param num_on_boundary  points that are drawn there at most.
-    void draw_edges(std::size_t num_on_boundary) {
-        // A node at the beginning of each arc and at the end of each edge.
-        const std::size_t most =
-            arcs_.arcs.size() + arcs_.points.size() + joined_.edges.size() + num_on_boundary;
-        out_.points.reserve(most);
-        out_.point_distance.reserve(most);
-        out_.passages.reserve(most);
+    void draw_points() {
+        reserve_points();
+        out_.edge_points.assign(1, 0);
         for (const JoinedEdges::Edge& edge : joined_.edges) draw_edge(edge);
+        for (const std::vector<Index>& loop : boundary_loops_) {
+            const std::vector<BoundaryCrossing> crossings = crossings_along(loop);
+            if (!crossings.empty()) {
+                draw_boundary_edges(loop, crossings);
+            } else if (labels_.point_site[surface_.tail(loop[0])] != no_index) {
+                for (const Index h : loop) add_mesh_vertex(h);
+                finish_edge();
+            }
+        }
     }
+
+private:
+    [[nodiscard]] std::vector<BoundaryCrossing> crossings_along(std::span<const Index> loop) const {
+        std::vector<BoundaryCrossing> crossings;
+        for (Index i = 0; i < loop.size(); ++i) {
+            // A boundary edge has one half-edge, so its crossings run along the loop.
+            const Block& row = labels_.edge_rows[surface_.edge[loop[i]]];
+            for (Index c = row.begin; c < row.end(); ++c) crossings.push_back({c, i});
+        }
+        return crossings;
+    }
+
+    // --- Edges and vertices --------------------------------------------------------------------
 
     void draw_voronoi_vertices() {
         for (const FaceArcs& face : arcs_.faces) {
@@ -51,61 +90,14 @@ public:
         }
     }
 
-    void draw_boundary(std::span<const Index> loop, std::span<const BoundaryCrossing> crossings) {
-        const Index site = labels_.point_site[surface_.tail(loop[0])];
-        if (!crossings.empty()) {
-            const auto first_edge = static_cast<Index>(out_.edges.size());
-            draw_boundary_edges(loop, crossings);
-            draw_boundary_vertices(crossings, first_edge);
-        } else if (site != no_index) {
-            for (const Index h : loop) add_mesh_vertex(h);
-            finish_edge({SiteId(site), {}, no_index, no_index});
-        }
-    }
-
-private:
-    void draw_edge(const JoinedEdges::Edge& edge) {
-        ArcEnd from = edge.first;
-        while (true) {
-            ticker_.tick();
-            const Arc& arc = arcs_.arcs[from.arc()];
-            const NodeId node = node_at(arcs_, from);
-            const bool is_across = from.is_tail() ? arc.tail_is_across : arc.head_is_across;
-            add_node(node, ends_edges(joined_, node) ? Passage{} : passage_at(node, is_across));
-            add_inner_points(arc, from.is_tail());
-            const ArcEnd to = from.other();
-            if (to == edge.last) break;
-            from = across(arcs_, joined_, to);
-        }
-        // A closed curve does not repeat its first point.
-        const NodeId end = node_at(arcs_, edge.last);
-        if (ends_edges(joined_, end)) add_node(end, {});
-        finish_edge({SiteId(edge.left), SiteId(edge.right), no_index, no_index});
-    }
-
-    // Each arc of one loop from one label change to the next.
-    void draw_boundary_edges(std::span<const Index> loop,
-                             std::span<const BoundaryCrossing> crossings) {
+    // The edges of one loop between its label changes, and the vertices at these.
+    void attach_boundary(std::span<const BoundaryCrossing> crossings) {
+        const auto first_edge = static_cast<Index>(out_.edges.size());
         const auto count = static_cast<Index>(crossings.size());
-        const auto loop_size = static_cast<Index>(loop.size());
-        for (Index i = 0; i < count; ++i) {
-            const BoundaryCrossing& from = crossings[i];
-            const BoundaryCrossing& to = crossings[(i + 1) % count];
-            add_boundary_crossing(from.crossing);
-            // The mesh vertices between: tails of the half-edges after `from` up to that of `to`.
-            Index steps = (to.position + loop_size - from.position) % loop_size;
-            if (steps == 0 && i + 1 == count) steps = loop_size;
-            for (Index j = 1; j <= steps; ++j) {
-                add_mesh_vertex(loop[(from.position + j) % loop_size]);
-            }
-            add_boundary_crossing(to.crossing);
+        for (const BoundaryCrossing& from : crossings) {
             const SiteId site(labels_.crossings[from.crossing].site_after);
-            finish_edge({site, {}, no_index, no_index});
+            out_.edges.push_back({site, {}, no_index, no_index});
         }
-    }
-
-    void draw_boundary_vertices(std::span<const BoundaryCrossing> crossings, Index first_edge) {
-        const auto count = static_cast<Index>(crossings.size());
         for (Index i = 0; i < count; ++i) {
             const Index name = crossings[i].crossing;
             const Crossing& crossing = labels_.crossings[name];
@@ -114,13 +106,6 @@ private:
             attach({first_edge + (i + count - 1) % count, false}, no_index);
             finish_vertex(point_of(crossing), crossing.distance);
         }
-    }
-
-    // --- Edges and vertices --------------------------------------------------------------------
-
-    void finish_edge(const VoronoiEdge& edge) {
-        out_.edges.push_back(edge);
-        out_.edge_points.push_back(static_cast<Index>(out_.points.size()));
     }
 
     // The end of the Voronoi edge that lies at the end of an arc.
@@ -145,6 +130,58 @@ private:
     }
 
     // --- Points --------------------------------------------------------------------------------
+
+    void reserve_points() {
+        // A node at the beginning of each arc and at the end of each edge.
+        std::size_t most = arcs_.arcs.size() + arcs_.points.size() + joined_.edges.size();
+        for (const std::vector<Index>& loop : boundary_loops_) {
+            most += loop.size() + 2 * crossings_along(loop).size();
+        }
+        out_.points.reserve(most);
+        out_.point_distance.reserve(most);
+        out_.passages.reserve(most);
+    }
+
+    void finish_edge() { out_.edge_points.push_back(static_cast<Index>(out_.points.size())); }
+
+    void draw_edge(const JoinedEdges::Edge& edge) {
+        ArcEnd from = edge.first;
+        while (true) {
+            ticker_.tick();
+            const Arc& arc = arcs_.arcs[from.arc()];
+            const NodeId node = node_at(arcs_, from);
+            const bool is_across = from.is_tail() ? arc.tail_is_across : arc.head_is_across;
+            add_node(node, ends_edges(joined_, node) ? Passage{} : passage_at(node, is_across));
+            add_inner_points(arc, from.is_tail());
+            const ArcEnd to = from.other();
+            if (to == edge.last) break;
+            from = across(arcs_, joined_, to);
+        }
+        // A closed curve does not repeat its first point.
+        const NodeId end = node_at(arcs_, edge.last);
+        if (ends_edges(joined_, end)) add_node(end, {});
+        finish_edge();
+    }
+
+    // Each arc of one loop from one label change to the next.
+    void draw_boundary_edges(std::span<const Index> loop,
+                             std::span<const BoundaryCrossing> crossings) {
+        const auto count = static_cast<Index>(crossings.size());
+        const auto loop_size = static_cast<Index>(loop.size());
+        for (Index i = 0; i < count; ++i) {
+            const BoundaryCrossing& from = crossings[i];
+            const BoundaryCrossing& to = crossings[(i + 1) % count];
+            add_boundary_crossing(from.crossing);
+            // The mesh vertices between: tails of the half-edges after `from` up to that of `to`.
+            Index steps = (to.position + loop_size - from.position) % loop_size;
+            if (steps == 0 && i + 1 == count) steps = loop_size;
+            for (Index j = 1; j <= steps; ++j) {
+                add_mesh_vertex(loop[(from.position + j) % loop_size]);
+            }
+            add_boundary_crossing(to.crossing);
+            finish_edge();
+        }
+    }
 
     [[nodiscard]] SurfacePoint point_of(const VoronoiVertex& voronoi_vertex) const {
         return to_surface(surface_, voronoi_vertex.face, voronoi_vertex.position);
@@ -210,6 +247,7 @@ private:
     }
 
     const Surface& surface_;
+    const std::vector<std::vector<Index>>& boundary_loops_;
     const EdgeLabels& labels_;
     const Arcs& arcs_;
     const JoinedEdges& joined_;
@@ -219,37 +257,16 @@ private:
 
 }  // namespace
 
-std::vector<BoundaryCrossing> crossings_along(const Surface& surface, const EdgeLabels& labels,
-                                              std::span<const Index> loop) {
-    std::vector<BoundaryCrossing> crossings;
-    for (Index i = 0; i < loop.size(); ++i) {
-        // A boundary edge has one half-edge, so its crossings run along the loop.
-        const Block& row = labels.edge_rows[surface.edge[loop[i]]];
-        for (Index c = row.begin; c < row.end(); ++c) crossings.push_back({c, i});
-    }
-    return crossings;
+Diagram draw_complex(const Surface& surface, const DiagramParts& parts, Ticker ticker) {
+    Diagram diagram;
+    diagram.num_sites = parts.num_sites;
+    Drawing(surface, parts, ticker, diagram).draw_complex();
+    return diagram;
 }
 
-Diagram draw_diagram(const Surface& surface, const DiagramParts& parts, Ticker ticker) {
-    std::vector<std::vector<BoundaryCrossing>> boundary;
-    std::size_t num_on_boundary = 0;
-    for (const std::vector<Index>& loop : parts.boundary_loops) {
-        boundary.push_back(crossings_along(surface, parts.labels, loop));
-        num_on_boundary += loop.size() + 2 * boundary.back().size();
-    }
-    Diagram diagram;
-    Drawing drawing(surface, parts, ticker, diagram);
-    drawing.draw_edges(num_on_boundary);
-    drawing.draw_voronoi_vertices();
-    for (std::size_t i = 0; i < boundary.size(); ++i) {
-        drawing.draw_boundary(parts.boundary_loops[i], boundary[i]);
-    }
-    diagram.nearest_distance = parts.labels.vertex_distance;
-    diagram.nearest_site.reserve(surface.num_vertices());
-    for (Index v = 0; v < surface.num_vertices(); ++v) {
-        diagram.nearest_site.push_back(SiteId(parts.labels.point_site[v]));
-    }
-    return diagram;
+void draw_points(const Surface& surface, const DiagramParts& parts, Ticker ticker,
+                 Diagram& diagram) {
+    Drawing(surface, parts, ticker, diagram).draw_points();
 }
 
 }  // namespace agvd

@@ -20,6 +20,7 @@ struct StageInput {
 };
 
 struct DiagramParts {
+    Index num_sites = 0;
     std::vector<std::vector<Index>> boundary_loops;  //!< Of the surface: half-edges.
     EdgeLabels labels;
     Arcs arcs;  //!< Faces by position.
@@ -54,24 +55,21 @@ void trace_faces(const StageInput& input, std::span<const Index> positions, Diag
 //! Gives every part of a cell that is not connected to its site to a cell that it borders on,
 //! traces the faces around it again and joins all arcs again, until nothing changes. This ends,
 //! since label changes only vanish.
-//! Cost: O(edges + boundary) for most diagrams; on the others that of the cells with islands, and
-//! O(#V + arcs) quick steps.
-void absorb_islands(const StageInput& input, DiagramParts& parts);
+//! \return draw_complex() of what comes out.
+//! Cost: that of draw_complex() for most diagrams; on the others that of the cells with islands,
+//! and O(#V + arcs) quick steps.
+[[nodiscard]] Diagram absorb_islands(const StageInput& input, DiagramParts& parts);
 
-//! A label change on one of the surface's boundaries, in its direction (the surface on the left).
-struct BoundaryCrossing {
-    Index crossing;
-    Index position;  //!< Of its half-edge in the loop.
-};
-
-//! Those of a loop of the boundary, in their order.
-[[nodiscard]] std::vector<BoundaryCrossing> crossings_along(const Surface& surface,
-                                                            const EdgeLabels& labels,
-                                                            std::span<const Index> loop);
-
-//! Numbers for edges and vertices, and where their points lie. Cost: O(#V + points of the edges).
-[[nodiscard]] Diagram draw_diagram(const Surface& surface, const DiagramParts& parts,
+//! The complex without the points of its edges. Cost: O(arcs + boundary).
+[[nodiscard]] Diagram draw_complex(const Surface& surface, const DiagramParts& parts,
                                    Ticker ticker);
+
+//! Adds the points of the edges. Cost: that of their number.
+void draw_points(const Surface& surface, const DiagramParts& parts, Ticker ticker,
+                 Diagram& diagram);
+
+//! Sets the loops of cells. Cost: O(edges).
+void collect_loops(const Diagram& diagram, Ticker& ticker, Cells& cells);
 
 //! Sets cell_area and cell_euler. Cost: O(#F + crossings).
 void measure_cells(const Surface& surface, const DiagramParts& parts, Ticker ticker,
